@@ -1,0 +1,8 @@
+//! Layer 0: spaces, placements, boxes and float functions that give the same bits everywhere.
+
+mod aabb;
+mod placement;
+pub mod space;
+
+pub use aabb::Aabb;
+pub use placement::Placement;
