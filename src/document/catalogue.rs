@@ -187,274 +187,346 @@ impl TemplateKind {
     pub const fn spec(self) -> &'static TemplateSpec {
         use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
         match self {
-            Self::Poke => &TemplateSpec {
-                name: "poke",
-                summary: "Push in or pull out a bump along z",
-                params: &[
-                    number("amount", "Height; positive pulls out", 0.5, -2.0, 0.95),
-                    number("sigma", "Width of the bump", 0.15, 0.05, 0.3),
-                ],
-                main_param: Some(0),
-            },
-            Self::Twist => &TemplateSpec {
-                name: "twist",
-                summary: "Turn about the z axis",
-                params: &[
-                    number(
-                        "angle",
-                        "Turn of the middle, radians",
-                        FRAC_PI_2,
-                        -2.0 * TAU,
-                        2.0 * TAU,
-                    ),
-                    number(
-                        "falloff",
-                        "0 turns the whole box, 1 falls off from the axis on",
-                        0.3,
-                        0.0,
-                        1.0,
-                    ),
-                ],
-                main_param: Some(0),
-            },
-            Self::Wave => &TemplateSpec {
-                name: "wave",
-                summary: "Concentric ripple along y",
-                params: &[
-                    number("amplitude", "Height of the ripple", 0.08, 0.0, 0.5),
-                    number(
-                        "frequency",
-                        "Radians per unit of radius",
-                        2.0 * TAU,
-                        0.0,
-                        64.0,
-                    ),
-                    number(
-                        "falloff",
-                        "0 ripples the whole box, 1 falls off from the axis on",
-                        0.5,
-                        0.0,
-                        1.0,
-                    ),
-                ],
-                main_param: Some(0),
-            },
-            Self::Bend => &TemplateSpec {
-                name: "bend",
-                summary: "Bend a bar that runs along y",
-                params: &[
-                    number(
-                        "angle",
-                        "Towards -z, or +z if negative, radians",
-                        FRAC_PI_4,
-                        -PI,
-                        PI,
-                    ),
-                    number("start", "Where along y the bend begins", 0.25, 0.0, 1.0),
-                    number("end", "Where along y the bend ends", 0.75, 0.0, 1.0),
-                ],
-                main_param: Some(0),
-            },
-            Self::Squeeze => &TemplateSpec {
-                name: "squeeze",
-                summary: "A waist at mid height",
-                params: &[number("strength", "How narrow", 0.5, 0.0, 2.0)],
-                main_param: Some(0),
-            },
-            Self::Dilate => &TemplateSpec {
-                name: "dilate",
-                summary: "A bulge at mid height",
-                params: &[number("strength", "How wide", 0.5, 0.0, 0.9)],
-                main_param: Some(0),
-            },
-            Self::Peel => &TemplateSpec {
-                name: "peel",
-                summary: "Roll a layer up from the x = 0 edge",
-                params: &[
-                    number(
-                        "progress",
-                        "How far along x the hinge has come",
-                        0.5,
-                        0.0,
-                        1.0,
-                    ),
-                    number(
-                        "depth",
-                        "Thickness of the layer under the top, fraction of z",
-                        0.3,
-                        0.01,
-                        1.0,
-                    ),
-                    number(
-                        "radius",
-                        "Inside of the roll, fraction of x",
-                        0.15,
-                        0.01,
-                        2.0,
-                    ),
-                    number(
-                        "angle",
-                        "Where the roll ends and the flap goes on straight, radians",
-                        PI,
-                        0.0,
-                        TAU,
-                    ),
-                ],
-                main_param: Some(0),
-            },
-            Self::Flap => &TemplateSpec {
-                name: "flap",
-                summary: "A door that opens about its x = 0, z = 1 edge",
-                params: &[
-                    number("angle", "How far it is open, radians", FRAC_PI_2, 0.0, PI),
-                    number(
-                        "depth",
-                        "Thickness of the door under the top, fraction of z",
-                        0.3,
-                        0.01,
-                        1.0,
-                    ),
-                ],
-                main_param: Some(0),
-            },
-            Self::Split => &TemplateSpec {
-                name: "split",
-                summary: "Two halves apart along x",
-                params: &[
-                    number("amount", "Half width of the opening", 0.25, 0.0, 1.0),
-                    number(
-                        "lens",
-                        "1 closes the opening at both ends in y",
-                        0.0,
-                        0.0,
-                        1.0,
-                    ),
-                    ParamSpec {
-                        name: "wedge",
-                        summary: "Closed at the bottom, open at the top",
-                        kind: ParamKind::Flag { default: true },
-                    },
-                ],
-                main_param: Some(0),
-            },
-            Self::Slices => &TemplateSpec {
-                name: "slices",
-                summary: "Cut into slabs along z and draw them apart",
-                params: &[
-                    ParamSpec {
-                        name: "count",
-                        summary: "Number of slabs",
-                        kind: ParamKind::Count {
-                            default: 4.0,
-                            min: 1.0,
-                            max: 32.0,
-                        },
-                    },
-                    number("gap", "Between two slabs", 0.1, 0.0, 2.0),
-                    number("shift", "Sideways, along x, per slab", 0.0, -1.0, 1.0),
-                    number("progress", "0 closed, 1 drawn apart", 1.0, 0.0, 1.0),
-                ],
-                main_param: Some(3),
-            },
-            Self::Retractor => &TemplateSpec {
-                name: "retractor",
-                summary: "Draw an incision along x open, compressing the tissue beside it",
-                params: &[
-                    number("amount", "Half opening at the top", 0.3, 0.0, 0.4),
-                    number("length", "Half length of the incision", 0.5, 0.05, 1.0),
-                    number("reach", "How far beside it tissue gives way", 0.4, 0.1, 0.5),
-                ],
-                main_param: Some(0),
-            },
-            Self::Cutquad => &TemplateSpec {
-                name: "cutquad",
-                summary: "An incision along y with lips that bulge",
-                params: &[
-                    number("amount", "Half opening at the top", 0.3, 0.0, 0.4),
-                    number("length", "Half length of the incision", 0.45, 0.05, 0.5),
-                    number("ripple", "Height of the bulging lips", 0.1, 0.0, 0.5),
-                ],
-                main_param: Some(0),
-            },
-            Self::Peeler => &TemplateSpec {
-                name: "peeler",
-                summary: "Lift a tongue of the top layer",
-                params: &[
-                    number("lift", "Height at the tip", 0.5, 0.0, 2.0),
-                    number("width", "Width of the tongue", 1.0, 0.2, 1.0),
-                ],
-                main_param: Some(0),
-            },
-            Self::Pull => &TemplateSpec {
-                name: "pull",
-                summary: "Draw the middle of the box along a vector",
-                params: &[ParamSpec {
-                    name: "offset",
-                    summary: "Where the middle goes, fractions of the box",
-                    kind: ParamKind::Vector {
-                        default: [0.0, 0.0, 0.25],
-                        min: -0.3,
-                        max: 0.3,
-                        max_length: 0.3,
-                    },
-                }],
-                main_param: Some(0),
-            },
-            Self::Cut => &TemplateSpec {
-                name: "cut",
-                summary: "Remove material, move nothing",
-                params: &[ParamSpec {
-                    name: "shape",
-                    summary: "What is removed",
-                    kind: ParamKind::Choice {
-                        names: &["box", "sphere", "cylinder", "halfspace"],
-                    },
-                }],
-                main_param: None,
-            },
-            Self::Hole => &TemplateSpec {
-                name: "hole",
-                summary: "Push a round opening aside, along z",
-                params: &[
-                    number("amount", "Radius at the top", 0.25, 0.0, 0.45),
-                    number(
-                        "taper",
-                        "Radius at the bottom as a fraction of it",
-                        1.0,
-                        0.0,
-                        1.0,
-                    ),
-                ],
-                main_param: Some(0),
-            },
-            Self::Lens => &TemplateSpec {
-                name: "lens",
-                summary: "Magnify the middle of the box",
-                params: &[number("strength", "How much", 0.5, 0.0, 0.9)],
-                main_param: Some(0),
-            },
-            Self::Move => &TemplateSpec {
-                name: "move",
-                summary: "Take the box out whole and put it elsewhere",
-                params: &[
-                    ParamSpec {
-                        name: "offset",
-                        summary: "How far, fractions of the box",
-                        kind: ParamKind::Vector {
-                            default: [0.0, 0.0, 0.6],
-                            min: -10.0,
-                            max: 10.0,
-                            max_length: f32::INFINITY,
-                        },
-                    },
-                    ParamSpec {
-                        name: "turn",
-                        summary: "Turned about its centre",
-                        kind: ParamKind::Rotation,
-                    },
-                ],
-                main_param: Some(0),
-            },
+            Self::Poke => {
+                const {
+                    &TemplateSpec {
+                        name: "poke",
+                        summary: "Push in or pull out a bump along z",
+                        params: &[
+                            number("amount", "Height; positive pulls out", 0.5, -2.0, 0.95),
+                            number("sigma", "Width of the bump", 0.15, 0.05, 0.3),
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Twist => {
+                const {
+                    &TemplateSpec {
+                        name: "twist",
+                        summary: "Turn about the z axis",
+                        params: &[
+                            number(
+                                "angle",
+                                "Turn of the middle, radians",
+                                FRAC_PI_2,
+                                -2.0 * TAU,
+                                2.0 * TAU,
+                            ),
+                            number(
+                                "falloff",
+                                "0 turns the whole box, 1 falls off from the axis on",
+                                0.3,
+                                0.0,
+                                1.0,
+                            ),
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Wave => {
+                const {
+                    &TemplateSpec {
+                        name: "wave",
+                        summary: "Concentric ripple along y",
+                        params: &[
+                            number("amplitude", "Height of the ripple", 0.08, 0.0, 0.5),
+                            number(
+                                "frequency",
+                                "Radians per unit of radius",
+                                2.0 * TAU,
+                                0.0,
+                                64.0,
+                            ),
+                            number(
+                                "falloff",
+                                "0 ripples the whole box, 1 falls off from the axis on",
+                                0.5,
+                                0.0,
+                                1.0,
+                            ),
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Bend => {
+                const {
+                    &TemplateSpec {
+                        name: "bend",
+                        summary: "Bend a bar that runs along y",
+                        params: &[
+                            number(
+                                "angle",
+                                "Towards -z, or +z if negative, radians",
+                                FRAC_PI_4,
+                                -PI,
+                                PI,
+                            ),
+                            number("start", "Where along y the bend begins", 0.25, 0.0, 1.0),
+                            number("end", "Where along y the bend ends", 0.75, 0.0, 1.0),
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Squeeze => {
+                const {
+                    &TemplateSpec {
+                        name: "squeeze",
+                        summary: "A waist at mid height",
+                        params: &[number("strength", "How narrow", 0.5, 0.0, 2.0)],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Dilate => {
+                const {
+                    &TemplateSpec {
+                        name: "dilate",
+                        summary: "A bulge at mid height",
+                        params: &[number("strength", "How wide", 0.5, 0.0, 0.9)],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Peel => {
+                const {
+                    &TemplateSpec {
+                        name: "peel",
+                        summary: "Roll a layer up from the x = 0 edge",
+                        params: &[
+                            number(
+                                "progress",
+                                "How far along x the hinge has come",
+                                0.5,
+                                0.0,
+                                1.0,
+                            ),
+                            number(
+                                "depth",
+                                "Thickness of the layer under the top, fraction of z",
+                                0.3,
+                                0.01,
+                                1.0,
+                            ),
+                            number(
+                                "radius",
+                                "Inside of the roll, fraction of x",
+                                0.15,
+                                0.01,
+                                2.0,
+                            ),
+                            number(
+                                "angle",
+                                "Where the roll ends and the flap goes on straight, radians",
+                                PI,
+                                0.0,
+                                TAU,
+                            ),
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Flap => {
+                const {
+                    &TemplateSpec {
+                        name: "flap",
+                        summary: "A door that opens about its x = 0, z = 1 edge",
+                        params: &[
+                            number("angle", "How far it is open, radians", FRAC_PI_2, 0.0, PI),
+                            number(
+                                "depth",
+                                "Thickness of the door under the top, fraction of z",
+                                0.3,
+                                0.01,
+                                1.0,
+                            ),
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Split => {
+                const {
+                    &TemplateSpec {
+                        name: "split",
+                        summary: "Two halves apart along x",
+                        params: &[
+                            number("amount", "Half width of the opening", 0.25, 0.0, 1.0),
+                            number(
+                                "lens",
+                                "1 closes the opening at both ends in y",
+                                0.0,
+                                0.0,
+                                1.0,
+                            ),
+                            ParamSpec {
+                                name: "wedge",
+                                summary: "Closed at the bottom, open at the top",
+                                kind: ParamKind::Flag { default: true },
+                            },
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Slices => {
+                const {
+                    &TemplateSpec {
+                        name: "slices",
+                        summary: "Cut into slabs along z and draw them apart",
+                        params: &[
+                            ParamSpec {
+                                name: "count",
+                                summary: "Number of slabs",
+                                kind: ParamKind::Count {
+                                    default: 4.0,
+                                    min: 1.0,
+                                    max: 32.0,
+                                },
+                            },
+                            number("gap", "Between two slabs", 0.1, 0.0, 2.0),
+                            number("shift", "Sideways, along x, per slab", 0.0, -1.0, 1.0),
+                            number("progress", "0 closed, 1 drawn apart", 1.0, 0.0, 1.0),
+                        ],
+                        main_param: Some(3),
+                    }
+                }
+            }
+            Self::Retractor => {
+                const {
+                    &TemplateSpec {
+                        name: "retractor",
+                        summary: "Draw an incision along x open, compressing the tissue beside it",
+                        params: &[
+                            number("amount", "Half opening at the top", 0.3, 0.0, 0.4),
+                            number("length", "Half length of the incision", 0.5, 0.05, 1.0),
+                            number("reach", "How far beside it tissue gives way", 0.4, 0.1, 0.5),
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Cutquad => {
+                const {
+                    &TemplateSpec {
+                        name: "cutquad",
+                        summary: "An incision along y with lips that bulge",
+                        params: &[
+                            number("amount", "Half opening at the top", 0.3, 0.0, 0.4),
+                            number("length", "Half length of the incision", 0.45, 0.05, 0.5),
+                            number("ripple", "Height of the bulging lips", 0.1, 0.0, 0.5),
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Peeler => {
+                const {
+                    &TemplateSpec {
+                        name: "peeler",
+                        summary: "Lift a tongue of the top layer",
+                        params: &[
+                            number("lift", "Height at the tip", 0.5, 0.0, 2.0),
+                            number("width", "Width of the tongue", 1.0, 0.2, 1.0),
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Pull => {
+                const {
+                    &TemplateSpec {
+                        name: "pull",
+                        summary: "Draw the middle of the box along a vector",
+                        params: &[ParamSpec {
+                            name: "offset",
+                            summary: "Where the middle goes, fractions of the box",
+                            kind: ParamKind::Vector {
+                                default: [0.0, 0.0, 0.25],
+                                min: -0.3,
+                                max: 0.3,
+                                max_length: 0.3,
+                            },
+                        }],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Cut => {
+                const {
+                    &TemplateSpec {
+                        name: "cut",
+                        summary: "Remove material, move nothing",
+                        params: &[ParamSpec {
+                            name: "shape",
+                            summary: "What is removed",
+                            kind: ParamKind::Choice {
+                                names: &["box", "sphere", "cylinder", "halfspace"],
+                            },
+                        }],
+                        main_param: None,
+                    }
+                }
+            }
+            Self::Hole => {
+                const {
+                    &TemplateSpec {
+                        name: "hole",
+                        summary: "Push a round opening aside, along z",
+                        params: &[
+                            number("amount", "Radius at the top", 0.25, 0.0, 0.45),
+                            number(
+                                "taper",
+                                "Radius at the bottom as a fraction of it",
+                                1.0,
+                                0.0,
+                                1.0,
+                            ),
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Lens => {
+                const {
+                    &TemplateSpec {
+                        name: "lens",
+                        summary: "Magnify the middle of the box",
+                        params: &[number("strength", "How much", 0.5, 0.0, 0.9)],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Move => {
+                const {
+                    &TemplateSpec {
+                        name: "move",
+                        summary: "Take the box out whole and put it elsewhere",
+                        params: &[
+                            ParamSpec {
+                                name: "offset",
+                                summary: "How far, fractions of the box",
+                                kind: ParamKind::Vector {
+                                    default: [0.0, 0.0, 0.6],
+                                    min: -10.0,
+                                    max: 10.0,
+                                    max_length: f32::INFINITY,
+                                },
+                            },
+                            ParamSpec {
+                                name: "turn",
+                                summary: "Turned about its centre",
+                                kind: ParamKind::Rotation,
+                            },
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
         }
     }
 }
