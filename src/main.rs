@@ -1,3 +1,11 @@
 //! The program: a window and a command line natively, a page on the web. It only picks a shell.
 
-fn main() {}
+#[cfg(not(target_arch = "wasm32"))]
+fn main() -> std::process::ExitCode {
+    std::process::ExitCode::SUCCESS
+}
+
+#[cfg(target_arch = "wasm32")]
+fn main() {
+    fabrica::shell::web::loaded();
+}

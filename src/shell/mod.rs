@@ -1,1 +1,4 @@
-//! (to come)
+//! Layer 6: windows, files, the command line and the page. The only room that knows where it runs.
+
+#[cfg(target_arch = "wasm32")]
+pub mod web;

@@ -1,0 +1,108 @@
+// Starts the viewer on the page's canvas, and says in plain words what is the matter where it cannot.
+// No logic lives here that is worth a unit test: decisions are made in src/shell/web.rs.
+
+const element = (id) => document.getElementById(id);
+
+/** Shows one message in place of the picture: cause first, then what to do. */
+function show(message, remedies = [], keep = "") {
+  element("cover").hidden = false;
+  element("message").textContent = message;
+  const list = element("remedies");
+  list.replaceChildren(
+    ...remedies.map((text) => {
+      const item = document.createElement("p");
+      item.textContent = text;
+      return item;
+    }),
+  );
+  list.hidden = remedies.length === 0;
+  element("keep").textContent = keep;
+  element("keep").hidden = keep === "";
+}
+
+/** What a reader can do about a missing WebGPU, by what this browser says it is. */
+function remedies() {
+  const agent = navigator.userAgent;
+  const list = [];
+  if (!window.isSecureContext) {
+    list.push("Open this page over https:// (or from localhost): browsers give WebGPU to secure pages only.");
+  }
+  if (/iPhone|iPad|Macintosh/.test(agent) && /Safari/.test(agent) && !/Chrom|Firefox/.test(agent)) {
+    list.push("Safari has WebGPU from version 26 (macOS Tahoe, iOS 26) on; please bring the system up to date.");
+  } else if (/Firefox/.test(agent)) {
+    list.push("Firefox has WebGPU on Windows from version 141 and on macOS from 145 on; elsewhere it can be switched on as dom.webgpu.enabled in about:config.");
+  } else if (/Linux|CrOS/.test(agent) && !/Android/.test(agent)) {
+    list.push("Chrome and Chromium on Linux: open chrome://flags, switch on “Unsafe WebGPU Support” and “Vulkan”, and start the browser again.");
+  } else {
+    list.push("Chrome and Edge have WebGPU from version 113 on (Android: 121); please bring the browser up to date.");
+  }
+  list.push("See that “Use graphics acceleration when available” is on in the browser's settings, and that chrome://gpu names no blocked WebGPU.");
+  list.push("Or open the same link on another device, or with the native program: fabrica view LINK.");
+  return list;
+}
+
+/** Caption and steps of the document in the address as text, for who cannot see the picture. */
+function describe(fabrica) {
+  const box = element("caption");
+  try {
+    const text = fabrica.describe(location.href);
+    box.textContent = text;
+    box.hidden = text === "";
+  } catch {
+    box.hidden = true;
+  }
+}
+
+async function main() {
+  let fabrica;
+  try {
+    fabrica = await import("./fabrica.js");
+    await fabrica.default({ module_or_path: new URL("./fabrica_bg.wasm", import.meta.url) });
+  } catch (error) {
+    console.error(error);
+    show("The viewer could not be loaded.", [
+      "Check the connection and load the page again.",
+      "If this page comes from a folder of your own, serve fabrica_bg.wasm beside it as application/wasm.",
+      String(error),
+    ]);
+    return;
+  }
+  const keep = "Nothing is lost: the illustration is in this page's address.";
+  let adapter = null;
+  try {
+    adapter = navigator.gpu ? await navigator.gpu.requestAdapter({ powerPreference: "high-performance" }) : null;
+  } catch (error) {
+    console.warn(error);
+  }
+  if (!adapter) {
+    const cause = navigator.gpu
+      ? "This browser knows WebGPU, but has no graphics device for it."
+      : "This browser has no WebGPU, which the picture is drawn with.";
+    show(cause, remedies(), keep);
+    describe(fabrica);
+    document.documentElement.dataset.state = "no-webgpu";
+    return;
+  }
+  const viewer = new fabrica.Viewer(element("fabrica"));
+  // For whoever embeds or tests the page; the viewer itself never reads it.
+  window.fabrica = { viewer, module: fabrica };
+  try {
+    await viewer.start();
+  } catch (error) {
+    console.error(error);
+    show("The viewer could not start.", [String(error), ...remedies()], keep);
+    document.documentElement.dataset.state = "failed";
+    return;
+  }
+  element("cover").hidden = true;
+  document.documentElement.dataset.state = "started";
+  // A panic leaves the picture frozen; say so rather than let the page look alive.
+  const watch = setInterval(() => {
+    if (!viewer.has_panicked()) return;
+    clearInterval(watch);
+    show("The viewer stopped because of a fault in it.", ["Load the page again to go on.", viewer.panic_message()], keep);
+    document.documentElement.dataset.state = "panicked";
+  }, 1000);
+}
+
+main();
