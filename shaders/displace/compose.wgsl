@@ -1,0 +1,169 @@
+// The whole inverse map of a document: the templates walked backwards, each in its own space (spec/templates.md, "Several templates").
+//
+//   rest  <-- T1 <-- T2 <-- T3 (add to T2) <-- T4  <-- subject (deformed, what the viewer shows)
+//             |      '------.------'           |
+//             |      one group: both at the    |
+//             |      same point, D summed      |
+//             '--- A = the smallest of all ----'
+//
+// Differs from the rule that library files read no globals: 32 templates cannot be passed by value, so the pass declares
+// `templates: Templates` (group 2, binding 0) and this file reads it.
+//
+// `drawn_kinds` is what makes this fast on devices that run both sides of every branch (software rasterisers do): a pipeline made for
+// a document leaves out the kinds that it does not use. All ones, the default, serves every document.
+// needs: types.wgsl displace/frame.wgsl displace/angles.wgsl displace/poke.wgsl displace/twist.wgsl displace/wave.wgsl displace/bend.wgsl displace/squeeze.wgsl displace/dilate.wgsl displace/peel.wgsl displace/flap.wgsl displace/split.wgsl displace/slices.wgsl displace/retractor.wgsl displace/cutquad.wgsl displace/peeler.wgsl displace/pull.wgsl displace/cut.wgsl displace/hole.wgsl displace/lens.wgsl displace/move.wgsl
+
+/// Bit k set: templates of kind k occur. A pipeline constant.
+override drawn_kinds: u32 = 0xffffffffu;
+
+/// Where a point of the deformed object came from.
+struct Mapped {
+    /// Rest space.
+    pos: vec3f,
+    /// The smallest continuity of all templates, not capped; 1 without templates.
+    continuity: f32,
+}
+
+/// One template's inverse displacement in its own space. `kind` as in the catalogue; an unknown one is the identity.
+fn displace(kind: u32, q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
+    var d = at_rest(q);
+    switch kind {
+        case 1u: {
+            if (drawn_kinds & 0x2u) != 0u {
+                d = displace_poke(q, size, p0, p1);
+            }
+        }
+        case 2u: {
+            if (drawn_kinds & 0x4u) != 0u {
+                d = displace_twist(q, size, p0, p1);
+            }
+        }
+        case 3u: {
+            if (drawn_kinds & 0x8u) != 0u {
+                d = displace_wave(q, size, p0, p1);
+            }
+        }
+        case 4u: {
+            if (drawn_kinds & 0x10u) != 0u {
+                d = displace_bend(q, size, p0, p1);
+            }
+        }
+        case 5u: {
+            if (drawn_kinds & 0x20u) != 0u {
+                d = displace_squeeze(q, size, p0, p1);
+            }
+        }
+        case 6u: {
+            if (drawn_kinds & 0x40u) != 0u {
+                d = displace_dilate(q, size, p0, p1);
+            }
+        }
+        case 7u: {
+            if (drawn_kinds & 0x80u) != 0u {
+                d = displace_peel(q, size, p0, p1);
+            }
+        }
+        case 8u: {
+            if (drawn_kinds & 0x100u) != 0u {
+                d = displace_flap(q, size, p0, p1);
+            }
+        }
+        case 9u: {
+            if (drawn_kinds & 0x200u) != 0u {
+                d = displace_split(q, size, p0, p1);
+            }
+        }
+        case 10u: {
+            if (drawn_kinds & 0x400u) != 0u {
+                d = displace_slices(q, size, p0, p1);
+            }
+        }
+        case 11u: {
+            if (drawn_kinds & 0x800u) != 0u {
+                d = displace_retractor(q, size, p0, p1);
+            }
+        }
+        case 12u: {
+            if (drawn_kinds & 0x1000u) != 0u {
+                d = displace_cutquad(q, size, p0, p1);
+            }
+        }
+        case 13u: {
+            if (drawn_kinds & 0x2000u) != 0u {
+                d = displace_peeler(q, size, p0, p1);
+            }
+        }
+        case 14u: {
+            if (drawn_kinds & 0x4000u) != 0u {
+                d = displace_pull(q, size, p0, p1);
+            }
+        }
+        case 15u: {
+            if (drawn_kinds & 0x8000u) != 0u {
+                d = displace_cut(q, size, p0, p1);
+            }
+        }
+        case 16u: {
+            if (drawn_kinds & 0x10000u) != 0u {
+                d = displace_hole(q, size, p0, p1);
+            }
+        }
+        case 17u: {
+            if (drawn_kinds & 0x20000u) != 0u {
+                d = displace_lens(q, size, p0, p1);
+            }
+        }
+        case 18u: {
+            if (drawn_kinds & 0x40000u) != 0u {
+                d = displace_move(q, size, p0, p1);
+            }
+        }
+        default: {}
+    }
+    return d;
+}
+
+/// Rest space from subject space. Bit i of `mask`: template i may reach this point; the others are not evaluated (all ones without a
+/// grid). Bits past the last template are ignored.
+fn rest_from_subject(pos: vec3f, mask: u32) -> Mapped {
+    let count = min(templates.count.x, 32u);
+    // A shift by 32 is not defined, hence the two steps.
+    var left = select(0u, mask & (0xffffffffu >> ((32u - count) & 31u)), count > 0u);
+    var at = pos;
+    var sum = vec3f(0.0);
+    var continuity = NO_END;
+    var group = 0xffffffffu;
+    while left != 0u {
+        let i = firstLeadingBit(left);
+        left &= ~(1u << i);
+        let head = templates.items[i].group;
+        // A new group starts from where the one after it in the list left off.
+        if head != group {
+            at += sum;
+            sum = vec3f(0.0);
+            group = head;
+        }
+        let at1 = vec4f(at, 1.0);
+        let q = vec3f(
+            dot(templates.items[i].template_from_subject_row0, at1),
+            dot(templates.items[i].template_from_subject_row1, at1),
+            dot(templates.items[i].template_from_subject_row2, at1),
+        );
+        let d = displace(
+            templates.items[i].kind,
+            q,
+            templates.items[i].size.xyz,
+            templates.items[i].params0,
+            templates.items[i].params1,
+        );
+        // Going back by the difference keeps an identity exact, however the template is placed.
+        let moved = d.source - q;
+        sum += vec3f(
+            dot(templates.items[i].subject_from_template_row0.xyz, moved),
+            dot(templates.items[i].subject_from_template_row1.xyz, moved),
+            dot(templates.items[i].subject_from_template_row2.xyz, moved),
+        );
+        continuity = min(continuity, d.continuity);
+    }
+    return Mapped(at + sum, select(continuity, 1.0, group == 0xffffffffu));
+}

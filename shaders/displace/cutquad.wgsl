@@ -1,0 +1,35 @@
+// Cutquad: an incision along y, opening along x, with lips that bulge. Template space.
+// Source: Correa, appendix C, as closed in spec/templates.md.
+//
+//   z  section across
+//   1 +-.^.         .^.-+     the lips rise by `ripple`
+//     |    \ (gap) /    |
+//     |     '.   .'     |     the opening grows with z²
+//   0 +-------'.'-------+
+//     0  .1    ½     .9 1 x   tissue within 0.4 of the mid plane gives way
+//
+// Carries upwards, rest elsewhere.
+// needs: displace/frame.wgsl displace/angles.wgsl
+
+/// How far beside the mid plane tissue gives way, template units.
+const CUTQUAD_REACH: f32 = 0.4;
+
+/// p0: amount, length, ripple.
+fn displace_cutquad(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
+    if is_beyond(q, vec3f(0.0), vec3f(1.0, 1.0, NO_END)) {
+        return at_rest(q);
+    }
+    let z = min(q.z, 1.0);
+    let along = (q.y - 0.5) / max(p0.y, 1e-6);
+    let m = 1.0 - min(along * along, 1.0);
+    let opening = min(p0.x * m * z * z, 0.38);
+
+    let across = q.x - 0.5;
+    let d = abs(across);
+    let t = clamp((d - opening) / (CUTQUAD_REACH - opening), 0.0, 1.0);
+    let moved = select(0.0, CUTQUAD_REACH * t - d, d < CUTQUAD_REACH);
+    let wave = sin_cos(TAU * t).x;
+    let lift = p0.z * min(1.0, 10.0 * p0.x) * (1.0 - t) * m * z * z * wave * wave;
+    let continuity = select(d - opening, 1.0, opening < CLOSED);
+    return Displaced(q + vec3f(select(moved, -moved, across < 0.0), 0.0, -lift), continuity);
+}

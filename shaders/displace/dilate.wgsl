@@ -1,0 +1,17 @@
+// Dilate: a bulge at mid height; the frame is drawn in squeeze.wgsl. Template space.
+// Source: Correa, appendix C, as closed in spec/templates.md.
+//
+//   z
+//   1 +-------+       rest
+//     |       |
+//   ½(         )      x and y carry
+//     |       |
+//   0 +-------+       rest
+//     0   ½   1 x
+//
+// needs: displace/frame.wgsl displace/squeeze.wgsl
+
+/// p0: strength.
+fn displace_dilate(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
+    return displace_squeeze(q, size, -p0, p1);
+}

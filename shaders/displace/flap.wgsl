@@ -1,0 +1,36 @@
+// Flap: a door that opens about its x = 0, z = 1 edge. Metric. Defined everywhere.
+// Source: Correa, appendix C, as rebuilt in spec/templates.md.
+//
+//      /
+//   z / door, turned rigidly by `angle`
+//   1 +. . . . . . +
+//     |   (gap)    |     depth·sz deep
+//   Zp+------------+
+//     |            |     at rest
+//   0 +------------+
+//     0            1  x
+//
+// A is in subject units: in the door the distance to its faces, at rest the distance to the walls of the bed.
+// needs: displace/frame.wgsl displace/angles.wgsl
+
+/// p0: angle (radians), depth.
+fn displace_flap(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
+    if p0.x <= 0.0 {
+        return at_rest(q);
+    }
+    // From the edge that it turns about: x to the right, z up.
+    let x = q.x * size.x;
+    let z = (q.z - 1.0) * size.z;
+    let thickness = p0.y * size.z;
+    let side = min(q.y, 1.0 - q.y) * size.y;
+    let rest_continuity = max(max(max(-x, x - size.x), max(-thickness - z, z)), -side);
+
+    let sc = sin_cos(p0.x);
+    let source_x = x * sc.y + z * sc.x;
+    let source_z = z * sc.y - x * sc.x;
+    let door_continuity = min(min(min(source_x, size.x - source_x), min(source_z + thickness, -source_z)), side);
+    if door_continuity >= min(rest_continuity, 0.0) {
+        return Displaced(vec3f(source_x / size.x, q.y, 1.0 + source_z / size.z), door_continuity);
+    }
+    return Displaced(q, rest_continuity);
+}
