@@ -1,1 +1,215 @@
-//! (to come)
+//! Layer 3: files in, volumes out. Bytes come through a [`FileSet`], voxels leave through a
+//! [`VolumeSink`](crate::data::VolumeSink) slab by slab, so nothing is held twice; what had to be decided or repaired
+//! stands in a [`LoadReport`].
+//!
+//! Nothing here knows paths, threads or browsers: the native program opens files, a browser's worker reads slices of a
+//! dropped file, tests give bytes. Memory follows the bytes that really come, never what a header promises.
+//!
+//! ```
+//! use fabrica::{data::VolumeBuilder, load};
+//! # let mut file = vec![0u8; 352];
+//! # file[..4].copy_from_slice(&348i32.to_le_bytes());
+//! # for (i, n) in [3i16, 2, 2, 1].iter().enumerate() { file[40 + 2 * i..42 + 2 * i].copy_from_slice(&n.to_le_bytes()); }
+//! # file[70..72].copy_from_slice(&2i16.to_le_bytes());
+//! # for i in 0..4 { file[76 + 4 * i..80 + 4 * i].copy_from_slice(&1f32.to_le_bytes()); }
+//! # file[344..348].copy_from_slice(b"n+1\0");
+//! # file.extend([0, 1, 2, 3]);
+//! let mut files = load::MemoryFiles::new([("scan.nii", file)]);
+//! let (mut volume, mut report) = (VolumeBuilder::new(), load::LoadReport::default());
+//! load::read_volume(&mut files, "scan.nii", &load::ReadOptions::default(), &mut volume, &mut report)?;
+//! let volume = volume.finish()?;
+//! assert_eq!(volume.value_range, [0.0, 3.0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod error;
+mod files;
+mod geometry;
+mod nifti;
+mod report;
+mod stream;
+mod voxels;
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use sha2::{Digest as _, Sha256};
+
+pub use error::LoadError;
+pub use files::{FileHandle, FileSet, MemoryFiles, OneFile};
+pub use geometry::orientation_code;
+pub use report::{Format, LoadReport, Warning};
+pub use voxels::ElementType;
+
+use crate::data::VolumeSink;
+use files::open;
+use stream::{Packing, SharedHash};
+
+/// Bytes looked at to tell what a file is.
+const SNIFF_BYTES: usize = 1024;
+
+/// What is wanted of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ReadOptions {
+    /// Which volume of a file that holds several, from 0.
+    pub frame: u64,
+    /// More voxels are refused before any memory is asked for. The default is 2³³ (a cube of 2,048): beyond it, not even
+    /// reduction is quick.
+    pub max_voxels: u64,
+}
+
+impl Default for ReadOptions {
+    fn default() -> Self {
+        Self {
+            frame: 0,
+            max_voxels: 1 << 33,
+        }
+    }
+}
+
+/// Reads a volume from the file of this name in `files`, told by its content first, by its name where content says
+/// nothing. Streams: the sink has the first voxels long before the last byte was read. The file is read to its end, so
+/// that `report` holds the hash of its bytes.
+///
+/// # Errors
+/// [`LoadError`], with name and place. The sink may have begun by then, and what it holds is to be thrown away.
+/// [`LoadError::Cancelled`] also comes where a collecting sink failed; it knows why.
+pub fn read_volume(
+    files: &mut dyn FileSet,
+    name: &str,
+    options: &ReadOptions,
+    sink: &mut dyn VolumeSink,
+    report: &mut LoadReport,
+) -> Result<(), LoadError> {
+    let hash: SharedHash = Rc::new(RefCell::new(Sha256::new()));
+    let mut reading = Reading {
+        files,
+        options,
+        sink,
+        report,
+        hash,
+    };
+    reading.read(name)?;
+    let digest = reading.hash.borrow().clone().finalize();
+    report.sha256 = Some(digest.into());
+    Ok(())
+}
+
+/// What all readers share while one file is read.
+struct Reading<'a> {
+    files: &'a mut dyn FileSet,
+    options: &'a ReadOptions,
+    sink: &'a mut dyn VolumeSink,
+    report: &'a mut LoadReport,
+    hash: SharedHash,
+}
+
+impl Reading<'_> {
+    fn read(&mut self, name: &str) -> Result<(), LoadError> {
+        // The image half of a pair is bare voxels: only its name tells.
+        if let Some(headers) = files::siblings(name, "img", "hdr") {
+            let header = files::first_there(self.files, name, &headers)?;
+            return self.read(&header);
+        }
+        let mut stream = open(self.files, name, name, Some(&self.hash))?;
+        if stream.peek(2)? == [0x1f, 0x8b] {
+            stream.unpack(Packing::Gzip);
+        }
+        let start = stream.peek(SNIFF_BYTES)?;
+        match sniff(&start, name) {
+            Kind::Nifti => {
+                let pair = nifti::read(&mut stream, name, self.options, self.sink, self.report)?;
+                self.report.bytes_read += stream.raw_count();
+                drop(stream);
+                if let Some(header) = pair {
+                    let images = files::siblings(name, "hdr", "img").unwrap_or_default();
+                    let image = files::first_there(self.files, name, &images)?;
+                    let mut stream = open(self.files, &image, name, Some(&self.hash))?;
+                    if stream.peek(2)? == [0x1f, 0x8b] && image.to_lowercase().ends_with(".gz") {
+                        stream.unpack(Packing::Gzip);
+                    }
+                    nifti::read_voxels(&mut stream, &header, self.options, self.sink, self.report)?;
+                    self.report.bytes_read += stream.raw_count();
+                }
+                Ok(())
+            }
+            Kind::Empty => Err(LoadError::Empty {
+                name: name.to_owned(),
+            }),
+            Kind::Refused(what) => Err(LoadError::Unsupported {
+                name: name.to_owned(),
+                what: what.to_owned(),
+            }),
+            Kind::Unknown => Err(LoadError::UnknownFormat {
+                name: name.to_owned(),
+                begins: start
+                    .iter()
+                    .take(8)
+                    .map(|byte| format!("{byte:02x}"))
+                    .collect::<Vec<_>>()
+                    .join(" "),
+            }),
+        }
+    }
+}
+
+enum Kind {
+    Nifti,
+    Empty,
+    /// Known, and not read: in words.
+    Refused(&'static str),
+    Unknown,
+}
+
+fn sniff(start: &[u8], name: &str) -> Kind {
+    let lower = name.to_lowercase();
+    let named = |ending: &str| {
+        lower.ends_with(ending)
+            || lower
+                .strip_suffix(".gz")
+                .is_some_and(|inner| inner.ends_with(ending))
+    };
+    if start.is_empty() {
+        return Kind::Empty;
+    }
+    if nifti::is_header(start) || named(".nii") || named(".hdr") {
+        return Kind::Nifti;
+    }
+    if start.get(128..132) == Some(b"DICM") || named(".dcm") || named(".ima") {
+        return Kind::Refused(
+            "DICOM is not read yet: convert the series to NIfTI or NRRD (dcm2niix does)",
+        );
+    }
+    if named(".mgz") || named(".mgh") {
+        return Kind::Refused(
+            "FreeSurfer's MGH is not read: convert it to NIfTI (mri_convert does)",
+        );
+    }
+    const SIGNS: [(&[u8], &str); 7] = [
+        (b"\x89PNG", "a PNG picture is no volume"),
+        (b"\xff\xd8\xff", "a JPEG picture is no volume"),
+        (
+            b"PK\x03\x04",
+            "a ZIP archive: unpack it and open the scan in it",
+        ),
+        (
+            b"\x93NUMPY",
+            "a NumPy array says nothing of voxel size or orientation: save it as NIfTI or NRRD",
+        ),
+        (
+            b"# vtk DataFile",
+            "VTK files are not read: save as MetaImage or NIfTI",
+        ),
+        (b"glTF", "a surface (glTF), no volume"),
+        (b"ply\n", "a surface (PLY), no volume"),
+    ];
+    for (sign, what) in SIGNS {
+        if start.starts_with(sign) {
+            return Kind::Refused(what);
+        }
+    }
+    if named(".obj") || named(".stl") || named(".ply") {
+        return Kind::Refused("a surface, no volume");
+    }
+    Kind::Unknown
+}

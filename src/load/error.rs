@@ -1,0 +1,149 @@
+/// Why a file gave no volume: what was expected, what came, and where. One line each, plain words, file name last.
+///
+/// No variant holds text out of the file's descriptive fields, where patients' names stand.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LoadError {
+    /// A file that is needed is not among those given: the other half of a pair, a slice of a list.
+    #[error("{needed} is needed beside {name}, but was not given")]
+    MissingFile {
+        /// The file that asks for it.
+        name: String,
+        /// The file that is missing.
+        needed: String,
+    },
+    /// The file could not be opened or read.
+    #[error("cannot read at byte {offset}: {message} ({name})")]
+    Io {
+        /// The file.
+        name: String,
+        /// Bytes read before, unpacked if the file is packed.
+        offset: u64,
+        /// The system's words.
+        message: String,
+    },
+    /// Nothing in the file.
+    #[error("the file is empty ({name})")]
+    Empty {
+        /// The file.
+        name: String,
+    },
+    /// Neither content nor name is one of the formats known.
+    #[error(
+        "not a volume file that Fabrica knows (NIfTI, NRRD, MetaImage): it begins with {begins} ({name})"
+    )]
+    UnknownFormat {
+        /// The file.
+        name: String,
+        /// Its first bytes, as hexadecimal.
+        begins: String,
+    },
+    /// A format, or a part of one, that is known and not read.
+    #[error("{what} ({name})")]
+    Unsupported {
+        /// The file.
+        name: String,
+        /// What it is and what may be done instead.
+        what: String,
+    },
+    /// A header field holds something that cannot be.
+    #[error("{field} at byte {offset} of the header should be {expected}, but is {found} ({name})")]
+    Header {
+        /// The file.
+        name: String,
+        /// The field, by the name that the format gives it.
+        field: &'static str,
+        /// Where it stands, bytes from the start.
+        offset: u64,
+        /// What was expected.
+        expected: String,
+        /// What came.
+        found: String,
+    },
+    /// A line of a text header cannot be understood.
+    #[error(
+        "line {line} of the header: \"{field}\" should be {expected}, but is \"{found}\" ({name})"
+    )]
+    HeaderLine {
+        /// The file.
+        name: String,
+        /// Line number from 1; 0 if the field is missing.
+        line: usize,
+        /// The field.
+        field: String,
+        /// What was expected.
+        expected: String,
+        /// What came, shortened.
+        found: String,
+    },
+    /// The packed data are damaged.
+    #[error("the {codec} data are damaged after {offset} unpacked bytes: {message} ({name})")]
+    Damaged {
+        /// The file.
+        name: String,
+        /// gzip, zlib or bzip2.
+        codec: &'static str,
+        /// Bytes unpacked before the damage was noticed.
+        offset: u64,
+        /// The decoder's words.
+        message: String,
+    },
+    /// The file ends before its voxels do.
+    #[error(
+        "the file ends too early: its header promises {expected} bytes, {found} are there ({name})"
+    )]
+    Truncated {
+        /// The file.
+        name: String,
+        /// Bytes that the header asks for, unpacked.
+        expected: u64,
+        /// Bytes that came, or can be there at most.
+        found: u64,
+    },
+    /// There are more bytes than the header explains, in a format where that means a wrong picture.
+    #[error("{extra} bytes more than the header explains: the voxels would be shifted ({name})")]
+    TooLong {
+        /// The file.
+        name: String,
+        /// Bytes left over (at least).
+        extra: u64,
+    },
+    /// The header asks for more voxels than the limit of [`super::ReadOptions`].
+    #[error("{voxels} voxels are more than the {limit} that can be opened ({name})")]
+    TooLarge {
+        /// The file.
+        name: String,
+        /// Voxels asked for, capped at `u64::MAX`.
+        voxels: u64,
+        /// The limit.
+        limit: u64,
+    },
+    /// The asked frame of a series is not there.
+    #[error("frame {asked} was asked for, the file has {count} ({name})")]
+    NoSuchFrame {
+        /// The file.
+        name: String,
+        /// Frame asked for, from 0.
+        asked: u64,
+        /// Frames there are.
+        count: u64,
+    },
+    /// The receiver cannot take the volume.
+    #[error("{message} ({name})")]
+    Refused {
+        /// The file.
+        name: String,
+        /// The receiver's words.
+        message: String,
+    },
+    /// The user stopped it, or the receiver gave up.
+    #[error("stopped before the file was read")]
+    Cancelled,
+    /// A label volume holds something that is no label.
+    #[error("not a label volume: {what} ({name})")]
+    NotLabels {
+        /// The file.
+        name: String,
+        /// What it holds instead.
+        what: String,
+    },
+}

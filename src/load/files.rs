@@ -1,0 +1,208 @@
+use std::collections::BTreeMap;
+use std::fmt;
+use std::io::{self, Cursor, Read};
+
+use super::LoadError;
+use super::stream::{SharedHash, Stream};
+
+/// An opened file: bytes to pull, and how many there are if that is known (it gives progress, and unmasks headers that
+/// promise more).
+pub struct FileHandle<'a> {
+    /// The bytes, from the first. Read in large pieces; no buffer is needed.
+    pub read: Box<dyn Read + 'a>,
+    /// The file's length.
+    pub byte_len: Option<u64>,
+}
+
+impl fmt::Debug for FileHandle<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FileHandle")
+            .field("byte_len", &self.byte_len)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The files that a reader may ask for: the one opened and, where a format spreads over several, those beside it. A
+/// name is relative to the opened file's folder and may come out of a header: an implementation must not follow it out
+/// of that folder (`..`, absolute paths).
+pub trait FileSet {
+    /// Opens a file at its beginning. A file may be opened again; one is open at a time.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::NotFound`] if there is none of this name.
+    fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>>;
+}
+
+/// A single file, which can be read once: for a reader that cannot go back.
+pub struct OneFile<R> {
+    name: String,
+    read: Option<R>,
+    byte_len: Option<u64>,
+}
+
+impl<R> OneFile<R> {
+    /// From a reader at the file's first byte.
+    pub fn new(name: &str, read: R, byte_len: Option<u64>) -> Self {
+        Self {
+            name: name.to_owned(),
+            read: Some(read),
+            byte_len,
+        }
+    }
+}
+
+impl<R> fmt::Debug for OneFile<R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("OneFile")
+            .field("name", &self.name)
+            .field("byte_len", &self.byte_len)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<R: Read> FileSet for OneFile<R> {
+    fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>> {
+        if name != self.name {
+            return Err(io::ErrorKind::NotFound.into());
+        }
+        let read = self
+            .read
+            .take()
+            .ok_or_else(|| io::Error::other("the file can be read once only"))?;
+        Ok(FileHandle {
+            read: Box::new(read),
+            byte_len: self.byte_len,
+        })
+    }
+}
+
+/// Files in memory, for small ones and tests.
+#[derive(Clone, Debug, Default)]
+pub struct MemoryFiles {
+    files: BTreeMap<String, Vec<u8>>,
+}
+
+impl MemoryFiles {
+    /// From names and contents.
+    pub fn new<S: Into<String>>(files: impl IntoIterator<Item = (S, Vec<u8>)>) -> Self {
+        Self {
+            files: files
+                .into_iter()
+                .map(|(name, bytes)| (name.into(), bytes))
+                .collect(),
+        }
+    }
+}
+
+impl FileSet for MemoryFiles {
+    fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>> {
+        let bytes = self
+            .files
+            .get(name.strip_prefix("./").unwrap_or(name))
+            .ok_or(io::ErrorKind::NotFound)?;
+        Ok(FileHandle {
+            read: Box::new(Cursor::new(bytes.as_slice())),
+            byte_len: Some(bytes.len() as u64),
+        })
+    }
+}
+
+/// Opens `name`, which `asked_by` needs.
+pub(crate) fn open<'a>(
+    files: &'a mut dyn FileSet,
+    name: &str,
+    asked_by: &str,
+    hash: Option<&SharedHash>,
+) -> Result<Stream<'a>, LoadError> {
+    match files.open(name) {
+        Ok(handle) => Ok(Stream::new(
+            name,
+            handle.read,
+            handle.byte_len,
+            hash.cloned(),
+        )),
+        Err(error) if error.kind() == io::ErrorKind::NotFound && name != asked_by => {
+            Err(LoadError::MissingFile {
+                name: asked_by.to_owned(),
+                needed: name.to_owned(),
+            })
+        }
+        Err(error) => Err(LoadError::Io {
+            name: name.to_owned(),
+            offset: 0,
+            message: error.to_string(),
+        }),
+    }
+}
+
+/// Names that the other half of a pair may have, the likeliest first; `None` if `name` does not end in `from` (or that
+/// and `.gz`). Keeps the case of the ending.
+pub(crate) fn siblings(name: &str, from: &str, to: &str) -> Option<Vec<String>> {
+    let (inner, packed) = match name.len().checked_sub(3) {
+        Some(at) if name.is_char_boundary(at) && name[at..].eq_ignore_ascii_case(".gz") => {
+            (&name[..at], Some(&name[at..]))
+        }
+        _ => (name, None),
+    };
+    let (stem, ending) = inner.rsplit_once('.')?;
+    if !ending.eq_ignore_ascii_case(from) || stem.is_empty() {
+        return None;
+    }
+    let to = if ending.chars().all(|c| c.is_ascii_uppercase()) {
+        to.to_uppercase()
+    } else {
+        to.to_owned()
+    };
+    let plain = format!("{stem}.{to}");
+    let gz = format!("{plain}{}", packed.unwrap_or(".gz"));
+    Some(if packed.is_some() {
+        vec![gz, plain]
+    } else {
+        vec![plain, gz]
+    })
+}
+
+/// The first of the names that can be opened.
+pub(crate) fn first_there(
+    files: &mut dyn FileSet,
+    asked_by: &str,
+    names: &[String],
+) -> Result<String, LoadError> {
+    for name in names {
+        match files.open(name) {
+            Ok(_) => return Ok(name.clone()),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => {
+                return Err(LoadError::Io {
+                    name: name.clone(),
+                    offset: 0,
+                    message: error.to_string(),
+                });
+            }
+        }
+    }
+    Err(LoadError::MissingFile {
+        name: asked_by.to_owned(),
+        needed: names.first().cloned().unwrap_or_default(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_are_named_alike() {
+        assert_eq!(
+            siblings("a.b.hdr", "hdr", "img").expect("a pair"),
+            ["a.b.img", "a.b.img.gz"]
+        );
+        assert_eq!(
+            siblings("A.HDR.GZ", "hdr", "img").expect("a pair"),
+            ["A.IMG.GZ", "A.IMG"]
+        );
+        assert_eq!(siblings("a.nii", "hdr", "img"), None);
+        assert_eq!(siblings(".hdr", "hdr", "img"), None);
+        assert_eq!(siblings("é.z", "hdr", "img"), None);
+    }
+}

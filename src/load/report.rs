@@ -1,0 +1,205 @@
+use std::fmt;
+
+use glam::UVec3;
+
+use crate::data::Segment;
+
+/// Something about a file that a reader had to decide or repair, and the user should know.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The file does not say how the grid lies in the patient.
+    NoOrientation,
+    /// The orientation it gives cannot be: another was taken.
+    BadOrientation {
+        /// The part that cannot be used.
+        field: &'static str,
+        /// What was taken instead.
+        instead: &'static str,
+    },
+    /// A voxel size is 0, negative or no number, and was repaired.
+    BadSpacing {
+        /// Grid axis, 0 to 2.
+        axis: usize,
+        /// What stands there.
+        found: f32,
+        /// What was taken, mm.
+        instead: f32,
+    },
+    /// Slope 0 with an intercept: by the standard neither is applied.
+    SlopeZero,
+    /// Slope or intercept is no usable number; values are taken as stored.
+    BadScale {
+        /// The slope.
+        slope: f32,
+        /// The intercept.
+        intercept: f32,
+    },
+    /// Voxels that were NaN or infinite and are now 0.
+    NotFinite {
+        /// How many.
+        count: u64,
+    },
+    /// Voxels too large for what the picture can show, taken as the largest possible.
+    Clipped {
+        /// How many.
+        count: u64,
+    },
+    /// Whole numbers beyond 2²⁴, rounded to 24 bits.
+    Rounded {
+        /// How many.
+        count: u64,
+    },
+    /// All voxels of the volume are equal: there is nothing to see.
+    Constant {
+        /// Their value.
+        value: f32,
+    },
+    /// Bytes after the last voxel that the header does not explain.
+    TrailingBytes,
+    /// The file holds several volumes; one was taken.
+    Frames {
+        /// How many it holds.
+        count: u64,
+        /// The one taken, from 0.
+        shown: u64,
+    },
+    /// Complex voxels: their magnitude is shown.
+    Magnitude,
+    /// A header field is out of order but could be read around.
+    Repaired {
+        /// The field.
+        field: &'static str,
+        /// What is wrong and what was done.
+        what: String,
+    },
+    /// Label names in the file could not be understood.
+    LabelNames,
+    /// Segments on several layers: only the first layer is shown.
+    Layers {
+        /// How many there are.
+        count: u64,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoOrientation => f.write_str(
+                "the file does not say which way the patient lies: left and right, front and back may be exchanged",
+            ),
+            Self::BadOrientation { field, instead } => {
+                write!(f, "the orientation in {field} cannot be; {instead} was taken")
+            }
+            Self::BadSpacing { axis, found, instead } => write!(
+                f,
+                "voxel size {found} along axis {} cannot be; {instead} mm was taken",
+                axis + 1
+            ),
+            Self::SlopeZero => f.write_str("the slope is 0, so the intercept is not applied either"),
+            Self::BadScale { slope, intercept } => write!(
+                f,
+                "slope {slope} and intercept {intercept} cannot be applied; values are as stored"
+            ),
+            Self::NotFinite { count } => write!(f, "{count} voxels that are no number are shown as 0"),
+            Self::Clipped { count } => write!(f, "{count} voxels are too large and were clipped"),
+            Self::Rounded { count } => {
+                write!(f, "{count} voxels are beyond 16,777,216 and were rounded")
+            }
+            Self::Constant { value } => {
+                write!(f, "every voxel has the value {value}: there is nothing to see")
+            }
+            Self::TrailingBytes => f.write_str("there are bytes after the last voxel; they were left out"),
+            Self::Frames { count, shown } => {
+                write!(f, "the file holds {count} volumes; number {} is shown", shown + 1)
+            }
+            Self::Magnitude => f.write_str("the voxels are complex numbers; their magnitude is shown"),
+            Self::Repaired { field, what } => write!(f, "{field}: {what}"),
+            Self::LabelNames => f.write_str("the names of the labels could not be read"),
+            Self::Layers { count } => write!(
+                f,
+                "the segments overlap on {count} layers; only the first layer is shown"
+            ),
+        }
+    }
+}
+
+/// File formats that are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// NIfTI-1 in one file.
+    Nifti1,
+    /// NIfTI-1 header and image in two files.
+    Nifti1Pair,
+    /// NIfTI-2 in one file.
+    Nifti2,
+    /// NIfTI-2 header and image in two files.
+    Nifti2Pair,
+    /// Analyze 7.5, the pair before NIfTI.
+    Analyze,
+    /// NRRD, attached or detached.
+    Nrrd,
+    /// MetaImage, .mha or .mhd.
+    MetaImage,
+    /// Bare voxels whose layout the user gave.
+    Raw,
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Nifti1 => "NIfTI-1",
+            Self::Nifti1Pair => "NIfTI-1 pair",
+            Self::Nifti2 => "NIfTI-2",
+            Self::Nifti2Pair => "NIfTI-2 pair",
+            Self::Analyze => "Analyze 7.5",
+            Self::Nrrd => "NRRD",
+            Self::MetaImage => "MetaImage",
+            Self::Raw => "raw voxels",
+        })
+    }
+}
+
+/// What reading a file found out beside the voxels. Filled as reading goes on, so it is of use after an error too.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LoadReport {
+    /// What the user should know, in the order found.
+    pub warnings: Vec<Warning>,
+    /// The format, once recognised.
+    pub format: Option<Format>,
+    /// Voxel type in the file, in the format's own word.
+    pub stored_type: &'static str,
+    /// Full size in voxels.
+    pub dims: UVec3,
+    /// Volumes in the file: time points, components.
+    pub frame_count: u64,
+    /// Names and colours of labels that the file brings.
+    pub segments: Vec<Segment>,
+    /// True if the header says that the voxels are labels.
+    pub is_labels: bool,
+    /// SHA-256 over the bytes of the file as they lie on disk; of several files, one after the other in the order
+    /// opened, the header first. `None` until all was read.
+    pub sha256: Option<[u8; 32]>,
+    /// Bytes read, as they lie on disk.
+    pub bytes_read: u64,
+}
+
+impl LoadReport {
+    /// Adds a warning unless the same is there already.
+    pub(crate) fn warn(&mut self, warning: Warning) {
+        if !self.warnings.contains(&warning) {
+            self.warnings.push(warning);
+        }
+    }
+
+    /// The hash as the document writes it: 64 hexadecimal digits.
+    pub fn sha256_hex(&self) -> Option<String> {
+        self.sha256
+            .map(|hash| hash.iter().map(|byte| format!("{byte:02x}")).collect())
+    }
+
+    /// The warnings as lines for the user.
+    pub fn notices(&self) -> Vec<String> {
+        self.warnings.iter().map(ToString::to_string).collect()
+    }
+}

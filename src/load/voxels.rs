@@ -1,0 +1,388 @@
+//! From bytes to voxels, slab by slab: every scalar type in both byte orders.
+
+use glam::UVec3;
+
+use super::stream::Stream;
+use super::{LoadError, LoadReport, Warning};
+use crate::data::{Volume, VolumeSink, Voxels};
+
+/// Bytes of voxels handed to the sink at once, where a slice is not larger. Larger costs memory, smaller costs calls.
+const SLAB_BYTES: u64 = 2 * 1024 * 1024;
+/// Bytes decoded at once.
+const CHUNK_BYTES: usize = 256 * 1024;
+/// Larger magnitudes are clipped: differences of two values must stay finite in 32 bits, also when scaled.
+pub(crate) const VALUE_LIMIT: f32 = 1e37;
+/// Largest whole number up to which all are exact in 32-bit floats.
+const EXACT_LIMIT: u64 = 1 << 24;
+
+/// Scalar types that files have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementType {
+    /// 8-bit unsigned.
+    U8,
+    /// 8-bit signed.
+    I8,
+    /// 16-bit unsigned.
+    U16,
+    /// 16-bit signed.
+    I16,
+    /// 32-bit unsigned.
+    U32,
+    /// 32-bit signed.
+    I32,
+    /// 64-bit unsigned.
+    U64,
+    /// 64-bit signed.
+    I64,
+    /// 32-bit float.
+    F32,
+    /// 64-bit float.
+    F64,
+    /// Two 32-bit floats; read as their magnitude.
+    C64,
+    /// Two 64-bit floats; read as their magnitude.
+    C128,
+}
+
+impl ElementType {
+    /// Bytes of one element in a file.
+    pub fn byte_count(self) -> usize {
+        match self {
+            Self::U8 | Self::I8 => 1,
+            Self::U16 | Self::I16 => 2,
+            Self::U32 | Self::I32 | Self::F32 => 4,
+            Self::U64 | Self::I64 | Self::F64 | Self::C64 => 8,
+            Self::C128 => 16,
+        }
+    }
+
+    /// What it is kept in, empty: the next type that holds all its values (float for 32-bit and more).
+    pub fn kept_as(self) -> Voxels {
+        match self {
+            Self::U8 => Voxels::U8(Vec::new()),
+            Self::I8 | Self::I16 => Voxels::I16(Vec::new()),
+            Self::U16 => Voxels::U16(Vec::new()),
+            _ => Voxels::F32(Vec::new()),
+        }
+    }
+
+    /// Largest magnitude an element can have, capped at the limit for values.
+    pub(crate) fn largest(self) -> f32 {
+        match self {
+            Self::U8 | Self::I8 => 255.0,
+            Self::U16 | Self::I16 => 65_535.0,
+            Self::U32 | Self::I32 => 4.3e9,
+            Self::U64 | Self::I64 => 1.9e19,
+            _ => VALUE_LIMIT,
+        }
+    }
+}
+
+/// How voxels lie in the bytes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Layout {
+    pub(crate) element: ElementType,
+    pub(crate) big_endian: bool,
+    pub(crate) dims: UVec3,
+    /// Elements per voxel, one after the other.
+    pub(crate) components: u32,
+    /// The one that is taken.
+    pub(crate) component: u32,
+}
+
+impl Layout {
+    /// Bytes of one volume, `None` if that is no 64-bit number.
+    pub(crate) fn byte_count(&self) -> Option<u64> {
+        let dims = self.dims.as_u64vec3();
+        dims.x
+            .checked_mul(dims.y)?
+            .checked_mul(dims.z)?
+            .checked_mul(u64::from(self.components))?
+            .checked_mul(self.element.byte_count() as u64)
+    }
+}
+
+/// Where voxel bytes come from: one file, a list of files, numbers in text.
+pub(crate) trait VoxelSource {
+    /// Fills the buffer as far as there are bytes; returns how many came.
+    fn fill(&mut self, buf: &mut [u8]) -> Result<usize, LoadError>;
+    /// Part that was read, if that is known.
+    fn fraction(&mut self) -> Option<f32>;
+    /// For messages.
+    fn name(&self) -> String;
+}
+
+impl VoxelSource for Stream<'_> {
+    fn fill(&mut self, buf: &mut [u8]) -> Result<usize, LoadError> {
+        Stream::fill(self, buf)
+    }
+
+    fn fraction(&mut self) -> Option<f32> {
+        Stream::fraction(self)
+    }
+
+    fn name(&self) -> String {
+        Stream::name(self).to_owned()
+    }
+}
+
+/// What was changed on the way.
+#[derive(Clone, Copy, Debug, Default)]
+struct Tally {
+    not_finite: u64,
+    clipped: u64,
+    rounded: u64,
+    /// The number that all voxels so far have, stored; `None` once two differ.
+    constant: Option<f32>,
+    is_started: bool,
+}
+
+impl Tally {
+    fn watch_constant(&mut self, slab: &Voxels) {
+        if !self.is_started {
+            self.constant = slab.get(0);
+            self.is_started = true;
+        }
+        let Some(constant) = self.constant else {
+            return;
+        };
+        let all_equal = match slab {
+            Voxels::U8(v) => v.iter().all(|&x| f32::from(x) == constant),
+            Voxels::I16(v) => v.iter().all(|&x| f32::from(x) == constant),
+            Voxels::U16(v) => v.iter().all(|&x| f32::from(x) == constant),
+            Voxels::F32(v) => v.iter().all(|&x| x == constant),
+        };
+        if !all_equal {
+            self.constant = None;
+        }
+    }
+}
+
+/// Reads one volume and hands it to the sink slab by slab. Holds no more than one slab, and of a slab no more than the
+/// bytes that really came.
+pub(crate) fn stream_voxels(
+    source: &mut dyn VoxelSource,
+    layout: &Layout,
+    header: &Volume,
+    sink: &mut dyn VolumeSink,
+    report: &mut LoadReport,
+) -> Result<(), LoadError> {
+    let mut tally = Tally::default();
+    let result = stream_slabs(source, layout, sink, &mut tally);
+    for (count, warning) in [
+        (
+            tally.not_finite,
+            Warning::NotFinite {
+                count: tally.not_finite,
+            },
+        ),
+        (
+            tally.clipped,
+            Warning::Clipped {
+                count: tally.clipped,
+            },
+        ),
+        (
+            tally.rounded,
+            Warning::Rounded {
+                count: tally.rounded,
+            },
+        ),
+    ] {
+        if count > 0 {
+            report.warn(warning);
+        }
+    }
+    if let Some(stored) = tally.constant.filter(|_| result.is_ok()) {
+        report.warn(Warning::Constant {
+            value: stored * header.slope + header.intercept,
+        });
+    }
+    result
+}
+
+fn stream_slabs(
+    source: &mut dyn VoxelSource,
+    layout: &Layout,
+    sink: &mut dyn VolumeSink,
+    tally: &mut Tally,
+) -> Result<(), LoadError> {
+    let voxel_bytes = layout.element.byte_count() * layout.components as usize;
+    let expected = layout.byte_count().unwrap_or(u64::MAX);
+    let slice_voxels = u64::from(layout.dims.x) * u64::from(layout.dims.y);
+    let kept_bytes = match layout.element.kept_as() {
+        Voxels::U8(_) => 1,
+        Voxels::I16(_) | Voxels::U16(_) => 2,
+        Voxels::F32(_) => 4,
+    };
+    let slab_slices =
+        (SLAB_BYTES / (slice_voxels * kept_bytes).max(1)).clamp(1, u64::from(layout.dims.z));
+    let mut chunk = vec![0; (CHUNK_BYTES / voxel_bytes).max(1) * voxel_bytes];
+    let mut slices_done = 0;
+    let mut bytes_done: u64 = 0;
+    while slices_done < u64::from(layout.dims.z) {
+        let slices = slab_slices.min(u64::from(layout.dims.z) - slices_done);
+        let mut left = slices * slice_voxels;
+        let mut slab = layout.element.kept_as();
+        reserve(&mut slab, left.min(SLAB_BYTES / kept_bytes) as usize);
+        while left > 0 {
+            let want = (left.saturating_mul(voxel_bytes as u64)).min(chunk.len() as u64) as usize;
+            let got = source.fill(&mut chunk[..want])?;
+            bytes_done += got as u64;
+            if got < want {
+                return Err(LoadError::Truncated {
+                    name: source.name(),
+                    expected,
+                    found: bytes_done,
+                });
+            }
+            decode(&mut slab, &chunk[..want], layout, tally);
+            left -= (want / voxel_bytes) as u64;
+        }
+        tally.watch_constant(&slab);
+        sink.scalars(slab);
+        slices_done += slices;
+        let done = slices_done as f32 / layout.dims.z as f32;
+        if !sink.progress(source.fraction().unwrap_or(done)) {
+            return Err(LoadError::Cancelled);
+        }
+    }
+    Ok(())
+}
+
+fn reserve(voxels: &mut Voxels, n: usize) {
+    match voxels {
+        Voxels::U8(v) => v.reserve_exact(n),
+        Voxels::I16(v) => v.reserve_exact(n),
+        Voxels::U16(v) => v.reserve_exact(n),
+        Voxels::F32(v) => v.reserve_exact(n),
+    }
+}
+
+/// Appends the elements of one component, converted by `convert`.
+fn append<const N: usize, T>(
+    out: &mut Vec<T>,
+    bytes: &[u8],
+    layout: &Layout,
+    mut convert: impl FnMut([u8; N]) -> T,
+) {
+    if layout.components == 1 {
+        out.extend(bytes.as_chunks::<N>().0.iter().map(|&raw| convert(raw)));
+    } else {
+        let stride = layout.components as usize;
+        out.extend(
+            bytes
+                .as_chunks::<N>()
+                .0
+                .iter()
+                .skip(layout.component as usize)
+                .step_by(stride)
+                .map(|&raw| convert(raw)),
+        );
+    }
+}
+
+fn from_float(x: f32, tally: &mut Tally) -> f32 {
+    if !x.is_finite() {
+        tally.not_finite += 1;
+        0.0
+    } else if x.abs() > VALUE_LIMIT {
+        tally.clipped += 1;
+        x.clamp(-VALUE_LIMIT, VALUE_LIMIT)
+    } else {
+        x
+    }
+}
+
+fn from_double(x: f64, tally: &mut Tally) -> f32 {
+    if x.is_finite() && x.abs() > f64::from(VALUE_LIMIT) {
+        tally.clipped += 1;
+        return VALUE_LIMIT.copysign(x as f32);
+    }
+    from_float(x as f32, tally)
+}
+
+fn from_whole(x: f32, magnitude: u64, tally: &mut Tally) -> f32 {
+    if magnitude > EXACT_LIMIT {
+        tally.rounded += 1;
+    }
+    x
+}
+
+fn decode(out: &mut Voxels, bytes: &[u8], layout: &Layout, tally: &mut Tally) {
+    /// One arm per type: the byte order is decided outside the loop.
+    macro_rules! numbers {
+        ($out:expr, $type:ty, $convert:expr) => {{
+            const N: usize = size_of::<$type>();
+            if layout.big_endian {
+                append::<N, _>($out, bytes, layout, |raw| {
+                    $convert(<$type>::from_be_bytes(raw))
+                });
+            } else {
+                append::<N, _>($out, bytes, layout, |raw| {
+                    $convert(<$type>::from_le_bytes(raw))
+                });
+            }
+        }};
+    }
+    match (layout.element, out) {
+        (ElementType::U8, Voxels::U8(out)) if layout.components == 1 => {
+            out.extend_from_slice(bytes)
+        }
+        (ElementType::U8, Voxels::U8(out)) => numbers!(out, u8, |x| x),
+        (ElementType::I8, Voxels::I16(out)) => numbers!(out, i8, i16::from),
+        (ElementType::I16, Voxels::I16(out)) => numbers!(out, i16, |x| x),
+        (ElementType::U16, Voxels::U16(out)) => numbers!(out, u16, |x| x),
+        (ElementType::U32, Voxels::F32(out)) => {
+            numbers!(out, u32, |x: u32| from_whole(x as f32, u64::from(x), tally));
+        }
+        (ElementType::I32, Voxels::F32(out)) => {
+            numbers!(out, i32, |x: i32| from_whole(
+                x as f32,
+                u64::from(x.unsigned_abs()),
+                tally
+            ));
+        }
+        (ElementType::U64, Voxels::F32(out)) => {
+            numbers!(out, u64, |x: u64| from_whole(x as f32, x, tally));
+        }
+        (ElementType::I64, Voxels::F32(out)) => {
+            numbers!(out, i64, |x: i64| from_whole(
+                x as f32,
+                x.unsigned_abs(),
+                tally
+            ));
+        }
+        (ElementType::F32, Voxels::F32(out)) => numbers!(out, f32, |x| from_float(x, tally)),
+        (ElementType::F64, Voxels::F32(out)) => numbers!(out, f64, |x| from_double(x, tally)),
+        (ElementType::C64, Voxels::F32(out)) => append::<8, _>(out, bytes, layout, |raw| {
+            let [a, b, c, d, e, f, g, h] = raw;
+            let (re, im) = if layout.big_endian {
+                (
+                    f32::from_be_bytes([a, b, c, d]),
+                    f32::from_be_bytes([e, f, g, h]),
+                )
+            } else {
+                (
+                    f32::from_le_bytes([a, b, c, d]),
+                    f32::from_le_bytes([e, f, g, h]),
+                )
+            };
+            from_double(f64::from(re).hypot(f64::from(im)), tally)
+        }),
+        (ElementType::C128, Voxels::F32(out)) => append::<16, _>(out, bytes, layout, |raw| {
+            let mut first = [0; 8];
+            let mut second = [0; 8];
+            first.copy_from_slice(&raw[..8]);
+            second.copy_from_slice(&raw[8..]);
+            let (re, im) = if layout.big_endian {
+                (f64::from_be_bytes(first), f64::from_be_bytes(second))
+            } else {
+                (f64::from_le_bytes(first), f64::from_le_bytes(second))
+            };
+            from_double(re.hypot(im), tally)
+        }),
+        // `out` is always what `kept_as` gives.
+        _ => {}
+    }
+}
