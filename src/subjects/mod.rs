@@ -1,1 +1,228 @@
-//! (to come)
+//! Layer 3: the built-in subjects. Nothing is downloaded: each is a model in mm, painted voxel by voxel.
+//!
+//! The labels, and the values, are the same bit for bit on every machine: only arithmetic that IEEE 754 rounds exactly is
+//! used, sines come from `libm`, and nothing depends on the order of a hash or on the number of threads.
+//!
+//! A small `resolution` gives the coarse picture that a page shows first, a large one the same model finely.
+//!
+//! ```
+//! use fabrica::data::{Voxels, VolumeSink, Volume};
+//! struct Count(usize);
+//! impl VolumeSink for Count {
+//!     fn begin(&mut self, header: &Volume) -> Result<(), String> {
+//!         assert_eq!(header.grid.dims.max_element(), 32);
+//!         Ok(())
+//!     }
+//!     fn scalars(&mut self, next: Voxels) {
+//!         self.0 += next.len();
+//!     }
+//!     fn labels(&mut self, _: Vec<u8>) {}
+//!     fn progress(&mut self, _: f32) -> bool {
+//!         true
+//!     }
+//! }
+//! let mut count = Count(0);
+//! fabrica::subjects::generate("cube", 32, &mut count).unwrap();
+//! assert_eq!(count.0, 32 * 32 * 32);
+//! ```
+
+mod bar;
+mod cube;
+mod lanes;
+mod paint;
+
+use std::ops::Range;
+
+use glam::{DAffine3, DMat3, DVec3, UVec3, Vec3};
+
+use crate::data::{Grid, LabelVolume, Segment, Volume, VolumeSink, Voxels};
+use lanes::LANES;
+use paint::{Block, Canvas, Model, ROWS};
+
+/// Voxels along the longest side of a subject for the picture that is shown first.
+pub const COARSE_RESOLUTION: u32 = 64;
+/// Voxels along the longest side of a subject as it is normally shown.
+pub const FINE_RESOLUTION: u32 = 256;
+/// The range of voxels along the longest side that is made.
+pub const RESOLUTIONS: Range<u32> = 16..513;
+
+/// Why a subject was not made.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SubjectError {
+    /// No subject has this name.
+    #[error("there is no built-in subject \"{0}\" (there are {list})", list = names().join(", "))]
+    UnknownName(String),
+    /// Too small to show anything, or too large to be made.
+    #[error("a built-in subject has from {} to {} voxels along its longest side, not {0}", RESOLUTIONS.start, RESOLUTIONS.end - 1)]
+    Resolution(u32),
+    /// The receiver refused the volume.
+    #[error("{0}")]
+    Refused(String),
+    /// The receiver asked to stop.
+    #[error("stopped")]
+    Stopped,
+}
+
+/// Names of the built-in subjects that can be made, as written in documents.
+pub fn names() -> &'static [&'static str] {
+    &["bar", "cube"]
+}
+
+fn model(name: &str) -> Option<Box<dyn Model>> {
+    Some(match name {
+        "bar" => Box::new(bar::Bar),
+        "cube" => Box::new(cube::Cube),
+        _ => return None,
+    })
+}
+
+/// Some whole z slices of a subject.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Slab {
+    /// Values, x fastest.
+    pub values: Vec<i16>,
+    /// Labels, in the same order.
+    pub labels: Vec<u8>,
+}
+
+/// Makes a subject in slabs, in any order and from as many threads as the caller likes: the result does not depend on it.
+pub struct Generator {
+    model: Box<dyn Model>,
+    dims: UVec3,
+    spacing: f32,
+    /// Centre of the first voxel, mm.
+    origin: Vec3,
+}
+
+impl Generator {
+    /// Slices that are made together; a slab that starts and ends at a multiple of it costs least.
+    pub const SLAB: u32 = LANES as u32;
+
+    /// Prepares a subject, `resolution` voxels along its longest side.
+    pub fn new(name: &str, resolution: u32) -> Result<Self, SubjectError> {
+        if !RESOLUTIONS.contains(&resolution) {
+            return Err(SubjectError::Resolution(resolution));
+        }
+        let model = model(name).ok_or_else(|| {
+            // A hostile name is not repeated at length.
+            SubjectError::UnknownName(name.chars().take(40).collect())
+        })?;
+        let (min, max) = model.bounds_mm();
+        let size = max - min;
+        let spacing = size.max_element() / resolution as f32;
+        let dims = (size / spacing).round().as_uvec3().max(UVec3::ONE);
+        // The grid is laid about the middle of the box, for its sides are no exact multiples of the spacing.
+        let origin = (min + max) * 0.5 - (dims - UVec3::ONE).as_vec3() * (0.5 * spacing);
+        Ok(Self {
+            model,
+            dims,
+            spacing,
+            origin,
+        })
+    }
+
+    /// The volume without its voxels and labels. The values are CT-like numbers (HU).
+    pub fn header(&self) -> Volume {
+        let grid = Grid {
+            dims: self.dims,
+            world_from_voxel: DAffine3::from_mat3_translation(
+                DMat3::from_diagonal(DVec3::splat(f64::from(self.spacing))),
+                self.origin.as_dvec3(),
+            ),
+        };
+        Volume {
+            grid,
+            voxels: Voxels::I16(Vec::new()),
+            slope: 1.0,
+            intercept: 0.0,
+            value_range: self.model.value_range(),
+            labels: Some(LabelVolume {
+                grid,
+                labels: Vec::new(),
+                segments: self
+                    .model
+                    .segments()
+                    .iter()
+                    .enumerate()
+                    .map(|(index, spec)| Segment {
+                        label: index as u16 + 1,
+                        name: spec.name.to_owned(),
+                        color_srgb: Some(spec.color_srgb),
+                    })
+                    .collect(),
+            }),
+        }
+    }
+
+    /// Slices of the whole volume.
+    pub fn slice_count(&self) -> u32 {
+        self.dims.z
+    }
+
+    /// Makes slices; those outside the volume are left out.
+    pub fn slab(&self, slices: Range<u32>) -> Slab {
+        let end = slices.end.min(self.dims.z);
+        let start = slices.start.min(end);
+        let (nx, ny) = (self.dims.x as usize, self.dims.y as usize);
+        let count = nx * ny * (end - start) as usize;
+        let [lowest, highest] = self.model.value_range();
+        let mut slab = Slab {
+            values: vec![0; count],
+            labels: vec![0; count],
+        };
+        let mut z0 = start - start % Self::SLAB;
+        while z0 < end {
+            for y0 in (0..ny).step_by(LANES) {
+                for x0 in (0..nx).step_by(LANES) {
+                    let first = UVec3::new(x0 as u32, y0 as u32, z0).as_vec3();
+                    let block = Block {
+                        origin: self.origin + first * self.spacing,
+                        spacing: self.spacing,
+                    };
+                    let mut canvas = Canvas::new(lowest);
+                    self.model.paint(&block, &mut canvas);
+                    for row in 0..ROWS {
+                        let y = y0 + row % LANES;
+                        let z = z0 + (row / LANES) as u32;
+                        if y >= ny || z < start || z >= end {
+                            continue;
+                        }
+                        let at = x0 + nx * (y + ny * (z - start) as usize);
+                        let n = LANES.min(nx - x0);
+                        for i in 0..n {
+                            let value = canvas.values[row].0[i].clamp(lowest, highest);
+                            slab.values[at + i] = (value + 0.5).floor() as i16;
+                        }
+                        slab.labels[at..at + n].copy_from_slice(&canvas.labels[row][..n]);
+                    }
+                }
+            }
+            z0 += Self::SLAB;
+        }
+        slab
+    }
+}
+
+/// Makes a subject, `resolution` voxels along its longest side, and hands it to `sink` slab by slab.
+pub fn generate(
+    name: &str,
+    resolution: u32,
+    sink: &mut dyn VolumeSink,
+) -> Result<(), SubjectError> {
+    let generator = Generator::new(name, resolution)?;
+    sink.begin(&generator.header())
+        .map_err(SubjectError::Refused)?;
+    let n = generator.slice_count();
+    let mut done = 0;
+    while done < n {
+        let next = (done + Generator::SLAB).min(n);
+        let slab = generator.slab(done..next);
+        sink.scalars(Voxels::I16(slab.values));
+        sink.labels(slab.labels);
+        done = next;
+        if !sink.progress(done as f32 / n as f32) {
+            return Err(SubjectError::Stopped);
+        }
+    }
+    Ok(())
+}

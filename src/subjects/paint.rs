@@ -1,0 +1,100 @@
+//! From distances to voxels: a block of the grid, and the painter that lays one tissue over another.
+
+use glam::Vec3;
+
+use super::lanes::{LANES, Lanes, Points};
+
+/// Rows in a block.
+pub(super) const ROWS: usize = LANES * LANES;
+
+/// What a model is: a box in mm, its segments, and how one block of it is painted. Built once per subject.
+pub(super) trait Model: Send + Sync {
+    /// The box that is shown, (min, max) mm; x right, y anterior, z superior.
+    fn bounds_mm(&self) -> (Vec3, Vec3);
+    /// Segments; the label is the index plus one.
+    fn segments(&self) -> &'static [SegmentSpec];
+    /// Lowest and highest value that can occur.
+    fn value_range(&self) -> [f32; 2];
+    /// Paints one block.
+    fn paint(&self, block: &Block, out: &mut Canvas);
+}
+
+/// A segment's name and natural colour.
+pub(super) struct SegmentSpec {
+    /// As used in `keep`.
+    pub(super) name: &'static str,
+    /// sRGB bytes.
+    pub(super) color_srgb: [u8; 3],
+}
+
+/// Shorthand for tables.
+pub(super) const fn segment(name: &'static str, color_srgb: [u8; 3]) -> SegmentSpec {
+    SegmentSpec { name, color_srgb }
+}
+
+/// Eight by eight by eight voxels of the grid.
+pub(super) struct Block {
+    /// Centre of the first voxel, mm.
+    pub(super) origin: Vec3,
+    /// Distance between voxel centres, mm.
+    pub(super) spacing: f32,
+}
+
+impl Block {
+    /// The middle, mm.
+    pub(super) fn center(&self) -> Vec3 {
+        self.origin + Vec3::splat(0.5 * (LANES - 1) as f32 * self.spacing)
+    }
+
+    /// From the middle to the corner voxel centres, mm.
+    pub(super) fn radius(&self) -> f32 {
+        0.5 * (LANES - 1) as f32 * self.spacing * 1.732_051
+    }
+
+    /// The eight voxel centres of a row, mm.
+    #[inline(always)]
+    pub(super) fn row(&self, row: usize) -> Points {
+        Points {
+            x: Lanes::ramp(self.origin.x, self.spacing),
+            y: Lanes::splat(self.origin.y + (row % LANES) as f32 * self.spacing),
+            z: Lanes::splat(self.origin.z + (row / LANES) as f32 * self.spacing),
+        }
+    }
+}
+
+/// Values and labels of one block.
+pub(super) struct Canvas {
+    /// Values of each row.
+    pub(super) values: [Lanes; ROWS],
+    /// Labels of each row.
+    pub(super) labels: [[u8; LANES]; ROWS],
+}
+
+impl Canvas {
+    /// All of one value and without a segment.
+    pub(super) fn new(value: f32) -> Self {
+        Self {
+            values: [Lanes::splat(value); ROWS],
+            labels: [[0; LANES]; ROWS],
+        }
+    }
+
+    /// Lays a tissue over what a row shows, where `distance` (mm, negative inside) says so. The label changes at 0, the
+    /// value over `width` mm around it: a voxel that the border crosses holds some of both, as in a scan.
+    #[inline(always)]
+    pub(super) fn lay(&mut self, row: usize, distance: Lanes, width: f32, value: Lanes, label: u8) {
+        let cover = (Lanes::splat(0.5) - distance * (1.0 / width)).clamp(0.0, 1.0);
+        self.values[row] = self.values[row].mix(value, cover);
+        let labels = &mut self.labels[row];
+        for i in 0..LANES {
+            if distance.0[i] < 0.0 {
+                labels[i] = label;
+            }
+        }
+    }
+}
+
+/// Over how many mm a border is smoothed at a voxel spacing: wide enough that a gradient taken between neighbours is smooth.
+pub(super) fn border_width(spacing: f32) -> f32 {
+    1.7 * spacing
+}
