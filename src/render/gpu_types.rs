@@ -1,0 +1,149 @@
+//! Mirrors of the structs in `shaders/types.wgsl`, member by member and in order; `tests/layout.rs` compares them.
+
+use crate::document::{MAX_PARAM_FLOATS, PlacedTemplate, TemplateMode};
+use glam::{Affine3A, Mat3A, Vec3A};
+
+/// Templates of one document at most (spec/contract.md, "Limits").
+pub const MAX_TEMPLATES: usize = 32;
+/// `Template::mode`: acts on what the ones before left.
+pub const MODE_COMPOSE: u32 = 0;
+/// `Template::mode`: summed with the one before.
+pub const MODE_ADD: u32 = 1;
+
+/// Rows of an affine map as the shaders take it.
+pub fn affine_rows(affine: &Affine3A) -> [[f32; 4]; 3] {
+    let m = affine.matrix3;
+    let t = affine.translation;
+    std::array::from_fn(|i| [m.x_axis[i], m.y_axis[i], m.z_axis[i], t[i]])
+}
+
+/// One placed template.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Template {
+    /// Affine from subject to template space, first row.
+    pub template_from_subject_row0: [f32; 4],
+    /// Second row.
+    pub template_from_subject_row1: [f32; 4],
+    /// Third row.
+    pub template_from_subject_row2: [f32; 4],
+    /// Affine from template to subject space, first row.
+    pub subject_from_template_row0: [f32; 4],
+    /// Second row.
+    pub subject_from_template_row1: [f32; 4],
+    /// Third row.
+    pub subject_from_template_row2: [f32; 4],
+    /// xyz: side lengths, subject units.
+    pub size: [f32; 4],
+    /// Parameters 0 to 3.
+    pub params0: [f32; 4],
+    /// Parameters 4 to 7.
+    pub params1: [f32; 4],
+    /// `TemplateKind as u32`.
+    pub kind: u32,
+    /// [`MODE_COMPOSE`] or [`MODE_ADD`].
+    pub mode: u32,
+    /// Reserved, 0.
+    pub flags: u32,
+    /// Index of the composing template that heads its `add` group (its own if it composes).
+    pub group: u32,
+}
+
+/// All templates that act, in order.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Templates {
+    /// The first `count[0]` count.
+    pub items: [Template; MAX_TEMPLATES],
+    /// x: how many.
+    pub count: [u32; 4],
+}
+
+impl Templates {
+    /// No templates: the identity.
+    pub const NONE: Self = Self {
+        items: [Template {
+            template_from_subject_row0: [0.0; 4],
+            template_from_subject_row1: [0.0; 4],
+            template_from_subject_row2: [0.0; 4],
+            subject_from_template_row0: [0.0; 4],
+            subject_from_template_row1: [0.0; 4],
+            subject_from_template_row2: [0.0; 4],
+            size: [0.0; 4],
+            params0: [0.0; 4],
+            params1: [0.0; 4],
+            kind: 0,
+            mode: 0,
+            flags: 0,
+            group: 0,
+        }; MAX_TEMPLATES],
+        count: [0; 4],
+    };
+
+    /// Packs the enabled templates. An `add` with no enabled one before it composes (spec/templates.md). More than
+    /// [`MAX_TEMPLATES`] cannot come from a valid document; what is over is left out.
+    pub fn pack(placed: &[PlacedTemplate]) -> Self {
+        let mut packed = Self::NONE;
+        let enabled = placed.iter().filter(|t| t.enabled).take(MAX_TEMPLATES);
+        let (mut count, mut group) = (0, 0);
+        for (slot, template) in packed.items.iter_mut().zip(enabled) {
+            if count == 0 || template.mode == TemplateMode::Compose {
+                group = count;
+            }
+            *slot = Template::pack(template, group, count);
+            count += 1;
+        }
+        packed.count[0] = count;
+        packed
+    }
+}
+
+impl Template {
+    fn pack(placed: &PlacedTemplate, group: u32, index: u32) -> Self {
+        let p = &placed.placement;
+        let rotate = Mat3A::from_quat(p.rotate);
+        let size = Vec3A::from(p.size);
+        let scaled = Mat3A::from_cols(
+            rotate.x_axis * size.x,
+            rotate.y_axis * size.y,
+            rotate.z_axis * size.z,
+        );
+        let subject_from_template = Affine3A {
+            matrix3: scaled,
+            translation: Vec3A::from(p.at) - scaled * Vec3A::splat(0.5),
+        };
+        // From the parts, not by inverting: exact for every size that a document may hold.
+        let unscale = Mat3A::from_diagonal(p.size.recip()) * rotate.transpose();
+        let template_from_subject = Affine3A {
+            matrix3: unscale,
+            translation: Vec3A::splat(0.5) - unscale * Vec3A::from(p.at),
+        };
+        let to = affine_rows(&template_from_subject);
+        let from = affine_rows(&subject_from_template);
+        let mut floats = Vec::with_capacity(MAX_PARAM_FLOATS);
+        for value in &placed.params {
+            value.pack(&mut floats);
+        }
+        floats.resize(MAX_PARAM_FLOATS, 0.0);
+        let quad = |i: usize| [floats[i], floats[i + 1], floats[i + 2], floats[i + 3]];
+        Self {
+            template_from_subject_row0: to[0],
+            template_from_subject_row1: to[1],
+            template_from_subject_row2: to[2],
+            subject_from_template_row0: from[0],
+            subject_from_template_row1: from[1],
+            subject_from_template_row2: from[2],
+            size: [p.size.x, p.size.y, p.size.z, 0.0],
+            params0: quad(0),
+            params1: quad(4),
+            kind: placed.kind as u32,
+            mode: if group == index {
+                MODE_COMPOSE
+            } else {
+                MODE_ADD
+            },
+            flags: 0,
+            group,
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! The table of shader programs. A program is the concatenation of its files; a line map turns the compiler's line
+//! into `file.wgsl:line`. WGSL does not care about order, so the order is only that of reading.
+
+use super::{Gpu, RenderError};
+use std::fmt::Write as _;
+
+/// An embedded WGSL file.
+#[derive(Debug)]
+pub struct ShaderFile {
+    /// Path under `shaders/`.
+    pub path: &'static str,
+    /// Its text.
+    pub source: &'static str,
+}
+
+/// What runs an entry point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Vertex shader.
+    Vertex,
+    /// Fragment shader.
+    Fragment,
+    /// Compute shader: preparation only, never the picture.
+    Compute,
+}
+
+/// A program: its files and entry points.
+#[derive(Debug)]
+pub struct Program {
+    /// Name in this table.
+    pub name: &'static str,
+    /// Paths of its files, all in [`FILES`].
+    pub files: &'static [&'static str],
+    /// Its entry points.
+    pub entries: &'static [(&'static str, Stage)],
+}
+
+macro_rules! shader_files {
+    ($($path:literal),* $(,)?) => {
+        /// Every embedded WGSL file.
+        pub const FILES: &[ShaderFile] = &[
+            $(ShaderFile {
+                path: $path,
+                source: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/", $path)),
+            }),*
+        ];
+    };
+}
+
+shader_files!["types.wgsl", "bind/templates.wgsl", "displace/compose.wgsl",];
+
+/// Every program. The number of programs does not depend on the document.
+pub const PROGRAMS: &[Program] = &[];
+
+/// The file of a path in [`FILES`].
+pub fn file(path: &str) -> Option<&'static ShaderFile> {
+    FILES.iter().find(|file| file.path == path)
+}
+
+/// Paths that a file's `needs:` line names. Space-separated, `-` for none.
+pub fn needs(file: &ShaderFile) -> Vec<&'static str> {
+    let line = file
+        .source
+        .lines()
+        .find_map(|line| line.strip_prefix("// needs:"));
+    line.map_or_else(Vec::new, |line| {
+        line.split([' ', ','])
+            .filter(|word| word.ends_with(".wgsl"))
+            .collect()
+    })
+}
+
+/// A program's text, put together.
+#[derive(Debug)]
+pub struct Assembled {
+    /// Concatenated source.
+    pub source: String,
+    /// First line (from 1) of each file in `source`, in order.
+    starts: Vec<(usize, &'static str)>,
+}
+
+impl Assembled {
+    /// Puts a program's files together.
+    ///
+    /// # Errors
+    /// [`RenderError::NoSuchProgram`] if a file is not in the table.
+    pub fn new(program: &Program) -> Result<Self, RenderError> {
+        let (mut source, mut starts, mut line) = (String::new(), Vec::new(), 1);
+        for path in program.files {
+            let file = file(path).ok_or_else(|| RenderError::NoSuchProgram((*path).to_owned()))?;
+            starts.push((line, file.path));
+            source.push_str(file.source);
+            source.push('\n');
+            line += file.source.matches('\n').count() + 1;
+        }
+        Ok(Self { source, starts })
+    }
+
+    /// `file.wgsl:line` of a line (from 1) of the assembled text.
+    pub fn place(&self, line: usize) -> String {
+        match self.starts.iter().rev().find(|(start, _)| *start <= line) {
+            Some((start, path)) => format!("{path}:{}", line - start + 1),
+            None => format!("line {line}"),
+        }
+    }
+}
+
+/// The program of a name.
+///
+/// # Errors
+/// [`RenderError::NoSuchProgram`].
+pub fn program(name: &str) -> Result<&'static Program, RenderError> {
+    PROGRAMS
+        .iter()
+        .find(|program| program.name == name)
+        .ok_or_else(|| RenderError::NoSuchProgram(name.to_owned()))
+}
+
+/// Compiles a program. Returns its name in the table and the module.
+///
+/// # Errors
+/// [`RenderError::NoSuchProgram`], or [`RenderError::Shader`] with `file.wgsl:line` for each message.
+pub async fn compile(
+    gpu: &Gpu,
+    name: &str,
+) -> Result<(&'static str, wgpu::ShaderModule), RenderError> {
+    let program = program(name)?;
+    let assembled = Assembled::new(program)?;
+    let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let module = gpu
+        .device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(program.name),
+            source: wgpu::ShaderSource::Wgsl(assembled.source.as_str().into()),
+        });
+    if let Some(error) = scope.pop().await {
+        let info = module.get_compilation_info().await;
+        let mut messages = String::new();
+        for message in info.messages {
+            let place = message
+                .location
+                .map_or_else(String::new, |at| assembled.place(at.line_number as usize));
+            let _ = write!(messages, "\n{place}: {}", message.message);
+        }
+        if messages.is_empty() {
+            messages = error.to_string();
+        }
+        return Err(RenderError::Shader {
+            program: program.name,
+            messages,
+        });
+    }
+    Ok((program.name, module))
+}
