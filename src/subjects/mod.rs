@@ -43,8 +43,10 @@ use paint::{Block, Canvas, Model, ROWS};
 pub const COARSE_RESOLUTION: u32 = 64;
 /// Voxels along the longest side of a subject as it is normally shown.
 pub const FINE_RESOLUTION: u32 = 256;
-/// The range of voxels along the longest side that is made.
-pub const RESOLUTIONS: Range<u32> = 16..513;
+/// Fewest voxels along the longest side that are made.
+pub const MIN_RESOLUTION: u32 = 16;
+/// Most voxels along the longest side that are made.
+pub const MAX_RESOLUTION: u32 = 512;
 
 /// Why a subject was not made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -53,7 +55,9 @@ pub enum SubjectError {
     #[error("there is no built-in subject \"{0}\" (there are {list})", list = names().join(", "))]
     UnknownName(String),
     /// Too small to show anything, or too large to be made.
-    #[error("a built-in subject has from {} to {} voxels along its longest side, not {0}", RESOLUTIONS.start, RESOLUTIONS.end - 1)]
+    #[error(
+        "a built-in subject has from {MIN_RESOLUTION} to {MAX_RESOLUTION} voxels along its longest side, not {0}"
+    )]
     Resolution(u32),
     /// The receiver refused the volume.
     #[error("{0}")]
@@ -100,7 +104,7 @@ impl Generator {
 
     /// Prepares a subject, `resolution` voxels along its longest side.
     pub fn new(name: &str, resolution: u32) -> Result<Self, SubjectError> {
-        if !RESOLUTIONS.contains(&resolution) {
+        if !(MIN_RESOLUTION..=MAX_RESOLUTION).contains(&resolution) {
             return Err(SubjectError::Resolution(resolution));
         }
         let model = model(name).ok_or_else(|| {
