@@ -5,7 +5,7 @@
 // a reduction in two steps, then polynomials that interpolate at Chebyshev nodes. Errors over the reduced range: sine 1.1e-8,
 // cosine 1.1e-9, arc tangent 3.2e-8, all below the rounding of f32.
 //
-// needs:
+// needs: -
 
 const PI: f32 = 3.14159265358979;
 const TAU: f32 = 6.28318530717959;

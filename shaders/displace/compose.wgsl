@@ -11,7 +11,7 @@
 //
 // `drawn_kinds` is what makes this fast on devices that run both sides of every branch (software rasterisers do): a pipeline made for
 // a document leaves out the kinds that it does not use. All ones, the default, serves every document.
-// needs: types.wgsl displace/frame.wgsl displace/angles.wgsl displace/poke.wgsl displace/twist.wgsl displace/wave.wgsl displace/bend.wgsl displace/squeeze.wgsl displace/dilate.wgsl displace/peel.wgsl displace/flap.wgsl displace/split.wgsl displace/slices.wgsl displace/retractor.wgsl displace/cutquad.wgsl displace/peeler.wgsl displace/pull.wgsl displace/cut.wgsl displace/hole.wgsl displace/lens.wgsl displace/move.wgsl
+// needs: types.wgsl bind/templates.wgsl displace/frame.wgsl displace/angles.wgsl displace/poke.wgsl displace/twist.wgsl displace/wave.wgsl displace/bend.wgsl displace/squeeze.wgsl displace/dilate.wgsl displace/peel.wgsl displace/flap.wgsl displace/split.wgsl displace/slices.wgsl displace/retractor.wgsl displace/cutquad.wgsl displace/peeler.wgsl displace/pull.wgsl displace/cut.wgsl displace/hole.wgsl displace/lens.wgsl displace/move.wgsl
 
 /// Bit k set: templates of kind k occur. A pipeline constant.
 override drawn_kinds: u32 = 0xffffffffu;

@@ -1,6 +1,6 @@
 // What every template shares: the result, the frame's edges, and the fall-off of twist and wave.
 //
-// needs:
+// needs: -
 
 /// An inverse displacement at one point, in the space of one template (spec/templates.md, "What a template is").
 struct Displaced {

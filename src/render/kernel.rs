@@ -27,6 +27,19 @@ impl Kernel {
     /// # Errors
     /// [`RenderError::Shader`] names file and line; [`RenderError::NoSuchProgram`].
     pub async fn new(gpu: &Gpu, program: &str, entry: &str) -> Result<Self, RenderError> {
+        Self::with_constants(gpu, program, entry, &[]).await
+    }
+
+    /// As [`Kernel::new`], with values for the program's `override` constants.
+    ///
+    /// # Errors
+    /// As [`Kernel::new`].
+    pub async fn with_constants(
+        gpu: &Gpu,
+        program: &str,
+        entry: &str,
+        constants: &[(&str, f64)],
+    ) -> Result<Self, RenderError> {
         let (name, module) = compile(gpu, program).await?;
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let pipeline = gpu
@@ -36,7 +49,10 @@ impl Kernel {
                 layout: None,
                 module: &module,
                 entry_point: Some(entry),
-                compilation_options: Default::default(),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants,
+                    ..Default::default()
+                },
                 cache: None,
             });
         match scope.pop().await {

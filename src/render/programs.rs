@@ -47,10 +47,71 @@ macro_rules! shader_files {
     };
 }
 
-shader_files!["types.wgsl", "bind/templates.wgsl", "displace/compose.wgsl",];
+shader_files![
+    "types.wgsl",
+    "bind/templates.wgsl",
+    "displace/angles.wgsl",
+    "displace/frame.wgsl",
+    "displace/poke.wgsl",
+    "displace/twist.wgsl",
+    "displace/wave.wgsl",
+    "displace/bend.wgsl",
+    "displace/squeeze.wgsl",
+    "displace/dilate.wgsl",
+    "displace/peel.wgsl",
+    "displace/flap.wgsl",
+    "displace/split.wgsl",
+    "displace/slices.wgsl",
+    "displace/retractor.wgsl",
+    "displace/cutquad.wgsl",
+    "displace/peeler.wgsl",
+    "displace/pull.wgsl",
+    "displace/cut.wgsl",
+    "displace/hole.wgsl",
+    "displace/lens.wgsl",
+    "displace/move.wgsl",
+    "displace/compose.wgsl",
+    "pass/probe.wgsl",
+];
+
+/// The files of `rest_from_subject` (what `displace/compose.wgsl` needs, itself included), and those named after them.
+macro_rules! with_displacement {
+    ($($path:literal),* $(,)?) => {
+        &[
+            "types.wgsl",
+            "bind/templates.wgsl",
+            "displace/angles.wgsl",
+            "displace/frame.wgsl",
+            "displace/poke.wgsl",
+            "displace/twist.wgsl",
+            "displace/wave.wgsl",
+            "displace/bend.wgsl",
+            "displace/squeeze.wgsl",
+            "displace/dilate.wgsl",
+            "displace/peel.wgsl",
+            "displace/flap.wgsl",
+            "displace/split.wgsl",
+            "displace/slices.wgsl",
+            "displace/retractor.wgsl",
+            "displace/cutquad.wgsl",
+            "displace/peeler.wgsl",
+            "displace/pull.wgsl",
+            "displace/cut.wgsl",
+            "displace/hole.wgsl",
+            "displace/lens.wgsl",
+            "displace/move.wgsl",
+            "displace/compose.wgsl",
+            $($path),*
+        ]
+    };
+}
 
 /// Every program. The number of programs does not depend on the document.
-pub const PROGRAMS: &[Program] = &[];
+pub const PROGRAMS: &[Program] = &[Program {
+    name: "probe",
+    files: with_displacement!["pass/probe.wgsl"],
+    entries: &[("probe", Stage::Compute)],
+}];
 
 /// The file of a path in [`FILES`].
 pub fn file(path: &str) -> Option<&'static ShaderFile> {

@@ -7,19 +7,19 @@ use std::f64::consts::TAU;
 /// A template as the document has it: ranges already applied, parameters as numbers in catalogue order (a flag is 0 or 1, a choice
 /// its index, a vector three numbers, a quaternion four).
 #[derive(Clone, Debug)]
-pub struct Placed {
+pub(crate) struct Placed {
     /// Name in the catalogue.
-    pub kind: &'static str,
+    pub(crate) kind: &'static str,
     /// Centre, subject space.
-    pub at: DVec3,
+    pub(crate) at: DVec3,
     /// Template axes to subject axes.
-    pub rotate: DQuat,
+    pub(crate) rotate: DQuat,
     /// Side lengths, subject units.
-    pub size: DVec3,
+    pub(crate) size: DVec3,
     /// In catalogue order.
-    pub params: Vec<f64>,
+    pub(crate) params: Vec<f64>,
     /// `"mode": "add"`.
-    pub is_added: bool,
+    pub(crate) is_added: bool,
 }
 
 impl Placed {
@@ -33,15 +33,15 @@ impl Placed {
 }
 
 /// Source position and continuity of the whole list at a point of the deformed object.
-pub fn map(templates: &[Placed], pos: DVec3) -> (DVec3, f64) {
-    map_with(templates, pos, &mut |q| q)
+pub(crate) fn map(templates: &[Placed], pos: DVec3) -> (DVec3, f64) {
+    map_with(templates, pos, &mut |q, _| q)
 }
 
-/// As [`map`]; `touch` may move the point in template space before a template sees it (to ask how firmly the result stands).
-pub fn map_with(
+/// As [`map`]; `touch` may move the point in template space (it is given the template's size as well) before a template sees it (to ask how firmly the result stands).
+pub(crate) fn map_with(
     templates: &[Placed],
     pos: DVec3,
-    touch: &mut dyn FnMut(DVec3) -> DVec3,
+    touch: &mut dyn FnMut(DVec3, DVec3) -> DVec3,
 ) -> (DVec3, f64) {
     if templates.is_empty() {
         return (pos, 1.0);
@@ -59,7 +59,7 @@ pub fn map_with(
     for group in groups.iter().rev() {
         let mut displacement = DVec3::ZERO;
         for template in group {
-            let q = touch(template.template_from_subject(p));
+            let q = touch(template.template_from_subject(p), template.size);
             let (source, a) = source(template.kind, q, template.size, &template.params);
             displacement += template.subject_from_template_vector(source - q);
             continuity = continuity.min(a);
@@ -76,9 +76,8 @@ fn smoothstep(a: f64, b: f64, t: f64) -> f64 {
 
 /// Beyond an end that rests: `carry` says for x low, x high, y low, y high, z low, z high whether that end carries.
 fn rests(q: DVec3, carry: [bool; 6]) -> bool {
-    (0..3).any(|axis| {
-        (q[axis] < 0.0 && !carry[2 * axis]) || (q[axis] > 1.0 && !carry[2 * axis + 1])
-    })
+    (0..3)
+        .any(|axis| (q[axis] < 0.0 && !carry[2 * axis]) || (q[axis] > 1.0 && !carry[2 * axis + 1]))
 }
 
 /// (theta, u', v')
@@ -103,7 +102,7 @@ fn zero_if_tiny(o: f64, a: f64) -> f64 {
 }
 
 /// `source(q)` and `A(q)` of one template.
-pub fn source(kind: &str, q: DVec3, size: DVec3, p: &[f64]) -> (DVec3, f64) {
+pub(crate) fn source(kind: &str, q: DVec3, size: DVec3, p: &[f64]) -> (DVec3, f64) {
     const N: bool = false;
     const Y: bool = true;
     let (x, y, z) = (q.x, q.y, q.z);
@@ -243,9 +242,8 @@ pub fn source(kind: &str, q: DVec3, size: DVec3, p: &[f64]) -> (DVec3, f64) {
             if rests(q, [Y, Y, Y, Y, !wedge, Y]) {
                 return rest;
             }
-            let f = amount
-                * (if wedge { c.z } else { 1.0 })
-                * (1.0 - lens * (2.0 * c.y - 1.0).powi(2));
+            let f =
+                amount * (if wedge { c.z } else { 1.0 }) * (1.0 - lens * (2.0 * c.y - 1.0).powi(2));
             let dx = if x < 0.5 - f {
                 f
             } else if x > 0.5 + f {

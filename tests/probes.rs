@@ -1,0 +1,523 @@
+//! WGSL numbers against the plain f64 reading in `reference/`: every template alone, lists of them, `add` groups.
+//!
+//! **Bound.** 1e-3 of a subject unit is promised (spec/templates.md, "Precision"), 1e-4 is the aim and what is asserted here.
+//!
+//! **Points left out.** f32 cannot say on which side of a jump a point lies that is nearer to it than the rounding of its own
+//! coordinates. So the reference is asked again with the point moved, before each template, to the corners of a box as large as that
+//! rounding (a few units in the last place of the terms that make up q). If the reference itself then moves by more than a quarter of
+//! the bound, the point says nothing about the shader and is left out. It is counted, and only few may be.
+
+mod reference;
+
+use fabrica::document::{Align, ParamKind, ParamValue, PlacedTemplate, TemplateKind, TemplateMode};
+use fabrica::math::Placement;
+use fabrica::render::gpu_types::Templates;
+use fabrica::render::{Gpu, GpuOptions, Probe, Sample};
+use glam::{DQuat, DVec3, Quat, Vec3};
+use reference::Placed;
+
+/// Asserted; the contract promises ten times as much.
+const BOUND: f64 = 1e-4;
+/// Moved by rounding, the reference may change by this much.
+const FIRM: f64 = BOUND / 4.0;
+
+/// A small generator, the same numbers everywhere (xorshift64*).
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f32 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 40) as f32 / (1u64 << 24) as f32
+    }
+    fn between(&mut self, lo: f32, hi: f32) -> f32 {
+        lo + (hi - lo) * self.unit()
+    }
+    fn index(&mut self, n: usize) -> usize {
+        ((self.unit() * n as f32) as usize).min(n - 1)
+    }
+    fn vector(&mut self, lo: f32, hi: f32) -> Vec3 {
+        Vec3::new(
+            self.between(lo, hi),
+            self.between(lo, hi),
+            self.between(lo, hi),
+        )
+    }
+    fn rotation(&mut self) -> Quat {
+        loop {
+            let v = [(); 4].map(|()| self.between(-1.0, 1.0));
+            let q = Quat::from_array(v);
+            if (0.01..1.0).contains(&q.length_squared()) {
+                return q.normalize();
+            }
+        }
+    }
+    /// Anywhere in the range; one time in six an end, one in six the default.
+    fn number(&mut self, lo: f32, hi: f32, default: f32) -> f32 {
+        match self.index(12) {
+            0 => lo,
+            1 => hi,
+            2 | 3 => default,
+            _ => self.between(lo, hi),
+        }
+    }
+    fn param(&mut self, kind: &ParamKind) -> ParamValue {
+        match *kind {
+            ParamKind::Number { default, min, max } => {
+                ParamValue::Number(self.number(min, max, default))
+            }
+            ParamKind::Count { default, min, max } => {
+                ParamValue::Number((self.number(min, max, default) + 0.5).floor())
+            }
+            ParamKind::Flag { .. } => ParamValue::Flag(self.unit() < 0.5),
+            ParamKind::Choice { names } => ParamValue::Choice(self.index(names.len()) as u32),
+            ParamKind::Vector {
+                default,
+                min,
+                max,
+                max_length,
+            } => match self.index(8) {
+                0 => ParamValue::Vector(Vec3::ZERO),
+                1 => ParamValue::Vector(Vec3::from_array(default)),
+                2 => ParamValue::Vector(self.vector(min, max).clamp_length_max(max_length)),
+                _ => ParamValue::Vector(
+                    self.vector(min.max(-1.0), max.min(1.0))
+                        .clamp_length_max(max_length),
+                ),
+            },
+            ParamKind::Rotation => ParamValue::Rotation(if self.unit() < 0.3 {
+                Quat::IDENTITY
+            } else {
+                self.rotation()
+            }),
+        }
+    }
+    fn template(&mut self, kind: TemplateKind) -> PlacedTemplate {
+        let side = |r: &mut Self| 0.08 * 25f32.powf(r.unit());
+        let placement = Placement {
+            at: self.vector(-0.5, 0.5),
+            rotate: if self.unit() < 0.2 {
+                Quat::IDENTITY
+            } else {
+                self.rotation()
+            },
+            size: Vec3::new(side(self), side(self), side(self)),
+        };
+        let params = kind.spec().params.iter();
+        placed(
+            kind,
+            placement,
+            params.map(|p| self.param(&p.kind)).collect(),
+        )
+    }
+    /// In and about a template's box half of the time, in the object the other half.
+    fn point(&mut self, list: &[PlacedTemplate]) -> Vec3 {
+        if list.is_empty() || self.unit() < 0.4 {
+            return self.vector(-0.6, 0.6);
+        }
+        let at = self.index(list.len());
+        let q = match self.index(3) {
+            0 => self.vector(-0.5, 2.0),
+            1 => self.vector(-0.02, 1.02),
+            // On a grid of halves and ends every now and then: faces and middles are part of the contract.
+            _ => self.vector(0.0, 1.0),
+        };
+        list[at].placement.subject_from_template(q)
+    }
+}
+
+fn placed(kind: TemplateKind, placement: Placement, params: Vec<ParamValue>) -> PlacedTemplate {
+    PlacedTemplate {
+        index: 0,
+        kind,
+        name: String::new(),
+        placement,
+        params,
+        enabled: true,
+        mode: TemplateMode::Compose,
+        align: Align::Axis,
+    }
+}
+
+fn defaults(kind: TemplateKind) -> Vec<ParamValue> {
+    let params = kind.spec().params.iter();
+    params.map(|p| p.kind.default_value()).collect()
+}
+
+fn as_reference(list: &[PlacedTemplate]) -> Vec<Placed> {
+    let enabled = list.iter().filter(|t| t.enabled);
+    enabled
+        .map(|t| {
+            let mut floats = Vec::new();
+            t.params.iter().for_each(|p| p.pack(&mut floats));
+            Placed {
+                kind: t.kind.spec().name,
+                at: t.placement.at.as_dvec3(),
+                rotate: DQuat::from_array(t.placement.rotate.to_array().map(f64::from)).normalize(),
+                size: t.placement.size.as_dvec3(),
+                params: floats.into_iter().map(f64::from).collect(),
+                is_added: t.mode == TemplateMode::Add,
+            }
+        })
+        .collect()
+}
+
+/// Open the software device as strictly as a browser would; without one the test fails.
+fn probe() -> (Gpu, Probe) {
+    let options = GpuOptions {
+        adapter: None,
+        is_strict: true,
+    };
+    let gpu = pollster::block_on(Gpu::open(&options)).expect("an adapter (lavapipe is enough)");
+    let probe = pollster::block_on(Probe::new(&gpu)).expect("the probe program compiles");
+    (gpu, probe)
+}
+
+fn ask(probe: &Probe, list: &[PlacedTemplate], points: &[Vec3]) -> Vec<Sample> {
+    pollster::block_on(probe.samples_of(&Templates::pack(list), points)).expect("samples")
+}
+
+/// How far the two differ: the larger of the distance in subject units and the continuity's difference (relative above 1).
+fn difference(one: (DVec3, f64), other: (DVec3, f64)) -> f64 {
+    let scale = one.1.abs().max(1.0);
+    let d = (one.0 - other.0)
+        .length()
+        .max((one.1 - other.1).abs() / scale);
+    if d.is_nan() { f64::INFINITY } else { d }
+}
+
+/// The reference's answer, or `None` where rounding of the point alone moves it (see the head of this file).
+fn firm(list: &[Placed], pos: DVec3) -> Option<(DVec3, f64)> {
+    let answer = reference::map(list, pos);
+    let farthest = list.iter().map(|t| t.at.length()).fold(0.0, f64::max);
+    for corner in 0..16u32 {
+        let mut turn = 0u32;
+        let moved = reference::map_with(list, pos, &mut |q, size| {
+            // Corners 8 to 15 take another corner for each template of the list.
+            turn += 1;
+            let pick = if corner < 8 {
+                corner
+            } else {
+                corner.wrapping_mul(5).wrapping_add(turn * 3)
+            };
+            let rounding = 2f64.powi(-22) * (1.0 + q.abs() + (pos.length() + farthest) / size);
+            let sign = |bit: u32| if pick & bit == 0 { 1.0 } else { -1.0 };
+            q + rounding * DVec3::new(sign(1), sign(2), sign(4))
+        });
+        if difference(answer, moved) > FIRM {
+            return None;
+        }
+    }
+    Some(answer)
+}
+
+/// What a comparison came to.
+#[derive(Default, Debug)]
+struct Tally {
+    compared: usize,
+    left_out: usize,
+    moved: usize,
+    in_gaps: usize,
+    worst: f64,
+    worst_case: String,
+}
+
+impl Tally {
+    fn add(&mut self, list: &[PlacedTemplate], points: &[Vec3], samples: &[Sample]) {
+        let plain = as_reference(list);
+        for (point, sample) in points.iter().zip(samples) {
+            let Some(expected) = firm(&plain, point.as_dvec3()) else {
+                self.left_out += 1;
+                continue;
+            };
+            self.compared += 1;
+            self.moved += usize::from((expected.0 - point.as_dvec3()).length() > 1e-3);
+            self.in_gaps += usize::from(expected.1 < 0.0);
+            let got = (sample.pos_in_rest.as_dvec3(), f64::from(sample.continuity));
+            let d = difference(expected, got);
+            if d > self.worst {
+                self.worst = d;
+                self.worst_case =
+                    format!("{list:?}\n at {point:?}: expected {expected:?}, got {got:?}");
+            }
+        }
+    }
+    fn check(&self, what: &str) {
+        println!(
+            "{what}: {} points, largest difference {:.1e}, {} moved, {} in gaps, {} left out",
+            self.compared, self.worst, self.moved, self.in_gaps, self.left_out
+        );
+        assert!(
+            self.worst <= BOUND,
+            "{what}: {:e}\n{}",
+            self.worst,
+            self.worst_case
+        );
+        let share = self.left_out as f64 / (self.left_out + self.compared) as f64;
+        assert!(
+            share < 0.03,
+            "{what}: {share} of the points were left out, which proves little"
+        );
+        assert!(
+            self.moved + self.in_gaps > self.compared / 50,
+            "{what}: hardly any point was touched"
+        );
+    }
+}
+
+#[test]
+fn every_template_alone_agrees_with_the_reference() {
+    let (gpu, probe) = probe();
+    println!("on {} ({})", gpu.info.name, gpu.info.driver_info);
+    for kind in TemplateKind::ALL {
+        let mut random = Random(0x5EED_0001 + kind as u64);
+        let mut tally = Tally::default();
+        for _ in 0..200 {
+            let list = [random.template(kind)];
+            let points: Vec<Vec3> = (0..100).map(|_| random.point(&list)).collect();
+            tally.add(&list, &points, &ask(&probe, &list, &points));
+        }
+        tally.check(kind.spec().name);
+    }
+}
+
+#[test]
+fn lists_and_add_groups_agree_with_the_reference() {
+    let (_gpu, probe) = probe();
+    for add_share in [0.0, 0.5] {
+        let mut random = Random(0xC0FFEE);
+        let mut tally = Tally::default();
+        for _ in 0..400 {
+            let count = 2 + random.index(7);
+            let mut list = Vec::new();
+            for _ in 0..count {
+                let kind = TemplateKind::ALL[random.index(TemplateKind::ALL.len())];
+                let mut template = random.template(kind);
+                if random.unit() < add_share {
+                    template.mode = TemplateMode::Add;
+                }
+                template.enabled = random.unit() < 0.85;
+                list.push(template);
+            }
+            let points: Vec<Vec3> = (0..60).map(|_| random.point(&list)).collect();
+            tally.add(&list, &points, &ask(&probe, &list, &points));
+        }
+        tally.check(if add_share == 0.0 {
+            "composed"
+        } else {
+            "composed and added"
+        });
+    }
+}
+
+#[test]
+fn a_planted_sign_error_is_caught() {
+    // The comparison must fail when one side is wrong. Every template whose sign can be turned by a parameter gets it turned; the
+    // others (those without a direction) are compared with a neighbouring parameter.
+    let (_gpu, probe) = probe();
+    for kind in TemplateKind::ALL {
+        let mut random = Random(0xBAD + kind as u64);
+        let right = placed(kind, Placement::DOCUMENT_DEFAULT, defaults(kind));
+        let mut wrong = right.clone();
+        match wrong.params.first_mut() {
+            Some(ParamValue::Number(v)) if kind == TemplateKind::Slices => *v += 1.0,
+            Some(ParamValue::Number(v)) => *v = -*v,
+            Some(ParamValue::Vector(v)) => *v = -*v,
+            Some(ParamValue::Choice(c)) => *c = 1,
+            other => panic!("{kind:?} begins with {other:?}"),
+        }
+        let points: Vec<Vec3> = (0..400)
+            .map(|_| random.point(std::slice::from_ref(&right)))
+            .collect();
+        let samples = ask(&probe, &[wrong], &points);
+        let mut tally = Tally::default();
+        tally.add(&[right], &points, &samples);
+        assert!(
+            tally.worst > 10.0 * BOUND,
+            "{kind:?}: a planted error of {:e} went unseen",
+            tally.worst
+        );
+    }
+}
+
+#[test]
+fn no_template_is_the_identity() {
+    let (_gpu, probe) = probe();
+    let mut random = Random(7);
+    let points: Vec<Vec3> = (0..500).map(|_| random.vector(-2.0, 2.0)).collect();
+    for (point, sample) in points.iter().zip(ask(&probe, &[], &points)) {
+        assert_eq!(sample.pos_in_rest, *point);
+        assert_eq!(sample.continuity, 1.0);
+    }
+}
+
+/// Parameters at which a template does nothing, where it has such.
+fn closed(kind: TemplateKind) -> Option<Vec<ParamValue>> {
+    let mut params = defaults(kind);
+    match kind {
+        TemplateKind::Cut => return None,
+        TemplateKind::Pull | TemplateKind::Move => params[0] = ParamValue::Vector(Vec3::ZERO),
+        TemplateKind::Slices => params[3] = ParamValue::Number(0.0),
+        _ => params[0] = ParamValue::Number(0.0),
+    }
+    Some(params)
+}
+
+#[test]
+fn an_unopened_template_is_exactly_the_identity() {
+    let (_gpu, probe) = probe();
+    let mut random = Random(11);
+    for kind in TemplateKind::ALL {
+        let Some(params) = closed(kind) else { continue };
+        for _ in 0..8 {
+            let mut template = random.template(kind);
+            template.params = params.clone();
+            let list = [template];
+            let points: Vec<Vec3> = (0..100).map(|_| random.point(&list)).collect();
+            for (point, sample) in points.iter().zip(ask(&probe, &list, &points)) {
+                assert_eq!(sample.pos_in_rest, *point, "{kind:?}");
+                assert_eq!(sample.continuity, 1.0, "{kind:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn beyond_a_rest_end_nothing_moves() {
+    use TemplateKind as K;
+    // Axis ends that rest: x low, x high, y low, y high, z low, z high (spec/templates.md; the rest of the kinds is defined everywhere).
+    let kinds = [
+        (K::Poke, "xXyYz"),
+        (K::Twist, "xXyYz"),
+        (K::Wave, "xXzZ"),
+        (K::Squeeze, "zZ"),
+        (K::Dilate, "zZ"),
+        (K::Split, "z"),
+        (K::Retractor, "xXyYz"),
+        (K::Cutquad, "xXyYz"),
+        (K::Peeler, "xXyYz"),
+        (K::Hole, "xXyY"),
+    ];
+    let (_gpu, probe) = probe();
+    let mut random = Random(13);
+    for (kind, ends) in kinds {
+        let template = placed(kind, random.template(kind).placement, defaults(kind));
+        for end in ends.chars() {
+            let axis = "xyz".find(end.to_ascii_lowercase()).expect("an axis");
+            let points: Vec<Vec3> = (0..100)
+                .map(|_| {
+                    let mut q = random.vector(-0.5, 1.5);
+                    let beyond = random.between(0.001, 1.0);
+                    q[axis] = if end.is_lowercase() {
+                        -beyond
+                    } else {
+                        1.0 + beyond
+                    };
+                    template.placement.subject_from_template(q)
+                })
+                .collect();
+            for (point, sample) in
+                points
+                    .iter()
+                    .zip(ask(&probe, std::slice::from_ref(&template), &points))
+            {
+                assert_eq!(sample.pos_in_rest, *point, "{kind:?} beyond {end}");
+                assert_eq!(sample.continuity, 1.0, "{kind:?} beyond {end}");
+            }
+        }
+    }
+}
+
+#[test]
+fn order_matters_and_an_add_with_nothing_before_it_composes() {
+    let (_gpu, probe) = probe();
+    let mut random = Random(17);
+    let peel = placed(
+        TemplateKind::Peel,
+        Placement::DOCUMENT_DEFAULT,
+        defaults(TemplateKind::Peel),
+    );
+    let twist = placed(
+        TemplateKind::Twist,
+        Placement::DOCUMENT_DEFAULT,
+        defaults(TemplateKind::Twist),
+    );
+    let one = [peel.clone(), twist.clone()];
+    let other = [twist.clone(), peel.clone()];
+    let points: Vec<Vec3> = (0..500).map(|_| random.point(&one)).collect();
+    let first = ask(&probe, &one, &points);
+    let second = ask(&probe, &other, &points);
+    let differing = first.iter().zip(&second).filter(|(a, b)| a != b).count();
+    assert!(differing > 50, "only {differing} points tell the order");
+
+    let mut alone = twist.clone();
+    alone.mode = TemplateMode::Add;
+    let mut off = peel;
+    off.enabled = false;
+    assert_eq!(
+        ask(&probe, &[off, alone], &points),
+        ask(&probe, &[twist], &points)
+    );
+}
+
+#[test]
+fn hostile_placements_and_points_do_no_harm() {
+    let (gpu, probe) = probe();
+    let mut random = Random(19);
+    for kind in TemplateKind::ALL {
+        for (at, size) in [
+            (1e30, 1e-30),
+            (-1e38, 1e38),
+            (0.0, f32::MIN_POSITIVE),
+            (0.0, 1e38),
+            (1e6, 1e-6),
+        ] {
+            let mut template = random.template(kind);
+            template.placement.at = Vec3::splat(at);
+            template.placement.size = Vec3::splat(size);
+            let points = [
+                Vec3::ZERO,
+                Vec3::splat(0.3),
+                Vec3::splat(at),
+                Vec3::splat(1e38),
+                Vec3::NAN,
+                Vec3::INFINITY,
+            ];
+            let samples = ask(&probe, &[template], &points);
+            assert_eq!(samples.len(), points.len());
+        }
+    }
+    // It still answers, and rightly.
+    let template = placed(
+        TemplateKind::Peel,
+        Placement::DOCUMENT_DEFAULT,
+        defaults(TemplateKind::Peel),
+    );
+    let points: Vec<Vec3> = (0..100)
+        .map(|_| random.point(std::slice::from_ref(&template)))
+        .collect();
+    let mut tally = Tally::default();
+    let samples = ask(&probe, std::slice::from_ref(&template), &points);
+    tally.add(&[template], &points, &samples);
+    tally.check("after hostile input");
+    assert_eq!(gpu.take_errors(), Vec::<String>::new());
+}
+
+#[test]
+fn any_number_of_points_is_answered() {
+    let (_gpu, probe) = probe();
+    let list = [placed(
+        TemplateKind::Cut,
+        Placement::DOCUMENT_DEFAULT,
+        defaults(TemplateKind::Cut),
+    )];
+    for count in [0, 1, 63, 65, 300_000] {
+        let points: Vec<Vec3> = (0..count).map(|i| Vec3::splat(i as f32 * 1e-5)).collect();
+        let samples = ask(&probe, &list, &points);
+        assert_eq!(samples.len(), count);
+        if let (Some(point), Some(sample)) = (points.last(), samples.last()) {
+            assert_eq!(sample.pos_in_rest, *point);
+        }
+    }
+}
