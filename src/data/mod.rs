@@ -1,12 +1,15 @@
 //! Layer 2: volumes as values. No files, no GPU.
 //!
 //! A reader or generator pushes pieces into a [`VolumeSink`]: [`VolumeBuilder`] collects them into a [`Volume`]; a
-//! browser's worker posts them to the page. [`Statistics`] counts as they pass.
+//! browser's worker posts them to the page. [`Statistics`] counts as they pass; a [`Reducer`] in between
+//! makes what is too large coarser.
 
 mod builder;
+mod reduce;
 mod statistics;
 mod volume;
 
 pub use builder::{BuildError, VolumeBuilder};
+pub use reduce::{Reducer, Reduction, VolumeLimits, dims_that_fit, resized};
 pub use statistics::{Histogram, Statistics};
 pub use volume::{Grid, LabelVolume, Segment, Volume, VolumeSink, Voxels};
