@@ -508,3 +508,53 @@ fn what_is_not_read_says_so() {
         assert!(!message.contains('\n'), "{file}: one line");
     }
 }
+
+#[test]
+fn a_file_is_described_without_its_texts() {
+    let Some(folder) = data_folder("a_file_is_described_without_its_texts") else {
+        return;
+    };
+    for (file, lines) in [
+        (
+            "ct/abdomen_ct_small_labels.nii.gz",
+            &[
+                "kind: NIfTI-1, label volume, uint8",
+                "size: 122 × 101 × 30 voxels",
+                "segments: 41",
+                "  5 liver (",
+                "  117 ",
+            ][..],
+        ),
+        (
+            "ct/abdomen_ct_vertebrae_labels.nii.gz",
+            &["segments: 8", "  26 vertebrae_S1 ("],
+        ),
+        (
+            "ct/head_phantom_ct_shear.nii.gz",
+            &[
+                "orientation: RAS, sheared",
+                "spacing: 0.4824 × 0.4824 × 2.3708 mm",
+            ],
+        ),
+        (
+            "mri/avg152T1_LR_nifti.nii.gz",
+            &[
+                "orientation: LAS, left-handed storage",
+                "values: 0 to 255",
+                "sha256: ",
+            ],
+        ),
+    ] {
+        let mut files = fabrica::shell::files::Folder::new(&folder);
+        let description = load::describe(&mut files, file, &ReadOptions::default()).expect(file);
+        let text = description.to_string();
+        println!("{text}");
+        for line in lines {
+            assert!(
+                text.lines().any(|found| found.starts_with(line)),
+                "{file}: no \"{line}\" in\n{text}"
+            );
+        }
+        assert!(!text.contains("FSL"), "the description field is not shown");
+    }
+}

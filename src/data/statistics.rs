@@ -184,6 +184,17 @@ impl Statistics {
         }
     }
 
+    /// Stored whole numbers that occurred, ascending, with how often. Empty for floats.
+    pub fn whole_counts(&self) -> impl Iterator<Item = (i32, u64)> + '_ {
+        let (first, counts) = match &self.counts {
+            Counts::Whole { first, counts } => (*first, counts.as_slice()),
+            Counts::Empty | Counts::Float { .. } => (0, &[][..]),
+        };
+        (first..)
+            .zip(counts.iter().copied())
+            .filter(|&(_, count)| count > 0)
+    }
+
     /// Smallest and largest stored number; `None` if no finite one came.
     pub fn stored_range(&self) -> Option<[f32; 2]> {
         match &self.counts {

@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod describe;
 mod error;
 mod files;
 mod geometry;
@@ -35,6 +36,7 @@ use std::rc::Rc;
 
 use sha2::{Digest as _, Sha256};
 
+pub use describe::{Description, describe};
 pub use error::LoadError;
 pub use files::{FileHandle, FileSet, MemoryFiles, OneFile};
 pub use geometry::orientation_code;

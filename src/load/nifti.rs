@@ -589,8 +589,8 @@ fn label_names(xml: &str) -> Vec<Segment> {
         let name = text
             .trim()
             .trim_start_matches("<![CDATA[")
-            .trim_end_matches("]]>")
-            .trim();
+            .trim_end_matches("]]>");
+        let name = super::report::clean_name(name);
         let Some(label) = attribute(tag, "Key").and_then(|key| key.parse::<u16>().ok()) else {
             continue;
         };
@@ -604,7 +604,7 @@ fn label_names(xml: &str) -> Vec<Segment> {
         };
         segments.push(Segment {
             label,
-            name: name.chars().take(200).collect(),
+            name,
             color_srgb: match (channel("Red"), channel("Green"), channel("Blue")) {
                 (Some(r), Some(g), Some(b)) => Some([r, g, b]),
                 _ => None,

@@ -184,6 +184,16 @@ pub struct LoadReport {
     pub bytes_read: u64,
 }
 
+/// A name out of a file, made fit for a line on a screen: no control characters, 200 characters at most.
+pub(crate) fn clean_name(name: &str) -> String {
+    name.chars()
+        .filter(|c| !c.is_control())
+        .take(200)
+        .collect::<String>()
+        .trim()
+        .to_owned()
+}
+
 impl LoadReport {
     /// Adds a warning unless the same is there already.
     pub(crate) fn warn(&mut self, warning: Warning) {
