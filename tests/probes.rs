@@ -4,7 +4,8 @@
 //!
 //! **Points left out.** f32 cannot say on which side of a jump a point lies that is nearer to it than the rounding of its own
 //! coordinates. So the reference is asked again with the point moved, before each template, to the corners of a box as large as that
-//! rounding (a few units in the last place of the terms that make up q). If the reference itself then moves by more than a quarter of
+//! rounding (a few units in the last place of the terms that make up q), and with every parameter moved by one unit in its last
+//! place (a flap turned by exactly a quarter has a tie of A all over its gap). If the reference itself then moves by more than a quarter of
 //! the bound, the point says nothing about the shader and is left out. It is counted, and only few may be.
 
 mod reference;
@@ -191,9 +192,20 @@ fn difference(one: (DVec3, f64), other: (DVec3, f64)) -> f64 {
 fn firm(list: &[Placed], pos: DVec3) -> Option<(DVec3, f64)> {
     let answer = reference::map(list, pos);
     let farthest = list.iter().map(|t| t.at.length()).fold(0.0, f64::max);
+    let nudged = |by: f64| -> Vec<Placed> {
+        let mut list = list.to_vec();
+        for param in list.iter_mut().flat_map(|t| &mut t.params) {
+            // Whole numbers are exact in f32.
+            if param.fract() != 0.0 {
+                *param *= 1.0 + by;
+            }
+        }
+        list
+    };
+    let lists = [nudged(2f64.powi(-23)), nudged(-2f64.powi(-23))];
     for corner in 0..16u32 {
         let mut turn = 0u32;
-        let moved = reference::map_with(list, pos, &mut |q, size| {
+        let moved = reference::map_with(&lists[(corner / 4 % 2) as usize], pos, &mut |q, size| {
             // Corners 8 to 15 take another corner for each template of the list.
             turn += 1;
             let pick = if corner < 8 {

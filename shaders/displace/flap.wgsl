@@ -25,7 +25,10 @@ fn displace_flap(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     let side = min(q.y, 1.0 - q.y) * size.y;
     let rest_continuity = max(max(max(-x, x - size.x), max(-thickness - z, z)), -side);
 
-    let sc = sin_cos(p0.x);
+    // At a quarter turn the door's hinge face and the plane of the top are one: A ties all over the gap and the door is to win,
+    // whatever the rounding of the angle says.
+    let turned = sin_cos(p0.x);
+    let sc = select(turned, vec2f(0.0), abs(turned) < vec2f(1e-6));
     let source_x = x * sc.y + z * sc.x;
     let source_z = z * sc.y - x * sc.x;
     let door_continuity = min(min(min(source_x, size.x - source_x), min(source_z + thickness, -source_z)), side);
