@@ -10,8 +10,9 @@
 
 mod reference;
 
+use fabrica::displace;
 use fabrica::document::{Align, ParamKind, ParamValue, PlacedTemplate, TemplateKind, TemplateMode};
-use fabrica::math::Placement;
+use fabrica::math::{Aabb, Placement};
 use fabrica::render::gpu_types::Templates;
 use fabrica::render::{Gpu, GpuOptions, Probe, Sample};
 use glam::{DQuat, DVec3, Quat, Vec3};
@@ -532,4 +533,118 @@ fn any_number_of_points_is_answered() {
             assert_eq!(sample.pos_in_rest, *point);
         }
     }
+}
+
+/// The untouched object of the bounds tests.
+const OBJECT: Aabb = Aabb {
+    min: Vec3::new(-0.5, -0.4, -0.45),
+    max: Vec3::new(0.5, 0.4, 0.45),
+};
+
+fn inside(aabb: Aabb, pos: Vec3) -> bool {
+    // Material on the very edge of the object is not argued about.
+    aabb.expanded(-1e-3).contains(pos)
+}
+
+#[test]
+fn outside_its_reach_a_template_changes_nothing() {
+    let (_gpu, probe) = probe();
+    for kind in TemplateKind::ALL {
+        let mut random = Random(0xA11 + kind as u64);
+        let (mut outside, mut changed_inside) = (0, 0);
+        for _ in 0..200 {
+            let template = random.template(kind);
+            let reach = displace::reach(&template);
+            let points: Vec<Vec3> = (0..200)
+                .map(|_| random.point(std::slice::from_ref(&template)))
+                .collect();
+            for (point, sample) in
+                points
+                    .iter()
+                    .zip(ask(&probe, std::slice::from_ref(&template), &points))
+            {
+                let is_changed =
+                    sample.pos_in_rest.distance(*point) > 1e-5 || sample.continuity < -1e-5;
+                let q = template.placement.template_from_subject(*point);
+                // Rounding of q itself.
+                let is_outside = !reach.boxes.iter().any(|b| b.expanded(1e-4).contains(q));
+                if is_outside {
+                    outside += 1;
+                    assert!(
+                        !is_changed,
+                        "{template:?}\n reaches {q} (subject {point}): {sample:?}"
+                    );
+                } else {
+                    changed_inside += usize::from(is_changed);
+                }
+            }
+        }
+        println!("{kind:?}: {outside} points outside the reach, {changed_inside} changed inside");
+        assert!(
+            changed_inside > 100,
+            "{kind:?}: the reach was hardly entered"
+        );
+    }
+}
+
+#[test]
+fn no_material_leaves_the_deformed_bounds() {
+    let (_gpu, probe) = probe();
+    let mut random = Random(0xB0B);
+    let (mut material, mut filled) = (0, 0.0);
+    for round in 0..600 {
+        let count = if round < 360 { 1 } else { 2 + random.index(5) };
+        let mut list: Vec<PlacedTemplate> = Vec::new();
+        for i in 0..count {
+            let kind = TemplateKind::ALL[if count == 1 {
+                round % 18
+            } else {
+                random.index(18)
+            }];
+            let mut template = random.template(kind);
+            // Two bends in one sum are the one case that is not bounded.
+            if i > 0 && kind != TemplateKind::Bend && random.unit() < 0.3 {
+                template.mode = TemplateMode::Add;
+            }
+            list.push(template);
+        }
+        let bounds = displace::deformed_bounds(&list, OBJECT);
+        let farthest = displace::max_displacement(&list[0], OBJECT);
+        let around = bounds.expanded(0.3 * bounds.size().max_element());
+        let points: Vec<Vec3> = (0..300)
+            .map(|_| {
+                if random.unit() < 0.5 {
+                    around.min + around.size() * random.vector(0.0, 1.0)
+                } else {
+                    random.point(&list)
+                }
+            })
+            .collect();
+        let mut held = Aabb::EMPTY;
+        for (point, sample) in points.iter().zip(ask(&probe, &list, &points)) {
+            if sample.continuity < 0.0 || !inside(OBJECT, sample.pos_in_rest) {
+                continue;
+            }
+            material += 1;
+            held = held.union(Aabb::from_points([*point]));
+            assert!(
+                bounds.expanded(1e-3).contains(*point),
+                "{list:?}\n {point} is outside {bounds:?} but from {sample:?}"
+            );
+            if count == 1 {
+                let moved = sample.pos_in_rest.distance(*point);
+                assert!(
+                    moved <= farthest * 1.001 + 1e-4,
+                    "{list:?} moves {point} by {moved}, more than {farthest}"
+                );
+            }
+        }
+        if !held.is_empty() {
+            filled += held.size().max_element() / bounds.size().max_element();
+        }
+    }
+    println!(
+        "{material} points with material, all in the bounds; their longest side filled to {:.2} on average",
+        filled / 600.0
+    );
 }

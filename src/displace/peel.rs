@@ -1,0 +1,31 @@
+use super::facts::{Facts, Grip, INF, Icon, Reach, aabb, sector};
+use glam::Vec3;
+
+/// Everything about peel but its formula. It is grabbed at its hinge, on the top.
+pub(super) const FACTS: Facts = Facts {
+    reach: |given| {
+        let [progress, depth, radius, turn, ..] = given.p;
+        if progress <= 0.0 || turn <= 0.0 {
+            return Reach::NONE;
+        }
+        let size = given.size;
+        let (hinge, thickness, inner) = (progress * size.x, depth * size.z, radius * size.x);
+        let middle = inner + 0.5 * thickness;
+        // The whole flap is as long as the hinge has come: first around, then straight on.
+        let turned = turn.min(hinge / middle);
+        let tail = (hinge - turned * middle).max(0.0);
+        let (min, max) = sector(turned, inner, inner + thickness, tail);
+        let center = glam::Vec2::new(hinge, size.z + inner);
+        let flat = glam::Vec2::new(size.x, size.z);
+        let (min, max) = ((center + min) / flat, (center + max) / flat);
+        Reach::taken_out(
+            aabb([0.0, 0.0, 1.0 - depth], [progress, 1.0, 1.0]),
+            aabb([min.x, 0.0, min.y], [max.x, 1.0, max.y]),
+        )
+    },
+    grip: Grip::Number(|given| Vec3::new(given.p[0], 0.5, 1.0), INF),
+    icon: Icon {
+        params: &[("progress", 0.62), ("depth", 0.22), ("radius", 0.12)],
+        ..Icon::PLAIN
+    },
+};

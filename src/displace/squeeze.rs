@@ -1,0 +1,25 @@
+use super::facts::{Facts, Given, Grip, INF, Icon, Reach, aabb};
+use glam::Vec3;
+
+/// What squeeze and dilate reach: they move by half their strength at the sides and beyond.
+pub(super) fn reach(given: &Given) -> Reach {
+    let strength = given.p[0];
+    if strength == 0.0 {
+        return Reach::NONE;
+    }
+    let shift = Vec3::new(0.5 * strength, 0.5 * strength, 0.0);
+    Reach::shifted(aabb([-INF, -INF, 0.0], [INF, INF, 1.0]), -shift, shift)
+}
+
+/// Everything about squeeze but its formula. It is grabbed at the waist.
+pub(super) const FACTS: Facts = Facts {
+    reach,
+    grip: Grip::Number(
+        |given| Vec3::new(0.5 + 0.5 / (1.0 + given.p[0]), 0.5, 0.5),
+        INF,
+    ),
+    icon: Icon {
+        params: &[("strength", 0.8)],
+        ..Icon::PLAIN
+    },
+};

@@ -1,0 +1,49 @@
+use super::facts::{Facts, Given, Grip, INF, Icon, Reach, aabb};
+use glam::Vec3;
+
+/// Radius up to which something turns, subject units.
+fn radius(given: &Given) -> f32 {
+    let flat = given.size.truncate();
+    if given.p[1] > 0.0 {
+        0.5 * flat.min_element()
+    } else {
+        0.5 * flat.length()
+    }
+}
+
+/// Everything about twist but its formula. It is grabbed on its top face, at the edge of what turns as one.
+pub(super) const FACTS: Facts = Facts {
+    reach: |given| {
+        if given.p[0] == 0.0 {
+            return Reach::NONE;
+        }
+        let radius = radius(given);
+        let half = (Vec3::splat(radius) / given.size).min(Vec3::splat(0.5));
+        // A point can end on the other side of the circle.
+        let shift = (Vec3::splat(2.0 * radius) / given.size).with_z(0.0);
+        Reach::shifted(
+            aabb(
+                [0.5 - half.x, 0.5 - half.y, 0.0],
+                [0.5 + half.x, 0.5 + half.y, INF],
+            ),
+            -shift,
+            shift,
+        )
+    },
+    grip: Grip::Number(
+        |given| {
+            let inner = 0.5 * (1.0 - given.p[1]).max(0.5) * given.size.x.min(given.size.y);
+            let (sin, cos) = given.p[0].sin_cos();
+            Vec3::new(
+                0.5 + inner * cos / given.size.x,
+                0.5 + inner * sin / given.size.y,
+                1.0,
+            )
+        },
+        std::f32::consts::PI,
+    ),
+    icon: Icon {
+        params: &[("angle", 0.9), ("falloff", 0.0)],
+        ..Icon::PLAIN
+    },
+};

@@ -1,0 +1,37 @@
+use super::facts::{Facts, Grip, INF, Icon, Reach, aabb};
+use glam::Vec3;
+
+/// Where the first crest lies, template units from the axis, and its weight.
+fn crest(frequency: f32, falloff: f32) -> (f32, f32) {
+    let rho = (std::f32::consts::FRAC_PI_2 / frequency.max(1e-3)).min(0.35);
+    let t = ((rho - 0.5 + 0.5 * falloff) / (0.5 * falloff).max(1e-6)).clamp(0.0, 1.0);
+    let weight = if falloff > 0.0 {
+        1.0 - t * t * (3.0 - 2.0 * t)
+    } else {
+        1.0
+    };
+    (rho, weight * (frequency * rho).sin())
+}
+
+/// Everything about wave but its formula. It is grabbed at its first crest, on the face that it ripples.
+pub(super) const FACTS: Facts = Facts {
+    reach: |given| {
+        let amplitude = given.p[0];
+        if amplitude == 0.0 || given.p[1] == 0.0 {
+            return Reach::NONE;
+        }
+        let shift = Vec3::new(0.0, amplitude, 0.0);
+        Reach::shifted(aabb([0.0, -INF, 0.0], [1.0, INF, 1.0]), -shift, shift)
+    },
+    grip: Grip::Number(
+        |given| {
+            let (rho, height) = crest(given.p[1], given.p[2]);
+            Vec3::new(0.5 + rho, -given.p[0] * height, 0.5)
+        },
+        INF,
+    ),
+    icon: Icon {
+        params: &[("amplitude", 0.1), ("frequency", 25.0)],
+        ..Icon::PLAIN
+    },
+};
