@@ -15,6 +15,10 @@ pub struct Illustration {
     pub lang: String,
     /// What is cut open.
     pub subject: SubjectRef,
+    /// Revision of a built-in subject that was improved since; none means the first.
+    pub subject_revision: Option<u32>,
+    /// A label volume beside the subject, if one is named.
+    pub segments: Option<SegmentsRef>,
     /// Enabled and disabled templates in the order in which they act. Unknown kinds are left out (and were named in a notice).
     pub templates: Vec<PlacedTemplate>,
     /// Colours, opacity, background.
@@ -25,6 +29,33 @@ pub struct Illustration {
     pub labels: Vec<Label>,
     /// Steps of the lesson, without step 0.
     pub steps: Vec<Step>,
+}
+
+impl Illustration {
+    /// What the document says that says nothing.
+    pub fn document_default() -> Self {
+        Self {
+            title: String::new(),
+            caption: String::new(),
+            credit: String::new(),
+            lang: String::new(),
+            subject: SubjectRef::Builtin {
+                name: super::DEFAULT_SUBJECT.to_owned(),
+            },
+            subject_revision: None,
+            segments: None,
+            templates: Vec::new(),
+            look: Look {
+                transfer: Transfer::Auto,
+                window: Window::Auto,
+                opacity: OpacityMode::Constancy,
+                background: Background::Color([255; 3]),
+            },
+            camera: Camera::DOCUMENT_DEFAULT,
+            labels: Vec::new(),
+            steps: Vec::new(),
+        }
+    }
 }
 
 /// Which volume a document shows.
@@ -51,6 +82,17 @@ pub enum SubjectRef {
         /// What the author called it.
         name: String,
     },
+}
+
+/// A label volume that goes with a subject.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SegmentsRef {
+    /// Where it is, relative to the document or absolute; without it only names are given.
+    pub src: Option<String>,
+    /// SHA-256 of its bytes, lower-case hex, if given.
+    pub sha256: Option<String>,
+    /// Label numbers and what they are called, by number.
+    pub names: Vec<(u32, String)>,
 }
 
 /// A template with its place and parameters, ready to be drawn.
@@ -190,6 +232,16 @@ pub struct Camera {
     pub distance: f32,
     /// Field of view across the shorter side of the picture, degrees.
     pub fov_deg: f32,
+}
+
+impl Camera {
+    /// Where a document is seen from that says nothing (contract, "Defaults").
+    pub const DOCUMENT_DEFAULT: Self = Self {
+        target: Vec3::ZERO,
+        rotate: Quat::IDENTITY,
+        distance: 2.5,
+        fov_deg: 30.0,
+    };
 }
 
 /// A text that follows its tissue.

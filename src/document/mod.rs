@@ -3,14 +3,75 @@
 //! A [`Document`] is the JSON tree of spec/contract.md, kept whole (unknown keys too) and valid by construction; edits
 //! go to the tree by JSON pointer. An [`Illustration`] is what it says: typed, defaults filled in, values clamped.
 //! The renderer and the panels read the second and never the first.
+//!
+//! ```
+//! use fabrica::document::{Document, Edit, History, TemplateKind};
+//! use fabrica::math::Placement;
+//!
+//! let document = Document::from_json(r#"{ "fabrica": 1, "title": "Scalp", "x-note": "kept" }"#)?;
+//! assert_eq!(document.notices()[0].to_string(), "/x-note: this version does not know this key; it is kept");
+//!
+//! let mut history = History::new(document);
+//! history.apply(&Edit::AddTemplate { index: 0, kind: TemplateKind::Peel, placement: Placement::DOCUMENT_DEFAULT })?;
+//! assert_eq!(history.document().to_json_compact(), r#"{"fabrica":1,"title":"Scalp","templates":[{"kind":"peel"}],"x-note":"kept"}"#);
+//! assert_eq!(history.undo_name(), Some("Add peel"));
+//! history.undo();
+//! assert!(history.document().illustration().templates.is_empty());
+//! # Ok::<(), fabrica::document::DocumentError>(())
+//! ```
 
+mod canonical;
 mod catalogue;
+mod edit;
+mod error;
+mod history;
 mod illustration;
+mod json;
+mod notice;
+pub mod pointer;
+mod resolve;
+mod steps;
+mod tree;
 
 pub use catalogue::{
     MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateKind, TemplateSpec,
 };
+pub use edit::Edit;
+pub use error::DocumentError;
+pub use history::History;
 pub use illustration::{
-    Align, Background, Camera, Illustration, Label, Look, OpacityMode, PlacedTemplate, Step,
-    SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
+    Align, Background, Camera, Illustration, Label, Look, OpacityMode, PlacedTemplate, SegmentsRef,
+    Step, SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
 };
+pub use json::MAX_DEPTH;
+pub use notice::{Notice, NoticeKind};
+pub use tree::Document;
+
+/// The format's number that this version reads and writes.
+pub const FORMAT: u32 = 1;
+/// Templates in a document at most.
+pub const MAX_TEMPLATES: usize = 32;
+/// Labels in a document at most.
+pub const MAX_LABELS: usize = 256;
+/// Steps in a document at most.
+pub const MAX_STEPS: usize = 100;
+/// Bytes of a document's JSON at most.
+pub const MAX_BYTES: usize = 1 << 20;
+/// The subject of a document that names none.
+pub const DEFAULT_SUBJECT: &str = "head";
+/// The subjects that the program generates, or will in a later release.
+pub const BUILTIN_SUBJECTS: [&str; 8] = [
+    "bar",
+    "cube",
+    "tomato",
+    "piggybank",
+    "head",
+    "hand",
+    "torso",
+    "knee",
+];
+
+/// A 32-bit float as the 64-bit float that prints the same: 0.1, not 0.10000000149011612.
+pub fn plain_f64(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(f64::from(value))
+}

@@ -1,0 +1,150 @@
+use super::edit::Edit;
+use super::error::DocumentError;
+use super::tree::Document;
+
+/// Steps that can be undone at most.
+const MAX_ENTRIES: usize = 500;
+/// Bytes of JSON that the steps hold together at most; the oldest go first.
+const MAX_HISTORY_BYTES: usize = 32 << 20;
+
+/// A document with what was done to it. Built once per opened document; an edit costs a copy of the tree.
+#[derive(Clone, Debug)]
+pub struct History {
+    document: Document,
+    undo: Vec<Entry>,
+    redo: Vec<Entry>,
+    /// What is being dragged, while the last entry of `undo` still grows.
+    drag: Option<String>,
+}
+
+/// The document on the other side of an edit, and what the edit is called.
+#[derive(Clone, Debug)]
+struct Entry {
+    document: Document,
+    name: String,
+}
+
+impl History {
+    /// Starts with a document and nothing to undo.
+    pub fn new(document: Document) -> Self {
+        Self {
+            document,
+            undo: Vec::new(),
+            redo: Vec::new(),
+            drag: None,
+        }
+    }
+
+    /// The document as it stands.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// Opens another document: nothing before it can be undone.
+    pub fn replace(&mut self, document: Document) {
+        *self = Self::new(document);
+    }
+
+    /// Does an edit as one step of its own. True if it changed anything.
+    ///
+    /// # Errors
+    /// As [`Edit::apply`]; the document stays as it was.
+    pub fn apply(&mut self, edit: &Edit) -> Result<bool, DocumentError> {
+        self.drag = None;
+        let document = edit.apply(&self.document)?;
+        if document == self.document {
+            return Ok(false);
+        }
+        self.push(document, edit.name(&self.document));
+        Ok(true)
+    }
+
+    /// Does an edit as part of a drag: successive ones of the same target are one step, until [`History::end_drag`].
+    /// True if it changed anything.
+    ///
+    /// # Errors
+    /// As [`Edit::apply`]; the document stays as it was.
+    pub fn drag(&mut self, edit: &Edit) -> Result<bool, DocumentError> {
+        let target = edit.target();
+        if self.drag.as_ref() != Some(&target) {
+            let changed = self.apply(edit)?;
+            // A drag that has not moved yet has made no step that could grow.
+            self.drag = changed.then_some(target);
+            return Ok(changed);
+        }
+        let document = edit.apply(&self.document)?;
+        let changed = document != self.document;
+        self.document = document;
+        if let Some(first) = self.undo.last_mut() {
+            // Named by the whole way of the drag, not by its last bit.
+            first.name = edit.name(&first.document);
+            if first.document == self.document {
+                // Dragged back to where it began: nothing was done.
+                self.undo.pop();
+                self.drag = None;
+            }
+        }
+        Ok(changed)
+    }
+
+    /// The pointer was let go: the next drag is a step of its own.
+    pub fn end_drag(&mut self) {
+        self.drag = None;
+    }
+
+    fn push(&mut self, document: Document, name: String) {
+        let before = std::mem::replace(&mut self.document, document);
+        self.undo.push(Entry {
+            document: before,
+            name,
+        });
+        self.redo.clear();
+        let mut bytes: usize = self.undo.iter().map(|e| e.document.byte_count()).sum();
+        let mut too_many = 0;
+        while self.undo.len() - too_many > 1
+            && (self.undo.len() - too_many > MAX_ENTRIES || bytes > MAX_HISTORY_BYTES)
+        {
+            bytes -= self.undo[too_many].document.byte_count();
+            too_many += 1;
+        }
+        self.undo.drain(..too_many);
+    }
+
+    /// Takes the last step back. False if there is none.
+    pub fn undo(&mut self) -> bool {
+        self.drag = None;
+        let Some(entry) = self.undo.pop() else {
+            return false;
+        };
+        let after = std::mem::replace(&mut self.document, entry.document);
+        self.redo.push(Entry {
+            document: after,
+            name: entry.name,
+        });
+        true
+    }
+
+    /// Does the last undone step again. False if there is none.
+    pub fn redo(&mut self) -> bool {
+        self.drag = None;
+        let Some(entry) = self.redo.pop() else {
+            return false;
+        };
+        let before = std::mem::replace(&mut self.document, entry.document);
+        self.undo.push(Entry {
+            document: before,
+            name: entry.name,
+        });
+        true
+    }
+
+    /// What [`History::undo`] would take back: “Move peel”.
+    pub fn undo_name(&self) -> Option<&str> {
+        self.undo.last().map(|entry| entry.name.as_str())
+    }
+
+    /// What [`History::redo`] would do again.
+    pub fn redo_name(&self) -> Option<&str> {
+        self.redo.last().map(|entry| entry.name.as_str())
+    }
+}

@@ -1,0 +1,832 @@
+//! From the tree to what it says: every type checked, every default filled in, every value brought into its range.
+
+use super::catalogue::{ParamKind, ParamSpec, ParamValue, TemplateKind};
+use super::error::DocumentError;
+use super::illustration::{
+    Align, Background, Camera, Illustration, Label, Look, OpacityMode, PlacedTemplate, SegmentsRef,
+    Step, SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
+};
+use super::json::{number_text, shortened};
+use super::notice::{Notice, NoticeKind};
+use super::pointer::join;
+use super::{BUILTIN_SUBJECTS, FORMAT, MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
+use crate::math::Placement;
+use glam::{DQuat, DVec3, Quat, Vec3};
+use serde_json::{Map, Value};
+
+/// Places farther out than this are clamped: a subject is one unit long, and floats get coarse.
+const MAX_COORDINATE: f64 = 1e4;
+/// Range of a template's sides, subject units.
+const SIZE_RANGE: [f64; 2] = [1e-4, 1e4];
+/// Range of the camera's distance, subject units.
+const DISTANCE_RANGE: [f64; 2] = [0.01, 1e3];
+/// Range of the field of view, degrees.
+const FOV_RANGE: [f64; 2] = [0.1, 170.0];
+/// Longest passage to a step, seconds.
+const MAX_SECONDS: f64 = 3600.0;
+/// Quaternions this near to length 1 were meant so: the editor rounds to four decimals.
+const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// Checks a tree and reads what it says.
+///
+/// # Errors
+/// The first thing that is wrong, by pointer.
+pub(super) fn resolve(
+    root: &Map<String, Value>,
+) -> Result<(Illustration, Vec<Notice>), DocumentError> {
+    let mut reader = Reader::default();
+    version(root)?;
+    let illustration = reader.illustration(root)?;
+    Ok((illustration, reader.notices))
+}
+
+fn version(root: &Map<String, Value>) -> Result<(), DocumentError> {
+    let found = root.get("fabrica").ok_or(DocumentError::NoVersion)?;
+    let Value::Number(number) = found else {
+        return Err(wrong("/fabrica", "the format's number", found));
+    };
+    match number.as_u64() {
+        Some(version) if version == u64::from(FORMAT) => Ok(()),
+        Some(version) if version > u64::from(FORMAT) => Err(DocumentError::TooNew {
+            found: number_text(number),
+        }),
+        _ if number.as_f64().is_some_and(|n| n > f64::from(FORMAT)) => Err(DocumentError::TooNew {
+            found: number_text(number),
+        }),
+        _ => Err(wrong("/fabrica", "the format's number", found)),
+    }
+}
+
+fn wrong(pointer: &str, expected: &'static str, found: &Value) -> DocumentError {
+    let found = match found {
+        Value::Null => "null".to_owned(),
+        Value::Bool(flag) => flag.to_string(),
+        Value::Number(number) => number_text(number),
+        Value::String(text) => format!("“{}”", shortened(text, 40)),
+        Value::Array(items) => format!("a list of {}", items.len()),
+        Value::Object(_) => "an object".to_owned(),
+    };
+    DocumentError::WrongType {
+        pointer: super::pointer::shortened(pointer),
+        expected,
+        found,
+    }
+}
+
+/// One object of the tree and where it is.
+struct Object<'a> {
+    pointer: String,
+    map: &'a Map<String, Value>,
+}
+
+/// Stands for an object that is not there: everything at its default.
+static NOTHING: std::sync::LazyLock<Map<String, Value>> = std::sync::LazyLock::new(Map::new);
+
+impl<'a> Object<'a> {
+    fn new(pointer: String, value: &'a Value) -> Result<Self, DocumentError> {
+        match value {
+            Value::Object(map) => Ok(Self { pointer, map }),
+            other => Err(wrong(&pointer, "an object", other)),
+        }
+    }
+
+    fn child(&self, key: &str) -> Result<Self, DocumentError> {
+        let pointer = self.at(key);
+        match self.map.get(key) {
+            Some(value) => Object::new(pointer, value),
+            None => Ok(Self {
+                pointer,
+                map: &NOTHING,
+            }),
+        }
+    }
+
+    fn at(&self, key: &str) -> String {
+        join(&self.pointer, key)
+    }
+
+    fn text(&self, key: &str) -> Result<Option<&'a str>, DocumentError> {
+        match self.map.get(key) {
+            None => Ok(None),
+            Some(Value::String(text)) => Ok(Some(text)),
+            Some(other) => Err(wrong(&self.at(key), "a text", other)),
+        }
+    }
+
+    fn string(&self, key: &str) -> Result<String, DocumentError> {
+        Ok(self.text(key)?.unwrap_or_default().to_owned())
+    }
+
+    fn flag(&self, key: &str) -> Result<Option<bool>, DocumentError> {
+        match self.map.get(key) {
+            None => Ok(None),
+            Some(Value::Bool(flag)) => Ok(Some(*flag)),
+            Some(other) => Err(wrong(&self.at(key), "true or false", other)),
+        }
+    }
+
+    fn number(&self, key: &str) -> Result<Option<f64>, DocumentError> {
+        self.map
+            .get(key)
+            .map(|value| number(&self.at(key), value))
+            .transpose()
+    }
+
+    fn list(&self, key: &str) -> Result<&'a [Value], DocumentError> {
+        match self.map.get(key) {
+            None => Ok(&[]),
+            Some(Value::Array(items)) => Ok(items),
+            Some(other) => Err(wrong(&self.at(key), "a list", other)),
+        }
+    }
+
+    fn limited_list(
+        &self,
+        key: &str,
+        what: &'static str,
+        limit: usize,
+    ) -> Result<&'a [Value], DocumentError> {
+        let items = self.list(key)?;
+        if items.len() > limit {
+            return Err(DocumentError::TooMany {
+                pointer: self.at(key),
+                what,
+                found: items.len(),
+                limit,
+            });
+        }
+        Ok(items)
+    }
+
+    fn numbers<const N: usize>(
+        &self,
+        key: &str,
+        expected: &'static str,
+    ) -> Result<Option<[f64; N]>, DocumentError> {
+        let Some(value) = self.map.get(key) else {
+            return Ok(None);
+        };
+        let pointer = self.at(key);
+        match value {
+            Value::Array(items) if items.len() == N => {
+                let mut out = [0.0; N];
+                for (i, (slot, item)) in out.iter_mut().zip(items).enumerate() {
+                    *slot = number(&join(&pointer, &i.to_string()), item)?;
+                }
+                Ok(Some(out))
+            }
+            other => Err(wrong(&pointer, expected, other)),
+        }
+    }
+}
+
+fn number(pointer: &str, value: &Value) -> Result<f64, DocumentError> {
+    match value {
+        Value::Number(number) => match number.as_f64() {
+            Some(float) if float.is_finite() => Ok(float),
+            _ => Err(DocumentError::NotFinite {
+                pointer: pointer.to_owned(),
+                found: number.to_string(),
+            }),
+        },
+        other => Err(wrong(pointer, "a number", other)),
+    }
+}
+
+fn written(values: &[f64]) -> String {
+    let one = |value: f64| number_text(&super::json::number(value));
+    match values {
+        [value] => one(*value),
+        values => {
+            let texts: Vec<String> = values.iter().map(|v| one(*v)).collect();
+            format!("[{}]", texts.join(", "))
+        }
+    }
+}
+
+/// `#rgb` or `#rrggbb` as bytes.
+pub(super) fn color(text: &str) -> Option<[u8; 3]> {
+    let digits = text.strip_prefix('#')?;
+    if !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
+        return None;
+    }
+    let byte = |from: usize, n: usize| u8::from_str_radix(digits.get(from..from + n)?, 16).ok();
+    match digits.len() {
+        3 => Some([byte(0, 1)? * 17, byte(1, 1)? * 17, byte(2, 1)? * 17]),
+        6 => Some([byte(0, 2)?, byte(2, 2)?, byte(4, 2)?]),
+        _ => None,
+    }
+}
+
+#[derive(Default)]
+struct Reader {
+    notices: Vec<Notice>,
+}
+
+impl Reader {
+    fn note(&mut self, pointer: impl Into<String>, kind: NoticeKind) {
+        self.notices.push(Notice::new(pointer, kind));
+    }
+
+    fn unknown_keys(&mut self, object: &Object<'_>, known: &[&str]) {
+        for key in object.map.keys() {
+            if self.notices.len() > super::tree::MAX_NOTICES {
+                break;
+            }
+            if !known.contains(&key.as_str()) {
+                self.note(
+                    super::pointer::shortened(&object.at(key)),
+                    NoticeKind::UnknownKey,
+                );
+            }
+        }
+    }
+
+    fn unknown_value(&mut self, pointer: String, found: &str, instead: &str) {
+        self.note(
+            pointer,
+            NoticeKind::UnknownValue {
+                found: shortened(found, 40),
+                instead: instead.to_owned(),
+            },
+        );
+    }
+
+    fn clamp<const N: usize>(
+        &mut self,
+        pointer: impl FnOnce() -> String,
+        values: [f64; N],
+        range: [f64; 2],
+    ) -> [f64; N] {
+        let drawn = values.map(|v| v.clamp(range[0], range[1]));
+        self.clamped(pointer, values, drawn)
+    }
+
+    /// Says so if what is drawn is not what is written.
+    fn clamped<const N: usize>(
+        &mut self,
+        pointer: impl FnOnce() -> String,
+        values: [f64; N],
+        drawn: [f64; N],
+    ) -> [f64; N] {
+        if drawn != values {
+            // Ranges are 32-bit floats: what is only off by their rounding (π written in full) is in range.
+            let rounding =
+                |(v, d): (&f64, &f64)| (v - d).abs() <= d.abs() * f64::from(f32::EPSILON);
+            if !values.iter().zip(&drawn).all(rounding) {
+                self.note(
+                    pointer(),
+                    NoticeKind::Clamped {
+                        found: written(&values),
+                        drawn: written(&drawn.map(|d| super::plain_f64(d as f32))),
+                    },
+                );
+            }
+        }
+        drawn
+    }
+
+    fn scalar(
+        &mut self,
+        object: &Object<'_>,
+        key: &str,
+        default: f64,
+        range: [f64; 2],
+    ) -> Result<f32, DocumentError> {
+        let value = object.number(key)?.unwrap_or(default);
+        let [value] = self.clamp(|| object.at(key), [value], range);
+        Ok(value as f32)
+    }
+
+    fn vector(
+        &mut self,
+        object: &Object<'_>,
+        key: &str,
+        default: Vec3,
+        range: [f64; 2],
+    ) -> Result<Vec3, DocumentError> {
+        match object.numbers(key, "a list of three numbers")? {
+            None => Ok(default),
+            Some(values) => {
+                let values = self.clamp(|| object.at(key), values, range);
+                Ok(DVec3::from_array(values).as_vec3())
+            }
+        }
+    }
+
+    fn rotation(&mut self, object: &Object<'_>, key: &str) -> Result<Quat, DocumentError> {
+        let Some(values) =
+            object.numbers(key, "a quaternion, a list of four numbers x, y, z, w")?
+        else {
+            return Ok(Quat::IDENTITY);
+        };
+        // Scaled first, so that no square overflows or vanishes.
+        let largest = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        if largest == 0.0 {
+            return Err(DocumentError::ZeroRotation {
+                pointer: object.at(key),
+            });
+        }
+        let length = DQuat::from_array(values.map(|v| v / largest)).length() * largest;
+        if (length - 1.0).abs() > UNIT_TOLERANCE {
+            self.note(object.at(key), NoticeKind::Normalised);
+        }
+        let unit = values.map(|v| v / largest / (length / largest));
+        Ok(DQuat::from_array(unit).as_quat())
+    }
+
+    fn illustration(&mut self, root: &Map<String, Value>) -> Result<Illustration, DocumentError> {
+        let root = Object {
+            pointer: String::new(),
+            map: root,
+        };
+        self.unknown_keys(
+            &root,
+            &[
+                "fabrica",
+                "title",
+                "caption",
+                "credit",
+                "lang",
+                "subject",
+                "templates",
+                "look",
+                "camera",
+                "labels",
+                "steps",
+            ],
+        );
+        let subject_object = root.child("subject")?;
+        let subject = self.subject(&subject_object)?;
+        let subject_revision = self.revision(&subject_object)?;
+        let segments = self.segments(&subject_object)?;
+        let mut templates = Vec::new();
+        let items = root.limited_list("templates", "templates", MAX_TEMPLATES)?;
+        for (index, value) in items.iter().enumerate() {
+            let object = Object::new(join("/templates", &index.to_string()), value)?;
+            templates.extend(self.template(index, &object)?);
+        }
+        let look = self.look(&root.child("look")?)?;
+        let camera = self.camera(&root.child("camera")?)?;
+        let mut labels = Vec::new();
+        for (index, value) in root
+            .limited_list("labels", "labels", MAX_LABELS)?
+            .iter()
+            .enumerate()
+        {
+            let object = Object::new(join("/labels", &index.to_string()), value)?;
+            self.unknown_keys(&object, &["at", "text"]);
+            labels.push(Label {
+                at: self.vector(&object, "at", Vec3::ZERO, [-MAX_COORDINATE, MAX_COORDINATE])?,
+                text: object.string("text")?,
+            });
+        }
+        let mut steps = Vec::new();
+        for (index, value) in root
+            .limited_list("steps", "steps", MAX_STEPS)?
+            .iter()
+            .enumerate()
+        {
+            let object = Object::new(join("/steps", &index.to_string()), value)?;
+            steps.push(self.step(&object)?);
+        }
+        Ok(Illustration {
+            title: root.string("title")?,
+            caption: root.string("caption")?,
+            credit: root.string("credit")?,
+            lang: root.string("lang")?,
+            subject,
+            subject_revision,
+            segments,
+            templates,
+            look,
+            camera,
+            labels,
+            steps,
+        })
+    }
+
+    fn subject(&mut self, object: &Object<'_>) -> Result<SubjectRef, DocumentError> {
+        self.unknown_keys(
+            object,
+            &["builtin", "revision", "src", "sha256", "name", "segments"],
+        );
+        let builtin = object.text("builtin")?;
+        let src = object.text("src")?;
+        let sha256 = hash(object)?;
+        let name = object.string("name")?;
+        if let Some(builtin) = builtin {
+            if !BUILTIN_SUBJECTS.contains(&builtin) {
+                self.note(
+                    object.at("builtin"),
+                    NoticeKind::UnknownSubject {
+                        found: shortened(builtin, 40),
+                    },
+                );
+            }
+            for key in ["src", "sha256"] {
+                if object.map.contains_key(key) {
+                    self.note(
+                        object.at(key),
+                        NoticeKind::LeftAside {
+                            taken: "the built-in subject",
+                        },
+                    );
+                }
+            }
+            return Ok(SubjectRef::Builtin {
+                name: builtin.to_owned(),
+            });
+        }
+        Ok(match (src, sha256) {
+            (Some(src), sha256) => SubjectRef::Address {
+                src: src.to_owned(),
+                sha256,
+                name,
+            },
+            (None, Some(sha256)) => SubjectRef::Supplied { sha256, name },
+            (None, None) => SubjectRef::Builtin {
+                name: super::DEFAULT_SUBJECT.to_owned(),
+            },
+        })
+    }
+
+    fn revision(&mut self, object: &Object<'_>) -> Result<Option<u32>, DocumentError> {
+        match object.map.get("revision") {
+            None => Ok(None),
+            Some(value) => value
+                .as_u64()
+                .and_then(|revision| u32::try_from(revision).ok())
+                .map(Some)
+                .ok_or_else(|| wrong(&object.at("revision"), "a whole number", value)),
+        }
+    }
+
+    fn segments(&mut self, subject: &Object<'_>) -> Result<Option<SegmentsRef>, DocumentError> {
+        if !subject.map.contains_key("segments") {
+            return Ok(None);
+        }
+        let object = subject.child("segments")?;
+        self.unknown_keys(&object, &["src", "sha256", "names"]);
+        let names = object.child("names")?;
+        let mut list = Vec::new();
+        for (number, value) in names.map {
+            let name = match value {
+                Value::String(name) => name.clone(),
+                other => return Err(wrong(&names.at(number), "a name", other)),
+            };
+            match number.parse::<u32>() {
+                Ok(label) => list.push((label, name)),
+                Err(_) => self.unknown_value(names.at(number), number, "no label"),
+            }
+        }
+        list.sort();
+        Ok(Some(SegmentsRef {
+            src: object.text("src")?.map(str::to_owned),
+            sha256: hash(&object)?,
+            names: list,
+        }))
+    }
+
+    fn template(
+        &mut self,
+        index: usize,
+        object: &Object<'_>,
+    ) -> Result<Option<PlacedTemplate>, DocumentError> {
+        self.unknown_keys(
+            object,
+            &[
+                "kind",
+                "name",
+                "at",
+                "rotate",
+                "size",
+                "params",
+                "enabled",
+                "mode",
+                "align",
+                "constrain",
+            ],
+        );
+        let placement = Placement {
+            at: self.vector(
+                object,
+                "at",
+                Placement::DOCUMENT_DEFAULT.at,
+                [-MAX_COORDINATE, MAX_COORDINATE],
+            )?,
+            rotate: self.rotation(object, "rotate")?,
+            size: self.vector(object, "size", Placement::DOCUMENT_DEFAULT.size, SIZE_RANGE)?,
+        };
+        let name = object.string("name")?;
+        let enabled = object.flag("enabled")?.unwrap_or(true);
+        let mode = match object.text("mode")? {
+            None | Some("compose") => TemplateMode::Compose,
+            Some("add") => TemplateMode::Add,
+            Some(other) => {
+                self.unknown_value(object.at("mode"), other, "compose");
+                TemplateMode::Compose
+            }
+        };
+        let align = self.align(&object.child("align")?)?;
+        if object.map.contains_key("constrain") {
+            let constrain = object.child("constrain")?;
+            self.unknown_keys(&constrain, &["by", "keep"]);
+            match constrain.text("by")? {
+                None | Some("displacement" | "coordinate") => {}
+                Some(other) => self.unknown_value(constrain.at("by"), other, "nothing"),
+            }
+            keep(&constrain)?;
+            self.note(
+                object.at("constrain"),
+                NoticeKind::NotDrawn {
+                    what: "constraints are",
+                },
+            );
+        }
+        let params = object.child("params")?;
+        let kind_name = object.text("kind")?.unwrap_or_default();
+        let Some(kind) = TemplateKind::from_name(kind_name) else {
+            let kind = match kind_name {
+                "rbf" => NoticeKind::NotDrawn {
+                    what: "rbf templates are",
+                },
+                "field" => NoticeKind::NotDrawn {
+                    what: "field templates are",
+                },
+                other => NoticeKind::UnknownTemplate {
+                    kind: shortened(other, 40),
+                },
+            };
+            let at = match object.map.get("kind") {
+                Some(_) => object.at("kind"),
+                None => object.pointer.clone(),
+            };
+            self.note(at, kind);
+            return Ok(None);
+        };
+        let spec = kind.spec();
+        for key in params.map.keys() {
+            if !spec.params.iter().any(|param| param.name == key) {
+                let at = super::pointer::shortened(&params.at(key));
+                self.note(at, NoticeKind::UnknownParam { kind: spec.name });
+            }
+        }
+        let values: Result<Vec<_>, _> = spec
+            .params
+            .iter()
+            .map(|param| self.param(&params, param))
+            .collect();
+        Ok(Some(PlacedTemplate {
+            index,
+            kind,
+            name,
+            placement,
+            params: values?,
+            enabled,
+            mode,
+            align,
+        }))
+    }
+
+    fn param(
+        &mut self,
+        params: &Object<'_>,
+        spec: &ParamSpec,
+    ) -> Result<ParamValue, DocumentError> {
+        let key = spec.name;
+        if !params.map.contains_key(key) {
+            return Ok(spec.kind.default_value());
+        }
+        Ok(match spec.kind {
+            ParamKind::Number { default, min, max } => ParamValue::Number(self.scalar(
+                params,
+                key,
+                f64::from(default),
+                [f64::from(min), f64::from(max)],
+            )?),
+            ParamKind::Count { default, min, max } => {
+                let value = params.number(key)?.unwrap_or(f64::from(default));
+                let drawn = (value + 0.5).floor().clamp(f64::from(min), f64::from(max));
+                let [drawn] = self.clamped(|| params.at(key), [value], [drawn]);
+                ParamValue::Number(drawn as f32)
+            }
+            ParamKind::Flag { default } => ParamValue::Flag(params.flag(key)?.unwrap_or(default)),
+            ParamKind::Choice { names } => {
+                let name = params.text(key)?.unwrap_or_default();
+                match names.iter().position(|known| *known == name) {
+                    Some(i) => ParamValue::Choice(i as u32),
+                    None => {
+                        let instead = names.first().copied().unwrap_or_default();
+                        self.unknown_value(params.at(key), name, instead);
+                        ParamValue::Choice(0)
+                    }
+                }
+            }
+            ParamKind::Vector {
+                default,
+                min,
+                max,
+                max_length,
+            } => {
+                let values = params
+                    .numbers(key, "a list of three numbers")?
+                    .unwrap_or(default.map(f64::from));
+                let drawn = if max_length.is_finite() {
+                    // The length rules: components in range are scaled with the rest, so that the direction stays.
+                    let largest = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+                    let length = if largest == 0.0 {
+                        0.0
+                    } else {
+                        (DVec3::from_array(values) / largest).length() * largest
+                    };
+                    let limit = f64::from(max_length);
+                    if length > limit {
+                        values.map(|v| v / length * limit)
+                    } else {
+                        values
+                    }
+                } else {
+                    values.map(|v| v.clamp(f64::from(min), f64::from(max)))
+                };
+                let drawn = self.clamped(|| params.at(key), values, drawn);
+                ParamValue::Vector(DVec3::from_array(drawn).as_vec3())
+            }
+            ParamKind::Rotation => ParamValue::Rotation(self.rotation(params, key)?),
+        })
+    }
+
+    fn align(&mut self, object: &Object<'_>) -> Result<Align, DocumentError> {
+        self.unknown_keys(object, &["to", "keep", "depth", "thickness"]);
+        let depth = self.scalar(object, "depth", 0.02, [0.0, 10.0])?;
+        let thickness = self.scalar(object, "thickness", 0.01, [0.0, 10.0])?;
+        let keep = keep(object)?;
+        let align = match object.text("to")? {
+            None | Some("axis") => return Ok(Align::Axis),
+            Some("surface") => Align::Surface { depth, thickness },
+            Some("segment") => Align::Segment { keep, thickness },
+            Some(other) => {
+                self.unknown_value(object.at("to"), other, "axis");
+                return Ok(Align::Axis);
+            }
+        };
+        self.note(
+            object.pointer.clone(),
+            NoticeKind::NotDrawn {
+                what: "alignment to a surface or a segment is",
+            },
+        );
+        Ok(align)
+    }
+
+    fn look(&mut self, object: &Object<'_>) -> Result<Look, DocumentError> {
+        self.unknown_keys(object, &["transfer", "window", "opacity", "background"]);
+        let transfer = match object.map.get("transfer") {
+            None => Transfer::Auto,
+            Some(Value::String(name)) if name == "auto" => Transfer::Auto,
+            Some(Value::String(name)) => Transfer::Preset(name.clone()),
+            Some(Value::Array(items)) => self.points(&object.at("transfer"), items)?,
+            Some(other) => {
+                return Err(wrong(
+                    &object.at("transfer"),
+                    "a preset's name or a list of points",
+                    other,
+                ));
+            }
+        };
+        let window = match object.map.get("window") {
+            None => Window::Auto,
+            Some(Value::String(name)) => {
+                if name != "auto" {
+                    self.unknown_value(object.at("window"), name, "auto");
+                }
+                Window::Auto
+            }
+            Some(_) => match object.numbers("window", "“auto” or a list of two numbers")? {
+                None => Window::Auto,
+                Some(values) => {
+                    let limit = f64::from(f32::MAX) / 4.0;
+                    let [a, b] = values.map(|v| v.clamp(-limit, limit) as f32);
+                    let (low, mut high) = (a.min(b), a.max(b));
+                    // A window has a width: at least what the floats at this place can tell apart.
+                    let least = low.abs().max(high.abs()).max(1e-3) * 1e-5;
+                    high = high.max(low + least);
+                    let drawn = [f64::from(low), f64::from(high)];
+                    let drawn = self.clamped(|| object.at("window"), values, drawn);
+                    Window::Range(drawn.map(|v| v as f32))
+                }
+            },
+        };
+        let opacity = match object.text("opacity")? {
+            None | Some("constancy") => OpacityMode::Constancy,
+            Some("mass") => OpacityMode::Mass,
+            Some("none") => OpacityMode::None,
+            Some(other) => {
+                self.unknown_value(object.at("opacity"), other, "constancy");
+                OpacityMode::Constancy
+            }
+        };
+        let background = match object.text("background")? {
+            None => Background::Color([255; 3]),
+            Some("none") => Background::None,
+            Some(text) => Background::Color(color(text).unwrap_or_else(|| {
+                self.unknown_value(object.at("background"), text, "#ffffff");
+                [255; 3]
+            })),
+        };
+        Ok(Look {
+            transfer,
+            window,
+            opacity,
+            background,
+        })
+    }
+
+    fn points(&mut self, pointer: &str, items: &[Value]) -> Result<Transfer, DocumentError> {
+        let mut points = Vec::with_capacity(items.len());
+        for (i, value) in items.iter().enumerate() {
+            let object = Object::new(join(pointer, &i.to_string()), value)?;
+            self.unknown_keys(&object, &["value", "color", "opacity"]);
+            let color_srgb = match object.text("color")? {
+                None => [255; 3],
+                Some(text) => color(text).unwrap_or_else(|| {
+                    self.unknown_value(object.at("color"), text, "#ffffff");
+                    [255; 3]
+                }),
+            };
+            let limit = f64::from(f32::MAX) / 4.0;
+            points.push(TransferPoint {
+                value: self.scalar(&object, "value", 0.0, [-limit, limit])?,
+                color_srgb,
+                opacity: self.scalar(&object, "opacity", 0.0, [0.0, 1.0])?,
+            });
+        }
+        points.sort_by(|a, b| a.value.total_cmp(&b.value));
+        Ok(Transfer::Points(points))
+    }
+
+    fn camera(&mut self, object: &Object<'_>) -> Result<Camera, DocumentError> {
+        self.unknown_keys(object, &["target", "rotate", "distance", "fov"]);
+        let default = Camera::DOCUMENT_DEFAULT;
+        Ok(Camera {
+            target: self.vector(
+                object,
+                "target",
+                default.target,
+                [-MAX_COORDINATE, MAX_COORDINATE],
+            )?,
+            rotate: self.rotation(object, "rotate")?,
+            distance: self.scalar(
+                object,
+                "distance",
+                f64::from(default.distance),
+                DISTANCE_RANGE,
+            )?,
+            fov_deg: self.scalar(object, "fov", f64::from(default.fov_deg), FOV_RANGE)?,
+        })
+    }
+
+    fn step(&mut self, object: &Object<'_>) -> Result<Step, DocumentError> {
+        self.unknown_keys(object, &["title", "caption", "set", "seconds"]);
+        // Only its shape: what it sets is checked where the steps are walked.
+        object.child("set")?;
+        Ok(Step {
+            title: object.string("title")?,
+            caption: object.string("caption")?,
+            seconds: self.scalar(object, "seconds", 1.0, [0.0, MAX_SECONDS])?,
+        })
+    }
+}
+
+fn hash(object: &Object<'_>) -> Result<Option<String>, DocumentError> {
+    match object.text("sha256")? {
+        None => Ok(None),
+        Some(text) if text.len() == 64 && text.bytes().all(|b| b.is_ascii_hexdigit()) => {
+            Ok(Some(text.to_ascii_lowercase()))
+        }
+        Some(_) => Err(wrong(
+            &object.at("sha256"),
+            "64 hexadecimal digits",
+            &object.map["sha256"],
+        )),
+    }
+}
+
+/// Names or numbers of segments, numbers as text.
+fn keep(object: &Object<'_>) -> Result<Vec<String>, DocumentError> {
+    let pointer = object.at("keep");
+    object
+        .list("keep")?
+        .iter()
+        .enumerate()
+        .map(|(i, value)| match value {
+            Value::String(name) => Ok(name.clone()),
+            Value::Number(number) if number.as_u64().is_some() => Ok(number.to_string()),
+            other => Err(wrong(
+                &join(&pointer, &i.to_string()),
+                "a segment's name or number",
+                other,
+            )),
+        })
+        .collect()
+}
