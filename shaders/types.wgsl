@@ -40,3 +40,75 @@ struct Templates {
     /// x: how many of them count.
     count: vec4u,
 }
+
+/// One picture's camera and sampling.
+struct Frame {
+    /// Rows of the affine that takes view space to subject space.
+    subject_from_view_row0: vec4f,
+    subject_from_view_row1: vec4f,
+    subject_from_view_row2: vec4f,
+    /// xy: tangent of half the field of view across width and height; zw: width and height of the whole picture, pixels.
+    lens: vec4f,
+    /// xy: where in the pixel the ray goes through (0 to 1); z: offset of the first step, in steps (0 to 1); w: turn of the
+    /// ambient occlusion taps, radians.
+    jitter: vec4f,
+    /// Box of the deformed object, subject space; w: step, subject units.
+    bounds_min: vec4f,
+    /// w: reserved.
+    bounds_max: vec4f,
+    /// Pick pass only: xy is the pixel asked for.
+    pick: vec4f,
+}
+
+/// The uploaded volume.
+struct Subject {
+    /// Rows of the affine that takes rest space to texture space of the volume.
+    texture_from_rest_row0: vec4f,
+    texture_from_rest_row1: vec4f,
+    texture_from_rest_row2: vec4f,
+    /// Rows of the affine that takes rest space to texture space of the label volume.
+    label_from_rest_row0: vec4f,
+    label_from_rest_row1: vec4f,
+    label_from_rest_row2: vec4f,
+    /// xyz: voxels along each axis; w: smallest voxel spacing, subject units.
+    dims: vec4f,
+    /// xyz: label voxels along each axis; w: 1 if there are labels.
+    label_dims: vec4f,
+    /// xyz: texture coordinate at which the volume ends (1 unless it was reduced and its last voxel is a part of one).
+    texture_end: vec4f,
+    /// x: value where the texture holds 0; y: value range; the value is x + y * texel.
+    value: vec4f,
+}
+
+/// Transfer function, light and opacity.
+struct Look {
+    /// Position in the table = x * texel + y (clamped); z: how much segments tint (0 to 1); w: specular strength.
+    lut: vec4f,
+    /// x: OPACITY_ mode.
+    modes: vec4u,
+}
+
+/// How opacity follows the deformation.
+const OPACITY_CONSTANCY: u32 = 0u;
+const OPACITY_MASS: u32 = 1u;
+const OPACITY_NONE: u32 = 2u;
+
+/// The grid over the deformed space.
+struct Grid {
+    /// xyz: lowest corner, subject space.
+    origin_min: vec4f,
+    /// xyz: side lengths of a cell, subject units.
+    cell_size: vec4f,
+    /// xyz: cells along each axis; w: 1 if in use, 0: every cell is visible and every template reaches it.
+    cells: vec4u,
+}
+
+/// From the accumulated picture to the one that is shown.
+struct Resolve {
+    /// xy: scale from pixel of the output to texture coordinate of the source; zw: largest texture coordinate in use.
+    scale: vec4f,
+    /// Linear RGB of the background; w: 1 if there is one, 0 transparent.
+    background: vec4f,
+    /// x: 1 to write straight alpha instead of premultiplied.
+    flags: vec4u,
+}

@@ -1,0 +1,13 @@
+// Group 1: the uploaded volume.
+// needs: types.wgsl
+
+/// Where the textures lie and what their numbers mean.
+@group(1) @binding(0) var<uniform> subject: Subject;
+/// Scalars, r16float, normalised by the value range.
+@group(1) @binding(1) var volume: texture_3d<f32>;
+/// Linear, clamped to the edge.
+@group(1) @binding(2) var linear_sampler: sampler;
+/// Segment numbers, r8uint; one voxel of 0 if there are none.
+@group(1) @binding(3) var labels: texture_3d<u32>;
+/// Colour of each of the 256 segments, linear when read; alpha 0 where none is known.
+@group(1) @binding(4) var palette: texture_2d<f32>;

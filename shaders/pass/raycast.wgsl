@@ -1,0 +1,510 @@
+// The picture: marches the deformed space along each pixel's ray and asks at every sample where it came from.
+// Fragment shaders, uniform buffers and sampled textures only, so that WebGL2 could follow.
+// Source: Correa, section 4.5 (pipeline, normals, compositing) and section 7.5.2 (adaptive sampling).
+//
+//   eye --o--o--o-----[empty cells]-----o--o-x====      o sample, x crossing found by bisection, = opaque
+//
+// Differs from the source: formulas instead of displacement textures; one pass over the ray instead of slices; crossings of
+// A = 0 and of jumps in opacity are found by bisection; shadow and ambient occlusion.
+//
+// Written for devices that run both sides of every branch (software rasterisers): work is put behind loops that end early,
+// not behind `if`; what is needed once per ray (occlusion, shadow) comes after the loop.
+// needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/grid.wgsl march/ray.wgsl march/shade.wgsl displace/compose.wgsl
+
+/// 1 if the subject has labels; without them the look-ups are compiled away.
+override has_labels: u32 = 1u;
+/// 1 if there is a grid to leap with.
+override has_grid: u32 = 1u;
+/// Taps of ambient occlusion, once per ray. More are smoother and cost a map and two texture reads each.
+override occlusion_taps: u32 = 8u;
+/// Taps towards the key light, once per ray.
+override shadow_taps: u32 = 10u;
+
+/// Opacity of 0.01 units below which a sample is nothing.
+const VISIBLE: f32 = 0.0005;
+/// A change of opacity from sample to sample that counts as a crossing, to be found exactly.
+const JUMP: f32 = 0.04;
+/// Halvings of a step to find a crossing: 2^-7 of a step is far below a pixel.
+const BISECTIONS: u32 = 7u;
+/// Transmittance at which a ray ends: below half a level of 255.
+const OPAQUE: f32 = 0.002;
+/// Opacity is said for this length, subject units (spec/contract.md, "Transfer functions").
+const OPACITY_LENGTH: f32 = 0.01;
+/// Offset of finite differences of the map, subject units: small against every bend, large against the rounding of f32.
+const MAP_STEP: f32 = 0.0005;
+/// Columns of the Jacobian longer than this come from a jump of the map, not from tissue.
+const MAX_STRETCH: f32 = 12.0;
+/// Events on one ray at most; a guard, a ray of 1.8 units at the finest step has fewer samples.
+const MAX_EVENTS: u32 = 4096u;
+/// Contribution that makes an event the ray's surface: occlusion, shadow and picking are for that one.
+const SURFACE_WEIGHT: f32 = 0.3;
+
+/// The object at one point of the deformed space.
+struct Sample {
+    /// Rest space.
+    pos: vec3f,
+    /// Normalised value, 0 to 1.
+    texel: f32,
+    /// Of 0.01 units; 0 in a gap and outside the volume.
+    opacity: f32,
+    /// As composed.
+    continuity: f32,
+}
+
+/// What a ray found.
+struct Marched {
+    /// Linear premultiplied.
+    color: vec4f,
+    /// The ray's surface: distance from the eye, below 0 if there is none.
+    surface_t: f32,
+    /// Unit normal towards the eye, subject space.
+    surface_normal: vec3f,
+    /// Rest space.
+    surface_rest: vec3f,
+}
+
+fn map_point(pos: vec3f, mask: u32) -> Mapped {
+    if drawn_kinds == 0u {
+        return Mapped(pos, 1.0);
+    }
+    return rest_from_subject(pos, mask);
+}
+
+fn texture_from_rest(pos: vec3f) -> vec3f {
+    return apply_affine(
+        subject.texture_from_rest_row0,
+        subject.texture_from_rest_row1,
+        subject.texture_from_rest_row2,
+        pos,
+    );
+}
+
+fn texel_at(uvw: vec3f) -> f32 {
+    return textureSampleLevel(volume, linear_sampler, uvw, 0.0).x;
+}
+
+/// Linear RGB and opacity of a normalised value.
+fn transfer(texel: f32) -> vec4f {
+    return textureSampleLevel(lut, linear_sampler, vec2f(texel * look.lut.x + look.lut.y, 0.5), 0.0);
+}
+
+fn sample_mapped(mapped: Mapped) -> Sample {
+    let uvw = texture_from_rest(mapped.pos);
+    let is_inside = all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
+    let texel = texel_at(uvw);
+    let opacity = transfer(texel).a;
+    return Sample(
+        mapped.pos,
+        texel,
+        select(0.0, opacity, is_inside && mapped.continuity >= 0.0),
+        mapped.continuity,
+    );
+}
+
+/// Gradient of the normalised value in rest space, per voxel spacing: central differences along the voxel axes.
+fn gradient_at(uvw: vec3f) -> vec3f {
+    let h = vec3f(1.0) / subject.dims.xyz;
+    let difference = vec3f(
+        texel_at(uvw + vec3f(h.x, 0.0, 0.0)) - texel_at(uvw - vec3f(h.x, 0.0, 0.0)),
+        texel_at(uvw + vec3f(0.0, h.y, 0.0)) - texel_at(uvw - vec3f(0.0, h.y, 0.0)),
+        texel_at(uvw + vec3f(0.0, 0.0, h.z)) - texel_at(uvw - vec3f(0.0, 0.0, h.z)),
+    ) / (2.0 * h);
+    return apply_transposed(
+        subject.texture_from_rest_row0,
+        subject.texture_from_rest_row1,
+        subject.texture_from_rest_row2,
+        difference,
+    ) * subject.dims.w;
+}
+
+/// Colour of the segments around a point, blended over the eight label voxels, premultiplied by how much of it is known.
+fn tint_at(pos: vec3f) -> vec4f {
+    let uvw = apply_affine(
+        subject.label_from_rest_row0,
+        subject.label_from_rest_row1,
+        subject.label_from_rest_row2,
+        pos,
+    );
+    let at = uvw * subject.label_dims.xyz - 0.5;
+    let base = floor(at);
+    let part = at - base;
+    let last = vec3i(subject.label_dims.xyz) - 1;
+    var sum = vec4f(0.0);
+    for (var i = 0; i < 8; i++) {
+        let corner = vec3i(i & 1, (i >> 1) & 1, i >> 2);
+        let voxel = clamp(vec3i(base) + corner, vec3i(0), last);
+        let weight3 = select(1.0 - part, part, corner == vec3i(1));
+        let label = textureLoad(labels, voxel, 0).x;
+        let color = textureLoad(palette, vec2i(i32(label), 0), 0);
+        sum += vec4f(color.rgb * color.a, color.a) * (weight3.x * weight3.y * weight3.z);
+    }
+    return sum;
+}
+
+/// Cell of the grid at a point: x mask, y emptiness. Everything is visible without a grid.
+fn cell_at(pos: vec3f) -> vec2u {
+    if has_grid == 0u || grid.cells.w == 0u {
+        return vec2u(0xffffffffu, 0u);
+    }
+    let local = floor((pos - grid.origin_min.xyz) / grid.cell_size.xyz);
+    let cell = clamp(vec3i(local), vec3i(0), vec3i(grid.cells.xyz) - 1);
+    return textureLoad(grid_cells, cell, 0).xy;
+}
+
+/// Transmittance of a length (subject units, adjusted) of this opacity. From 0.999 on it is a wall.
+fn transmittance(opacity: f32, length: f32) -> f32 {
+    let clear = 1.0 - opacity;
+    let part = pow(max(clear, 1e-6), length / OPACITY_LENGTH);
+    return select(part, 0.0, clear < 0.0011 && length > 0.0);
+}
+
+/// Direction k of n spread over the half sphere around +z, turned by `turn`.
+fn spread(k: u32, n: u32, turn: f32) -> vec3f {
+    let z = 0.25 + 0.7 * (f32(k) + 0.5) / f32(n);
+    let around = f32(k) * 2.39996323 + turn;
+    let r = sqrt(max(0.0, 1.0 - z * z));
+    return vec3f(r * cos(around), r * sin(around), z);
+}
+
+/// How open the surroundings of a surface are, 0 to 1: taps of the opacity in the deformed space.
+fn openness(pos: vec3f, normal: vec3f) -> f32 {
+    let up = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.y) < 0.9);
+    let tangent = normalize(cross(up, normal));
+    let bitangent = cross(normal, tangent);
+    var closed = 0.0;
+    var weights = 0.0001;
+    for (var k = 0u; k < occlusion_taps; k++) {
+        let d = spread(k, occlusion_taps, frame.jitter.w);
+        // Near taps find creases, far ones the hollow under a flap.
+        let reach = mix(0.010, 0.045, f32((k * 5u) % occlusion_taps) / f32(occlusion_taps)) + subject.dims.w;
+        let at = pos + (tangent * d.x + bitangent * d.y + normal * d.z) * reach;
+        let found = sample_mapped(map_point(at, cell_at(at).x));
+        let weight = d.z;
+        closed += weight * smoothstep(0.02, 0.5, found.opacity);
+        weights += weight;
+    }
+    return 1.0 - closed / weights;
+}
+
+/// How much of the key light arrives, 0 to 1.
+fn key_light_at(pos: vec3f, normal: vec3f, key_dir: vec3f) -> f32 {
+    var open = 1.0;
+    let start = pos + normal * (1.5 * subject.dims.w);
+    let n = f32(shadow_taps);
+    for (var k = 0u; k < shadow_taps; k++) {
+        // Closer together near the surface, where a shadow has its edge.
+        let part = (f32(k) + 0.35 + 0.65 * frame.jitter.z) / n;
+        let at = start + key_dir * (0.006 + 0.30 * part * part);
+        let found = sample_mapped(map_point(at, cell_at(at).x));
+        // Farther occluders dim less: a large soft lamp.
+        open *= 1.0 - smoothstep(0.02, 0.6, found.opacity) * mix(0.62, 0.30, part);
+    }
+    return open;
+}
+
+/// Marches the ray through a point of the picture (pixels, origin top left).
+fn march(pixel: vec2f) -> Marched {
+    var result: Marched;
+    result.color = vec4f(0.0);
+    result.surface_t = -1.0;
+
+    let ndc = (pixel / frame.lens.zw) * 2.0 - 1.0;
+    let dir_in_view = normalize(vec3f(ndc.x * frame.lens.x, -ndc.y * frame.lens.y, -1.0));
+    let origin = vec3f(frame.subject_from_view_row0.w, frame.subject_from_view_row1.w, frame.subject_from_view_row2.w);
+    let dir = without_zeros(apply_linear(
+        frame.subject_from_view_row0,
+        frame.subject_from_view_row1,
+        frame.subject_from_view_row2,
+        dir_in_view,
+    ));
+    let inverse_dir = 1.0 / dir;
+    let span = ray_in_box(origin, inverse_dir, frame.bounds_min.xyz, frame.bounds_max.xyz);
+    let step = frame.bounds_min.w;
+    let t_end = span.y;
+    let forward = select(vec3f(-1.0), vec3f(1.0), dir > vec3f(0.0));
+
+    var t = max(span.x, 0.0) + step * frame.jitter.z;
+    var t_before = max(span.x, 0.0);
+    var before = Sample(vec3f(0.0), 0.0, 0.0, 1.0);
+    var stretch = 1.0;
+    var clear = 1.0;
+    var mask = 0u;
+    var color = vec3f(0.0);
+    // The ray's surface, and its share of the colour, for shadow and occlusion.
+    var surface_key = vec3f(0.0);
+    var surface_ambient = vec3f(0.0);
+    var t_cell = -1.0;
+
+    for (var event = 0u; event < MAX_EVENTS; event++) {
+        var here = before;
+        var is_event = false;
+        // Seek the next sample with something in it, or the first behind it.
+        loop {
+            // Leap from cell to cell until something may be seen. Not while inside tissue: its end must be found first.
+            loop {
+                if t >= t_end {
+                    break;
+                }
+                if has_grid == 0u || grid.cells.w == 0u {
+                    mask = 0xffffffffu;
+                    t_cell = t_end;
+                    break;
+                }
+                let local = floor((origin + dir * t - grid.origin_min.xyz) / grid.cell_size.xyz);
+                let cell = clamp(local, vec3f(0.0), vec3f(grid.cells.xyz) - 1.0);
+                let content = textureLoad(grid_cells, vec3i(cell), 0).xy;
+                let reach = max(f32(content.y), 1.0);
+                let plane = select(cell + 1.0 - reach, cell + reach, dir > vec3f(0.0));
+                let exits = (grid.origin_min.xyz + plane * grid.cell_size.xyz - origin) * inverse_dir;
+                t_cell = min(exits.x, min(exits.y, exits.z)) + step * 0.01;
+                mask = content.x;
+                if content.y == 0u || before.opacity > VISIBLE {
+                    break;
+                }
+                t = max(t_cell, t + step * 0.01);
+                t_before = t;
+                stretch = 1.0;
+            }
+            // Cells that no template reaches are sampled plainly.
+            let t_stop = min(t_cell, t_end);
+            loop {
+                if (mask != 0u && drawn_kinds != 0u) || t >= t_stop || is_event {
+                    break;
+                }
+                here = sample_mapped(Mapped(origin + dir * t, 1.0));
+                is_event = here.opacity > VISIBLE || before.opacity > VISIBLE;
+                if is_event {
+                    break;
+                }
+                t_before = t;
+                t += step;
+            }
+            if drawn_kinds != 0u {
+                loop {
+                    if mask == 0u || t >= t_stop || is_event {
+                        break;
+                    }
+                    let last = here.pos;
+                    here = sample_mapped(map_point(origin + dir * t, mask));
+                    is_event = here.opacity > VISIBLE || before.opacity > VISIBLE;
+                    if is_event {
+                        break;
+                    }
+                    // The step follows the Jacobian: compressed tissue gets more samples, stretched tissue fewer.
+                    stretch = clamp(distance(here.pos, last) / max(t - t_before, 0.25 * step), 0.6, 3.0);
+                    t_before = t;
+                    t += step / stretch;
+                }
+            }
+            if is_event || t >= t_end {
+                break;
+            }
+        }
+        if !is_event {
+            break;
+        }
+
+        // A jump of the opacity is found exactly; `edge` is the last or first sample that has something in it.
+        let is_rising = here.opacity > before.opacity;
+        let is_jump = abs(here.opacity - before.opacity) > JUMP || min(here.opacity, before.opacity) <= VISIBLE;
+        let level = 0.5 * (here.opacity + before.opacity);
+        var low = t_before;
+        var high = t;
+        var edge = before;
+        if is_rising || !is_jump {
+            edge = here;
+        }
+        var halvings = select(0u, BISECTIONS, is_jump);
+        while halvings > 0u {
+            halvings--;
+            let middle = 0.5 * (low + high);
+            let found = sample_mapped(map_point(origin + dir * middle, mask));
+            if (found.opacity > level) == is_rising {
+                high = middle;
+                if is_rising {
+                    edge = found;
+                }
+            } else {
+                low = middle;
+                if !is_rising {
+                    edge = found;
+                }
+            }
+        }
+        let t_edge = select(0.5 * (t_before + t), select(low, high, is_rising), is_jump);
+        let t_shade = select(t, t_edge, is_jump);
+        let pos = origin + dir * t_shade;
+
+        // Jacobian of the map and gradient of the continuity: one-sided differences into the material.
+        var col0 = vec3f(1.0, 0.0, 0.0);
+        var col1 = vec3f(0.0, 1.0, 0.0);
+        var col2 = vec3f(0.0, 0.0, 1.0);
+        var grad_a = vec3f(0.0);
+        if drawn_kinds != 0u {
+            var axis = select(3u, 0u, mask != 0u);
+            while axis < 3u {
+                let along = select(vec3f(0.0), forward * MAP_STEP, vec3u(0u, 1u, 2u) == vec3u(axis));
+                let moved = map_point(pos + along, mask);
+                let way = along.x + along.y + along.z;
+                let column = (moved.pos - edge.pos) / way;
+                let change = (moved.continuity - edge.continuity) / way;
+                if dot(column, column) < MAX_STRETCH * MAX_STRETCH {
+                    col0 = select(col0, column, axis == 0u);
+                    col1 = select(col1, column, axis == 1u);
+                    col2 = select(col2, column, axis == 2u);
+                }
+                grad_a = select(grad_a, vec3f(change), vec3u(0u, 1u, 2u) == vec3u(axis));
+                axis++;
+            }
+        }
+
+        // Opacity over the way since the sample before (equations 4.23 and 4.30).
+        var exponent = 1.0;
+        if look.modes.x == OPACITY_CONSTANCY {
+            exponent = length(col0 * dir.x + col1 * dir.y + col2 * dir.z);
+        } else if look.modes.x == OPACITY_MASS {
+            exponent = abs(dot(col0, cross(col1, col2)));
+        }
+        let passed = transmittance(before.opacity, (t_edge - t_before) * exponent)
+            * transmittance(here.opacity, (t - t_edge) * exponent);
+        let weight = clear * (1.0 - passed);
+
+        // Normal: gradient of the value carried over by the transposed Jacobian (equation 4.10) ...
+        let uvw = texture_from_rest(edge.pos);
+        let grad = gradient_at(uvw);
+        let carried = vec3f(dot(col0, grad), dot(col1, grad), dot(col2, grad));
+        let steepness = length(grad) * look.lut.x;
+        let to_eye = -dir;
+        var normal = carried / max(length(carried), 1e-9);
+        normal = select(-normal, normal, dot(normal, to_eye) >= 0.0);
+        var surfaceness = smoothstep(0.004, 0.03, steepness);
+        // ... blended into the gradient of the continuity near a cut (section 4.5.3), and the scan's own edge is a cut too.
+        let slope_a = length(grad_a);
+        let cut_distance = edge.continuity / max(slope_a, 1e-6);
+        var cut_weight = select(0.0, 1.0 - smoothstep(0.25, 1.0, cut_distance / subject.dims.w), slope_a > 1e-3 && slope_a < 1e6);
+        var cut_normal = -grad_a / max(slope_a, 1e-9);
+        let end_low = uvw * subject.dims.xyz;
+        let end_high = (subject.texture_end.xyz - uvw) * subject.dims.xyz;
+        let ends = min(end_low, end_high);
+        let end = min(ends.x, min(ends.y, ends.z));
+        let end_weight = 1.0 - smoothstep(0.25, 1.0, end);
+        if end_weight > cut_weight {
+            let end_axis = select(vec3f(0.0), select(vec3f(1.0), vec3f(-1.0), end_low < end_high), ends == vec3f(end));
+            let end_rest = apply_transposed(
+                subject.texture_from_rest_row0,
+                subject.texture_from_rest_row1,
+                subject.texture_from_rest_row2,
+                end_axis,
+            );
+            cut_normal = normalize(vec3f(dot(col0, end_rest), dot(col1, end_rest), dot(col2, end_rest)) + to_eye * 1e-6);
+            cut_weight = end_weight;
+        }
+        cut_normal = select(-cut_normal, cut_normal, dot(cut_normal, to_eye) >= 0.0);
+        normal = normalize(mix(normal, cut_normal, cut_weight) + to_eye * 1e-5);
+        surfaceness = max(surfaceness, cut_weight);
+
+        // Colour: the table's, tinted by the segments around.
+        let known = transfer(edge.texel);
+        var albedo = known.rgb;
+        if has_labels != 0u {
+            let tint = tint_at(edge.pos);
+            let how_much = look.lut.z * smoothstep(0.0, 0.25, tint.a);
+            albedo = mix(albedo, albedo * tint.rgb / max(tint.a, 1e-4), how_much);
+        }
+        let normal_in_view = vec3f(
+            dot(normal, vec3f(frame.subject_from_view_row0.x, frame.subject_from_view_row1.x, frame.subject_from_view_row2.x)),
+            dot(normal, vec3f(frame.subject_from_view_row0.y, frame.subject_from_view_row1.y, frame.subject_from_view_row2.y)),
+            dot(normal, vec3f(frame.subject_from_view_row0.z, frame.subject_from_view_row1.z, frame.subject_from_view_row2.z)),
+        );
+        // A cut face is wet but flat: half the shine.
+        let solid = shade_surface(albedo, normal_in_view, -dir_in_view, look.lut.w * (1.0 - 0.5 * cut_weight));
+        let haze = shade_medium(albedo);
+        let key = mix(haze.key, solid.key, surfaceness) * weight;
+        let ambient = mix(haze.ambient, solid.ambient, surfaceness) * weight;
+        color += key + ambient;
+        if result.surface_t < 0.0 && weight > SURFACE_WEIGHT * (0.25 + 0.75 * clear) {
+            result.surface_t = t_shade;
+            result.surface_normal = normal;
+            result.surface_rest = edge.pos;
+            surface_key = key;
+            surface_ambient = ambient;
+        }
+
+        clear *= passed;
+        if clear < OPAQUE {
+            clear = 0.0;
+            break;
+        }
+        before = here;
+        t_before = t;
+        t += step / clamp(exponent_for_step(col0, col1, col2, dir), 0.6, 3.0);
+    }
+
+    // Once per ray: what stands in the light of its surface.
+    if result.surface_t >= 0.0 {
+        let pos = origin + dir * result.surface_t;
+        let key_dir = apply_linear(
+            frame.subject_from_view_row0,
+            frame.subject_from_view_row1,
+            frame.subject_from_view_row2,
+            KEY_DIR,
+        );
+        let open = openness(pos + result.surface_normal * (0.5 * subject.dims.w), result.surface_normal);
+        let lit = key_light_at(pos, result.surface_normal, key_dir);
+        color -= surface_key * (1.0 - lit) + surface_ambient * (0.8 * (1.0 - open)) + surface_key * lit * (0.25 * (1.0 - open));
+    }
+    result.color = vec4f(max(color, vec3f(0.0)), 1.0 - clear);
+    return result;
+}
+
+/// |J v|: how much rest space one unit of the ray goes through.
+fn exponent_for_step(col0: vec3f, col1: vec3f, col2: vec3f, dir: vec3f) -> f32 {
+    return length(col0 * dir.x + col1 * dir.y + col2 * dir.z);
+}
+
+/// One triangle that covers everything.
+@vertex
+fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+}
+
+/// The picture, linear premultiplied.
+@fragment
+fn draw(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    return march(floor(at.xy) + frame.jitter.xy).color;
+}
+
+/// What is at one pixel, four texels wide: position and distance (below 0: nothing); normal and segment; rest position
+/// and value; accumulated opacity.
+@fragment
+fn pick(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    let found = march(frame.pick.xy);
+    let uvw = apply_affine(
+        subject.label_from_rest_row0,
+        subject.label_from_rest_row1,
+        subject.label_from_rest_row2,
+        found.surface_rest,
+    );
+    let voxel = clamp(vec3i(floor(uvw * subject.label_dims.xyz)), vec3i(0), vec3i(subject.label_dims.xyz) - 1);
+    let segment = f32(textureLoad(labels, voxel, 0).x);
+    let value = subject.value.x + subject.value.y * texel_at(texture_from_rest(found.surface_rest));
+    let ndc = (frame.pick.xy / frame.lens.zw) * 2.0 - 1.0;
+    let dir_in_view = normalize(vec3f(ndc.x * frame.lens.x, -ndc.y * frame.lens.y, -1.0));
+    let pos = apply_affine(
+        frame.subject_from_view_row0,
+        frame.subject_from_view_row1,
+        frame.subject_from_view_row2,
+        dir_in_view * found.surface_t,
+    );
+    let part = u32(at.x);
+    if part == 0u {
+        return vec4f(pos, found.surface_t);
+    }
+    if part == 1u {
+        return vec4f(found.surface_normal, segment);
+    }
+    if part == 2u {
+        return vec4f(found.surface_rest, value);
+    }
+    return found.color;
+}

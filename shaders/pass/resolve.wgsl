@@ -1,0 +1,45 @@
+// From the accumulated picture (linear, premultiplied) to the one that is shown: background, sRGB. Also enlarges the quick
+// small picture that is shown while anything moves.
+// needs: types.wgsl
+
+/// Where the source lies and what is behind it.
+@group(3) @binding(0) var<uniform> resolve: Resolve;
+/// The accumulated picture.
+@group(3) @binding(1) var source: texture_2d<f32>;
+/// Linear, clamped.
+@group(3) @binding(2) var source_sampler: sampler;
+
+/// sRGB from linear, per channel (IEC 61966-2-1).
+fn srgb_from_linear(linear: vec3f) -> vec3f {
+    let c = clamp(linear, vec3f(0.0), vec3f(1.0));
+    return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, c * 12.92, c <= vec3f(0.0031308));
+}
+
+/// Light above this is rolled off instead of cut, so that highlights keep their colour; below it nothing changes.
+const SHOULDER: f32 = 0.75;
+
+/// Rolls off what is brighter than SHOULDER; slope 1 at SHOULDER, never above 1.
+fn roll_off(c: vec3f) -> vec3f {
+    let over = max(c - SHOULDER, vec3f(0.0)) / (1.0 - SHOULDER);
+    return min(c, vec3f(SHOULDER)) + (1.0 - SHOULDER) * (over / (1.0 + over));
+}
+
+/// One triangle that covers everything.
+@vertex
+fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+}
+
+/// sRGB, premultiplied after encoding (what egui blends) or straight (what PNG holds).
+@fragment
+fn encode(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    let uv = min(at.xy * resolve.scale.xy, resolve.scale.zw);
+    let found = textureSampleLevel(source, source_sampler, uv, 0.0);
+    let alpha = clamp(found.a, 0.0, 1.0);
+    if resolve.background.w > 0.5 {
+        let object = roll_off(found.rgb / max(alpha, 1e-4)) * alpha;
+        return vec4f(srgb_from_linear(object + resolve.background.rgb * (1.0 - alpha)), 1.0);
+    }
+    let color = srgb_from_linear(roll_off(found.rgb / max(alpha, 1e-4)));
+    return vec4f(select(color * alpha, color, resolve.flags.x == 1u), alpha);
+}
