@@ -29,6 +29,7 @@ mod illustration;
 mod json;
 mod notice;
 pub mod pointer;
+mod preset;
 mod resolve;
 mod steps;
 mod tree;
@@ -45,6 +46,7 @@ pub use illustration::{
 };
 pub use json::MAX_DEPTH;
 pub use notice::{Notice, NoticeKind};
+pub use preset::{PRESETS, Preset, PresetSubject, preset, presets};
 pub use tree::Document;
 
 /// The format's number that this version reads and writes.

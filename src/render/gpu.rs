@@ -1,4 +1,5 @@
 use super::RenderError;
+use crate::data::VolumeLimits;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// How a device is chosen.
@@ -20,6 +21,8 @@ pub struct Gpu {
     /// Name, kind and driver.
     pub info: wgpu::AdapterInfo,
     health: Arc<Mutex<Health>>,
+    /// Natively, whether futures wait for the GPU (a headless program) or are polled by a frame loop (a window).
+    waits: bool,
 }
 
 #[derive(Debug, Default)]
@@ -27,6 +30,11 @@ struct Health {
     lost: Option<String>,
     errors: Vec<String>,
 }
+
+/// Two bytes each on the GPU and as much in the heap: 2 GiB each natively.
+const MAX_VOXELS_NATIVE: u64 = 1 << 30;
+/// A page has 4 GiB of heap at most, and phones have little to give: 400 MB each.
+const MAX_VOXELS_WEB: u64 = 200 << 20;
 
 /// Errors kept until somebody asks; later ones are dropped, the first one is the cause.
 const MAX_KEPT_ERRORS: usize = 8;
@@ -74,7 +82,10 @@ impl Gpu {
                 adapter: adapter.get_info().name,
                 source,
             })?;
-        Ok(Self::from_parts(device, queue, adapter.get_info()))
+        Ok(Self {
+            waits: true,
+            ..Self::from_parts(device, queue, adapter.get_info())
+        })
     }
 
     /// The device to ask an adapter for: WebGPU's default limits, and of the adapter's own only the sizes of textures
@@ -119,6 +130,24 @@ impl Gpu {
             queue,
             info,
             health,
+            waits: false,
+        }
+    }
+
+    /// True if futures of this device may block the thread while the GPU works.
+    pub(super) fn waits(&self) -> bool {
+        self.waits
+    }
+
+    /// The largest volume to keep here; larger ones are made coarser on their way in.
+    pub fn volume_limits(&self) -> VolumeLimits {
+        VolumeLimits {
+            max_dim: self.device.limits().max_texture_dimension_3d,
+            max_voxels: if cfg!(target_arch = "wasm32") {
+                MAX_VOXELS_WEB
+            } else {
+                MAX_VOXELS_NATIVE
+            },
         }
     }
 

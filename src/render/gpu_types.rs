@@ -3,6 +3,9 @@
 use crate::document::{MAX_PARAM_FLOATS, PlacedTemplate, TemplateMode};
 use glam::{Affine3A, Mat3A, Vec3A};
 
+/// Format of the transfer table.
+pub const TABLE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+
 /// Templates of one document at most (spec/contract.md, "Limits").
 pub const MAX_TEMPLATES: usize = 32;
 /// `Template::mode`: acts on what the ones before left.
@@ -146,4 +149,93 @@ impl Template {
             group,
         }
     }
+}
+
+/// One picture's camera and sampling.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Frame {
+    /// Affine from view to subject space, first row.
+    pub subject_from_view_row0: [f32; 4],
+    /// Second row.
+    pub subject_from_view_row1: [f32; 4],
+    /// Third row.
+    pub subject_from_view_row2: [f32; 4],
+    /// Tangents of half the field of view (width, height), size of the picture in pixels.
+    pub lens: [f32; 4],
+    /// Place in the pixel (x, y), offset of the first step, turn of the occlusion taps.
+    pub jitter: [f32; 4],
+    /// Box of the deformed object; w: step, subject units.
+    pub bounds_min: [f32; 4],
+    /// Box of the deformed object.
+    pub bounds_max: [f32; 4],
+    /// Pick pass only: the pixel.
+    pub pick: [f32; 4],
+}
+
+/// The uploaded volume.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Subject {
+    /// Affine from rest to texture space, first row.
+    pub texture_from_rest_row0: [f32; 4],
+    /// Second row.
+    pub texture_from_rest_row1: [f32; 4],
+    /// Third row.
+    pub texture_from_rest_row2: [f32; 4],
+    /// The same for the label volume.
+    pub label_from_rest_row0: [f32; 4],
+    /// Second row.
+    pub label_from_rest_row1: [f32; 4],
+    /// Third row.
+    pub label_from_rest_row2: [f32; 4],
+    /// Voxels; w: smallest spacing, subject units.
+    pub dims: [f32; 4],
+    /// Label voxels; w: 1 if there are labels.
+    pub label_dims: [f32; 4],
+    /// Texture coordinate at which the volume ends.
+    pub texture_end: [f32; 4],
+    /// x: value of texel 0; y: value range.
+    pub value: [f32; 4],
+}
+
+/// Transfer function, light and opacity.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Look {
+    /// Table position = x · texel + y; z: tint by segment; w: specular strength.
+    pub lut: [f32; 4],
+    /// x: `OPACITY_…`.
+    pub modes: [u32; 4],
+}
+
+/// `Look::modes[0]`: a surface keeps its opacity.
+pub const OPACITY_CONSTANCY: u32 = 0;
+/// `Look::modes[0]`: particles are conserved.
+pub const OPACITY_MASS: u32 = 1;
+/// `Look::modes[0]`: no adjustment.
+pub const OPACITY_NONE: u32 = 2;
+
+/// The grid over the deformed space.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Grid {
+    /// Lowest corner, subject space.
+    pub origin_min: [f32; 4],
+    /// Sides of a cell, subject units.
+    pub cell_size: [f32; 4],
+    /// Cells along each axis; w: 1 if in use.
+    pub cells: [u32; 4],
+}
+
+/// From the accumulated picture to the one that is shown.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Resolve {
+    /// Scale from output pixel to texture coordinate, and the largest one in use.
+    pub scale: [f32; 4],
+    /// Linear RGB; w: 1 if there is a background.
+    pub background: [f32; 4],
+    /// x: 1 for straight alpha.
+    pub flags: [u32; 4],
 }

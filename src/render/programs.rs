@@ -71,7 +71,15 @@ shader_files![
     "displace/lens.wgsl",
     "displace/move.wgsl",
     "displace/compose.wgsl",
+    "bind/frame.wgsl",
+    "bind/subject.wgsl",
+    "bind/look.wgsl",
+    "bind/grid.wgsl",
+    "march/ray.wgsl",
+    "march/shade.wgsl",
     "pass/probe.wgsl",
+    "pass/raycast.wgsl",
+    "pass/resolve.wgsl",
 ];
 
 /// The files of `rest_from_subject` (what `displace/compose.wgsl` needs, itself included), and those named after them.
@@ -107,11 +115,35 @@ macro_rules! with_displacement {
 }
 
 /// Every program. The number of programs does not depend on the document.
-pub const PROGRAMS: &[Program] = &[Program {
-    name: "probe",
-    files: with_displacement!["pass/probe.wgsl"],
-    entries: &[("probe", Stage::Compute)],
-}];
+pub const PROGRAMS: &[Program] = &[
+    Program {
+        name: "probe",
+        files: with_displacement!["pass/probe.wgsl"],
+        entries: &[("probe", Stage::Compute)],
+    },
+    Program {
+        name: "raycast",
+        files: with_displacement![
+            "bind/frame.wgsl",
+            "bind/subject.wgsl",
+            "bind/look.wgsl",
+            "bind/grid.wgsl",
+            "march/ray.wgsl",
+            "march/shade.wgsl",
+            "pass/raycast.wgsl",
+        ],
+        entries: &[
+            ("cover", Stage::Vertex),
+            ("draw", Stage::Fragment),
+            ("pick", Stage::Fragment),
+        ],
+    },
+    Program {
+        name: "resolve",
+        files: &["types.wgsl", "pass/resolve.wgsl"],
+        entries: &[("cover", Stage::Vertex), ("encode", Stage::Fragment)],
+    },
+];
 
 /// The file of a path in [`FILES`].
 pub fn file(path: &str) -> Option<&'static ShaderFile> {
@@ -175,6 +207,22 @@ pub fn program(name: &str) -> Result<&'static Program, RenderError> {
         .iter()
         .find(|program| program.name == name)
         .ok_or_else(|| RenderError::NoSuchProgram(name.to_owned()))
+}
+
+/// Makes a program's module at once. What the compiler has to say arrives later in [`Gpu::take_errors`]; tests/shaders.rs
+/// sees to it that it has nothing to say.
+///
+/// # Errors
+/// [`RenderError::NoSuchProgram`].
+pub fn module(gpu: &Gpu, name: &str) -> Result<wgpu::ShaderModule, RenderError> {
+    let program = program(name)?;
+    let assembled = Assembled::new(program)?;
+    Ok(gpu
+        .device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(program.name),
+            source: wgpu::ShaderSource::Wgsl(assembled.source.as_str().into()),
+        }))
 }
 
 /// Compiles a program. Returns its name in the table and the module.

@@ -1,0 +1,381 @@
+use super::gpu_types::{Grid, Look, TABLE_FORMAT, Templates};
+use super::look::{TABLE_SIZE, TransferTable};
+use super::programs::module;
+use super::subject::entry;
+use super::{Gpu, RenderError, SubjectInfo, uniform_buffer};
+use crate::document::OpacityMode;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Format of the accumulated picture: linear light, premultiplied, blendable everywhere.
+pub(super) const LINEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Format of the shown picture.
+pub(super) const OUTPUT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// Format of what a pick reads.
+pub(super) const PICK_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+
+/// What a ray march pipeline is made for. Few of them per document: software GPUs run every branch, so what a document
+/// does not use is left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct RaycastKey {
+    /// Bit k: templates of kind k occur.
+    pub drawn_kinds: u32,
+    /// The subject has labels and the look tints by them.
+    pub has_labels: bool,
+    /// There is a grid to leap with.
+    pub has_grid: bool,
+    /// For picking instead of drawing.
+    pub is_pick: bool,
+}
+
+/// Layouts, samplers and pipelines. Built once per device and shared.
+#[derive(Debug)]
+pub(super) struct Passes {
+    pub frame_layout: wgpu::BindGroupLayout,
+    pub subject_layout: wgpu::BindGroupLayout,
+    pub scene_layout: wgpu::BindGroupLayout,
+    pub resolve_layout: wgpu::BindGroupLayout,
+    pub linear_sampler: wgpu::Sampler,
+    resolve_pipeline: wgpu::RenderPipeline,
+    raycast_module: wgpu::ShaderModule,
+    raycast_layout: wgpu::PipelineLayout,
+    raycast_pipelines: Mutex<HashMap<RaycastKey, Arc<wgpu::RenderPipeline>>>,
+}
+
+impl Passes {
+    pub(super) fn new(gpu: &Gpu) -> Result<Self, RenderError> {
+        let device = &gpu.device;
+        let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries,
+            })
+        };
+        let frame_layout = layout("frame", &[uniform(0)]);
+        let subject_layout = layout(
+            "subject",
+            &[
+                uniform(0),
+                texture(1, wgpu::TextureViewDimension::D3, FILTERED),
+                sampler(2),
+                texture(
+                    3,
+                    wgpu::TextureViewDimension::D3,
+                    wgpu::TextureSampleType::Uint,
+                ),
+                texture(4, wgpu::TextureViewDimension::D2, FILTERED),
+            ],
+        );
+        let scene_layout = layout(
+            "scene",
+            &[
+                uniform(0),
+                uniform(1),
+                texture(2, wgpu::TextureViewDimension::D2, FILTERED),
+                uniform(3),
+                texture(
+                    4,
+                    wgpu::TextureViewDimension::D3,
+                    wgpu::TextureSampleType::Uint,
+                ),
+            ],
+        );
+        let resolve_layout = layout(
+            "resolve",
+            &[
+                uniform(0),
+                texture(1, wgpu::TextureViewDimension::D2, FILTERED),
+                sampler(2),
+            ],
+        );
+        let empty = layout("empty", &[]);
+        let raycast_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("raycast"),
+            bind_group_layouts: &[
+                Some(&frame_layout),
+                Some(&subject_layout),
+                Some(&scene_layout),
+            ],
+            immediate_size: 0,
+        });
+        let resolve_pipeline_layout =
+            device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("resolve"),
+                bind_group_layouts: &[
+                    Some(&empty),
+                    Some(&empty),
+                    Some(&empty),
+                    Some(&resolve_layout),
+                ],
+                immediate_size: 0,
+            });
+        let resolve_module = module(gpu, "resolve")?;
+        let resolve_pipeline = render_pipeline(
+            gpu,
+            &PipelineParts {
+                label: "resolve",
+                layout: &resolve_pipeline_layout,
+                module: &resolve_module,
+                entry: "encode",
+                constants: &[],
+                format: OUTPUT_FORMAT,
+                blend: None,
+            },
+        );
+        Ok(Self {
+            raycast_module: module(gpu, "raycast")?,
+            linear_sampler: device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("linear"),
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            }),
+            frame_layout,
+            subject_layout,
+            scene_layout,
+            resolve_layout,
+            resolve_pipeline,
+            raycast_layout,
+            raycast_pipelines: Mutex::new(HashMap::new()),
+        })
+    }
+
+    /// The pipeline for a key; made on first use.
+    pub(super) fn raycast(&self, gpu: &Gpu, key: RaycastKey) -> Arc<wgpu::RenderPipeline> {
+        let mut made = self
+            .raycast_pipelines
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        let pipeline = made.entry(key).or_insert_with(|| {
+            let number = |flag: bool| f64::from(u8::from(flag));
+            Arc::new(render_pipeline(
+                gpu,
+                &PipelineParts {
+                    label: "raycast",
+                    layout: &self.raycast_layout,
+                    module: &self.raycast_module,
+                    entry: if key.is_pick { "pick" } else { "draw" },
+                    constants: &[
+                        ("drawn_kinds", f64::from(key.drawn_kinds)),
+                        ("has_labels", number(key.has_labels)),
+                        ("has_grid", number(key.has_grid)),
+                    ],
+                    format: if key.is_pick {
+                        PICK_FORMAT
+                    } else {
+                        LINEAR_FORMAT
+                    },
+                    // Sample k counts 1/(k + 1): the mean so far.
+                    blend: (!key.is_pick).then_some(MEAN),
+                },
+            ))
+        });
+        Arc::clone(pipeline)
+    }
+
+    pub(super) fn resolve(&self) -> &wgpu::RenderPipeline {
+        &self.resolve_pipeline
+    }
+}
+
+const FILTERED: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: true };
+
+const MEAN_PART: wgpu::BlendComponent = wgpu::BlendComponent {
+    src_factor: wgpu::BlendFactor::Constant,
+    dst_factor: wgpu::BlendFactor::OneMinusConstant,
+    operation: wgpu::BlendOperation::Add,
+};
+const MEAN: wgpu::BlendState = wgpu::BlendState {
+    color: MEAN_PART,
+    alpha: MEAN_PART,
+};
+
+fn uniform(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    layout_entry(
+        binding,
+        wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+    )
+}
+
+fn texture(
+    binding: u32,
+    view_dimension: wgpu::TextureViewDimension,
+    sample_type: wgpu::TextureSampleType,
+) -> wgpu::BindGroupLayoutEntry {
+    layout_entry(
+        binding,
+        wgpu::BindingType::Texture {
+            sample_type,
+            view_dimension,
+            multisampled: false,
+        },
+    )
+}
+
+fn sampler(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    layout_entry(
+        binding,
+        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+    )
+}
+
+fn layout_entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty,
+        count: None,
+    }
+}
+
+struct PipelineParts<'a> {
+    label: &'a str,
+    layout: &'a wgpu::PipelineLayout,
+    module: &'a wgpu::ShaderModule,
+    entry: &'a str,
+    constants: &'a [(&'a str, f64)],
+    format: wgpu::TextureFormat,
+    blend: Option<wgpu::BlendState>,
+}
+
+fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
+    let options = wgpu::PipelineCompilationOptions {
+        constants: parts.constants,
+        ..Default::default()
+    };
+    gpu.device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(parts.label),
+            layout: Some(parts.layout),
+            vertex: wgpu::VertexState {
+                module: parts.module,
+                entry_point: Some("cover"),
+                compilation_options: options.clone(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: parts.module,
+                entry_point: Some(parts.entry),
+                compilation_options: options,
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: parts.format,
+                    blend: parts.blend,
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+}
+
+/// Group 2: templates, look and grid of one illustration.
+#[derive(Debug)]
+pub(super) struct Scene {
+    templates: wgpu::Buffer,
+    look: wgpu::Buffer,
+    table: wgpu::Texture,
+    pub bind_group: wgpu::BindGroup,
+}
+
+impl Scene {
+    /// With nothing in it and no grid.
+    pub(super) fn new(
+        gpu: &Gpu,
+        passes: &Passes,
+        grid: Option<(&wgpu::Buffer, &wgpu::TextureView)>,
+    ) -> Self {
+        let templates = uniform_buffer(gpu, "templates", &Templates::NONE);
+        let look = uniform_buffer(gpu, "look", &Look::default());
+        let table = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("transfer table"),
+            size: wgpu::Extent3d {
+                width: TABLE_SIZE as u32,
+                height: 1,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: TABLE_FORMAT,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        let no_grid = uniform_buffer(gpu, "no grid", &Grid::default());
+        let no_cells = gpu
+            .device
+            .create_texture(&wgpu::TextureDescriptor {
+                label: Some("no grid"),
+                size: wgpu::Extent3d {
+                    width: 1,
+                    height: 1,
+                    depth_or_array_layers: 1,
+                },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D3,
+                format: wgpu::TextureFormat::Rg32Uint,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            })
+            .create_view(&Default::default());
+        let (grid_buffer, grid_view) = grid.unwrap_or((&no_grid, &no_cells));
+        let table_view = table.create_view(&Default::default());
+        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("scene"),
+            layout: &passes.scene_layout,
+            entries: &[
+                entry(0, templates.as_entire_binding()),
+                entry(1, look.as_entire_binding()),
+                entry(2, wgpu::BindingResource::TextureView(&table_view)),
+                entry(3, grid_buffer.as_entire_binding()),
+                entry(4, wgpu::BindingResource::TextureView(grid_view)),
+            ],
+        });
+        Self {
+            templates,
+            look,
+            table,
+            bind_group,
+        }
+    }
+
+    pub(super) fn set_templates(&self, gpu: &Gpu, templates: &Templates) {
+        gpu.queue
+            .write_buffer(&self.templates, 0, bytemuck::bytes_of(templates));
+    }
+
+    pub(super) fn set_look(
+        &self,
+        gpu: &Gpu,
+        table: &TransferTable,
+        mode: OpacityMode,
+        info: &SubjectInfo,
+    ) {
+        gpu.queue.write_buffer(
+            &self.look,
+            0,
+            bytemuck::bytes_of(&table.uniform(mode, info)),
+        );
+        gpu.queue.write_texture(
+            self.table.as_image_copy(),
+            bytemuck::cast_slice(&table.texels()),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(8 * TABLE_SIZE as u32),
+                rows_per_image: Some(1),
+            },
+            wgpu::Extent3d {
+                width: TABLE_SIZE as u32,
+                height: 1,
+                depth_or_array_layers: 1,
+            },
+        );
+    }
+}

@@ -1,0 +1,133 @@
+use super::gpu_types::{Frame, Templates, affine_rows};
+use super::look::{TransferTable, background_uniform};
+use super::passes::{Passes, RaycastKey, Scene};
+use super::subject::SubjectTextures;
+use super::{Gpu, View};
+use crate::displace::deformed_bounds;
+use crate::document::{Illustration, OpacityMode};
+use crate::math::Aabb;
+
+/// Step at rest, in voxels of the finest spacing. Crossings are found exactly at any step; this is for thin things and haze.
+const STEP_AT_REST: f32 = 0.75;
+/// Step while anything moves.
+const STEP_MOVING: f32 = 1.25;
+
+/// An illustration on the GPU, for one subject. Brought up to date per document edit; says what changed.
+#[derive(Debug)]
+pub(super) struct Prepared {
+    pub scene: Scene,
+    pub bounds: Aabb,
+    pub background: [f32; 4],
+    templates: Templates,
+    table: Option<(TransferTable, OpacityMode)>,
+    has_labels: bool,
+    wants_grid: bool,
+}
+
+impl Prepared {
+    /// Holds nothing until [`Prepared::update`].
+    pub(super) fn new(
+        gpu: &Gpu,
+        passes: &Passes,
+        subject: &SubjectTextures,
+        wants_grid: bool,
+    ) -> Self {
+        Self {
+            scene: Scene::new(gpu, passes, None),
+            bounds: subject.bounds,
+            background: [0.0; 4],
+            templates: Templates::NONE,
+            table: None,
+            has_labels: false,
+            wants_grid,
+        }
+    }
+
+    /// Takes over what changed. True if the picture changes by it.
+    pub(super) fn update(
+        &mut self,
+        gpu: &Gpu,
+        subject: &SubjectTextures,
+        illustration: &Illustration,
+    ) -> bool {
+        let mut is_changed = false;
+        let templates = Templates::pack(&illustration.templates);
+        if templates != self.templates || self.table.is_none() {
+            self.scene.set_templates(gpu, &templates);
+            self.templates = templates;
+            self.bounds = deformed_bounds(subject.bounds, &illustration.templates);
+            is_changed = true;
+        }
+        let table = TransferTable::new(&illustration.look, &illustration.subject, &subject.info);
+        let mode = illustration.look.opacity;
+        if self
+            .table
+            .as_ref()
+            .is_none_or(|(t, m)| *t != table || *m != mode)
+        {
+            self.scene.set_look(gpu, &table, mode, &subject.info);
+            self.has_labels = subject.info.has_segments && table.tint > 0.0;
+            self.table = Some((table, mode));
+            is_changed = true;
+        }
+        let background = background_uniform(illustration.look.background);
+        if background != self.background {
+            self.background = background;
+            is_changed = true;
+        }
+        is_changed
+    }
+
+    /// Which pipeline draws it.
+    pub(super) fn key(&self, is_pick: bool) -> RaycastKey {
+        let used = self.templates.count[0] as usize;
+        RaycastKey {
+            drawn_kinds: self
+                .templates
+                .items
+                .iter()
+                .take(used)
+                .fold(0, |bits, t| bits | 1u32.checked_shl(t.kind).unwrap_or(0)),
+            has_labels: self.has_labels,
+            has_grid: self.wants_grid,
+            is_pick,
+        }
+    }
+}
+
+/// Uniform of sample `index` of a picture. The same for the same index on every machine: nothing is random.
+pub(super) fn frame_of(
+    view: &View,
+    bounds: Aabb,
+    subject: &SubjectTextures,
+    index: u32,
+    is_moving: bool,
+) -> Frame {
+    let rows = affine_rows(&view.subject_from_view);
+    let voxel = subject.uniform.dims[3];
+    let distance = (view.eye() - bounds.center()).length();
+    let factor = if is_moving { STEP_MOVING } else { STEP_AT_REST };
+    // Finer than a pixel is lost on the picture.
+    let step = (voxel * factor).max(0.6 * view.units_per_pixel(distance));
+    let k = index as f32;
+    // Rank-1 lattice with the plastic number: the first samples already lie well apart (Roberts 2018).
+    let place = |ratio: f32| (0.5 + k * ratio).fract();
+    let margin = 1.5 * step;
+    let min = bounds.min - margin;
+    let max = bounds.max + margin;
+    Frame {
+        subject_from_view_row0: rows[0],
+        subject_from_view_row1: rows[1],
+        subject_from_view_row2: rows[2],
+        lens: [view.lens.x, view.lens.y, view.size_px.x, view.size_px.y],
+        jitter: [
+            place(0.754_877_7),
+            place(0.569_840_3),
+            place(0.618_034),
+            k * 2.399_963,
+        ],
+        bounds_min: [min.x, min.y, min.z, step],
+        bounds_max: [max.x, max.y, max.z, 0.0],
+        pick: [0.0; 4],
+    }
+}
