@@ -2,7 +2,7 @@ use super::gpu_types::{Frame, Resolve};
 use super::passes::{LINEAR_FORMAT, OUTPUT_FORMAT, PICK_FORMAT, Passes};
 use super::scene::{Prepared, frame_of};
 use super::subject::{SubjectTextures, Upload, entry, reduced_to_fit};
-use super::{Gpu, Readback, RenderError, View, WorkDone, uniform_buffer};
+use super::{Gpu, Readback, RenderError, SubjectInfo, View, WorkDone, uniform_buffer};
 use crate::data::Volume;
 use crate::document::Illustration;
 use glam::{Vec2, Vec3};
@@ -83,6 +83,11 @@ impl Studio {
             subject: Arc::new(subject),
             wants_grid,
         })
+    }
+
+    /// What the volume is.
+    pub fn info(&self) -> SubjectInfo {
+        self.subject.info
     }
 
     /// The same volume, drawn with or without the grid.

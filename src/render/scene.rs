@@ -55,7 +55,7 @@ impl Prepared {
         if templates != self.templates || self.table.is_none() {
             self.scene.set_templates(gpu, &templates);
             self.templates = templates;
-            self.bounds = deformed_bounds(subject.bounds, &illustration.templates);
+            self.bounds = deformed_bounds(&illustration.templates, subject.bounds);
             is_changed = true;
         }
         let table = TransferTable::new(&illustration.look, &illustration.subject, &subject.info);
