@@ -10,6 +10,7 @@ mod picture;
 mod probe;
 pub mod programs;
 mod readback;
+mod renderer;
 mod scene;
 mod subject;
 mod view;
@@ -21,5 +22,8 @@ pub use look::{TABLE_SIZE, TransferTable, auto_preset, linear_color, linear_from
 pub use picture::{Image, PendingPick, Pick, Studio, encode_png, render_image};
 pub use probe::{Probe, Sample};
 pub use readback::{Readback, WorkDone};
+#[cfg(not(target_arch = "wasm32"))]
+pub use renderer::system_clock;
+pub use renderer::{Clock, DrawState, Renderer};
 pub use subject::{BRICK, Bricks, SubjectInfo};
 pub use view::View;

@@ -18,6 +18,8 @@ pub(super) struct Prepared {
     pub scene: Scene,
     pub bounds: Aabb,
     pub background: [f32; 4],
+    /// Output texture that a whole picture of this scene was last drawn into.
+    pub drawn_generation: u64,
     templates: Templates,
     table: Option<(TransferTable, OpacityMode)>,
     has_labels: bool,
@@ -36,6 +38,7 @@ impl Prepared {
             scene: Scene::new(gpu, passes, None),
             bounds: subject.bounds,
             background: [0.0; 4],
+            drawn_generation: 0,
             templates: Templates::NONE,
             table: None,
             has_labels: false,

@@ -1,0 +1,620 @@
+use super::gpu_types::Resolve;
+use super::passes::{LINEAR_FORMAT, OUTPUT_FORMAT, Passes};
+use super::picture::{
+    Image, March, PendingPick, Studio, Target, encode_march, encode_pick, encode_resolve, encoder,
+    frame_group, tiles_of,
+};
+use super::scene::{Prepared, frame_of};
+use super::subject::{Upload, reduced_to_fit};
+use super::{Gpu, RenderError, SubjectInfo, View, WorkDone};
+use crate::data::Volume;
+use crate::document::{Camera, Illustration};
+use glam::Vec2;
+use std::sync::Arc;
+
+/// Seconds since any fixed moment. Given by the shell, since a browser has its own clock.
+pub type Clock = fn() -> f64;
+
+/// Samples per pixel of the finished picture.
+const SAMPLES_HARDWARE: u32 = 16;
+const SAMPLES_SOFTWARE: u32 = 5;
+/// Pixels of the largest picture; beyond it the picture is enlarged. A 4K screen fits.
+const MAX_PIXELS: f32 = 9.0e6;
+/// The quick picture is at least this part of the full one along each side.
+const LEAST_SCALE: f32 = 0.14;
+/// Refining waits so long after the last change, so that a drag is not slowed down by tiles nobody will see, seconds.
+const CALM_SECONDS: f64 = 0.12;
+/// First guesses of the cost of a pixel, seconds; measured from then on.
+const FIRST_COST_SOFTWARE: f64 = 2.5e-6;
+const FIRST_COST_HARDWARE: f64 = 3.0e-8;
+
+/// What [`Renderer::draw`] left behind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrawState {
+    /// Nothing is left to do: no repaint is needed until something changes.
+    pub is_done: bool,
+    /// Of refinement, 0 to 1.
+    pub progress: f32,
+    /// There is a picture in [`Renderer::output_view`].
+    pub has_picture: bool,
+    /// A volume is on its way to the GPU: fraction done.
+    pub uploading: Option<f32>,
+}
+
+/// Draws progressively: at once at the resolution that holds the frame rate, then, tile by tile, the full picture.
+///
+/// Call [`Renderer::draw`] once per frame. It never waits for the GPU, keeps at most one submission under way, and hands
+/// in no more work than fits the time budget, measured on this device as it goes.
+#[derive(Debug)]
+pub struct Renderer {
+    gpu: Gpu,
+    clock: Clock,
+    passes: Option<Arc<Passes>>,
+    studio: Option<Studio>,
+    volume: Option<Arc<Volume>>,
+    upload: Option<(Upload, Arc<Volume>)>,
+    notices: Vec<String>,
+    illustration: Option<Illustration>,
+    prepared: Option<Prepared>,
+    targets: Option<Targets>,
+    stage: Stage,
+    changed_at: f64,
+    pace: Pace,
+    under_way: Option<UnderWay>,
+    generation: u64,
+}
+
+#[derive(Debug)]
+struct Targets {
+    size: [u32; 2],
+    linear: Target,
+    output: Target,
+    tiles: Vec<[u32; 4]>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Stage {
+    /// What is shown is not what should be.
+    Stale,
+    /// The quick picture is out; sample `sample` is drawn from tile `tile` on.
+    Refining {
+        sample: u32,
+        tile: usize,
+    },
+    Done,
+}
+
+/// Seconds per pixel, measured.
+#[derive(Clone, Copy, Debug)]
+struct Pace {
+    moving: f64,
+    rest: f64,
+}
+
+#[derive(Debug)]
+struct UnderWay {
+    done: WorkDone,
+    started: f64,
+    pixels: u32,
+    is_moving: bool,
+    checks: u32,
+}
+
+impl Renderer {
+    /// Cheap: programs are compiled when the first picture is drawn.
+    pub fn new(gpu: Gpu, clock: Clock) -> Self {
+        let cost = if gpu.is_software() {
+            FIRST_COST_SOFTWARE
+        } else {
+            FIRST_COST_HARDWARE
+        };
+        Self {
+            gpu,
+            clock,
+            passes: None,
+            studio: None,
+            volume: None,
+            upload: None,
+            notices: Vec::new(),
+            illustration: None,
+            prepared: None,
+            targets: None,
+            stage: Stage::Stale,
+            changed_at: f64::NEG_INFINITY,
+            pace: Pace {
+                moving: cost,
+                rest: 1.5 * cost,
+            },
+            under_way: None,
+            generation: 0,
+        }
+    }
+
+    /// The device it draws on.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Shows another volume as soon as it is on the GPU ([`Renderer::draw`] brings it there piece by piece); until then
+    /// the old one stays. The volume is kept, so that a lost device can be recovered from.
+    ///
+    /// # Errors
+    /// [`RenderError::TooLarge`] if the volume is not whole.
+    pub fn set_subject(&mut self, volume: Arc<Volume>) -> Result<(), RenderError> {
+        self.gpu.check()?;
+        let fitting = match reduced_to_fit(&self.gpu, &volume)? {
+            Some((small, notice)) => {
+                self.notices.push(notice);
+                Arc::new(small)
+            }
+            None => Arc::clone(&volume),
+        };
+        self.upload = Some((Upload::new(&self.gpu, &fitting)?, fitting));
+        self.volume = Some(volume);
+        Ok(())
+    }
+
+    /// Shows this illustration from the next [`Renderer::draw`] on. Cheap; call it every frame.
+    pub fn set_illustration(&mut self, illustration: &Illustration) {
+        if let Some(shown) = &self.illustration
+            && shown.templates == illustration.templates
+            && shown.look == illustration.look
+            && shown.camera == illustration.camera
+            && shown.subject == illustration.subject
+        {
+            return;
+        }
+        self.illustration = Some(illustration.clone());
+        self.touch();
+    }
+
+    /// Looks from elsewhere than the illustration says, until that is set again.
+    pub fn set_camera(&mut self, camera: &Camera) {
+        if let Some(shown) = &mut self.illustration
+            && shown.camera != *camera
+        {
+            shown.camera = *camera;
+            self.touch();
+        }
+    }
+
+    fn touch(&mut self) {
+        self.stage = Stage::Stale;
+        self.changed_at = (self.clock)();
+    }
+
+    /// One frame's work: `size_px` is the size of the picture in device pixels, `budget_seconds` what the GPU may spend on
+    /// it. `is_moving` says that more changes are about to come (a drag, an animation): then nothing is refined.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`] (then [`Renderer::recover`]), [`RenderError::Refused`].
+    pub fn draw(
+        &mut self,
+        size_px: [u32; 2],
+        budget_seconds: f32,
+        is_moving: bool,
+    ) -> Result<DrawState, RenderError> {
+        self.gpu.check()?;
+        if let Err(why) = self.gpu.device.poll(wgpu::PollType::Poll) {
+            return Err(RenderError::Refused {
+                pass: "frame",
+                message: why.to_string(),
+            });
+        }
+        if let Some(message) = self.gpu.take_errors().into_iter().next() {
+            return Err(RenderError::Refused {
+                pass: "picture",
+                message,
+            });
+        }
+        let budget = f64::from(budget_seconds).max(1e-3);
+        self.advance_upload(budget)?;
+        self.measure();
+        let size = self.fitting_size(size_px);
+        if self.targets.as_ref().is_none_or(|t| t.size != size) && size.iter().all(|&s| s > 0) {
+            self.make_targets(size);
+        }
+        if self.prepare() && self.targets.is_some() {
+            // Two submissions in line would show every change a frame late; a resize cannot wait, its picture is empty.
+            let is_blank = self.generation_is_blank();
+            if self.under_way.is_none() || is_blank {
+                match self.stage {
+                    Stage::Stale => self.draw_quick(budget),
+                    Stage::Refining { sample, tile } if !is_moving || self.is_calm() => {
+                        self.refine(sample, tile, budget);
+                    }
+                    Stage::Refining { .. } | Stage::Done => {}
+                }
+            }
+        }
+        Ok(self.state())
+    }
+
+    fn is_calm(&self) -> bool {
+        (self.clock)() - self.changed_at > CALM_SECONDS
+    }
+
+    /// The picture: Rgba8Unorm, sRGB-encoded, premultiplied after encoding. Made anew when the size changes; see
+    /// [`Renderer::output_generation`].
+    pub fn output_view(&self) -> Option<&wgpu::TextureView> {
+        self.targets.as_ref().map(|t| &t.output.view)
+    }
+
+    /// Counts the textures that [`Renderer::output_view`] has had.
+    pub fn output_generation(&self) -> u64 {
+        self.generation
+    }
+
+    /// Size of the picture, pixels; smaller than asked for where a screen has more pixels than can be drawn in time.
+    pub fn output_size(&self) -> Option<[u32; 2]> {
+        self.targets.as_ref().map(|t| t.size)
+    }
+
+    /// What the subject is, once one is on the GPU.
+    pub fn subject_info(&self) -> Option<SubjectInfo> {
+        self.studio.as_ref().map(|s| s.info())
+    }
+
+    /// Notices since the last call (a volume was made coarser, …).
+    pub fn take_notices(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notices)
+    }
+
+    /// What is under a pixel of the picture as it is set now (origin top left, of a picture of `size_px`).
+    ///
+    /// # Errors
+    /// [`RenderError::NoSubject`], [`RenderError::DeviceLost`].
+    pub fn pick(&mut self, pixel: Vec2, size_px: [u32; 2]) -> Result<PendingPick, RenderError> {
+        self.gpu.check()?;
+        if !self.prepare() {
+            return Err(RenderError::NoSubject);
+        }
+        match (&self.studio, &self.prepared, &self.illustration) {
+            (Some(studio), Some(prepared), Some(illustration)) => Ok(encode_pick(
+                &self.gpu,
+                &studio.passes,
+                &studio.subject,
+                prepared,
+                &View::new(&illustration.camera, size_px),
+                pixel,
+                studio.subject.uniform.label_dims[3] > 0.5,
+            )),
+            _ => Err(RenderError::NoSubject),
+        }
+    }
+
+    /// A finished picture of the subject that is on the GPU, beside what is shown: for PNG export and icons. The future
+    /// owns what it needs and may be polled once per frame.
+    pub fn render_image(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        samples: u32,
+    ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        let started = self
+            .studio
+            .as_ref()
+            .map(|studio| studio.render_image(illustration, size_px, samples));
+        async move {
+            match started {
+                Some(picture) => picture.await,
+                None => Err(RenderError::NoSubject),
+            }
+        }
+    }
+
+    /// Goes on with another device after the old one was lost: the kept volume is uploaded again, and the same picture
+    /// comes back.
+    ///
+    /// # Errors
+    /// [`RenderError::TooLarge`] if the new device takes less.
+    pub fn recover(&mut self, gpu: Gpu) -> Result<(), RenderError> {
+        let volume = self.volume.take();
+        let illustration = self.illustration.take();
+        let generation = self.generation;
+        *self = Self {
+            generation,
+            illustration,
+            ..Self::new(gpu, self.clock)
+        };
+        match volume {
+            Some(volume) => self.set_subject(volume),
+            None => Ok(()),
+        }
+    }
+
+    /// Brings the next slabs to the GPU.
+    fn advance_upload(&mut self, budget: f64) -> Result<(), RenderError> {
+        let Some((mut upload, volume)) = self.upload.take() else {
+            return Ok(());
+        };
+        let start = (self.clock)();
+        loop {
+            if upload.advance(&self.gpu, &volume) {
+                let passes = self.passes()?;
+                let subject = upload.finish(&self.gpu, &passes, &volume);
+                self.studio = Some(Studio {
+                    gpu: self.gpu.clone(),
+                    passes,
+                    subject: Arc::new(subject),
+                    wants_grid: true,
+                });
+                self.prepared = None;
+                self.touch();
+                return Ok(());
+            }
+            if (self.clock)() - start > budget {
+                // Hands over what has piled up.
+                self.gpu.queue.submit([]);
+                self.upload = Some((upload, volume));
+                return Ok(());
+            }
+        }
+    }
+
+    fn passes(&mut self) -> Result<Arc<Passes>, RenderError> {
+        if let Some(passes) = &self.passes {
+            return Ok(Arc::clone(passes));
+        }
+        let passes = Arc::new(Passes::new(&self.gpu)?);
+        self.passes = Some(Arc::clone(&passes));
+        Ok(passes)
+    }
+
+    /// Learns from the last submission how long a pixel takes.
+    fn measure(&mut self) {
+        let Some(work) = &mut self.under_way else {
+            return;
+        };
+        work.checks += 1;
+        if !work.done.is_done() {
+            return;
+        }
+        let cost = if work.is_moving {
+            &mut self.pace.moving
+        } else {
+            &mut self.pace.rest
+        };
+        let measured = ((self.clock)() - work.started) / f64::from(work.pixels.max(1));
+        // Done by the next frame: it may have taken less than could be seen, so more is tried.
+        *cost = if work.checks == 1 {
+            (*cost * 0.6).min(measured.max(*cost * 0.3))
+        } else {
+            0.5 * (*cost + measured)
+        };
+        self.under_way = None;
+    }
+
+    fn fitting_size(&self, size: [u32; 2]) -> [u32; 2] {
+        let max_side = self.gpu.device.limits().max_texture_dimension_2d as f32;
+        let [width, height] = size.map(|side| side as f32);
+        let scale = (MAX_PIXELS / (width * height).max(1.0))
+            .sqrt()
+            .min(max_side / width.max(height).max(1.0))
+            .min(1.0);
+        if scale >= 1.0 {
+            size
+        } else {
+            [width, height].map(|side| (side * scale).floor().max(1.0) as u32)
+        }
+    }
+
+    fn make_targets(&mut self, size: [u32; 2]) {
+        self.targets = Some(Targets {
+            size,
+            linear: Target::new(&self.gpu, "linear", size, LINEAR_FORMAT),
+            output: Target::new(&self.gpu, "output", size, OUTPUT_FORMAT),
+            tiles: tiles_of(size),
+        });
+        self.generation += 1;
+        self.stage = Stage::Stale;
+    }
+
+    /// True while a new output texture has nothing in it.
+    fn generation_is_blank(&self) -> bool {
+        self.stage == Stage::Stale && self.drawn_generation() != self.generation
+    }
+
+    fn drawn_generation(&self) -> u64 {
+        match &self.prepared {
+            Some(prepared) => prepared.drawn_generation,
+            None => 0,
+        }
+    }
+
+    /// Brings the scene up to date. False if there is nothing to draw yet.
+    fn prepare(&mut self) -> bool {
+        let (Some(studio), Some(illustration)) = (&self.studio, &self.illustration) else {
+            return false;
+        };
+        let prepared = self.prepared.get_or_insert_with(|| {
+            Prepared::new(
+                &self.gpu,
+                &studio.passes,
+                &studio.subject,
+                studio.wants_grid,
+            )
+        });
+        if prepared.update(&self.gpu, &studio.subject, illustration) {
+            self.stage = Stage::Stale;
+        }
+        true
+    }
+
+    /// The whole picture at the resolution that fits the budget.
+    fn draw_quick(&mut self, budget: f64) {
+        let (Some(studio), Some(illustration), Some(targets), Some(prepared)) = (
+            &self.studio,
+            &self.illustration,
+            &self.targets,
+            &mut self.prepared,
+        ) else {
+            return;
+        };
+        let [width, height] = targets.size.map(|side| side as f32);
+        let affordable = budget / self.pace.moving;
+        // In sixteenths, so that the resolution does not flicker from frame to frame.
+        let scale = (affordable as f32 / (width * height))
+            .sqrt()
+            .clamp(LEAST_SCALE, 1.0);
+        let scale = ((scale * 16.0).floor() / 16.0).max(LEAST_SCALE);
+        let small = targets
+            .size
+            .map(|side| ((side as f32 * scale).round() as u32).clamp(1, side));
+        let view = View::new(&illustration.camera, small);
+        let frame = frame_of(&view, prepared.bounds, &studio.subject, 0, true);
+        let mut encoder = encoder(&self.gpu);
+        encode_march(
+            &mut encoder,
+            &March {
+                target: &targets.linear.view,
+                pipeline: &studio.passes.raycast(&self.gpu, prepared.key(false)),
+                frame: &frame_group(&self.gpu, &studio.passes, &frame),
+                subject: &studio.subject.bind_group,
+                scene: &prepared.scene.bind_group,
+                viewport: small,
+                tiles: &[[0, 0, small[0], small[1]]],
+                weight: 1.0,
+            },
+        );
+        let [small_width, small_height] = small.map(|side| side as f32);
+        let resolve = Resolve {
+            scale: [
+                small_width / (width * width),
+                small_height / (height * height),
+                (small_width - 0.5) / width,
+                (small_height - 0.5) / height,
+            ],
+            background: prepared.background,
+            flags: [0; 4],
+        };
+        encode_resolve(
+            &self.gpu,
+            &studio.passes,
+            &mut encoder,
+            &resolve,
+            &targets.linear.view,
+            &targets.output.view,
+            &[[0, 0, targets.size[0], targets.size[1]]],
+        );
+        self.gpu.queue.submit([encoder.finish()]);
+        prepared.drawn_generation = self.generation;
+        self.stage = Stage::Refining { sample: 0, tile: 0 };
+        self.follow(small[0] * small[1], true);
+    }
+
+    /// The next tiles of the full picture, as many as fit the budget.
+    fn refine(&mut self, sample: u32, first: usize, budget: f64) {
+        let (Some(studio), Some(illustration), Some(targets), Some(prepared)) = (
+            &self.studio,
+            &self.illustration,
+            &self.targets,
+            &self.prepared,
+        ) else {
+            return;
+        };
+        let affordable = budget / self.pace.rest;
+        let mut pixels = 0;
+        let mut end = first;
+        while let Some(&[_, _, w, h]) = targets.tiles.get(end) {
+            if end > first && f64::from(pixels + w * h) > affordable {
+                break;
+            }
+            pixels += w * h;
+            end += 1;
+        }
+        let tiles = targets.tiles.get(first..end).unwrap_or_default();
+        let view = View::new(&illustration.camera, targets.size);
+        let frame = frame_of(&view, prepared.bounds, &studio.subject, sample, false);
+        let mut encoder = encoder(&self.gpu);
+        encode_march(
+            &mut encoder,
+            &March {
+                target: &targets.linear.view,
+                pipeline: &studio.passes.raycast(&self.gpu, prepared.key(false)),
+                frame: &frame_group(&self.gpu, &studio.passes, &frame),
+                subject: &studio.subject.bind_group,
+                scene: &prepared.scene.bind_group,
+                viewport: targets.size,
+                tiles,
+                weight: 1.0 / (sample + 1) as f32,
+            },
+        );
+        let [width, height] = targets.size.map(|side| side as f32);
+        let resolve = Resolve {
+            scale: [1.0 / width, 1.0 / height, 1.0, 1.0],
+            background: prepared.background,
+            flags: [0; 4],
+        };
+        encode_resolve(
+            &self.gpu,
+            &studio.passes,
+            &mut encoder,
+            &resolve,
+            &targets.linear.view,
+            &targets.output.view,
+            tiles,
+        );
+        self.gpu.queue.submit([encoder.finish()]);
+        self.stage = if end < targets.tiles.len() {
+            Stage::Refining { sample, tile: end }
+        } else if sample + 1 < self.samples() {
+            Stage::Refining {
+                sample: sample + 1,
+                tile: 0,
+            }
+        } else {
+            Stage::Done
+        };
+        self.follow(pixels, false);
+    }
+
+    fn follow(&mut self, pixels: u32, is_moving: bool) {
+        self.under_way = Some(UnderWay {
+            done: WorkDone::start(&self.gpu),
+            started: (self.clock)(),
+            pixels,
+            is_moving,
+            checks: 0,
+        });
+    }
+
+    fn samples(&self) -> u32 {
+        if self.gpu.is_software() {
+            SAMPLES_SOFTWARE
+        } else {
+            SAMPLES_HARDWARE
+        }
+    }
+
+    fn state(&self) -> DrawState {
+        let has_scene = self.studio.is_some() && self.illustration.is_some();
+        let progress = match (self.stage, &self.targets) {
+            (Stage::Done, _) => 1.0,
+            (Stage::Refining { sample, tile }, Some(targets)) => {
+                (sample as f32 + tile as f32 / targets.tiles.len().max(1) as f32)
+                    / self.samples() as f32
+            }
+            _ => 0.0,
+        };
+        DrawState {
+            is_done: self.upload.is_none()
+                && self.under_way.is_none()
+                && (!has_scene || self.stage == Stage::Done || self.targets.is_none()),
+            progress,
+            has_picture: self.targets.is_some() && self.drawn_generation() == self.generation,
+            uploading: self.upload.as_ref().map(|(upload, _)| upload.progress()),
+        }
+    }
+}
+
+/// A clock for programs with `std::time` (natively).
+#[cfg(not(target_arch = "wasm32"))]
+pub fn system_clock() -> f64 {
+    use std::sync::OnceLock;
+    static START: OnceLock<std::time::Instant> = OnceLock::new();
+    START
+        .get_or_init(std::time::Instant::now)
+        .elapsed()
+        .as_secs_f64()
+}
