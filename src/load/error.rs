@@ -100,7 +100,9 @@ pub enum LoadError {
         found: u64,
     },
     /// There are more bytes than the header explains, in a format where that means a wrong picture.
-    #[error("{extra} bytes more than the header explains: the voxels would be shifted ({name})")]
+    #[error(
+        "at least {extra} bytes more than the header explains: the voxels would be shifted ({name})"
+    )]
     TooLong {
         /// The file.
         name: String,

@@ -26,7 +26,10 @@ mod describe;
 mod error;
 mod files;
 mod geometry;
+mod metaimage;
 mod nifti;
+mod nrrd;
+mod place;
 mod report;
 mod stream;
 mod voxels;
@@ -45,6 +48,7 @@ pub use voxels::ElementType;
 
 use crate::data::VolumeSink;
 use files::open;
+use place::Source;
 use stream::{Packing, SharedHash};
 
 /// Bytes looked at to tell what a file is.
@@ -123,17 +127,26 @@ impl Reading<'_> {
                 let pair = nifti::read(&mut stream, name, self.options, self.sink, self.report)?;
                 self.report.bytes_read += stream.raw_count();
                 drop(stream);
-                if let Some(header) = pair {
-                    let images = files::siblings(name, "hdr", "img").unwrap_or_default();
-                    let image = files::first_there(self.files, name, &images)?;
-                    let mut stream = open(self.files, &image, name, Some(&self.hash))?;
-                    if stream.peek(2)? == [0x1f, 0x8b] && image.to_lowercase().ends_with(".gz") {
-                        stream.unpack(Packing::Gzip);
-                    }
-                    nifti::read_voxels(&mut stream, &header, self.options, self.sink, self.report)?;
-                    self.report.bytes_read += stream.raw_count();
+                match pair {
+                    None => Ok(()),
+                    Some(header) => self.read_image_half(name, &header),
                 }
-                Ok(())
+            }
+            kind @ (Kind::Nrrd | Kind::MetaImage) => {
+                let header = if matches!(kind, Kind::Nrrd) {
+                    nrrd::read_header(&mut stream, self.options, self.report)?
+                } else {
+                    metaimage::read_header(&mut stream, self.options, self.report)?
+                };
+                match header.files.clone() {
+                    None => place::read(Source::Attached(stream), &header, self.sink, self.report),
+                    Some(names) => {
+                        stream.finish(|_| true)?;
+                        self.report.bytes_read += stream.raw_count();
+                        drop(stream);
+                        self.read_other_files(name, names, &header)
+                    }
+                }
             }
             Kind::Empty => Err(LoadError::Empty {
                 name: name.to_owned(),
@@ -153,10 +166,39 @@ impl Reading<'_> {
             }),
         }
     }
+
+    fn read_other_files(
+        &mut self,
+        name: &str,
+        names: Vec<String>,
+        header: &place::Header,
+    ) -> Result<(), LoadError> {
+        let source = Source::Files {
+            files: self.files,
+            header_name: name.to_owned(),
+            names,
+            hash: self.hash.clone(),
+        };
+        place::read(source, header, self.sink, self.report)
+    }
+
+    fn read_image_half(&mut self, name: &str, header: &nifti::Header) -> Result<(), LoadError> {
+        let images = files::siblings(name, "hdr", "img").unwrap_or_default();
+        let image = files::first_there(self.files, name, &images)?;
+        let mut stream = open(self.files, &image, name, Some(&self.hash))?;
+        if image.to_lowercase().ends_with(".gz") && stream.peek(2)? == [0x1f, 0x8b] {
+            stream.unpack(Packing::Gzip);
+        }
+        nifti::read_voxels(&mut stream, header, self.options, self.sink, self.report)?;
+        self.report.bytes_read += stream.raw_count();
+        Ok(())
+    }
 }
 
 enum Kind {
     Nifti,
+    Nrrd,
+    MetaImage,
     Empty,
     /// Known, and not read: in words.
     Refused(&'static str),
@@ -176,6 +218,12 @@ fn sniff(start: &[u8], name: &str) -> Kind {
     }
     if nifti::is_header(start) || named(".nii") || named(".hdr") {
         return Kind::Nifti;
+    }
+    if nrrd::is_header(start) {
+        return Kind::Nrrd;
+    }
+    if metaimage::is_header(start) || named(".mha") || named(".mhd") {
+        return Kind::MetaImage;
     }
     if start.get(128..132) == Some(b"DICM") || named(".dcm") || named(".ima") {
         return Kind::Refused(

@@ -66,6 +66,15 @@ impl ElementType {
         }
     }
 
+    /// Bytes of one voxel as kept.
+    pub(crate) fn kept_bytes(self) -> u64 {
+        match self.kept_as() {
+            Voxels::U8(_) => 1,
+            Voxels::I16(_) | Voxels::U16(_) => 2,
+            Voxels::F32(_) => 4,
+        }
+    }
+
     /// Largest magnitude an element can have, capped at the limit for values.
     pub(crate) fn largest(self) -> f32 {
         match self {
@@ -158,8 +167,135 @@ impl Tally {
     }
 }
 
-/// Reads one volume and hands it to the sink slab by slab. Holds no more than one slab, and of a slab no more than the
-/// bytes that really came.
+/// Collects voxels from one source after the other and hands them to the sink slab by slab. Holds no more than one slab,
+/// and of a slab no more than the bytes that really came.
+pub(crate) struct Slabs<'a> {
+    layout: Layout,
+    sink: &'a mut dyn VolumeSink,
+    tally: Tally,
+    chunk: Vec<u8>,
+    slab: Voxels,
+    /// Voxels that the slab in hand still lacks.
+    slab_left: u64,
+    /// Voxels of whole slabs.
+    slab_voxels: u64,
+    /// Voxels that have come.
+    done: u64,
+    total: u64,
+}
+
+impl<'a> Slabs<'a> {
+    /// For a volume of this layout, whose header the sink has.
+    pub(crate) fn new(layout: &Layout, sink: &'a mut dyn VolumeSink) -> Self {
+        let voxel_bytes = layout.element.byte_count() * layout.components as usize;
+        let slice = u64::from(layout.dims.x) * u64::from(layout.dims.y);
+        let slices = (SLAB_BYTES / (slice * layout.element.kept_bytes()).max(1))
+            .clamp(1, u64::from(layout.dims.z));
+        Self {
+            layout: *layout,
+            sink,
+            tally: Tally::default(),
+            chunk: vec![0; (CHUNK_BYTES / voxel_bytes).max(1) * voxel_bytes],
+            slab: layout.element.kept_as(),
+            slab_left: 0,
+            slab_voxels: slice * slices,
+            done: 0,
+            total: slice.saturating_mul(u64::from(layout.dims.z)),
+        }
+    }
+
+    /// Takes so many voxels from a source, or what is still missing.
+    pub(crate) fn pull(
+        &mut self,
+        source: &mut dyn VoxelSource,
+        voxels: u64,
+    ) -> Result<(), LoadError> {
+        let voxel_bytes = self.layout.element.byte_count() * self.layout.components as usize;
+        let mut left = voxels.min(self.total - self.done);
+        while left > 0 {
+            if self.slab_left == 0 {
+                self.slab_left = self.slab_voxels.min(self.total - self.done);
+                let first = self
+                    .slab_left
+                    .min(SLAB_BYTES / self.layout.element.kept_bytes());
+                self.slab = self.layout.element.kept_as();
+                reserve(&mut self.slab, first as usize);
+            }
+            let most = (self.chunk.len() / voxel_bytes) as u64;
+            let count = left.min(self.slab_left).min(most);
+            let want = count as usize * voxel_bytes;
+            let got = source.fill(&mut self.chunk[..want])?;
+            if got < want {
+                return Err(LoadError::Truncated {
+                    name: source.name(),
+                    expected: self.layout.byte_count().unwrap_or(u64::MAX),
+                    found: self.done.saturating_mul(voxel_bytes as u64) + got as u64,
+                });
+            }
+            decode(
+                &mut self.slab,
+                &self.chunk[..want],
+                &self.layout,
+                &mut self.tally,
+            );
+            left -= count;
+            self.slab_left -= count;
+            self.done += count;
+            if self.slab_left == 0 {
+                let slab = std::mem::replace(&mut self.slab, self.layout.element.kept_as());
+                self.tally.watch_constant(&slab);
+                self.sink.scalars(slab);
+                let done = (self.done as f64 / self.total as f64) as f32;
+                if !self.sink.progress(source.fraction().unwrap_or(done)) {
+                    return Err(LoadError::Cancelled);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Tells the sink how far it is; false if it wants no more.
+    pub(crate) fn progress(&mut self) -> bool {
+        self.sink
+            .progress((self.done as f64 / self.total as f64) as f32)
+    }
+
+    /// Reports what was changed on the way.
+    pub(crate) fn finish(self, header: &Volume, report: &mut LoadReport) {
+        let tally = self.tally;
+        for (count, warning) in [
+            (
+                tally.not_finite,
+                Warning::NotFinite {
+                    count: tally.not_finite,
+                },
+            ),
+            (
+                tally.clipped,
+                Warning::Clipped {
+                    count: tally.clipped,
+                },
+            ),
+            (
+                tally.rounded,
+                Warning::Rounded {
+                    count: tally.rounded,
+                },
+            ),
+        ] {
+            if count > 0 {
+                report.warn(warning);
+            }
+        }
+        if let Some(stored) = tally.constant {
+            report.warn(Warning::Constant {
+                value: stored * header.slope + header.intercept,
+            });
+        }
+    }
+}
+
+/// Reads one volume from one source.
 pub(crate) fn stream_voxels(
     source: &mut dyn VoxelSource,
     layout: &Layout,
@@ -167,86 +303,9 @@ pub(crate) fn stream_voxels(
     sink: &mut dyn VolumeSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
-    let mut tally = Tally::default();
-    let result = stream_slabs(source, layout, sink, &mut tally);
-    for (count, warning) in [
-        (
-            tally.not_finite,
-            Warning::NotFinite {
-                count: tally.not_finite,
-            },
-        ),
-        (
-            tally.clipped,
-            Warning::Clipped {
-                count: tally.clipped,
-            },
-        ),
-        (
-            tally.rounded,
-            Warning::Rounded {
-                count: tally.rounded,
-            },
-        ),
-    ] {
-        if count > 0 {
-            report.warn(warning);
-        }
-    }
-    if let Some(stored) = tally.constant.filter(|_| result.is_ok()) {
-        report.warn(Warning::Constant {
-            value: stored * header.slope + header.intercept,
-        });
-    }
-    result
-}
-
-fn stream_slabs(
-    source: &mut dyn VoxelSource,
-    layout: &Layout,
-    sink: &mut dyn VolumeSink,
-    tally: &mut Tally,
-) -> Result<(), LoadError> {
-    let voxel_bytes = layout.element.byte_count() * layout.components as usize;
-    let expected = layout.byte_count().unwrap_or(u64::MAX);
-    let slice_voxels = u64::from(layout.dims.x) * u64::from(layout.dims.y);
-    let kept_bytes = match layout.element.kept_as() {
-        Voxels::U8(_) => 1,
-        Voxels::I16(_) | Voxels::U16(_) => 2,
-        Voxels::F32(_) => 4,
-    };
-    let slab_slices =
-        (SLAB_BYTES / (slice_voxels * kept_bytes).max(1)).clamp(1, u64::from(layout.dims.z));
-    let mut chunk = vec![0; (CHUNK_BYTES / voxel_bytes).max(1) * voxel_bytes];
-    let mut slices_done = 0;
-    let mut bytes_done: u64 = 0;
-    while slices_done < u64::from(layout.dims.z) {
-        let slices = slab_slices.min(u64::from(layout.dims.z) - slices_done);
-        let mut left = slices * slice_voxels;
-        let mut slab = layout.element.kept_as();
-        reserve(&mut slab, left.min(SLAB_BYTES / kept_bytes) as usize);
-        while left > 0 {
-            let want = (left.saturating_mul(voxel_bytes as u64)).min(chunk.len() as u64) as usize;
-            let got = source.fill(&mut chunk[..want])?;
-            bytes_done += got as u64;
-            if got < want {
-                return Err(LoadError::Truncated {
-                    name: source.name(),
-                    expected,
-                    found: bytes_done,
-                });
-            }
-            decode(&mut slab, &chunk[..want], layout, tally);
-            left -= (want / voxel_bytes) as u64;
-        }
-        tally.watch_constant(&slab);
-        sink.scalars(slab);
-        slices_done += slices;
-        let done = slices_done as f32 / layout.dims.z as f32;
-        if !sink.progress(source.fraction().unwrap_or(done)) {
-            return Err(LoadError::Cancelled);
-        }
-    }
+    let mut slabs = Slabs::new(layout, sink);
+    slabs.pull(source, u64::MAX)?;
+    slabs.finish(header, report);
     Ok(())
 }
 
