@@ -1,0 +1,147 @@
+//! The structs of `shaders/types.wgsl` and those of `render::gpu_types` agree by name, order, offset and size.
+#![cfg(not(target_arch = "wasm32"))]
+
+use fabrica::render::gpu_types;
+use fabrica::render::programs;
+use std::collections::BTreeMap;
+use wgpu::naga;
+
+/// Name and byte offset of each member, in order, and the size of the whole.
+#[derive(Clone, Debug, PartialEq)]
+struct Layout {
+    members: Vec<(String, usize)>,
+    size: usize,
+}
+
+macro_rules! layouts {
+    ($($name:ident { $($member:ident),* $(,)? })*) => {
+        BTreeMap::from([
+            $((
+                stringify!($name).to_owned(),
+                Layout {
+                    members: vec![
+                        $((stringify!($member).to_owned(), std::mem::offset_of!(gpu_types::$name, $member))),*
+                    ],
+                    size: size_of::<gpu_types::$name>(),
+                },
+            )),*
+        ])
+    };
+}
+
+fn rust_layouts() -> BTreeMap<String, Layout> {
+    layouts! {
+        Template {
+            template_from_subject_row0, template_from_subject_row1, template_from_subject_row2,
+            subject_from_template_row0, subject_from_template_row1, subject_from_template_row2,
+            size, params0, params1, kind, mode, flags, group,
+        }
+        Templates { items, count }
+        Frame {
+            subject_from_view_row0, subject_from_view_row1, subject_from_view_row2,
+            lens, jitter, bounds_min, bounds_max, pick,
+        }
+        Subject {
+            texture_from_rest_row0, texture_from_rest_row1, texture_from_rest_row2,
+            label_from_rest_row0, label_from_rest_row1, label_from_rest_row2,
+            dims, label_dims, texture_end, value,
+        }
+        Look { lut, modes }
+        Grid { origin_min, cell_size, cells }
+        Resolve { scale, background, flags }
+    }
+}
+
+fn wgsl_module(source: &str) -> naga::Module {
+    naga::front::wgsl::parse_str(source)
+        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)))
+}
+
+fn wgsl_layouts(module: &naga::Module) -> BTreeMap<String, Layout> {
+    module
+        .types
+        .iter()
+        .filter_map(|(_, ty)| {
+            let naga::TypeInner::Struct { members, span } = &ty.inner else {
+                return None;
+            };
+            let members = members
+                .iter()
+                .map(|m| (m.name.clone().unwrap_or_default(), m.offset as usize))
+                .collect();
+            Some((
+                ty.name.clone()?,
+                Layout {
+                    members,
+                    size: *span as usize,
+                },
+            ))
+        })
+        .collect()
+}
+
+fn types_source() -> &'static str {
+    programs::file("types.wgsl")
+        .expect("types.wgsl is embedded")
+        .source
+}
+
+#[test]
+fn structs_agree_by_name_and_offset() {
+    let (rust, wgsl) = (rust_layouts(), wgsl_layouts(&wgsl_module(types_source())));
+    for (name, layout) in &wgsl {
+        let ours = rust
+            .get(name)
+            .unwrap_or_else(|| panic!("{name} of types.wgsl has no twin in this test"));
+        assert_eq!(ours, layout, "struct {name}: Rust left, WGSL right");
+    }
+    assert_eq!(
+        rust.keys().collect::<Vec<_>>(),
+        wgsl.keys().collect::<Vec<_>>(),
+        "structs on the Rust side only"
+    );
+}
+
+/// Negative control: the comparison sees a member that was moved, and one that was renamed.
+#[test]
+fn a_moved_or_renamed_member_is_seen() {
+    let rust = rust_layouts();
+    for (from, to) in [
+        (
+            "    /// MODE_COMPOSE or MODE_ADD",
+            "    extra: u32,\n    /// MODE_COMPOSE or MODE_ADD",
+        ),
+        ("    lens: vec4f", "    lense: vec4f"),
+    ] {
+        let source = types_source().replace(from, to);
+        assert_ne!(source, types_source(), "the planted error is in");
+        assert_ne!(
+            wgsl_layouts(&wgsl_module(&source)),
+            rust,
+            "{to} was not noticed"
+        );
+    }
+}
+
+#[test]
+fn constants_agree() {
+    let module = wgsl_module(types_source());
+    let expected = BTreeMap::from([
+        ("MAX_TEMPLATES", gpu_types::MAX_TEMPLATES as u32),
+        ("MODE_COMPOSE", gpu_types::MODE_COMPOSE),
+        ("MODE_ADD", gpu_types::MODE_ADD),
+        ("OPACITY_CONSTANCY", gpu_types::OPACITY_CONSTANCY),
+        ("OPACITY_MASS", gpu_types::OPACITY_MASS),
+        ("OPACITY_NONE", gpu_types::OPACITY_NONE),
+    ]);
+    let mut found = BTreeMap::new();
+    for (_, constant) in module.constants.iter() {
+        let value = &module.global_expressions[constant.init];
+        if let (Some(name), naga::Expression::Literal(naga::Literal::U32(value))) =
+            (constant.name.as_deref(), value)
+        {
+            found.insert(name, *value);
+        }
+    }
+    assert_eq!(found, expected);
+}

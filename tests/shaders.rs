@@ -1,0 +1,179 @@
+//! Every shader program parses and validates with what browsers have, and keeps the rules of the house.
+#![cfg(not(target_arch = "wasm32"))]
+
+use fabrica::render::programs::{self, Assembled, PROGRAMS, Program, Stage};
+use std::collections::BTreeSet;
+use wgpu::naga;
+
+fn assembled(program: &Program) -> Assembled {
+    Assembled::new(program).unwrap_or_else(|error| panic!("{}: {error}", program.name))
+}
+
+/// What naga's default capabilities add to none is sample-rate shading and cube arrays; WebGPU has both and we use neither.
+fn browser_capabilities() -> naga::valid::Capabilities {
+    naga::valid::Capabilities::empty()
+}
+
+fn check(source: &str) -> Result<naga::Module, (Option<usize>, String)> {
+    let module = naga::front::wgsl::parse_str(source).map_err(|error| {
+        let line = error.location(source).map(|at| at.line_number as usize);
+        (line, error.emit_to_string(source))
+    })?;
+    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), browser_capabilities())
+        .validate(&module)
+        .map_err(|error| {
+            let line = error.location(source).map(|at| at.line_number as usize);
+            (line, error.emit_to_string(source))
+        })?;
+    Ok(module)
+}
+
+#[test]
+fn every_program_validates() {
+    for program in PROGRAMS {
+        let text = assembled(program);
+        let module = check(&text.source).unwrap_or_else(|(line, message)| {
+            let place = line.map_or_else(String::new, |line| text.place(line));
+            panic!("{} at {place}: {message}", program.name)
+        });
+        let found: BTreeSet<(String, naga::ShaderStage)> = module
+            .entry_points
+            .iter()
+            .map(|entry| (entry.name.clone(), entry.stage))
+            .collect();
+        let declared = program
+            .entries
+            .iter()
+            .map(|(name, stage)| {
+                let stage = match stage {
+                    Stage::Vertex => naga::ShaderStage::Vertex,
+                    Stage::Fragment => naga::ShaderStage::Fragment,
+                    Stage::Compute => naga::ShaderStage::Compute,
+                };
+                ((*name).to_owned(), stage)
+            })
+            .collect();
+        assert_eq!(found, declared, "entry points of {}", program.name);
+    }
+}
+
+/// The picture needs only what WebGL2 also has: no storage buffers or textures in programs that draw.
+#[test]
+fn drawing_uses_no_storage() {
+    for program in PROGRAMS {
+        if program
+            .entries
+            .iter()
+            .any(|(_, stage)| *stage == Stage::Compute)
+        {
+            continue;
+        }
+        let module = check(&assembled(program).source).expect("validated above");
+        for (_, global) in module.global_variables.iter() {
+            let name = global.name.as_deref().unwrap_or_default();
+            assert!(
+                !matches!(global.space, naga::AddressSpace::Storage { .. }),
+                "{}: {name} is a storage buffer",
+                program.name
+            );
+            if let naga::TypeInner::Image { class, .. } = module.types[global.ty].inner {
+                assert!(
+                    !matches!(class, naga::ImageClass::Storage { .. }),
+                    "{}: {name} is a storage texture",
+                    program.name
+                );
+            }
+        }
+    }
+}
+
+/// A program holds what its files say they need, and every embedded file is used.
+#[test]
+fn needs_lines_hold() {
+    let mut used = BTreeSet::new();
+    for program in PROGRAMS {
+        for path in program.files {
+            used.insert(*path);
+            let file = programs::file(path).unwrap_or_else(|| panic!("{path} is not embedded"));
+            assert!(
+                file.source
+                    .lines()
+                    .any(|line| line.starts_with("// needs:")),
+                "{path} has no needs line"
+            );
+            for need in programs::needs(file) {
+                assert!(
+                    program.files.contains(&need),
+                    "{} holds {path}, which needs {need}",
+                    program.name
+                );
+            }
+        }
+    }
+    for file in programs::FILES {
+        assert!(used.contains(file.path), "no program uses {}", file.path);
+    }
+}
+
+/// Library files hold no bindings and no entry points, so that they run unchanged in a pass and in a probe.
+#[test]
+fn library_files_hold_no_bindings() {
+    for file in programs::FILES {
+        let is_library = !file.path.starts_with("bind/") && !file.path.starts_with("pass/");
+        if is_library {
+            for word in ["@group", "@fragment", "@vertex", "@compute"] {
+                let code = file
+                    .source
+                    .lines()
+                    .map(|line| line.split("//").next().unwrap_or_default());
+                assert!(
+                    code.into_iter().all(|line| !line.contains(word)),
+                    "{} holds {word}",
+                    file.path
+                );
+            }
+        }
+    }
+}
+
+/// Each binding says what it is.
+#[test]
+fn bindings_have_comments() {
+    for file in programs::FILES {
+        let lines: Vec<&str> = file.source.lines().collect();
+        for (i, line) in lines.iter().enumerate() {
+            if line.contains("@binding(") && !line.trim_start().starts_with("//") {
+                assert!(
+                    i > 0 && lines[i - 1].trim_start().starts_with("///"),
+                    "{}:{} has no comment",
+                    file.path,
+                    i + 1
+                );
+            }
+        }
+    }
+}
+
+/// Negative control and the line map: an error planted in a file in the middle is named with that file and its line.
+#[test]
+fn an_error_names_its_file_and_line() {
+    let program = programs::program("raycast").expect("the picture's program");
+    let text = assembled(program);
+    let planted = "let half_dir = normalize(KEY_DIR + to_eye);";
+    let broken = text
+        .source
+        .replace(planted, "let half_dir = normalize(KEY_DIR + to_moon);");
+    assert_ne!(broken, text.source, "the error is planted");
+    let (line, _) = check(&broken).expect_err("an unknown name must not validate");
+    let file = programs::file("march/shade.wgsl").expect("embedded");
+    let expected = file
+        .source
+        .lines()
+        .position(|line| line.contains(planted))
+        .expect("it is there")
+        + 1;
+    assert_eq!(
+        text.place(line.expect("naga says where")),
+        format!("march/shade.wgsl:{expected}")
+    );
+}
