@@ -1,1 +1,644 @@
-//! (to come)
+//! Layer 5: the viewer. Panels read the [`state`], commands change it, and the surroundings are reached by [`Services`].
+//!
+//! | file | holds |
+//! |---|---|
+//! | `state` | the document and its history, selection, camera, loading, what was said |
+//! | `command` | everything that can be done, as values, and the table of keys |
+//! | `services` | what the shell does for the app, and what comes back |
+//! | `viewport`, `camera`, `gizmo`, `orientation` | the picture and what the hand does on it |
+//! | `picture`, `icons` | the renderer, its texture, questions to it; the catalogue's pictures |
+//! | `topbar`, `catalogue`, `templates`, `look`, `text`, `notice`, `keys` | one panel each |
+//! | `theme`, `control`, `icon` | colours and type, the common controls, drawn icons |
+//!
+//! Nothing here knows where it runs. The picture is drawn when something changed; at rest nothing repaints.
+
+mod camera;
+mod catalogue;
+mod command;
+mod control;
+mod gizmo;
+mod icon;
+mod icons;
+mod keys;
+mod look;
+mod notice;
+mod orientation;
+mod picture;
+mod services;
+mod state;
+mod templates;
+mod text;
+mod theme;
+mod topbar;
+mod viewport;
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, Vec2, vec2};
+
+use self::icon::Icon;
+use self::icons::RenderedIcons;
+use self::picture::Picture;
+use self::state::{Gravity, STORED_DOCUMENT, State, Tab};
+use self::theme::Palette;
+use self::viewport::Viewport;
+use crate::data::{VolumeBuilder, VolumeSink as _};
+use crate::document::Document;
+use crate::render::Clock;
+
+pub use self::camera::StandardView;
+pub use self::command::{Command, GizmoMode};
+pub use self::services::{LinkChange, LoadEvent, Message, SaveFile, Services, Ticket};
+
+/// Width in points below which panels become drawers.
+const NARROW: f32 = 760.0;
+/// Width of the catalogue and of the panel at the right.
+const CATALOGUE_WIDTH: f32 = 218.0;
+const SIDE_WIDTH: f32 = 304.0;
+/// Under which the theme is kept.
+const STORED_THEME: &str = "theme";
+
+/// How the app starts.
+pub struct Start {
+    /// Opened; with none, what was kept from the last time, else an empty document.
+    pub document: Option<Document>,
+    /// A link or JSON; goes before `document`. A broken one is said, and an empty document opened.
+    pub text: Option<String>,
+    /// A load that the shell has already started in place of the document's subject.
+    pub subject: Option<Ticket>,
+    /// Seconds, from any origin; the renderer measures itself with it.
+    pub clock: Clock,
+}
+
+/// The viewer: an [`eframe::App`] for a window and for the page alike.
+pub struct App {
+    state: State,
+    services: Box<dyn Services>,
+    picture: Option<Picture>,
+    icons: RenderedIcons,
+    viewport: Viewport,
+    /// The volume that is arriving.
+    incoming: Option<VolumeBuilder>,
+}
+
+impl App {
+    /// In a window that eframe has made. Without a device everything works but the picture.
+    pub fn new(
+        cc: &eframe::CreationContext<'_>,
+        mut services: Box<dyn Services>,
+        start: Start,
+    ) -> Self {
+        theme::install(&cc.egui_ctx);
+        match services.stored(STORED_THEME).as_deref() {
+            Some("dark") => cc.egui_ctx.set_theme(egui::Theme::Dark),
+            Some("light") => cc.egui_ctx.set_theme(egui::Theme::Light),
+            _ => {}
+        }
+        let picture = cc
+            .wgpu_render_state
+            .as_ref()
+            .map(|render_state| Picture::new(render_state, start.clock));
+        let mut state = State::new(Document::new());
+        match (start.text, start.document) {
+            (Some(text), _) => state.open_text(&text, services.as_mut()),
+            (None, Some(document)) => state.open_document(document, services.as_mut()),
+            (None, None) => {
+                // What was kept is a convenience: a broken one is not worth a message.
+                let kept = services
+                    .stored(STORED_DOCUMENT)
+                    .and_then(|text| crate::link::decode(&text).ok());
+                if let Some(link) = kept {
+                    state.open_document(link.document, services.as_mut());
+                }
+            }
+        }
+        match start.subject {
+            Some(ticket) => state.file_started(ticket),
+            None => state.load_subject(services.as_mut()),
+        }
+        Self {
+            state,
+            services,
+            picture,
+            icons: RenderedIcons::default(),
+            viewport: Viewport::default(),
+            incoming: None,
+        }
+    }
+
+    /// The document with the present camera, for whoever embeds the app.
+    pub fn document(&self) -> Document {
+        self.state.document_as_seen()
+    }
+
+    /// Index of the selected template, if one is.
+    pub fn selected(&self) -> Option<usize> {
+        self.state.selected
+    }
+
+    /// True when the picture is complete and nothing is being loaded.
+    pub fn is_at_rest(&self) -> bool {
+        self.state.load.is_none()
+            && self
+                .picture
+                .as_ref()
+                .is_none_or(|picture| picture.state.is_done)
+    }
+
+    /// Does something as if a button had been pressed.
+    pub fn run(&mut self, command: Command) {
+        self.state.run(command, self.services.as_mut());
+    }
+
+    // ------------------------------------------------------------------------------------------------ messages
+
+    fn take_messages(&mut self) {
+        for message in self.services.poll() {
+            match message {
+                Message::OpenText { text } => self.state.open_text(&text, self.services.as_mut()),
+                Message::FileStarted { ticket } => self.state.file_started(ticket),
+                Message::AskHost { ticket, host } => {
+                    if let Some(load) = self
+                        .state
+                        .load
+                        .as_mut()
+                        .filter(|load| load.ticket == ticket)
+                    {
+                        load.host = Some(host);
+                    }
+                }
+                Message::Load { ticket, event } => {
+                    // What still comes from an earlier load is dropped.
+                    if self
+                        .state
+                        .load
+                        .as_ref()
+                        .is_some_and(|load| load.ticket == ticket)
+                    {
+                        self.take_load_event(event);
+                    }
+                }
+                Message::Copied(Ok(())) => {
+                    self.state.copied_at = Some(self.state.now);
+                    self.state
+                        .say(Gravity::Success, "The link is on the clipboard", "");
+                    let length = self.state.payload.len();
+                    if length > state::LONG_LINK {
+                        let text = format!(
+                            "The link has {length} characters, which some programs cut off; a saved document is safer"
+                        );
+                        self.state.say(Gravity::Warning, text, "");
+                    }
+                }
+                Message::Copied(Err(error)) => {
+                    self.state
+                        .say(Gravity::Error, "The clipboard did not take the link", error);
+                }
+                Message::Saved(Ok(name)) => {
+                    self.state
+                        .say(Gravity::Success, format!("Saved {name}"), "")
+                }
+                Message::Saved(Err(error)) if error.is_empty() => {}
+                Message::Saved(Err(error)) => {
+                    self.state
+                        .say(Gravity::Error, "The file was not saved", error)
+                }
+                Message::Notice { message, details } => {
+                    self.state.say(Gravity::Warning, message, details)
+                }
+            }
+        }
+    }
+
+    fn take_load_event(&mut self, event: LoadEvent) {
+        match event {
+            LoadEvent::Begin(header) => {
+                let mut builder = VolumeBuilder::new();
+                match builder.begin(&header) {
+                    Ok(()) => self.incoming = Some(builder),
+                    Err(why) => self.refuse("The scan cannot be held", why),
+                }
+            }
+            LoadEvent::Scalars(scalars) => {
+                if let Some(builder) = &mut self.incoming {
+                    builder.scalars(scalars);
+                }
+            }
+            LoadEvent::Labels(labels) => {
+                if let Some(builder) = &mut self.incoming {
+                    builder.labels(labels);
+                }
+            }
+            LoadEvent::Progress { fraction, what } => {
+                if let Some(load) = &mut self.state.load {
+                    load.fraction = fraction;
+                    load.what = what;
+                }
+            }
+            LoadEvent::Coarse => self.show_incoming(),
+            LoadEvent::Done { sha256 } => {
+                self.show_incoming();
+                self.state.load_done(sha256);
+            }
+            LoadEvent::Notice(text) => self.state.say(Gravity::Warning, text, ""),
+            LoadEvent::Failed { message, details } => self.refuse(&message, details),
+            LoadEvent::Cancelled => {
+                self.incoming = None;
+                self.state.load_ended();
+                self.state.say(Gravity::Info, "Loading was stopped", "");
+            }
+        }
+    }
+
+    /// There will be no volume of this load.
+    fn refuse(&mut self, message: &str, details: String) {
+        self.incoming = None;
+        if let Some(load) = &self.state.load {
+            self.services.cancel_load(load.ticket);
+        }
+        self.state.load_ended();
+        self.state.say(Gravity::Error, message, details);
+    }
+
+    /// What has come is whole: it is shown.
+    fn show_incoming(&mut self) {
+        let Some(builder) = self.incoming.take() else {
+            return;
+        };
+        match builder.finish() {
+            Ok(volume) => {
+                let volume = Arc::new(volume);
+                let shown = self
+                    .picture
+                    .as_mut()
+                    .map(|picture| picture.set_subject(volume));
+                if let Some(Err(error)) = shown {
+                    self.refuse(
+                        "The scan does not fit on the graphics device",
+                        error.to_string(),
+                    );
+                }
+            }
+            Err(error) => self.refuse("The scan is incomplete", error.to_string()),
+        }
+    }
+
+    // ------------------------------------------------------------------------------------------------ frame
+
+    fn frame(&mut self, ui: &mut Ui) {
+        let now = ui.input(|i| i.time);
+        self.take_messages();
+        if self.state.advance(now, self.services.as_mut()) {
+            ui.ctx().request_repaint();
+        }
+        for file in viewport::dropped(ui) {
+            self.services.drop_file(file);
+        }
+        if let Some(text) = viewport::pasted(ui) {
+            self.state.open_text(&text, self.services.as_mut());
+        }
+        let mut commands = Vec::new();
+        self.keys(ui, &mut commands);
+
+        let is_narrow = ui.available_width() < NARROW;
+        if is_narrow {
+            self.narrow_ui(ui, &mut commands);
+        } else {
+            self.wide_ui(ui, &mut commands);
+        }
+        if self.state.is_keys_sheet_open {
+            keys::ui(ui, &mut commands);
+        }
+        if self.state.is_messages_open {
+            notice::messages_ui(ui, &self.state, &mut commands);
+        }
+
+        // A drag is one step of undo: it ends when nothing is held any more.
+        if !ui.input(|i| i.pointer.any_down())
+            && !ui.ctx().text_edit_focused()
+            && commands.is_empty()
+        {
+            self.state.end_drag();
+        }
+        let has_commands = !commands.is_empty();
+        let was_placing = self.state.placing;
+        for command in commands {
+            self.state.run(command, self.services.as_mut());
+        }
+        if self.state.placing.is_some() && self.state.placing != was_placing {
+            // The next Enter places it; it does not press the catalogue's button again.
+            let picture_id = self.picture_id(ui);
+            ui.memory_mut(|memory| {
+                if memory.focused().is_some() {
+                    memory.request_focus(picture_id);
+                }
+            });
+        }
+        if has_commands {
+            ui.ctx().request_repaint();
+        }
+        self.afterwards(ui);
+    }
+
+    /// Identity of the picture as a widget.
+    fn picture_id(&self, ui: &Ui) -> egui::Id {
+        self.viewport
+            .id()
+            .unwrap_or_else(|| ui.scope_id().with("picture"))
+    }
+
+    fn keys(&self, ui: &Ui, commands: &mut Vec<Command>) {
+        let is_typing = ui.ctx().text_edit_focused();
+        let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
+        let is_sheet_open = self.state.is_keys_sheet_open || self.state.is_messages_open;
+        for shortcut in command::shortcuts() {
+            let key = shortcut.keys.logical_key;
+            let is_plain = !shortcut.keys.modifiers.command;
+            // Letters belong to a text field, arrows to whatever control has the keyboard.
+            if is_plain && (is_typing || (viewport::is_widget_key(key) && !has_arrows)) {
+                continue;
+            }
+            if is_sheet_open && !matches!(shortcut.command, Command::ToggleKeys | Command::Escape) {
+                continue;
+            }
+            if key == egui::Key::Enter && self.state.placing.is_none() {
+                continue;
+            }
+            if ui.input_mut(|i| i.consume_shortcut(&shortcut.keys)) {
+                commands.push(shortcut.command);
+            }
+        }
+    }
+
+    /// What happens after everything is shown.
+    fn afterwards(&mut self, ui: &Ui) {
+        let ctx = ui.ctx();
+        if std::mem::take(&mut self.state.theme_toggle) {
+            let is_dark = ctx.theme() == egui::Theme::Dark;
+            ctx.set_theme(if is_dark {
+                egui::Theme::Light
+            } else {
+                egui::Theme::Dark
+            });
+            self.services
+                .store(STORED_THEME, if is_dark { "light" } else { "dark" });
+        }
+        if let Some(factor) = self.state.scale_change.take() {
+            ctx.set_zoom_factor((ctx.zoom_factor() * factor).clamp(0.6, 3.0));
+        }
+        if let Some(picture) = &mut self.picture {
+            for notice in picture.take_notices() {
+                self.state.say(Gravity::Warning, notice, "");
+            }
+            if std::mem::take(&mut self.state.wants_picture_file) {
+                let size = self.viewport.size_px(ui.pixels_per_point());
+                let seen = self.state.document_as_seen();
+                picture.start_file(seen.illustration(), file_size(size));
+            }
+            match picture.poll_file() {
+                Some(Ok(bytes)) => {
+                    let name = format!("{}.png", self.state.file_stem());
+                    self.services.save_file(SaveFile {
+                        name,
+                        mime: "image/png",
+                        bytes,
+                    });
+                }
+                Some(Err(error)) => {
+                    self.state.say(
+                        Gravity::Error,
+                        "The picture could not be made",
+                        error.to_string(),
+                    );
+                }
+                None => {}
+            }
+            // Icons are drawn when the picture has had its turn.
+            if picture.state.is_done
+                && self.state.load.is_none()
+                && self.icons.advance(ctx, picture)
+            {
+                ctx.request_repaint();
+            }
+            if picture.is_waiting() {
+                ctx.request_repaint();
+            }
+            self.look_after_device();
+        }
+        if let Some(seconds) = self.state.seconds_to_next_deed() {
+            ctx.request_repaint_after(Duration::from_secs_f64(seconds));
+        }
+    }
+
+    /// Faults that the device reports are said once; a lost device is the shell's to replace.
+    fn look_after_device(&mut self) {
+        let Some(picture) = &mut self.picture else {
+            return;
+        };
+        if let Some(reason) = picture.gpu().lost() {
+            self.icons.device_lost();
+            self.state.forget_subject();
+            self.state.say(
+                Gravity::Error,
+                "The graphics device was lost. Your work is kept: copy the link or reload the page",
+                reason,
+            );
+        }
+    }
+
+    // ------------------------------------------------------------------------------------------------ layout
+
+    fn wide_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        let palette = Palette::get(ui);
+        if !self.state.are_panels_hidden {
+            let bar = Frame::new()
+                .fill(palette.panel)
+                .inner_margin(Margin::symmetric(12, 0));
+            Panel::top("top")
+                .exact_size(46.0)
+                .frame(bar)
+                .show(ui, |ui| {
+                    topbar::ui(ui, &self.state, false, commands);
+                });
+            let side = Frame::new().fill(palette.panel).inner_margin(Margin {
+                left: 12,
+                right: 6,
+                top: 8,
+                bottom: 8,
+            });
+            Panel::left("catalogue")
+                .exact_size(CATALOGUE_WIDTH)
+                .resizable(false)
+                .frame(side)
+                .show(ui, |ui| {
+                    control::heading(ui, "Add", |_| {});
+                    scroll(ui, |ui| {
+                        catalogue::ui(ui, &self.state, &self.icons, commands)
+                    });
+                });
+            Panel::right("side")
+                .exact_size(SIDE_WIDTH)
+                .resizable(false)
+                .frame(side)
+                .show(ui, |ui| {
+                    ui.horizontal(|ui| {
+                        ui.set_max_width(ui.available_width() - 8.0);
+                        let tabs = [
+                            (Tab::Templates, "Templates"),
+                            (Tab::Look, "Look"),
+                            (Tab::Text, "Text"),
+                        ];
+                        if let Some(tab) =
+                            control::segmented(ui, "Panel", &tabs, self.state.side_tab)
+                        {
+                            self.state.side_tab = tab;
+                        }
+                    });
+                    ui.add_space(6.0);
+                    let tab = self.state.side_tab;
+                    scroll(ui, |ui| self.tab_ui(ui, tab, commands));
+                });
+        }
+        self.picture_ui(ui, commands);
+    }
+
+    fn narrow_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        let palette = Palette::get(ui);
+        if !self.state.are_panels_hidden {
+            let bar = Frame::new()
+                .fill(palette.panel)
+                .inner_margin(Margin::symmetric(8, 0));
+            Panel::top("top")
+                .exact_size(48.0)
+                .frame(bar)
+                .show(ui, |ui| {
+                    topbar::ui(ui, &self.state, true, commands);
+                });
+            let tabs = Frame::new()
+                .fill(palette.panel)
+                .inner_margin(Margin::symmetric(4, 2));
+            Panel::bottom("tabs")
+                .exact_size(56.0)
+                .frame(tabs)
+                .show(ui, |ui| {
+                    self.tabs_ui(ui);
+                });
+            let drawer = Frame::new().fill(palette.panel).inner_margin(Margin {
+                left: 14,
+                right: 8,
+                top: 8,
+                bottom: 8,
+            });
+            if let Some(tab) = self.state.tab {
+                let height = (ui.available_height() * 0.52).clamp(180.0, 420.0);
+                Panel::bottom("drawer")
+                    .exact_size(height)
+                    .resizable(false)
+                    .frame(drawer)
+                    .show(ui, |ui| {
+                        scroll(ui, |ui| match tab {
+                            Tab::Add => catalogue::ui(ui, &self.state, &self.icons, commands),
+                            _ => self.tab_ui(ui, tab, commands),
+                        });
+                    });
+            }
+        }
+        self.picture_ui(ui, commands);
+    }
+
+    fn tab_ui(&mut self, ui: &mut Ui, tab: Tab, commands: &mut Vec<Command>) {
+        match tab {
+            Tab::Add | Tab::Templates => templates::ui(ui, &self.state, commands),
+            Tab::Look => {
+                let info = self.picture.as_ref().and_then(Picture::subject_info);
+                look::ui(ui, &self.state, info.as_ref(), commands);
+            }
+            Tab::Text => text::ui(ui, &self.state, commands),
+        }
+    }
+
+    /// The row of drawers at the bottom of a narrow window.
+    fn tabs_ui(&mut self, ui: &mut Ui) {
+        let palette = Palette::get(ui);
+        let tabs = [
+            (Tab::Add, Icon::Plus, "Add"),
+            (Tab::Templates, Icon::Layers, "Templates"),
+            (Tab::Look, Icon::Look, "Look"),
+            (Tab::Text, Icon::Text, "Text"),
+        ];
+        let size = vec2(
+            ui.available_width() / tabs.len() as f32,
+            ui.available_height(),
+        );
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing = Vec2::ZERO;
+            for (tab, icon, name) in tabs {
+                let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
+                let is_open = self.state.tab == Some(tab);
+                response.widget_info(|| {
+                    egui::WidgetInfo::selected(egui::Role::Button, ui.is_enabled(), is_open, name)
+                });
+                let color = if is_open {
+                    palette.accent
+                } else {
+                    palette.weak
+                };
+                let inner = rect.shrink2(vec2(4.0, 3.0));
+                if is_open {
+                    ui.painter().rect_filled(inner, 8.0, palette.accent_wash);
+                }
+                control::focus_ring(ui, &response, inner);
+                let spot =
+                    egui::Rect::from_center_size(rect.center() - vec2(0.0, 8.0), Vec2::splat(22.0));
+                icon.paint(ui.painter(), spot, color);
+                let at = rect.center() + vec2(0.0, 13.0);
+                ui.painter().text(
+                    at,
+                    egui::Align2::CENTER_CENTER,
+                    name,
+                    egui::FontId::proportional(11.5),
+                    color,
+                );
+                if response.clicked() {
+                    self.state.tab = if is_open { None } else { Some(tab) };
+                }
+            }
+        });
+    }
+
+    fn picture_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
+            let rect = ui.available_rect_before_wrap();
+            self.viewport
+                .ui(ui, &mut self.state, self.picture.as_mut(), commands);
+            notice::ui(ui, rect, &mut self.state, commands);
+        });
+    }
+}
+
+/// A panel's contents, scrolled when they do not fit, with room for the bar at the right.
+fn scroll(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.set_max_width(ui.available_width() - 8.0);
+        contents(ui);
+        ui.add_space(12.0);
+    });
+}
+
+/// A saved picture has the window's proportions, and at least 2,000 pixels along its longer side.
+fn file_size([width, height]: [u32; 2]) -> [u32; 2] {
+    let longest = width.max(height).max(1) as f32;
+    let factor = (2000.0 / longest).max(1.0);
+    [width, height].map(|side| ((side as f32 * factor).round() as u32).clamp(1, 4096))
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.frame(ui);
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+}

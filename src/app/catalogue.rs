@@ -1,0 +1,175 @@
+//! The catalogue: every template as a small picture of what it does to a cube, drawn by the renderer itself. A click starts
+//! placing it.
+
+use egui::{
+    Align2, CornerRadius, FontId, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
+
+use super::command::Command;
+use super::control::{self, capitalized};
+use super::state::State;
+use super::theme::{self, Palette};
+use crate::document::TemplateKind;
+
+/// Pictures of the templates, as far as they are drawn. `None` shows an outline.
+pub(crate) trait Icons {
+    /// Texture of a template's icon.
+    fn texture(&self, kind: TemplateKind) -> Option<egui::TextureId>;
+}
+
+/// Groups in which the catalogue is shown: what one wants to do.
+const GROUPS: [(&str, &[TemplateKind]); 4] = {
+    use TemplateKind as K;
+    [
+        (
+            "Open up",
+            &[
+                K::Peel,
+                K::Flap,
+                K::Retractor,
+                K::Cutquad,
+                K::Peeler,
+                K::Hole,
+            ],
+        ),
+        ("Take apart", &[K::Split, K::Slices, K::Move]),
+        (
+            "Carve and shape",
+            &[K::Cut, K::Poke, K::Pull, K::Squeeze, K::Dilate, K::Lens],
+        ),
+        ("Bend", &[K::Bend, K::Twist, K::Wave]),
+    ]
+};
+
+/// What people call it.
+pub(crate) fn kind_title(kind: TemplateKind) -> String {
+    match kind {
+        TemplateKind::Cutquad => "Incision".to_owned(),
+        TemplateKind::Peeler => "Tongue".to_owned(),
+        _ => capitalized(kind.spec().name),
+    }
+}
+
+/// The whole catalogue in columns as the width allows.
+pub(crate) fn ui(ui: &mut Ui, state: &State, icons: &dyn Icons, commands: &mut Vec<Command>) {
+    let gap = 5.0;
+    let columns = ((ui.available_width() + gap) / 64.0)
+        .floor()
+        .clamp(2.0, 6.0);
+    let cell = ((ui.available_width() - gap * (columns - 1.0)) / columns).floor();
+    for (title, kinds) in GROUPS {
+        ui.add_space(2.0);
+        let weak = Palette::get(ui).weak;
+        ui.label(theme::strong(title).size(11.5).color(weak));
+        for row in kinds.chunks(columns as usize) {
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = gap;
+                for &kind in row {
+                    cell_ui(ui, state, icons, kind, cell, commands);
+                }
+            });
+        }
+    }
+    if state.template_count() >= 32 {
+        ui.label("A document holds at most 32 templates.");
+    }
+}
+
+fn cell_ui(
+    ui: &mut Ui,
+    state: &State,
+    icons: &dyn Icons,
+    kind: TemplateKind,
+    width: f32,
+    commands: &mut Vec<Command>,
+) {
+    let palette = Palette::get(ui);
+    let title = kind_title(kind);
+    let picture_side = (width - 8.0).min(64.0);
+    let (rect, response) = ui.allocate_exact_size(vec2(width, picture_side + 22.0), Sense::click());
+    let is_placing = state.placing == Some(kind);
+    let name = format!("Place {}", title.to_lowercase());
+    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), is_placing, &name));
+    if ui.is_rect_visible(rect) {
+        let (fill, stroke) = if is_placing {
+            (palette.accent_wash, palette.accent)
+        } else if response.hovered() {
+            (palette.raised, palette.weak)
+        } else {
+            (palette.raised, palette.line)
+        };
+        let stroke = Stroke::new(if is_placing { 1.5 } else { 1.0 }, stroke);
+        ui.painter().rect(
+            rect,
+            CornerRadius::same(8),
+            fill,
+            stroke,
+            egui::StrokeKind::Inside,
+        );
+        control::focus_ring(ui, &response, rect);
+        let top = rect.center_top() + vec2(0.0, 4.0 + 0.5 * picture_side);
+        let picture = Rect::from_center_size(top, Vec2::splat(picture_side));
+        match icons.texture(kind) {
+            Some(texture) => {
+                let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+                ui.painter()
+                    .image(texture, picture, uv, egui::Color32::WHITE);
+            }
+            None => outline(ui, picture.shrink(8.0), palette.line),
+        }
+        let font = if is_placing {
+            theme::strong_font(11.0)
+        } else {
+            FontId::proportional(11.0)
+        };
+        let color = if is_placing {
+            palette.accent
+        } else {
+            palette.text
+        };
+        let at = rect.center_bottom() - vec2(0.0, 10.5);
+        ui.painter()
+            .with_clip_rect(rect)
+            .text(at, Align2::CENTER_CENTER, &title, font, color);
+    }
+    let response = response.on_hover_text(kind.spec().summary);
+    if response.clicked() {
+        commands.push(Command::StartPlacing(kind));
+    }
+}
+
+/// A plain cube, until the renderer has drawn the icon.
+fn outline(ui: &Ui, rect: Rect, color: egui::Color32) {
+    let (c, r) = (rect.center(), 0.5 * rect.height());
+    let at = |x: f32, y: f32| c + vec2(x * r, y * r);
+    let stroke = Stroke::new(1.2, color);
+    let hexagon = vec![
+        at(0.0, -1.0),
+        at(0.87, -0.5),
+        at(0.87, 0.5),
+        at(0.0, 1.0),
+        at(-0.87, 0.5),
+        at(-0.87, -0.5),
+    ];
+    ui.painter().add(egui::Shape::closed_line(hexagon, stroke));
+    for to in [at(0.87, -0.5), at(0.0, 1.0), at(-0.87, -0.5)] {
+        ui.painter().line_segment([at(0.0, 0.0), to], stroke);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_groups_hold_every_kind_once() {
+        let mut all: Vec<TemplateKind> = GROUPS
+            .iter()
+            .flat_map(|(_, kinds)| kinds.iter().copied())
+            .collect();
+        all.sort();
+        let mut expected = TemplateKind::ALL.to_vec();
+        expected.sort();
+        assert_eq!(all, expected, "the catalogue shows every kind once");
+    }
+}

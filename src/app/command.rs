@@ -1,0 +1,247 @@
+//! Everything that can be done, as values: buttons, keys and gestures say what, [`super::state::State`] does it.
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+use super::camera::StandardView;
+use crate::document::{Edit, SubjectRef, TemplateKind};
+
+/// One thing to do.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// Takes the last change back.
+    Undo,
+    /// Does again what was taken back.
+    Redo,
+    /// Changes the document: one step of undo.
+    Apply(Edit),
+    /// Changes the document as part of a drag: the drag is one step of undo.
+    Drag(Edit),
+    /// Starts placing a template: the next click on the object says where.
+    StartPlacing(TemplateKind),
+    /// Puts the template being placed on what the middle of the picture shows.
+    PlaceInMiddle,
+    /// Drops what is being done: placing, the selection, a sheet.
+    Escape,
+    /// Selects a template by its index in the document.
+    Select(Option<usize>),
+    /// Selects the next one in the list, or with `false` the one before.
+    SelectNext(bool),
+    /// Removes the selected template.
+    DeleteSelected,
+    /// Makes a copy of the selected template behind it.
+    DuplicateSelected,
+    /// Shows or hides the selected template.
+    ToggleSelected,
+    /// Makes the selected template act earlier (`-1`) or later (`1`).
+    ShiftSelected(i8),
+    /// Adds to the main parameter of the selected template, in hundredths of its range.
+    NudgeMain(f32),
+    /// What the handles in the picture do.
+    SetGizmo(GizmoMode),
+    /// Looks from a side.
+    View(StandardView),
+    /// Back to the camera that the document came with.
+    ResetView,
+    /// Turns the camera, radians to the right and down.
+    Orbit(f32, f32),
+    /// Comes closer by a factor.
+    Zoom(f32),
+    /// Takes a subject in place of the present one.
+    SetSubject(SubjectRef),
+    /// Opens a scan or a document.
+    Open,
+    /// Starts from an empty document.
+    New,
+    /// Puts the link on the clipboard.
+    CopyLink,
+    /// Saves the document as a file.
+    SaveDocument,
+    /// Saves the picture as a PNG.
+    SavePicture,
+    /// Stops loading.
+    CancelLoad,
+    /// Fetches from the host that was asked about.
+    AllowHost,
+    /// Shows or hides the sheet of keys.
+    ToggleKeys,
+    /// Shows or hides what the program has said so far.
+    ToggleMessages,
+    /// Light, dark.
+    ToggleTheme,
+    /// Everything larger or smaller, for a projector.
+    Scale(f32),
+    /// Panels away, the picture alone.
+    TogglePanels,
+}
+
+/// What the handles in the picture do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GizmoMode {
+    /// Along the axes, in the planes between them, freely.
+    #[default]
+    Move,
+    /// About the axes.
+    Turn,
+    /// The faces of the box.
+    Size,
+}
+
+impl GizmoMode {
+    /// All of them with their names.
+    pub const ALL: [(Self, &'static str); 3] = [
+        (Self::Move, "Move"),
+        (Self::Turn, "Turn"),
+        (Self::Size, "Size"),
+    ];
+}
+
+/// A key, what it does, and how the sheet of keys says it.
+pub(crate) struct Shortcut {
+    /// Which keys.
+    pub keys: KeyboardShortcut,
+    /// What it does.
+    pub command: Command,
+    /// As in the sheet; an empty text is not listed (a second key for the same).
+    pub text: &'static str,
+}
+
+const SHIFT: Modifiers = Modifiers::SHIFT;
+const NONE: Modifiers = Modifiers::NONE;
+const COMMAND: Modifiers = Modifiers::COMMAND;
+
+/// Radians by which an arrow key turns the camera.
+const KEY_ORBIT: f32 = 0.13;
+
+/// Every shortcut. Those with more modifiers come first, since egui takes `Ctrl+Z` out of `Ctrl+Shift+Z` as well.
+pub(crate) fn shortcuts() -> Vec<Shortcut> {
+    let entry = |modifiers: Modifiers, key: Key, command: Command, text: &'static str| Shortcut {
+        keys: KeyboardShortcut::new(modifiers, key),
+        command,
+        text,
+    };
+    let mut all = vec![
+        entry(COMMAND | SHIFT, Key::Z, Command::Redo, "Redo"),
+        entry(COMMAND, Key::Y, Command::Redo, ""),
+        entry(COMMAND, Key::Z, Command::Undo, "Undo"),
+        entry(COMMAND, Key::O, Command::Open, "Open a scan or a document"),
+        entry(
+            COMMAND | SHIFT,
+            Key::S,
+            Command::SavePicture,
+            "Save the picture",
+        ),
+        entry(COMMAND, Key::S, Command::SaveDocument, "Save the document"),
+        entry(COMMAND | SHIFT, Key::L, Command::CopyLink, "Copy the link"),
+        entry(
+            NONE,
+            Key::ArrowLeft,
+            Command::Orbit(-KEY_ORBIT, 0.0),
+            "Turn the object",
+        ),
+        entry(NONE, Key::ArrowRight, Command::Orbit(KEY_ORBIT, 0.0), ""),
+        entry(NONE, Key::ArrowUp, Command::Orbit(0.0, -KEY_ORBIT), ""),
+        entry(NONE, Key::ArrowDown, Command::Orbit(0.0, KEY_ORBIT), ""),
+        entry(NONE, Key::Plus, Command::Zoom(1.15), "Closer"),
+        entry(NONE, Key::Equals, Command::Zoom(1.15), ""),
+        entry(NONE, Key::Minus, Command::Zoom(1.0 / 1.15), "Further away"),
+        entry(
+            NONE,
+            Key::Num0,
+            Command::ResetView,
+            "Back to the first view",
+        ),
+        entry(
+            NONE,
+            Key::Enter,
+            Command::PlaceInMiddle,
+            "Place in the middle of the picture",
+        ),
+        entry(
+            NONE,
+            Key::Escape,
+            Command::Escape,
+            "Drop what is being done",
+        ),
+        entry(SHIFT, Key::N, Command::SelectNext(false), "Template before"),
+        entry(NONE, Key::N, Command::SelectNext(true), "Next template"),
+        entry(
+            NONE,
+            Key::G,
+            Command::SetGizmo(GizmoMode::Move),
+            "Move the template",
+        ),
+        entry(
+            NONE,
+            Key::T,
+            Command::SetGizmo(GizmoMode::Turn),
+            "Turn the template",
+        ),
+        entry(
+            NONE,
+            Key::S,
+            Command::SetGizmo(GizmoMode::Size),
+            "Size the template",
+        ),
+        entry(
+            NONE,
+            Key::CloseBracket,
+            Command::NudgeMain(5.0),
+            "Open it further",
+        ),
+        entry(NONE, Key::OpenBracket, Command::NudgeMain(-5.0), "Close it"),
+        entry(
+            NONE,
+            Key::H,
+            Command::ToggleSelected,
+            "Hide or show the template",
+        ),
+        entry(
+            NONE,
+            Key::D,
+            Command::DuplicateSelected,
+            "Duplicate the template",
+        ),
+        entry(
+            NONE,
+            Key::Delete,
+            Command::DeleteSelected,
+            "Delete the template",
+        ),
+        entry(NONE, Key::Backspace, Command::DeleteSelected, ""),
+        entry(
+            NONE,
+            Key::PageUp,
+            Command::ShiftSelected(-1),
+            "Let it act earlier",
+        ),
+        entry(
+            NONE,
+            Key::PageDown,
+            Command::ShiftSelected(1),
+            "Let it act later",
+        ),
+        entry(NONE, Key::P, Command::TogglePanels, "The picture alone"),
+        entry(NONE, Key::F1, Command::ToggleKeys, ""),
+        entry(NONE, Key::Questionmark, Command::ToggleKeys, "This sheet"),
+    ];
+    let digits = [
+        Key::Num1,
+        Key::Num2,
+        Key::Num3,
+        Key::Num4,
+        Key::Num5,
+        Key::Num6,
+    ];
+    let texts = [
+        "From the front",
+        "From the back",
+        "From the patient's right",
+        "From the patient's left",
+        "From above",
+        "From below",
+    ];
+    for ((view, key), text) in StandardView::ALL.into_iter().zip(digits).zip(texts) {
+        all.push(entry(NONE, key, Command::View(view), text));
+    }
+    all
+}

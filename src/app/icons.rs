@@ -1,0 +1,113 @@
+//! The catalogue's pictures, drawn by the program's own renderer on its own cube: once, one after the other, while nothing
+//! else is to be drawn.
+
+use std::sync::Arc;
+
+use egui::{ColorImage, TextureHandle, TextureOptions};
+
+use super::catalogue::Icons;
+use super::picture::{Pending, Picture, poll_once};
+use crate::data::VolumeBuilder;
+use crate::document::{Background, Document, Illustration, TemplateKind};
+use crate::render::{Image, RenderError, Renderer};
+
+/// Pixels of an icon's side: twice its size in points.
+const SIDE_PX: u32 = 112;
+/// Samples per pixel.
+const SAMPLES: u32 = 4;
+/// Voxels along the cube.
+const RESOLUTION: u32 = 48;
+
+/// Icons as far as they are drawn. Built once per window.
+#[derive(Default)]
+pub(crate) struct RenderedIcons {
+    renderer: Option<Renderer>,
+    textures: Vec<(TemplateKind, TextureHandle)>,
+    pending: Option<(TemplateKind, Pending<Result<Image, RenderError>>)>,
+    has_failed: bool,
+}
+
+impl Icons for RenderedIcons {
+    fn texture(&self, kind: TemplateKind) -> Option<egui::TextureId> {
+        self.textures
+            .iter()
+            .find(|(drawn, _)| *drawn == kind)
+            .map(|(_, texture)| texture.id())
+    }
+}
+
+impl RenderedIcons {
+    /// All are drawn, or none can be.
+    pub(crate) fn is_done(&self) -> bool {
+        self.has_failed || self.textures.len() == TemplateKind::ALL.len()
+    }
+
+    /// Drops what lies on a lost device; the icons that are drawn stay.
+    pub(crate) fn device_lost(&mut self) {
+        self.renderer = None;
+        self.pending = None;
+    }
+
+    /// Goes one step on. Called once per frame while there is time. True if it waits for the GPU.
+    pub(crate) fn advance(&mut self, ctx: &egui::Context, picture: &Picture) -> bool {
+        if self.is_done() {
+            return false;
+        }
+        if let Some((kind, pending)) = &mut self.pending {
+            let kind = *kind;
+            match poll_once(pending) {
+                None => return true,
+                Some(Ok(image)) => {
+                    let size = image.size.map(|side| side as usize);
+                    let pixels = ColorImage::from_rgba_unmultiplied(size, &image.rgba);
+                    let name = format!("icon {}", kind.spec().name);
+                    self.textures
+                        .push((kind, ctx.load_texture(name, pixels, TextureOptions::LINEAR)));
+                    self.pending = None;
+                }
+                Some(Err(_)) => {
+                    // The outlines stay: an icon is no reason to bother anyone.
+                    self.has_failed = true;
+                    self.pending = None;
+                    return false;
+                }
+            }
+        }
+        let next = TemplateKind::ALL
+            .into_iter()
+            .find(|kind| self.texture(*kind).is_none());
+        let Some(kind) = next else {
+            self.renderer = None;
+            return false;
+        };
+        if self.renderer.is_none() {
+            self.renderer = cube_renderer(picture);
+            self.has_failed = self.renderer.is_none();
+        }
+        if let Some(renderer) = &mut self.renderer {
+            let future =
+                renderer.render_image(&icon_illustration(kind), [SIDE_PX, SIDE_PX], SAMPLES);
+            self.pending = Some((kind, Box::pin(future)));
+        }
+        true
+    }
+}
+
+/// A renderer that has the cube.
+fn cube_renderer(picture: &Picture) -> Option<Renderer> {
+    let mut cube = VolumeBuilder::new();
+    crate::subjects::generate("cube", RESOLUTION, &mut cube).ok()?;
+    let mut renderer = picture.another_renderer();
+    renderer.set_subject(Arc::new(cube.finish().ok()?)).ok()?;
+    Some(renderer)
+}
+
+/// The cube with one template, without anything behind it.
+fn icon_illustration(kind: TemplateKind) -> Illustration {
+    let (template, camera) = crate::displace::icon(kind);
+    let mut illustration = Document::new().illustration().clone();
+    illustration.templates = vec![template];
+    illustration.camera = camera;
+    illustration.look.background = Background::None;
+    illustration
+}

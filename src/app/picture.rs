@@ -1,0 +1,197 @@
+//! The picture in the middle: the renderer, the texture that egui shows, and what is asked of the GPU meanwhile. The one
+//! file of this room that touches wgpu.
+
+use std::future::Future;
+use std::pin::Pin;
+use std::sync::Arc;
+use std::task::{Context, Poll, Waker};
+
+use eframe::egui_wgpu::RenderState;
+
+use glam::Vec2;
+
+use crate::data::Volume;
+use crate::document::{Camera, Illustration};
+use crate::render::{
+    Clock, DrawState, Gpu, Image, PendingPick, Pick, RenderError, Renderer, SubjectInfo, encode_png,
+};
+
+/// Work on the GPU that is looked after once per frame.
+pub(crate) type Pending<T> = Pin<Box<dyn Future<Output = T>>>;
+
+/// Asks whether it is ready; never waits.
+pub(crate) fn poll_once<T>(pending: &mut Pending<T>) -> Option<T> {
+    match pending
+        .as_mut()
+        .poll(&mut Context::from_waker(Waker::noop()))
+    {
+        Poll::Ready(value) => Some(value),
+        Poll::Pending => None,
+    }
+}
+
+/// Why a point of the picture was asked about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum PickFor {
+    /// To show where a template would lie.
+    Hover,
+    /// To place it.
+    Place,
+    /// To place it in the middle of the picture; in the void it goes to the camera's target.
+    PlaceInMiddle,
+    /// To look at the point.
+    Target,
+}
+
+/// The renderer with what the interface needs around it. Built once per window.
+pub(crate) struct Picture {
+    renderer: Renderer,
+    render_state: RenderState,
+    clock: Clock,
+    texture: Option<egui::TextureId>,
+    generation: u64,
+    picks: Vec<(PickFor, PendingPick)>,
+    file: Option<Pending<Result<Image, RenderError>>>,
+    /// As of the last frame.
+    pub(crate) state: DrawState,
+}
+
+impl Picture {
+    /// On the device that egui draws with.
+    pub(crate) fn new(render_state: &RenderState, clock: Clock) -> Self {
+        Self {
+            renderer: Renderer::new(
+                Gpu::from_parts(
+                    render_state.device.clone(),
+                    render_state.queue.clone(),
+                    render_state.adapter.get_info(),
+                ),
+                clock,
+            ),
+            render_state: render_state.clone(),
+            clock,
+            texture: None,
+            generation: 0,
+            picks: Vec::new(),
+            file: None,
+            state: DrawState {
+                is_done: false,
+                progress: 0.0,
+                has_picture: false,
+                uploading: None,
+            },
+        }
+    }
+
+    /// A second renderer on the same device, for icons.
+    pub(crate) fn another_renderer(&self) -> Renderer {
+        Renderer::new(self.renderer.gpu().clone(), self.clock)
+    }
+
+    pub(crate) fn gpu(&self) -> &Gpu {
+        self.renderer.gpu()
+    }
+
+    /// Shows another volume; it is uploaded while the old one stays.
+    pub(crate) fn set_subject(&mut self, volume: Arc<Volume>) -> Result<(), RenderError> {
+        self.state.is_done = false;
+        self.renderer.set_subject(volume)
+    }
+
+    /// What there is to say about the volume shown, once.
+    pub(crate) fn take_notices(&mut self) -> Vec<String> {
+        self.renderer.take_notices()
+    }
+
+    /// Value range, window and preset of what is shown.
+    pub(crate) fn subject_info(&self) -> Option<SubjectInfo> {
+        self.renderer.subject_info()
+    }
+
+    /// Takes another illustration or camera to be drawn.
+    pub(crate) fn set(&mut self, illustration: &Illustration, camera: &Camera) {
+        let mut seen = illustration.clone();
+        seen.camera = *camera;
+        self.renderer.set_illustration(&seen);
+    }
+
+    /// Draws as much as fits into the budget and gives the texture to show.
+    pub(crate) fn draw(
+        &mut self,
+        size_px: [u32; 2],
+        budget_seconds: f32,
+        is_moving: bool,
+    ) -> Result<Option<egui::TextureId>, RenderError> {
+        self.state = self.renderer.draw(size_px, budget_seconds, is_moving)?;
+        let generation = self.renderer.output_generation();
+        if let Some(view) = self.renderer.output_view()
+            && (self.texture.is_none() || generation != self.generation)
+        {
+            self.generation = generation;
+            let device = &self.render_state.device;
+            let filter = wgpu::FilterMode::Linear;
+            let mut painter = self.render_state.renderer.write();
+            match self.texture {
+                Some(id) => painter.update_egui_texture_from_wgpu_texture(device, view, filter, id),
+                None => self.texture = Some(painter.register_native_texture(device, view, filter)),
+            }
+        }
+        Ok(self.texture.filter(|_| self.state.has_picture))
+    }
+
+    /// Asks what is seen at a place of the picture, in pixels.
+    pub(crate) fn ask(
+        &mut self,
+        why: PickFor,
+        pos_px: [f32; 2],
+        size_px: [u32; 2],
+    ) -> Result<(), RenderError> {
+        // One question of a kind at a time: the newest is the one that counts.
+        self.picks.retain(|(pending, _)| *pending != why);
+        let pending = self.renderer.pick(Vec2::from_array(pos_px), size_px)?;
+        self.picks.push((why, pending));
+        Ok(())
+    }
+
+    /// True while a question of this kind is open.
+    pub(crate) fn is_asking(&self, why: PickFor) -> bool {
+        self.picks.iter().any(|(pending, _)| *pending == why)
+    }
+
+    /// Answers that have come.
+    pub(crate) fn answers(&mut self) -> Vec<(PickFor, Result<Option<Pick>, RenderError>)> {
+        let mut answers = Vec::new();
+        self.picks
+            .retain_mut(|(why, pending)| match pending.poll_now() {
+                Some(answer) => {
+                    answers.push((*why, answer));
+                    false
+                }
+                None => true,
+            });
+        answers
+    }
+
+    /// Starts drawing the picture once more for a file.
+    pub(crate) fn start_file(&mut self, illustration: &Illustration, size_px: [u32; 2]) {
+        let future = self
+            .renderer
+            .render_image(illustration, size_px, FILE_SAMPLES);
+        self.file = Some(Box::pin(future));
+    }
+
+    /// The file's bytes once they are there.
+    pub(crate) fn poll_file(&mut self) -> Option<Result<Vec<u8>, RenderError>> {
+        let image = poll_once(self.file.as_mut()?)?;
+        self.file = None;
+        Some(image.and_then(|image| encode_png(&image)))
+    }
+
+    /// The GPU is busy with something that the interface waits for.
+    pub(crate) fn is_waiting(&self) -> bool {
+        !self.picks.is_empty() || self.file.is_some()
+    }
+}
+
+/// Samples per pixel of a saved picture.
+const FILE_SAMPLES: u32 = 4;

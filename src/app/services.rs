@@ -1,0 +1,133 @@
+//! What the app asks of its surroundings, and what comes back. The shell implements [`Services`] natively and on the page;
+//! tests have a false one. Nothing here blocks and nothing here knows a file, a thread or an address bar.
+
+use crate::data::{Volume, Voxels};
+use crate::document::SubjectRef;
+
+/// Names one load, so that what still arrives from an earlier one is dropped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Ticket(pub u64);
+
+/// Bytes on their way out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SaveFile {
+    /// Proposed file name with its ending.
+    pub name: String,
+    /// Media type: `image/png`.
+    pub mime: &'static str,
+    /// What is in it.
+    pub bytes: Vec<u8>,
+}
+
+/// How the address bar takes a new link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkChange {
+    /// In place: while something is dragged, and for the camera.
+    Replace,
+    /// As a new entry of the history.
+    Push,
+}
+
+/// Calls return at once; results come as [`Message`]s by [`Services::poll`].
+pub trait Services {
+    /// What has arrived since the last call. Whoever adds a message asks the egui context for a repaint.
+    fn poll(&mut self) -> Vec<Message>;
+    /// Shows a dialog for a scan or a document.
+    fn open_file(&mut self);
+    /// Opens what was dropped on the window: a scan or a document.
+    fn drop_file(&mut self, file: egui::DroppedFileHandle);
+    /// Starts loading a subject and ends any load before it.
+    fn load_subject(&mut self, subject: &SubjectRef) -> Ticket;
+    /// The reader agreed to fetch from the host that [`Message::AskHost`] named.
+    fn allow_host(&mut self, ticket: Ticket);
+    /// Stops a load; [`LoadEvent::Cancelled`] follows.
+    fn cancel_load(&mut self, ticket: Ticket);
+    /// Gives bytes to the user as a file; [`Message::Saved`] follows.
+    fn save_file(&mut self, file: SaveFile);
+    /// Puts text on the clipboard; [`Message::Copied`] follows.
+    fn copy_text(&mut self, text: String);
+    /// The page that goes in front of `#payload` when a link is copied.
+    fn page_address(&self) -> String;
+    /// Shows the document's payload in the address bar, where there is one.
+    fn set_link(&mut self, payload: &str, change: LinkChange);
+    /// Keeps a text for the next time the program is started.
+    fn store(&mut self, key: &str, value: &str);
+    /// What was kept.
+    fn stored(&self, key: &str) -> Option<String>;
+}
+
+/// What arrives.
+#[derive(Debug)]
+pub enum Message {
+    /// A document as JSON, or a link: from a file, an argument or the address bar.
+    OpenText {
+        /// All of it.
+        text: String,
+    },
+    /// A scan that the user opened has begun to load; it becomes the document's subject when it is done.
+    FileStarted {
+        /// Its load.
+        ticket: Ticket,
+    },
+    /// Progress of a load.
+    Load {
+        /// Which.
+        ticket: Ticket,
+        /// What happened.
+        event: LoadEvent,
+    },
+    /// A subject lies on another host than the page: fetch it?
+    AskHost {
+        /// The load that waits.
+        ticket: Ticket,
+        /// Name of the host.
+        host: String,
+    },
+    /// The clipboard has the text, or why not.
+    Copied(Result<(), String>),
+    /// The name under which the file was saved, or why it was not; an empty reason means that the user thought better of it.
+    Saved(Result<String, String>),
+    /// Something to tell the user.
+    Notice {
+        /// One line in plain words.
+        message: String,
+        /// More, shown on demand; may be empty.
+        details: String,
+    },
+}
+
+/// What happens to a load, in this order; `Begin` to `Coarse` may repeat, each time finer.
+#[derive(Debug)]
+pub enum LoadEvent {
+    /// A volume without its voxels; see `VolumeSink::begin`.
+    Begin(Box<Volume>),
+    /// Scalars that follow the ones before.
+    Scalars(Voxels),
+    /// Labels that follow the ones before.
+    Labels(Vec<u8>),
+    /// How far it is.
+    Progress {
+        /// 0 to 1.
+        fraction: f32,
+        /// `Reading`, `Generating`.
+        what: String,
+    },
+    /// What has come makes a whole coarse volume: show it. A finer `Begin` follows.
+    Coarse,
+    /// The volume is whole.
+    Done {
+        /// Of the file's bytes, lower-case hex; `None` for a built-in subject.
+        sha256: Option<String>,
+    },
+    /// Something was not as expected but the volume is usable.
+    Notice(String),
+    /// There will be no volume.
+    Failed {
+        /// One line in plain words.
+        message: String,
+        /// More, shown on demand; may be empty.
+        details: String,
+    },
+    /// Stopped by the user.
+    Cancelled,
+}

@@ -1,0 +1,472 @@
+//! The list of placed templates and everything about the selected one: parameters, mode, placement.
+
+use egui::{
+    CornerRadius, DragAndDrop, Id, Label, Rect, Role, Sense, Stroke, TextEdit, Ui, WidgetInfo, vec2,
+};
+use glam::{EulerRot, Quat, Vec3};
+
+use super::catalogue::kind_title;
+use super::command::Command;
+use super::control::{self, Change, NumberRow, capitalized};
+use super::icon::Icon;
+use super::state::State;
+use super::theme::{self, Palette};
+use crate::document::{Edit, ParamKind, ParamSpec, ParamValue, PlacedTemplate, TemplateMode};
+use crate::math::Placement;
+
+/// Height of a row of the list, points.
+const ROW: f32 = 36.0;
+
+/// The author's name for a template, else its kind's.
+pub(crate) fn template_title(template: &PlacedTemplate) -> String {
+    if template.name.is_empty() {
+        kind_title(template.kind)
+    } else {
+        template.name.clone()
+    }
+}
+
+/// The list, then the selected template.
+pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    list_ui(ui, state, commands);
+    if let Some(template) = state.selected_template() {
+        control::divider(ui);
+        template_ui(ui, template, commands);
+    } else if let Some(index) = state.selected {
+        control::divider(ui);
+        let weak = Palette::get(ui).weak;
+        let text =
+            "This version does not know this kind of template. It is kept as it is, and not drawn.";
+        ui.add(Label::new(egui::RichText::new(text).color(weak)).wrap());
+        if control::labelled_button(ui, Icon::Trash, "Delete", false, true).clicked() {
+            commands.push(Command::Apply(Edit::RemoveTemplate { template: index }));
+        }
+    }
+}
+
+/// An entry of the list that is being dragged: its index in the document.
+#[derive(Clone, Copy)]
+struct DraggedRow(usize);
+
+fn list_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let count = state.template_count();
+    control::heading(ui, "Templates", |ui| {
+        let from = state.selected;
+        let can_later = from.is_some_and(|from| from + 1 < count);
+        if control::icon_button(ui, Icon::Down, "Let it act later", can_later).clicked() {
+            commands.push(Command::ShiftSelected(1));
+        }
+        let can_earlier = from.is_some_and(|from| from > 0);
+        if control::icon_button(ui, Icon::Up, "Let it act earlier", can_earlier).clicked() {
+            commands.push(Command::ShiftSelected(-1));
+        }
+    });
+    if count == 0 {
+        let weak = Palette::get(ui).weak;
+        let text = "Nothing is placed yet. Choose a template, then click on the object.";
+        ui.add(Label::new(egui::RichText::new(text).color(weak)).wrap());
+        return;
+    }
+    let mut drop_at = None;
+    for index in 0..count {
+        let row = row_ui(ui, state, index, commands);
+        if let (Some(dragged), Some(pointer)) = (
+            DragAndDrop::payload::<DraggedRow>(ui.ctx()),
+            ui.input(|i| i.pointer.interact_pos()),
+        ) && row.expand2(vec2(40.0, 3.0)).contains(pointer)
+        {
+            let is_after = pointer.y > row.center().y;
+            let y = if is_after {
+                row.bottom() + 2.0
+            } else {
+                row.top() - 2.0
+            };
+            ui.painter()
+                .hline(row.x_range(), y, Stroke::new(2.5, Palette::get(ui).accent));
+            let gap = index + usize::from(is_after);
+            // Taking the row out first moves everything behind it up by one.
+            drop_at = Some((dragged.0, if gap > dragged.0 { gap - 1 } else { gap }));
+        }
+    }
+    if ui.input(|i| i.pointer.any_released())
+        && let Some((from, to)) = drop_at
+    {
+        DragAndDrop::clear_payload(ui.ctx());
+        if from != to {
+            commands.push(Command::Select(Some(to)));
+            commands.push(Command::Apply(Edit::MoveTemplate { from, to }));
+        }
+    }
+    if count > 1 {
+        let weak = Palette::get(ui).weak;
+        ui.label(
+            egui::RichText::new("They act from top to bottom.")
+                .small()
+                .color(weak),
+        );
+    }
+}
+
+/// One entry; returns its rectangle.
+fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>) -> Rect {
+    let palette = Palette::get(ui);
+    let template = state
+        .illustration()
+        .templates
+        .iter()
+        .find(|t| t.index == index);
+    let title = template.map_or_else(|| "Unknown template".to_owned(), template_title);
+    let is_selected = state.selected == Some(index);
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click_and_drag());
+    let number = index + 1;
+    let name = format!("{number}. {title}");
+    response
+        .widget_info(|| WidgetInfo::selected(Role::ListItem, ui.is_enabled(), is_selected, &name));
+    let (fill, stroke) = if is_selected {
+        (palette.accent_wash, palette.accent)
+    } else if response.hovered() {
+        (palette.hover, palette.line)
+    } else {
+        (palette.raised, palette.line)
+    };
+    ui.painter().rect(
+        rect,
+        CornerRadius::same(6),
+        fill,
+        Stroke::new(1.0, stroke),
+        egui::StrokeKind::Inside,
+    );
+    control::focus_ring(ui, &response, rect);
+
+    let grip = Rect::from_center_size(rect.left_center() + vec2(14.0, 0.0), vec2(16.0, 16.0));
+    Icon::Grip.paint(ui.painter(), grip, palette.weak.gamma_multiply(0.7));
+    let is_on = template.is_some_and(|t| t.enabled);
+    let color = if is_on { palette.text } else { palette.weak };
+    let text = rect.left_center() + vec2(28.0, 0.0);
+    let clip = rect.with_max_x(rect.right() - 66.0);
+    let painter = ui.painter().with_clip_rect(clip);
+    let shown = painter.text(
+        text,
+        egui::Align2::LEFT_CENTER,
+        &title,
+        theme::strong_font(13.0),
+        color,
+    );
+    if let Some(template) = template {
+        let mut note = if template.name.is_empty() {
+            String::new()
+        } else {
+            kind_title(template.kind)
+        };
+        if template.mode == TemplateMode::Add && index > 0 {
+            note = if note.is_empty() {
+                "added".to_owned()
+            } else {
+                format!("{note}, added")
+            };
+        }
+        let at = shown.right_center() + vec2(8.0, 0.0);
+        painter.text(
+            at,
+            egui::Align2::LEFT_CENTER,
+            note,
+            egui::FontId::proportional(11.5),
+            palette.weak,
+        );
+    }
+
+    if let Some(template) = template {
+        let (icon, verb) = if template.enabled {
+            (Icon::Eye, "Hide")
+        } else {
+            (Icon::EyeOff, "Show")
+        };
+        let right = Rect::from_center_size(rect.right_center() - vec2(20.0, 0.0), vec2(28.0, 28.0));
+        let mut inner = ui.new_child(
+            egui::UiBuilder::new()
+                .id_salt(("row", index))
+                .max_rect(right),
+        );
+        if control::icon_button(&mut inner, icon, &format!("{verb} {name}"), true).clicked() {
+            let edit = Edit::SetEnabled {
+                template: index,
+                enabled: !template.enabled,
+            };
+            commands.push(Command::Apply(edit));
+        }
+    }
+    if response.clicked() {
+        commands.push(Command::Select(if is_selected {
+            None
+        } else {
+            Some(index)
+        }));
+    }
+    if response.drag_started() {
+        response.dnd_set_drag_payload(DraggedRow(index));
+    }
+    rect
+}
+
+fn template_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>) {
+    let index = template.index;
+    control::heading(ui, &kind_title(template.kind), |ui| {
+        if control::icon_button(ui, Icon::Trash, "Delete template", true).clicked() {
+            commands.push(Command::DeleteSelected);
+        }
+        if control::icon_button(ui, Icon::Copy, "Duplicate template", true).clicked() {
+            commands.push(Command::DuplicateSelected);
+        }
+    });
+    let weak = Palette::get(ui).weak;
+    ui.add(Label::new(egui::RichText::new(template.kind.spec().summary).color(weak)).wrap());
+    ui.add_space(4.0);
+    for (param, value) in template.kind.spec().params.iter().zip(&template.params) {
+        ui.push_id((index, param.name), |ui| {
+            param_ui(ui, index, param, *value, commands)
+        });
+    }
+    ui.add_space(2.0);
+    control::row(ui, |ui| {
+        let label = control::row_label(ui, "Name", "What you call it; shown in the list");
+        let mut name = template.name.clone();
+        let edit = TextEdit::singleline(&mut name)
+            .hint_text(kind_title(template.kind))
+            .desired_width(f32::INFINITY)
+            .min_size(vec2(0.0, theme::CONTROL_HEIGHT))
+            .char_limit(80)
+            .id(Id::unique(("template name", index)));
+        if ui.add(edit).labelled_by(label.id).changed() {
+            commands.push(Command::Drag(Edit::RenameTemplate {
+                template: index,
+                name,
+            }));
+        }
+    });
+    if index > 0 {
+        control::row(ui, |ui| {
+            control::row_label(
+                ui,
+                "Joins",
+                "After: acts on what the ones before it left. Added: its displacement is summed with that of the one before it.",
+            );
+            let options = [
+                (TemplateMode::Compose, "After"),
+                (TemplateMode::Add, "Added"),
+            ];
+            if let Some(mode) = control::segmented(ui, "Joins", &options, template.mode) {
+                commands.push(Command::Apply(Edit::SetMode {
+                    template: index,
+                    mode,
+                }));
+            }
+        });
+    }
+    control::divider(ui);
+    placement_ui(ui, template, commands);
+}
+
+/// True if a parameter is an angle in radians, which people read in degrees.
+fn is_angle(param: &ParamSpec) -> bool {
+    param.summary.ends_with(", radians")
+}
+
+fn param_ui(
+    ui: &mut Ui,
+    template: usize,
+    param: &ParamSpec,
+    value: ParamValue,
+    commands: &mut Vec<Command>,
+) {
+    let name = capitalized(param.name);
+    let send = |change: Change<ParamValue>, commands: &mut Vec<Command>| {
+        let edit = |value| Edit::SetParam {
+            template,
+            param: param.name,
+            value,
+        };
+        commands.push(command(change.map(edit)));
+    };
+    match (param.kind, value) {
+        (ParamKind::Number { default, min, max }, ParamValue::Number(value)) => {
+            let factor = if is_angle(param) {
+                180.0 / std::f64::consts::PI
+            } else {
+                1.0
+            };
+            let shown = |v: f32| f64::from(v) * factor;
+            let row = NumberRow {
+                name: &name,
+                summary: param.summary.trim_end_matches(", radians"),
+                value: shown(value),
+                default: Some(shown(default)),
+                range: [shown(min), shown(max)],
+                unit: if is_angle(param) { "°" } else { "" },
+                decimals: if is_angle(param) { 1 } else { 3 },
+            };
+            if let Some(change) = row.ui(ui) {
+                // The ends are given as they are, so that no rounding of degrees leaves the range.
+                send(
+                    change.map(|v| ParamValue::Number(((v / factor) as f32).clamp(min, max))),
+                    commands,
+                );
+            }
+        }
+        (ParamKind::Count { default, min, max }, ParamValue::Number(value)) => {
+            let row = NumberRow {
+                name: &name,
+                summary: param.summary,
+                value: f64::from(value),
+                default: Some(f64::from(default)),
+                range: [f64::from(min), f64::from(max)],
+                unit: "",
+                decimals: 0,
+            };
+            if let Some(change) = row.ui(ui) {
+                send(
+                    change.map(|v| ParamValue::Number((v as f32).round())),
+                    commands,
+                );
+            }
+        }
+        (ParamKind::Flag { .. }, ParamValue::Flag(value)) => {
+            control::row(ui, |ui| {
+                control::row_label(ui, &name, param.summary);
+                let mut on = value;
+                let response = ui
+                    .checkbox(&mut on, "")
+                    .accessible_name(name.clone())
+                    .on_hover_text(param.summary);
+                if response.changed() {
+                    send(Change::Set(ParamValue::Flag(on)), commands);
+                }
+            });
+        }
+        (ParamKind::Choice { names }, ParamValue::Choice(value)) => {
+            control::row(ui, |ui| {
+                control::row_label(ui, &name, param.summary);
+                let titles: Vec<String> = names.iter().map(|name| capitalized(name)).collect();
+                let selected = titles.get(value as usize).cloned().unwrap_or_default();
+                let combo = control::combo("choice", &selected, ui.available_width() - 4.0);
+                let shown = combo.show_ui(ui, |ui| {
+                    for (i, title) in titles.iter().enumerate() {
+                        if ui.selectable_label(i == value as usize, title).clicked() {
+                            send(Change::Set(ParamValue::Choice(i as u32)), commands);
+                        }
+                    }
+                });
+                shown.response.accessible_name(name.clone());
+            });
+        }
+        (ParamKind::Vector { min, max, .. }, ParamValue::Vector(v)) => {
+            let value = v.to_array().map(f64::from);
+            let range = [f64::from(min), f64::from(max)];
+            if let Some(change) = control::vector_row(ui, &name, param.summary, value, range, "", 3)
+            {
+                send(change.map(|v| ParamValue::Vector(vec3(v))), commands);
+            }
+        }
+        (ParamKind::Rotation, ParamValue::Rotation(q)) => {
+            if let Some(change) = rotation_row(ui, &name, param.summary, q) {
+                send(change.map(ParamValue::Rotation), commands);
+            }
+        }
+        // A value of another type than its parameter's does not occur: the document is valid by construction.
+        _ => {}
+    }
+}
+
+fn placement_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>) {
+    let placement = template.placement;
+    let id = Id::unique("placement is open");
+    let mut is_open = ui.data(|data| data.get_temp::<bool>(id).unwrap_or(false));
+    let icon = if is_open {
+        Icon::ChevronDown
+    } else {
+        Icon::ChevronRight
+    };
+    control::heading(ui, "Placement", |ui| {
+        let name = if is_open {
+            "Fold placement"
+        } else {
+            "Unfold placement"
+        };
+        if control::icon_button(ui, icon, name, true).clicked() {
+            is_open = !is_open;
+            ui.data_mut(|data| data.insert_temp(id, is_open));
+        }
+    });
+    if !is_open {
+        return;
+    }
+    let send = |change: Change<Placement>, commands: &mut Vec<Command>| {
+        let edit = |placement| Edit::SetPlacement {
+            template: template.index,
+            placement,
+        };
+        commands.push(command(change.map(edit)));
+    };
+    let range = [-4.0, 4.0];
+    let at = placement.at.to_array().map(f64::from);
+    let hint = "Centre, in parts of the subject's longest side: right, front, up";
+    if let Some(change) = control::vector_row(ui, "Centre", hint, at, range, "", 3) {
+        send(
+            change.map(|v| Placement {
+                at: vec3(v),
+                ..placement
+            }),
+            commands,
+        );
+    }
+    if let Some(change) = rotation_row(
+        ui,
+        "Turned",
+        "About x, y and z, in this order",
+        placement.rotate,
+    ) {
+        send(
+            change.map(|rotate| Placement {
+                rotate,
+                ..placement
+            }),
+            commands,
+        );
+    }
+    let size = placement.size.to_array().map(f64::from);
+    if let Some(change) =
+        control::vector_row(ui, "Size", "Sides of the box", size, [0.01, 4.0], "", 3)
+    {
+        send(
+            change.map(|v| Placement {
+                size: vec3(v),
+                ..placement
+            }),
+            commands,
+        );
+    }
+}
+
+/// A rotation as three angles in degrees.
+fn rotation_row(ui: &mut Ui, name: &str, summary: &str, q: Quat) -> Option<Change<Quat>> {
+    let (z, y, x) = q.to_euler(EulerRot::ZYX);
+    let degrees =
+        [x, y, z].map(|angle| (f64::from(angle.to_degrees()) * 10.0).round() / 10.0 + 0.0);
+    let change = control::vector_row(ui, name, summary, degrees, [-360.0, 360.0], "°", 1)?;
+    Some(change.map(|v| {
+        let [x, y, z] = v.map(|degrees| (degrees as f32).to_radians());
+        Quat::from_euler(EulerRot::ZYX, z, y, x).normalize()
+    }))
+}
+
+fn vec3(v: [f64; 3]) -> Vec3 {
+    Vec3::from_array(v.map(|x| x as f32))
+}
+
+/// A change as a command: drags join into one step of undo.
+pub(crate) fn command(change: Change<Edit>) -> Command {
+    match change {
+        Change::Drag(edit) => Command::Drag(edit),
+        Change::Set(edit) => Command::Apply(edit),
+    }
+}

@@ -1,0 +1,277 @@
+//! Colours, type and spacing of the program, light and dark. Every colour that a panel, an icon or the gizmo uses is named here.
+
+use std::sync::Arc;
+
+use egui::{
+    Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke,
+    TextStyle, Theme, Vec2, epaint::text::FontTweak, style::HandleShape,
+};
+
+/// The family of headings and of names that carry weight (Inter SemiBold).
+pub(crate) const STRONG: &str = "strong";
+
+/// Points of an ordinary control's height.
+pub(crate) const CONTROL_HEIGHT: f32 = 28.0;
+
+/// The colours that egui's own style has no place for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Palette {
+    /// Behind bars and panels.
+    pub panel: Color32,
+    /// A step up from `panel`: cards, the selected tab, pop-ups.
+    pub raised: Color32,
+    /// A step down: tracks, wells, text fields.
+    pub sunken: Color32,
+    /// Hair lines.
+    pub line: Color32,
+    /// Ordinary text.
+    pub text: Color32,
+    /// Text of second rank; still 4.5:1 on `panel`.
+    pub weak: Color32,
+    /// What is chosen, and the one main button.
+    pub accent: Color32,
+    /// `accent` under the pointer.
+    pub accent_hover: Color32,
+    /// Text on `accent`.
+    pub on_accent: Color32,
+    /// A wash of `accent` behind what is chosen.
+    pub accent_wash: Color32,
+    /// Under the pointer.
+    pub hover: Color32,
+    /// Warnings.
+    pub warning: Color32,
+    /// Errors, deleting.
+    pub danger: Color32,
+    /// Behind text that floats over the picture.
+    pub float: Color32,
+}
+
+const fn rgb(hex: u32) -> Color32 {
+    Color32::from_rgb((hex >> 16) as u8, (hex >> 8) as u8, hex as u8)
+}
+
+/// Paper, ink and a surgical green that stands apart from every tissue colour.
+const LIGHT: Palette = Palette {
+    panel: rgb(0xf5f5f3),
+    raised: rgb(0xffffff),
+    sunken: rgb(0xe9e9e6),
+    line: rgb(0xd9d9d4),
+    text: rgb(0x1f2426),
+    weak: rgb(0x5c6366),
+    accent: rgb(0x0f6f6a),
+    accent_hover: rgb(0x0b5e59),
+    on_accent: rgb(0xffffff),
+    accent_wash: rgb(0xd7ebe8),
+    hover: rgb(0xebebe8),
+    warning: rgb(0x8a5a00),
+    danger: rgb(0xb3372f),
+    float: Color32::from_rgba_premultiplied(242, 242, 240, 242),
+};
+
+const DARK: Palette = Palette {
+    panel: rgb(0x1d2022),
+    raised: rgb(0x2a2e31),
+    sunken: rgb(0x141617),
+    line: rgb(0x363b3e),
+    text: rgb(0xe7e9e8),
+    weak: rgb(0xa2a9ab),
+    accent: rgb(0x4fb9b0),
+    accent_hover: rgb(0x6bcbc3),
+    on_accent: rgb(0x0b1f1e),
+    accent_wash: rgb(0x1f3f3d),
+    hover: rgb(0x2f3437),
+    warning: rgb(0xe0ad55),
+    danger: rgb(0xee8277),
+    float: Color32::from_rgba_premultiplied(28, 31, 33, 240),
+};
+
+/// Colours of the gizmo, the same over every theme since they lie on the picture.
+pub(crate) mod over_picture {
+    use super::{Color32, rgb};
+    /// Along the template's x axis.
+    pub(crate) const X: Color32 = rgb(0xd8433b);
+    /// Along y.
+    pub(crate) const Y: Color32 = rgb(0x3f9a3a);
+    /// Along z.
+    pub(crate) const Z: Color32 = rgb(0x2c6fd6);
+    /// The template's box.
+    pub(crate) const BOX: Color32 = rgb(0x0f6f6a);
+    /// The handle of the main parameter.
+    pub(crate) const HANDLE: Color32 = rgb(0xf2a900);
+    /// Under the pointer or held.
+    pub(crate) const HOT: Color32 = rgb(0xffd34d);
+    /// Around lines and letters, so that they read on flesh, bone, white and black.
+    pub(crate) const HALO_LIGHT: Color32 = Color32::from_rgba_premultiplied(215, 215, 215, 215);
+    /// The dark counterpart.
+    pub(crate) const HALO_DARK: Color32 = Color32::from_rgba_premultiplied(0, 0, 0, 150);
+}
+
+impl Palette {
+    /// The colours of a theme.
+    pub(crate) fn of(theme: Theme) -> &'static Self {
+        match theme {
+            Theme::Light => &LIGHT,
+            Theme::Dark => &DARK,
+        }
+    }
+
+    /// The colours of the theme that a piece of interface is drawn in.
+    pub(crate) fn get(ui: &egui::Ui) -> &'static Self {
+        if ui.visuals().dark_mode {
+            &DARK
+        } else {
+            &LIGHT
+        }
+    }
+}
+
+/// Text set in the heavier cut.
+pub(crate) fn strong(text: impl Into<String>) -> egui::RichText {
+    egui::RichText::new(text).family(FontFamily::Name(STRONG.into()))
+}
+
+/// Font of the heavier cut at a size in points.
+pub(crate) fn strong_font(size: f32) -> FontId {
+    FontId::new(size, FontFamily::Name(STRONG.into()))
+}
+
+/// Puts fonts and both themes into a context. Once, at the start.
+pub(crate) fn install(ctx: &egui::Context) {
+    ctx.set_fonts(fonts());
+    for theme in [Theme::Light, Theme::Dark] {
+        ctx.style_mut_of(theme, |style| apply(style, Palette::of(theme)));
+    }
+}
+
+/// Inter in two cuts, cut down to Latin and Greek. Other scripts are drawn by the browser's own text engine, or natively
+/// by the fonts of the system.
+fn fonts() -> FontDefinitions {
+    let mut fonts = FontDefinitions::empty();
+    // Inter's own line gap is nothing and its ascent is high: one pixel down centres it in a button.
+    let tweak = FontTweak {
+        y_offset_factor: 0.01,
+        ..Default::default()
+    };
+    for (name, bytes) in [
+        ("inter", include_bytes!("font/Inter-Regular.otf").as_slice()),
+        (
+            "inter-semibold",
+            include_bytes!("font/Inter-SemiBold.otf").as_slice(),
+        ),
+    ] {
+        let data = FontData::from_static(bytes).tweak(tweak.clone());
+        fonts.font_data.insert(name.to_owned(), Arc::new(data));
+    }
+    let regular = vec!["inter".to_owned()];
+    fonts
+        .families
+        .insert(FontFamily::Proportional, regular.clone());
+    fonts.families.insert(FontFamily::Monospace, regular);
+    fonts.families.insert(
+        FontFamily::Name(STRONG.into()),
+        vec!["inter-semibold".to_owned(), "inter".to_owned()],
+    );
+    fonts
+}
+
+fn apply(style: &mut egui::Style, palette: &Palette) {
+    style.text_styles = [
+        (TextStyle::Small, FontId::proportional(11.5)),
+        (TextStyle::Body, FontId::proportional(13.5)),
+        (TextStyle::Button, FontId::proportional(13.5)),
+        (TextStyle::Heading, strong_font(15.0)),
+        (TextStyle::Monospace, FontId::proportional(13.0)),
+    ]
+    .into();
+    style.animation_time = 0.12;
+    style.interaction.tooltip_delay = 0.4;
+    style.interaction.selectable_labels = false;
+
+    let spacing = &mut style.spacing;
+    spacing.item_spacing = Vec2::new(8.0, 6.0);
+    spacing.button_padding = Vec2::new(10.0, 5.0);
+    spacing.interact_size = Vec2::new(36.0, CONTROL_HEIGHT);
+    spacing.slider_rail_height = 4.0;
+    spacing.icon_width = 16.0;
+    spacing.icon_width_inner = 9.0;
+    spacing.combo_width = 96.0;
+    spacing.menu_margin = Margin::same(6);
+    spacing.window_margin = Margin::same(16);
+    spacing.scroll.floating = true;
+    spacing.scroll.bar_width = 8.0;
+
+    let visuals = &mut style.visuals;
+    visuals.panel_fill = palette.panel;
+    visuals.window_fill = palette.raised;
+    visuals.window_stroke = Stroke::new(1.0, palette.line);
+    visuals.window_corner_radius = CornerRadius::same(10);
+    visuals.menu_corner_radius = CornerRadius::same(8);
+    visuals.extreme_bg_color = palette.sunken;
+    visuals.text_edit_bg_color = Some(palette.raised);
+    visuals.faint_bg_color = palette.sunken;
+    visuals.code_bg_color = palette.sunken;
+    visuals.hyperlink_color = palette.accent;
+    visuals.warn_fg_color = palette.warning;
+    visuals.error_fg_color = palette.danger;
+    visuals.weak_text_color = Some(palette.weak);
+    visuals.selection.bg_fill = palette.accent_wash;
+    visuals.selection.stroke = Stroke::new(1.5, palette.accent);
+    visuals.slider_trailing_fill = true;
+    visuals.handle_shape = HandleShape::Circle;
+    let shadow = Shadow {
+        offset: [0, 6],
+        blur: 20,
+        spread: 0,
+        color: Color32::from_black_alpha(if visuals.dark_mode { 110 } else { 38 }),
+    };
+    visuals.popup_shadow = shadow;
+    visuals.window_shadow = shadow;
+    visuals.disabled_alpha = 0.45;
+
+    let radius = CornerRadius::same(6);
+    let widgets = &mut visuals.widgets;
+    for (visual, fill, weak_fill, stroke, text) in [
+        (
+            &mut widgets.noninteractive,
+            palette.panel,
+            palette.panel,
+            palette.line,
+            palette.text,
+        ),
+        (
+            &mut widgets.inactive,
+            palette.sunken,
+            palette.raised,
+            palette.line,
+            palette.text,
+        ),
+        (
+            &mut widgets.hovered,
+            palette.hover,
+            palette.hover,
+            palette.weak,
+            palette.text,
+        ),
+        (
+            &mut widgets.active,
+            palette.accent_wash,
+            palette.accent_wash,
+            palette.accent,
+            palette.text,
+        ),
+        (
+            &mut widgets.open,
+            palette.hover,
+            palette.hover,
+            palette.accent,
+            palette.text,
+        ),
+    ] {
+        visual.bg_fill = fill;
+        visual.weak_bg_fill = weak_fill;
+        visual.bg_stroke = Stroke::new(1.0, stroke);
+        visual.fg_stroke = Stroke::new(1.5, text);
+        visual.corner_radius = radius;
+        visual.expansion = 0.0;
+    }
+}

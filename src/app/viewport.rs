@@ -1,0 +1,669 @@
+//! The picture and what the hand does on it: turn, move, zoom, place, pick; over it the gizmo, the sides of the patient and
+//! a few floating controls.
+
+use egui::{
+    Align2, Color32, CornerRadius, Event, EventFilter, Key, PointerButton, Pos2, Rect, Response,
+    Role, Sense, Shape, Stroke, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
+};
+use glam::Vec3;
+
+use super::camera::{self, Projection};
+use super::command::{Command, GizmoMode};
+use super::control;
+use super::gizmo::Gizmo;
+use super::icon::Icon;
+use super::orientation;
+use super::picture::{PickFor, Picture};
+use super::state::{Gravity, State, placement_on_surface};
+use super::theme::{self, Palette};
+use crate::document::{Background, Camera, PlacedTemplate};
+use crate::math::Placement;
+use crate::render::Pick;
+
+/// Radians per point of a drag.
+const ORBIT_PER_POINT: f32 = 0.0075;
+/// Zoom per point of the wheel, exponent.
+const ZOOM_PER_POINT: f32 = 0.0022;
+/// Seconds without a change after which the picture refines.
+const REST_SECONDS: f64 = 0.18;
+/// Seconds of GPU work per frame while something moves, and at rest.
+const BUDGET_MOVING: f32 = 0.03;
+const BUDGET_REST: f32 = 0.05;
+
+/// What of the picture lives from frame to frame.
+#[derive(Default)]
+pub(crate) struct Viewport {
+    gizmo: Gizmo,
+    /// Where the template being placed would lie.
+    preview: Option<Placement>,
+    /// Where the pointer was when the preview was asked for.
+    preview_at: Option<Pos2>,
+    /// Where the pointer was at the double click that is being answered.
+    moving_until: f64,
+    last_camera: Option<Camera>,
+    last_revision: u64,
+    /// Rectangle of the last frame, points.
+    rect: Option<Rect>,
+    /// Identity of the picture as a widget.
+    id: Option<egui::Id>,
+    /// The picture could not be drawn; said once.
+    has_failed: bool,
+}
+
+impl Viewport {
+    /// Size of the picture in pixels as it was last shown.
+    pub(crate) fn size_px(&self, pixels_per_point: f32) -> [u32; 2] {
+        self.rect
+            .map_or([1024, 768], |rect| size_px(rect, pixels_per_point))
+    }
+
+    /// Identity of the picture as a widget, once it has been shown.
+    pub(crate) fn id(&self) -> Option<egui::Id> {
+        self.id
+    }
+
+    /// Draws the picture and everything on it into what is left of the window.
+    pub(crate) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        state: &mut State,
+        picture: Option<&mut Picture>,
+        commands: &mut Vec<Command>,
+    ) {
+        let rect = ui.available_rect_before_wrap();
+        let id = ui.scope_id().with("picture");
+        let response = ui.interact(rect, id, Sense::click_and_drag());
+        ui.advance_cursor_after_rect(rect);
+        self.rect = Some(rect);
+        self.id = Some(id);
+        self.announce(&response, state);
+
+        let view = Projection::new(&state.camera, rect);
+        self.gestures(ui, &response, state, &view, picture.as_deref());
+        let view = Projection::new(&state.camera, rect);
+
+        let background = background_color(state, ui);
+        paint_background(ui, rect, state.illustration().look.background, background);
+        self.picture_ui(ui, rect, state, picture, commands);
+
+        let painter = ui.painter_at(rect);
+        let letters = if is_dark(background) {
+            Color32::from_white_alpha(170)
+        } else {
+            Color32::from_black_alpha(150)
+        };
+        let has_bar = state.placing.is_some() || state.selected_template().is_some();
+        let free = if has_bar {
+            rect.with_min_y(rect.top() + 52.0)
+        } else {
+            rect
+        };
+        orientation::edges_ui(&painter, &view, letters, free);
+
+        if let Some(kind) = state.placing {
+            self.placing_ui(ui, rect, &view, state, kind.spec().name, commands);
+        } else {
+            self.markers_ui(ui, &view, state, commands);
+            if let Some(template) = state.selected_template().cloned() {
+                if let Some(edit) = self.gizmo.ui(ui, &response, &view, &template, state.gizmo) {
+                    commands.push(Command::Drag(edit));
+                }
+                tools_ui(ui, rect, state, &template, commands);
+            } else {
+                self.gizmo.release();
+            }
+        }
+        if response.clicked()
+            && state.placing.is_none()
+            && !self.gizmo.is_hot()
+            && state.selected.is_some()
+        {
+            commands.push(Command::Select(None));
+        }
+        self.corner_ui(ui, rect, &view, commands);
+        if response.has_focus() {
+            control::focus_ring(ui, &response, rect.shrink(1.0));
+        }
+    }
+
+    fn announce(&self, response: &Response, state: &State) {
+        let title = &state.illustration().title;
+        let subject = super::topbar::subject_name(&state.illustration().subject);
+        response.widget_info(|| {
+            let name = if title.is_empty() {
+                format!("Picture of {subject}")
+            } else {
+                format!("Picture: {title}")
+            };
+            WidgetInfo::labeled(Role::Image, true, name)
+        });
+        // The arrows turn the object while the picture has the keyboard; they do not move on to the next control.
+        response.ctx.memory_mut(|memory| {
+            let filter = EventFilter {
+                tab: false,
+                horizontal_arrows: true,
+                vertical_arrows: true,
+                escape: true,
+            };
+            memory.set_focus_lock_filter(response.id, filter);
+        });
+    }
+
+    /// Turns, moves and zooms.
+    fn gestures(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        state: &mut State,
+        view: &Projection,
+        picture: Option<&Picture>,
+    ) {
+        let before = state.camera;
+        let touch = ui
+            .input(|i| i.multi_touch())
+            .filter(|touch| view.rect.contains(touch.center_pos));
+        if let Some(touch) = touch {
+            camera::zoom(&mut state.camera, touch.zoom_delta);
+            camera::pan(&mut state.camera, view, touch.translation_delta);
+        } else if response.dragged() && !self.gizmo.is_held() && response.drag_delta() != Vec2::ZERO
+        {
+            let delta = response.drag_delta();
+            let shift = ui.input(|i| i.modifiers.shift);
+            let is_pan = shift
+                || response.dragged_by(PointerButton::Secondary)
+                || response.dragged_by(PointerButton::Middle);
+            if is_pan {
+                camera::pan(&mut state.camera, view, delta);
+            } else if ui.input(|i| i.modifiers.alt) {
+                camera::roll(&mut state.camera, delta.x * ORBIT_PER_POINT);
+            } else {
+                camera::orbit(&mut state.camera, delta * ORBIT_PER_POINT);
+            }
+        }
+        if response.contains_pointer() && touch.is_none() {
+            let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
+            if wheel != 0.0 {
+                camera::zoom(&mut state.camera, (wheel * ZOOM_PER_POINT).exp());
+            } else if pinch != 1.0 {
+                camera::zoom(&mut state.camera, pinch);
+            }
+        }
+        if response.clicked() {
+            // Keys go to the picture from now on, without a ring around what was only clicked on.
+            ui.memory_mut(|memory| {
+                if let Some(focused) = memory.focused() {
+                    memory.surrender_focus(focused);
+                }
+            });
+        }
+        if before != state.camera {
+            state.camera_moved();
+            ui.ctx().request_repaint();
+        }
+        _ = picture;
+    }
+
+    /// The picture itself, and the questions about it.
+    fn picture_ui(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        state: &mut State,
+        picture: Option<&mut Picture>,
+        commands: &mut Vec<Command>,
+    ) {
+        let Some(picture) = picture else {
+            let text = "There is no graphics device to draw with";
+            ui.painter().text(
+                rect.center(),
+                Align2::CENTER_CENTER,
+                text,
+                theme::strong_font(14.0),
+                Palette::get(ui).weak,
+            );
+            return;
+        };
+        let now = state.now;
+        let is_changed =
+            self.last_camera != Some(state.camera) || self.last_revision != state.revision;
+        if is_changed {
+            self.last_camera = Some(state.camera);
+            self.last_revision = state.revision;
+            self.moving_until = now + REST_SECONDS;
+            picture.set(state.illustration(), &state.camera);
+        }
+        let is_moving = now < self.moving_until;
+        let size = size_px(rect, ui.pixels_per_point());
+        let budget = if is_moving {
+            BUDGET_MOVING
+        } else {
+            BUDGET_REST
+        };
+        match picture.draw(size, budget, is_moving) {
+            Ok(texture) => {
+                self.has_failed = false;
+                if let Some(texture) = texture {
+                    let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+                    ui.painter().image(texture, rect, uv, Color32::WHITE);
+                }
+            }
+            Err(error) => {
+                if !self.has_failed {
+                    state.say(
+                        Gravity::Error,
+                        "The picture could not be drawn",
+                        error.to_string(),
+                    );
+                }
+                self.has_failed = true;
+            }
+        }
+        if !picture.state.is_done && !self.has_failed {
+            ui.ctx().request_repaint();
+        } else if is_moving {
+            let rest = (self.moving_until - now).max(0.0) + 0.01;
+            ui.ctx()
+                .request_repaint_after(std::time::Duration::from_secs_f64(rest));
+        }
+        if !picture.state.is_done && !is_moving && picture.state.has_picture {
+            paint_progress(ui, rect, picture.state.progress);
+        }
+        _ = commands;
+        self.questions(ui, rect, state, picture);
+    }
+
+    /// Sends the questions that clicks ask of the picture, and acts on the answers.
+    fn questions(&mut self, ui: &Ui, rect: Rect, state: &mut State, picture: &mut Picture) {
+        let response = ui.ctx().read_response(ui.scope_id().with("picture"));
+        let ppp = ui.pixels_per_point();
+        let size = size_px(rect, ppp);
+        let pixel = |pos: Pos2| [(pos.x - rect.min.x) * ppp, (pos.y - rect.min.y) * ppp];
+        let mut asked = Ok(());
+        if let Some(response) = &response {
+            let pointer = response.interact_pointer_pos();
+            if state.placing.is_some() {
+                if response.clicked()
+                    && let Some(pos) = pointer
+                {
+                    asked = picture.ask(PickFor::Place, pixel(pos), size);
+                } else if let Some(pos) = response.hover_pos()
+                    && self.preview_at != Some(pos)
+                    && !response.dragged()
+                    && !picture.is_asking(PickFor::Hover)
+                {
+                    self.preview_at = Some(pos);
+                    // A preview is no reason for a message.
+                    _ = picture.ask(PickFor::Hover, pixel(pos), size);
+                }
+            } else if response.double_clicked()
+                && !self.gizmo.is_hot()
+                && let Some(pos) = pointer
+            {
+                asked = picture.ask(PickFor::Target, pixel(pos), size);
+            }
+        }
+        if std::mem::take(&mut state.wants_place_in_middle) {
+            asked = picture.ask(PickFor::PlaceInMiddle, pixel(rect.center()), size);
+        }
+        if let Err(error) = asked {
+            state.say(
+                Gravity::Info,
+                "There is nothing to click on yet",
+                error.to_string(),
+            );
+        }
+        for (why, answer) in picture.answers() {
+            match answer {
+                Ok(pick) => self.answered(why, pick, state),
+                Err(error) => state.say(
+                    Gravity::Error,
+                    "The point could not be found",
+                    error.to_string(),
+                ),
+            }
+        }
+        if picture.is_waiting() {
+            ui.ctx().request_repaint();
+        }
+    }
+
+    fn answered(&mut self, why: PickFor, pick: Option<Pick>, state: &mut State) {
+        let camera = state.camera;
+        match (why, pick) {
+            (PickFor::Hover, pick) => {
+                self.preview = pick.zip(state.placing).map(|(pick, kind)| {
+                    placement_on_surface(kind, pick.pos_in_subject, facing(&pick, &camera), &camera)
+                });
+            }
+            (PickFor::Place, Some(pick)) => {
+                self.preview = None;
+                state.place(pick.pos_in_subject, facing(&pick, &camera));
+            }
+            (PickFor::Place, None) => {
+                state.say(
+                    Gravity::Info,
+                    "There is nothing at this place: click on the object",
+                    "",
+                );
+            }
+            (PickFor::PlaceInMiddle, Some(pick)) => {
+                self.preview = None;
+                state.place(pick.pos_in_subject, facing(&pick, &camera));
+            }
+            (PickFor::PlaceInMiddle, None) => {
+                state.place(camera.target, camera::axes(camera.rotate)[2]);
+            }
+            (PickFor::Target, Some(pick)) => state.look_at(pick.pos_in_subject),
+            (PickFor::Target, None) => {}
+        }
+    }
+
+    /// What is shown while a template is being placed.
+    fn placing_ui(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        view: &Projection,
+        state: &State,
+        name: &str,
+        commands: &mut Vec<Command>,
+    ) {
+        self.gizmo.release();
+        ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
+        if let Some(preview) = &self.preview {
+            paint_preview(ui, rect, view, preview);
+        }
+        let palette = Palette::get(ui);
+        let is_narrow = rect.width() < 420.0;
+        let text = if is_narrow {
+            format!("Tap where the {name} goes")
+        } else {
+            format!("Click on the object where the {name} goes")
+        };
+        let galley = ui
+            .painter()
+            .layout_no_wrap(text, theme::strong_font(13.5), palette.text);
+        let middle_width = if is_narrow { 76.0 } else { 118.0 };
+        let width = (galley.size().x + middle_width + 28.0 + 40.0).min(rect.width() - 16.0);
+        let bar =
+            Rect::from_center_size(pos2(rect.center().x, rect.top() + 30.0), vec2(width, 40.0));
+        float_frame(ui, bar);
+        ui.painter().galley(
+            bar.left_center() + vec2(14.0, -0.5 * galley.size().y),
+            galley,
+            palette.text,
+        );
+        let mut inner = ui.new_child(
+            UiBuilder::new()
+                .max_rect(bar.shrink2(vec2(6.0, 6.0)))
+                .layout(egui::Layout::right_to_left(egui::Align::Center)),
+        );
+        if control::icon_button(&mut inner, Icon::Close, "Cancel placing", true).clicked() {
+            commands.push(Command::Escape);
+        }
+        let text = if is_narrow { "Middle" } else { "In the middle" };
+        if inner.button(text).on_hover_text("Enter").clicked() {
+            commands.push(Command::PlaceInMiddle);
+        }
+        _ = state;
+    }
+
+    /// A dot for each template that is not selected; a click selects it.
+    fn markers_ui(
+        &mut self,
+        ui: &Ui,
+        view: &Projection,
+        state: &State,
+        commands: &mut Vec<Command>,
+    ) {
+        if self.gizmo.is_held() {
+            return;
+        }
+        let palette = Palette::get(ui);
+        for template in &state.illustration().templates {
+            if Some(template.index) == state.selected {
+                continue;
+            }
+            let Some(at) = view
+                .ui_from_subject(template.placement.at)
+                .filter(|at| view.rect.contains(*at))
+            else {
+                continue;
+            };
+            let hit = Rect::from_center_size(at, Vec2::splat(26.0));
+            let response = ui.interact(
+                hit,
+                ui.scope_id().with(("marker", template.index)),
+                Sense::click(),
+            );
+            let name = super::templates::template_title(template);
+            response
+                .widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Select {name}")));
+            let is_hot = response.hovered() || response.has_focus();
+            let fade = if template.enabled { 1.0 } else { 0.5 };
+            let painter = ui.painter_at(view.rect);
+            painter.circle_filled(
+                at,
+                if is_hot { 9.0 } else { 7.0 },
+                theme::over_picture::HALO_DARK.gamma_multiply(fade),
+            );
+            painter.circle_filled(
+                at,
+                if is_hot { 7.5 } else { 5.5 },
+                Color32::WHITE.gamma_multiply(fade),
+            );
+            painter.circle_filled(
+                at,
+                if is_hot { 5.0 } else { 3.2 },
+                palette.accent.gamma_multiply(fade),
+            );
+            if response.on_hover_text(name).clicked() {
+                commands.push(Command::Select(Some(template.index)));
+            }
+        }
+    }
+
+    /// The ball of axes and the way back home.
+    fn corner_ui(&self, ui: &mut Ui, rect: Rect, view: &Projection, commands: &mut Vec<Command>) {
+        if rect.height() < 220.0 {
+            return;
+        }
+        let center = rect.left_bottom() + vec2(62.0, -62.0);
+        commands.extend(orientation::ball_ui(ui, view, center));
+        let home = Rect::from_center_size(center + vec2(62.0, 32.0), Vec2::splat(30.0));
+        float_frame(ui, home);
+        let mut inner = ui.new_child(UiBuilder::new().max_rect(home.shrink(1.0)));
+        if control::icon_button(&mut inner, Icon::Home, "Back to the first view", true).clicked() {
+            commands.push(Command::ResetView);
+        }
+    }
+}
+
+/// The normal, or the direction to the viewer where the surface has none to speak of.
+fn facing(pick: &Pick, camera: &Camera) -> Vec3 {
+    let back = camera::axes(camera.rotate)[2];
+    let normal = pick.normal.normalize_or(back);
+    if normal.dot(back) < -0.2 {
+        -normal
+    } else {
+        normal
+    }
+}
+
+/// Size of a rectangle in pixels, at least one by one.
+fn size_px(rect: Rect, pixels_per_point: f32) -> [u32; 2] {
+    [rect.width(), rect.height()]
+        .map(|side| (side * pixels_per_point).round().clamp(1.0, 8192.0) as u32)
+}
+
+fn background_color(state: &State, ui: &Ui) -> Color32 {
+    match state.illustration().look.background {
+        Background::Color([r, g, b]) => Color32::from_rgb(r, g, b),
+        Background::None => Palette::get(ui).raised,
+    }
+}
+
+fn is_dark(color: Color32) -> bool {
+    color.intensity() < 0.45
+}
+
+/// The document's background under the picture, so that nothing flashes while there is none; a chequered one for none.
+fn paint_background(ui: &Ui, rect: Rect, background: Background, color: Color32) {
+    ui.painter().rect_filled(rect, 0.0, color);
+    if background == Background::None {
+        const SIDE: f32 = 12.0;
+        let painter = ui.painter_at(rect);
+        let other = Palette::get(ui).hover;
+        let (columns, rows) = (
+            (rect.width() / SIDE).ceil() as u32,
+            (rect.height() / SIDE).ceil() as u32,
+        );
+        for y in 0..rows {
+            for x in (y % 2..columns).step_by(2) {
+                let min = rect.min + vec2(x as f32, y as f32) * SIDE;
+                painter.rect_filled(Rect::from_min_size(min, Vec2::splat(SIDE)), 0.0, other);
+            }
+        }
+    }
+}
+
+/// A thin line along the top while the picture refines.
+fn paint_progress(ui: &Ui, rect: Rect, progress: f32) {
+    let width = rect.width() * progress.clamp(0.0, 1.0);
+    let line = Rect::from_min_size(rect.left_bottom() - vec2(0.0, 2.0), vec2(width, 2.0));
+    ui.painter()
+        .rect_filled(line, 0.0, Palette::get(ui).accent.gamma_multiply(0.6));
+}
+
+/// Behind controls that float over the picture; takes the clicks that miss them.
+pub(crate) fn float_frame(ui: &Ui, rect: Rect) {
+    let palette = Palette::get(ui);
+    ui.interact(
+        rect,
+        ui.scope_id()
+            .with(("float", rect.min.x as i32, rect.min.y as i32)),
+        Sense::click_and_drag(),
+    );
+    let shadow = egui::Shadow {
+        offset: [0, 2],
+        blur: 8,
+        spread: 0,
+        color: Color32::from_black_alpha(40),
+    };
+    ui.painter()
+        .add(shadow.as_shape(rect, CornerRadius::same(8)));
+    ui.painter().rect(
+        rect,
+        CornerRadius::same(8),
+        palette.float,
+        Stroke::new(1.0, palette.line),
+        egui::StrokeKind::Inside,
+    );
+}
+
+/// The box of the template that would be placed.
+fn paint_preview(ui: &Ui, rect: Rect, view: &Projection, placement: &Placement) {
+    let painter = ui.painter_at(rect);
+    let corner = |bits: usize| {
+        let pick = |bit: usize| if bits & bit == 0 { 0.0 } else { 1.0 };
+        view.ui_from_subject(placement.subject_from_template(Vec3::new(pick(1), pick(2), pick(4))))
+    };
+    for axis in 0..3_usize {
+        for bits in (0..8_usize).filter(|bits| bits & (1 << axis) == 0) {
+            if let (Some(a), Some(b)) = (corner(bits), corner(bits | (1 << axis))) {
+                painter.line_segment(
+                    [a, b],
+                    Stroke::new(3.0, theme::over_picture::HALO_LIGHT.gamma_multiply(0.5)),
+                );
+                painter.extend(Shape::dashed_line(
+                    &[a, b],
+                    Stroke::new(1.3, theme::over_picture::BOX),
+                    5.0,
+                    3.0,
+                ));
+            }
+        }
+    }
+    let (base, tip) = (
+        placement.at,
+        placement.subject_from_template(Vec3::new(0.5, 0.5, 1.25)),
+    );
+    if let (Some(a), Some(b)) = (view.ui_from_subject(base), view.ui_from_subject(tip)) {
+        painter.line_segment([a, b], Stroke::new(2.0, theme::over_picture::Z));
+        painter.circle_filled(b, 3.5, theme::over_picture::Z);
+    }
+}
+
+/// Floating over the picture: what the handles do, and the commonest commands of the selected template.
+fn tools_ui(
+    ui: &mut Ui,
+    rect: Rect,
+    state: &State,
+    template: &PlacedTemplate,
+    commands: &mut Vec<Command>,
+) {
+    let width = 340.0_f32.min(rect.width() - 12.0);
+    let bar = Rect::from_center_size(pos2(rect.center().x, rect.top() + 30.0), vec2(width, 40.0));
+    float_frame(ui, bar);
+    let mut inner = ui.new_child(
+        UiBuilder::new()
+            .id_salt("tools")
+            .max_rect(bar.shrink2(vec2(6.0, 6.0)))
+            .layout(egui::Layout::left_to_right(egui::Align::Center)),
+    );
+    let ui = &mut inner;
+    ui.spacing_mut().item_spacing.x = 2.0;
+    let choice = (width - 12.0 - 4.0 * 30.0 - 8.0).max(120.0);
+    ui.allocate_ui(vec2(choice, 28.0), |ui| {
+        if let Some(mode) = control::segmented(ui, "Handles", &GizmoMode::ALL, state.gizmo) {
+            commands.push(Command::SetGizmo(mode));
+        }
+    });
+    ui.add_space(6.0);
+    let (eye, eye_name) = if template.enabled {
+        (Icon::Eye, "Hide")
+    } else {
+        (Icon::EyeOff, "Show")
+    };
+    for (icon, name, command) in [
+        (eye, eye_name, Command::ToggleSelected),
+        (Icon::Copy, "Duplicate", Command::DuplicateSelected),
+        (Icon::Trash, "Delete", Command::DeleteSelected),
+        (Icon::Close, "Deselect", Command::Select(None)),
+    ] {
+        if control::icon_button(ui, icon, name, true).clicked() {
+            commands.push(command);
+        }
+    }
+}
+
+/// True if the picture or nothing has the keyboard, so that arrows turn the object.
+pub(crate) fn has_arrows(ui: &Ui, picture_id: egui::Id) -> bool {
+    ui.memory(|memory| memory.focused().is_none_or(|id| id == picture_id))
+}
+
+/// Keys that a focused control uses itself.
+pub(crate) fn is_widget_key(key: Key) -> bool {
+    matches!(
+        key,
+        Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown | Key::Enter | Key::Space
+    )
+}
+
+/// Files that were dropped on the window in this frame.
+pub(crate) fn dropped(ui: &Ui) -> Vec<egui::DroppedFileHandle> {
+    ui.input(|i| i.raw.dropped_files.clone())
+}
+
+/// Text that was pasted and is not meant for a text field.
+pub(crate) fn pasted(ui: &Ui) -> Option<String> {
+    if ui.ctx().egui_wants_keyboard_input() {
+        return None;
+    }
+    ui.input(|i| {
+        i.events.iter().find_map(|event| match event {
+            Event::Paste(text) => Some(text.clone()),
+            _ => None,
+        })
+    })
+}
