@@ -28,8 +28,14 @@
 
 mod bar;
 mod cube;
+mod head;
+mod head_brain;
+mod head_skin;
+mod head_skull;
+mod head_soft;
 mod lanes;
 mod paint;
+mod shape;
 
 use std::ops::Range;
 
@@ -69,13 +75,14 @@ pub enum SubjectError {
 
 /// Names of the built-in subjects that can be made, as written in documents.
 pub fn names() -> &'static [&'static str] {
-    &["bar", "cube"]
+    &["bar", "cube", "head"]
 }
 
 fn model(name: &str) -> Option<Box<dyn Model>> {
     Some(match name {
         "bar" => Box::new(bar::Bar),
         "cube" => Box::new(cube::Cube),
+        "head" => Box::new(head::Head::new()),
         _ => return None,
     })
 }

@@ -96,5 +96,5 @@ impl Canvas {
 
 /// Over how many mm a border is smoothed at a voxel spacing: wide enough that a gradient taken between neighbours is smooth.
 pub(super) fn border_width(spacing: f32) -> f32 {
-    1.7 * spacing
+    2.6 * spacing
 }

@@ -1,0 +1,416 @@
+//! The head: skin, fat, muscle, skull, brain and what lies between, in CT-like values.
+//!
+//! Every tissue is a field of signed distances; a block is painted from what lies behind to what lies before, as an
+//! illustrator lays paint: fat first, muscles on it, bone on those, and so on.
+
+use glam::Vec3;
+
+use super::head_brain::{self, Cortex};
+use super::head_skin;
+use super::head_skull;
+use super::head_soft;
+use super::lanes::Lanes;
+use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, border_width, segment};
+use super::shape::{Field, Near, Places, smooth_min};
+
+/// Segments by label.
+#[derive(Clone, Copy)]
+#[repr(u8)]
+enum Tissue {
+    Skin = 1,
+    Fat,
+    Muscle,
+    Bone,
+    Brain,
+    WhiteMatter,
+    Cerebellum,
+    BrainStem,
+    Ventricles,
+    Csf,
+    Eyes,
+    Iris,
+    Pupil,
+    Lens,
+    Teeth,
+    Tongue,
+    Mucosa,
+    Airway,
+    Arteries,
+    Veins,
+    Nerves,
+    Cartilage,
+    Glands,
+    Lips,
+    Hair,
+}
+
+const SEGMENTS: &[SegmentSpec] = &[
+    segment("skin", [226, 176, 148]),
+    segment("fat", [240, 209, 128]),
+    segment("muscle", [165, 68, 58]),
+    segment("bone", [236, 224, 196]),
+    segment("brain", [214, 168, 156]),
+    segment("white matter", [240, 230, 216]),
+    segment("cerebellum", [204, 154, 144]),
+    segment("brain stem", [232, 208, 176]),
+    segment("ventricles", [120, 160, 196]),
+    segment("csf", [176, 204, 220]),
+    segment("eyes", [240, 237, 232]),
+    segment("iris", [104, 122, 116]),
+    segment("pupil", [24, 20, 20]),
+    segment("lens", [206, 220, 224]),
+    segment("teeth", [248, 244, 230]),
+    segment("tongue", [198, 98, 94]),
+    segment("mucosa", [206, 112, 104]),
+    segment("airway", [196, 220, 232]),
+    segment("arteries", [196, 44, 38]),
+    segment("veins", [72, 90, 160]),
+    segment("nerves", [236, 206, 90]),
+    segment("cartilage", [190, 208, 214]),
+    segment("glands", [214, 168, 110]),
+    segment("lips", [198, 122, 110]),
+    segment("hair", [112, 84, 66]),
+];
+
+/// See the module.
+pub(super) struct Head {
+    skin: Field,
+    lips: Field,
+    hair: Field,
+    cartilage_regions: Field,
+    cartilages: Field,
+    muscles: Field,
+    facial_muscles: Field,
+    tongue: Field,
+    glands: Field,
+    airway: Field,
+    sinuses: Field,
+    arteries: Field,
+    veins: Field,
+    nerves: Field,
+    cavity: Field,
+    canal: Field,
+    face_bones: Field,
+    openings: Field,
+    lower_bones: Field,
+    teeth: Field,
+    hemispheres: Field,
+    fissure: Field,
+    cerebellum: Field,
+    tentorium: Field,
+    stem: Field,
+    callosum: Field,
+    deep_grey: Field,
+    ventricles: Field,
+    eyes: Field,
+    lens: Field,
+    iris: Field,
+    pupil: Field,
+    cortex: Cortex,
+}
+
+fn of(shapes: Vec<super::shape::Shape>, smooth: f32) -> Field {
+    let mut f = Field::default();
+    f.join_all(smooth, shapes);
+    f
+}
+
+impl Head {
+    /// Builds the model; it takes some ten milliseconds, most for the folds of the brain.
+    pub(super) fn new() -> Self {
+        let mut skin = head_skin::skin();
+        skin.carve(1.0, head_skin::neck_end());
+        let mut lower_bones = head_skull::mandible();
+        lower_bones.append(head_skull::neck_bones(), 0.0);
+        let mut muscles = head_soft::muscles();
+        muscles.join(0.0, head_soft::gullet());
+        Self {
+            skin,
+            lips: of(head_skin::lips(), 0.0),
+            hair: head_skin::hair(),
+            cartilage_regions: head_skin::cartilage_regions(),
+            cartilages: head_skull::cartilages(),
+            muscles,
+            facial_muscles: head_soft::facial_muscles(),
+            tongue: head_soft::tongue(),
+            glands: head_soft::glands(),
+            airway: head_soft::airway(),
+            sinuses: head_skull::sinuses(),
+            arteries: head_soft::arteries(),
+            veins: head_soft::veins(),
+            nerves: head_soft::nerves(),
+            cavity: head_skull::cavity(),
+            canal: head_skull::canal(),
+            face_bones: head_skull::face_bones(),
+            openings: head_skull::openings(),
+            lower_bones,
+            teeth: head_skull::teeth(),
+            hemispheres: head_brain::hemispheres(),
+            fissure: head_brain::long_fissure(),
+            cerebellum: head_brain::cerebellum(),
+            tentorium: head_skull::under_tentorium(),
+            stem: head_brain::stem(),
+            callosum: of(head_brain::callosum(), 0.0),
+            deep_grey: head_brain::deep_grey(),
+            ventricles: head_brain::ventricles(),
+            eyes: head_soft::cornea(),
+            lens: head_soft::lens(),
+            iris: head_soft::iris(5.7),
+            pupil: head_soft::iris(2.1),
+            cortex: Cortex::new(),
+        }
+    }
+}
+
+/// The fields of one block, cut down to what matters there.
+struct Layer<'a>(Near<'a>);
+
+impl<'a> Layer<'a> {
+    fn new(field: &'a Field, block: &Block, band: f32) -> Self {
+        let mut near = Near::default();
+        field.near(block, band, &mut near);
+        Self(near)
+    }
+
+    /// Signed distance, or nothing if the field is far from the block.
+    #[inline(always)]
+    fn at(&self, p: &Places) -> Option<Lanes> {
+        if self.0.is_empty() {
+            return None;
+        }
+        Some(self.0.distance(p))
+    }
+}
+
+impl Model for Head {
+    fn bounds_mm(&self) -> (Vec3, Vec3) {
+        (
+            Vec3::new(-95.0, -99.0, -144.0),
+            Vec3::new(95.0, 124.0, 134.0),
+        )
+    }
+
+    fn segments(&self) -> &'static [SegmentSpec] {
+        SEGMENTS
+    }
+
+    fn value_range(&self) -> [f32; 2] {
+        [-1000.0, 2400.0]
+    }
+
+    fn paint(&self, block: &Block, out: &mut Canvas) {
+        let width = border_width(block.spacing);
+        let layer = |field, band: f32| Layer::new(field, block, band + width);
+        let skin = layer(&self.skin, 12.0);
+        let eyes = layer(&self.eyes, 1.0);
+        if skin.0.is_empty() && eyes.0.is_empty() {
+            return;
+        }
+        let lips = layer(&self.lips, 2.0);
+        let hair = layer(&self.hair, 0.0);
+        let cartilage_regions = layer(&self.cartilage_regions, 0.0);
+        let cartilages = layer(&self.cartilages, 0.0);
+        let muscles = layer(&self.muscles, 1.0);
+        let facial = layer(&self.facial_muscles, 0.0);
+        let tongue = layer(&self.tongue, 0.0);
+        let glands = layer(&self.glands, 0.0);
+        let airway = layer(&self.airway, 4.0);
+        let sinuses = layer(&self.sinuses, 3.0);
+        let arteries = layer(&self.arteries, 0.0);
+        let veins = layer(&self.veins, 0.0);
+        let nerves = layer(&self.nerves, 0.0);
+        let cavity = layer(&self.cavity, 12.0);
+        let canal = layer(&self.canal, 2.0);
+        let face_bones = layer(&self.face_bones, 6.0);
+        let openings = layer(&self.openings, 2.0);
+        let lower_bones = layer(&self.lower_bones, 4.0);
+        let teeth = layer(&self.teeth, 2.0);
+        let hemispheres = layer(&self.hemispheres, 20.0);
+        let fissure = layer(&self.fissure, 20.0);
+        let cerebellum = layer(&self.cerebellum, 14.0);
+        let tentorium = layer(&self.tentorium, 14.0);
+        let stem = layer(&self.stem, 3.0);
+        let callosum = layer(&self.callosum, 0.0);
+        let deep_grey = layer(&self.deep_grey, 0.0);
+        let ventricles = layer(&self.ventricles, 0.0);
+        let lens = layer(&self.lens, 0.0);
+        let iris = layer(&self.iris, 0.0);
+        let pupil = layer(&self.pupil, 0.0);
+        let skin_thickness = 2.2f32.max(0.9 * block.spacing);
+        let flat = Lanes::splat;
+
+        for row in 0..ROWS {
+            let p = Places::new(block.row(row));
+            let s = skin.at(&p).unwrap_or(flat(1e3));
+            let eye = eyes.at(&p);
+            if s.lowest() > width && eye.is_none_or(|eye| eye.lowest() > width) {
+                continue;
+            }
+            let mut lay = |d: Lanes, value: Lanes, tissue: Tissue| {
+                if d.lowest() < width {
+                    out.lay(row, d, width, value, tissue as u8);
+                }
+            };
+            lay(s, flat(-100.0), Tissue::Fat);
+            if let Some(d) = muscles.at(&p) {
+                lay(d.max(s + 3.4), flat(55.0), Tissue::Muscle);
+            }
+            if let Some(d) = facial.at(&p) {
+                let sheet = (s + 4.2).abs() - 1.5;
+                lay(d.max(sheet), flat(50.0), Tissue::Muscle);
+            }
+            if let Some(d) = glands.at(&p) {
+                lay(d.max(s + 3.0), flat(20.0), Tissue::Glands);
+            }
+            if let Some(d) = tongue.at(&p) {
+                lay(d, flat(60.0), Tissue::Tongue);
+            }
+            let air = airway.at(&p);
+            if let Some(d) = air {
+                lay((d - 2.6).max(s + 1.0), flat(45.0), Tissue::Mucosa);
+            }
+            if let Some(d) = cartilage_regions.at(&p) {
+                lay(d.max(s + 1.9), flat(110.0), Tissue::Cartilage);
+            }
+            if let Some(d) = cartilages.at(&p) {
+                lay(d.max(s + 2.5), flat(110.0), Tissue::Cartilage);
+            }
+
+            // Bone. The vault is a shell about the cavity.
+            let hollow = cavity.at(&p);
+            let tube = canal.at(&p);
+            let cranium = hollow.map(|c| {
+                let thickness = 4.0 + ((p.plain.z - 2.0) * (1.0 / 30.0)).clamp(0.0, 1.0).0[0] * 2.6;
+                c - thickness
+            });
+            let mut bone = face_bones.at(&p);
+            if let Some(vault) = cranium {
+                bone = Some(bone.map_or(vault, |face| smooth_min(face, vault, 5.0)));
+            }
+            let sinus = sinuses.at(&p);
+            bone = bone.map(|mut bone| {
+                if let Some(open) = openings.at(&p) {
+                    bone = bone.max(-open);
+                }
+                if let Some(air) = air {
+                    bone = bone.max(flat(1.2) - air);
+                }
+                if let Some(sinus) = sinus {
+                    bone = bone.max(-sinus);
+                }
+                if let Some(c) = hollow {
+                    bone = bone.max(-c);
+                }
+                bone
+            });
+            if let Some(vault) = cranium {
+                // Sutures are engraved in the outer table only.
+                if let Some(d) = bone.as_mut().filter(|_| {
+                    block.center().z > 0.0 && vault.lowest() < 3.0 && vault.highest() > -3.5
+                }) {
+                    let outer = (vault * (1.0 / 3.0) + 1.0).clamp(0.0, 1.0);
+                    *d = *d + head_skull::sutures(&p) * outer;
+                }
+            }
+            if let Some(lower) = lower_bones.at(&p) {
+                bone = Some(bone.map_or(lower, |bone| bone.min(lower)));
+            }
+            if let (Some(d), Some(tube)) = (bone, tube) {
+                bone = Some(d.max(-tube));
+            }
+            if let Some(d) = bone {
+                let d = d.max(s + 2.6);
+                // Compact outside, spongy inside.
+                let spongy = ((-d - 1.5) * 0.8).clamp(0.0, 1.0);
+                lay(d, flat(1250.0).mix(flat(420.0), spongy), Tissue::Bone);
+            }
+            if let Some(d) = teeth.at(&p) {
+                let dentine = ((-d - 1.0) * 0.8).clamp(0.0, 1.0);
+                lay(
+                    d.max(s + 1.5),
+                    flat(2300.0).mix(flat(1700.0), dentine),
+                    Tissue::Teeth,
+                );
+            }
+
+            // What the skull and the canal hold.
+            let contents = match (hollow, tube) {
+                (Some(a), Some(b)) => Some(a.min(b)),
+                (a, b) => a.or(b),
+            };
+            if let Some(d) = contents {
+                let d = d.max(s + 2.6);
+                lay(d, flat(8.0), Tissue::Csf);
+                let inside = d + 0.5;
+                if inside.lowest() < width {
+                    if let Some(solid) = hemispheres.at(&p) {
+                        let gap = fissure.at(&p).unwrap_or(flat(1e3));
+                        let d = self.cortex.distance(&p.plain, solid, gap).max(inside);
+                        lay(d, flat(38.0), Tissue::Brain);
+                        lay(d + 3.1, flat(29.0), Tissue::WhiteMatter);
+                        if let Some(c) = callosum.at(&p) {
+                            lay(c, flat(29.0), Tissue::WhiteMatter);
+                        }
+                        if let Some(c) = deep_grey.at(&p) {
+                            lay(c, flat(38.0), Tissue::Brain);
+                        }
+                    }
+                    let trunk = stem.at(&p);
+                    if let Some(body) = cerebellum.at(&p) {
+                        let under = tentorium.at(&p).unwrap_or(flat(1e3)) + 1.5;
+                        let mut d = body.max(under).max(inside + 1.2);
+                        if let Some(trunk) = trunk {
+                            d = d.max(flat(0.5) - trunk);
+                        }
+                        let d = head_brain::folia(&p.plain, d);
+                        lay(d, flat(40.0), Tissue::Cerebellum);
+                        lay(d + 1.9, flat(30.0), Tissue::WhiteMatter);
+                    }
+                    if let Some(d) = trunk {
+                        lay(d.max(inside + 1.0), flat(32.0), Tissue::BrainStem);
+                    }
+                    if let Some(d) = ventricles.at(&p) {
+                        lay(d.max(inside), flat(6.0), Tissue::Ventricles);
+                    }
+                }
+            }
+
+            if let Some(d) = nerves.at(&p) {
+                lay(d.max(s + 3.2), flat(32.0), Tissue::Nerves);
+            }
+            if let Some(d) = veins.at(&p) {
+                lay(d.max(s + 3.2), flat(180.0), Tissue::Veins);
+            }
+            if let Some(d) = arteries.at(&p) {
+                lay(d.max(s + 3.2), flat(230.0), Tissue::Arteries);
+            }
+
+            let skin_shell = s.max(-(s + skin_thickness));
+            lay(skin_shell, flat(30.0), Tissue::Skin);
+            let red = lips.at(&p).map(|d| (d - 0.5).max(s));
+            if let Some(d) = red {
+                lay(d, flat(40.0), Tissue::Lips);
+            }
+            if let Some(d) = hair.at(&p) {
+                lay(d.max((s - 0.1).abs() - 0.9), flat(20.0), Tissue::Hair);
+            }
+            for air in [air, sinus].into_iter().flatten() {
+                lay(air.max(s), flat(-1000.0), Tissue::Airway);
+            }
+            if let Some(d) = eye {
+                let wall = (-d - 1.2).clamp(0.0, 1.0);
+                lay(d, flat(55.0).mix(flat(12.0), wall), Tissue::Eyes);
+                if let Some(lens) = lens.at(&p) {
+                    lay(lens, flat(95.0), Tissue::Lens);
+                }
+                let front = d.max(-(d + 2.6));
+                if let Some(ring) = iris.at(&p) {
+                    lay(ring.max(front), flat(55.0), Tissue::Iris);
+                }
+                if let Some(hole) = pupil.at(&p) {
+                    lay(hole.max(front), flat(50.0), Tissue::Pupil);
+                }
+            }
+        }
+    }
+}
