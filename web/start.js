@@ -83,7 +83,13 @@ async function main() {
     document.documentElement.dataset.state = "no-webgpu";
     return;
   }
-  const viewer = new fabrica.Viewer(element("fabrica"));
+  const host = fabrica.foreign_document_host();
+  if (host && !(await agreed(host))) {
+    show("The document was not fetched.", [], "The page's address still names it: load the page again to be asked once more.");
+    return;
+  }
+  const viewer = new fabrica.Viewer(element("fabrica"), new URL("./worker.js", import.meta.url).href, true);
+  viewer.on_copy_refused(offerText);
   // For whoever embeds or tests the page; the viewer itself never reads it.
   window.fabrica = { viewer, module: fabrica };
   try {
@@ -96,13 +102,79 @@ async function main() {
   }
   element("cover").hidden = true;
   document.documentElement.dataset.state = "started";
-  // A panic leaves the picture frozen; say so rather than let the page look alive.
-  const watch = setInterval(() => {
-    if (!viewer.has_panicked()) return;
-    clearInterval(watch);
-    show("The viewer stopped because of a fault in it.", ["Load the page again to go on.", viewer.panic_message()], keep);
-    document.documentElement.dataset.state = "panicked";
-  }, 1000);
+  watch(viewer, keep);
+}
+
+/** Looks after a fault in the viewer, which leaves the picture frozen, and after a lost graphics device. */
+function watch(viewer, keep) {
+  let losses = 0;
+  const timer = setInterval(async () => {
+    if (viewer.has_panicked()) {
+      clearInterval(timer);
+      show("The viewer stopped because of a fault in it.", ["Load the page again to go on.", viewer.panic_message()], keep);
+      document.documentElement.dataset.state = "panicked";
+    } else if (document.documentElement.dataset.state === "started" && viewer.is_lost()) {
+      losses += 1;
+      document.documentElement.dataset.state = "lost";
+      document.documentElement.dataset.losses = losses;
+      try {
+        // A device that is lost again and again has a reason that starting again does not remove.
+        if (losses > 5) throw new Error("It was lost " + losses + " times.");
+        await viewer.restart();
+        document.documentElement.dataset.state = "started";
+      } catch (error) {
+        clearInterval(timer);
+        show("The graphics device was lost and could not be had again.", ["Load the page again.", String(error)], keep);
+        document.documentElement.dataset.state = "failed";
+      }
+    }
+  }, 500);
+}
+
+/** Asks before anything is fetched from another host than the page's. */
+function agreed(host) {
+  return new Promise((resolve) => {
+    show(`This address opens a document from another place: ${host}.`, ["That host will see that you asked for it. Nothing of yours is sent to it."]);
+    const button = document.createElement("button");
+    button.textContent = `Open the document from ${host}`;
+    button.id = "agree";
+    const no = document.createElement("button");
+    no.textContent = "Leave it";
+    element("remedies").append(button, no);
+    button.onclick = () => {
+      show("Loading the document…");
+      resolve(true);
+    };
+    no.onclick = () => resolve(false);
+  });
+}
+
+/** A text that the clipboard refused, with a button whose tap every browser accepts. */
+function offerText(text) {
+  const dialog = document.createElement("dialog");
+  const field = document.createElement("textarea");
+  const copy = document.createElement("button");
+  const close = document.createElement("button");
+  field.value = text;
+  field.readOnly = true;
+  field.rows = 5;
+  copy.textContent = "Copy";
+  close.textContent = "Close";
+  copy.onclick = async () => {
+    field.select();
+    try {
+      await navigator.clipboard.writeText(text);
+      dialog.close();
+    } catch {
+      copy.textContent = "Press Ctrl+C";
+    }
+  };
+  close.onclick = () => dialog.close();
+  dialog.onclose = () => dialog.remove();
+  dialog.append("The link", field, copy, close);
+  document.body.append(dialog);
+  dialog.showModal();
+  field.select();
 }
 
 main();

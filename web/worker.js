@@ -1,17 +1,12 @@
 // The viewer's own program in a background thread: it reads files and makes subjects off the frame loop.
 // Messages are described in src/shell/worker.rs.
 
-let ready;
-
 self.onmessage = async (event) => {
   try {
-    ready ??= import("./fabrica.js").then(async (fabrica) => {
-      await fabrica.default({ module_or_path: new URL("./fabrica_bg.wasm", import.meta.url) });
-      return fabrica;
-    });
-    const fabrica = await ready;
+    const fabrica = await import("./fabrica.js");
+    await fabrica.default({ module_or_path: event.data.module });
     await fabrica.worker_task(event.data);
   } catch (error) {
-    self.postMessage({ kind: "failed", message: String(error) });
+    self.postMessage(["failed", "The background thread that loads scans stopped because of a fault", String(error)]);
   }
 };

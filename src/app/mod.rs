@@ -146,6 +146,12 @@ impl App {
                 .is_none_or(|picture| picture.state.is_done)
     }
 
+    /// True if the graphics device was lost; whoever embeds the app makes a new one with [`App::document`].
+    pub fn is_device_lost(&self) -> bool {
+        let gpu = self.picture.as_ref().map(Picture::gpu);
+        gpu.is_some_and(|gpu| gpu.lost().is_some())
+    }
+
     /// Does something as if a button had been pressed.
     pub fn run(&mut self, command: Command) {
         self.state.run(command, self.services.as_mut());

@@ -1,43 +1,193 @@
-//! The page: starts the viewer on a canvas.
+//! The page: starts the viewer on a canvas and is what a page's scripts see of it.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
 
 use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::JsFuture;
+use web_sys::{HtmlCanvasElement, Url};
+
+use super::page::{Page, PageServices, Place, foreign_host};
+use crate::app::{App, Message, Start};
+use crate::data::{VolumeBuilder, VolumeLimits, VolumeSink as _};
+use crate::document::{Document, SubjectRef};
+use crate::link;
+use crate::render::{Gpu, GpuOptions, encode_png, render_image};
+use crate::subjects;
+
+/// An empty document: the head, nothing placed.
+const EMPTY: &str = "{\"fabrica\":1}";
 
 /// One viewer on one canvas.
 #[wasm_bindgen]
 pub struct Viewer {
     runner: eframe::WebRunner,
-    canvas: web_sys::HtmlCanvasElement,
+    canvas: HtmlCanvasElement,
+    page: Rc<RefCell<Page>>,
+    /// What it opens with in place of what the address says.
+    text: RefCell<Option<String>>,
+    _on_pop: Option<Closure<dyn FnMut()>>,
 }
 
 #[wasm_bindgen]
 impl Viewer {
-    /// A viewer for this canvas; nothing is shown until [`Viewer::start`].
+    /// A viewer for this canvas; nothing is shown until [`Viewer::start`]. `worker` is the address of worker.js. A viewer
+    /// that `is_page` binds the address bar and keeps the session; one that does not touches neither.
     #[wasm_bindgen(constructor)]
-    pub fn new(canvas: web_sys::HtmlCanvasElement) -> Self {
+    pub fn new(canvas: HtmlCanvasElement, worker: String, is_page: bool) -> Self {
+        let base = web_sys::window().and_then(|w| w.document());
+        let base = base.and_then(|d| d.base_uri().ok().flatten());
+        let place = Place {
+            worker,
+            is_page,
+            base: base.unwrap_or_default(),
+        };
+        let page = Rc::new(RefCell::new(Page::new(place)));
+        let on_pop = is_page.then(|| {
+            let page = Rc::clone(&page);
+            let closure = Closure::new(move || {
+                let text = address_text().unwrap_or_else(|| EMPTY.to_owned());
+                let mut page = page.borrow_mut();
+                page.payload.clear();
+                page.say(Message::OpenText { text });
+            });
+            if let Some(window) = web_sys::window() {
+                window.set_onpopstate(Some(closure.as_ref().unchecked_ref()));
+            }
+            closure
+        });
         Self {
             runner: eframe::WebRunner::new(),
             canvas,
+            page,
+            text: RefCell::new(None),
+            _on_pop: on_pop,
         }
     }
 
-    /// Starts drawing.
+    /// Starts drawing what the address (of a page) or [`Viewer::set_link`] says.
     ///
     /// # Errors
     /// If there is no WebGPU device for the canvas.
     pub async fn start(&self) -> Result<(), JsValue> {
+        let given = self.text.borrow_mut().take();
+        let is_page = self.page.borrow().place.is_page;
+        let text = match given {
+            Some(text) => Some(text),
+            None if is_page => match document_address() {
+                Some(address) => {
+                    self.page.borrow_mut().place.base.clone_from(&address);
+                    Some(fetch_text(&address).await?)
+                }
+                None => address_text(),
+            },
+            None => Some(EMPTY.to_owned()),
+        };
+        self.run(text).await
+    }
+
+    /// Starts again after the graphics device was lost: the same document, the same files.
+    ///
+    /// # Errors
+    /// If there is no device any more.
+    pub async fn restart(&self) -> Result<(), JsValue> {
+        let text = self.document_text().unwrap_or_else(|| EMPTY.to_owned());
+        self.runner.destroy();
+        self.run(Some(text)).await
+    }
+
+    async fn run(&self, text: Option<String>) -> Result<(), JsValue> {
+        let mut setup = eframe::egui_wgpu::WgpuSetupCreateNew::without_display_handle();
+        setup.instance_descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
+        setup.device_descriptor = Arc::new(Gpu::device_descriptor);
+        let is_page = self.page.borrow().place.is_page;
         let options = eframe::WebOptions {
             renderer: eframe::Renderer::Wgpu,
             dithering: false,
+            wgpu_options: eframe::egui_wgpu::WgpuConfiguration {
+                wgpu_setup: setup.into(),
+                ..Default::default()
+            },
+            should_prevent_default: Box::new(move |event| is_ours(event, is_page)),
+            should_stop_propagation: Box::new(move |event| is_ours(event, is_page)),
             ..Default::default()
         };
-        let runner = self.runner.clone();
-        runner
-            .start(
-                self.canvas.clone(),
-                options,
-                Box::new(|_cc| Ok(Box::new(Hello))),
-            )
+        let page = Rc::clone(&self.page);
+        let create: eframe::AppCreator<'static> = Box::new(move |cc| {
+            {
+                let mut page = page.borrow_mut();
+                page.ctx = Some(cc.egui_ctx.clone());
+                if let Some(state) = &cc.wgpu_render_state {
+                    page.limits = VolumeLimits {
+                        max_dim: state.device.limits().max_texture_dimension_3d,
+                        ..page.limits
+                    };
+                }
+            }
+            let start = Start {
+                document: None,
+                text,
+                subject: None,
+                clock: seconds,
+            };
+            let app = App::new(cc, Box::new(PageServices(page)), start);
+            Ok(Box::new(Shown(app)))
+        });
+        self.runner
+            .start(self.canvas.clone(), options, create)
             .await
+    }
+
+    /// Ends drawing and frees the device. The viewer can be started again.
+    pub fn destroy(&self) {
+        self.runner.destroy();
+    }
+
+    /// Opens a link, a payload or a document as JSON; what is wrong with a bad one is shown in the viewer.
+    pub fn set_link(&self, text: String) {
+        let mut page = self.page.borrow_mut();
+        if page.ctx.is_none() {
+            self.text.replace(Some(text));
+        } else {
+            page.payload.clear();
+            page.say(Message::OpenText { text });
+        }
+    }
+
+    /// What a document's relative addresses start from.
+    pub fn set_base(&self, address: String) {
+        self.page.borrow_mut().place.base = address;
+    }
+
+    /// Payload of the link to what is shown now.
+    pub fn get_link(&self) -> String {
+        self.runner
+            .app_mut::<Shown>()
+            .map(|shown| link::encode(&shown.0.document()))
+            .unwrap_or_default()
+    }
+
+    /// The document that is shown now, as JSON.
+    pub fn get_document(&self) -> String {
+        self.document_text().unwrap_or_default()
+    }
+
+    fn document_text(&self) -> Option<String> {
+        let shown = self.runner.app_mut::<Shown>()?;
+        Some(shown.0.document().to_json_compact())
+    }
+
+    /// True when the picture is complete and nothing is being loaded.
+    pub fn is_at_rest(&self) -> bool {
+        let shown = self.runner.app_mut::<Shown>();
+        shown.is_some_and(|shown| shown.0.is_at_rest())
+    }
+
+    /// True if the graphics device was lost: [`Viewer::restart`] is due.
+    pub fn is_lost(&self) -> bool {
+        let shown = self.runner.app_mut::<Shown>();
+        shown.is_some_and(|shown| shown.0.is_device_lost())
     }
 
     /// True if a fault has stopped the viewer.
@@ -47,20 +197,200 @@ impl Viewer {
 
     /// What stopped it, or nothing.
     pub fn panic_message(&self) -> String {
-        self.runner
-            .panic_summary()
-            .map(|s| s.message())
-            .unwrap_or_default()
+        let summary = self.runner.panic_summary();
+        summary.map(|s| s.message()).unwrap_or_default()
+    }
+
+    /// A function called with a text that the browser did not let onto the clipboard.
+    pub fn on_copy_refused(&self, function: js_sys::Function) {
+        self.page.borrow_mut().on_copy_refused = Some(function);
+    }
+
+    /// Opens files as if the reader had picked them.
+    pub fn open_files(&self, files: js_sys::Array) {
+        let files = files.iter().map(|file| {
+            let file: web_sys::File = file.unchecked_into();
+            (file.name(), file.into())
+        });
+        PageServices(Rc::clone(&self.page)).open_files(files.collect());
     }
 }
 
-struct Hello;
+/// The app, as something that can be found again in its runner.
+struct Shown(App);
 
-impl eframe::App for Hello {
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
-        egui::CentralPanel::default().show(ui, |ui| ui.heading("Fabrica"));
+impl eframe::App for Shown {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        self.0.ui(ui, frame);
     }
+
+    fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
+        Some(self)
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        self.0.clear_color(visuals)
+    }
+
+    fn persist_egui_memory(&self) -> bool {
+        false
+    }
+}
+
+/// Whether the page must not also act on an event. Keys that belong to the browser (reload, tools, full screen, what goes
+/// with Ctrl and is no shortcut of ours) stay with it; the wheel scrolls the page around an embedded viewer unless Ctrl
+/// says that zooming is meant.
+fn is_ours(event: &egui::Event, is_page: bool) -> bool {
+    use egui::{Event, Key};
+    match event {
+        Event::Key { key, .. } => !matches!(
+            key,
+            Key::F1 | Key::F3 | Key::F5 | Key::F6 | Key::F7 | Key::F10 | Key::F11 | Key::F12
+        ),
+        Event::MouseWheel { modifiers, .. } => is_page || modifiers.command,
+        _ => true,
+    }
+}
+
+/// Seconds since the page was opened.
+fn seconds() -> f64 {
+    let performance = web_sys::window().and_then(|w| w.performance());
+    performance.map_or(0.0, |p| p.now() * 1e-3)
+}
+
+fn here() -> Option<Url> {
+    let href = web_sys::window()?.location().href().ok()?;
+    Url::new(&href).ok()
+}
+
+/// The page's address, if a document is in it.
+fn address_text() -> Option<String> {
+    let url = here()?;
+    let has_document = url.hash().len() > 1 || url.search_params().has("s");
+    has_document.then(|| url.href())
+}
+
+/// The absolute address of `?doc=`, unless a payload in the address goes before it.
+fn document_address() -> Option<String> {
+    let url = here()?;
+    let wanted = url.search_params().get("doc")?;
+    if address_text().is_some() {
+        return None;
+    }
+    Url::new_with_base(&wanted, &url.href())
+        .ok()
+        .map(|u| u.href())
+}
+
+async fn fetch_text(address: &str) -> Result<String, JsValue> {
+    const LIMIT: f64 = 2e6;
+    let window = web_sys::window().ok_or("no window")?;
+    let fail = |why: String| {
+        JsValue::from(format!(
+            "The document {address} could not be fetched: {why}"
+        ))
+    };
+    let response = JsFuture::from(window.fetch_with_str(address)).await;
+    let response = response.map_err(|e| fail(super::worker::text_of(&e)))?;
+    let response: web_sys::Response = response.unchecked_into();
+    if !response.ok() {
+        return Err(fail(format!("the server answered {}", response.status())));
+    }
+    let length = response.headers().get("content-length")?;
+    if length
+        .and_then(|n| n.parse::<f64>().ok())
+        .is_some_and(|n| n > LIMIT)
+    {
+        return Err(fail("it is too long for a document".to_owned()));
+    }
+    let text = JsFuture::from(response.text()?).await?;
+    text.as_string()
+        .ok_or_else(|| fail("it is no text".to_owned()))
 }
 
 /// Called once when the program has been loaded, in the page and in every worker. Starting is left to web/start.js.
 pub fn loaded() {}
+
+/// Host that `?doc=` would fetch from, if it is not the page's own: nothing is fetched from it without a tap.
+#[wasm_bindgen]
+pub fn foreign_document_host() -> Option<String> {
+    foreign_host(&document_address()?)
+}
+
+/// Title, caption and steps of the document in a link or JSON, as lines of text, for where no picture can be drawn.
+///
+/// # Errors
+/// What is wrong with the link or document.
+#[wasm_bindgen]
+pub fn describe(text: &str) -> Result<String, JsValue> {
+    let illustration = open(text)?.illustration().clone();
+    let mut lines = vec![illustration.title, illustration.caption];
+    for (index, step) in illustration.steps.iter().enumerate() {
+        lines.push(format!("{}. {} {}", index + 1, step.title, step.caption));
+    }
+    lines.retain(|line| !line.trim().is_empty());
+    Ok(lines.join("\n"))
+}
+
+fn open(text: &str) -> Result<Document, JsValue> {
+    let text = text.trim();
+    if text.starts_with('{') {
+        return Document::from_json(text).map_err(|error| error.to_string().into());
+    }
+    let decoded = link::decode(text);
+    decoded
+        .map(|l| l.document)
+        .map_err(|error| error.to_string().into())
+}
+
+thread_local! {
+    /// The device and the subject of [`render_png`], kept for the next call.
+    static OFFSCREEN: RefCell<(Option<Gpu>, Option<(String, u32, Rc<crate::data::Volume>)>)> = const { RefCell::new((None, None)) };
+}
+
+/// Draws a document with a built-in subject offscreen and deterministically, as `fabrica render` does, and gives the PNG.
+/// `resolution` is the number of voxels along the subject's longest side. For tests and for pictures of other pages.
+///
+/// # Errors
+/// What is wrong with the document, the subject or the device, in words.
+#[wasm_bindgen]
+pub async fn render_png(
+    text: String,
+    width: u32,
+    height: u32,
+    samples: u32,
+    resolution: u32,
+) -> Result<Vec<u8>, JsValue> {
+    let document = open(&text)?;
+    let illustration = document.illustration();
+    let SubjectRef::Builtin { name } = &illustration.subject else {
+        return Err("only built-in subjects can be drawn offscreen".into());
+    };
+    let words = |error: &dyn std::error::Error| JsValue::from(error.to_string());
+    let held = OFFSCREEN.with_borrow(|o| o.0.clone());
+    let gpu = match held.filter(|gpu| gpu.lost().is_none()) {
+        Some(gpu) => gpu,
+        None => {
+            let opened = Gpu::open(&GpuOptions::default()).await;
+            let gpu = opened.map_err(|e| words(&e))?;
+            OFFSCREEN.with_borrow_mut(|o| o.0 = Some(gpu.clone()));
+            gpu
+        }
+    };
+    let held = OFFSCREEN.with_borrow(|o| o.1.clone());
+    let volume = match held.filter(|(n, r, _)| n == name && *r == resolution) {
+        Some((_, _, volume)) => volume,
+        None => {
+            let mut builder = VolumeBuilder::new();
+            subjects::generate(name, resolution, &mut builder).map_err(|e| words(&e))?;
+            let _goes_on = builder.progress(1.0);
+            let volume = Rc::new(builder.finish().map_err(|e| words(&e))?);
+            let kept = Some((name.clone(), resolution, Rc::clone(&volume)));
+            OFFSCREEN.with_borrow_mut(|o| o.1 = kept);
+            volume
+        }
+    };
+    let image = render_image(&gpu, illustration, &volume, [width, height], samples);
+    let image = image.await.map_err(|e| words(&e))?;
+    encode_png(&image).map_err(|e| words(&e))
+}

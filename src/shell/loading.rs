@@ -1,0 +1,272 @@
+//! One load, from its description to the events that the app waits for. The same natively (in a thread) and on the page
+//! (in a worker); where it runs and how events travel is the caller's affair.
+
+use crate::app::LoadEvent;
+use crate::data::{Reducer, Volume, VolumeLimits, VolumeSink, Voxels};
+use crate::load::{FileSet, LoadError, LoadReport, ReadOptions, read_volume};
+use crate::subjects::{COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab};
+
+/// Slabs are made of about this many voxels: large enough to travel well, small enough to stop soon.
+const SLAB_VOXELS: usize = 1 << 20;
+
+/// Progress is told in steps of this size, for each is a frame of the app.
+const PROGRESS_STEP: f32 = 0.01;
+
+/// Passes events on. Returns false when no one wants more of them.
+pub(super) trait Post {
+    /// One event.
+    fn post(&mut self, event: LoadEvent) -> bool;
+}
+
+impl<F: FnMut(LoadEvent) -> bool> Post for F {
+    fn post(&mut self, event: LoadEvent) -> bool {
+        self(event)
+    }
+}
+
+/// Makes a built-in subject: a coarse one at once, then a fine one. `slabs` makes the slabs of a generator that lie in
+/// the given ranges, in order; it may use threads.
+pub(super) fn make_subject(
+    name: &str,
+    limits: VolumeLimits,
+    mut slabs: impl FnMut(&Generator, u32, &mut dyn FnMut(Slab) -> bool) -> bool,
+    post: &mut dyn Post,
+) {
+    let fine = FINE_RESOLUTION.min(limits.max_dim);
+    for (resolution, is_last) in [(COARSE_RESOLUTION, false), (fine, true)] {
+        let generator = match Generator::new(name, resolution) {
+            Ok(generator) => generator,
+            Err(error) => {
+                post.post(LoadEvent::Failed {
+                    message: error.to_string(),
+                    details: String::new(),
+                });
+                return;
+            }
+        };
+        if !post.post(LoadEvent::Begin(Box::new(generator.header()))) {
+            return;
+        }
+        let dims = generator.header().grid.dims;
+        let slice = (dims.x * dims.y).max(1) as usize;
+        let thickness = (SLAB_VOXELS / slice) as u32;
+        let thickness = (thickness - thickness % Generator::SLAB).max(Generator::SLAB);
+        let mut done = 0;
+        let total = generator.slice_count().max(1) as usize * slice;
+        let goes_on = slabs(&generator, thickness, &mut |slab| {
+            done += slab.values.len();
+            let progress = LoadEvent::Progress {
+                fraction: done as f32 / total as f32,
+                what: "Generating".to_owned(),
+            };
+            post.post(LoadEvent::Scalars(Voxels::I16(slab.values)))
+                && post.post(LoadEvent::Labels(slab.labels))
+                && (!is_last || post.post(progress))
+        });
+        if !goes_on {
+            return;
+        }
+        let end = if is_last {
+            LoadEvent::Done { sha256: None }
+        } else {
+            LoadEvent::Coarse
+        };
+        if !post.post(end) {
+            return;
+        }
+    }
+}
+
+/// Makes the slabs of a generator one after the other.
+#[cfg_attr(
+    not(target_arch = "wasm32"),
+    expect(dead_code, reason = "native loads use threads")
+)]
+pub(super) fn slabs_in_turn(
+    generator: &Generator,
+    thickness: u32,
+    take: &mut dyn FnMut(Slab) -> bool,
+) -> bool {
+    let end = generator.slice_count();
+    let mut z = 0;
+    while z < end {
+        if !take(generator.slab(z..z + thickness)) {
+            return false;
+        }
+        z += thickness;
+    }
+    true
+}
+
+/// Reads a file. `expected` is the hash that the document gives, lower-case hex.
+pub(super) fn read_file(
+    files: &mut dyn FileSet,
+    name: &str,
+    expected: Option<&str>,
+    limits: VolumeLimits,
+    post: &mut dyn Post,
+) {
+    let mut sink = PostingSink {
+        post,
+        last_fraction: -1.0,
+        is_stopped: false,
+    };
+    let mut report = LoadReport::default();
+    let mut reducer = Reducer::new(&mut sink, limits);
+    let outcome = read_volume(
+        files,
+        name,
+        &ReadOptions::default(),
+        &mut reducer,
+        &mut report,
+    );
+    let reduction = reducer.reduction();
+    let is_stopped = sink.is_stopped;
+    match outcome {
+        Ok(()) => {
+            let hash = report.sha256_hex();
+            if let (Some(expected), Some(hash)) = (expected, &hash)
+                && !expected.eq_ignore_ascii_case(hash)
+            {
+                post.post(LoadEvent::Failed {
+                    message:
+                        "This is another file than the one that the illustration was made with"
+                            .to_owned(),
+                    details: format!(
+                        "Its SHA-256 is {hash}; the illustration asks for {expected}."
+                    ),
+                });
+                return;
+            }
+            for notice in report.notices() {
+                post.post(LoadEvent::Notice(notice));
+            }
+            if let Some(reduction) = reduction {
+                post.post(LoadEvent::Notice(reduction.to_string()));
+            }
+            post.post(LoadEvent::Done { sha256: hash });
+        }
+        Err(LoadError::Cancelled) if is_stopped => {
+            post.post(LoadEvent::Cancelled);
+        }
+        Err(error) => {
+            post.post(LoadEvent::Failed {
+                message: error.to_string(),
+                details: report.notices().join("\n"),
+            });
+        }
+    }
+}
+
+/// Turns what a reader hands over into events.
+struct PostingSink<'a> {
+    post: &'a mut dyn Post,
+    last_fraction: f32,
+    is_stopped: bool,
+}
+
+impl PostingSink<'_> {
+    fn pass(&mut self, event: LoadEvent) -> bool {
+        self.is_stopped = self.is_stopped || !self.post.post(event);
+        !self.is_stopped
+    }
+}
+
+impl VolumeSink for PostingSink<'_> {
+    fn begin(&mut self, header: &Volume) -> Result<(), String> {
+        if self.pass(LoadEvent::Begin(Box::new(header.clone()))) {
+            Ok(())
+        } else {
+            Err("stopped".to_owned())
+        }
+    }
+
+    fn scalars(&mut self, next: Voxels) {
+        self.pass(LoadEvent::Scalars(next));
+    }
+
+    fn labels(&mut self, next: Vec<u8>) {
+        self.pass(LoadEvent::Labels(next));
+    }
+
+    fn progress(&mut self, fraction: f32) -> bool {
+        if fraction >= 1.0 || fraction - self.last_fraction >= PROGRESS_STEP {
+            self.last_fraction = fraction;
+            return self.pass(LoadEvent::Progress {
+                fraction,
+                what: "Reading".to_owned(),
+            });
+        }
+        !self.is_stopped
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load::MemoryFiles;
+
+    const LIMITS: VolumeLimits = VolumeLimits {
+        max_dim: 2048,
+        max_voxels: 1 << 30,
+    };
+
+    #[test]
+    fn a_subject_comes_coarse_and_then_fine() {
+        let mut kinds = Vec::new();
+        let mut counts = Vec::new();
+        make_subject("cube", LIMITS, slabs_in_turn, &mut |event: LoadEvent| {
+            match event {
+                LoadEvent::Begin(header) => {
+                    counts.push((header.grid.voxel_count(), 0));
+                    kinds.push('b');
+                }
+                LoadEvent::Scalars(voxels) => {
+                    if let Some(last) = counts.last_mut() {
+                        last.1 += voxels.len();
+                    }
+                }
+                LoadEvent::Coarse => kinds.push('c'),
+                LoadEvent::Done { sha256: None } => kinds.push('d'),
+                LoadEvent::Labels(_) | LoadEvent::Progress { .. } => {}
+                other => panic!("unexpected: {other:?}"),
+            }
+            true
+        });
+        assert_eq!(kinds, ['b', 'c', 'b', 'd'], "in this order");
+        assert!(
+            counts.iter().all(|(a, b)| a == b),
+            "all voxels came: {counts:?}"
+        );
+    }
+
+    #[test]
+    fn a_stopped_subject_says_no_more() {
+        let mut n = 0;
+        make_subject("cube", LIMITS, slabs_in_turn, &mut |_: LoadEvent| {
+            n += 1;
+            n < 3
+        });
+        assert_eq!(n, 3, "nothing is posted after the receiver declined");
+    }
+
+    #[test]
+    fn a_file_that_is_no_scan_fails_in_words() {
+        let mut files = MemoryFiles::new([("x.nii", b"hello".to_vec())]);
+        let mut last = None;
+        read_file(
+            &mut files,
+            "x.nii",
+            None,
+            LIMITS,
+            &mut |event: LoadEvent| {
+                last = Some(event);
+                true
+            },
+        );
+        assert!(
+            matches!(&last, Some(LoadEvent::Failed { message, .. }) if message.contains("x.nii")),
+            "{last:?}"
+        );
+    }
+}

@@ -1,0 +1,463 @@
+//! The window: files by path and dialog, loads in a thread, what is kept in a folder of the user's.
+
+use std::collections::BTreeMap;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+
+use super::files::Folder;
+use super::loading::{make_subject, read_file};
+use crate::app::{App, LinkChange, LoadEvent, Message, SaveFile, Services, Start, Ticket};
+use crate::data::VolumeLimits;
+use crate::document::{Document, SubjectRef};
+use crate::render::Gpu;
+use crate::subjects::{Generator, Slab};
+
+/// A larger file is no document (the contract's limit is 1 MiB), and is opened as a scan.
+const MAX_DOCUMENT_BYTES: u64 = 2 * 1024 * 1024;
+
+/// What a window opens with.
+#[derive(Clone, Debug, Default)]
+pub struct Opening {
+    /// The document; with none, what was kept from the last time.
+    pub document: Option<Document>,
+    /// Folder that the document's relative addresses start from; the working folder if none is given.
+    pub folder: Option<PathBuf>,
+    /// A file that takes the place of the document's subject.
+    pub subject: Option<PathBuf>,
+    /// Part of the name of the adapter to draw with.
+    pub adapter: Option<String>,
+}
+
+/// Why there is no window.
+#[derive(Debug, thiserror::Error)]
+pub enum WindowError {
+    /// The window system, or the graphics device for it.
+    #[error("no window could be opened: {0}")]
+    Window(String),
+}
+
+/// Opens the window and runs until it is closed.
+///
+/// # Errors
+/// If there is no window system or no graphics device.
+pub fn view(opening: Opening) -> Result<(), WindowError> {
+    let mut setup = eframe::egui_wgpu::WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends =
+        wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);
+    setup.device_descriptor = Arc::new(Gpu::device_descriptor);
+    if let Some(wanted) = opening.adapter.clone() {
+        setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
+            select_adapter(&wanted, adapters, surface)
+        }));
+    }
+    let options = eframe::NativeOptions {
+        renderer: eframe::Renderer::Wgpu,
+        // The picture has its own, and comparisons want none.
+        dithering: false,
+        wgpu_options: eframe::egui_wgpu::WgpuConfiguration {
+            wgpu_setup: setup.into(),
+            ..Default::default()
+        },
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Fabrica")
+            .with_app_id("fabrica")
+            .with_inner_size([1280.0, 820.0])
+            .with_min_inner_size([360.0, 320.0]),
+        ..Default::default()
+    };
+    let create: eframe::AppCreator<'_> = Box::new(move |cc| {
+        let render_state = cc.wgpu_render_state.as_ref();
+        let limits = render_state.map_or(SMALL, |state| limits_of(&state.device.limits()));
+        if let Some(state) = render_state {
+            let info = state.adapter.get_info();
+            if info.device_type == wgpu::DeviceType::Cpu {
+                eprintln!(
+                    "notice: no graphics device; drawing on the processor ({})",
+                    info.name
+                );
+            }
+        }
+        let mut services = NativeServices::new(cc.egui_ctx.clone(), limits, opening.folder);
+        let subject = opening
+            .subject
+            .map(|path| services.start_file(path, None, true));
+        let start = Start {
+            document: opening.document,
+            text: None,
+            subject,
+            clock: seconds,
+        };
+        Ok(Box::new(App::new(cc, Box::new(services), start)))
+    });
+    eframe::run_native("fabrica", options, create)
+        .map_err(|error| WindowError::Window(error.to_string()))
+}
+
+/// Seconds since the first call.
+pub fn seconds() -> f64 {
+    static START: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
+    START.get_or_init(Instant::now).elapsed().as_secs_f64()
+}
+
+fn select_adapter(
+    wanted: &str,
+    adapters: &[wgpu::Adapter],
+    surface: Option<&wgpu::Surface<'_>>,
+) -> Result<wgpu::Adapter, String> {
+    let lower = wanted.to_lowercase();
+    let fits = |adapter: &&wgpu::Adapter| {
+        adapter.get_info().name.to_lowercase().contains(&lower)
+            && surface.is_none_or(|surface| adapter.is_surface_supported(surface))
+    };
+    adapters.iter().find(fits).cloned().ok_or_else(|| {
+        let names: Vec<String> = adapters.iter().map(|a| a.get_info().name).collect();
+        format!("no adapter \"{wanted}\" (there are {})", names.join(", "))
+    })
+}
+
+const SMALL: VolumeLimits = VolumeLimits {
+    max_dim: 2048,
+    max_voxels: 1 << 30,
+};
+
+/// What a device takes; see [`Gpu::volume_limits`].
+fn limits_of(limits: &wgpu::Limits) -> VolumeLimits {
+    VolumeLimits {
+        max_dim: limits.max_texture_dimension_3d,
+        ..SMALL
+    }
+}
+
+/// One load in its thread.
+struct Load {
+    ticket: Ticket,
+    is_wanted: Arc<AtomicBool>,
+}
+
+struct NativeServices {
+    ctx: egui::Context,
+    limits: VolumeLimits,
+    folder: PathBuf,
+    sender: Sender<Message>,
+    receiver: Receiver<Message>,
+    /// Answers of the file dialog, which runs in a thread of its own.
+    picks: Sender<PathBuf>,
+    picked: Receiver<PathBuf>,
+    load: Option<Load>,
+    next_ticket: u64,
+    /// Files that were opened here, by the hash of their bytes.
+    known: Arc<Mutex<BTreeMap<String, PathBuf>>>,
+}
+
+impl NativeServices {
+    fn new(ctx: egui::Context, limits: VolumeLimits, folder: Option<PathBuf>) -> Self {
+        let (sender, receiver) = channel();
+        let (picks, picked) = channel();
+        Self {
+            ctx,
+            limits,
+            folder: folder.unwrap_or_default(),
+            sender,
+            receiver,
+            picks,
+            picked,
+            load: None,
+            next_ticket: 1,
+            known: Arc::default(),
+        }
+    }
+
+    fn say(&self, message: Message) {
+        send(&self.sender, &self.ctx, message);
+    }
+
+    fn new_ticket(&mut self) -> (Ticket, Arc<AtomicBool>) {
+        if let Some(load) = self.load.take() {
+            load.is_wanted.store(false, Ordering::Relaxed);
+        }
+        let ticket = Ticket(self.next_ticket);
+        self.next_ticket += 1;
+        let is_wanted = Arc::new(AtomicBool::new(true));
+        self.load = Some(Load {
+            ticket,
+            is_wanted: Arc::clone(&is_wanted),
+        });
+        (ticket, is_wanted)
+    }
+
+    fn fail(&mut self, message: String) -> Ticket {
+        let (ticket, _) = self.new_ticket();
+        let event = LoadEvent::Failed {
+            message,
+            details: String::new(),
+        };
+        self.say(Message::Load { ticket, event });
+        ticket
+    }
+
+    fn start_file(&mut self, path: PathBuf, expected: Option<String>, is_asked: bool) -> Ticket {
+        let (ticket, is_wanted) = self.new_ticket();
+        if !is_asked {
+            // The ticket is announced before any event of the load.
+            self.say(Message::FileStarted { ticket });
+        }
+        let (sender, ctx, limits) = (self.sender.clone(), self.ctx.clone(), self.limits);
+        let known = Arc::clone(&self.known);
+        std::thread::spawn(move || {
+            let mut post = |event: LoadEvent| {
+                if let LoadEvent::Done { sha256: Some(hash) } = &event {
+                    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+                    known.insert(hash.clone(), path.clone());
+                }
+                post_while_wanted(&sender, &ctx, ticket, &is_wanted, event)
+            };
+            let (mut folder, name) = Folder::of(&path);
+            read_file(&mut folder, &name, expected.as_deref(), limits, &mut post);
+        });
+        ticket
+    }
+
+    fn start_builtin(&mut self, name: String) -> Ticket {
+        let (ticket, is_wanted) = self.new_ticket();
+        let (sender, ctx, limits) = (self.sender.clone(), self.ctx.clone(), self.limits);
+        std::thread::spawn(move || {
+            let mut post =
+                |event: LoadEvent| post_while_wanted(&sender, &ctx, ticket, &is_wanted, event);
+            make_subject(&name, limits, slabs_in_threads, &mut post);
+        });
+        ticket
+    }
+
+    /// A file that the user picked or dropped: a document if it reads like one, else a scan.
+    fn open_path(&mut self, path: PathBuf) {
+        match document_text(&path) {
+            Some(text) => {
+                if let Some(folder) = path.parent() {
+                    self.folder = folder.to_path_buf();
+                }
+                self.say(Message::OpenText { text });
+            }
+            None => {
+                self.start_file(path, None, false);
+            }
+        }
+    }
+}
+
+fn send(sender: &Sender<Message>, ctx: &egui::Context, message: Message) {
+    // The receiver is gone only when the window is.
+    let _closed = sender.send(message);
+    ctx.request_repaint();
+}
+
+fn post_while_wanted(
+    sender: &Sender<Message>,
+    ctx: &egui::Context,
+    ticket: Ticket,
+    is_wanted: &AtomicBool,
+    event: LoadEvent,
+) -> bool {
+    if !is_wanted.load(Ordering::Relaxed) {
+        return false;
+    }
+    send(sender, ctx, Message::Load { ticket, event });
+    true
+}
+
+/// Makes the slabs of a generator in as many threads as there are cores, and hands them over in order.
+fn slabs_in_threads(
+    generator: &Generator,
+    thickness: u32,
+    take: &mut dyn FnMut(Slab) -> bool,
+) -> bool {
+    let n_threads = std::thread::available_parallelism().map_or(2, |n| n.get().min(16)) as u32;
+    let n_slabs = generator.slice_count().div_ceil(thickness);
+    std::thread::scope(|scope| {
+        // Each thread makes every nth slab and waits when it is two ahead, so that little is held.
+        let outputs: Vec<_> = (0..n_threads)
+            .map(|first| {
+                let (sender, receiver) = sync_channel(2);
+                scope.spawn(move || {
+                    for slab in (first..n_slabs).step_by(n_threads as usize) {
+                        let start = slab * thickness;
+                        if sender
+                            .send(generator.slab(start..start + thickness))
+                            .is_err()
+                        {
+                            return;
+                        }
+                    }
+                });
+                receiver
+            })
+            .collect();
+        (0..n_slabs).all(|slab| {
+            let output = outputs.get((slab % n_threads) as usize);
+            output.and_then(|o| o.recv().ok()).is_some_and(&mut *take)
+        })
+    })
+}
+
+/// The text of a file that begins as a document or a link does.
+fn document_text(path: &Path) -> Option<String> {
+    let file = std::fs::File::open(path).ok()?;
+    if file.metadata().ok()?.len() > MAX_DOCUMENT_BYTES {
+        return None;
+    }
+    let mut text = String::new();
+    file.take(MAX_DOCUMENT_BYTES)
+        .read_to_string(&mut text)
+        .ok()?;
+    text.trim_start().starts_with('{').then_some(text)
+}
+
+/// Folder for what is kept between runs.
+fn store_folder() -> Option<PathBuf> {
+    let from = |name: &str| {
+        std::env::var_os(name)
+            .map(PathBuf::from)
+            .filter(|p| p.is_absolute())
+    };
+    let base = if cfg!(windows) {
+        from("APPDATA")
+    } else if cfg!(target_os = "macos") {
+        from("HOME").map(|home| home.join("Library/Application Support"))
+    } else {
+        from("XDG_CONFIG_HOME").or_else(|| from("HOME").map(|home| home.join(".config")))
+    };
+    base.map(|base| base.join("fabrica"))
+}
+
+/// File for a key of the app's: letters, digits and dashes only.
+fn store_file(key: &str) -> Option<PathBuf> {
+    let name: String = key
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '-' })
+        .collect();
+    store_folder().map(|folder| folder.join(format!("{name}.txt")))
+}
+
+/// Writes beside the file first, so that none is ever left half-written.
+fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(".part");
+    let part = path.with_file_name(name);
+    let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path));
+    if written.is_err() {
+        let _left = std::fs::remove_file(&part);
+    }
+    written
+}
+
+impl Services for NativeServices {
+    fn poll(&mut self) -> Vec<Message> {
+        while let Ok(path) = self.picked.try_recv() {
+            self.open_path(path);
+        }
+        self.receiver.try_iter().collect()
+    }
+
+    fn open_file(&mut self) {
+        let dialog = rfd::AsyncFileDialog::new()
+            .add_filter(
+                "Scans and illustrations",
+                &["nii", "gz", "hdr", "img", "json"],
+            )
+            .add_filter("All files", &["*"])
+            .pick_file();
+        let (picks, ctx) = (self.picks.clone(), self.ctx.clone());
+        std::thread::spawn(move || {
+            if let Some(file) = pollster::block_on(dialog) {
+                // The receiver is gone only when the window is.
+                let _closed = picks.send(file.path().to_path_buf());
+                ctx.request_repaint();
+            }
+        });
+    }
+
+    fn drop_file(&mut self, file: egui::DroppedFileHandle) {
+        self.open_path(file.path().to_path_buf());
+    }
+
+    fn load_subject(&mut self, subject: &SubjectRef) -> Ticket {
+        match subject {
+            SubjectRef::Builtin { name } => self.start_builtin(name.clone()),
+            SubjectRef::Address { src, sha256, .. } => {
+                if src.contains("://") {
+                    return self.fail(format!(
+                        "This program reads local files only: download the scan and start with --subject FILE ({src})"
+                    ));
+                }
+                self.start_file(self.folder.join(src), sha256.clone(), true)
+            }
+            SubjectRef::Supplied { sha256, name } => {
+                let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+                let path = known.get(&sha256.to_lowercase()).cloned();
+                drop(known);
+                match path {
+                    Some(path) => self.start_file(path, Some(sha256.clone()), true),
+                    None => self.fail(super::wanted_file(name)),
+                }
+            }
+        }
+    }
+
+    fn allow_host(&mut self, _ticket: Ticket) {}
+
+    fn cancel_load(&mut self, ticket: Ticket) {
+        if let Some(load) = self.load.take_if(|load| load.ticket == ticket) {
+            load.is_wanted.store(false, Ordering::Relaxed);
+            self.say(Message::Load {
+                ticket,
+                event: LoadEvent::Cancelled,
+            });
+        }
+    }
+
+    fn save_file(&mut self, file: SaveFile) {
+        let dialog = rfd::AsyncFileDialog::new()
+            .set_file_name(&file.name)
+            .save_file();
+        let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
+        std::thread::spawn(move || {
+            let outcome = match pollster::block_on(dialog) {
+                None => Err(String::new()),
+                Some(chosen) => write_whole(chosen.path(), &file.bytes)
+                    .map(|()| chosen.file_name())
+                    .map_err(|error| error.to_string()),
+            };
+            send(&sender, &ctx, Message::Saved(outcome));
+        });
+    }
+
+    fn copy_text(&mut self, text: String) {
+        self.ctx.copy_text(text);
+        self.say(Message::Copied(Ok(())));
+    }
+
+    fn page_address(&self) -> String {
+        // A window has no page of its own; who publishes one can say where it is.
+        std::env::var("FABRICA_PAGE").unwrap_or_default()
+    }
+
+    fn set_link(&mut self, _payload: &str, _change: LinkChange) {}
+
+    fn store(&mut self, key: &str, value: &str) {
+        if let Some(path) = store_file(key) {
+            let folder = path.parent().unwrap_or(Path::new("."));
+            let written =
+                std::fs::create_dir_all(folder).and_then(|()| write_whole(&path, value.as_bytes()));
+            if let Err(error) = written {
+                eprintln!("notice: {}: {error}", path.display());
+            }
+        }
+    }
+
+    fn stored(&self, key: &str) -> Option<String> {
+        std::fs::read_to_string(store_file(key)?).ok()
+    }
+}

@@ -1,0 +1,425 @@
+//! What the page does for the app: address bar and history, files, workers, clipboard, what is kept between visits.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::{JsFuture, spawn_local};
+use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storage, Url, Window};
+
+use super::worker::{Task, WorkerLoad, start, text_of};
+use crate::app::{LinkChange, LoadEvent, Message, SaveFile, Services, Ticket};
+use crate::data::VolumeLimits;
+use crate::document::SubjectRef;
+
+/// A larger file is no document (the contract's limit is 1 MiB), and is opened as a scan.
+const MAX_DOCUMENT_BYTES: f64 = 2e6;
+
+/// How a viewer is set into its surroundings.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    /// Address of worker.js.
+    pub worker: String,
+    /// The viewer is the page: it binds the address bar and keeps the session. Not so when embedded.
+    pub is_page: bool,
+    /// What a document's relative addresses start from.
+    pub base: String,
+}
+
+/// State that outlives the app (a lost device makes a new one).
+pub(super) struct Page {
+    pub place: Place,
+    pub ctx: Option<egui::Context>,
+    pub limits: VolumeLimits,
+    messages: Vec<Message>,
+    load: Option<(Ticket, WorkerLoad)>,
+    next_ticket: u64,
+    /// Loads that wait for leave to fetch.
+    asking: BTreeMap<Ticket, (String, Option<String>)>,
+    allowed_hosts: BTreeSet<String>,
+    /// Files that the reader gave, by the hash of their bytes.
+    known: BTreeMap<String, Vec<(String, Blob)>>,
+    /// The files of the load under way, until their hash is known.
+    opened: Option<(Ticket, Vec<(String, Blob)>)>,
+    /// Files dropped since the last frame: those dropped together are opened together.
+    dropped: Vec<(String, Blob)>,
+    /// The payload that the app last gave.
+    pub payload: String,
+    /// A picture that a script asked for goes here instead of into a file.
+    pub picture_wanted: Option<js_sys::Function>,
+    /// Called with the text where the browser refuses the clipboard.
+    pub on_copy_refused: Option<js_sys::Function>,
+}
+
+impl Page {
+    pub(super) fn new(place: Place) -> Self {
+        Self {
+            place,
+            ctx: None,
+            limits: VolumeLimits {
+                max_dim: 2048,
+                max_voxels: 1 << 30,
+            },
+            messages: Vec::new(),
+            load: None,
+            next_ticket: 1,
+            asking: BTreeMap::new(),
+            allowed_hosts: BTreeSet::new(),
+            known: BTreeMap::new(),
+            opened: None,
+            dropped: Vec::new(),
+            payload: String::new(),
+            picture_wanted: None,
+            on_copy_refused: None,
+        }
+    }
+
+    pub(super) fn say(&mut self, message: Message) {
+        self.messages.push(message);
+        if let Some(ctx) = &self.ctx {
+            ctx.request_repaint();
+        }
+    }
+
+    fn new_ticket(&mut self) -> Ticket {
+        self.load = None;
+        self.asking.clear();
+        let ticket = Ticket(self.next_ticket);
+        self.next_ticket += 1;
+        ticket
+    }
+}
+
+/// The page as the app sees it.
+#[derive(Clone)]
+pub(super) struct PageServices(pub Rc<RefCell<Page>>);
+
+impl PageServices {
+    fn start(&self, ticket: Ticket, task: &Task) {
+        let (worker, limits) = {
+            let page = self.0.borrow();
+            (page.place.worker.clone(), page.limits)
+        };
+        let weak = Rc::downgrade(&self.0);
+        let started = start(&worker, task, limits, move |event| {
+            let Some(page) = weak.upgrade() else { return };
+            let mut page = page.borrow_mut();
+            if let LoadEvent::Done { sha256: Some(hash) } = &event
+                && let Some((_, files)) = page.opened.take_if(|(t, _)| *t == ticket)
+            {
+                page.known.insert(hash.clone(), files);
+            }
+            page.say(Message::Load { ticket, event });
+        });
+        let mut page = self.0.borrow_mut();
+        match started {
+            Ok(load) => page.load = Some((ticket, load)),
+            Err(error) => {
+                let event = LoadEvent::Failed {
+                    message: "This browser cannot load scans in the background".to_owned(),
+                    details: text_of(&error),
+                };
+                page.say(Message::Load { ticket, event });
+            }
+        }
+    }
+
+    fn fail(&self, message: String) -> Ticket {
+        let mut page = self.0.borrow_mut();
+        let ticket = page.new_ticket();
+        let event = LoadEvent::Failed {
+            message,
+            details: String::new(),
+        };
+        page.say(Message::Load { ticket, event });
+        ticket
+    }
+
+    /// Files that the reader picked or dropped together: a document if it reads like one, else a scan.
+    pub(super) fn open_files(&self, files: Vec<(String, Blob)>) {
+        let services = self.clone();
+        spawn_local(async move {
+            if let [(_, blob)] = files.as_slice()
+                && blob.size() <= MAX_DOCUMENT_BYTES
+                && let Some(text) = document_text(blob).await
+            {
+                services.0.borrow_mut().say(Message::OpenText { text });
+                return;
+            }
+            let files = in_order(files);
+            let ticket = {
+                let mut page = services.0.borrow_mut();
+                let ticket = page.new_ticket();
+                page.opened = Some((ticket, files.clone()));
+                page.say(Message::FileStarted { ticket });
+                ticket
+            };
+            services.start(ticket, &Task::Files(files, None));
+        });
+    }
+}
+
+/// A header goes before the voxels that it describes.
+fn in_order(mut files: Vec<(String, Blob)>) -> Vec<(String, Blob)> {
+    let is_voxels = |name: &str| {
+        let lower = name.to_lowercase();
+        [".img", ".img.gz", ".raw", ".raw.gz", ".zraw"]
+            .iter()
+            .any(|ending| lower.ends_with(ending))
+    };
+    files.sort_by_key(|(name, _)| is_voxels(name));
+    files
+}
+
+/// The text of a file that begins as a document does.
+async fn document_text(blob: &Blob) -> Option<String> {
+    let head = blob.slice_with_f64_and_f64(0.0, 64.0).ok()?;
+    let head = JsFuture::from(head.text()).await.ok()?.as_string()?;
+    if !head
+        .trim_start_matches('\u{feff}')
+        .trim_start()
+        .starts_with('{')
+    {
+        return None;
+    }
+    JsFuture::from(blob.text()).await.ok()?.as_string()
+}
+
+fn window() -> Option<Window> {
+    web_sys::window()
+}
+
+fn storage() -> Option<Storage> {
+    // Throws where the reader forbids it; then nothing is kept.
+    window()?.local_storage().ok().flatten()
+}
+
+/// Address of the page without fragment and without the document that it was opened with.
+pub(super) fn page_address() -> String {
+    let here = window().and_then(|w| w.location().href().ok());
+    let Some(url) = here.and_then(|href| Url::new(&href).ok()) else {
+        return String::new();
+    };
+    url.set_hash("");
+    url.search_params().delete("s");
+    url.search_params().delete("doc");
+    url.href()
+}
+
+/// `true` if the address, which is absolute, is of another host than the page.
+pub(super) fn foreign_host(address: &str) -> Option<String> {
+    let own = window()?.location().origin().ok()?;
+    let url = Url::new(address).ok()?;
+    let is_own = url.origin() == own || ["blob:", "data:"].contains(&url.protocol().as_str());
+    (!is_own).then(|| url.host())
+}
+
+impl Services for PageServices {
+    fn poll(&mut self) -> Vec<Message> {
+        let dropped = std::mem::take(&mut self.0.borrow_mut().dropped);
+        if !dropped.is_empty() {
+            self.open_files(dropped);
+        }
+        std::mem::take(&mut self.0.borrow_mut().messages)
+    }
+
+    fn open_file(&mut self) {
+        let services = self.clone();
+        let picked = move |input: &HtmlInputElement| {
+            let Some(list) = input.files() else { return };
+            let files = (0..list.length()).filter_map(|i| list.get(i));
+            let files: Vec<(String, Blob)> = files.map(|f| (f.name(), f.into())).collect();
+            if !files.is_empty() {
+                services.open_files(files);
+            }
+        };
+        let shown = window().and_then(|w| w.document()).and_then(|document| {
+            let input: HtmlInputElement = document.create_element("input").ok()?.dyn_into().ok()?;
+            input.set_type("file");
+            input.set_multiple(true);
+            let for_event = input.clone();
+            let on_change = Closure::once_into_js(move || picked(&for_event));
+            input.set_onchange(Some(on_change.unchecked_ref()));
+            input.click();
+            Some(())
+        });
+        if shown.is_none() {
+            self.0.borrow_mut().say(Message::Notice {
+                message: "This browser shows no file dialog: drop the file on the picture"
+                    .to_owned(),
+                details: String::new(),
+            });
+        }
+    }
+
+    fn drop_file(&mut self, file: egui::DroppedFileHandle) {
+        if let Some(file) = file.web_file() {
+            let mut page = self.0.borrow_mut();
+            page.dropped.push((file.name(), file.clone().into()));
+            if let Some(ctx) = &page.ctx {
+                ctx.request_repaint();
+            }
+        }
+    }
+
+    fn load_subject(&mut self, subject: &SubjectRef) -> Ticket {
+        match subject {
+            SubjectRef::Builtin { name } => {
+                let ticket = self.0.borrow_mut().new_ticket();
+                self.start(ticket, &Task::Builtin(name.clone()));
+                ticket
+            }
+            SubjectRef::Address { src, sha256, .. } => {
+                let base = self.0.borrow().place.base.clone();
+                let Ok(url) = Url::new_with_base(src, &base) else {
+                    return self.fail(format!("This is no address: {src}"));
+                };
+                if !["http:", "https:", "blob:", "data:"].contains(&url.protocol().as_str()) {
+                    return self.fail(format!("A page can only fetch from http and https: {src}"));
+                }
+                let address = url.href();
+                let mut page = self.0.borrow_mut();
+                let ticket = page.new_ticket();
+                match foreign_host(&address) {
+                    Some(host) if !page.allowed_hosts.contains(&host) => {
+                        page.asking.insert(ticket, (address, sha256.clone()));
+                        page.say(Message::AskHost { ticket, host });
+                    }
+                    _ => {
+                        drop(page);
+                        self.start(ticket, &Task::Address(address, sha256.clone()));
+                    }
+                }
+                ticket
+            }
+            SubjectRef::Supplied { sha256, name } => {
+                let known = self.0.borrow().known.get(&sha256.to_lowercase()).cloned();
+                match known {
+                    Some(files) => {
+                        let ticket = self.0.borrow_mut().new_ticket();
+                        self.start(ticket, &Task::Files(files, Some(sha256.clone())));
+                        ticket
+                    }
+                    None => self.fail(super::wanted_file(name)),
+                }
+            }
+        }
+    }
+
+    fn allow_host(&mut self, ticket: Ticket) {
+        let asked = self.0.borrow_mut().asking.remove(&ticket);
+        if let Some((address, expected)) = asked {
+            if let Some(host) = foreign_host(&address) {
+                self.0.borrow_mut().allowed_hosts.insert(host);
+            }
+            self.start(ticket, &Task::Address(address, expected));
+        }
+    }
+
+    fn cancel_load(&mut self, ticket: Ticket) {
+        let mut page = self.0.borrow_mut();
+        let was_asking = page.asking.remove(&ticket).is_some();
+        let was_loading = page.load.take_if(|(t, _)| *t == ticket).is_some();
+        if was_asking || was_loading {
+            page.say(Message::Load {
+                ticket,
+                event: LoadEvent::Cancelled,
+            });
+        }
+    }
+
+    fn save_file(&mut self, file: SaveFile) {
+        let bytes = js_sys::Uint8Array::from(file.bytes.as_slice());
+        if file.mime == "image/png" {
+            let wanted = self.0.borrow_mut().picture_wanted.take();
+            if let Some(wanted) = wanted {
+                let _ignored = wanted.call1(&JsValue::NULL, &bytes);
+                return;
+            }
+        }
+        let options = BlobPropertyBag::new();
+        options.set_type(file.mime);
+        let parts = js_sys::Array::of1(&bytes);
+        let saved = Blob::new_with_u8_array_sequence_and_options(&parts, &options)
+            .and_then(|blob| Url::create_object_url_with_blob(&blob))
+            .and_then(|address| {
+                let document = window().and_then(|w| w.document()).ok_or(JsValue::NULL)?;
+                let link: HtmlAnchorElement = document.create_element("a")?.unchecked_into();
+                link.set_href(&address);
+                link.set_download(&file.name);
+                link.click();
+                Url::revoke_object_url(&address)
+            });
+        let outcome = saved.map(|()| file.name).map_err(|error| text_of(&error));
+        self.0.borrow_mut().say(Message::Saved(outcome));
+    }
+
+    fn copy_text(&mut self, text: String) {
+        let services = self.clone();
+        let clipboard = window()
+            .map(|w| w.navigator().clipboard())
+            .filter(|c| c.is_object());
+        // Begun at once: browsers allow it during a tap only.
+        let writing = clipboard.map(|c| JsFuture::from(c.write_text(&text)));
+        spawn_local(async move {
+            let outcome = match writing {
+                Some(writing) => writing.await.map(|_| ()).map_err(|error| text_of(&error)),
+                None => Err("The clipboard needs a page on https://".to_owned()),
+            };
+            let refused = services.0.borrow().on_copy_refused.clone();
+            if let (Err(_), Some(refused)) = (&outcome, refused) {
+                // A dialog with the text and a button of the page's own, whose click every browser accepts.
+                let _ignored = refused.call1(&JsValue::NULL, &text.into());
+                return;
+            }
+            services.0.borrow_mut().say(Message::Copied(outcome));
+        });
+    }
+
+    fn page_address(&self) -> String {
+        page_address()
+    }
+
+    fn set_link(&mut self, payload: &str, change: LinkChange) {
+        let mut page = self.0.borrow_mut();
+        if page.payload == payload {
+            return;
+        }
+        payload.clone_into(&mut page.payload);
+        if !page.place.is_page {
+            return;
+        }
+        let address = format!("{}#{payload}", page_address());
+        let history = window().and_then(|w| w.history().ok());
+        let written = history.map(|history| match change {
+            LinkChange::Replace => {
+                history.replace_state_with_url(&JsValue::NULL, "", Some(&address))
+            }
+            LinkChange::Push => history.push_state_with_url(&JsValue::NULL, "", Some(&address)),
+        });
+        // Safari refuses more than a hundred in half a minute; the next change writes what this one could not.
+        if !matches!(written, Some(Ok(()))) {
+            page.payload.clear();
+        }
+    }
+
+    fn store(&mut self, key: &str, value: &str) {
+        if self.0.borrow().place.is_page
+            && let Some(storage) = storage()
+        {
+            // Full or forbidden: the address bar still holds the document.
+            let _ignored = storage.set_item(&format!("fabrica.{key}"), value);
+        }
+    }
+
+    fn stored(&self, key: &str) -> Option<String> {
+        if !self.0.borrow().place.is_page {
+            return None;
+        }
+        storage()?
+            .get_item(&format!("fabrica.{key}"))
+            .ok()
+            .flatten()
+    }
+}
