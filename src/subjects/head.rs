@@ -122,12 +122,12 @@ impl Head {
         skin.carve(1.0, head_skin::neck_end());
         let mut lower_bones = head_skull::mandible();
         lower_bones.append(head_skull::neck_bones(), 0.0);
+        let cavity = head_skull::cavity();
         let mut muscles = head_soft::muscles();
         muscles.join(0.0, head_soft::gullet());
         Self {
-            skin,
             lips: of(head_skin::lips(), 0.0),
-            hair: head_skin::hair(),
+            hair: head_skin::hair(&skin),
             cartilage_regions: head_skin::cartilage_regions(),
             cartilages: head_skull::cartilages(),
             muscles,
@@ -136,10 +136,9 @@ impl Head {
             glands: head_soft::glands(),
             airway: head_soft::airway(),
             sinuses: head_skull::sinuses(),
-            arteries: head_soft::arteries(),
-            veins: head_soft::veins(),
+            arteries: head_soft::arteries(&skin, &cavity),
+            veins: head_soft::veins(&skin, &cavity),
             nerves: head_soft::nerves(),
-            cavity: head_skull::cavity(),
             canal: head_skull::canal(),
             face_bones: head_skull::face_bones(),
             openings: head_skull::openings(),
@@ -156,7 +155,9 @@ impl Head {
             eyes: head_soft::cornea(),
             lens: head_soft::lens(),
             iris: head_soft::iris(5.7),
-            pupil: head_soft::iris(2.1),
+            pupil: head_soft::iris(2.4),
+            skin,
+            cavity,
             cortex: Cortex::new(),
         }
     }
@@ -256,7 +257,7 @@ impl Model for Head {
                 lay(d.max(s + 3.4), flat(55.0), Tissue::Muscle);
             }
             if let Some(d) = facial.at(&p) {
-                let sheet = (s + 4.2).abs() - 1.5;
+                let sheet = (s + 4.2).abs() - 1.8;
                 lay(d.max(sheet), flat(50.0), Tissue::Muscle);
             }
             if let Some(d) = glands.at(&p) {
@@ -319,7 +320,13 @@ impl Model for Head {
                 bone = Some(d.max(-tube));
             }
             if let Some(d) = bone {
-                let d = d.max(s + 2.6);
+                // Soft tissue covers bone by some millimetres, least on the bridge of the nose.
+                let nose = (flat(1.0)
+                    - p.plain.x * p.plain.x * (1.0 / 196.0)
+                    - (p.plain.z - 8.0) * (p.plain.z - 8.0) * (1.0 / 600.0))
+                    .max(flat(0.0));
+                let nose = nose * ((p.plain.y - 84.0) * 0.1).clamp(0.0, 1.0);
+                let d = d.max(s + 5.2 - nose * 2.6);
                 // Compact outside, spongy inside.
                 let spongy = ((-d - 1.5) * 0.8).clamp(0.0, 1.0);
                 lay(d, flat(1250.0).mix(flat(420.0), spongy), Tissue::Bone);
@@ -369,6 +376,10 @@ impl Model for Head {
                     if let Some(d) = trunk {
                         lay(d.max(inside + 1.0), flat(32.0), Tissue::BrainStem);
                     }
+                    if let Some(c) = hollow {
+                        let d = head_soft::sagittal_sinus(&p.plain, c).max(d);
+                        lay(d, flat(180.0), Tissue::Veins);
+                    }
                     if let Some(d) = ventricles.at(&p) {
                         lay(d.max(inside), flat(6.0), Tissue::Ventricles);
                     }
@@ -378,18 +389,25 @@ impl Model for Head {
             if let Some(d) = nerves.at(&p) {
                 lay(d.max(s + 3.2), flat(32.0), Tissue::Nerves);
             }
-            if let Some(d) = veins.at(&p) {
-                lay(d.max(s + 3.2), flat(180.0), Tissue::Veins);
-            }
-            if let Some(d) = arteries.at(&p) {
-                lay(d.max(s + 3.2), flat(230.0), Tissue::Arteries);
+            // Vessels run within the vault or outside it, never in its bone.
+            let beside_vault = match (hollow, cranium) {
+                (Some(c), Some(vault)) if block.center().z > 4.0 => (c + 0.3).min(-vault),
+                _ => flat(-1e3),
+            };
+            for (vessels, value, tissue) in [
+                (&veins, 180.0, Tissue::Veins),
+                (&arteries, 230.0, Tissue::Arteries),
+            ] {
+                if let Some(d) = vessels.at(&p) {
+                    lay(d.max(s + 2.6).max(beside_vault), flat(value), tissue);
+                }
             }
 
             let skin_shell = s.max(-(s + skin_thickness));
             lay(skin_shell, flat(30.0), Tissue::Skin);
-            let red = lips.at(&p).map(|d| (d - 0.5).max(s));
+            let red = lips.at(&p).map(|d| d - 0.5);
             if let Some(d) = red {
-                lay(d, flat(40.0), Tissue::Lips);
+                lay(d.max(s), flat(40.0), Tissue::Lips);
             }
             if let Some(d) = hair.at(&p) {
                 lay(d.max((s - 0.1).abs() - 0.9), flat(20.0), Tissue::Hair);
@@ -411,6 +429,21 @@ impl Model for Head {
                     lay(hole.max(front), flat(50.0), Tissue::Pupil);
                 }
             }
+            // What is drawn as the surface lies between voxels inside and voxels outside: those outside take the colour too.
+            let rim = 0.9 * block.spacing;
+            if let Some(d) = eye {
+                let before = (d - rim).max(flat(rim) - s);
+                for (part, tissue) in [(&pupil, Tissue::Pupil), (&iris, Tissue::Iris)] {
+                    if let Some(part) = part.at(&p) {
+                        out.claim(row, before.max(part), tissue as u8);
+                    }
+                }
+                out.claim(row, before, Tissue::Eyes as u8);
+            }
+            if let Some(d) = red {
+                out.claim(row, (d - 0.5 * rim).max(s - rim), Tissue::Lips as u8);
+            }
+            out.claim(row, s - rim, Tissue::Skin as u8);
         }
     }
 }

@@ -13,9 +13,9 @@ const FLUID_MM: f32 = 2.4;
 /// How deep sulci reach, mm.
 const SULCUS_DEPTH_MM: f32 = 13.0;
 /// Half the width of a sulcus at the surface, mm.
-const SULCUS_HALF_MM: f32 = 0.85;
+const SULCUS_HALF_MM: f32 = 1.0;
 /// How far the crown of a gyrus rises over its edge, mm.
-const CROWN_MM: f32 = 2.8;
+const CROWN_MM: f32 = 3.2;
 /// Directions along one side of a table of folds.
 const TABLE: usize = 256;
 /// Plane waves that are summed.
@@ -137,7 +137,7 @@ fn direction(u: f32, v: f32) -> [f32; 3] {
 
 impl Folds {
     fn new(side: f32, seed: u32, hemispheres: &Field, fissure: &Field, named: &Field) -> Self {
-        let center = [side * 28.0, -6.0, 46.0];
+        let center = [side * 28.0, -6.0, 54.0];
         // A random wave: equal lengths, directions and phases from a small generator of its own.
         let mut state = seed;
         let mut random = || {
@@ -150,7 +150,7 @@ impl Folds {
                 let z = 1.0 - (2.0 * i as f32 + 1.0) / WAVES as f32;
                 let turn = (i as f32 * 0.381_966 + 0.25 * random()) * std::f32::consts::TAU;
                 let r = (1.0 - z * z).sqrt();
-                let k = std::f32::consts::TAU / (21.0 + 7.0 * random());
+                let k = std::f32::consts::TAU / (17.5 + 5.0 * random());
                 (
                     [k * r * libm::cosf(turn), k * r * libm::sinf(turn), k * z],
                     random() * std::f32::consts::TAU,
@@ -207,7 +207,7 @@ impl Folds {
                     let slope = (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]).sqrt();
                     let wave = f.abs() / slope.max(0.35);
                     // Lines that have names push the others away, and are opened a little wider.
-                    let wave = wave + (7.5 - line.0[i]).max(0.0) * 0.8;
+                    let wave = wave + (5.5 - line.0[i]).max(0.0) * 0.9;
                     *cell = wave.min(line.0[i] - 0.3).clamp(-0.3, 8.0);
                 }
             }
@@ -215,10 +215,12 @@ impl Folds {
         Self { center, distance }
     }
 
-    /// Distance to the nearest sulcus at a point, mm, as measured at the surface outwards of it.
+    /// Distance to the nearest sulcus at a point, mm, as measured at the surface outwards of it, and how deep a sulcus may
+    /// reach there: they would crowd at the middle.
     #[inline]
-    fn at(&self, x: f32, y: f32, z: f32) -> f32 {
+    fn at(&self, x: f32, y: f32, z: f32) -> (f32, f32) {
         let (x, y, z) = (x - self.center[0], y - self.center[1], z - self.center[2]);
+        let room = (x * x + y * y + z * z).sqrt() - 20.0;
         let sum = x.abs() + y.abs() + z.abs() + 1e-3;
         let (mut u, mut v) = (x / sum, y / sum);
         if z < 0.0 {
@@ -234,7 +236,7 @@ impl Folds {
         let get = |i: usize, j: usize| self.distance.get(i + TABLE * j).copied().unwrap_or(8.0);
         let a = get(i, j) * (1.0 - s) + get(i + 1, j) * s;
         let b = get(i, j + 1) * (1.0 - s) + get(i + 1, j + 1) * s;
-        a * (1.0 - t) + b * t
+        (a * (1.0 - t) + b * t, room.clamp(0.0, SULCUS_DEPTH_MM))
     }
 }
 
@@ -267,10 +269,10 @@ impl Cortex {
             } else {
                 &self.right
             };
-            let s = folds.at(p.x.0[i], p.y.0[i], p.z.0[i]);
+            let (s, depth) = folds.at(p.x.0[i], p.y.0[i], p.z.0[i]);
             let edge = (1.0 - s.max(0.0) * (1.0 / 5.0)).max(0.0);
             // A sulcus narrows and ends inwards.
-            let cut = (s - SULCUS_HALF_MM).max(-d - SULCUS_DEPTH_MM);
+            let cut = (s - SULCUS_HALF_MM).max(-d - depth);
             out.0[i] = (d + CROWN_MM * edge * edge).max(-cut);
         }
         out
@@ -282,12 +284,12 @@ pub(super) fn cerebellum() -> Field {
     let mut f = Field::default();
     f.join(
         0.0,
-        ellipsoid([25.0, -50.0, -5.0], [27.5, 31.0, 22.5])
+        ellipsoid([24.5, -46.0, -3.0], [27.0, 31.0, 22.5])
             .turned(0.0, 8.0, 0.0)
             .both(),
     );
-    f.join(7.0, ellipsoid([0.0, -50.0, 2.0], [9.0, 27.0, 22.0]));
-    f.join(4.0, ellipsoid([9.0, -36.0, -24.0], [7.0, 12.0, 7.0]).both());
+    f.join(7.0, ellipsoid([0.0, -47.0, 3.0], [9.0, 28.0, 23.0]));
+    f.join(4.0, ellipsoid([9.0, -34.0, -22.0], [7.0, 11.0, 7.0]).both());
     f.raise(
         -4.0,
         capsule([0.0, -84.0, 0.0], [0.0, -60.0, -30.0], 9.0, 9.0),

@@ -48,6 +48,10 @@ fn braincase(f: &mut Field) {
     f.join(0.0, ellipsoid([0.0, -4.0, 48.0], [75.5, 91.0, 82.0]));
     f.join(22.0, ellipsoid([0.0, 38.0, 58.0], [61.0, 55.0, 56.0]));
     f.join(22.0, ellipsoid([0.0, -46.0, 26.0], [57.0, 49.0, 50.0]));
+    f.join(
+        20.0,
+        ellipsoid([42.0, -38.0, -8.0], [21.0, 33.0, 34.0]).both(),
+    );
 }
 
 fn face(f: &mut Field) {
@@ -71,6 +75,11 @@ fn face(f: &mut Field) {
     f.raise(
         2.5,
         ellipsoid([62.0, 34.0, -6.0], [16.0, 30.0, 13.0]).both(),
+    );
+    // Before the ear.
+    f.join(
+        16.0,
+        ellipsoid([51.0, 6.0, -14.0], [17.0, 27.0, 32.0]).both(),
     );
     // Temple, hollow of the cheek, fullness of the masseter.
     f.raise(
@@ -132,8 +141,16 @@ fn neck(f: &mut Field) {
         capsule([46.0, 22.0, -88.0], [20.0, 32.0, -150.0], 13.0, 12.0).both(),
     );
     // Larynx.
-    f.join(16.0, ellipsoid([0.0, 24.0, -124.0], [8.0, 10.0, 13.0]));
-    f.raise(-2.5, ellipsoid([0.0, -80.0, -30.0], [20.0, 24.0, 30.0]));
+    f.join(20.0, ellipsoid([0.0, 20.0, -122.0], [7.0, 10.0, 12.0]));
+    // Nape.
+    f.join(
+        24.0,
+        capsule([9.0, -57.0, -22.0], [10.0, -58.0, -185.0], 19.0, 20.0).both(),
+    );
+    f.raise(
+        -1.5,
+        capsule([0.0, -80.0, -30.0], [0.0, -80.0, -150.0], 17.0, 17.0),
+    );
 }
 
 fn nose(f: &mut Field) {
@@ -157,8 +174,8 @@ fn nose(f: &mut Field) {
     );
     // Columella.
     f.join(
-        4.0,
-        capsule([0.0, 111.0, -23.0], [0.0, 101.0, -29.0], 3.8, 4.5),
+        5.0,
+        capsule([0.0, 110.5, -23.0], [0.0, 101.0, -28.0], 3.6, 4.2),
     );
     // Groove about the wing.
     let groove: [Knot; 4] = [
@@ -198,7 +215,7 @@ fn eyes(f: &mut Field) {
     );
     // Lids over the eyeball.
     let [x, y, z] = EYE;
-    f.join(4.0, ellipsoid([x, y, z], [14.6, 14.4, 14.0]).both());
+    f.join(7.0, ellipsoid([x, y, z], [14.6, 14.2, 13.6]).both());
     // Crease of the upper lid, furrow under the lower.
     let crease: [Knot; 5] = [
         ([18.0, 84.0, 18.0], 3.0),
@@ -214,7 +231,7 @@ fn eyes(f: &mut Field) {
         ([38.0, 83.0, 3.5], 5.0),
         ([46.0, 77.0, 8.0], 4.0),
     ];
-    f.raise_all(-1.2, both(curve(&under)));
+    f.raise_all(-0.7, both(curve(&under)));
     // The opening between the lids.
     f.carve_all(0.6, palpebral_fissure());
 }
@@ -223,14 +240,14 @@ fn eyes(f: &mut Field) {
 fn palpebral_fissure() -> Vec<Shape> {
     // Along the fissure: x, z of its middle, half its height.
     let profile: [(f32, f32, f32); 8] = [
-        (17.2, 13.6, 0.9),
-        (19.5, 14.1, 2.0),
-        (23.0, 15.0, 3.9),
-        (28.0, 15.9, 5.2),
-        (33.0, 16.3, 5.3),
-        (38.5, 16.2, 4.4),
-        (43.0, 15.9, 2.7),
-        (46.6, 15.6, 0.8),
+        (17.0, 13.6, 0.8),
+        (19.3, 14.0, 1.8),
+        (23.0, 14.8, 3.6),
+        (28.0, 15.6, 4.8),
+        (33.0, 16.0, 4.9),
+        (38.5, 16.0, 4.1),
+        (43.0, 15.9, 2.6),
+        (46.8, 15.7, 0.8),
     ];
     profile
         .windows(2)
@@ -254,31 +271,35 @@ fn palpebral_fissure() -> Vec<Shape> {
 fn mouth(f: &mut Field) {
     // Philtrum and its ridges.
     f.raise(
-        -1.6,
-        capsule([0.0, 103.5, -32.0], [0.0, 103.5, -43.0], 3.6, 4.0),
+        -1.4,
+        capsule([0.0, 103.5, -37.0], [0.0, 103.5, -44.0], 3.4, 4.2),
     );
     f.raise(
-        1.2,
-        capsule([4.8, 103.0, -32.0], [5.8, 103.0, -43.0], 3.6, 3.6).both(),
+        0.9,
+        capsule([4.2, 103.0, -36.0], [5.6, 103.0, -44.0], 3.4, 3.6).both(),
     );
     // Folds beside nose and mouth, and above the chin.
-    f.raise(
-        -1.8,
-        capsule([20.0, 91.0, -26.0], [31.0, 84.0, -48.0], 6.5, 8.0).both(),
+    f.raise_all(
+        -1.9,
+        both(curve(&[
+            ([20.5, 91.0, -24.0], 7.0),
+            ([26.0, 88.0, -34.0], 9.5),
+            ([32.0, 82.0, -50.0], 10.0),
+        ])),
     );
+    f.raise(-3.4, ellipsoid([0.0, 97.0, -68.5], [27.0, 15.0, 11.0]));
     f.raise(
-        -3.8,
-        capsule([0.0, 98.0, -69.0], [14.0, 94.0, -70.0], 10.0, 8.0).both(),
+        -1.5,
+        ellipsoid([27.0, 87.0, -54.0], [9.0, 9.0, 10.0]).both(),
     );
-    f.raise(-1.8, ellipsoid([28.5, 86.0, -55.0], [9.0, 9.0, 9.0]).both());
     f.join_all(2.5, lips());
     // The line between the lips.
     let line: [Knot; 5] = [
         ([0.0, 106.5, -52.6], 2.6),
         ([6.0, 105.5, -52.0], 2.6),
-        ([13.0, 101.5, -52.8], 2.5),
-        ([20.0, 95.5, -53.2], 2.4),
-        ([26.5, 89.0, -53.2], 2.6),
+        ([13.0, 100.5, -52.6], 2.5),
+        ([19.0, 95.0, -52.9], 2.4),
+        ([25.0, 89.5, -52.8], 2.6),
     ];
     f.raise_all(-2.4, both(curve(&line)));
 }
@@ -286,18 +307,18 @@ fn mouth(f: &mut Field) {
 /// The red of the lips.
 pub(super) fn lips() -> Vec<Shape> {
     let upper: [Knot; 5] = [
-        ([0.0, 101.0, -48.8], 3.3),
-        ([4.5, 101.0, -48.0], 3.5),
-        ([12.0, 97.8, -49.6], 3.2),
-        ([19.0, 92.6, -51.4], 2.4),
-        ([25.0, 87.6, -53.0], 1.4),
+        ([0.0, 100.6, -49.0], 3.1),
+        ([4.5, 100.6, -48.2], 3.3),
+        ([11.0, 97.8, -49.6], 3.0),
+        ([17.5, 93.0, -51.3], 2.2),
+        ([23.5, 88.4, -52.8], 1.2),
     ];
     let lower: [Knot; 5] = [
-        ([0.0, 99.6, -56.6], 4.2),
-        ([7.0, 98.8, -56.6], 4.2),
-        ([14.0, 95.4, -55.8], 3.6),
-        ([20.0, 91.6, -54.6], 2.5),
-        ([25.0, 87.6, -53.2], 1.4),
+        ([0.0, 99.0, -56.4], 4.0),
+        ([6.5, 98.4, -56.4], 4.0),
+        ([13.0, 95.2, -55.6], 3.4),
+        ([18.5, 91.8, -54.3], 2.3),
+        ([23.5, 88.4, -53.0], 1.2),
     ];
     let mut shapes = both(curve(&upper));
     shapes.extend(both(curve(&lower)));
@@ -394,8 +415,8 @@ fn ears(f: &mut Field) {
     );
     // Canal.
     f.carve(
-        1.0,
-        capsule([72.0, -1.5, -3.0], [56.0, -1.0, -2.0], 3.2, 3.0).both(),
+        1.5,
+        capsule([74.0, -13.0, -3.5], [62.0, -7.0, -3.0], 3.4, 3.0).both(),
     );
 }
 
@@ -413,15 +434,17 @@ pub(super) fn cartilage_regions() -> Field {
 }
 
 /// Eyebrows and the line of the lashes.
-pub(super) fn hair() -> Field {
+pub(super) fn hair(skin: &Field) -> Field {
     let mut f = Field::default();
     let brow: [Knot; 5] = [
-        ([9.0, 97.5, 33.0], 3.2),
-        ([18.0, 97.0, 36.5], 3.8),
-        ([29.0, 92.5, 39.5], 3.6),
-        ([40.0, 85.0, 38.5], 3.0),
-        ([51.0, 74.0, 32.5], 1.8),
+        ([10.0, 97.5, 33.5], 2.4),
+        ([18.0, 97.0, 35.8], 3.0),
+        ([29.0, 92.5, 38.6], 2.8),
+        ([40.0, 85.0, 38.0], 2.3),
+        ([51.0, 74.0, 33.0], 1.4),
     ];
+    // On the skin, whatever its shape.
+    let brow = brow.map(|(p, r)| (skin.pull(p, 0.0), r));
     f.join_all(0.0, both(curve(&brow)));
     f
 }

@@ -5,18 +5,20 @@
 use glam::{Mat3, Vec3};
 
 use super::lanes::Lanes;
-use super::shape::{
-    Field, Knot, Places, ball, below, both, capsule, cuboid, curve, ellipsoid, strap,
-};
+use super::shape::{Field, Knot, Places, ball, both, capsule, cuboid, curve, ellipsoid, strap};
 
 /// The upper part of the cranial cavity, over the floors of the fossae: the room of the cerebrum.
 pub(super) fn cerebral_space() -> Field {
     let mut f = Field::default();
     f.join(0.0, ellipsoid([0.0, -5.0, 46.0], [64.5, 78.0, 72.0]));
     f.join(14.0, ellipsoid([0.0, -42.0, 36.0], [54.0, 40.5, 46.0]));
+    f.join(12.0, ellipsoid([0.0, 30.0, 62.0], [52.5, 48.5, 42.0]));
     // The floor rises forwards: middle fossa, then the roofs of the orbits.
-    f.carve(10.0, below([0.0, 30.0, 33.0], [0.0, -0.5, 1.0]));
-    f.join(10.0, ellipsoid([0.0, 33.0, 60.0], [51.0, 46.0, 24.0]));
+    f.carve(
+        10.0,
+        cuboid([0.0, 5.2, -43.4], [95.0, 60.0, 60.0], 1.0).turned(26.57, 0.0, 0.0),
+    );
+    f.carve(18.0, cuboid([0.0, 66.0, -14.0], [95.0, 42.0, 50.0], 1.0));
     // Temporal lobes.
     f.join(
         8.0,
@@ -34,7 +36,7 @@ pub(super) fn cerebral_space() -> Field {
 /// The room of the cerebellum and brain stem, down to the foramen magnum.
 pub(super) fn posterior_fossa() -> Field {
     let mut f = Field::default();
-    f.join(0.0, ellipsoid([0.0, -44.0, 0.0], [53.0, 39.0, 30.0]));
+    f.join(0.0, ellipsoid([0.0, -38.0, 1.0], [48.0, 38.5, 28.0]));
     f.join(10.0, ellipsoid([0.0, -26.0, 14.0], [22.0, 24.0, 26.0]));
     // Along the clivus to the foramen and the canal.
     f.join(
@@ -121,6 +123,9 @@ pub(super) fn face_bones() -> Field {
         )
         .both(),
     );
+    // The frontal bone's flank, over the greater wing.
+    f.join(9.0, ellipsoid([42.0, 56.0, 36.0], [9.0, 14.0, 12.0]).both());
+    f.join(6.0, ellipsoid([46.0, 42.0, 18.0], [7.0, 14.0, 15.0]).both());
     // Zygoma and its arch.
     f.join(6.0, ellipsoid([46.5, 62.0, -8.0], [10.5, 10.0, 9.5]).both());
     f.join(
@@ -129,10 +134,10 @@ pub(super) fn face_bones() -> Field {
     );
     let arch: [Knot; 5] = [
         ([51.0, 57.0, -7.0], 5.5),
-        ([60.5, 44.0, -6.5], 4.2),
-        ([65.5, 28.0, -5.0], 3.8),
-        ([65.5, 14.0, -2.5], 3.8),
-        ([61.0, 3.0, 1.5], 5.0),
+        ([58.5, 46.0, -7.0], 4.4),
+        ([62.0, 30.0, -5.5], 4.0),
+        ([62.5, 15.0, -3.0], 4.0),
+        ([60.0, 3.0, 1.5], 5.0),
     ];
     f.join_all(3.0, both(curve(&arch)));
     // Nasal bones and the frontal process of the maxilla.
@@ -267,7 +272,7 @@ pub(super) fn openings() -> Field {
     // Ear canal, infraorbital foramen, mandibular fossa.
     f.join(
         0.0,
-        capsule([74.0, -6.0, -3.0], [44.0, 1.0, -2.0], 4.6, 4.0).both(),
+        capsule([68.0, -10.5, -3.3], [44.0, 1.0, -2.0], 4.6, 4.0).both(),
     );
     f.join(
         0.0,
@@ -295,12 +300,12 @@ pub(super) fn sinuses() -> Field {
     let mut f = Field::default();
     f.join(
         0.0,
-        ellipsoid([27.0, 62.0, -13.0], [11.0, 17.0, 14.0]).both(),
+        ellipsoid([26.0, 57.0, -13.0], [10.5, 15.0, 13.5]).both(),
     );
     f.join(0.0, ellipsoid([8.0, 30.0, 9.0], [7.0, 9.5, 8.5]).both());
     f.join(
         0.0,
-        ellipsoid([9.0, 85.0, 40.0], [8.5, 3.6, 8.0])
+        ellipsoid([8.5, 80.0, 39.0], [8.0, 2.8, 7.0])
             .turned(14.0, 0.0, 0.0)
             .both(),
     );
@@ -318,7 +323,7 @@ pub(super) fn sinuses() -> Field {
         [61.0, -22.0, -2.0],
         [55.0, -15.0, 1.0],
     ] {
-        f.join(0.0, ball(p, 2.7).both());
+        f.join(0.0, ball(p, 2.1).both());
     }
     f
 }
@@ -364,11 +369,11 @@ pub(super) fn mandible() -> Field {
     f.join(5.0, ellipsoid([47.5, 17.0, -58.0], [4.5, 9.0, 10.0]).both());
     // Body, deepest at the chin.
     let body: [Knot; 5] = [
-        ([46.5, 24.0, -60.0], 6.5),
-        ([41.0, 44.0, -67.0], 6.8),
-        ([31.0, 65.0, -75.0], 7.0),
-        ([16.0, 81.0, -82.0], 7.0),
-        ([0.0, 84.0, -85.0], 7.5),
+        ([46.0, 24.0, -58.0], 7.5),
+        ([40.5, 44.0, -66.0], 8.0),
+        ([31.0, 65.0, -74.0], 8.4),
+        ([16.0, 80.0, -81.0], 8.4),
+        ([0.0, 83.5, -84.0], 8.6),
     ];
     f.join_all(5.0, both(curve(&body)));
     let alveolar: [Knot; 5] = [

@@ -2,7 +2,10 @@
 //!
 //! Coordinates as in [`super::head_skin`].
 
-use super::shape::{Field, Knot, Shape, ball, both, capsule, cuboid, curve, ellipsoid, strap};
+use super::lanes::{Lanes, Points};
+use super::shape::{
+    Field, Knot, Places, Shape, ball, both, capsule, cuboid, curve, ellipsoid, strap,
+};
 
 /// Muscles that have a body of their own.
 pub(super) fn muscles() -> Field {
@@ -200,8 +203,9 @@ pub(super) fn facial_muscles() -> Field {
         f.join(0.0, capsule(from, to, r0, r1).both());
     };
     // Forehead, nose, lifters of the lip, smile, lower lip, chin, neck's platysma at the jaw.
-    band([17.0, 94.0, 42.0], [22.0, 84.0, 78.0], 13.0, 17.0);
-    band([22.0, 84.0, 78.0], [24.0, 66.0, 98.0], 17.0, 12.0);
+    band([16.0, 94.0, 40.0], [24.0, 84.0, 76.0], 14.0, 19.0);
+    band([36.0, 86.0, 42.0], [30.0, 82.0, 70.0], 9.0, 12.0);
+    band([24.0, 84.0, 76.0], [26.0, 72.0, 92.0], 19.0, 13.0);
     band([7.0, 94.0, 18.0], [4.5, 100.0, 34.0], 4.0, 5.0);
     band([9.0, 98.0, -2.0], [15.0, 98.0, -16.0], 4.5, 5.0);
     band([14.0, 92.0, 4.0], [19.0, 94.0, -36.0], 3.5, 4.5);
@@ -380,20 +384,63 @@ pub(super) fn airway() -> Field {
     // Ear canal.
     f.join(
         0.0,
-        capsule([74.0, -7.0, -3.5], [62.0, -3.0, -3.0], 3.4, 3.2).both(),
+        capsule([72.0, -13.0, -3.5], [60.0, -6.0, -3.0], 3.3, 3.2).both(),
     );
     f.join(
         0.0,
-        capsule([62.0, -3.0, -3.0], [46.0, 1.0, -2.0], 3.2, 3.0).both(),
+        capsule([62.0, -3.5, -3.0], [46.0, 1.0, -2.0], 3.2, 3.0).both(),
     );
     f.join(1.0, ellipsoid([41.0, 2.0, -1.0], [4.0, 5.0, 6.0]).both());
     f
 }
 
+/// Vessels that would run in the bone of the vault are moved to its inner or outer side, whichever is nearer; those under
+/// the scalp lie at an even depth.
+fn fitted(knots: &[Knot], skin: &Field, cavity: &Field) -> Vec<Knot> {
+    let distance = |field: &Field, p: [f32; 3]| {
+        let lane = |axis: usize| Lanes::splat(p[axis]);
+        let place = Points {
+            x: lane(0),
+            y: lane(1),
+            z: lane(2),
+        };
+        field.everywhere().distance(&Places::new(place)).0[0]
+    };
+    knots
+        .iter()
+        .map(|&(p, r)| {
+            let inside = distance(cavity, p);
+            let pulled = if p[2] < 4.0 || inside < -(r + 0.8) {
+                p
+            } else if inside < 5.0 {
+                cavity.pull(p, -(r + 0.6))
+            } else if p[2] < 25.0 {
+                p
+            } else {
+                skin.pull(p, -(r + 2.6).min(4.4))
+            };
+            (pulled, r)
+        })
+        .collect()
+}
+
+/// Signed distance to the superior sagittal sinus, mm, from that to the cavity: it runs under the vault in the middle, wider
+/// towards the back.
+pub(super) fn sagittal_sinus(p: &Points, cavity: Lanes) -> Lanes {
+    let radius = (p.y * -0.02 + 3.6).clamp(2.0, 5.2);
+    let (x, under) = (p.x, cavity + radius * 0.75);
+    let tube = (x * x + under * under).sqrt() - radius;
+    // From the crista galli to the confluence.
+    let behind = (Lanes::splat(24.0) - p.z).max((p.y + 40.0).min(Lanes::splat(46.0) - p.z));
+    tube.max(behind)
+}
+
 /// Arteries outside the skull, and inside it.
-pub(super) fn arteries() -> Field {
+pub(super) fn arteries(skin: &Field, cavity: &Field) -> Field {
     let mut f = Field::default();
-    let mut tube = |knots: &[Knot]| f.join_all(0.0, both(curve(knots)));
+    let mut tube = |knots: &[Knot]| {
+        f.join_all(0.0, both(curve(&fitted(knots, skin, cavity))));
+    };
     // Common carotid, internal carotid with its siphon, middle and anterior cerebral arteries.
     tube(&[
         ([21.0, 6.0, -190.0], 3.6),
@@ -506,30 +553,19 @@ pub(super) fn arteries() -> Field {
 }
 
 /// Veins and the sinuses of the dura.
-pub(super) fn veins() -> Field {
+pub(super) fn veins(skin: &Field, cavity: &Field) -> Field {
     let mut f = Field::default();
-    // Superior sagittal sinus, close under the vault.
-    let sagittal: [Knot; 9] = [
-        ([0.0, 76.0, 58.0], 1.8),
-        ([0.0, 72.0, 78.0], 2.4),
-        ([0.0, 54.0, 100.0], 2.8),
-        ([0.0, 26.0, 113.5], 3.2),
-        ([0.0, -8.0, 116.5], 3.6),
-        ([0.0, -40.0, 109.0], 4.0),
-        ([0.0, -66.0, 88.0], 4.2),
-        ([0.0, -80.0, 60.0], 4.4),
-        ([0.0, -81.0, 26.0], 4.8),
-    ];
-    f.join_all(0.0, curve(&sagittal));
     f.join_all(
         0.0,
         curve(&[
-            ([0.0, -80.0, 26.0], 3.8),
+            ([0.0, -78.0, 24.0], 3.8),
             ([0.0, -52.0, 32.0], 3.0),
             ([0.0, -32.0, 42.0], 2.6),
         ]),
     );
-    let mut tube = |knots: &[Knot]| f.join_all(0.0, both(curve(knots)));
+    let mut tube = |knots: &[Knot]| {
+        f.join_all(0.0, both(curve(&fitted(knots, skin, cavity))));
+    };
     // Transverse and sigmoid sinus into the internal jugular vein.
     tube(&[
         ([0.0, -81.0, 22.0], 4.4),

@@ -389,8 +389,6 @@ enum Op {
     Join(f32),
     /// Smooth difference.
     Carve(f32),
-    /// Smooth intersection.
-    Clip(f32),
     /// Moves the surface outwards by so many mm where the shape is, most in its middle.
     Raise(f32),
 }
@@ -400,6 +398,8 @@ enum Op {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Field {
     steps: Vec<(Op, Vec<Shape>)>,
+    /// Per step the largest rounding of it and all later ones: so far does what it left still count.
+    rounding: Vec<f32>,
 }
 
 /// "Nowhere near", mm.
@@ -450,48 +450,76 @@ pub(super) fn both(shapes: Vec<Shape>) -> Vec<Shape> {
 }
 
 impl Field {
+    fn push(&mut self, step: (Op, Vec<Shape>)) {
+        let own = match step.0 {
+            Op::Join(k) | Op::Carve(k) => k,
+            Op::Raise(_) => 0.0,
+        };
+        self.steps.push(step);
+        self.rounding.push(0.0);
+        for later in &mut self.rounding {
+            *later = later.max(own);
+        }
+    }
+
     /// Adds a shape, its edge rounded over `smooth` mm.
     pub(super) fn join(&mut self, smooth: f32, shape: Shape) {
-        self.steps.push((Op::Join(smooth), vec![shape]));
+        self.push((Op::Join(smooth), vec![shape]));
     }
 
     /// Adds several shapes that are one among themselves.
     pub(super) fn join_all(&mut self, smooth: f32, shapes: Vec<Shape>) {
-        self.steps.push((Op::Join(smooth), shapes));
+        self.push((Op::Join(smooth), shapes));
     }
 
     /// Adds what another field adds, its first step rounded over `smooth` mm.
     pub(super) fn append(&mut self, other: Field, smooth: f32) {
-        let first = self.steps.len();
-        self.steps.extend(other.steps);
-        if let Some((Op::Join(k), _)) = self.steps.get_mut(first) {
-            *k = smooth;
+        for (index, (op, shapes)) in other.steps.into_iter().enumerate() {
+            let op = if index == 0 { Op::Join(smooth) } else { op };
+            self.push((op, shapes));
         }
     }
 
     /// Takes a shape away.
     pub(super) fn carve(&mut self, smooth: f32, shape: Shape) {
-        self.steps.push((Op::Carve(smooth), vec![shape]));
+        self.push((Op::Carve(smooth), vec![shape]));
     }
 
     /// Takes several shapes away that are one among themselves.
     pub(super) fn carve_all(&mut self, smooth: f32, shapes: Vec<Shape>) {
-        self.steps.push((Op::Carve(smooth), shapes));
-    }
-
-    /// Keeps only what lies in a shape.
-    pub(super) fn clip(&mut self, smooth: f32, shape: Shape) {
-        self.steps.push((Op::Clip(smooth), vec![shape]));
+        self.push((Op::Carve(smooth), shapes));
     }
 
     /// Raises (or, negative, presses in) the surface by `mm` within a shape.
     pub(super) fn raise(&mut self, mm: f32, shape: Shape) {
-        self.steps.push((Op::Raise(mm), vec![shape]));
+        self.push((Op::Raise(mm), vec![shape]));
     }
 
     /// The same within several shapes, nowhere twice.
     pub(super) fn raise_all(&mut self, mm: f32, shapes: Vec<Shape>) {
-        self.steps.push((Op::Raise(mm), shapes));
+        self.push((Op::Raise(mm), shapes));
+    }
+
+    /// Moves a point along the field's slope to where its distance is `target` mm.
+    pub(super) fn pull(&self, point: [f32; 3], target: f32) -> [f32; 3] {
+        let near = self.everywhere();
+        let mut pos = at(point);
+        for _ in 0..4 {
+            // The point itself and three neighbours in the lanes.
+            let offsets = |axis: usize| {
+                let mut lanes = [pos.to_array()[axis]; super::lanes::LANES];
+                lanes[axis + 1] += 0.5;
+                Lanes(lanes)
+            };
+            let d = near.distance(&Places::new(Points {
+                x: offsets(0),
+                y: offsets(1),
+                z: offsets(2),
+            }));
+            let slope = (Vec3::new(d.0[1], d.0[2], d.0[3]) - Vec3::splat(d.0[0])) / 0.5;
+            pos += slope * ((target - d.0[0]) / slope.length_squared().max(0.3));
+        }
+        pos.to_array()
     }
 
     /// All steps, for points anywhere.
@@ -508,10 +536,9 @@ impl Field {
         near.shapes.clear();
         let (center, radius) = (block.center(), block.radius());
         let mut any = false;
-        for (op, shapes) in &self.steps {
-            let reach = match *op {
-                Op::Join(k) | Op::Carve(k) => band + k,
-                Op::Clip(_) => FAR,
+        for ((op, shapes), later) in self.steps.iter().zip(&self.rounding) {
+            let reach = match op {
+                Op::Join(_) | Op::Carve(_) => band + later,
                 Op::Raise(_) => 0.0,
             };
             let first = near.shapes.len();
@@ -568,7 +595,6 @@ impl Near<'_> {
             d = match *op {
                 Op::Join(k) => smooth_min(d, e, k),
                 Op::Carve(k) => -smooth_min(-d, e, k),
-                Op::Clip(k) => -smooth_min(-d, -e, k),
                 Op::Raise(_) => d,
             };
         }
