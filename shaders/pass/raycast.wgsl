@@ -30,6 +30,11 @@ const BISECTIONS: u32 = 7u;
 const OPAQUE: f32 = 0.002;
 /// Opacity is said for this length, subject units (spec/contract.md, "Transfer functions").
 const OPACITY_LENGTH: f32 = 0.01;
+/// Reach of the central differences of the value, voxels. 1 shows the voxels as terraces, 2 blurs fine relief.
+const GRADIENT_REACH: f32 = 1.5;
+/// How far inside a surface its segment is looked up, voxels, if the voxels around it belong to none: where tissue fills less
+/// than half of a voxel, its label is air. The nearest segment counts, for skin is thin.
+const TINT_DEPTH: f32 = 1.2;
 /// Offset of finite differences of the map, subject units: small against every bend, large against the rounding of f32.
 const MAP_STEP: f32 = 0.0005;
 /// Columns of the Jacobian longer than this come from a jump of the map, not from tissue.
@@ -103,7 +108,7 @@ fn sample_mapped(mapped: Mapped) -> Sample {
 
 /// Gradient of the normalised value in rest space, per voxel spacing: central differences along the voxel axes.
 fn gradient_at(uvw: vec3f) -> vec3f {
-    let h = vec3f(1.0) / subject.dims.xyz;
+    let h = vec3f(GRADIENT_REACH) / subject.dims.xyz;
     let difference = vec3f(
         texel_at(uvw + vec3f(h.x, 0.0, 0.0)) - texel_at(uvw - vec3f(h.x, 0.0, 0.0)),
         texel_at(uvw + vec3f(0.0, h.y, 0.0)) - texel_at(uvw - vec3f(0.0, h.y, 0.0)),
@@ -407,8 +412,17 @@ fn march(pixel: vec2f) -> Marched {
         let known = transfer(edge.texel);
         var albedo = known.rgb;
         if has_labels != 0u {
-            let tint = tint_at(edge.pos);
-            let how_much = look.lut.z * smoothstep(0.0, 0.25, tint.a);
+            let inwards = grad / max(length(grad), 1e-9) * (subject.dims.w * smoothstep(0.01, 0.05, steepness));
+            var depth = 0.0;
+            var tint = vec4f(0.0);
+            loop {
+                tint = tint_at(edge.pos + inwards * depth);
+                if tint.a > 0.02 || depth >= TINT_DEPTH {
+                    break;
+                }
+                depth += 0.4;
+            }
+            let how_much = look.lut.z * smoothstep(0.0, 0.02, tint.a);
             albedo = mix(albedo, albedo * tint.rgb / max(tint.a, 1e-4), how_much);
         }
         let normal_in_view = vec3f(
