@@ -39,6 +39,8 @@ struct Fake(Rc<RefCell<Log>>);
 
 /// Voxels along the subject: small, since lavapipe draws it.
 const RESOLUTION: u32 = 48;
+/// The same for the head when somebody looks.
+const HEAD_RESOLUTION: u32 = 144;
 
 struct Queue<'a>(&'a mut Log, Ticket);
 
@@ -83,7 +85,12 @@ impl Services for Fake {
         if !log.is_slow
             && let SubjectRef::Builtin { name } = subject
         {
-            let generated = fabrica::subjects::generate(name, RESOLUTION, &mut Queue(log, ticket));
+            let resolution = if name == "head" && std::env::var_os("FABRICA_LOOK_AT").is_some() {
+                HEAD_RESOLUTION
+            } else {
+                RESOLUTION
+            };
+            let generated = fabrica::subjects::generate(name, resolution, &mut Queue(log, ticket));
             let event = match generated {
                 Ok(()) => LoadEvent::Done { sha256: None },
                 Err(error) => LoadEvent::Failed {
@@ -183,11 +190,16 @@ impl Window {
 
     /// Goes on until the picture is complete and the link is renewed.
     fn settle(&mut self) {
-        for _ in 0..600 {
+        // What is never answered is not waited for.
+        let patience = clock()
+            + if self.log.0.borrow().is_slow {
+                0.2
+            } else {
+                120.0
+            };
+        self.harness.step();
+        while clock() < patience && !self.harness.state().is_at_rest() {
             self.harness.step();
-            if self.harness.state().is_at_rest() {
-                break;
-            }
             std::thread::sleep(std::time::Duration::from_millis(2));
         }
         // The link follows after a while on the clock of the interface, 1/60 s a step.
@@ -264,7 +276,38 @@ impl Window {
     }
 }
 
-const DESK: Vec2 = Vec2::new(1280.0, 800.0);
+/// The head as a visitor sees it; drawn only to be looked at, since it takes its time on a software device.
+#[test]
+fn the_head_to_look_at() {
+    if std::env::var_os("FABRICA_LOOK_AT").is_none() {
+        println!("FABRICA_LOOK_AT is not set: nobody looks, nothing is drawn");
+        return;
+    }
+    let json = r#"{ "fabrica": 1, "templates": [ { "kind": "peel", "at": [0.02,0.24,0.2],
+        "rotate": [0,0.7071,0.7071,0], "size": [0.36,0.3,0.2], "params": { "progress": 0.6 } } ] }"#;
+    for (name, size, theme) in [
+        ("head", DESK, egui::Theme::Light),
+        ("head_dark", DESK, egui::Theme::Dark),
+        ("head_phone", vec2(360.0, 740.0), egui::Theme::Light),
+    ] {
+        let mut window = Window::open_with(size, theme, Fake::default(), Some(json));
+        window.settle();
+        window.look(name);
+        if size == DESK {
+            window.click("1. Peel");
+        } else {
+            window.press(Key::N);
+        }
+        window.look(&format!("{name}_selected"));
+    }
+}
+
+/// Small, since lavapipe draws it; 1280 by 800 to be looked at.
+const DESK: Vec2 = if option_env!("FABRICA_LOOK_AT").is_some() {
+    Vec2::new(1280.0, 800.0)
+} else {
+    Vec2::new(940.0, 700.0)
+};
 
 // ---------------------------------------------------------------------------------------------------- the author's path
 
@@ -904,6 +947,24 @@ fn the_dark_theme_and_the_look_panel() {
         "letters belong to the field, not to the keys"
     );
     assert_eq!(window.document().illustration().templates.len(), 1);
+}
+
+#[test]
+fn the_picture_alone_has_its_texts_and_a_way_back() {
+    let json = r#"{ "fabrica": 1, "title": "A cube", "caption": "Strata and a ball", "subject": { "builtin": "cube" } }"#;
+    let mut window = Window::open(DESK, json);
+    window.press(Key::P);
+    window.settle();
+    window.look("alone");
+    assert!(
+        window.harness.query_by_label("Copy link").is_none(),
+        "no panels"
+    );
+    window.click("Show the panels");
+    assert!(
+        window.harness.query_by_label("Copy link").is_some(),
+        "and back"
+    );
 }
 
 #[test]

@@ -41,6 +41,11 @@ const GROUPS: [(&str, &[TemplateKind]); 4] = {
     ]
 };
 
+/// Every kind, in the order of the catalogue.
+pub(crate) fn kinds() -> impl Iterator<Item = TemplateKind> {
+    GROUPS.iter().flat_map(|(_, kinds)| kinds.iter().copied())
+}
+
 /// What people call it.
 pub(crate) fn kind_title(kind: TemplateKind) -> String {
     match kind {
@@ -163,10 +168,7 @@ mod tests {
 
     #[test]
     fn the_groups_hold_every_kind_once() {
-        let mut all: Vec<TemplateKind> = GROUPS
-            .iter()
-            .flat_map(|(_, kinds)| kinds.iter().copied())
-            .collect();
+        let mut all: Vec<TemplateKind> = kinds().collect();
         all.sort();
         let mut expected = TemplateKind::ALL.to_vec();
         expected.sort();

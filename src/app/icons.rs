@@ -1,15 +1,13 @@
 //! The catalogue's pictures, drawn by the program's own renderer on its own cube: once, one after the other, while nothing
 //! else is to be drawn.
 
-use std::sync::Arc;
-
 use egui::{ColorImage, TextureHandle, TextureOptions};
 
 use super::catalogue::Icons;
 use super::picture::{Pending, Picture, poll_once};
 use crate::data::VolumeBuilder;
 use crate::document::{Background, Document, Illustration, TemplateKind};
-use crate::render::{Image, RenderError, Renderer};
+use crate::render::{Image, RenderError, Studio};
 
 /// Pixels of an icon's side: twice its size in points.
 const SIDE_PX: u32 = 112;
@@ -21,7 +19,7 @@ const RESOLUTION: u32 = 48;
 /// Icons as far as they are drawn. Built once per window.
 #[derive(Default)]
 pub(crate) struct RenderedIcons {
-    renderer: Option<Renderer>,
+    studio: Option<Studio>,
     textures: Vec<(TemplateKind, TextureHandle)>,
     pending: Option<(TemplateKind, Pending<Result<Image, RenderError>>)>,
     has_failed: bool,
@@ -44,7 +42,7 @@ impl RenderedIcons {
 
     /// Drops what lies on a lost device; the icons that are drawn stay.
     pub(crate) fn device_lost(&mut self) {
-        self.renderer = None;
+        self.studio = None;
         self.pending = None;
     }
 
@@ -73,33 +71,28 @@ impl RenderedIcons {
                 }
             }
         }
-        let next = TemplateKind::ALL
-            .into_iter()
-            .find(|kind| self.texture(*kind).is_none());
+        let next = super::catalogue::kinds().find(|kind| self.texture(*kind).is_none());
         let Some(kind) = next else {
-            self.renderer = None;
+            self.studio = None;
             return false;
         };
-        if self.renderer.is_none() {
-            self.renderer = cube_renderer(picture);
-            self.has_failed = self.renderer.is_none();
+        if self.studio.is_none() {
+            self.studio = cube_studio(picture);
+            self.has_failed = self.studio.is_none();
         }
-        if let Some(renderer) = &mut self.renderer {
-            let future =
-                renderer.render_image(&icon_illustration(kind), [SIDE_PX, SIDE_PX], SAMPLES);
+        if let Some(studio) = &self.studio {
+            let future = studio.render_image(&icon_illustration(kind), [SIDE_PX, SIDE_PX], SAMPLES);
             self.pending = Some((kind, Box::pin(future)));
         }
         true
     }
 }
 
-/// A renderer that has the cube.
-fn cube_renderer(picture: &Picture) -> Option<Renderer> {
+/// The cube on the device.
+fn cube_studio(picture: &Picture) -> Option<Studio> {
     let mut cube = VolumeBuilder::new();
     crate::subjects::generate("cube", RESOLUTION, &mut cube).ok()?;
-    let mut renderer = picture.another_renderer();
-    renderer.set_subject(Arc::new(cube.finish().ok()?)).ok()?;
-    Some(renderer)
+    Studio::new(picture.gpu(), &cube.finish().ok()?, true).ok()
 }
 
 /// The cube with one template, without anything behind it.

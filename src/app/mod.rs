@@ -78,6 +78,9 @@ pub struct App {
     picture: Option<Picture>,
     icons: RenderedIcons,
     viewport: Viewport,
+    is_device_lost: bool,
+    /// Panels are drawers.
+    is_narrow: bool,
     /// The volume that is arriving.
     incoming: Option<VolumeBuilder>,
 }
@@ -123,6 +126,8 @@ impl App {
             picture,
             icons: RenderedIcons::default(),
             viewport: Viewport::default(),
+            is_device_lost: false,
+            is_narrow: false,
             incoming: None,
         }
     }
@@ -137,13 +142,17 @@ impl App {
         self.state.selected
     }
 
-    /// True when the picture is complete and nothing is being loaded.
+    /// True when the picture is complete, nothing is being loaded and no question to the picture is open.
     pub fn is_at_rest(&self) -> bool {
+        let is_picture_done = |picture: &Picture| picture.state.is_done && !picture.is_waiting();
         self.state.load.is_none()
-            && self
-                .picture
-                .as_ref()
-                .is_none_or(|picture| picture.state.is_done)
+            && !self.state.wants_place_in_middle
+            && self.picture.as_ref().is_none_or(is_picture_done)
+    }
+
+    /// The graphics device is gone for good: a new app on a new device goes on with [`App::document`].
+    pub fn is_device_lost(&self) -> bool {
+        self.is_device_lost
     }
 
     /// True if the graphics device was lost; whoever embeds the app makes a new one with [`App::document`].
@@ -307,8 +316,8 @@ impl App {
         let mut commands = Vec::new();
         self.keys(ui, &mut commands);
 
-        let is_narrow = ui.available_width() < NARROW;
-        if is_narrow {
+        self.is_narrow = ui.available_width() < NARROW;
+        if self.is_narrow {
             self.narrow_ui(ui, &mut commands);
         } else {
             self.wide_ui(ui, &mut commands);
@@ -420,11 +429,13 @@ impl App {
                 }
                 None => {}
             }
-            // Icons are drawn when the picture has had its turn.
-            if picture.state.is_done
-                && self.state.load.is_none()
-                && self.icons.advance(ctx, picture)
-            {
+            // Icons are drawn when the picture has had its turn, somebody sees them, and no hand is at work: making
+            // a program for the GPU may take longer than a frame.
+            let is_quiet = ui.input(|i| i.events.is_empty() && !i.pointer.any_down());
+            let is_seen = self.state.tab == Some(Tab::Add) || !self.is_narrow;
+            let is_icon_time =
+                is_quiet && is_seen && picture.state.is_done && self.state.load.is_none();
+            if is_icon_time && self.icons.advance(ctx, picture) {
                 ctx.request_repaint();
             }
             if picture.is_waiting() {
@@ -437,17 +448,18 @@ impl App {
         }
     }
 
-    /// Faults that the device reports are said once; a lost device is the shell's to replace.
+    /// A lost device is said once; the shell makes another window for the same document.
     fn look_after_device(&mut self) {
-        let Some(picture) = &mut self.picture else {
-            return;
-        };
-        if let Some(reason) = picture.gpu().lost() {
+        let lost = self
+            .picture
+            .as_ref()
+            .and_then(|picture| picture.gpu().lost());
+        if let Some(reason) = lost.filter(|_| !self.is_device_lost) {
+            self.is_device_lost = true;
             self.icons.device_lost();
-            self.state.forget_subject();
             self.state.say(
                 Gravity::Error,
-                "The graphics device was lost. Your work is kept: copy the link or reload the page",
+                "The graphics device was lost. Your work is kept: copy the link, or start again",
                 reason,
             );
         }
@@ -619,6 +631,12 @@ impl App {
             self.viewport
                 .ui(ui, &mut self.state, self.picture.as_mut(), commands);
             notice::ui(ui, rect, &mut self.state, commands);
+            if self.state.are_panels_hidden {
+                text::over_picture_ui(ui, rect, &self.state, commands);
+            }
+            if ui.input(|i| !i.raw.hovered_files.is_empty()) {
+                viewport::drop_hint_ui(ui, rect);
+            }
         });
     }
 }

@@ -171,35 +171,38 @@ fn load_ui(ui: &mut Ui, load: &Load, commands: &mut Vec<Command>) {
 /// Everything that was said so far, newest first.
 pub(crate) fn messages_ui(ui: &Ui, state: &State, commands: &mut Vec<Command>) {
     let content = ui.ctx().content_rect().size();
-    let modal = Modal::new(egui::Id::unique("messages")).show(ui.ctx(), |ui| {
-        ui.set_width((content.x - 64.0).min(520.0));
-        control::heading(ui, "Messages", |ui| {
-            if control::icon_button(ui, Icon::Close, "Close messages", true).clicked() {
-                commands.push(Command::ToggleMessages);
-            }
-        });
-        control::divider(ui);
-        let weak = Palette::get(ui).weak;
-        if state.said.is_empty() {
-            ui.label(RichText::new("Nothing so far.").color(weak));
-        }
-        egui::ScrollArea::vertical()
-            .max_height(content.y - 180.0)
-            .show(ui, |ui| {
-                for said in state.said.iter().rev() {
-                    ui.add(
-                        Label::new(theme::strong(said.message.clone()).size(13.0))
-                            .wrap()
-                            .selectable(true),
-                    );
-                    if !said.details.is_empty() {
-                        let details = RichText::new(&said.details).small().color(weak);
-                        ui.add(Label::new(details).wrap().selectable(true));
-                    }
-                    ui.add_space(6.0);
+    let frame = egui::Frame::window(ui.style());
+    let modal = Modal::new(egui::Id::unique("messages"))
+        .frame(frame)
+        .show(ui.ctx(), |ui| {
+            ui.set_width((content.x - 64.0).min(520.0));
+            control::heading(ui, "Messages", |ui| {
+                if control::icon_button(ui, Icon::Close, "Close messages", true).clicked() {
+                    commands.push(Command::ToggleMessages);
                 }
             });
-    });
+            control::divider(ui);
+            let weak = Palette::get(ui).weak;
+            if state.said.is_empty() {
+                ui.label(RichText::new("Nothing so far.").color(weak));
+            }
+            egui::ScrollArea::vertical()
+                .max_height(content.y - 180.0)
+                .show(ui, |ui| {
+                    for said in state.said.iter().rev() {
+                        ui.add(
+                            Label::new(theme::strong(said.message.clone()).size(13.0))
+                                .wrap()
+                                .selectable(true),
+                        );
+                        if !said.details.is_empty() {
+                            let details = RichText::new(&said.details).small().color(weak);
+                            ui.add(Label::new(details).wrap().selectable(true));
+                        }
+                        ui.add_space(6.0);
+                    }
+                });
+        });
     if modal.should_close() {
         commands.push(Command::ToggleMessages);
     }

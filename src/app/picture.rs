@@ -47,7 +47,6 @@ pub(crate) enum PickFor {
 pub(crate) struct Picture {
     renderer: Renderer,
     render_state: RenderState,
-    clock: Clock,
     texture: Option<egui::TextureId>,
     generation: u64,
     picks: Vec<(PickFor, PendingPick)>,
@@ -69,7 +68,6 @@ impl Picture {
                 clock,
             ),
             render_state: render_state.clone(),
-            clock,
             texture: None,
             generation: 0,
             picks: Vec::new(),
@@ -81,11 +79,6 @@ impl Picture {
                 uploading: None,
             },
         }
-    }
-
-    /// A second renderer on the same device, for icons.
-    pub(crate) fn another_renderer(&self) -> Renderer {
-        Renderer::new(self.renderer.gpu().clone(), self.clock)
     }
 
     pub(crate) fn gpu(&self) -> &Gpu {

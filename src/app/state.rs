@@ -440,11 +440,6 @@ impl State {
         }
     }
 
-    /// Nothing of the subject is there any more (the device was lost): ask again.
-    pub(crate) fn forget_subject(&mut self) {
-        self.requested = None;
-    }
-
     // ------------------------------------------------------------------------------------------------ commands
 
     /// Does it. What cannot be done is said.

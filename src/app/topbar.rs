@@ -156,6 +156,7 @@ fn more_menu(ui: &mut Ui, state: &State, is_narrow: bool, commands: &mut Vec<Com
         item(ui, Icon::Download, "Save document", Command::SaveDocument);
         item(ui, Icon::Picture, "Save picture", Command::SavePicture);
         ui.separator();
+        item(ui, Icon::Eye, "Picture alone", Command::TogglePanels);
         item(ui, Icon::Contrast, "Light or dark", Command::ToggleTheme);
         item(ui, Icon::Plus, "Larger", Command::Scale(1.15));
         item(ui, Icon::Reset, "Smaller", Command::Scale(1.0 / 1.15));

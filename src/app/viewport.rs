@@ -561,6 +561,29 @@ pub(crate) fn float_frame(ui: &Ui, rect: Rect) {
     );
 }
 
+/// Over everything while a file is held over the window.
+pub(crate) fn drop_hint_ui(ui: &Ui, rect: Rect) {
+    let palette = Palette::get(ui);
+    let painter = ui.painter_at(rect);
+    let frame = rect.shrink(10.0);
+    painter.rect_filled(rect, 0.0, palette.float.gamma_multiply(0.85));
+    let stroke = Stroke::new(2.0, palette.accent);
+    painter.rect_stroke(
+        frame,
+        CornerRadius::same(12),
+        stroke,
+        egui::StrokeKind::Inside,
+    );
+    let text = "Drop a scan or a document to open it. It stays on this machine.";
+    painter.text(
+        rect.center(),
+        Align2::CENTER_CENTER,
+        text,
+        theme::strong_font(15.0),
+        palette.text,
+    );
+}
+
 /// The box of the template that would be placed.
 fn paint_preview(ui: &Ui, rect: Rect, view: &Projection, placement: &Placement) {
     let painter = ui.painter_at(rect);
