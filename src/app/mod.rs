@@ -78,7 +78,8 @@ pub struct App {
     picture: Option<Picture>,
     icons: RenderedIcons,
     viewport: Viewport,
-    is_device_lost: bool,
+    /// That the device was lost has been said.
+    has_said_loss: bool,
     /// Panels are drawers.
     is_narrow: bool,
     /// The volume that is arriving.
@@ -126,7 +127,7 @@ impl App {
             picture,
             icons: RenderedIcons::default(),
             viewport: Viewport::default(),
-            is_device_lost: false,
+            has_said_loss: false,
             is_narrow: false,
             incoming: None,
         }
@@ -148,11 +149,6 @@ impl App {
         self.state.load.is_none()
             && !self.state.wants_place_in_middle
             && self.picture.as_ref().is_none_or(is_picture_done)
-    }
-
-    /// The graphics device is gone for good: a new app on a new device goes on with [`App::document`].
-    pub fn is_device_lost(&self) -> bool {
-        self.is_device_lost
     }
 
     /// True if the graphics device was lost; whoever embeds the app makes a new one with [`App::document`].
@@ -454,8 +450,8 @@ impl App {
             .picture
             .as_ref()
             .and_then(|picture| picture.gpu().lost());
-        if let Some(reason) = lost.filter(|_| !self.is_device_lost) {
-            self.is_device_lost = true;
+        if let Some(reason) = lost.filter(|_| !self.has_said_loss) {
+            self.has_said_loss = true;
             self.icons.device_lost();
             self.state.say(
                 Gravity::Error,
