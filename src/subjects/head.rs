@@ -118,8 +118,8 @@ fn of(shapes: Vec<super::shape::Shape>, smooth: f32) -> Field {
 impl Head {
     /// Builds the model; it takes some ten milliseconds, most for the folds of the brain.
     pub(super) fn new() -> Self {
-        let mut skin = head_skin::skin();
-        skin.carve(1.0, head_skin::neck_end());
+        let skin = head_skin::skin();
+
         let mut lower_bones = head_skull::mandible();
         lower_bones.append(head_skull::neck_bones(), 0.0);
         let cavity = head_skull::cavity();
@@ -211,7 +211,7 @@ impl Model for Head {
         let hair = layer(&self.hair, 0.0);
         let cartilage_regions = layer(&self.cartilage_regions, 0.0);
         let cartilages = layer(&self.cartilages, 0.0);
-        let muscles = layer(&self.muscles, 1.0);
+        let muscles = layer(&self.muscles, 5.0);
         let facial = layer(&self.facial_muscles, 0.0);
         let tongue = layer(&self.tongue, 0.0);
         let glands = layer(&self.glands, 0.0);
@@ -237,7 +237,7 @@ impl Model for Head {
         let lens = layer(&self.lens, 0.0);
         let iris = layer(&self.iris, 0.0);
         let pupil = layer(&self.pupil, 0.0);
-        let skin_thickness = 2.2f32.max(0.9 * block.spacing);
+        let skin_thickness = 2.3f32.max(0.9 * block.spacing);
         let flat = Lanes::splat;
 
         for row in 0..ROWS {
@@ -247,14 +247,27 @@ impl Model for Head {
             if s.lowest() > width && eye.is_none_or(|eye| eye.lowest() > width) {
                 continue;
             }
+            // Where a surface is drawn, against air and on bone, values go over smoothly; between soft tissues sharply.
             let mut lay = |d: Lanes, value: Lanes, tissue: Tissue| {
+                let width = match tissue {
+                    Tissue::Skin | Tissue::Bone | Tissue::Airway | Tissue::Eyes | Tissue::Hair => {
+                        width
+                    }
+                    _ => 0.55 * width,
+                };
                 if d.lowest() < width {
                     out.lay(row, d, width, value, tissue as u8);
                 }
             };
-            lay(s, flat(-100.0), Tissue::Fat);
-            if let Some(d) = muscles.at(&p) {
-                lay(d.max(s + 3.4), flat(55.0), Tissue::Muscle);
+            // Values go over a little outside the surface, so that even the thin skin has its own.
+            lay(s - 0.5 * block.spacing, flat(30.0), Tissue::Skin);
+            lay(s + skin_thickness, flat(-100.0), Tissue::Fat);
+            if !muscles.0.is_empty() {
+                // In the neck muscles lie close: they swell until a thin layer of fat is left between them.
+                let (first, second) = muscles.0.two_nearest(&p);
+                let swell = ((p.plain.z + 34.0) * (-1.0 / 16.0)).clamp(0.0, 1.0) * 3.2 + 0.4;
+                let d = (first - swell).max(flat(1.1) - (second - first));
+                lay(d.max(s + 3.8), flat(55.0), Tissue::Muscle);
             }
             if let Some(d) = facial.at(&p) {
                 let sheet = (s + 4.2).abs() - 1.8;
@@ -271,7 +284,7 @@ impl Model for Head {
                 lay((d - 2.6).max(s + 1.0), flat(45.0), Tissue::Mucosa);
             }
             if let Some(d) = cartilage_regions.at(&p) {
-                lay(d.max(s + 1.9), flat(110.0), Tissue::Cartilage);
+                lay(d.max(s + 2.4), flat(110.0), Tissue::Cartilage);
             }
             if let Some(d) = cartilages.at(&p) {
                 lay(d.max(s + 2.5), flat(110.0), Tissue::Cartilage);
@@ -286,7 +299,7 @@ impl Model for Head {
             });
             let mut bone = face_bones.at(&p);
             if let Some(vault) = cranium {
-                bone = Some(bone.map_or(vault, |face| smooth_min(face, vault, 5.0)));
+                bone = Some(bone.map_or(vault, |face| smooth_min(face, vault, 8.0)));
             }
             let sinus = sinuses.at(&p);
             bone = bone.map(|mut bone| {
@@ -334,7 +347,7 @@ impl Model for Head {
             if let Some(d) = teeth.at(&p) {
                 let dentine = ((-d - 1.0) * 0.8).clamp(0.0, 1.0);
                 lay(
-                    d.max(s + 1.5),
+                    d.max(s + 3.5),
                     flat(2300.0).mix(flat(1700.0), dentine),
                     Tissue::Teeth,
                 );
@@ -403,12 +416,8 @@ impl Model for Head {
                 }
             }
 
-            let skin_shell = s.max(-(s + skin_thickness));
-            lay(skin_shell, flat(30.0), Tissue::Skin);
             let red = lips.at(&p).map(|d| d - 0.5);
-            if let Some(d) = red {
-                lay(d.max(s), flat(40.0), Tissue::Lips);
-            }
+
             if let Some(d) = hair.at(&p) {
                 lay(d.max((s - 0.1).abs() - 0.9), flat(20.0), Tissue::Hair);
             }
@@ -430,7 +439,7 @@ impl Model for Head {
                 }
             }
             // What is drawn as the surface lies between voxels inside and voxels outside: those outside take the colour too.
-            let rim = 0.9 * block.spacing;
+            let rim = 0.6 * block.spacing;
             if let Some(d) = eye {
                 let before = (d - rim).max(flat(rim) - s);
                 for (part, tissue) in [(&pupil, Tissue::Pupil), (&iris, Tissue::Iris)] {
@@ -441,9 +450,19 @@ impl Model for Head {
                 out.claim(row, before, Tissue::Eyes as u8);
             }
             if let Some(d) = red {
-                out.claim(row, (d - 0.5 * rim).max(s - rim), Tissue::Lips as u8);
+                // Their red is skin too: only the label differs.
+                out.relabel(
+                    row,
+                    (d - 0.5 * rim).max(s - rim).max(-(s + skin_thickness)),
+                    Tissue::Lips as u8,
+                );
             }
             out.claim(row, s - rim, Tissue::Skin as u8);
+            // The neck ends in a clean section.
+            let section = p.plain.z - head_skin::NECK_END_MM;
+            if section.lowest() < width {
+                out.lay(row, section, width, flat(-1000.0), 0);
+            }
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use glam::{Mat3, Vec3};
 
-use super::shape::{Field, Knot, Shape, ball, both, capsule, cuboid, curve, ellipsoid, strap};
+use super::shape::{Field, Knot, Shape, ball, both, capsule, curve, ellipsoid, strap};
 
 /// Middle of the right eyeball.
 pub(super) const EYE: [f32; 3] = [31.5, 72.0, 16.0];
@@ -449,7 +449,5 @@ pub(super) fn hair(skin: &Field) -> Field {
     f
 }
 
-/// What is cut away below: the flat end of the neck.
-pub(super) fn neck_end() -> Shape {
-    cuboid([0.0, 0.0, -241.0], [300.0, 300.0, 100.0], 0.5)
-}
+/// Height at which the neck is cut off.
+pub(super) const NECK_END_MM: f32 = -141.0;

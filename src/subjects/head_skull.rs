@@ -626,9 +626,9 @@ pub(super) fn teeth() -> Field {
         [4.3, 3.4, 3.9, 3.5, 3.4, 5.2, 4.9],
         30.5f32,
         50.0f32,
-        45.0f32,
+        42.8f32,
     );
-    let lower = ([2.7, 3.0, 3.4, 3.5, 3.6, 5.5, 5.2], 28.0, 50.0, 43.0);
+    let lower = ([2.7, 3.0, 3.4, 3.5, 3.6, 5.5, 5.2], 28.0, 50.0, 40.8);
     for (is_upper, (widths, a, y0, b)) in [(true, upper), (false, lower)] {
         // Walk along the half ellipse (a sin t, y0 + b cos t) by arc length.
         let mut t = 0.0f64;

@@ -10,17 +10,23 @@ use super::shape::{
 /// Muscles that have a body of their own.
 pub(super) fn muscles() -> Field {
     let mut f = Field::default();
+    f.join_all(
+        0.0,
+        both(vec![
+            ellipsoid([59.0, 20.0, 38.0], [14.0, 46.0, 42.0]).turned(0.0, -6.0, 0.0),
+            strap(
+                [59.0, 30.0, 14.0],
+                [48.5, 36.0, -12.0],
+                20.0,
+                8.0,
+                [1.0, 0.0, 0.3],
+                0.5,
+            ),
+        ]),
+    );
     let mut add = |shape: Shape| f.join(0.0, shape.both());
     // Of chewing: temporal fan and tendon, masseter, the two pterygoids.
-    add(ellipsoid([59.0, 20.0, 38.0], [14.0, 46.0, 42.0]).turned(0.0, -6.0, 0.0));
-    add(strap(
-        [59.0, 30.0, 14.0],
-        [48.5, 36.0, -12.0],
-        20.0,
-        8.0,
-        [1.0, 0.0, 0.3],
-        0.5,
-    ));
+
     add(strap(
         [57.5, 42.0, -10.0],
         [53.5, 22.0, -60.0],
@@ -143,22 +149,16 @@ pub(super) fn muscles() -> Field {
     let [x, y, z] = super::head_skin::EYE;
     for (dx, dz) in [(0.0, 11.4), (0.0, -11.4), (11.4, 0.0), (-11.4, 0.0)] {
         let normal = [dx, 0.0, dz];
-        add(strap(
-            [15.5 + dx * 0.2, 40.0, 19.0 + dz * 0.2],
-            [x + dx * 0.92, y - 8.0, z + dz * 0.92],
-            3.4,
-            4.6,
-            normal,
-            0.42,
-        ));
-        add(strap(
-            [x + dx * 0.92, y - 8.0, z + dz * 0.92],
-            [x + dx * 1.02, y + 3.0, z + dz * 1.02],
-            4.6,
-            4.4,
-            normal,
-            0.3,
-        ));
+        let (mx, mz) = (x + dx * 0.92, z + dz * 0.92);
+        let back = [15.5 + dx * 0.2, 40.0, 19.0 + dz * 0.2];
+        let front = [x + dx * 1.02, y + 3.0, z + dz * 1.02];
+        f.join_all(
+            0.0,
+            both(vec![
+                strap(back, [mx, y - 8.0, mz], 3.4, 4.6, normal, 0.42),
+                strap([mx, y - 8.0, mz], front, 4.6, 4.4, normal, 0.3),
+            ]),
+        );
     }
     f
 }

@@ -88,6 +88,15 @@ impl Canvas {
         }
     }
 
+    /// Gives voxels another segment where `distance` (mm) is negative, and leaves their values.
+    pub(super) fn relabel(&mut self, row: usize, distance: Lanes, label: u8) {
+        for (i, mine) in self.labels[row].iter_mut().enumerate() {
+            if distance.0[i] < 0.0 {
+                *mine = label;
+            }
+        }
+    }
+
     /// Lays a tissue over what a row shows, where `distance` (mm, negative inside) says so. The label changes at 0, the
     /// value over `width` mm around it: a voxel that the border crosses holds some of both, as in a scan.
     #[inline(always)]

@@ -50,8 +50,6 @@ enum Form {
         half: Vec3,
         round: f32,
     },
-    /// What lies below a plane.
-    Below { normal: Vec3, offset: f32 },
 }
 
 /// A rotation about x, then y, then z, degrees.
@@ -143,18 +141,6 @@ pub(super) fn cuboid(center: [f32; 3], half: [f32; 3], round: f32) -> Shape {
     }
 }
 
-/// All that lies below the plane through a point; the normal looks out of it.
-pub(super) fn below(point: [f32; 3], normal: [f32; 3]) -> Shape {
-    let normal = at(normal) / at(normal).length();
-    Shape {
-        form: Form::Below {
-            normal,
-            offset: normal.dot(at(point)),
-        },
-        mirrored: false,
-    }
-}
-
 impl Shape {
     /// On both sides of x = 0.
     pub(super) fn both(mut self) -> Self {
@@ -167,7 +153,6 @@ impl Shape {
         match &mut self.form {
             Form::Ellipsoid { center, .. } | Form::Cuboid { center, .. } => *center += at(by),
             Form::Capsule { start, .. } | Form::Strap { start, .. } => *start += at(by),
-            Form::Below { normal, offset } => *offset += normal.dot(at(by)),
         }
         self
     }
@@ -185,19 +170,17 @@ impl Shape {
         self
     }
 
-    /// Middle and radius of a segment's hull that holds the shape: (start, along, radius). `None` for what has no end.
-    fn hull(&self) -> Option<(Vec3, Vec3, f32)> {
+    /// A capsule that holds the shape: (start, along, radius).
+    fn hull(&self) -> (Vec3, Vec3, f32) {
         match self.form {
-            Form::Ellipsoid { center, radii, .. } => {
-                Some((center, Vec3::ZERO, radii.max_element()))
-            }
+            Form::Ellipsoid { center, radii, .. } => (center, Vec3::ZERO, radii.max_element()),
             Form::Capsule {
                 start,
                 along,
                 r0,
                 dr,
                 ..
-            } => Some((start, along, r0.max(r0 + dr))),
+            } => (start, along, r0.max(r0 + dr)),
             Form::Strap {
                 start,
                 along,
@@ -205,22 +188,19 @@ impl Shape {
                 dr,
                 flat,
                 ..
-            } => Some((start, along, r0.max(r0 + dr) * flat.max(1.0))),
+            } => (start, along, r0.max(r0 + dr) * flat.max(1.0)),
             Form::Cuboid {
                 center,
                 half,
                 round,
                 ..
-            } => Some((center, Vec3::ZERO, half.length() + round)),
-            Form::Below { .. } => None,
+            } => (center, Vec3::ZERO, half.length() + round),
         }
     }
 
     /// A lower bound of the distance from anywhere in a ball, mm.
     fn clearance(&self, mut center: Vec3, mut radius: f32) -> f32 {
-        let Some((start, along, hull)) = self.hull() else {
-            return f32::NEG_INFINITY;
-        };
+        let (start, along, hull) = self.hull();
         if self.mirrored {
             center.x = center.x.abs();
             radius += MIRROR_ROUND;
@@ -293,9 +273,6 @@ impl Shape {
                 let (ox, oy, oz) = (x.max(zero), y.max(zero), z.max(zero));
                 (ox * ox + oy * oy + oz * oz).sqrt() + x.max(y).max(z).min(zero) - *round
             }
-            Form::Below { normal, offset } => {
-                p.x * normal.x + p.y * normal.y + p.z * normal.z - *offset
-            }
         }
     }
 
@@ -332,7 +309,7 @@ impl Shape {
                 let r = t * *dr + *r0;
                 (ex * ex + ey * ey + ez * ez) / (r * r)
             }
-            Form::Cuboid { .. } | Form::Below { .. } => Lanes::splat(1.0),
+            Form::Cuboid { .. } => Lanes::splat(1.0),
         };
         let w = (Lanes::splat(1.0) - q2).max(Lanes::splat(0.0));
         w * w
@@ -570,6 +547,25 @@ impl Near<'_> {
     /// True if the field is nowhere near the block.
     pub(super) fn is_empty(&self) -> bool {
         self.steps.is_empty()
+    }
+
+    /// Distances to the nearest and the second nearest of the fields' steps, as if each stood alone, mm: where they are
+    /// about equal, two bodies touch.
+    #[inline]
+    pub(super) fn two_nearest(&self, p: &Places) -> (Lanes, Lanes) {
+        let (mut first, mut second) = (Lanes::splat(FAR), Lanes::splat(FAR));
+        let mut rest = self.shapes.as_slice();
+        for (_, count) in &self.steps {
+            let (shapes, later) = rest.split_at(*count);
+            rest = later;
+            let mut d = shapes[0].distance(p);
+            for shape in &shapes[1..] {
+                d = d.min(shape.distance(p));
+            }
+            second = second.min(first.max(d));
+            first = first.min(d);
+        }
+        (first, second)
     }
 
     /// Signed distance, mm.
