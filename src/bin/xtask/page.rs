@@ -1,0 +1,46 @@
+//! The page: built by Trunk, weighed, served.
+
+use crate::Outcome;
+use crate::run::{cargo, find, program, root, run, say};
+use crate::setup;
+
+/// Builds the page into dist/.
+pub(crate) fn build() -> Outcome {
+    setup::for_page()?;
+    trunk(
+        "build the page (2 minutes and more on two cores)",
+        &["build"],
+    )
+}
+
+/// Builds and serves the page until it is stopped.
+pub(crate) fn serve(args: &[String]) -> Outcome {
+    let port = match args {
+        [] => "8080",
+        [flag, port] if flag == "--port" && port.parse::<u16>().is_ok() => port,
+        _ => return Err("serve takes --port NUMBER and nothing else".to_owned()),
+    };
+    build()?;
+    say(&format!(
+        "the page: http://127.0.0.1:{port}/ (it is built again when a file changes; Ctrl+C ends)"
+    ));
+    trunk("serve the page", &["serve", "--port", port])
+}
+
+fn trunk(what: &str, args: &[&str]) -> Outcome {
+    let trunk = find("trunk").ok_or("Trunk is not installed: run `cargo xtask setup`")?;
+    let mut command = program(trunk);
+    // Trunk fails on values of these that it does not know.
+    command.env_remove("NO_COLOR").args(args);
+    run(what, &mut command)
+}
+
+/// Weighs the built page; fails above the ceiling of tests/size.rs.
+pub(crate) fn size() -> Outcome {
+    if !root().join("dist/fabrica_bg.wasm").is_file() {
+        build()?;
+    }
+    let mut command = cargo();
+    command.args(["test", "--quiet", "--test", "size", "--", "--nocapture"]);
+    run("weigh the page", &mut command)
+}

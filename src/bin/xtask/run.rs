@@ -1,0 +1,95 @@
+//! Running other programs: every step says what it does and how long it took.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+use crate::Outcome;
+
+/// Root of the repository.
+pub(crate) fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Says what comes next.
+pub(crate) fn say(what: &str) {
+    println!("xtask: {what}");
+}
+
+/// A program in the repository's root.
+pub(crate) fn program(name: impl AsRef<OsStr>) -> Command {
+    let mut command = Command::new(name);
+    command.current_dir(root());
+    command
+}
+
+/// The cargo that runs this.
+pub(crate) fn cargo() -> Command {
+    let mut command = program(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    // Meant for this binary, not for what it builds.
+    for (name, _) in std::env::vars_os() {
+        if name
+            .to_str()
+            .is_some_and(|n| n.starts_with("CARGO_PKG_") || n.starts_with("CARGO_BIN_"))
+        {
+            command.env_remove(name);
+        }
+    }
+    command
+}
+
+/// Runs to the end with its output shown.
+pub(crate) fn run(what: &str, command: &mut Command) -> Outcome {
+    say(what);
+    let start = Instant::now();
+    let status = command
+        .status()
+        .map_err(|error| format!("{what}: {} could not be started: {error}", shown(command)))?;
+    let seconds = start.elapsed().as_secs_f32();
+    if status.success() {
+        say(&format!("{what}: done in {seconds:.0} s"));
+        Ok(())
+    } else {
+        Err(format!(
+            "{what}: failed after {seconds:.0} s ({status}): {}",
+            shown(command)
+        ))
+    }
+}
+
+/// What a program prints, if it succeeds.
+pub(crate) fn output(command: &mut Command) -> Option<String> {
+    let output = command.stderr(Stdio::null()).output().ok()?;
+    let is_good = output.status.success();
+    is_good.then(|| String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// The command line as one would type it.
+fn shown(command: &Command) -> String {
+    std::iter::once(command.get_program())
+        .chain(command.get_args())
+        .map(OsStr::to_string_lossy)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// Where a program is found.
+pub(crate) fn find(name: &str) -> Option<PathBuf> {
+    let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
+    let path = std::env::var_os("PATH")?;
+    std::env::split_paths(&path)
+        .chain(cargo_bin())
+        .map(|folder| folder.join(&file))
+        .find(|file| file.is_file())
+}
+
+/// Where `cargo install` puts programs.
+pub(crate) fn cargo_bin() -> Option<PathBuf> {
+    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| {
+        let user = std::env::var_os("HOME").or_else(|| std::env::var_os("USERPROFILE"))?;
+        Some(PathBuf::from(user).join(".cargo"))
+    });
+    home.map(|home| home.join("bin"))
+}
