@@ -142,7 +142,15 @@ const GOLDEN: &[(&str, &str)] = &[
     ),
     (
         "head",
-        "f810791132cc94949ab95f41362318f64c3aa759f862640551bd7f666083d57c",
+        "bdd1eaa33d64b2be4c631c1cd13a9ee2d4a219aa99abd7965b063ce1d53c0405",
+    ),
+    (
+        "tomato",
+        "a967997601e223cea3a09518505c71c08848bef69bec2c8d12d6d52a1767f032",
+    ),
+    (
+        "piggybank",
+        "ba48feae55f51e587568d2026e6a91772ce6ab4fcc10bd697a333ce446aa3320",
     ),
 ];
 

@@ -62,7 +62,7 @@ fn face(f: &mut Field) {
     // Jaw from the angle to the chin, and the floor between.
     f.join(
         20.0,
-        capsule([43.0, 14.0, -50.0], [17.0, 76.0, -82.0], 11.5, 14.0).both(),
+        capsule([43.0, 14.0, -50.0], [14.0, 76.0, -82.0], 11.5, 13.5).both(),
     );
     f.join(16.0, ellipsoid([0.0, 46.0, -62.0], [44.0, 41.0, 30.0]));
     f.join(14.0, ellipsoid([0.0, 83.0, -83.0], [19.0, 14.5, 15.0]));
@@ -73,8 +73,8 @@ fn face(f: &mut Field) {
         ellipsoid([50.0, 62.0, -5.0], [24.0, 22.0, 18.0]).both(),
     );
     f.raise(
-        2.5,
-        ellipsoid([62.0, 34.0, -6.0], [16.0, 30.0, 13.0]).both(),
+        2.0,
+        ellipsoid([62.0, 34.0, -6.0], [18.0, 34.0, 15.0]).both(),
     );
     // Before the ear.
     f.join(
@@ -83,16 +83,16 @@ fn face(f: &mut Field) {
     );
     // Temple, hollow of the cheek, fullness of the masseter.
     f.raise(
-        -4.0,
-        ellipsoid([66.0, 50.0, 32.0], [30.0, 34.0, 36.0]).both(),
+        -3.2,
+        ellipsoid([66.0, 50.0, 32.0], [32.0, 36.0, 38.0]).both(),
     );
     f.raise(
-        -3.5,
-        ellipsoid([52.0, 50.0, -36.0], [18.0, 26.0, 22.0]).both(),
+        -2.2,
+        ellipsoid([52.0, 50.0, -36.0], [22.0, 28.0, 24.0]).both(),
     );
     f.raise(
-        2.5,
-        ellipsoid([58.0, 20.0, -40.0], [14.0, 20.0, 26.0]).both(),
+        1.4,
+        ellipsoid([58.0, 20.0, -40.0], [18.0, 22.0, 28.0]).both(),
     );
     // Jaw line under the body of the jaw.
     f.raise(
@@ -271,8 +271,8 @@ fn palpebral_fissure() -> Vec<Shape> {
 fn mouth(f: &mut Field) {
     // Philtrum and its ridges.
     f.raise(
-        -1.4,
-        capsule([0.0, 103.5, -37.0], [0.0, 103.5, -44.0], 3.4, 4.2),
+        -1.9,
+        capsule([0.0, 103.5, -36.0], [0.0, 103.5, -44.5], 3.6, 4.4),
     );
     f.raise(
         0.9,

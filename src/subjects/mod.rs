@@ -35,7 +35,9 @@ mod head_skull;
 mod head_soft;
 mod lanes;
 mod paint;
+mod piggybank;
 mod shape;
+mod tomato;
 
 use std::ops::Range;
 
@@ -75,13 +77,15 @@ pub enum SubjectError {
 
 /// Names of the built-in subjects that can be made, as written in documents.
 pub fn names() -> &'static [&'static str] {
-    &["bar", "cube", "head"]
+    &["bar", "cube", "tomato", "piggybank", "head"]
 }
 
 fn model(name: &str) -> Option<Box<dyn Model>> {
     Some(match name {
         "bar" => Box::new(bar::Bar),
         "cube" => Box::new(cube::Cube),
+        "tomato" => Box::new(tomato::Tomato::new()),
+        "piggybank" => Box::new(piggybank::Piggybank::new()),
         "head" => Box::new(head::Head::new()),
         _ => return None,
     })

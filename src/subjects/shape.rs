@@ -50,6 +50,27 @@ enum Form {
         half: Vec3,
         round: f32,
     },
+    Disc {
+        center: Vec3,
+        turn: Mat3,
+        radius: f32,
+        half: f32,
+        round: f32,
+    },
+}
+
+/// A disc that lies flat, with a rounded edge.
+pub(super) fn disc(center: [f32; 3], radius: f32, half: f32, round: f32) -> Shape {
+    Shape {
+        form: Form::Disc {
+            center: at(center),
+            turn: Mat3::IDENTITY,
+            radius: radius - round,
+            half: half - round,
+            round,
+        },
+        mirrored: false,
+    }
 }
 
 /// A rotation about x, then y, then z, degrees.
@@ -151,7 +172,9 @@ impl Shape {
     /// Moved by so many mm.
     pub(super) fn moved(mut self, by: [f32; 3]) -> Self {
         match &mut self.form {
-            Form::Ellipsoid { center, .. } | Form::Cuboid { center, .. } => *center += at(by),
+            Form::Ellipsoid { center, .. }
+            | Form::Cuboid { center, .. }
+            | Form::Disc { center, .. } => *center += at(by),
             Form::Capsule { start, .. } | Form::Strap { start, .. } => *start += at(by),
         }
         self
@@ -164,7 +187,9 @@ impl Shape {
 
     /// Turned about its centre so that its axes lie along the columns of `frame`. For ellipsoids and boxes.
     pub(super) fn oriented(mut self, frame: Mat3) -> Self {
-        if let Form::Ellipsoid { turn, .. } | Form::Cuboid { turn, .. } = &mut self.form {
+        if let Form::Ellipsoid { turn, .. } | Form::Cuboid { turn, .. } | Form::Disc { turn, .. } =
+            &mut self.form
+        {
             *turn = frame.transpose();
         }
         self
@@ -195,6 +220,13 @@ impl Shape {
                 round,
                 ..
             } => (center, Vec3::ZERO, half.length() + round),
+            Form::Disc {
+                center,
+                radius,
+                half,
+                round,
+                ..
+            } => (center, Vec3::ZERO, radius + half + round),
         }
     }
 
@@ -273,6 +305,19 @@ impl Shape {
                 let (ox, oy, oz) = (x.max(zero), y.max(zero), z.max(zero));
                 (ox * ox + oy * oy + oz * oz).sqrt() + x.max(y).max(z).min(zero) - *round
             }
+            Form::Disc {
+                center,
+                turn,
+                radius,
+                half,
+                round,
+            } => {
+                let zero = Lanes::splat(0.0);
+                let (x, y, z) = into_frame(p, *center, turn);
+                let (r, z) = ((x * x + y * y).sqrt() - *radius, z.abs() - *half);
+                let (outside_r, outside_z) = (r.max(zero), z.max(zero));
+                (outside_r * outside_r + outside_z * outside_z).sqrt() + r.max(z).min(zero) - *round
+            }
         }
     }
 
@@ -309,7 +354,7 @@ impl Shape {
                 let r = t * *dr + *r0;
                 (ex * ex + ey * ey + ez * ez) / (r * r)
             }
-            Form::Cuboid { .. } => Lanes::splat(1.0),
+            Form::Cuboid { .. } | Form::Disc { .. } => Lanes::splat(1.0),
         };
         let w = (Lanes::splat(1.0) - q2).max(Lanes::splat(0.0));
         w * w
