@@ -152,6 +152,10 @@ const GOLDEN: &[(&str, &str)] = &[
         "piggybank",
         "ba48feae55f51e587568d2026e6a91772ce6ab4fcc10bd697a333ce446aa3320",
     ),
+    (
+        "hand",
+        "8c98b3e0002eaefcb6ff59f3a7a6653ce36388770ac48778d1a20152fd665725",
+    ),
 ];
 
 fn digest(held: &Held) -> String {

@@ -28,6 +28,7 @@
 
 mod bar;
 mod cube;
+mod hand;
 mod head;
 mod head_brain;
 mod head_skin;
@@ -77,7 +78,7 @@ pub enum SubjectError {
 
 /// Names of the built-in subjects that can be made, as written in documents.
 pub fn names() -> &'static [&'static str] {
-    &["bar", "cube", "tomato", "piggybank", "head"]
+    &["bar", "cube", "tomato", "piggybank", "head", "hand"]
 }
 
 fn model(name: &str) -> Option<Box<dyn Model>> {
@@ -86,6 +87,7 @@ fn model(name: &str) -> Option<Box<dyn Model>> {
         "cube" => Box::new(cube::Cube),
         "tomato" => Box::new(tomato::Tomato::new()),
         "piggybank" => Box::new(piggybank::Piggybank::new()),
+        "hand" => Box::new(hand::Hand::new()),
         "head" => Box::new(head::Head::new()),
         _ => return None,
     })

@@ -6,9 +6,7 @@ use glam::Vec3;
 
 use super::lanes::Lanes;
 use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, border_width, segment};
-use super::shape::{
-    Field, Knot, Near, Places, ball, both, capsule, cuboid, curve, disc, ellipsoid,
-};
+use super::shape::{Field, Knot, Near, Places, ball, capsule, cuboid, curve, disc, ellipsoid};
 
 const SEGMENTS: &[SegmentSpec] = &[
     segment("wall", [232, 150, 156]),
