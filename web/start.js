@@ -55,9 +55,10 @@ function describe(fabrica) {
 
 async function main() {
   let fabrica;
+  let program;
   try {
     fabrica = await import("./fabrica.js");
-    await fabrica.default({ module_or_path: new URL("./fabrica_bg.wasm", import.meta.url) });
+    program = await fabrica.default({ module_or_path: new URL("./fabrica_bg.wasm", import.meta.url) });
   } catch (error) {
     console.error(error);
     show("The viewer could not be loaded.", [
@@ -91,7 +92,7 @@ async function main() {
   const viewer = new fabrica.Viewer(element("fabrica"), new URL("./worker.js", import.meta.url).href, true);
   viewer.on_copy_refused(offerText);
   // For whoever embeds or tests the page; the viewer itself never reads it.
-  window.fabrica = { viewer, module: fabrica };
+  window.fabrica = { viewer, module: fabrica, memory: program.memory };
   try {
     await viewer.start();
   } catch (error) {

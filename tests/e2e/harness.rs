@@ -4,9 +4,13 @@
 use base64::Engine as _;
 use chromiumoxide::Page;
 use chromiumoxide::browser::{Browser, BrowserConfig};
+use chromiumoxide::cdp::browser_protocol::browser::{
+    PermissionDescriptor, PermissionSetting, SetPermissionParams,
+};
 use chromiumoxide::cdp::browser_protocol::emulation::SetDeviceMetricsOverrideParams;
 use chromiumoxide::cdp::browser_protocol::input::{
-    DispatchMouseEventParams, DispatchMouseEventType, MouseButton,
+    DispatchKeyEventParams, DispatchKeyEventType, DispatchMouseEventParams, DispatchMouseEventType,
+    MouseButton,
 };
 use chromiumoxide::cdp::browser_protocol::page::CaptureScreenshotFormat;
 use chromiumoxide::page::ScreenshotParams;
@@ -336,23 +340,55 @@ impl Session {
 
     /// Opens a tab at `path` of the server (`""`, `"#payload"`, `"?s=…"`), without waiting for more than its loading.
     pub(crate) async fn open(&self, path: &str) -> Tab {
+        let tab = self.tab().await;
         let address = format!("{}/{path}", self.server.address());
+        tab.page
+            .goto(address.as_str())
+            .await
+            .expect("the page loads");
+        tab
+    }
+
+    async fn tab(&self) -> Tab {
         let browser = self.browser.lock().await;
         let page = browser.new_page("about:blank").await.expect("a tab opens");
         page.evaluate_on_new_document(
-            "window.messages=[];for(const k of ['log','info','warn','error']){const f=console[k];console[k]=(...a)=>{window.messages.push(k+': '+a.join(' '));f(...a)}};addEventListener('error',e=>window.messages.push('uncaught: '+e.message));addEventListener('unhandledrejection',e=>window.messages.push('unhandled: '+e.reason));addEventListener('securitypolicyviolation',e=>window.messages.push('policy: '+e.violatedDirective+' '+e.blockedURI));",
+            "window.messages=[];for(const k of ['log','info','warn','error']){const f=console[k];console[k]=(...a)=>{window.messages.push(k+': '+a.join(' '));f(...a)}};addEventListener('error',e=>window.messages.push('uncaught: '+e.message));addEventListener('unhandledrejection',e=>window.messages.push('unhandled: '+e.reason));addEventListener('securitypolicyviolation',e=>window.messages.push('policy: '+e.violatedDirective+' '+e.blockedURI));if(window.GPUAdapter){const r=GPUAdapter.prototype.requestDevice;window.devices=[];GPUAdapter.prototype.requestDevice=async function(...a){const d=await r.apply(this,a);window.devices.push(d);return d}}",
         )
         .await
         .expect("a script for the next page");
-        page.goto(address.as_str()).await.expect("the page loads");
         Tab { page }
     }
 
-    /// Opens a tab and waits until the viewer has started.
-    pub(crate) async fn viewer(&self, path: &str) -> Tab {
-        let tab = self.open(path).await;
+    /// Opens a tab of this size at `path` of the server and waits until the viewer has started.
+    pub(crate) async fn viewer_sized(&self, path: &str, size: (u32, u32)) -> Tab {
+        self.viewer_at(&format!("{}/{path}", self.server.address()), size)
+            .await
+    }
+
+    /// Opens a tab of this size at an address and waits until the viewer has started.
+    pub(crate) async fn viewer_at(&self, address: &str, size: (u32, u32)) -> Tab {
+        let tab = self.tab().await;
+        tab.resize(size.0, size.1).await;
+        tab.page.goto(address).await.expect("the page loads");
         tab.wait_for_state("started").await;
         tab
+    }
+
+    /// A second server: another origin.
+    pub(crate) fn other_server(&self) -> Server {
+        Server::start(self.server.shared.folder.clone())
+    }
+
+    /// Lets pages of the server read and write the clipboard, as a reader would be asked to.
+    pub(crate) async fn allow_clipboard(&self) {
+        let browser = self.browser.lock().await;
+        for name in ["clipboard-read", "clipboard-write"] {
+            let what = PermissionDescriptor::new(name);
+            let mut params = SetPermissionParams::new(what, PermissionSetting::Granted);
+            params.origin = Some(self.server.address());
+            browser.execute(params).await.expect("the permission");
+        }
     }
 }
 
@@ -473,6 +509,16 @@ impl Tab {
             params.click_count = Some(1);
         }
         self.page.execute(params).await.expect("a mouse event");
+    }
+
+    /// Presses and lets go of a key by its DOM name.
+    pub(crate) async fn key(&self, key: &str) {
+        for kind in [DispatchKeyEventType::KeyDown, DispatchKeyEventType::KeyUp] {
+            let mut params = DispatchKeyEventParams::new(kind);
+            params.key = Some(key.to_owned());
+            params.code = Some(key.to_owned());
+            self.page.execute(params).await.expect("a key event");
+        }
     }
 
     /// Clicks.
