@@ -11,7 +11,7 @@ mod harness;
 use compare::{difference, drawn_pixels, object_part};
 use fabrica::document::{Document, TemplateKind};
 use fabrica::link;
-use fabrica::render::{Gpu, GpuOptions, View, render_image};
+use fabrica::render::{Gpu, GpuOptions, Studio, View};
 use harness::{Gpu as BrowserGpu, Tab, from_base64, test_data, with_browser};
 use std::time::Duration;
 
@@ -159,7 +159,8 @@ fn browser_draws_what_the_native_program_draws() {
     documents.push(("four".to_owned(), four.to_owned()));
     with_browser(BrowserGpu::Software, |session| async move {
         let tab = session.open("#").await;
-        tab.wait_until("window.fabrica?.viewer !== undefined", 120).await;
+        tab.wait_until("window.fabrica?.viewer !== undefined", 120)
+            .await;
         tab.eval::<bool>("(window.fabrica.viewer.destroy(), true)")
             .await;
         let gpu = Gpu::open(&GpuOptions {
@@ -173,6 +174,7 @@ fn browser_draws_what_the_native_program_draws() {
         std::fs::create_dir_all(&folder).expect("a folder for pictures");
         let (mut worst, mut faults) = ((0.0, 0), Vec::new());
         let mut first_picture = None;
+        let mut studio = None;
         for (name, text) in &documents {
             let quoted = serde_json::to_string(text).expect("text");
             let script = format!(
@@ -184,10 +186,16 @@ fn browser_draws_what_the_native_program_draws() {
                 .to_rgba8();
             let document = Document::from_json(text).expect("a good document");
             let subject = if name == "four" { "head" } else { "cube" };
-            let mut builder = fabrica::data::VolumeBuilder::new();
-            fabrica::subjects::generate(subject, RESOLUTION, &mut builder).expect("a subject");
-            let volume = builder.finish().expect("a whole volume");
-            let image = render_image(&gpu, document.illustration(), &volume, SIZE, SAMPLES)
+            if studio.as_ref().is_none_or(|(held, _)| *held != subject) {
+                let mut builder = fabrica::data::VolumeBuilder::new();
+                fabrica::subjects::generate(subject, RESOLUTION, &mut builder).expect("a subject");
+                let volume = builder.finish().expect("a whole volume");
+                let made = Studio::new(&gpu, &volume, true).expect("the subject fits");
+                studio = Some((subject, made));
+            }
+            let (_, held) = studio.as_ref().expect("just made");
+            let image = held
+                .render_image(document.illustration(), SIZE, SAMPLES)
                 .await
                 .expect("a native picture");
             let native = image::RgbaImage::from_raw(SIZE[0], SIZE[1], image.rgba).expect("whole");

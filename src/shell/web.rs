@@ -9,11 +9,11 @@ use wasm_bindgen_futures::JsFuture;
 use web_sys::{HtmlCanvasElement, Url};
 
 use super::page::{Page, PageServices, Place, foreign_host};
-use crate::app::{App, Message, Start};
-use crate::data::{VolumeBuilder, VolumeLimits, VolumeSink as _};
+use crate::app::{App, Command, Message, Start};
+use crate::data::{VolumeBuilder, VolumeLimits};
 use crate::document::{Document, SubjectRef};
 use crate::link;
-use crate::render::{Gpu, GpuOptions, encode_png, render_image};
+use crate::render::{Gpu, GpuOptions, Studio, encode_png};
 use crate::subjects;
 
 /// An empty document: the head, nothing placed.
@@ -131,7 +131,11 @@ impl Viewer {
                 subject: None,
                 clock: seconds,
             };
-            let app = App::new(cc, Box::new(PageServices(page)), start);
+            let mut app = App::new(cc, Box::new(PageServices(page)), start);
+            if !is_page {
+                // In somebody else's page: the picture alone.
+                app.run(Command::TogglePanels);
+            }
             Ok(Box::new(Shown(app)))
         });
         self.runner
@@ -199,6 +203,21 @@ impl Viewer {
     pub fn panic_message(&self) -> String {
         let summary = self.runner.panic_summary();
         summary.map(|s| s.message()).unwrap_or_default()
+    }
+
+    /// The picture as the bytes of a PNG: a Promise.
+    pub fn picture(&self) -> js_sys::Promise {
+        js_sys::Promise::new(&mut |resolve, reject| {
+            let Some(mut shown) = self.runner.app_mut::<Shown>() else {
+                let _ignored = reject.call1(&JsValue::NULL, &"the viewer has not started".into());
+                return;
+            };
+            self.page.borrow_mut().picture_wanted = Some(resolve);
+            shown.0.run(Command::SavePicture);
+            if let Some(ctx) = &self.page.borrow().ctx {
+                ctx.request_repaint();
+            }
+        })
     }
 
     /// A function called with a text that the browser did not let onto the clipboard.
@@ -332,6 +351,44 @@ pub fn describe(text: &str) -> Result<String, JsValue> {
     Ok(lines.join("\n"))
 }
 
+/// The document of a link, a payload or JSON, as JSON.
+///
+/// # Errors
+/// What is wrong with it.
+#[wasm_bindgen]
+pub fn to_document(text: &str) -> Result<String, JsValue> {
+    Ok(open(text)?.to_json_compact())
+}
+
+/// The step that a link asks for; 0 for anything else.
+#[wasm_bindgen]
+pub fn step_of(text: &str) -> usize {
+    link::decode(text.trim()).map_or(0, |link| link.step)
+}
+
+/// A document as it stands at a step, as JSON.
+///
+/// # Errors
+/// What is wrong with the document or the step.
+#[wasm_bindgen]
+pub fn at_step(text: &str, step: usize) -> Result<String, JsValue> {
+    let document = open(text)?.at_step(step);
+    let document = document.map_err(|error| JsValue::from(error.to_string()))?;
+    Ok(document.to_json_compact())
+}
+
+/// A document with one value set, by its JSON pointer, to a value given as JSON.
+///
+/// # Errors
+/// What is wrong with the document, the pointer or the value.
+#[wasm_bindgen]
+pub fn with_value(text: &str, pointer: &str, value: &str) -> Result<String, JsValue> {
+    let value = serde_json::from_str(value).map_err(|error| JsValue::from(error.to_string()))?;
+    let document = open(text)?.with(pointer, value);
+    let document = document.map_err(|error| JsValue::from(error.to_string()))?;
+    Ok(document.to_json_compact())
+}
+
 fn open(text: &str) -> Result<Document, JsValue> {
     let text = text.trim();
     if text.starts_with('{') {
@@ -344,8 +401,9 @@ fn open(text: &str) -> Result<Document, JsValue> {
 }
 
 thread_local! {
-    /// The device and the subject of [`render_png`], kept for the next call.
-    static OFFSCREEN: RefCell<(Option<Gpu>, Option<(String, u32, Rc<crate::data::Volume>)>)> = const { RefCell::new((None, None)) };
+    /// What [`render_png`] draws with, kept for the next call: a subject's name, its resolution, and a device that holds it.
+    static STUDIO: RefCell<Option<(String, u32, Studio)>> = const { RefCell::new(None) };
+    static STUDIO_GPU: RefCell<Option<Gpu>> = const { RefCell::new(None) };
 }
 
 /// Draws a document with a built-in subject offscreen and deterministically, as `fabrica render` does, and gives the PNG.
@@ -367,30 +425,30 @@ pub async fn render_png(
         return Err("only built-in subjects can be drawn offscreen".into());
     };
     let words = |error: &dyn std::error::Error| JsValue::from(error.to_string());
-    let held = OFFSCREEN.with_borrow(|o| o.0.clone());
+    let held = STUDIO_GPU.with_borrow(Clone::clone);
     let gpu = match held.filter(|gpu| gpu.lost().is_none()) {
         Some(gpu) => gpu,
         None => {
             let opened = Gpu::open(&GpuOptions::default()).await;
             let gpu = opened.map_err(|e| words(&e))?;
-            OFFSCREEN.with_borrow_mut(|o| o.0 = Some(gpu.clone()));
+            STUDIO.set(None);
+            STUDIO_GPU.set(Some(gpu.clone()));
             gpu
         }
     };
-    let held = OFFSCREEN.with_borrow(|o| o.1.clone());
-    let volume = match held.filter(|(n, r, _)| n == name && *r == resolution) {
-        Some((_, _, volume)) => volume,
+    let held = STUDIO.with_borrow(Clone::clone);
+    let studio = match held.filter(|(n, r, _)| n == name && *r == resolution) {
+        Some((_, _, studio)) => studio,
         None => {
             let mut builder = VolumeBuilder::new();
             subjects::generate(name, resolution, &mut builder).map_err(|e| words(&e))?;
-            let _goes_on = builder.progress(1.0);
-            let volume = Rc::new(builder.finish().map_err(|e| words(&e))?);
-            let kept = Some((name.clone(), resolution, Rc::clone(&volume)));
-            OFFSCREEN.with_borrow_mut(|o| o.1 = kept);
-            volume
+            let volume = builder.finish().map_err(|e| words(&e))?;
+            let studio = Studio::new(&gpu, &volume, true).map_err(|e| words(&e))?;
+            STUDIO.set(Some((name.clone(), resolution, studio.clone())));
+            studio
         }
     };
-    let image = render_image(&gpu, illustration, &volume, [width, height], samples);
+    let image = studio.render_image(illustration, [width, height], samples);
     let image = image.await.map_err(|e| words(&e))?;
     encode_png(&image).map_err(|e| words(&e))
 }
