@@ -2,13 +2,7 @@
 
 #[cfg(not(target_arch = "wasm32"))]
 fn main() -> std::process::ExitCode {
-    match fabrica::shell::native::view(fabrica::shell::native::Opening::default()) {
-        Ok(()) => std::process::ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            std::process::ExitCode::FAILURE
-        }
-    }
+    fabrica::shell::cli::run()
 }
 
 #[cfg(target_arch = "wasm32")]

@@ -1,0 +1,790 @@
+//! The command line of the native program (spec/contract.md, "The command line").
+//!
+//! Results go to standard output, notices and errors to standard error, one line each; 0 is success, 1 an error, 2 bad
+//! usage. A file that is written is whole or not there.
+
+use std::fmt;
+use std::io::{self, BufRead, Read as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use glam::{DVec3, UVec3, Vec3};
+use serde_json::{Value, json};
+
+use super::files::Folder;
+use super::subject::{MissingSubject, SubjectSource, load_subject};
+use crate::data::{Volume, VolumeLimits};
+use crate::document::{
+    Document, DocumentError, Illustration, MAX_BYTES, ParamKind, TemplateKind, plain_f64,
+};
+use crate::link::{self, LinkError};
+use crate::load::{LoadError, ReadOptions, describe};
+use crate::render::{Gpu, GpuOptions, Probe, RenderError, Sample, encode_png, render_image};
+
+/// Opens CT and MRI scans the way a medical illustrator would.
+///
+/// DOC is an existing file, a link, or a link's payload; - reads a document from standard input.
+#[derive(Debug, Parser)]
+#[command(name = "fabrica", version, max_term_width = 100)]
+struct Args {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Debug, clap::Args)]
+struct Common {
+    /// A scan that takes the place of the document's subject.
+    #[arg(long, global = true, value_name = "FILE")]
+    subject: Option<PathBuf>,
+    /// The graphics adapter to use, by (part of) its name.
+    #[arg(long, global = true, value_name = "NAME")]
+    adapter: Option<String>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Opens a window.
+    View {
+        /// What to open; without it, what was open the last time.
+        doc: Option<String>,
+    },
+    /// Draws without a window.
+    Render {
+        /// What to draw.
+        doc: String,
+        /// The PNG file to write.
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+        /// Width and height, pixels.
+        #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = parse_size)]
+        size: [u32; 2],
+        #[command(flatten)]
+        moment: Moment,
+        /// Samples per pixel against jagged edges.
+        #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=1024))]
+        samples: u32,
+    },
+    /// Says where the material at a point comes from: reads x,y,z lines, prints x,y,z,sx,sy,sz,a lines.
+    Probe {
+        /// What to probe.
+        doc: String,
+        /// Lines of x,y,z in the deformed subject; standard input without it, or for -.
+        #[arg(long, value_name = "FILE")]
+        points: Option<PathBuf>,
+        /// Looks into the subject as well: adds value,segment, empty where there is nothing.
+        #[arg(long)]
+        object: bool,
+        #[command(flatten)]
+        moment: Moment,
+    },
+    /// Prints the link of a document.
+    Link {
+        /// What to link to.
+        doc: String,
+        /// The page in front of the link.
+        #[arg(long, value_name = "URL")]
+        page: Option<String>,
+    },
+    /// Prints the document of a link, as canonical JSON.
+    Doc {
+        /// What to print.
+        doc: String,
+    },
+    /// Says what a data file holds.
+    Info {
+        /// A scan.
+        file: PathBuf,
+    },
+    /// Lists the displacement templates with parameters, defaults and ranges.
+    Templates {
+        /// As JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Measures frame times on this adapter, as ratios to the undeformed frame.
+    Bench {
+        /// As JSON.
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+/// A moment of a lesson.
+#[derive(Clone, Copy, Debug, clap::Args)]
+struct Moment {
+    /// The step; a link may name one itself, else 0.
+    #[arg(long, value_name = "N")]
+    step: Option<usize>,
+    /// Seconds into the passage to that step; without it, its end.
+    #[arg(long, value_name = "T", value_parser = parse_seconds)]
+    time: Option<f32>,
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| {
+        text.trim()
+            .parse::<u32>()
+            .ok()
+            .filter(|side| (1..=32_768).contains(side))
+    };
+    text.split_once(['x', 'X', '×'])
+        .and_then(|(width, height)| Some([side(width)?, side(height)?]))
+        .ok_or_else(|| {
+            "expected width and height such as 1024x768, each from 1 to 32768".to_owned()
+        })
+}
+
+fn parse_seconds(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(seconds) if seconds.is_finite() && seconds >= 0.0 => Ok(seconds),
+        _ => Err("expected seconds, 0 or more".to_owned()),
+    }
+}
+
+/// Why a command failed. One line each.
+#[derive(Debug, thiserror::Error)]
+enum CliError {
+    #[error("{path}: {source}")]
+    Read { path: String, source: io::Error },
+    #[error("{path}: larger than a document may be ({MAX_BYTES} bytes)")]
+    TooLong { path: String },
+    #[error("{path}: not a text in UTF-8")]
+    NotUtf8 { path: String },
+    #[error("{path}: {source}")]
+    Document { path: String, source: DocumentError },
+    #[error("{path}: {source}")]
+    Link { path: String, source: LinkError },
+    #[error("there is no file {path}, and no link that begins so: {source}")]
+    NeitherFileNorLink { path: String, source: LinkError },
+    #[error(transparent)]
+    Step(DocumentError),
+    #[error("subject: {0}")]
+    Subject(#[from] MissingSubject),
+    #[error("{0} [{1}]")]
+    Load(LoadError, String),
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    #[error("{path}: {source}; nothing was written")]
+    Write { path: String, source: io::Error },
+    #[error("{path}, line {line}: expected x,y,z, three finite numbers, found “{found}”")]
+    Point {
+        path: String,
+        line: usize,
+        found: String,
+    },
+    #[error("standard output: {0}")]
+    Output(io::Error),
+    #[error("{0}")]
+    Window(String),
+}
+
+/// Runs the command line. Without arguments it opens the window.
+pub fn run() -> ExitCode {
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => {
+            // Help and version go to standard output and are no error.
+            let code = if error.use_stderr() { 2 } else { 0 };
+            let _unprintable = error.print();
+            return ExitCode::from(code);
+        }
+    };
+    match execute(args) {
+        Ok(()) => ExitCode::SUCCESS,
+        // Who reads has seen enough.
+        Err(CliError::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {}", one_line(&error));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn one_line(message: &dyn fmt::Display) -> String {
+    let text = message.to_string();
+    let lines: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.is_empty())
+        .collect();
+    let text = lines.join("; ");
+    // What came from a file or a link goes to a terminal: nothing in it may steer that.
+    text.chars()
+        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
+        .collect()
+}
+
+fn notice(message: impl fmt::Display) {
+    eprintln!("notice: {}", one_line(&message));
+}
+
+fn execute(args: Args) -> Result<(), CliError> {
+    let common = &args.common;
+    match args.command.unwrap_or(Command::View { doc: None }) {
+        Command::View { doc } => {
+            let opened = doc.as_deref().map(open).transpose()?;
+            if let Some(opened) = &opened {
+                opened.say_notices();
+            }
+            let opening = super::native::Opening {
+                folder: opened.as_ref().map(|opened| opened.folder.clone()),
+                document: opened.map(|opened| opened.document),
+                subject: common.subject.clone(),
+                adapter: common.adapter.clone(),
+            };
+            super::native::view(opening).map_err(|error| CliError::Window(error.to_string()))
+        }
+        Command::Render {
+            doc,
+            output,
+            size,
+            moment,
+            samples,
+        } => render(common, &open(&doc)?, &output, size, moment, samples),
+        Command::Probe {
+            doc,
+            points,
+            object,
+            moment,
+        } => {
+            let points = points.filter(|path| path != Path::new("-"));
+            if doc == "-" && points.is_none() {
+                return Err(CliError::Point {
+                    path: "standard input".to_owned(),
+                    line: 1,
+                    found: "the document; give one of the two by a file".to_owned(),
+                });
+            }
+            probe(common, &open(&doc)?, points.as_deref(), object, moment)
+        }
+        Command::Link { doc, page } => {
+            let opened = open(&doc)?;
+            opened.say_notices();
+            let fragment = link::fragment(&opened.document, opened.step);
+            if fragment.len() > link::ADVISED_LENGTH {
+                notice(format!(
+                    "the link has {} characters; above {} some programs cut it, a document file is safer",
+                    fragment.len(),
+                    link::ADVISED_LENGTH
+                ));
+            }
+            let page = page.unwrap_or_default();
+            let page = page.split('#').next().unwrap_or_default();
+            print(&format!("{page}{fragment}\n"))
+        }
+        Command::Doc { doc } => {
+            let opened = open(&doc)?;
+            opened.say_notices();
+            print(&opened.document.to_json())
+        }
+        Command::Info { file } => info(&file),
+        Command::Templates { json } => print(&if json {
+            templates_json()
+        } else {
+            templates_text()
+        }),
+        Command::Bench { json } => bench(common, json),
+    }
+}
+
+fn print(text: &str) -> Result<(), CliError> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(CliError::Output)
+}
+
+/// A document, where its relative addresses start, and the step that its link names.
+struct Opened {
+    document: Document,
+    folder: PathBuf,
+    step: usize,
+}
+
+impl Opened {
+    fn say_notices(&self) {
+        for line in self.document.notices() {
+            notice(line);
+        }
+    }
+
+    /// What the document says at a moment, its notices said.
+    fn illustration(&self, moment: Moment) -> Result<Illustration, CliError> {
+        self.say_notices();
+        let last = self.document.step_count();
+        let step = moment.step.unwrap_or_else(|| {
+            if self.step > last {
+                notice(format!(
+                    "the link opens at step {}, the last is {last}",
+                    self.step
+                ));
+            }
+            self.step.min(last)
+        });
+        let at_step = self.document.at_step(step).map_err(CliError::Step)?;
+        for line in at_step.notices() {
+            if !self.document.notices().contains(line) {
+                notice(format!("step {step}: {line}"));
+            }
+        }
+        match moment.time {
+            Some(_) if step == 0 => {
+                notice("there is no passage to step 0; --time changes nothing");
+                Ok(at_step.illustration().clone())
+            }
+            Some(seconds) => self.document.at_time(step, seconds).map_err(CliError::Step),
+            None => Ok(at_step.illustration().clone()),
+        }
+    }
+}
+
+/// Opens DOC: an existing path, a link, a payload, or `-`.
+fn open(doc: &str) -> Result<Opened, CliError> {
+    let here = PathBuf::from(".");
+    if doc == "-" {
+        let text = read_text(io::stdin().lock(), "standard input")?;
+        return from_text(&text, "standard input", here);
+    }
+    let path = Path::new(doc);
+    if path.exists() {
+        let file = std::fs::File::open(path).map_err(|source| CliError::Read {
+            path: doc.to_owned(),
+            source,
+        })?;
+        let text = read_text(file, doc)?;
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
+            _ => here,
+        };
+        return from_text(&text, doc, folder);
+    }
+    match link::decode(doc) {
+        Ok(link) => Ok(Opened {
+            document: link.document,
+            folder: here,
+            step: link.step,
+        }),
+        Err(source @ (LinkError::Foreign { .. } | LinkError::Empty)) if !doc.contains('#') => {
+            Err(CliError::NeitherFileNorLink {
+                path: format!("“{}”", shortened(doc)),
+                source,
+            })
+        }
+        Err(source) => Err(CliError::Link {
+            path: shortened(doc),
+            source,
+        }),
+    }
+}
+
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(60) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+fn read_text(from: impl io::Read, path: &str) -> Result<String, CliError> {
+    let mut bytes = Vec::new();
+    from.take(MAX_BYTES as u64 + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|source| CliError::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+    if bytes.len() > MAX_BYTES {
+        return Err(CliError::TooLong {
+            path: path.to_owned(),
+        });
+    }
+    String::from_utf8(bytes).map_err(|_not_utf8| CliError::NotUtf8 {
+        path: path.to_owned(),
+    })
+}
+
+/// A file holds a document, or just its link.
+fn from_text(text: &str, path: &str, folder: PathBuf) -> Result<Opened, CliError> {
+    let is_link = text.trim().lines().count() == 1 && link::decode(text).is_ok();
+    if is_link && let Ok(link) = link::decode(text) {
+        return Ok(Opened {
+            document: link.document,
+            folder,
+            step: link.step,
+        });
+    }
+    let document = Document::from_json(text).map_err(|source| CliError::Document {
+        path: path.to_owned(),
+        source,
+    })?;
+    Ok(Opened {
+        document,
+        folder,
+        step: 0,
+    })
+}
+
+fn open_gpu(common: &Common) -> Result<Gpu, CliError> {
+    let gpu = pollster::block_on(Gpu::open(&GpuOptions {
+        adapter: common.adapter.clone(),
+        is_strict: false,
+    }))?;
+    if gpu.is_software() {
+        notice(format!(
+            "no graphics device in use; drawing on the processor ({})",
+            gpu.info.name
+        ));
+    }
+    Ok(gpu)
+}
+
+fn subject_of(
+    illustration: &Illustration,
+    common: &Common,
+    folder: &Path,
+    limits: VolumeLimits,
+) -> Result<Volume, CliError> {
+    let source = SubjectSource {
+        folder,
+        instead: common.subject.as_deref(),
+        limits,
+    };
+    Ok(load_subject(illustration, source, &mut |line| {
+        notice(line)
+    })?)
+}
+
+fn render(
+    common: &Common,
+    opened: &Opened,
+    output: &Path,
+    size: [u32; 2],
+    moment: Moment,
+    samples: u32,
+) -> Result<(), CliError> {
+    let illustration = opened.illustration(moment)?;
+    // Found out before minutes of drawing, not after.
+    let folder = output
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    if output.is_dir() || folder.is_some_and(|folder| !folder.is_dir()) {
+        return Err(CliError::Write {
+            path: output.display().to_string(),
+            source: io::Error::from(if output.is_dir() {
+                io::ErrorKind::IsADirectory
+            } else {
+                io::ErrorKind::NotFound
+            }),
+        });
+    }
+    let gpu = open_gpu(common)?;
+    let volume = subject_of(&illustration, common, &opened.folder, gpu.volume_limits())?;
+    let image = pollster::block_on(render_image(&gpu, &illustration, &volume, size, samples))?;
+    let bytes = encode_png(&image)?;
+    write_whole(output, &bytes)
+}
+
+/// Writes beside the file first, so that none is ever left half-written.
+fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(format!(".{}.part", std::process::id()));
+    let part = path.with_file_name(name);
+    let write = || -> io::Result<()> {
+        let mut file = std::fs::File::create(&part)?;
+        file.write_all(bytes)?;
+        file.sync_all()?;
+        std::fs::rename(&part, path)
+    };
+    write().map_err(|source| {
+        // It may never have been made.
+        let _gone = std::fs::remove_file(&part);
+        CliError::Write {
+            path: path.display().to_string(),
+            source,
+        }
+    })
+}
+
+fn probe(
+    common: &Common,
+    opened: &Opened,
+    points: Option<&Path>,
+    with_object: bool,
+    moment: Moment,
+) -> Result<(), CliError> {
+    let illustration = opened.illustration(moment)?;
+    let points = match points {
+        Some(path) => {
+            let shown = path.display().to_string();
+            let file = std::fs::File::open(path).map_err(|source| CliError::Read {
+                path: shown.clone(),
+                source,
+            })?;
+            read_points(io::BufReader::new(file), &shown)?
+        }
+        None => read_points(io::stdin().lock(), "standard input")?,
+    };
+    let gpu = open_gpu(common)?;
+    let volume = if with_object {
+        let limits = VolumeLimits {
+            max_dim: u32::MAX,
+            max_voxels: u64::MAX,
+        };
+        Some(subject_of(&illustration, common, &opened.folder, limits)?)
+    } else {
+        None
+    };
+    let positions: Vec<Vec3> = points
+        .iter()
+        .map(|p| DVec3::from_array(*p).as_vec3())
+        .collect();
+    let samples = pollster::block_on(async {
+        Probe::new(&gpu)
+            .await?
+            .samples(&illustration, &positions)
+            .await
+    })?;
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    for (
+        [x, y, z],
+        Sample {
+            pos_in_rest: s,
+            continuity,
+        },
+    ) in points.iter().zip(&samples)
+    {
+        let end = match &volume {
+            Some(volume) => format!(",{}", object_at(volume, *s, *continuity)),
+            None => String::new(),
+        };
+        writeln!(out, "{x},{y},{z},{},{},{},{continuity}{end}", s.x, s.y, s.z)
+            .map_err(CliError::Output)?;
+    }
+    out.flush().map_err(CliError::Output)
+}
+
+/// Longest line of points, bytes.
+const MAX_LINE: u64 = 4096;
+
+fn read_points(mut from: impl BufRead, path: &str) -> Result<Vec<[f64; 3]>, CliError> {
+    let mut points = Vec::new();
+    let mut bytes = Vec::new();
+    for line in 1.. {
+        bytes.clear();
+        let n = (&mut from)
+            .take(MAX_LINE)
+            .read_until(b'\n', &mut bytes)
+            .map_err(|source| CliError::Read {
+                path: path.to_owned(),
+                source,
+            })?;
+        if n == 0 {
+            break;
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        let text = text.trim().trim_start_matches('\u{feff}');
+        if text.is_empty() || text.starts_with('#') {
+            continue;
+        }
+        points.push(parse_point(text).ok_or_else(|| CliError::Point {
+            path: path.to_owned(),
+            line,
+            found: shortened(text),
+        })?);
+    }
+    Ok(points)
+}
+
+fn parse_point(text: &str) -> Option<[f64; 3]> {
+    let mut numbers = text.split(',').map(|number| {
+        let number = number.trim().parse::<f64>().ok()?;
+        // The map is evaluated in 32 bits, which must hold it too.
+        (number.is_finite() && (number as f32).is_finite()).then_some(number)
+    });
+    let point = [numbers.next()??, numbers.next()??, numbers.next()??];
+    numbers.next().is_none().then_some(point)
+}
+
+/// Value and segment of the material that came from a place; nothing where a gap is or the scan ends.
+fn object_at(volume: &Volume, pos_in_rest: Vec3, continuity: f32) -> String {
+    let pos = volume
+        .grid
+        .subject_from_voxel()
+        .inverse()
+        .transform_point3(pos_in_rest.as_dvec3());
+    let dims = volume.grid.dims.as_dvec3();
+    let is_inside = pos.cmpge(DVec3::splat(-0.5)).all() && pos.cmple(dims - 0.5).all();
+    if continuity < 0.0 || !is_inside {
+        return ",".to_owned();
+    }
+    // Linear between the eight voxels around, the outermost continued to the edge, as the picture has it.
+    let pos = pos.clamp(DVec3::ZERO, dims - 1.0);
+    let low = pos.floor();
+    let part = pos - low;
+    let low = low.as_uvec3();
+    let mut value = 0.0_f64;
+    for corner in 0..8_u32 {
+        let step = UVec3::new(corner & 1, corner >> 1 & 1, corner >> 2);
+        let weight =
+            DVec3::select(step.cmpeq(UVec3::ONE), part, DVec3::ONE - part).element_product();
+        let voxel = (low + step).min(volume.grid.dims - 1);
+        value += weight * f64::from(volume.value_at(voxel).unwrap_or(0.0));
+    }
+    format!("{},{}", value as f32, segment_at(volume, pos_in_rest))
+}
+
+/// Name of the segment at a place (its number if it has no name), quoted where a comma would break the line.
+fn segment_at(volume: &Volume, pos_in_rest: Vec3) -> String {
+    let Some(labels) = &volume.labels else {
+        return String::new();
+    };
+    // Labels may lie on their own grid; both lie in the scanner's space.
+    let world = (volume.grid.world_from_voxel * volume.grid.subject_from_voxel().inverse())
+        .transform_point3(pos_in_rest.as_dvec3());
+    let voxel = labels
+        .grid
+        .world_from_voxel
+        .inverse()
+        .transform_point3(world)
+        .round();
+    if voxel.cmplt(DVec3::ZERO).any() || voxel.cmpge(labels.grid.dims.as_dvec3()).any() {
+        return String::new();
+    }
+    let (v, dims) = (voxel.as_u64vec3(), labels.grid.dims.as_u64vec3());
+    let index = v.x + dims.x * (v.y + dims.y * v.z);
+    let label = labels.labels.get(index as usize).copied().unwrap_or(0);
+    if label == 0 {
+        return String::new();
+    }
+    match labels.segments.iter().find(|s| s.label == u16::from(label)) {
+        Some(segment) if segment.name.contains([',', '"', '\n']) => {
+            format!(
+                "\"{}\"",
+                segment.name.replace('"', "\"\"").replace('\n', " ")
+            )
+        }
+        Some(segment) => segment.name.clone(),
+        None => label.to_string(),
+    }
+}
+
+fn info(file: &Path) -> Result<(), CliError> {
+    let (mut folder, name) = Folder::of(file);
+    let description = describe(&mut folder, &name, &ReadOptions::default())
+        .map_err(|error| CliError::Load(error, file.display().to_string()))?;
+    for line in description.report.notices() {
+        notice(line);
+    }
+    print(&format!("{}\n", description.to_string().trim_end()))
+}
+
+fn templates_json() -> String {
+    let templates: Vec<Value> = TemplateKind::ALL
+        .iter()
+        .map(|kind| {
+            let spec = kind.spec();
+            let params: Vec<Value> = spec
+                .params
+                .iter()
+                .map(|param| {
+                    let mut value = json!({ "name": param.name, "summary": param.summary });
+                    let mut set = |key: &str, to: Value| value[key] = to;
+                    match param.kind {
+                        ParamKind::Number { default, min, max }
+                        | ParamKind::Count { default, min, max } => {
+                            let is_count = matches!(param.kind, ParamKind::Count { .. });
+                            set("type", json!(if is_count { "count" } else { "number" }));
+                            set("default", json!(plain_f64(default)));
+                            set("min", json!(plain_f64(min)));
+                            set("max", json!(plain_f64(max)));
+                        }
+                        ParamKind::Flag { default } => {
+                            set("type", json!("flag"));
+                            set("default", json!(default));
+                        }
+                        ParamKind::Choice { names } => {
+                            set("type", json!("choice"));
+                            set("default", json!(names.first()));
+                            set("choices", json!(names));
+                        }
+                        ParamKind::Vector {
+                            default,
+                            min,
+                            max,
+                            max_length,
+                        } => {
+                            set("type", json!("vector"));
+                            set("default", json!(default.map(plain_f64)));
+                            set("min", json!(plain_f64(min)));
+                            set("max", json!(plain_f64(max)));
+                            if max_length.is_finite() {
+                                set("max_length", json!(plain_f64(max_length)));
+                            }
+                        }
+                        ParamKind::Rotation => {
+                            set("type", json!("rotation"));
+                            set("default", json!([0, 0, 0, 1]));
+                        }
+                    }
+                    value
+                })
+                .collect();
+            let mut value = json!({ "kind": spec.name, "summary": spec.summary, "params": params });
+            if let Some(main) = spec.main_param.and_then(|i| spec.params.get(i)) {
+                value["main"] = json!(main.name);
+            }
+            value
+        })
+        .collect();
+    match serde_json::to_string_pretty(&templates) {
+        Ok(text) => format!("{text}\n"),
+        // Keys are texts and numbers are finite, so this cannot be; compact JSON is as good.
+        Err(_) => format!("{}\n", Value::from(templates)),
+    }
+}
+
+fn templates_text() -> String {
+    let mut text = String::new();
+    for kind in TemplateKind::ALL {
+        let spec = kind.spec();
+        text.push_str(&format!("{}: {}\n", spec.name, spec.summary));
+        for param in spec.params {
+            let values = match param.kind {
+                ParamKind::Number { default, min, max } => format!("{default} ({min} to {max})"),
+                ParamKind::Count { default, min, max } => {
+                    format!("{default} ({min} to {max}, whole)")
+                }
+                ParamKind::Flag { default } => default.to_string(),
+                ParamKind::Choice { names } => names.join(" | "),
+                ParamKind::Vector {
+                    default: [x, y, z],
+                    min,
+                    max,
+                    max_length,
+                } => {
+                    let length = if max_length.is_finite() {
+                        format!(", length up to {max_length}")
+                    } else {
+                        String::new()
+                    };
+                    format!("[{x}, {y}, {z}] (each {min} to {max}{length})")
+                }
+                ParamKind::Rotation => "[0, 0, 0, 1] (quaternion x, y, z, w)".to_owned(),
+            };
+            text.push_str(&format!(
+                "  {:<10} {:<44} {}\n",
+                param.name, values, param.summary
+            ));
+        }
+    }
+    text
+}
+
+fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
+    let _ = (open_gpu(common)?, as_json);
+    Ok(())
+}
