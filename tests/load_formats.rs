@@ -630,3 +630,190 @@ fn damaged_headers_give_a_volume_or_a_message() {
         "both happen: {loaded} {refused}"
     );
 }
+
+#[test]
+fn labels_lie_on_their_scan_or_on_their_own_grid() {
+    let Some(folder) = data_folder("labels_lie_on_their_scan_or_on_their_own_grid") else {
+        return;
+    };
+    let mut files = fabrica::shell::files::Folder::new(&folder);
+    let mut subject = |scan: &str, labels: Option<&str>| {
+        let mut builder = VolumeBuilder::new();
+        let mut report = LoadReport::default();
+        let source = load::LabelSource {
+            name: labels.map(str::to_owned),
+            names: [(5, "the liver".to_owned())].into(),
+        };
+        load::read_subject(
+            &mut files,
+            scan,
+            &source,
+            &ReadOptions::default(),
+            &mut builder,
+            &mut report,
+        )
+        .unwrap_or_else(|error| panic!("{scan}: {error}"));
+        builder.finish().expect("all came")
+    };
+    let volume = subject(
+        "ct/abdomen_ct_small.nii.gz",
+        Some("ct/abdomen_ct_small_labels.nii.gz"),
+    );
+    let labels = volume.labels.expect("labels");
+    assert_eq!(labels.grid, volume.grid);
+    assert_eq!(labels.segments.len(), 41);
+    let name = |label: u16| {
+        labels
+            .segments
+            .iter()
+            .find(|segment| segment.label == label)
+            .map(|segment| segment.name.as_str())
+    };
+    assert_eq!(
+        (name(1), name(5), name(12)),
+        (Some("spleen"), Some("the liver"), None)
+    );
+
+    // Of another format, on a grid that runs the other way.
+    let volume = subject("mri/head_t1.nii.gz", Some("mri/head_t1_skull_label.nrrd"));
+    let labels = volume.labels.expect("labels");
+    assert_ne!(labels.grid, volume.grid);
+    assert_eq!(
+        labels.labels.iter().filter(|&&label| label == 1).count(),
+        532_633
+    );
+
+    // A file that says it holds labels brings them itself; a scan does not.
+    let volume = subject("nrrd/chest_ct_segmentation.seg.nrrd", None);
+    assert_eq!(volume.labels.expect("its own").segments[0].name, "ribs");
+    assert_eq!(
+        subject("mri/aal_labels_1mm.nii.gz", None)
+            .labels
+            .expect("its own")
+            .segments
+            .len(),
+        116
+    );
+    assert_eq!(subject("ct/abdomen_ct_small.nii.gz", None).labels, None);
+
+    let error = load::read_labels(
+        &mut files,
+        "ct/abdomen_ct_small.nii.gz",
+        &std::collections::BTreeMap::new(),
+        &ReadOptions::default(),
+        &mut LoadReport::default(),
+    )
+    .expect_err("values below 0");
+    println!("{error}");
+    assert!(matches!(error, LoadError::NotLabels { .. }), "{error}");
+
+    let (header, report) = load::read_header(
+        &mut files,
+        "mri/nifti_variants/nibabel_functional.nii",
+        &ReadOptions::default(),
+    )
+    .expect("a header");
+    assert_eq!(
+        (header.grid.dims, report.frame_count),
+        (UVec3::new(17, 21, 3), 20)
+    );
+}
+
+#[test]
+fn label_numbers_beyond_a_byte_are_renumbered() {
+    let bytes = |numbers: &[u16]| {
+        let voxels: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+        nrrd(
+            &format!(
+                "type: ushort\ndimension: 1\nsizes: {}\nendian: little\nencoding: raw\n",
+                numbers.len()
+            ),
+            &voxels,
+        )
+    };
+    let read = |numbers: &[u16]| {
+        load::read_labels(
+            &mut MemoryFiles::new([("a.nrrd", bytes(numbers))]),
+            "a.nrrd",
+            &[(1002, "bone".to_owned())].into(),
+            &ReadOptions::default(),
+            &mut LoadReport::default(),
+        )
+    };
+    let labels = read(&[0, 2035, 1002, 7, 0, 1002]).expect("labels");
+    assert_eq!(labels.labels, [0, 3, 2, 1, 0, 2]);
+    let names: Vec<_> = labels
+        .segments
+        .iter()
+        .map(|segment| (segment.label, segment.name.as_str()))
+        .collect();
+    assert_eq!(names, [(1, "segment 7"), (2, "bone"), (3, "segment 2035")]);
+    assert_eq!(read(&[0, 255, 3]).expect("labels").labels, [0, 255, 3]);
+    let many: Vec<u16> = (0..300).collect();
+    assert!(matches!(read(&many), Err(LoadError::NotLabels { .. })));
+    assert_eq!(read(&many[..256]).expect("just fits").segments.len(), 255);
+}
+
+#[test]
+fn raw_voxels_with_dimensions_given() {
+    let Some(folder) = data_folder("raw_voxels_with_dimensions_given") else {
+        return;
+    };
+    let mut files = fabrica::shell::files::Folder::new(folder.join("raw"));
+    let mut read = |name: &str, layout: &load::RawLayout| {
+        let mut builder = VolumeBuilder::new();
+        let mut report = LoadReport::default();
+        load::read_raw(
+            &mut files,
+            name,
+            layout,
+            &ReadOptions::default(),
+            &mut builder,
+            &mut report,
+        )
+        .map(|()| (builder.finish().expect("all came"), report))
+    };
+    let name = "stent_128x128x256_int16le.raw.gz";
+    let layout = load::RawLayout::guess(name, None).expect("the name says it");
+    let (stent, report) = read(name, &layout).expect("it loads");
+    assert_eq!(
+        (stent.grid.dims, stent.value_range),
+        (UVec3::new(128, 128, 256), [0.0, 2000.0])
+    );
+    assert_eq!(report.warnings, [Warning::NoOrientation]);
+    // The tooth through its header and as bare voxels; with the bytes swapped it is another picture.
+    let mut layout = load::RawLayout {
+        dims: UVec3::new(103, 94, 161),
+        element: load::ElementType::U16,
+        big_endian: true,
+        spacing_mm: DVec3::ONE,
+        header_bytes: 0,
+    };
+    let (tooth, _) = read("tooth.raw", &layout).expect("it loads");
+    assert_eq!(tooth.value_range, [0.0, 1300.0]);
+    assert_eq!(
+        tooth.voxels,
+        load_path(&folder.join("raw/tooth.nhdr"))
+            .expect("it loads")
+            .0
+            .voxels
+    );
+    layout.big_endian = false;
+    assert_ne!(
+        read("tooth.raw", &layout).expect("it loads").0.value_range,
+        [0.0, 1300.0]
+    );
+    layout.dims.z += 1;
+    assert!(matches!(
+        read("tooth.raw", &layout),
+        Err(LoadError::Truncated { .. })
+    ));
+    layout.dims.z -= 2;
+    assert!(
+        read("tooth.raw", &layout)
+            .expect("it loads")
+            .1
+            .warnings
+            .contains(&Warning::TrailingBytes)
+    );
+}

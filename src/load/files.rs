@@ -31,6 +31,11 @@ pub trait FileSet {
     /// # Errors
     /// [`io::ErrorKind::NotFound`] if there is none of this name.
     fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>>;
+
+    /// False if a file can be opened once only.
+    fn can_reopen(&self) -> bool {
+        true
+    }
 }
 
 /// A single file, which can be read once: for a reader that cannot go back.
@@ -73,6 +78,10 @@ impl<R: Read> FileSet for OneFile<R> {
             read: Box::new(read),
             byte_len: self.byte_len,
         })
+    }
+
+    fn can_reopen(&self) -> bool {
+        false
     }
 }
 

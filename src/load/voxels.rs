@@ -45,6 +45,24 @@ pub enum ElementType {
 }
 
 impl ElementType {
+    /// Its usual name, as in int16.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::U8 => "uint8",
+            Self::I8 => "int8",
+            Self::U16 => "uint16",
+            Self::I16 => "int16",
+            Self::U32 => "uint32",
+            Self::I32 => "int32",
+            Self::U64 => "uint64",
+            Self::I64 => "int64",
+            Self::F32 => "float32",
+            Self::F64 => "float64",
+            Self::C64 => "complex64",
+            Self::C128 => "complex128",
+        }
+    }
+
     /// Bytes of one element in a file.
     pub fn byte_count(self) -> usize {
         match self {

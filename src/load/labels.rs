@@ -1,0 +1,289 @@
+use std::collections::BTreeMap;
+
+use super::report::clean_name;
+use super::{FileSet, LoadError, LoadReport, ReadOptions, read_volume};
+use crate::data::{LabelVolume, Segment, Volume, VolumeSink, Voxels};
+
+/// Reads no voxels: size, type and orientation of a file, and what its header gives for the report. Quick, for a choice
+/// of frame or a question before a long load.
+///
+/// # Errors
+/// As [`read_volume`].
+pub fn read_header(
+    files: &mut dyn FileSet,
+    name: &str,
+    options: &ReadOptions,
+) -> Result<(Volume, LoadReport), LoadError> {
+    struct Stop(Option<Volume>);
+    impl VolumeSink for Stop {
+        fn begin(&mut self, header: &Volume) -> Result<(), String> {
+            self.0 = Some(header.clone());
+            Err(String::new())
+        }
+        fn scalars(&mut self, _next: Voxels) {}
+        fn labels(&mut self, _next: Vec<u8>) {}
+        fn progress(&mut self, _fraction: f32) -> bool {
+            false
+        }
+    }
+    let mut stop = Stop(None);
+    let mut report = LoadReport::default();
+    let result = read_volume(files, name, options, &mut stop, &mut report);
+    match (stop.0, result) {
+        (Some(header), _) => Ok((header, report)),
+        (None, Err(error)) => Err(error),
+        (None, Ok(())) => Err(LoadError::Cancelled),
+    }
+}
+
+/// Reads a file as labels, on its own grid. Segments are those that occur, under the names that the file, or else
+/// `names`, gives them. More than 255 different labels are refused; numbers beyond 255 are renumbered, and the number of
+/// the file stands in the name.
+///
+/// # Errors
+/// As [`read_volume`], and [`LoadError::NotLabels`].
+pub fn read_labels(
+    files: &mut dyn FileSet,
+    name: &str,
+    names: &BTreeMap<u16, String>,
+    options: &ReadOptions,
+    report: &mut LoadReport,
+) -> Result<LabelVolume, LoadError> {
+    let mut collector = Collector {
+        header: None,
+        labels: Vec::new(),
+        numbers: vec![0],
+        number_of: vec![0; 1 << 16],
+        wrong: None,
+    };
+    let result = read_volume(files, name, options, &mut collector, report);
+    let not_labels = |what: String| LoadError::NotLabels {
+        name: name.to_owned(),
+        what,
+    };
+    if let Some(what) = collector.wrong {
+        return Err(not_labels(what));
+    }
+    result?;
+    let header = collector.header.ok_or(LoadError::Cancelled)?;
+    let Collector {
+        mut labels,
+        numbers,
+        ..
+    } = collector;
+    // Numbers that fit are kept as they are; else they count up, in the order of the file's numbers.
+    let mut sorted: Vec<u16> = numbers
+        .iter()
+        .copied()
+        .filter(|&number| number > 0)
+        .collect();
+    sorted.sort_unstable();
+    let fits = sorted.last().is_none_or(|&last| last <= 255);
+    let kept_as: BTreeMap<u16, u8> = sorted
+        .iter()
+        .zip(1u8..=255)
+        .map(|(&number, position)| {
+            (
+                number,
+                u8::try_from(number)
+                    .ok()
+                    .filter(|_| fits)
+                    .unwrap_or(position),
+            )
+        })
+        .collect();
+    let table: Vec<u8> = numbers
+        .iter()
+        .map(|number| kept_as.get(number).copied().unwrap_or(0))
+        .collect();
+    for label in &mut labels {
+        *label = table.get(usize::from(*label)).copied().unwrap_or(0);
+    }
+    let segments = kept_as
+        .iter()
+        .map(|(&number, &label)| {
+            let known = report
+                .segments
+                .iter()
+                .find(|segment| segment.label == number);
+            let name = names
+                .get(&number)
+                .map(|name| clean_name(name))
+                .or_else(|| known.map(|segment| segment.name.clone()))
+                .filter(|name| !name.is_empty())
+                .unwrap_or_else(|| format!("segment {number}"));
+            Segment {
+                label: u16::from(label),
+                name,
+                color_srgb: known.and_then(|segment| segment.color_srgb),
+            }
+        })
+        .collect();
+    Ok(LabelVolume {
+        grid: header.grid,
+        labels,
+        segments,
+    })
+}
+
+/// Collects labels as positions in a list of the numbers that occur.
+struct Collector {
+    header: Option<Volume>,
+    labels: Vec<u8>,
+    /// Label numbers of the file in the order met; the first is 0.
+    numbers: Vec<u16>,
+    /// For each number its position in `numbers`; 0 if it was not met.
+    number_of: Vec<u8>,
+    wrong: Option<String>,
+}
+
+impl Collector {
+    fn push(&mut self, value: f32) {
+        let number = value as u16;
+        if f32::from(number) != value {
+            self.wrong
+                .get_or_insert_with(|| format!("a voxel has the value {value}"));
+            return;
+        }
+        let mut position = self.number_of[usize::from(number)];
+        if position == 0 && number > 0 {
+            let Ok(next) = u8::try_from(self.numbers.len()) else {
+                self.wrong
+                    .get_or_insert_with(|| "more than 255 different values".to_owned());
+                return;
+            };
+            position = next;
+            self.numbers.push(number);
+            self.number_of[usize::from(number)] = next;
+        }
+        self.labels.push(position);
+    }
+}
+
+impl VolumeSink for Collector {
+    fn begin(&mut self, header: &Volume) -> Result<(), String> {
+        self.header = Some(header.clone());
+        Ok(())
+    }
+
+    fn scalars(&mut self, next: Voxels) {
+        let Some((slope, intercept)) = self
+            .header
+            .as_ref()
+            .map(|header| (header.slope, header.intercept))
+        else {
+            return;
+        };
+        if self.wrong.is_some() {
+            return;
+        }
+        self.labels.reserve(next.len());
+        let value = |stored: f32| stored * slope + intercept;
+        match next {
+            Voxels::U8(v) => v.iter().for_each(|&x| self.push(value(f32::from(x)))),
+            Voxels::I16(v) => v.iter().for_each(|&x| self.push(value(f32::from(x)))),
+            Voxels::U16(v) => v.iter().for_each(|&x| self.push(value(f32::from(x)))),
+            Voxels::F32(v) => v.iter().for_each(|&x| self.push(value(x))),
+        }
+    }
+
+    fn labels(&mut self, _next: Vec<u8>) {}
+
+    fn progress(&mut self, _fraction: f32) -> bool {
+        self.wrong.is_none()
+    }
+}
+
+/// Where the labels of a subject come from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LabelSource {
+    /// The label volume's file; `None` takes the scan's own file if its header says that it holds labels.
+    pub name: Option<String>,
+    /// Names by label number, which win over those in the file.
+    pub names: BTreeMap<u16, String>,
+}
+
+/// Reads a scan with its segments: the label volume first, whole, then the scan slab by slab. The sink's header
+/// announces both.
+///
+/// # Errors
+/// As [`read_volume`] and [`read_labels`]. A scan's own file that only seems to hold labels is read without them.
+pub fn read_subject(
+    files: &mut dyn FileSet,
+    name: &str,
+    labels: &LabelSource,
+    options: &ReadOptions,
+    sink: &mut dyn VolumeSink,
+    report: &mut LoadReport,
+) -> Result<(), LoadError> {
+    let labels = match &labels.name {
+        Some(file) => Some(read_labels(
+            files,
+            file,
+            &labels.names,
+            &ReadOptions::default(),
+            &mut LoadReport::default(),
+        )?),
+        None => {
+            // A file that cannot be opened twice is read once, without labels.
+            let says_labels = read_header_if_again(files, name, options);
+            if says_labels {
+                read_labels(
+                    files,
+                    name,
+                    &labels.names,
+                    options,
+                    &mut LoadReport::default(),
+                )
+                .ok()
+            } else {
+                None
+            }
+        }
+    };
+    let mut sink = WithLabels {
+        inner: sink,
+        labels,
+    };
+    read_volume(files, name, options, &mut sink, report)
+}
+
+fn read_header_if_again(files: &mut dyn FileSet, name: &str, options: &ReadOptions) -> bool {
+    files.can_reopen()
+        && read_header(files, name, options).is_ok_and(|(_, report)| report.is_labels)
+}
+
+/// Adds a label volume to what passes.
+struct WithLabels<'a> {
+    inner: &'a mut dyn VolumeSink,
+    labels: Option<LabelVolume>,
+}
+
+impl VolumeSink for WithLabels<'_> {
+    fn begin(&mut self, header: &Volume) -> Result<(), String> {
+        let Some(labels) = self.labels.take() else {
+            return self.inner.begin(header);
+        };
+        let mut header = header.clone();
+        header.labels = Some(LabelVolume {
+            grid: labels.grid,
+            labels: Vec::new(),
+            segments: labels.segments,
+        });
+        self.inner.begin(&header)?;
+        self.inner.labels(labels.labels);
+        Ok(())
+    }
+
+    fn scalars(&mut self, next: Voxels) {
+        self.inner.scalars(next);
+    }
+
+    fn labels(&mut self, next: Vec<u8>) {
+        self.inner.labels(next);
+    }
+
+    fn progress(&mut self, fraction: f32) -> bool {
+        self.inner.progress(fraction)
+    }
+}
