@@ -357,6 +357,16 @@ fn odd_values_are_counted() {
             Warning::Clipped { count: 1 }
         ]
     );
+    // Scaled, the same stay within what can be shown.
+    let voxels: Vec<u8> = [3e38f32, -3e38, 2.0]
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    let mut file = Nifti::new(16, [3, 1, 1], voxels);
+    (file.slope, file.intercept) = (1e10, 1e30);
+    let (volume, _) = load("a.nii", file.bytes()).expect("it loads");
+    let [low, high] = volume.value_range;
+    assert!((high - low).is_finite() && high > low, "{low} to {high}");
     let (volume, report) =
         load("a.nii", Nifti::new(2, [2, 2, 2], vec![9; 8]).bytes()).expect("it loads");
     assert_eq!(volume.value_range, [9.0, 9.0]);

@@ -229,8 +229,7 @@ pub(crate) fn read_header(
         number("elementtointensityfunctionslope").unwrap_or(1.0),
         number("elementtointensityfunctionoffset").unwrap_or(0.0),
     );
-    let reach = slope.abs() * element.largest().min(1e20) + intercept.abs();
-    if !slope.is_normal() || !intercept.is_finite() || reach > super::voxels::VALUE_LIMIT {
+    if !element.can_be_scaled(slope, intercept) {
         report.warn(Warning::BadScale { slope, intercept });
         (slope, intercept) = (1.0, 0.0);
     }

@@ -8,7 +8,7 @@ use glam::{DAffine3, DMat3, DVec3, UVec3};
 
 use super::geometry::{self, checked_dims};
 use super::stream::{Packing, Stream};
-use super::voxels::{ElementType, Layout, VALUE_LIMIT, stream_voxels};
+use super::voxels::{ElementType, Layout, stream_voxels};
 use super::{Format, LoadError, LoadReport, ReadOptions, Warning};
 use crate::data::{Segment, Volume, VolumeSink};
 
@@ -358,17 +358,8 @@ fn scale(
         }
         return NONE;
     }
-    // Whatever the voxels are, no value may leave what can be drawn. Floats are bounded when they come.
-    let reach = match element {
-        ElementType::F32 | ElementType::F64 | ElementType::C64 | ElementType::C128 => 1.0,
-        _ => element.largest(),
-    };
-    let largest = slope.abs() * reach + intercept.abs();
-    if slope.is_finite() && intercept.is_finite() && largest <= VALUE_LIMIT {
-        // A slope so small that all values fall together shows nothing.
-        if slope.is_normal() {
-            return (slope, intercept);
-        }
+    if element.can_be_scaled(slope, intercept) {
+        return (slope, intercept);
     }
     report.warn(Warning::BadScale { slope, intercept });
     NONE

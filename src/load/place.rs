@@ -100,7 +100,7 @@ pub(crate) fn read(
             };
             prepare(&mut stream, place)?;
             reader.begin(&mut stream, count, 1, sink)?;
-            let mut slabs = Slabs::new(&place.layout, sink);
+            let mut slabs = Slabs::new(&place.layout, header, sink);
             reader.one(&mut stream, count, 0, 1, &mut slabs)?;
             slabs.finish(header, report);
             reader.end(&mut stream, 1, sink, report)
@@ -126,7 +126,7 @@ pub(crate) fn read(
                 prepare(&mut stream, place)?;
                 reader.begin(&mut stream, count, file_count, sink)?;
             }
-            let mut slabs = Slabs::new(&place.layout, sink);
+            let mut slabs = Slabs::new(&place.layout, header, sink);
             for (index, name) in names.iter().enumerate() {
                 let count = counted(files, name, &header_name, place)?;
                 let mut stream = open(files, name, &header_name, Some(&hash))?;

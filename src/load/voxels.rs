@@ -93,15 +93,20 @@ impl ElementType {
         }
     }
 
-    /// Largest magnitude an element can have, capped at the limit for values.
-    pub(crate) fn largest(self) -> f32 {
-        match self {
+    /// True if every value of this type, scaled, is a number that can be shown. Floats are clipped when they come, if
+    /// the scale leaves them room.
+    pub(crate) fn can_be_scaled(self, slope: f32, intercept: f32) -> bool {
+        let largest = match self {
             Self::U8 | Self::I8 => 255.0,
             Self::U16 | Self::I16 => 65_535.0,
             Self::U32 | Self::I32 => 4.3e9,
             Self::U64 | Self::I64 => 1.9e19,
-            _ => VALUE_LIMIT,
-        }
+            Self::F32 | Self::F64 | Self::C64 | Self::C128 => 1e20,
+        };
+        // A slope below the normal numbers would make all values one.
+        slope.is_normal()
+            && intercept.is_finite()
+            && slope.abs() * largest + intercept.abs() <= 0.5 * VALUE_LIMIT
     }
 }
 
@@ -162,6 +167,8 @@ struct Tally {
     /// The number that all voxels so far have, stored; `None` once two differ.
     constant: Option<f32>,
     is_started: bool,
+    /// Largest magnitude that a stored float may have.
+    limit: f32,
 }
 
 impl Tally {
@@ -204,7 +211,7 @@ pub(crate) struct Slabs<'a> {
 
 impl<'a> Slabs<'a> {
     /// For a volume of this layout, whose header the sink has.
-    pub(crate) fn new(layout: &Layout, sink: &'a mut dyn VolumeSink) -> Self {
+    pub(crate) fn new(layout: &Layout, header: &Volume, sink: &'a mut dyn VolumeSink) -> Self {
         let voxel_bytes = layout.element.byte_count() * layout.components as usize;
         let slice = u64::from(layout.dims.x) * u64::from(layout.dims.y);
         let slices = (SLAB_BYTES / (slice * layout.element.kept_bytes()).max(1))
@@ -212,7 +219,11 @@ impl<'a> Slabs<'a> {
         Self {
             layout: *layout,
             sink,
-            tally: Tally::default(),
+            tally: Tally {
+                // Scaled, a value must stay within the limit.
+                limit: VALUE_LIMIT / header.slope.abs().max(1.0),
+                ..Tally::default()
+            },
             chunk: vec![0; (CHUNK_BYTES / voxel_bytes).max(1) * voxel_bytes],
             slab: layout.element.kept_as(),
             slab_left: 0,
@@ -321,7 +332,7 @@ pub(crate) fn stream_voxels(
     sink: &mut dyn VolumeSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
-    let mut slabs = Slabs::new(layout, sink);
+    let mut slabs = Slabs::new(layout, header, sink);
     slabs.pull(source, u64::MAX)?;
     slabs.finish(header, report);
     Ok(())
@@ -363,18 +374,18 @@ fn from_float(x: f32, tally: &mut Tally) -> f32 {
     if !x.is_finite() {
         tally.not_finite += 1;
         0.0
-    } else if x.abs() > VALUE_LIMIT {
+    } else if x.abs() > tally.limit {
         tally.clipped += 1;
-        x.clamp(-VALUE_LIMIT, VALUE_LIMIT)
+        x.clamp(-tally.limit, tally.limit)
     } else {
         x
     }
 }
 
 fn from_double(x: f64, tally: &mut Tally) -> f32 {
-    if x.is_finite() && x.abs() > f64::from(VALUE_LIMIT) {
+    if x.is_finite() && x.abs() > f64::from(tally.limit) {
         tally.clipped += 1;
-        return VALUE_LIMIT.copysign(x as f32);
+        return tally.limit.copysign(x as f32);
     }
     from_float(x as f32, tally)
 }
