@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use fabrica::data::{Volume, VolumeBuilder};
-use fabrica::load::{self, LoadError, LoadReport, ReadOptions, Warning};
-use fabrica::shell::files::read_volume_at;
+use fabrica::data::{Volume, VolumeBuilder, VolumeSink};
+use fabrica::load::{self, FileHandle, FileSet, LoadError, LoadReport, ReadOptions, Warning};
 use glam::{DVec3, UVec3};
 
 /// The folder of real scans, or `None` with a line that says so.
@@ -27,6 +26,38 @@ fn load_frame(path: &Path, frame: u64) -> Result<(Volume, LoadReport), LoadError
     };
     read_volume_at(path, &options, &mut builder, &mut report)?;
     Ok((builder.finish().expect("all voxels came"), report))
+}
+
+/// The files of a folder, for paths that the tests themselves write.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(path: impl Into<PathBuf>) -> Self {
+        Self(path.into())
+    }
+}
+
+impl FileSet for Folder {
+    fn open(&mut self, name: &str) -> std::io::Result<FileHandle<'_>> {
+        let file = std::fs::File::open(self.0.join(name))?;
+        let byte_len = Some(file.metadata()?.len());
+        Ok(FileHandle {
+            read: Box::new(file),
+            byte_len,
+        })
+    }
+}
+
+/// Reads the volume at a path.
+fn read_volume_at(
+    path: &Path,
+    options: &ReadOptions,
+    sink: &mut dyn VolumeSink,
+    report: &mut LoadReport,
+) -> Result<(), LoadError> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let folder = path.parent().unwrap_or(Path::new("."));
+    load::read_volume(&mut Folder::new(folder), &name, options, sink, report)
 }
 
 fn load_path(path: &Path) -> Result<(Volume, LoadReport), LoadError> {
@@ -545,7 +576,7 @@ fn a_file_is_described_without_its_texts() {
             ],
         ),
     ] {
-        let mut files = fabrica::shell::files::Folder::new(&folder);
+        let mut files = Folder::new(&folder);
         let description = load::describe(&mut files, file, &ReadOptions::default()).expect(file);
         let text = description.to_string();
         println!("{text}");

@@ -7,8 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use fabrica::data::VolumeBuilder;
-use fabrica::load::{LoadReport, ReadOptions};
-use fabrica::shell::files::read_volume_at;
+use fabrica::load::{LoadReport, OneFile, ReadOptions, read_volume};
 
 /// Set for the process that is measured: the file it loads.
 const LOAD: &str = "FABRICA_MEASURED_LOAD";
@@ -38,8 +37,12 @@ fn measured() {
     let mut report = LoadReport::default();
     let mut builder = VolumeBuilder::new();
     let start = std::time::Instant::now();
-    let result = read_volume_at(
-        Path::new(&path),
+    let file = std::fs::File::open(&path).expect("it was written before");
+    let len = file.metadata().expect("it is there").len();
+    let name = Path::new(&path).to_string_lossy().into_owned();
+    let result = read_volume(
+        &mut OneFile::new(&name, file, Some(len)),
+        &name,
         &ReadOptions::default(),
         &mut builder,
         &mut report,

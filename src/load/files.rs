@@ -116,6 +116,22 @@ impl FileSet for MemoryFiles {
     }
 }
 
+/// The name under which the set has a file that a header calls so: as written, without `./`, or without its folders
+/// (files dropped on a page have none).
+pub(crate) fn resolve(files: &mut dyn FileSet, name: &str) -> String {
+    let plain = name.strip_prefix("./").unwrap_or(name);
+    let last = plain.rsplit(['/', '\\']).next().unwrap_or(plain);
+    let is_missing = |files: &mut dyn FileSet, name: &str| {
+        files
+            .open(name)
+            .is_err_and(|error| error.kind() == io::ErrorKind::NotFound)
+    };
+    if last != plain && is_missing(files, plain) && !is_missing(files, last) {
+        return last.to_owned();
+    }
+    plain.to_owned()
+}
+
 /// Opens `name`, which `asked_by` needs.
 pub(crate) fn open<'a>(
     files: &'a mut dyn FileSet,

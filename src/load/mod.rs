@@ -177,6 +177,10 @@ impl Reading<'_> {
         names: Vec<String>,
         header: &place::Header,
     ) -> Result<(), LoadError> {
+        let names = names
+            .iter()
+            .map(|name| files::resolve(self.files, name))
+            .collect();
         let source = Source::Files {
             files: self.files,
             header_name: name.to_owned(),

@@ -66,3 +66,22 @@ pub fn read_volume_at(
     let (mut folder, name) = Folder::of(path);
     read_volume(&mut folder, &name, options, sink, report)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_outside_are_not_opened() {
+        let mut folder = Folder::new(".");
+        assert!(folder.open("Cargo.toml").is_ok(), "inside");
+        assert!(folder.open("./src/lib.rs").is_ok(), "below");
+        assert!(folder.open("../Cargo.toml").is_err(), "out of the folder");
+        assert!(
+            folder.open("src/../../Cargo.toml").is_err(),
+            "out on a detour"
+        );
+        assert!(folder.open("/etc/hostname").is_err(), "from the root");
+        assert!(folder.open("src").is_err(), "a folder is no file");
+    }
+}
