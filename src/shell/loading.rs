@@ -3,7 +3,7 @@
 
 use crate::app::LoadEvent;
 use crate::data::{Reducer, Volume, VolumeLimits, VolumeSink, Voxels};
-use crate::load::{FileSet, LoadError, LoadReport, ReadOptions, read_volume};
+use crate::load::{FileSet, LabelSource, LoadError, LoadReport, ReadOptions, read_subject};
 use crate::subjects::{COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab};
 
 /// Slabs are made of about this many voxels: large enough to travel well, small enough to stop soon.
@@ -113,9 +113,11 @@ pub(super) fn read_file(
     };
     let mut report = LoadReport::default();
     let mut reducer = Reducer::new(&mut sink, limits);
-    let outcome = read_volume(
+    // A file that says it holds labels brings its segments.
+    let outcome = read_subject(
         files,
         name,
+        &LabelSource::default(),
         &ReadOptions::default(),
         &mut reducer,
         &mut report,
