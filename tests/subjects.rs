@@ -142,7 +142,7 @@ const GOLDEN: &[(&str, &str)] = &[
     ),
     (
         "head",
-        "bdd1eaa33d64b2be4c631c1cd13a9ee2d4a219aa99abd7965b063ce1d53c0405",
+        "911ebe53f5d6f1f8c8cebd493629fc0a620326fa56601589ef445951ca1a2bb1",
     ),
     (
         "tomato",
@@ -155,6 +155,10 @@ const GOLDEN: &[(&str, &str)] = &[
     (
         "hand",
         "8c98b3e0002eaefcb6ff59f3a7a6653ce36388770ac48778d1a20152fd665725",
+    ),
+    (
+        "knee",
+        "bfec928018936b8c9f4cb64fb0c129d1daa7cddefe81aef61786fa62f58cfb93",
     ),
 ];
 

@@ -69,8 +69,8 @@ fn face(f: &mut Field) {
     // Cheek pads and cheekbones.
     f.join(22.0, ball([34.0, 60.0, -32.0], 20.0).both());
     f.raise(
-        5.0,
-        ellipsoid([50.0, 62.0, -5.0], [24.0, 22.0, 18.0]).both(),
+        4.2,
+        ellipsoid([49.0, 62.0, -4.0], [30.0, 28.0, 24.0]).both(),
     );
     f.raise(
         2.0,
@@ -96,16 +96,8 @@ fn face(f: &mut Field) {
     );
     // Jaw line under the body of the jaw.
     f.raise(
-        1.5,
-        strap(
-            [48.0, 18.0, -66.0],
-            [20.0, 74.0, -92.0],
-            9.0,
-            9.0,
-            [0.0, 0.0, 1.0],
-            1.0,
-        )
-        .both(),
+        0.9,
+        capsule([46.0, 22.0, -66.0], [20.0, 74.0, -92.0], 13.0, 12.0).both(),
     );
     // Frontal eminences.
     f.raise(
@@ -269,6 +261,8 @@ fn palpebral_fissure() -> Vec<Shape> {
 }
 
 fn mouth(f: &mut Field) {
+    // The upper lip's skin over the teeth.
+    f.raise(1.8, ellipsoid([0.0, 100.0, -39.0], [24.0, 14.0, 11.0]));
     // Philtrum and its ridges.
     f.raise(
         -1.9,

@@ -34,6 +34,7 @@ mod head_brain;
 mod head_skin;
 mod head_skull;
 mod head_soft;
+mod knee;
 mod lanes;
 mod paint;
 mod piggybank;
@@ -78,7 +79,7 @@ pub enum SubjectError {
 
 /// Names of the built-in subjects that can be made, as written in documents.
 pub fn names() -> &'static [&'static str] {
-    &["bar", "cube", "tomato", "piggybank", "head", "hand"]
+    &["bar", "cube", "tomato", "piggybank", "head", "hand", "knee"]
 }
 
 fn model(name: &str) -> Option<Box<dyn Model>> {
@@ -88,6 +89,7 @@ fn model(name: &str) -> Option<Box<dyn Model>> {
         "tomato" => Box::new(tomato::Tomato::new()),
         "piggybank" => Box::new(piggybank::Piggybank::new()),
         "hand" => Box::new(hand::Hand::new()),
+        "knee" => Box::new(knee::Knee::new()),
         "head" => Box::new(head::Head::new()),
         _ => return None,
     })
