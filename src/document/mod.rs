@@ -32,6 +32,8 @@ pub mod pointer;
 mod preset;
 mod resolve;
 mod steps;
+#[cfg(test)]
+mod tests;
 mod tree;
 
 pub use catalogue::{

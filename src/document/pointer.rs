@@ -78,15 +78,15 @@ pub(super) fn set(root: &mut Value, pointer: &str, new: Value) -> Result<(), Doc
         pointer: shortened(pointer),
     };
     let mut value = root;
+    // Which parameters have a default depends on the kind of the template on the way.
+    let mut kind = None;
     for depth in 0..keys.len() {
-        // What the path means is looked up before the borrow goes on; only placed templates need to know their kind.
-        let kind = match value {
-            Value::Object(map) if depth == 2 => map
+        if depth == 2 && keys[0] == "templates" {
+            kind = value
                 .get("kind")
                 .and_then(Value::as_str)
-                .and_then(TemplateKind::from_name),
-            _ => None,
-        };
+                .and_then(TemplateKind::from_name);
+        }
         let key = keys[depth].as_str();
         let is_last = depth + 1 == keys.len();
         value = match value {

@@ -381,6 +381,9 @@ impl Reader {
                 text: object.string("text")?,
             });
         }
+        if !labels.is_empty() {
+            self.note("/labels", NoticeKind::NotDrawn { what: "labels are" });
+        }
         let mut steps = Vec::new();
         for (index, value) in root
             .limited_list("steps", "steps", MAX_STEPS)?
@@ -684,7 +687,13 @@ impl Reader {
         let transfer = match object.map.get("transfer") {
             None => Transfer::Auto,
             Some(Value::String(name)) if name == "auto" => Transfer::Auto,
-            Some(Value::String(name)) => Transfer::Preset(name.clone()),
+            Some(Value::String(name)) if super::preset(name).is_some() => {
+                Transfer::Preset(name.clone())
+            }
+            Some(Value::String(name)) => {
+                self.unknown_value(object.at("transfer"), name, "auto");
+                Transfer::Auto
+            }
             Some(Value::Array(items)) => self.points(&object.at("transfer"), items)?,
             Some(other) => {
                 return Err(wrong(

@@ -179,6 +179,8 @@ enum CliError {
     Output(io::Error),
     #[error("{0}")]
     Window(String),
+    #[error("{0}")]
+    Usage(&'static str),
 }
 
 /// Runs the command line. Without arguments it opens the window.
@@ -200,7 +202,11 @@ pub fn run() -> ExitCode {
         }
         Err(error) => {
             eprintln!("error: {}", one_line(&error));
-            ExitCode::FAILURE
+            ExitCode::from(if matches!(error, CliError::Usage(_)) {
+                2
+            } else {
+                1
+            })
         }
     }
 }
@@ -254,11 +260,9 @@ fn execute(args: Args) -> Result<(), CliError> {
         } => {
             let points = points.filter(|path| path != Path::new("-"));
             if doc == "-" && points.is_none() {
-                return Err(CliError::Point {
-                    path: "standard input".to_owned(),
-                    line: 1,
-                    found: "the document; give one of the two by a file".to_owned(),
-                });
+                return Err(CliError::Usage(
+                    "document and points cannot both come from standard input: name a file by --points",
+                ));
             }
             probe(common, &open(&doc)?, points.as_deref(), object, moment)
         }
