@@ -190,6 +190,7 @@ mod tests {
         set(&mut root, "/templates/0/size/0", json!(1)).expect("set");
         set(&mut root, "/labels/-", json!({"text": "a"})).expect("set");
         set(&mut root, "/look/background", json!("none")).expect("set");
+        super::json::normalise(&mut root, 0).expect("shallow");
         assert_eq!(
             root,
             json!({
