@@ -13,17 +13,23 @@
 // A is in subject units: in the door the distance to its faces, at rest the distance to the walls of the bed.
 // needs: displace/frame.wgsl displace/angles.wgsl
 
+/// Both readings of a point of a flap: turned with the door, or where it always was. `displace_flap` decides; the grid looks at both.
+struct Opened {
+    /// Where it came from if it is in the door, template space.
+    source: vec3f,
+    /// A of the door, subject units.
+    door_continuity: f32,
+    /// A of what stays, subject units.
+    rest_continuity: f32,
+}
+
 /// p0: angle (radians), depth.
-fn displace_flap(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
-    if p0.x <= 0.0 {
-        return at_rest(q);
-    }
+fn opened(q: vec3f, size: vec3f, p0: vec4f) -> Opened {
     // From the edge that it turns about: x to the right, z up.
     let x = q.x * size.x;
     let z = (q.z - 1.0) * size.z;
     let thickness = p0.y * size.z;
     let side = min(q.y, 1.0 - q.y) * size.y;
-    let rest_continuity = max(max(max(-x, x - size.x), max(-thickness - z, z)), -side);
 
     // At a quarter turn the door's hinge face and the plane of the top are one: A ties all over the gap and the door is to win,
     // whatever the rounding of the angle says.
@@ -31,9 +37,21 @@ fn displace_flap(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     let sc = select(turned, vec2f(0.0), abs(turned) < vec2f(1e-6));
     let source_x = x * sc.y + z * sc.x;
     let source_z = z * sc.y - x * sc.x;
-    let door_continuity = min(min(min(source_x, size.x - source_x), min(source_z + thickness, -source_z)), side);
-    if door_continuity >= min(rest_continuity, 0.0) {
-        return Displaced(vec3f(source_x / size.x, q.y, 1.0 + source_z / size.z), door_continuity);
+    return Opened(
+        vec3f(source_x / size.x, q.y, 1.0 + source_z / size.z),
+        min(min(min(source_x, size.x - source_x), min(source_z + thickness, -source_z)), side),
+        max(max(max(-x, x - size.x), max(-thickness - z, z)), -side),
+    );
+}
+
+/// p0: angle (radians), depth.
+fn displace_flap(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
+    if p0.x <= 0.0 {
+        return at_rest(q);
     }
-    return Displaced(q, rest_continuity);
+    let o = opened(q, size, p0);
+    if o.door_continuity >= min(o.rest_continuity, 0.0) {
+        return Displaced(o.source, o.door_continuity);
+    }
+    return Displaced(q, o.rest_continuity);
 }

@@ -18,21 +18,26 @@ fn inside_box(q: vec3f, size: vec3f) -> f32 {
     return min(d.x, min(d.y, d.z));
 }
 
-/// p0: offset (xyz, fractions of the box), x of the quaternion; p1: y, z, w of the quaternion.
-fn displace_move(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
+/// Where a point of the moved box came from, template space. Parameters as of `displace_move`.
+fn moved_back(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> vec3f {
     let axis = vec3f(p0.w, p1.x, p1.y);
-    if all(p0.xyz == vec3f(0.0)) && all(axis == vec3f(0.0)) {
-        return at_rest(q);
-    }
     let v = size * (q - 0.5 - p0.xyz);
     // The inverse turn: the quaternion's vector part reversed.
     let across = cross(v, axis);
     let turned = v + 2.0 * (p1.z * across + cross(across, axis));
-    let moved = 0.5 + turned / size;
-    let box_continuity = inside_box(moved, size);
+    return 0.5 + turned / size;
+}
+
+/// p0: offset (xyz, fractions of the box), x of the quaternion; p1: y, z, w of the quaternion.
+fn displace_move(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
+    if all(p0.xyz == vec3f(0.0)) && all(vec3f(p0.w, p1.xy) == vec3f(0.0)) {
+        return at_rest(q);
+    }
+    let source = moved_back(q, size, p0, p1);
+    let box_continuity = inside_box(source, size);
     let rest_continuity = -inside_box(q, size);
     if box_continuity >= min(rest_continuity, 0.0) {
-        return Displaced(moved, box_continuity);
+        return Displaced(source, box_continuity);
     }
     return Displaced(q, rest_continuity);
 }
