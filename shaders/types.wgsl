@@ -112,3 +112,35 @@ struct Resolve {
     /// x: 1 to write straight alpha instead of premultiplied.
     flags: vec4u,
 }
+
+/// What a template reaches, for the making of the grid. Template space; a side without an end is at 1e30.
+struct GridTemplate {
+    /// First box; w of its lowest corner: half side of the largest box in which differences tell how the map changes.
+    reach0_min: vec4f,
+    reach0_max: vec4f,
+    /// Second box.
+    reach1_min: vec4f,
+    reach1_max: vec4f,
+    /// Least shift of material; w: MATERIAL_ (0 shifted, 1 taken out of the cube, 2 bent, 3 rippled).
+    shift_min: vec4f,
+    /// Greatest shift, or how far the map departs from its differences (rippled); w: 1 if the map jumps at the faces of the first box.
+    shift_max: vec4f,
+}
+
+/// One making of the grid.
+struct GridJob {
+    /// xyz: lowest corner, subject space; w: how far beyond its sides a cell is looked at, subject units.
+    origin_min: vec4f,
+    /// xyz: side lengths of a cell, subject units.
+    cell_size: vec4f,
+    /// xyz: cells along each axis; w: ways are not followed farther than this.
+    cells: vec4u,
+    /// Rows of the affine that takes rest space to bricks.
+    brick_from_rest_row0: vec4f,
+    brick_from_rest_row1: vec4f,
+    brick_from_rest_row2: vec4f,
+    /// xyz: bricks along each axis; w: how many cells a mask spreads.
+    bricks: vec4u,
+    /// As in `Templates`, in the same order.
+    items: array<GridTemplate, 32>,
+}

@@ -49,6 +49,11 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Look { lut, modes }
         Grid { origin_min, cell_size, cells }
         Resolve { scale, background, flags }
+        GridTemplate { reach0_min, reach0_max, reach1_min, reach1_max, shift_min, shift_max }
+        GridJob {
+            origin_min, cell_size, cells, brick_from_rest_row0, brick_from_rest_row1,
+            brick_from_rest_row2, bricks, items,
+        }
     }
 }
 

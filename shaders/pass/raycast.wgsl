@@ -345,21 +345,27 @@ fn march(pixel: vec2f) -> Marched {
         var col1 = vec3f(0.0, 1.0, 0.0);
         var col2 = vec3f(0.0, 0.0, 1.0);
         var grad_a = vec3f(0.0);
+        var base = Mapped(edge.pos, edge.continuity);
         if drawn_kinds != 0u {
-            var axis = select(3u, 0u, mask != 0u);
-            while axis < 3u {
-                let along = select(vec3f(0.0), forward * MAP_STEP, vec3u(0u, 1u, 2u) == vec3u(axis));
+            // First the point itself: the edge may have been sampled in a cell of another mask, and continuities of different masks
+            // have no difference.
+            var turn = select(4u, 0u, mask != 0u);
+            while turn < 4u {
+                let along = select(vec3f(0.0), forward * MAP_STEP, vec3u(1u, 2u, 3u) == vec3u(turn));
                 let moved = map_point(pos + along, mask);
-                let way = along.x + along.y + along.z;
-                let column = (moved.pos - edge.pos) / way;
-                let change = (moved.continuity - edge.continuity) / way;
-                if dot(column, column) < MAX_STRETCH * MAX_STRETCH {
-                    col0 = select(col0, column, axis == 0u);
-                    col1 = select(col1, column, axis == 1u);
-                    col2 = select(col2, column, axis == 2u);
+                if turn == 0u {
+                    base = moved;
                 }
-                grad_a = select(grad_a, vec3f(change), vec3u(0u, 1u, 2u) == vec3u(axis));
-                axis++;
+                let way = select(along.x + along.y + along.z, 1.0, turn == 0u);
+                let column = (moved.pos - base.pos) / way;
+                let change = (moved.continuity - base.continuity) / way;
+                if dot(column, column) < MAX_STRETCH * MAX_STRETCH {
+                    col0 = select(col0, column, turn == 1u);
+                    col1 = select(col1, column, turn == 2u);
+                    col2 = select(col2, column, turn == 3u);
+                }
+                grad_a = select(grad_a, vec3f(change), vec3u(1u, 2u, 3u) == vec3u(turn));
+                turn++;
             }
         }
 
@@ -385,7 +391,7 @@ fn march(pixel: vec2f) -> Marched {
         var surfaceness = smoothstep(0.004, 0.03, steepness);
         // ... blended into the gradient of the continuity near a cut (section 4.5.3), and the scan's own edge is a cut too.
         let slope_a = length(grad_a);
-        let cut_distance = edge.continuity / max(slope_a, 1e-6);
+        let cut_distance = base.continuity / max(slope_a, 1e-6);
         var cut_weight = select(0.0, 1.0 - smoothstep(0.25, 1.0, cut_distance / subject.dims.w), slope_a > 1e-3 && slope_a < 1e6);
         var cut_normal = -grad_a / max(slope_a, 1e-9);
         let end_low = uvw * subject.dims.xyz;

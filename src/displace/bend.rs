@@ -76,6 +76,7 @@ pub(super) const FACTS: Facts = Facts {
         Reach {
             boxes: [aabb([-INF, start, -INF], [INF; 3]), far_side],
             material: Material::Bent(arc),
+            ..Reach::NONE
         }
     },
     grip: Grip::Number(

@@ -1,4 +1,4 @@
-use super::facts::{Facts, Grip, INF, Icon, Material, Reach, aabb};
+use super::facts::{Facts, Grip, INF, Icon, Reach, aabb};
 use crate::math::Aabb;
 
 /// Everything about cut but its formula. It has no main parameter: it is moved and sized as a whole.
@@ -12,7 +12,8 @@ pub(super) const FACTS: Facts = Facts {
             },
             Aabb::EMPTY,
         ],
-        material: Material::Stays,
+        detail: INF,
+        ..Reach::NONE
     },
     grip: Grip::None,
     icon: Icon {

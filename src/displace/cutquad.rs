@@ -15,6 +15,8 @@ pub(super) const FACTS: Facts = Facts {
             Vec3::new(-aside, 0.0, 0.0),
             Vec3::new(aside, 0.0, up),
         )
+        // Two waves of the lips between the rim and the end of the reach.
+        .with_detail(0.25 * (0.4 - aside).min(length))
     },
     grip: Grip::Number(|given| Vec3::new(0.5 + given.p[0].min(0.38), 0.5, 1.0), INF),
     icon: Icon {

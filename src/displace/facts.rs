@@ -12,6 +12,10 @@ pub struct Reach {
     pub boxes: [Aabb; 2],
     /// Where moved material can be.
     pub material: Material,
+    /// Half side of the largest box (template units) in which differences across the box still tell how the map changes in it.
+    pub detail: f32,
+    /// True if the map jumps at a face of the first box, where it meets what is at rest.
+    pub is_torn: bool,
 }
 
 /// Where the material that a template moves can be afterwards, template space.
@@ -47,6 +51,8 @@ impl Reach {
     pub const NONE: Self = Self {
         boxes: [Aabb::EMPTY; 2],
         material: Material::Stays,
+        detail: 0.5,
+        is_torn: false,
     };
 
     /// One box in which material is shifted by `min` to `max`.
@@ -54,6 +60,7 @@ impl Reach {
         Self {
             boxes: [bounds, Aabb::EMPTY],
             material: Material::Shifted(Aabb { min, max }),
+            ..Self::NONE
         }
     }
 
@@ -62,6 +69,20 @@ impl Reach {
         Self {
             boxes: [bed, to],
             material: Material::Within(to),
+            ..Self::NONE
+        }
+    }
+
+    /// With this `detail`.
+    pub(super) fn with_detail(self, detail: f32) -> Self {
+        Self { detail, ..self }
+    }
+
+    /// Torn from what is around it.
+    pub(super) fn torn(self) -> Self {
+        Self {
+            is_torn: true,
+            ..self
         }
     }
 

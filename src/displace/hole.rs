@@ -9,7 +9,7 @@ pub(super) const FACTS: Facts = Facts {
             return Reach::NONE;
         }
         let shift = Vec3::new(amount.min(0.475), amount.min(0.475), 0.0);
-        Reach::shifted(aabb([0.0, 0.0, -INF], [1.0, 1.0, INF]), -shift, shift)
+        Reach::shifted(aabb([0.0, 0.0, -INF], [1.0, 1.0, INF]), -shift, shift).with_detail(0.15)
     },
     grip: Grip::Number(|given| Vec3::new(0.5 + given.p[0], 0.5, 1.0), INF),
     icon: Icon {

@@ -10,7 +10,7 @@ pub(super) const FACTS: Facts = Facts {
             return Reach::NONE;
         }
         let shift = Vec3::splat(0.5 * given.p[0]);
-        Reach::shifted(Aabb::UNIT, -shift, shift)
+        Reach::shifted(Aabb::UNIT, -shift, shift).with_detail(0.15)
     },
     grip: Grip::Number(
         |given| Vec3::new(0.5 + 0.5 / 0.9 * given.p[0], 0.5, 0.5),

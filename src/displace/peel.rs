@@ -22,6 +22,7 @@ pub(super) const FACTS: Facts = Facts {
             aabb([0.0, 0.0, 1.0 - depth], [progress, 1.0, 1.0]),
             aabb([min.x, 0.0, min.y], [max.x, 1.0, max.y]),
         )
+        .with_detail((0.6 * inner / size.x.max(size.z)).min(0.5))
     },
     grip: Grip::Number(|given| Vec3::new(given.p[0], 0.5, 1.0), INF),
     icon: Icon {

@@ -12,6 +12,8 @@ pub(super) const FACTS: Facts = Facts {
             Vec3::ZERO,
             Vec3::new(0.0, 0.0, given.p[0]),
         )
+        .with_detail(0.15 * given.p[1])
+        .torn()
     },
     grip: Grip::Number(|given| Vec3::new(0.5, 1.0, given.p[0]), INF),
     icon: Icon {

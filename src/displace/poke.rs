@@ -14,6 +14,7 @@ pub(super) const FACTS: Facts = Facts {
             Vec3::new(0.0, 0.0, amount.min(0.0)),
             Vec3::new(0.0, 0.0, amount.max(0.0)),
         )
+        .with_detail(0.7 * given.p[1])
     },
     grip: Grip::Number(
         |given| {

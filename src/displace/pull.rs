@@ -9,7 +9,7 @@ pub(super) const FACTS: Facts = Facts {
         if offset == Vec3::ZERO {
             return Reach::NONE;
         }
-        Reach::shifted(Aabb::UNIT, offset.min(Vec3::ZERO), offset.max(Vec3::ZERO))
+        Reach::shifted(Aabb::UNIT, offset.min(Vec3::ZERO), offset.max(Vec3::ZERO)).with_detail(0.15)
     },
     grip: Grip::Vector,
     icon: Icon {

@@ -14,6 +14,7 @@ pub(super) const FACTS: Facts = Facts {
             -shift,
             shift,
         )
+        .with_detail(0.3 * reach.min(given.p[1]))
     },
     grip: Grip::Number(
         |given| Vec3::new(0.5, 0.5 + given.p[0].min(0.95 * given.p[2]), 1.0),

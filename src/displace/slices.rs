@@ -17,6 +17,7 @@ pub(super) const FACTS: Facts = Facts {
             Vec3::new(sideways.min(0.0), 0.0, 0.0),
             Vec3::new(sideways.max(0.0), 0.0, gap * last),
         )
+        .with_detail(0.4 / (last + 1.0))
     },
     grip: Grip::Number(
         |given| {

@@ -10,7 +10,7 @@ pub(super) const FACTS: Facts = Facts {
         }
         let low = if given.p[2] > 0.5 { 0.0 } else { -INF };
         let shift = Vec3::new(amount, 0.0, 0.0);
-        Reach::shifted(aabb([-INF, -INF, low], [INF; 3]), -shift, shift)
+        Reach::shifted(aabb([-INF, -INF, low], [INF; 3]), -shift, shift).with_detail(0.2)
     },
     grip: Grip::Number(|given| Vec3::new(0.5 + given.p[0], 0.5, 1.0), INF),
     icon: Icon {

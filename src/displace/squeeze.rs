@@ -8,7 +8,7 @@ pub(super) fn reach(given: &Given) -> Reach {
         return Reach::NONE;
     }
     let shift = Vec3::new(0.5 * strength, 0.5 * strength, 0.0);
-    Reach::shifted(aabb([-INF, -INF, 0.0], [INF, INF, 1.0]), -shift, shift)
+    Reach::shifted(aabb([-INF, -INF, 0.0], [INF, INF, 1.0]), -shift, shift).with_detail(0.05)
 }
 
 /// Everything about squeeze but its formula. It is grabbed at the waist.

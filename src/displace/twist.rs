@@ -29,6 +29,13 @@ pub(super) const FACTS: Facts = Facts {
             -shift,
             shift,
         )
+        .with_detail(if given.p[1] > 0.0 {
+            // The turn changes by 3/falloff of the angle per unit at most.
+            (given.p[1] / 6.0).min(0.25 * given.p[1] / given.p[0].abs())
+        } else {
+            0.5
+        })
+        .torn()
     },
     grip: Grip::Number(
         |given| {

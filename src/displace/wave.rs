@@ -22,6 +22,12 @@ pub(super) const FACTS: Facts = Facts {
         }
         let shift = Vec3::new(0.0, amplitude, 0.0);
         Reach::shifted(aabb([0.0, -INF, 0.0], [1.0, INF, 1.0]), -shift, shift)
+            .with_detail((0.5 / given.p[1]).min(if given.p[2] > 0.0 {
+                given.p[2] / 6.0
+            } else {
+                0.5
+            }))
+            .torn()
     },
     grip: Grip::Number(
         |given| {

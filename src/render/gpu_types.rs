@@ -99,6 +99,12 @@ impl Templates {
         packed.count[0] = count;
         packed
     }
+
+    /// Bit k: templates of kind k occur. Pipelines are made for this.
+    pub fn drawn_kinds(&self) -> u32 {
+        let used = self.items.iter().take(self.count[0] as usize);
+        used.fold(0, |bits, t| bits | 1u32.checked_shl(t.kind).unwrap_or(0))
+    }
 }
 
 impl Template {
@@ -238,4 +244,44 @@ pub struct Resolve {
     pub background: [f32; 4],
     /// x: 1 for straight alpha.
     pub flags: [u32; 4],
+}
+
+/// What a template reaches, for the making of the grid.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct GridTemplate {
+    /// First box, lowest corner; w: trusted half side.
+    pub reach0_min: [f32; 4],
+    /// First box, highest corner.
+    pub reach0_max: [f32; 4],
+    /// Second box, lowest corner.
+    pub reach1_min: [f32; 4],
+    /// Second box, highest corner.
+    pub reach1_max: [f32; 4],
+    /// Least shift; w: how material moves.
+    pub shift_min: [f32; 4],
+    /// Greatest shift; w: 1 if torn.
+    pub shift_max: [f32; 4],
+}
+
+/// One making of the grid.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct GridJob {
+    /// Lowest corner; w: margin of a cell, subject units.
+    pub origin_min: [f32; 4],
+    /// Sides of a cell, subject units.
+    pub cell_size: [f32; 4],
+    /// Cells along each axis; w: farthest way.
+    pub cells: [u32; 4],
+    /// Affine from rest space to bricks, first row.
+    pub brick_from_rest_row0: [f32; 4],
+    /// Second row.
+    pub brick_from_rest_row1: [f32; 4],
+    /// Third row.
+    pub brick_from_rest_row2: [f32; 4],
+    /// Bricks along each axis; w: how many cells a mask spreads.
+    pub bricks: [u32; 4],
+    /// In the order of [`Templates`].
+    pub items: [GridTemplate; MAX_TEMPLATES],
 }

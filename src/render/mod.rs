@@ -3,6 +3,7 @@
 mod error;
 mod gpu;
 pub mod gpu_types;
+mod grid;
 mod kernel;
 mod look;
 mod passes;
@@ -17,6 +18,7 @@ mod view;
 
 pub use error::RenderError;
 pub use gpu::{Gpu, GpuOptions};
+pub use grid::GridCells;
 pub use kernel::{Binding, Kernel, result_buffer, storage_buffer, submit_and_read, uniform_buffer};
 pub use look::{TABLE_SIZE, TransferTable, auto_preset, linear_color, linear_from_srgb, window_of};
 pub use picture::{Image, PendingPick, Pick, Studio, encode_png, render_image};

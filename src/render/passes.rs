@@ -1,4 +1,5 @@
 use super::gpu_types::{Grid, Look, TABLE_FORMAT, Templates};
+use super::grid::GridPasses;
 use super::look::{TABLE_SIZE, TransferTable};
 use super::programs::module;
 use super::subject::entry;
@@ -36,6 +37,7 @@ pub(super) struct Passes {
     pub scene_layout: wgpu::BindGroupLayout,
     pub resolve_layout: wgpu::BindGroupLayout,
     pub linear_sampler: wgpu::Sampler,
+    pub grid: GridPasses,
     resolve_pipeline: wgpu::RenderPipeline,
     raycast_module: wgpu::ShaderModule,
     raycast_layout: wgpu::PipelineLayout,
@@ -123,6 +125,7 @@ impl Passes {
             },
         );
         Ok(Self {
+            grid: GridPasses::new(gpu)?,
             raycast_module: module(gpu, "raycast")?,
             linear_sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("linear"),
@@ -278,7 +281,7 @@ fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline
 /// Group 2: templates, look and grid of one illustration.
 #[derive(Debug)]
 pub(super) struct Scene {
-    templates: wgpu::Buffer,
+    pub templates: wgpu::Buffer,
     look: wgpu::Buffer,
     table: wgpu::Texture,
     pub bind_group: wgpu::BindGroup,

@@ -1,4 +1,5 @@
 use super::gpu_types::{Frame, Resolve};
+use super::grid::GridCells;
 use super::passes::{LINEAR_FORMAT, OUTPUT_FORMAT, PICK_FORMAT, Passes};
 use super::scene::{Prepared, frame_of};
 use super::subject::{SubjectTextures, Upload, entry, reduced_to_fit};
@@ -112,6 +113,22 @@ impl Studio {
         async move { shot?.develop(samples.max(1)).await }
     }
 
+    /// The grid over the deformed space of an illustration, as the ray march will read it; `None` for a studio without one.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn grid_cells(
+        &self,
+        illustration: &Illustration,
+    ) -> Result<Option<GridCells>, RenderError> {
+        let mut prepared = Prepared::new(&self.gpu, &self.passes, &self.subject, self.wants_grid);
+        prepared.update(&self.gpu, &self.passes, &self.subject, illustration);
+        match prepared.grid() {
+            Some(grid) => Ok(Some(grid.read(&self.gpu).await?)),
+            None => Ok(None),
+        }
+    }
+
     /// What is at a point of the picture (pixels, origin top left). The future owns what it needs.
     pub fn pick(
         &self,
@@ -130,7 +147,7 @@ impl Studio {
         pixel: Vec2,
     ) -> Result<PendingPick, RenderError> {
         let mut prepared = Prepared::new(&self.gpu, &self.passes, &self.subject, self.wants_grid);
-        prepared.update(&self.gpu, &self.subject, illustration);
+        prepared.update(&self.gpu, &self.passes, &self.subject, illustration);
         let view = View::new(&illustration.camera, size_px);
         let has_labels = self.subject.uniform.label_dims[3] > 0.5;
         Ok(encode_pick(
@@ -176,7 +193,7 @@ impl Shot {
             &studio.subject,
             studio.wants_grid,
         );
-        prepared.update(&studio.gpu, &studio.subject, illustration);
+        prepared.update(&studio.gpu, &studio.passes, &studio.subject, illustration);
         Ok(Self {
             view: View::new(&illustration.camera, size),
             gpu: studio.gpu.clone(),

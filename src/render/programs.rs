@@ -77,6 +77,7 @@ shader_files![
     "bind/grid.wgsl",
     "march/ray.wgsl",
     "march/shade.wgsl",
+    "pass/grid.wgsl",
     "pass/probe.wgsl",
     "pass/raycast.wgsl",
     "pass/resolve.wgsl",
@@ -120,6 +121,16 @@ pub const PROGRAMS: &[Program] = &[
         name: "probe",
         files: with_displacement!["pass/probe.wgsl"],
         entries: &[("probe", Stage::Compute)],
+    },
+    Program {
+        name: "grid",
+        files: with_displacement!["pass/grid.wgsl"],
+        entries: &[
+            ("fill", Stage::Compute),
+            ("spread_x", Stage::Compute),
+            ("spread_y", Stage::Compute),
+            ("spread_z", Stage::Compute),
+        ],
     },
     Program {
         name: "raycast",

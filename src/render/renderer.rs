@@ -435,7 +435,7 @@ impl Renderer {
                 studio.wants_grid,
             )
         });
-        if prepared.update(&self.gpu, &studio.subject, illustration) {
+        if prepared.update(&self.gpu, &studio.passes, &studio.subject, illustration) {
             self.stage = Stage::Stale;
         }
         true

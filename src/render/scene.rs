@@ -1,4 +1,5 @@
 use super::gpu_types::{Frame, Templates, affine_rows};
+use super::grid::{GridInput, SkipGrid};
 use super::look::{TransferTable, background_uniform};
 use super::passes::{Passes, RaycastKey, Scene};
 use super::subject::SubjectTextures;
@@ -23,7 +24,7 @@ pub(super) struct Prepared {
     templates: Templates,
     table: Option<(TransferTable, OpacityMode)>,
     has_labels: bool,
-    wants_grid: bool,
+    grid: Option<SkipGrid>,
 }
 
 impl Prepared {
@@ -34,15 +35,16 @@ impl Prepared {
         subject: &SubjectTextures,
         wants_grid: bool,
     ) -> Self {
+        let grid = wants_grid.then(|| SkipGrid::new(gpu));
         Self {
-            scene: Scene::new(gpu, passes, None),
+            scene: Scene::new(gpu, passes, grid.as_ref().map(SkipGrid::binding)),
             bounds: subject.bounds,
             background: [0.0; 4],
             drawn_generation: 0,
             templates: Templates::NONE,
             table: None,
             has_labels: false,
-            wants_grid,
+            grid,
         }
     }
 
@@ -50,16 +52,19 @@ impl Prepared {
     pub(super) fn update(
         &mut self,
         gpu: &Gpu,
+        passes: &Passes,
         subject: &SubjectTextures,
         illustration: &Illustration,
     ) -> bool {
         let mut is_changed = false;
+        let mut is_grid_stale = false;
         let templates = Templates::pack(&illustration.templates);
         if templates != self.templates || self.table.is_none() {
             self.scene.set_templates(gpu, &templates);
             self.templates = templates;
             self.bounds = deformed_bounds(&illustration.templates, subject.bounds);
             is_changed = true;
+            is_grid_stale = true;
         }
         let table = TransferTable::new(&illustration.look, &illustration.subject, &subject.info);
         let mode = illustration.look.opacity;
@@ -69,9 +74,26 @@ impl Prepared {
             .is_none_or(|(t, m)| *t != table || *m != mode)
         {
             self.scene.set_look(gpu, &table, mode, &subject.info);
+            if let Some(grid) = &mut self.grid {
+                grid.set_look(gpu, subject, &table);
+                is_grid_stale = true;
+            }
             self.has_labels = subject.info.has_segments && table.tint > 0.0;
             self.table = Some((table, mode));
             is_changed = true;
+        }
+        if let Some(grid) = &mut self.grid
+            && is_grid_stale
+        {
+            let input = GridInput {
+                placed: &illustration.templates,
+                packed: &self.templates,
+                templates: &self.scene.templates,
+                bounds: self.bounds,
+                subject,
+                step: longest_step(subject),
+            };
+            grid.make(gpu, &passes.grid, &input);
         }
         let background = background_uniform(illustration.look.background);
         if background != self.background {
@@ -81,21 +103,28 @@ impl Prepared {
         is_changed
     }
 
+    /// The grid over the deformed space, read back; `None` without one.
+    pub(super) fn grid(&self) -> Option<&SkipGrid> {
+        self.grid.as_ref()
+    }
+
     /// Which pipeline draws it.
     pub(super) fn key(&self, is_pick: bool) -> RaycastKey {
-        let used = self.templates.count[0] as usize;
         RaycastKey {
-            drawn_kinds: self
-                .templates
-                .items
-                .iter()
-                .take(used)
-                .fold(0, |bits, t| bits | 1u32.checked_shl(t.kind).unwrap_or(0)),
+            drawn_kinds: self.templates.drawn_kinds(),
             has_labels: self.has_labels,
-            has_grid: self.wants_grid,
+            has_grid: self.grid.is_some(),
             is_pick,
         }
     }
+}
+
+/// Steps are never longer than this, subject units, but for subjects of few voxels: the grid is made for it.
+const LONGEST_STEP: f32 = 0.009;
+
+/// The longest step that any ray through this subject takes.
+fn longest_step(subject: &SubjectTextures) -> f32 {
+    (STEP_MOVING * subject.uniform.dims[3]).max(LONGEST_STEP)
 }
 
 /// Uniform of sample `index` of a picture. The same for the same index on every machine: nothing is random.
@@ -111,7 +140,9 @@ pub(super) fn frame_of(
     let distance = (view.eye() - bounds.center()).length();
     let factor = if is_moving { STEP_MOVING } else { STEP_AT_REST };
     // Finer than a pixel is lost on the picture.
-    let step = (voxel * factor).max(0.6 * view.units_per_pixel(distance));
+    let step = (voxel * factor)
+        .max(0.6 * view.units_per_pixel(distance))
+        .min(longest_step(subject));
     let k = index as f32;
     // Rank-1 lattice with the plastic number: the first samples already lie well apart (Roberts 2018).
     let place = |ratio: f32| (0.5 + k * ratio).fract();

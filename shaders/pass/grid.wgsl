@@ -1,0 +1,395 @@
+// Grid over the deformed space: per cell, which templates may reach it and whether anything visible may map into it. Compute only;
+// made anew when a template, the transfer function or the subject changes.
+//
+//   deformed space, one cell          template i                     rest space, bricks
+//   +---+                                                            +--+--+--+--+
+//   | · |  box: centre, half   -->   two readings at most   -->      |  |##|  |  |   the box of where the cell came from
+//   +---+                            (flap | rest), each a box       |  |##|##|  |   meets a visible brick, or does not
+//
+// A box is carried back through the list. Each template is evaluated at the box's centre and at the middles of its six sides: the
+// differences say how the box is turned and stretched there, the second differences how far from straight that is. Where a template is
+// small against the box that is not enough, and its bound of displacement is used. Where a template is two-valued (the flap lies over
+// what was there before) both readings are followed, each only if the box can hold material of it.
+// Conservative but for details finer than `fineness`, which tests/grid.rs looks for by probing.
+// needs: types.wgsl bind/templates.wgsl displace/compose.wgsl
+
+/// What to do (see types.wgsl).
+@group(3) @binding(0) var<uniform> job: GridJob;
+/// Summed table of visible bricks: entry (x, y, z) counts those below x, y, z; one more entry than bricks on each axis.
+@group(3) @binding(1) var<storage, read> visible_sums: array<u32>;
+/// Per cell: mask of the templates that may reach it.
+@group(3) @binding(2) var<storage, read_write> cell_masks: array<u32>;
+/// Per cell: 0 visible, else the way to the nearest visible one, as far as is known.
+@group(3) @binding(3) var<storage, read_write> cell_ways: array<u32>;
+/// The same, read by one pass and written by the one before.
+@group(3) @binding(4) var<storage, read_write> cell_ways_before: array<u32>;
+/// Masks, read by one pass and written by the one before.
+@group(3) @binding(6) var<storage, read_write> cell_masks_before: array<u32>;
+/// x: mask; y: way.
+@group(3) @binding(5) var grid_out: texture_storage_3d<rg32uint, write>;
+
+/// Numbers of kinds (TemplateKind) that have two readings.
+const KIND_PEEL: u32 = 7u;
+const KIND_FLAP: u32 = 8u;
+const KIND_MOVE: u32 = 18u;
+
+/// How a `GridTemplate` moves material; 0 is by a bounded shift.
+const MATERIAL_WITHIN: f32 = 1.0;
+const MATERIAL_BENT: f32 = 2.0;
+const MATERIAL_RIPPLED: f32 = 3.0;
+
+/// Ways through the list that are followed for one cell at most; where there are more (many cuts crossing in one cell), it counts as
+/// visible and reached by all.
+const MAX_WAYS: u32 = 24u;
+/// The continuity may change across the box by this much more than its differences say.
+const CONTINUITY_SAFETY: f32 = 1.5;
+
+/// A box on its way back through the list, subject space.
+struct Walk {
+    /// Centre.
+    at: vec3f,
+    /// Half the sides.
+    half: vec3f,
+    /// Displacement of the group so far.
+    sum: vec3f,
+    /// Images of the three half sides under the group so far.
+    side0: vec3f,
+    side1: vec3f,
+    side2: vec3f,
+    /// Half extent that comes on top.
+    spread: vec3f,
+    /// Templates still to come.
+    left: u32,
+    /// Head of the group that is being summed.
+    group: u32,
+}
+
+/// One reading of a template at a point.
+struct Reading {
+    /// source - q, template space.
+    moved: vec3f,
+    /// A of this reading: below 0 it has no material here.
+    continuity: f32,
+}
+
+fn to_template(i: u32, pos: vec3f) -> vec3f {
+    let at1 = vec4f(pos, 1.0);
+    return vec3f(
+        dot(templates.items[i].template_from_subject_row0, at1),
+        dot(templates.items[i].template_from_subject_row1, at1),
+        dot(templates.items[i].template_from_subject_row2, at1),
+    );
+}
+
+fn to_template_vector(i: u32, v: vec3f) -> vec3f {
+    return vec3f(
+        dot(templates.items[i].template_from_subject_row0.xyz, v),
+        dot(templates.items[i].template_from_subject_row1.xyz, v),
+        dot(templates.items[i].template_from_subject_row2.xyz, v),
+    );
+}
+
+fn to_subject_vector(i: u32, v: vec3f) -> vec3f {
+    return vec3f(
+        dot(templates.items[i].subject_from_template_row0.xyz, v),
+        dot(templates.items[i].subject_from_template_row1.xyz, v),
+        dot(templates.items[i].subject_from_template_row2.xyz, v),
+    );
+}
+
+/// Half extent in subject space of a template-space box of half extent `half`.
+fn to_subject_extent(i: u32, half: vec3f) -> vec3f {
+    return vec3f(
+        dot(abs(templates.items[i].subject_from_template_row0.xyz), half),
+        dot(abs(templates.items[i].subject_from_template_row1.xyz), half),
+        dot(abs(templates.items[i].subject_from_template_row2.xyz), half),
+    );
+}
+
+/// The moved reading. Templates that tear at a face are read as if the point lay inside.
+fn moved_reading(i: u32, q: vec3f) -> Reading {
+    let size = templates.items[i].size.xyz;
+    let p0 = templates.items[i].params0;
+    let p1 = templates.items[i].params1;
+    let kind = templates.items[i].kind;
+    if (drawn_kinds & 0x80u) != 0u && kind == KIND_PEEL {
+        let p = peeled(q, size, p0);
+        return Reading(p.source - q, min(p.flap_continuity, p.along));
+    }
+    if (drawn_kinds & 0x100u) != 0u && kind == KIND_FLAP {
+        let o = opened(q, size, p0);
+        return Reading(o.source - q, o.door_continuity);
+    }
+    if (drawn_kinds & 0x40000u) != 0u && kind == KIND_MOVE {
+        let source = moved_back(q, size, p0, p1);
+        return Reading(source - q, inside_box(source, size));
+    }
+    let is_torn = job.items[i].shift_max.w > 0.5;
+    let inside = clamp(q, job.items[i].reach0_min.xyz, job.items[i].reach0_max.xyz);
+    let at = select(q, inside, is_torn);
+    let d = displace(kind, at, size, p0, p1);
+    return Reading(d.source - at, d.continuity);
+}
+
+/// A of the reading that the point never moved. For templates of one reading 1 where they are torn from what is around them, else -1.
+fn rest_continuity(i: u32, q: vec3f, half: vec3f) -> f32 {
+    let size = templates.items[i].size.xyz;
+    let p0 = templates.items[i].params0;
+    let kind = templates.items[i].kind;
+    if kind == KIND_PEEL {
+        let p = peeled(q, size, p0);
+        return max(p.outside, p.past_hinge);
+    }
+    if kind == KIND_FLAP {
+        return opened(q, size, p0).rest_continuity;
+    }
+    if kind == KIND_MOVE {
+        return -inside_box(q, size);
+    }
+    let is_torn = job.items[i].shift_max.w > 0.5;
+    let pokes_out = any(q - half < job.items[i].reach0_min.xyz) || any(q + half > job.items[i].reach0_max.xyz);
+    return select(-NO_END, 1.0, is_torn && pokes_out);
+}
+
+/// The box after the group that was being summed.
+fn group_done(walk: Walk) -> Walk {
+    var next = walk;
+    next.at = walk.at + walk.sum;
+    next.half = abs(walk.side0) + abs(walk.side1) + abs(walk.side2) + walk.spread;
+    next.sum = vec3f(0.0);
+    next.side0 = vec3f(next.half.x, 0.0, 0.0);
+    next.side1 = vec3f(0.0, next.half.y, 0.0);
+    next.side2 = vec3f(0.0, 0.0, next.half.z);
+    next.spread = vec3f(0.0);
+    return next;
+}
+
+fn sum_at(at: vec3u) -> u32 {
+    return visible_sums[at.x + (job.bricks.x + 1u) * (at.y + (job.bricks.y + 1u) * at.z)];
+}
+
+/// True if the rest-space box meets a visible brick.
+fn meets_visible(at: vec3f, half: vec3f) -> bool {
+    // No comparison with a number that is none holds; such a box is not argued about.
+    if !(all(abs(at) < vec3f(1e20)) && all(half < vec3f(1e20))) {
+        return true;
+    }
+    let at1 = vec4f(at, 1.0);
+    let center = vec3f(
+        dot(job.brick_from_rest_row0, at1),
+        dot(job.brick_from_rest_row1, at1),
+        dot(job.brick_from_rest_row2, at1),
+    );
+    let extent = vec3f(
+        dot(abs(job.brick_from_rest_row0.xyz), half),
+        dot(abs(job.brick_from_rest_row1.xyz), half),
+        dot(abs(job.brick_from_rest_row2.xyz), half),
+    );
+    let count = vec3f(job.bricks.xyz);
+    if any(center + extent < vec3f(0.0)) || any(center - extent > count) {
+        return false;
+    }
+    let low = vec3u(clamp(floor(center - extent), vec3f(0.0), count - 1.0));
+    let high = vec3u(clamp(floor(center + extent), vec3f(0.0), count - 1.0)) + 1u;
+    let near = sum_at(low) + sum_at(vec3u(high.xy, low.z)) + sum_at(vec3u(high.x, low.y, high.z)) + sum_at(vec3u(low.x, high.yz));
+    let far = sum_at(high) + sum_at(vec3u(low.xy, high.z)) + sum_at(vec3u(low.x, high.y, low.z)) + sum_at(vec3u(high.x, low.yz));
+    return far != near;
+}
+
+/// x: mask of the templates that may reach the box; y: 0 if something visible may be in it, else 1.
+///
+/// Where a template has two readings in the box both are followed: the list is walked again for every combination, and `choices` has
+/// a bit for each template on the way that offered a choice, set where the unmoved reading is taken.
+fn look_at(center: vec3f, half: vec3f) -> vec2u {
+    if drawn_kinds == 0u {
+        return vec2u(0u, select(1u, 0u, meets_visible(center, half)));
+    }
+    let count = min(templates.count.x, 32u);
+    let every = select(0u, 0xffffffffu >> ((32u - count) & 31u), count > 0u);
+    var mask = 0u;
+    var is_visible = false;
+    var choices = 0u;
+    var ways = 0u;
+    var has_more = true;
+    while has_more {
+        var walk: Walk;
+        walk.at = center;
+        walk.half = half;
+        walk.side0 = vec3f(half.x, 0.0, 0.0);
+        walk.side1 = vec3f(0.0, half.y, 0.0);
+        walk.side2 = vec3f(0.0, 0.0, half.z);
+        walk.left = every;
+        walk.group = 0xffffffffu;
+        var offered = 0u;
+        var has_material = true;
+        while walk.left != 0u && has_material {
+            let i = firstLeadingBit(walk.left);
+            walk.left &= ~(1u << i);
+            if templates.items[i].group != walk.group {
+                walk = group_done(walk);
+                walk.group = templates.items[i].group;
+            }
+            let q = to_template(i, walk.at);
+            let across = vec3f(
+                dot(abs(templates.items[i].template_from_subject_row0.xyz), walk.half),
+                dot(abs(templates.items[i].template_from_subject_row1.xyz), walk.half),
+                dot(abs(templates.items[i].template_from_subject_row2.xyz), walk.half),
+            );
+            let meets0 = all(q + across >= job.items[i].reach0_min.xyz) && all(q - across <= job.items[i].reach0_max.xyz);
+            let meets1 = all(q + across >= job.items[i].reach1_min.xyz) && all(q - across <= job.items[i].reach1_max.xyz);
+            if !meets0 && !meets1 {
+                continue;
+            }
+            mask |= 1u << i;
+
+            // The continuity of peel, flap and move has slope 1 in subject units, so the box's half diagonal bounds its change.
+            let margin = length(walk.half);
+            let is_within = job.items[i].shift_min.w == MATERIAL_WITHIN;
+            let is_coarse = max(across.x, max(across.y, across.z)) > job.items[i].reach0_min.w;
+            let rest = rest_continuity(i, q, across);
+            let has_rest = rest + margin >= 0.0 || (is_coarse && is_within);
+
+            var next = walk;
+            var has_moved = true;
+            if is_coarse && job.items[i].shift_min.w < MATERIAL_BENT {
+                if is_within {
+                    // From anywhere in the cube.
+                    next.sum += to_subject_vector(i, vec3f(0.5) - q);
+                    next.side0 -= vec3f(walk.half.x, 0.0, 0.0);
+                    next.side1 -= vec3f(0.0, walk.half.y, 0.0);
+                    next.side2 -= vec3f(0.0, 0.0, walk.half.z);
+                    next.spread += to_subject_extent(i, vec3f(0.5));
+                } else {
+                    let low = job.items[i].shift_min.xyz;
+                    let high = job.items[i].shift_max.xyz;
+                    next.sum -= to_subject_vector(i, 0.5 * (low + high));
+                    next.spread += to_subject_extent(i, 0.5 * (high - low));
+                }
+            } else {
+                let middle = moved_reading(i, q);
+                next.sum += to_subject_vector(i, middle.moved);
+                var change = 0.0;
+                for (var axis = 0u; axis < 3u; axis++) {
+                    let along = select(vec3f(0.0), walk.half, vec3u(0u, 1u, 2u) == vec3u(axis));
+                    let step = to_template_vector(i, along);
+                    let ahead = moved_reading(i, q + step);
+                    let behind = moved_reading(i, q - step);
+                    let difference = to_subject_vector(i, 0.5 * (ahead.moved - behind.moved));
+                    next.side0 += select(vec3f(0.0), difference, axis == 0u);
+                    next.side1 += select(vec3f(0.0), difference, axis == 1u);
+                    next.side2 += select(vec3f(0.0), difference, axis == 2u);
+                    next.spread += abs(to_subject_vector(i, ahead.moved + behind.moved - 2.0 * middle.moved));
+                    change += max(abs(ahead.continuity - middle.continuity), abs(behind.continuity - middle.continuity));
+                }
+                let most = middle.continuity + max(CONTINUITY_SAFETY * change, select(0.0, margin, is_within));
+                has_moved = most >= 0.0;
+                if is_coarse && job.items[i].shift_min.w == MATERIAL_RIPPLED {
+                    // Finer than the box, but never far from what is seen from afar.
+                    next.spread += to_subject_extent(i, job.items[i].shift_max.xyz);
+                    has_moved = true;
+                }
+            }
+            var takes_rest = has_rest;
+            if has_moved && has_rest {
+                takes_rest = ((choices >> offered) & 1u) == 1u;
+                offered++;
+            }
+            if has_moved && !takes_rest {
+                walk = next;
+            }
+            has_material = has_moved || has_rest;
+        }
+        if has_material {
+            let done = group_done(walk);
+            is_visible = is_visible || meets_visible(done.at, done.half);
+        }
+        ways++;
+        // The next combination: the last choice that was not yet turned is turned, those after it start anew.
+        let fresh = ~choices & ((1u << min(offered, 31u)) - 1u);
+        has_more = fresh != 0u;
+        if has_more {
+            let last = firstLeadingBit(fresh);
+            choices = (choices & ((1u << last) - 1u)) | (1u << last);
+        }
+        if has_more && ways == MAX_WAYS {
+            mask = every;
+            is_visible = true;
+            has_more = false;
+        }
+    }
+    return vec2u(mask, select(1u, 0u, is_visible));
+}
+
+fn is_cell(cell: vec3u) -> bool {
+    return all(cell < job.cells.xyz);
+}
+
+fn index_of(cell: vec3u) -> u32 {
+    return cell.x + job.cells.x * (cell.y + job.cells.y * cell.z);
+}
+
+/// First pass: looks at every cell.
+@compute @workgroup_size(4, 4, 4)
+fn fill(@builtin(global_invocation_id) cell: vec3u) {
+    if !is_cell(cell) {
+        return;
+    }
+    let half = 0.5 * job.cell_size.xyz;
+    let center = job.origin_min.xyz + (vec3f(cell) + 0.5) * job.cell_size.xyz;
+    let seen = look_at(center, half + job.origin_min.w);
+    cell_masks[index_of(cell)] = seen.x;
+    cell_ways[index_of(cell)] = select(0u, job.cells.w, seen.y == 1u);
+}
+
+/// The way of a cell if the cells along `axis` are taken into account as well.
+fn way_along(cell: vec3u, axis: u32) -> u32 {
+    var way = cell_ways_before[index_of(cell)];
+    let last = vec3i(job.cells.xyz) - 1;
+    let unit = select(vec3i(0), vec3i(1), vec3u(0u, 1u, 2u) == vec3u(axis));
+    for (var step = 1; step < i32(way); step++) {
+        let ahead = vec3u(min(vec3i(cell) + step * unit, last));
+        let behind = vec3u(max(vec3i(cell) - step * unit, vec3i(0)));
+        let nearest = min(cell_ways_before[index_of(ahead)], cell_ways_before[index_of(behind)]);
+        way = min(way, max(nearest, u32(step)));
+    }
+    return way;
+}
+
+/// The mask of a cell with those of the cells next to it along `axis`: a ray that stands in one cell looks for crossings and takes
+/// differences a little way into the next, by its own cell's mask.
+fn mask_along(cell: vec3u, axis: u32) -> u32 {
+    var mask = cell_masks_before[index_of(cell)];
+    let last = vec3i(job.cells.xyz) - 1;
+    let unit = select(vec3i(0), vec3i(1), vec3u(0u, 1u, 2u) == vec3u(axis));
+    for (var step = 1; step <= i32(job.bricks.w); step++) {
+        mask |= cell_masks_before[index_of(vec3u(min(vec3i(cell) + step * unit, last)))];
+        mask |= cell_masks_before[index_of(vec3u(max(vec3i(cell) - step * unit, vec3i(0))))];
+    }
+    return mask;
+}
+
+/// Second pass: along x.
+@compute @workgroup_size(4, 4, 4)
+fn spread_x(@builtin(global_invocation_id) cell: vec3u) {
+    if is_cell(cell) {
+        cell_ways[index_of(cell)] = way_along(cell, 0u);
+        cell_masks[index_of(cell)] = mask_along(cell, 0u);
+    }
+}
+
+/// Third pass: along y.
+@compute @workgroup_size(4, 4, 4)
+fn spread_y(@builtin(global_invocation_id) cell: vec3u) {
+    if is_cell(cell) {
+        cell_ways[index_of(cell)] = way_along(cell, 1u);
+        cell_masks[index_of(cell)] = mask_along(cell, 1u);
+    }
+}
+
+/// Last pass: along z, and out.
+@compute @workgroup_size(4, 4, 4)
+fn spread_z(@builtin(global_invocation_id) cell: vec3u) {
+    if is_cell(cell) {
+        textureStore(grid_out, cell, vec4u(mask_along(cell, 2u), way_along(cell, 2u), 0u, 0u));
+    }
+}

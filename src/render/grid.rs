@@ -1,0 +1,504 @@
+//! The grid over the deformed space: which templates reach a cell, and whether anything visible may map into it.
+
+use super::gpu_types::{Grid, GridJob, GridTemplate, MAX_TEMPLATES, Templates};
+use super::look::TransferTable;
+use super::programs::module;
+use super::subject::{SubjectTextures, entry};
+use super::{Gpu, RenderError, SubjectInfo, uniform_buffer};
+use crate::displace::{Material, reach};
+use crate::document::{ParamValue, PlacedTemplate, TemplateKind};
+use crate::math::Aabb;
+use glam::{UVec3, Vec3};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+use wgpu::util::DeviceExt as _;
+
+/// Cells along the longest side of the box. More leap closer to the surface and cost their cube to make.
+const CELLS: u32 = 64;
+/// The same on a software GPU, where the making is felt while a template is dragged.
+const CELLS_SOFTWARE: u32 = 48;
+/// Cells that one leap clears at most. More cost reading time in the making; what is farther takes a few leaps.
+const FARTHEST_WAY: u32 = 10;
+/// Opacity of 0.01 units up to which the ray march sees nothing, less the rounding of half floats.
+const INVISIBLE: f32 = 0.000_45;
+/// Stands for no end in uniforms, where infinity is not safe.
+const NO_END: f32 = 1e30;
+/// A cell is looked at this far beyond its sides, subject units: differences of the map reach out of it.
+const MARGIN: f32 = 0.001;
+/// A ray looks for a crossing between a sample and the one before, which may lie this many steps back in another cell.
+const LONGEST_STEP: f32 = 1.7;
+
+/// The compute programs. Built once per device.
+#[derive(Debug)]
+pub(super) struct GridPasses {
+    module: wgpu::ShaderModule,
+    spread: [wgpu::ComputePipeline; 3],
+    /// By the kinds that occur: software GPUs run every branch.
+    fill: Mutex<HashMap<u32, Arc<wgpu::ComputePipeline>>>,
+}
+
+impl GridPasses {
+    pub(super) fn new(gpu: &Gpu) -> Result<Self, RenderError> {
+        let module = module(gpu, "grid")?;
+        let spread =
+            ["spread_x", "spread_y", "spread_z"].map(|entry| pipeline(gpu, &module, entry, 0));
+        Ok(Self {
+            module,
+            spread,
+            fill: Mutex::new(HashMap::new()),
+        })
+    }
+
+    fn fill(&self, gpu: &Gpu, drawn_kinds: u32) -> Arc<wgpu::ComputePipeline> {
+        let mut made = self.fill.lock().unwrap_or_else(PoisonError::into_inner);
+        let made = made
+            .entry(drawn_kinds)
+            .or_insert_with(|| Arc::new(pipeline(gpu, &self.module, "fill", drawn_kinds)));
+        Arc::clone(made)
+    }
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    entry: &str,
+    drawn_kinds: u32,
+) -> wgpu::ComputePipeline {
+    gpu.device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry),
+            layout: None,
+            module,
+            entry_point: Some(entry),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &[("drawn_kinds", f64::from(drawn_kinds))],
+                ..Default::default()
+            },
+            cache: None,
+        })
+}
+
+/// The grid of one illustration on one subject. Its texture and uniform stay the same objects; what they hold is made anew when
+/// templates, transfer function or subject change.
+#[derive(Debug)]
+pub(super) struct SkipGrid {
+    uniform: wgpu::Buffer,
+    view: wgpu::TextureView,
+    texture: wgpu::Texture,
+    job: wgpu::Buffer,
+    masks: [wgpu::Buffer; 2],
+    ways: [wgpu::Buffer; 2],
+    /// Summed table of visible bricks, for the look it was made for.
+    sums: Option<wgpu::Buffer>,
+    grid: Grid,
+}
+
+/// What the grid is made from.
+pub(super) struct GridInput<'a> {
+    /// As placed; the enabled ones, in the order of `packed`.
+    pub placed: &'a [PlacedTemplate],
+    /// As packed.
+    pub packed: &'a Templates,
+    /// The uniform that holds `packed`.
+    pub templates: &'a wgpu::Buffer,
+    /// Box of the deformed object, subject space.
+    pub bounds: Aabb,
+    /// The subject.
+    pub subject: &'a SubjectTextures,
+    /// The largest step of a ray that will read it, subject units.
+    pub step: f32,
+}
+
+impl SkipGrid {
+    /// Holds nothing until [`SkipGrid::make`].
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("grid cells"),
+            size: wgpu::Extent3d {
+                width: CELLS,
+                height: CELLS,
+                depth_or_array_layers: CELLS,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D3,
+            format: wgpu::TextureFormat::Rg32Uint,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::STORAGE_BINDING
+                | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let per_cell = |label| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: 4 * u64::from(CELLS).pow(3),
+                usage: wgpu::BufferUsages::STORAGE,
+                mapped_at_creation: false,
+            })
+        };
+        Self {
+            uniform: uniform_buffer(gpu, "grid", &Grid::default()),
+            view: texture.create_view(&Default::default()),
+            texture,
+            job: uniform_buffer(gpu, "grid job", &GridJob::default()),
+            masks: [per_cell("grid masks"), per_cell("grid masks before")],
+            ways: [per_cell("grid ways"), per_cell("grid ways before")],
+            sums: None,
+            grid: Grid::default(),
+        }
+    }
+
+    /// Bindings 3 and 4 of the scene.
+    pub(super) fn binding(&self) -> (&wgpu::Buffer, &wgpu::TextureView) {
+        (&self.uniform, &self.view)
+    }
+
+    /// Says which bricks can be seen; before the first [`SkipGrid::make`] and when the transfer function changes.
+    pub(super) fn set_look(&mut self, gpu: &Gpu, subject: &SubjectTextures, table: &TransferTable) {
+        let visible = VisibleValues::new(table, &subject.info);
+        let sums = summed(subject.bricks.dims, |i| {
+            subject
+                .bricks
+                .ranges
+                .get(i)
+                .is_some_and(|range| visible.any_in(*range))
+        });
+        let buffer = gpu
+            .device
+            .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("visible bricks"),
+                contents: bytemuck::cast_slice(&sums),
+                usage: wgpu::BufferUsages::STORAGE,
+            });
+        self.sums = Some(buffer);
+    }
+
+    /// Makes the grid; the work is on its way to the GPU when this returns. Nothing is read back.
+    pub(super) fn make(&mut self, gpu: &Gpu, passes: &GridPasses, input: &GridInput<'_>) {
+        let Some(sums) = &self.sums else { return };
+        let along = if gpu.is_software() {
+            CELLS_SOFTWARE
+        } else {
+            CELLS
+        };
+        let (grid, job) = plan(input, along);
+        self.grid = grid;
+        gpu.queue
+            .write_buffer(&self.uniform, 0, bytemuck::bytes_of(&grid));
+        gpu.queue
+            .write_buffer(&self.job, 0, bytemuck::bytes_of(&job));
+        let drawn_kinds = input.packed.drawn_kinds();
+        let fill = passes.fill(gpu, drawn_kinds);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let groups = UVec3::from_slice(&grid.cells[..3]).map(|n| n.div_ceil(4));
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("grid"),
+                timestamp_writes: None,
+            });
+            let bind = |pipeline: &wgpu::ComputePipeline,
+                        group: u32,
+                        entries: &[wgpu::BindGroupEntry<'_>]| {
+                gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("grid"),
+                    layout: &pipeline.get_bind_group_layout(group),
+                    entries,
+                })
+            };
+            let job = || entry(0, self.job.as_entire_binding());
+            // Masks and ways go back and forth between two buffers each.
+            let along = |i: usize, to: usize| {
+                let pipeline = &passes.spread[i];
+                let from = 1 - to;
+                let mut entries = vec![
+                    job(),
+                    entry(4, self.ways[from].as_entire_binding()),
+                    entry(6, self.masks[from].as_entire_binding()),
+                ];
+                if i == 2 {
+                    entries.push(entry(5, wgpu::BindingResource::TextureView(&self.view)));
+                } else {
+                    entries.push(entry(2, self.masks[to].as_entire_binding()));
+                    entries.push(entry(3, self.ways[to].as_entire_binding()));
+                }
+                (pipeline, bind(pipeline, 3, &entries))
+            };
+            pass.set_pipeline(&fill);
+            let fill_group = bind(
+                &fill,
+                3,
+                &[
+                    job(),
+                    entry(1, sums.as_entire_binding()),
+                    entry(2, self.masks[0].as_entire_binding()),
+                    entry(3, self.ways[0].as_entire_binding()),
+                ],
+            );
+            let templates = bind(&fill, 2, &[entry(0, input.templates.as_entire_binding())]);
+            pass.set_bind_group(2, &templates, &[]);
+            pass.set_bind_group(3, &fill_group, &[]);
+            pass.dispatch_workgroups(groups.x, groups.y, groups.z);
+            for (pipeline, group) in [along(0, 1), along(1, 0), along(2, 1)] {
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(3, &group, &[]);
+                pass.dispatch_workgroups(groups.x, groups.y, groups.z);
+            }
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Reads the cells back, as made.
+    pub(super) async fn read(&self, gpu: &Gpu) -> Result<GridCells, RenderError> {
+        let bytes_per_row = 8 * CELLS;
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("grid readback"),
+            size: u64::from(bytes_per_row) * u64::from(CELLS).pow(2),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_buffer(
+            self.texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(bytes_per_row),
+                    rows_per_image: Some(CELLS),
+                },
+            },
+            self.texture.size(),
+        );
+        gpu.queue.submit([encoder.finish()]);
+        let bytes = super::Readback::start(gpu, buffer).await?;
+        let all: Vec<[u32; 2]> = bytemuck::pod_collect_to_vec(&bytes);
+        let [x, y, z, _] = self.grid.cells;
+        let used = (0..z)
+            .flat_map(|z| (0..y).map(move |y| (z * CELLS + y) * CELLS))
+            .flat_map(|row| all.iter().skip(row as usize).take(x as usize));
+        Ok(GridCells {
+            bounds_min: Vec3::from_slice(&self.grid.origin_min[..3]),
+            cell_size: Vec3::from_slice(&self.grid.cell_size[..3]),
+            count: UVec3::new(x, y, z),
+            cells: used.copied().collect(),
+        })
+    }
+}
+
+/// The grid as the ray march reads it; for tests and whoever wants to look.
+#[derive(Clone, Debug)]
+pub struct GridCells {
+    /// Lowest corner, subject space.
+    pub bounds_min: Vec3,
+    /// Sides of a cell, subject units.
+    pub cell_size: Vec3,
+    /// Cells along each axis.
+    pub count: UVec3,
+    /// Mask of the templates that may reach it, and 0 if something visible may be there or else how many cells around are empty; x
+    /// fastest.
+    pub cells: Vec<[u32; 2]>,
+}
+
+impl GridCells {
+    /// Mask and emptiness of the cell that a point lies in; `None` outside.
+    pub fn at(&self, pos: Vec3) -> Option<[u32; 2]> {
+        let cell = ((pos - self.bounds_min) / self.cell_size).floor();
+        let is_inside = cell.cmpge(Vec3::ZERO).all() && cell.cmplt(self.count.as_vec3()).all();
+        let cell = cell.as_uvec3();
+        let index = cell.x + self.count.x * (cell.y + self.count.y * cell.z);
+        self.cells
+            .get(index as usize)
+            .copied()
+            .filter(|_| is_inside)
+    }
+}
+
+/// Where the grid lies and what is to be done.
+fn plan(input: &GridInput<'_>, along: u32) -> (Grid, GridJob) {
+    // No smaller than what a ray marches through: outside there are no cells to leap from.
+    let bounds = input.bounds.expanded(LONGEST_STEP * input.step);
+    let size = bounds.size();
+    // Cubes, as far as whole numbers allow.
+    let edge = size.max_element() / along as f32;
+    let cells = (size / edge)
+        .ceil()
+        .clamp(Vec3::ONE, Vec3::splat(along as f32));
+    let cell_size = size / cells;
+    let cells = cells.as_uvec3();
+    let spread = (LONGEST_STEP * input.step / cell_size.min_element()).ceil() as u32;
+    let mut items = [GridTemplate::default(); MAX_TEMPLATES];
+    let enabled = input.placed.iter().filter(|t| t.enabled);
+    for (slot, template) in items.iter_mut().zip(enabled) {
+        *slot = item(template);
+    }
+    let subject = &input.subject.uniform;
+    let bricks = &input.subject.bricks;
+    // Texture space times voxels per axis are voxels from the grid's edge; a brick is so many of them.
+    let scale = |i: usize| subject.dims[i] / super::subject::BRICK as f32;
+    let row = |row: [f32; 4], i: usize| row.map(|v| v * scale(i));
+    let grid = Grid {
+        origin_min: bounds.min.extend(0.0).to_array(),
+        cell_size: cell_size.extend(0.0).to_array(),
+        cells: cells.extend(1).to_array(),
+    };
+    let job = GridJob {
+        origin_min: bounds.min.extend(MARGIN).to_array(),
+        cell_size: grid.cell_size,
+        cells: cells.extend(FARTHEST_WAY).to_array(),
+        brick_from_rest_row0: row(subject.texture_from_rest_row0, 0),
+        brick_from_rest_row1: row(subject.texture_from_rest_row1, 1),
+        brick_from_rest_row2: row(subject.texture_from_rest_row2, 2),
+        bricks: bricks.dims.extend(spread).to_array(),
+        items,
+    };
+    (grid, job)
+}
+
+fn item(template: &PlacedTemplate) -> GridTemplate {
+    let reach = reach(template);
+    let corner = |v: Vec3, w: f32| {
+        v.clamp(Vec3::splat(-NO_END), Vec3::splat(NO_END))
+            .extend(w)
+            .to_array()
+    };
+    let (kind, shift) = match reach.material {
+        // The slabs' edges may be finer than a cell, but a slab is never off by more than one gap and one shift.
+        _ if template.kind == TemplateKind::Slices => {
+            let [_, gap, shift, progress] = [0, 1, 2, 3].map(|i| match template.params.get(i) {
+                Some(ParamValue::Number(v)) => *v,
+                _ => 0.0,
+            });
+            let ripple = Vec3::new(shift.abs(), 0.0, gap) * progress;
+            (
+                3.0,
+                Aabb {
+                    min: -ripple,
+                    max: ripple,
+                },
+            )
+        }
+        Material::Stays => (
+            0.0,
+            Aabb {
+                min: Vec3::ZERO,
+                max: Vec3::ZERO,
+            },
+        ),
+        Material::Shifted(shift) => (0.0, shift),
+        Material::Within(_) => (1.0, Aabb::UNIT),
+        Material::Bent(_) => (2.0, Aabb::UNIT),
+    };
+    GridTemplate {
+        reach0_min: corner(reach.boxes[0].min, reach.detail.min(NO_END)),
+        reach0_max: corner(reach.boxes[0].max, 0.0),
+        reach1_min: corner(reach.boxes[1].min, 0.0),
+        reach1_max: corner(reach.boxes[1].max, 0.0),
+        shift_min: corner(shift.min, kind),
+        shift_max: corner(shift.max, f32::from(u8::from(reach.is_torn))),
+    }
+}
+
+/// Which normalised values have any opacity.
+struct VisibleValues {
+    /// Table entries below each index that can be seen.
+    before: Vec<u32>,
+    /// Table position = normalised value · x + y.
+    position: [f32; 2],
+}
+
+impl VisibleValues {
+    fn new(table: &TransferTable, info: &SubjectInfo) -> Self {
+        let mut before = vec![0];
+        let mut count = 0;
+        for entry in &table.entries {
+            count += u32::from(entry[3] > INVISIBLE);
+            before.push(count);
+        }
+        let [low, high] = table.domain;
+        let [value_low, value_high] = info.value_range;
+        let range = if value_high > value_low {
+            value_high - value_low
+        } else {
+            1.0
+        };
+        let per_value = (table.entries.len() as f32 - 1.0) / (high - low);
+        Self {
+            before,
+            position: [range * per_value, (value_low - low) * per_value],
+        }
+    }
+
+    /// True if any value from `low` to `high` can be seen.
+    fn any_in(&self, [low, high]: [f32; 2]) -> bool {
+        let last = self.before.len().saturating_sub(2);
+        // One entry more on both sides: the shader interpolates, with its own rounding.
+        let at = |value: f32| value * self.position[0] + self.position[1];
+        let first = ((at(low).floor() - 1.0).max(0.0) as usize).min(last);
+        let end = ((at(high).ceil() + 1.0).max(0.0) as usize).min(last) + 1;
+        match (self.before.get(first), self.before.get(end)) {
+            (Some(a), Some(b)) => b > a,
+            _ => true,
+        }
+    }
+}
+
+/// Summed table: entry (x, y, z) counts the bricks below x, y, z that are visible; one more entry than bricks on each axis.
+fn summed(bricks: UVec3, is_visible: impl Fn(usize) -> bool) -> Vec<u32> {
+    let n = bricks.as_usizevec3();
+    let (nx, ny) = (n.x + 1, n.y + 1);
+    let mut sums = vec![0u32; nx * ny * (n.z + 1)];
+    let mut brick = 0;
+    for z in 1..=n.z {
+        for y in 1..=n.y {
+            let mut row = 0;
+            for x in 1..=n.x {
+                row += u32::from(is_visible(brick));
+                brick += 1;
+                let at = |y: usize, z: usize| x + nx * (y + ny * z);
+                let sum = row + sums[at(y - 1, z)] + sums[at(y, z - 1)] - sums[at(y - 1, z - 1)];
+                sums[at(y, z)] = sum;
+            }
+        }
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_count_boxes() {
+        let bricks = UVec3::new(5, 4, 3);
+        let visible = |i: usize| (i * 7) % 5 < 2;
+        let sums = summed(bricks, visible);
+        let at = |p: UVec3| sums[(p.x + 6 * (p.y + 5 * p.z)) as usize] as i64;
+        for (low, high) in [
+            (UVec3::ZERO, bricks),
+            (UVec3::new(1, 2, 0), UVec3::new(4, 3, 2)),
+            (UVec3::new(2, 0, 1), UVec3::new(3, 4, 3)),
+        ] {
+            let mut expected = 0;
+            for z in low.z..high.z {
+                for y in low.y..high.y {
+                    for x in low.x..high.x {
+                        expected += i64::from(visible((x + 5 * (y + 4 * z)) as usize));
+                    }
+                }
+            }
+            let mut counted = 0;
+            for corner in 0..8u32 {
+                let pick = |bit: u32, axis: usize| {
+                    if corner & bit == 0 {
+                        low[axis]
+                    } else {
+                        high[axis]
+                    }
+                };
+                let sign = if corner.count_ones() % 2 == 1 { 1 } else { -1 };
+                counted += sign * at(UVec3::new(pick(1, 0), pick(2, 1), pick(4, 2)));
+            }
+            assert_eq!(counted, expected, "{low} to {high}");
+        }
+    }
+}
