@@ -754,9 +754,9 @@ pub(crate) fn placement_on_surface(
     normal: Vec3,
     camera: &Camera,
 ) -> Placement {
-    // The size follows what one sees: about a third of the picture's shorter side, within reason.
+    // The size follows what one sees: about a quarter of the picture's shorter side, within reason.
     let seen = 2.0 * camera.distance * (0.5 * camera.fov_deg.to_radians()).tan();
-    let side = (0.34 * seen).clamp(0.12, 0.5);
+    let side = (0.25 * seen).clamp(0.08, 0.5);
     let z = normal.normalize_or(Vec3::Y);
     let [right, up, _] = camera::axes(camera.rotate);
     let y = (up - z * up.dot(z))
@@ -781,8 +781,9 @@ struct Shape {
 fn shape_of(kind: TemplateKind) -> Shape {
     use TemplateKind as K;
     let (size, above) = match kind {
-        // Layers: wide and flat, the top just over the skin.
-        K::Peel | K::Flap => (Vec3::new(1.0, 0.8, 0.6), 0.16),
+        // Layers: wide and flat, the top just over the skin, so that on a curved surface the layer still reaches it at
+        // the edges.
+        K::Peel | K::Flap => (Vec3::new(1.0, 0.8, 0.6), 0.06),
         K::Peeler => (Vec3::new(0.8, 1.0, 0.6), 0.7),
         // Openings: as deep as wide, the top over the skin.
         K::Retractor | K::Cutquad | K::Hole | K::Split => (Vec3::new(1.0, 1.0, 0.8), 0.15),

@@ -101,7 +101,14 @@ impl Viewport {
         orientation::edges_ui(&painter, &view, letters, free);
 
         if let Some(kind) = state.placing {
-            self.placing_ui(ui, rect, &view, state, kind.spec().name, commands);
+            self.placing_ui(
+                ui,
+                rect,
+                &view,
+                state,
+                &super::catalogue::kind_title(kind).to_lowercase(),
+                commands,
+            );
         } else {
             self.markers_ui(ui, &view, state, commands);
             if let Some(template) = state.selected_template().cloned() {
