@@ -142,7 +142,7 @@ const GOLDEN: &[(&str, &str)] = &[
     ),
     (
         "head",
-        "911ebe53f5d6f1f8c8cebd493629fc0a620326fa56601589ef445951ca1a2bb1",
+        "b408dcd9ee700f0e6f520ba58778683785c995fe5f20c3da1eed0365c65ea287",
     ),
     (
         "tomato",

@@ -42,6 +42,7 @@ enum Tissue {
     Glands,
     Lips,
     Hair,
+    Dura,
 }
 
 const SEGMENTS: &[SegmentSpec] = &[
@@ -70,6 +71,7 @@ const SEGMENTS: &[SegmentSpec] = &[
     segment("glands", [214, 168, 110]),
     segment("lips", [198, 122, 110]),
     segment("hair", [112, 84, 66]),
+    segment("dura", [218, 206, 184]),
 ];
 
 /// See the module.
@@ -388,6 +390,14 @@ impl Model for Head {
                     }
                     if let Some(d) = trunk {
                         lay(d.max(inside + 1.0), flat(32.0), Tissue::BrainStem);
+                    }
+                    if hollow.is_some() {
+                        let under = tentorium.at(&p).unwrap_or(flat(1e3));
+                        lay(
+                            head_brain::dura(&p.plain, under).max(d),
+                            flat(50.0),
+                            Tissue::Dura,
+                        );
                     }
                     if let Some(c) = hollow {
                         let d = head_soft::sagittal_sinus(&p.plain, c).max(d);

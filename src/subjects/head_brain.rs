@@ -264,6 +264,11 @@ impl Cortex {
             if !(-SULCUS_DEPTH_MM - 6.0..6.0).contains(&d) {
                 continue;
             }
+            // What joins the hemispheres has no folds.
+            let x = p.x.0[i].abs();
+            if x < 10.0 && fissure.0[i] > x {
+                continue;
+            }
             let folds = if p.x.0[i] < 0.0 {
                 &self.left
             } else {
@@ -446,4 +451,26 @@ pub(super) fn ventricles() -> Field {
     );
     f.join(1.0, ellipsoid([0.0, -23.0, 3.0], [7.5, 5.0, 6.5]));
     f
+}
+
+/// Signed distance to the two folds of the dura, from the distance to the room under the tentorium: the sickle between the
+/// hemispheres, whose lower edge keeps off the callosal body, and the tent over the cerebellum, open for the stem.
+pub(super) fn dura(p: &Points, under_tentorium: Lanes) -> Lanes {
+    let one = Lanes::splat(1.0);
+    let (y, z) = (p.y * (1.0 / 55.0), (p.z - 40.0) * (1.0 / 37.0));
+    let about_callosum = (one - (y * y + z * z)) * 20.0;
+    // Before the callosal body it ends on the floor of the skull, behind it on the tent.
+    let low = (Lanes::splat(38.0) - p.z).min(p.y + 20.0);
+    let sickle = (p.x.abs() - 0.75)
+        .max(about_callosum)
+        .max(-under_tentorium)
+        .max(low)
+        .max(Lanes::splat(6.0) - p.z);
+    let (x, y) = (p.x * (1.0 / 21.0), (p.y + 8.0) * (1.0 / 30.0));
+    let about_stem = (one - (x * x + y * y)) * 12.0;
+    let tent = ((under_tentorium + 0.2).abs() - 0.8)
+        .max(about_stem)
+        .max(p.y)
+        .max(-p.z);
+    sickle.min(tent)
 }
