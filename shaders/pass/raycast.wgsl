@@ -39,6 +39,9 @@ const TINT_DEPTH: f32 = 1.2;
 const MAP_STEP: f32 = 0.0005;
 /// Columns of the Jacobian longer than this come from a jump of the map, not from tissue.
 const MAX_STRETCH: f32 = 12.0;
+/// A continuity steeper than this jumps at a rest face (from 0.25 to 1 at a hole's, say), which is no cut. Cuts have slopes of one over the
+/// template's size, a peeler's at most a hundred times that.
+const MAX_SLOPE: f32 = 250.0;
 /// Events on one ray at most; a guard, a ray of 1.8 units at the finest step has fewer samples.
 const MAX_EVENTS: u32 = 4096u;
 /// Contribution that makes an event the ray's surface: occlusion, shadow and picking are for that one.
@@ -392,7 +395,7 @@ fn march(pixel: vec2f) -> Marched {
         // ... blended into the gradient of the continuity near a cut (section 4.5.3), and the scan's own edge is a cut too.
         let slope_a = length(grad_a);
         let cut_distance = base.continuity / max(slope_a, 1e-6);
-        var cut_weight = select(0.0, 1.0 - smoothstep(0.25, 1.0, cut_distance / subject.dims.w), slope_a > 1e-3 && slope_a < 1e6);
+        var cut_weight = select(0.0, 1.0 - smoothstep(0.25, 1.0, cut_distance / subject.dims.w), slope_a > 1e-3 && slope_a < MAX_SLOPE);
         var cut_normal = -grad_a / max(slope_a, 1e-9);
         let end_low = uvw * subject.dims.xyz;
         let end_high = (subject.texture_end.xyz - uvw) * subject.dims.xyz;
