@@ -325,7 +325,7 @@ impl Model for Head {
                     block.center().z > 0.0 && vault.lowest() < 3.0 && vault.highest() > -3.5
                 }) {
                     let outer = (vault * (1.0 / 3.0) + 1.0).clamp(0.0, 1.0);
-                    *d = *d + head_skull::sutures(&p) * outer;
+                    *d += head_skull::sutures(&p) * outer;
                 }
             }
             if let Some(lower) = lower_bones.at(&p) {

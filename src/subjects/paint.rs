@@ -103,12 +103,7 @@ impl Canvas {
     pub(super) fn lay(&mut self, row: usize, distance: Lanes, width: f32, value: Lanes, label: u8) {
         let cover = (Lanes::splat(0.5) - distance * (1.0 / width)).clamp(0.0, 1.0);
         self.values[row] = self.values[row].mix(value, cover);
-        let labels = &mut self.labels[row];
-        for i in 0..LANES {
-            if distance.0[i] < 0.0 {
-                labels[i] = label;
-            }
-        }
+        self.relabel(row, distance, label);
     }
 }
 
