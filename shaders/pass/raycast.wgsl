@@ -30,11 +30,12 @@ const BISECTIONS: u32 = 7u;
 const OPAQUE: f32 = 0.002;
 /// Opacity is said for this length, subject units (spec/contract.md, "Transfer functions").
 const OPACITY_LENGTH: f32 = 0.01;
-/// Reach of the central differences of the value, voxels. 1 shows the voxels as terraces, 2 blurs fine relief.
-const GRADIENT_REACH: f32 = 1.5;
+/// Reaches of the two central differences that a gradient is the mean of, voxels. One of 1 alone shows the voxels as terraces.
+const GRADIENT_NEAR: f32 = 1.0;
+const GRADIENT_FAR: f32 = 2.2;
 /// How far inside a surface its segment is looked up, voxels, if the voxels around it belong to none: where tissue fills less
 /// than half of a voxel, its label is air. The nearest segment counts, for skin is thin.
-const TINT_DEPTH: f32 = 1.2;
+const TINT_DEPTH: f32 = 1.9;
 /// Offset of finite differences of the map, subject units: small against every bend, large against the rounding of f32.
 const MAP_STEP: f32 = 0.0005;
 /// Columns of the Jacobian longer than this come from a jump of the map, not from tissue.
@@ -109,14 +110,18 @@ fn sample_mapped(mapped: Mapped) -> Sample {
     );
 }
 
-/// Gradient of the normalised value in rest space, per voxel spacing: central differences along the voxel axes.
+/// Gradient of the normalised value in rest space, per voxel spacing: central differences of two reaches along the voxel axes.
 fn gradient_at(uvw: vec3f) -> vec3f {
-    let h = vec3f(GRADIENT_REACH) / subject.dims.xyz;
-    let difference = vec3f(
-        texel_at(uvw + vec3f(h.x, 0.0, 0.0)) - texel_at(uvw - vec3f(h.x, 0.0, 0.0)),
-        texel_at(uvw + vec3f(0.0, h.y, 0.0)) - texel_at(uvw - vec3f(0.0, h.y, 0.0)),
-        texel_at(uvw + vec3f(0.0, 0.0, h.z)) - texel_at(uvw - vec3f(0.0, 0.0, h.z)),
-    ) / (2.0 * h);
+    var difference = vec3f(0.0);
+    for (var i = 0u; i < 3u; i++) {
+        let axis = select(vec3f(0.0), vec3f(1.0), vec3u(0u, 1u, 2u) == vec3u(i));
+        let near = axis * GRADIENT_NEAR / subject.dims.xyz;
+        let far = axis * GRADIENT_FAR / subject.dims.xyz;
+        let slope = 0.5 * (texel_at(uvw + near) - texel_at(uvw - near)) / GRADIENT_NEAR
+            + 0.5 * (texel_at(uvw + far) - texel_at(uvw - far)) / GRADIENT_FAR;
+        difference += axis * 0.5 * slope;
+    }
+    difference *= subject.dims.xyz;
     return apply_transposed(
         subject.texture_from_rest_row0,
         subject.texture_from_rest_row1,
@@ -125,7 +130,7 @@ fn gradient_at(uvw: vec3f) -> vec3f {
     ) * subject.dims.w;
 }
 
-/// Colour of the segments around a point, blended over the eight label voxels, premultiplied by how much of it is known.
+/// Colour of the segments around a point, blended over the 27 label voxels, premultiplied by how much of it is known.
 fn tint_at(pos: vec3f) -> vec4f {
     let uvw = apply_affine(
         subject.label_from_rest_row0,
@@ -133,18 +138,24 @@ fn tint_at(pos: vec3f) -> vec4f {
         subject.label_from_rest_row2,
         pos,
     );
+    // Quadratic B-spline: borders between segments come out smooth, where eight voxels would leave stairs.
     let at = uvw * subject.label_dims.xyz - 0.5;
-    let base = floor(at);
-    let part = at - base;
+    let middle = floor(at + 0.5);
+    let part = at - middle;
+    let weights = mat3x3f(
+        0.5 * (0.5 - part) * (0.5 - part),
+        0.75 - part * part,
+        0.5 * (0.5 + part) * (0.5 + part),
+    );
     let last = vec3i(subject.label_dims.xyz) - 1;
     var sum = vec4f(0.0);
-    for (var i = 0; i < 8; i++) {
-        let corner = vec3i(i & 1, (i >> 1) & 1, i >> 2);
-        let voxel = clamp(vec3i(base) + corner, vec3i(0), last);
-        let weight3 = select(1.0 - part, part, corner == vec3i(1));
+    for (var i = 0; i < 27; i++) {
+        let corner = vec3i(i % 3, (i / 3) % 3, i / 9);
+        let voxel = clamp(vec3i(middle) + corner - 1, vec3i(0), last);
+        let weight = weights[corner.x].x * weights[corner.y].y * weights[corner.z].z;
         let label = textureLoad(labels, voxel, 0).x;
         let color = textureLoad(palette, vec2i(i32(label), 0), 0);
-        sum += vec4f(color.rgb * color.a, color.a) * (weight3.x * weight3.y * weight3.z);
+        sum += vec4f(color.rgb * color.a, color.a) * weight;
     }
     return sum;
 }
@@ -174,15 +185,21 @@ fn spread(k: u32, n: u32, turn: f32) -> vec3f {
     return vec3f(r * cos(around), r * sin(around), z);
 }
 
+/// Even noise over the pixels (interleaved gradient noise, Jimenez 2014), 0 to 1: hides the spacing of the shadow's taps. The
+/// same for the same pixel always, so pictures stay repeatable.
+fn pixel_noise(pixel: vec2f) -> f32 {
+    return fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+}
+
 /// How open the surroundings of a surface are, 0 to 1: taps of the opacity in the deformed space.
-fn openness(pos: vec3f, normal: vec3f) -> f32 {
+fn openness(pos: vec3f, normal: vec3f, noise: f32) -> f32 {
     let up = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.y) < 0.9);
     let tangent = normalize(cross(up, normal));
     let bitangent = cross(normal, tangent);
     var closed = 0.0;
     var weights = 0.0001;
     for (var k = 0u; k < occlusion_taps; k++) {
-        let d = spread(k, occlusion_taps, frame.jitter.w);
+        let d = spread(k, occlusion_taps, frame.jitter.w + noise * 6.2831853);
         // Near taps find creases, far ones the hollow under a flap.
         let reach = mix(0.010, 0.045, f32((k * 5u) % occlusion_taps) / f32(occlusion_taps)) + subject.dims.w;
         let at = pos + (tangent * d.x + bitangent * d.y + normal * d.z) * reach;
@@ -195,13 +212,13 @@ fn openness(pos: vec3f, normal: vec3f) -> f32 {
 }
 
 /// How much of the key light arrives, 0 to 1.
-fn key_light_at(pos: vec3f, normal: vec3f, key_dir: vec3f) -> f32 {
+fn key_light_at(pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> f32 {
     var open = 1.0;
     let start = pos + normal * (1.5 * subject.dims.w);
     let n = f32(shadow_taps);
     for (var k = 0u; k < shadow_taps; k++) {
         // Closer together near the surface, where a shadow has its edge.
-        let part = (f32(k) + 0.35 + 0.65 * frame.jitter.z) / n;
+        let part = (f32(k) + 0.3 + 0.7 * fract(frame.jitter.z + noise)) / n;
         let at = start + key_dir * (0.006 + 0.30 * part * part);
         let found = sample_mapped(map_point(at, cell_at(at).x));
         // Farther occluders dim less: a large soft lamp.
@@ -413,7 +430,8 @@ fn march(pixel: vec2f) -> Marched {
             cut_normal = normalize(vec3f(dot(col0, end_rest), dot(col1, end_rest), dot(col2, end_rest)) + to_eye * 1e-6);
             cut_weight = end_weight;
         }
-        cut_normal = select(-cut_normal, cut_normal, dot(cut_normal, to_eye) >= 0.0);
+        // A cut that faces away is not the face that is seen.
+        cut_weight *= smoothstep(-0.02, 0.08, dot(cut_normal, to_eye));
         normal = normalize(mix(normal, cut_normal, cut_weight) + to_eye * 1e-5);
         surfaceness = max(surfaceness, cut_weight);
 
@@ -466,14 +484,15 @@ fn march(pixel: vec2f) -> Marched {
     // Once per ray: what stands in the light of its surface.
     if result.surface_t >= 0.0 {
         let pos = origin + dir * result.surface_t;
+        let noise = pixel_noise(floor(pixel));
         let key_dir = apply_linear(
             frame.subject_from_view_row0,
             frame.subject_from_view_row1,
             frame.subject_from_view_row2,
             KEY_DIR,
         );
-        let open = openness(pos + result.surface_normal * (0.5 * subject.dims.w), result.surface_normal);
-        let lit = key_light_at(pos, result.surface_normal, key_dir);
+        let open = openness(pos + result.surface_normal * (0.5 * subject.dims.w), result.surface_normal, noise);
+        let lit = key_light_at(pos, result.surface_normal, key_dir, noise);
         color -= surface_key * (1.0 - lit) + surface_ambient * (0.8 * (1.0 - open)) + surface_key * lit * (0.25 * (1.0 - open));
     }
     result.color = vec4f(max(color, vec3f(0.0)), 1.0 - clear);
