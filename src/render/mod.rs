@@ -1,5 +1,6 @@
 //! Layer 4: everything GPU. Opens devices, assembles shader programs, uploads volumes and draws the picture.
 
+mod bench;
 mod error;
 mod gpu;
 pub mod gpu_types;
@@ -16,6 +17,7 @@ mod scene;
 mod subject;
 mod view;
 
+pub use bench::{BenchRow, bench};
 pub use error::RenderError;
 pub use gpu::{Gpu, GpuOptions};
 pub use grid::GridCells;

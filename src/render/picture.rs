@@ -254,23 +254,35 @@ impl Shot {
             &output.view,
             &[[0, 0, self.size[0], self.size[1]]],
         );
-        let pitch = (self.size[0] * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let bytes = read_texture(&self.gpu, encoder, &output.texture, pitch).await?;
+        let reading = read_picture(&self.gpu, encoder, &output.texture);
+        let image = reading.await?;
         if let Some(message) = self.gpu.take_errors().into_iter().next() {
             return Err(RenderError::Refused {
                 pass: "picture",
                 message,
             });
         }
-        let rgba = bytes
-            .chunks_exact(pitch as usize)
-            .flat_map(|row| row.iter().take(4 * self.size[0] as usize))
+        Ok(image)
+    }
+}
+
+/// Starts reading a picture of four bytes per pixel after the encoder's work.
+pub(super) fn read_picture(
+    gpu: &Gpu,
+    encoder: wgpu::CommandEncoder,
+    texture: &wgpu::Texture,
+) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+    let size = [texture.width(), texture.height()];
+    let pitch = (size[0] * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let reading = read_texture(gpu, encoder, texture, pitch);
+    async move {
+        let bytes = reading.await?;
+        let rows = bytes.chunks_exact(pitch as usize);
+        let rgba = rows
+            .flat_map(|row| row.iter().take(4 * size[0] as usize))
             .copied()
             .collect();
-        Ok(Image {
-            size: self.size,
-            rgba,
-        })
+        Ok(Image { size, rgba })
     }
 }
 

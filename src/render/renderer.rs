@@ -2,7 +2,7 @@ use super::gpu_types::Resolve;
 use super::passes::{LINEAR_FORMAT, OUTPUT_FORMAT, Passes};
 use super::picture::{
     Image, March, PendingPick, Studio, Target, encode_march, encode_pick, encode_resolve, encoder,
-    frame_group, tiles_of,
+    frame_group, read_picture, tiles_of,
 };
 use super::scene::{Prepared, frame_of};
 use super::subject::{Upload, reduced_to_fit};
@@ -248,6 +248,23 @@ impl Renderer {
     /// Size of the picture, pixels; smaller than asked for where a screen has more pixels than can be drawn in time.
     pub fn output_size(&self) -> Option<[u32; 2]> {
         self.targets.as_ref().map(|t| t.size)
+    }
+
+    /// Reads what is shown at this moment (premultiplied where the background is transparent).
+    ///
+    /// # Errors
+    /// [`RenderError::NoSubject`] before the first picture, [`RenderError::DeviceLost`].
+    pub fn read_output(&self) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        let reading = self
+            .targets
+            .as_ref()
+            .map(|t| read_picture(&self.gpu, encoder(&self.gpu), &t.output.texture));
+        async move {
+            match reading {
+                Some(picture) => picture.await,
+                None => Err(RenderError::NoSubject),
+            }
+        }
     }
 
     /// What the subject is, once one is on the GPU.

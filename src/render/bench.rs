@@ -1,0 +1,120 @@
+use super::{Clock, Gpu, RenderError, Studio};
+use crate::data::Volume;
+use crate::document::{
+    Document, Illustration, PlacedTemplate, SubjectRef, TemplateKind, TemplateMode,
+};
+use crate::math::Placement;
+use glam::{Quat, Vec3};
+
+/// One line of `fabrica bench`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BenchRow {
+    /// What was drawn.
+    pub name: &'static str,
+    /// Templates in it.
+    pub template_count: usize,
+    /// Drawn with the grid over the deformed space.
+    pub has_grid: bool,
+    /// Median time of a frame, seconds.
+    pub seconds: f64,
+    /// To the undeformed frame with the grid.
+    pub ratio: f64,
+    /// Time without the grid over time with it (on rows with the grid).
+    pub grid_gain: Option<f64>,
+}
+
+/// The documents that are measured: nothing, one peel, eight templates of eight kinds.
+const CASES: [(&str, usize); 3] = [("undeformed", 0), ("one peel", 1), ("eight templates", 8)];
+
+/// Times whole frames (one sample per pixel at rest quality, read back) of a subject: undeformed, one peel, eight
+/// templates, each with and without the grid. `repeats` frames each after one that warms up; the median counts.
+///
+/// # Errors
+/// As [`Studio::render_image`].
+pub async fn bench(
+    gpu: &Gpu,
+    volume: &Volume,
+    subject: &SubjectRef,
+    size_px: [u32; 2],
+    repeats: usize,
+    clock: Clock,
+) -> Result<Vec<BenchRow>, RenderError> {
+    let studio = Studio::new(gpu, volume, true)?;
+    let mut rows = Vec::new();
+    for has_grid in [true, false] {
+        let studio = studio.with_grid(has_grid);
+        for (name, count) in CASES {
+            let illustration = case(subject, count);
+            // Compiles, and fills caches.
+            studio.render_image(&illustration, size_px, 1).await?;
+            let mut times = Vec::with_capacity(repeats.max(1));
+            for _ in 0..repeats.max(1) {
+                let start = clock();
+                studio.render_image(&illustration, size_px, 1).await?;
+                times.push(clock() - start);
+            }
+            times.sort_by(f64::total_cmp);
+            rows.push(BenchRow {
+                name,
+                template_count: count,
+                has_grid,
+                seconds: times.get(times.len() / 2).copied().unwrap_or_default(),
+                ratio: 1.0,
+                grid_gain: None,
+            });
+        }
+    }
+    let seconds: Vec<f64> = rows.iter().map(|row| row.seconds).collect();
+    let base = seconds.first().copied().unwrap_or(1.0).max(1e-9);
+    for (i, row) in rows.iter_mut().enumerate() {
+        row.ratio = row.seconds / base;
+        row.grid_gain = seconds
+            .get(i + CASES.len())
+            .filter(|_| row.has_grid)
+            .map(|without| without / row.seconds.max(1e-9));
+    }
+    Ok(rows)
+}
+
+/// The document of a case, seen obliquely from the front.
+fn case(subject: &SubjectRef, count: usize) -> Illustration {
+    let mut illustration = Document::new().illustration().clone();
+    illustration.subject = subject.clone();
+    illustration.camera.rotate = Quat::from_rotation_z(0.5) * Quat::from_rotation_x(-0.3);
+    illustration.camera.distance = 2.1;
+    let place = |kind, at: [f32; 3], size: [f32; 3]| PlacedTemplate {
+        index: 0,
+        kind,
+        name: String::new(),
+        placement: Placement {
+            at: Vec3::from_array(at),
+            rotate: Quat::IDENTITY,
+            size: Vec3::from_array(size),
+        },
+        params: TemplateKind::spec(kind)
+            .params
+            .iter()
+            .map(|p| p.kind.default_value())
+            .collect(),
+        enabled: true,
+        mode: TemplateMode::Compose,
+        align: crate::document::Align::Axis,
+    };
+    let all = [
+        place(TemplateKind::Peel, [0.0, 0.15, 0.3], [0.4, 0.4, 0.3]),
+        place(TemplateKind::Retractor, [0.1, 0.3, 0.1], [0.2, 0.2, 0.2]),
+        place(TemplateKind::Twist, [0.0, 0.0, -0.35], [0.5, 0.5, 0.3]),
+        place(TemplateKind::Poke, [-0.2, 0.2, 0.1], [0.2, 0.2, 0.2]),
+        place(TemplateKind::Cut, [-0.3, 0.1, 0.3], [0.15, 0.2, 0.2]),
+        place(TemplateKind::Lens, [0.15, 0.35, 0.0], [0.2, 0.2, 0.2]),
+        place(TemplateKind::Wave, [-0.2, -0.1, 0.2], [0.25, 0.25, 0.25]),
+        place(TemplateKind::Pull, [0.0, 0.4, -0.1], [0.3, 0.3, 0.3]),
+    ];
+    illustration.templates = all
+        .into_iter()
+        .take(count)
+        .enumerate()
+        .map(|(index, template)| PlacedTemplate { index, ..template })
+        .collect();
+    illustration
+}
