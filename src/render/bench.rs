@@ -23,6 +23,24 @@ pub struct BenchRow {
     pub grid_gain: Option<f64>,
 }
 
+impl std::fmt::Display for BenchRow {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let grid = if self.has_grid { "grid" } else { "no grid" };
+        write!(
+            f,
+            "{:<16} {:<8} {:>9.1} ms  {:>5.2} x",
+            self.name,
+            grid,
+            self.seconds * 1e3,
+            self.ratio
+        )?;
+        match self.grid_gain {
+            Some(gain) => write!(f, "  (without the grid {gain:.2} x as long)"),
+            None => Ok(()),
+        }
+    }
+}
+
 /// The documents that are measured: nothing, one peel, eight templates of eight kinds.
 const CASES: [(&str, usize); 3] = [("undeformed", 0), ("one peel", 1), ("eight templates", 8)];
 
