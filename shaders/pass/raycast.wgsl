@@ -521,15 +521,6 @@ fn draw(@builtin(position) at: vec4f) -> @location(0) vec4f {
 @fragment
 fn pick(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let found = march(frame.pick.xy);
-    let uvw = apply_affine(
-        subject.label_from_rest_row0,
-        subject.label_from_rest_row1,
-        subject.label_from_rest_row2,
-        found.surface_rest,
-    );
-    let voxel = clamp(vec3i(floor(uvw * subject.label_dims.xyz)), vec3i(0), vec3i(subject.label_dims.xyz) - 1);
-    let segment = f32(textureLoad(labels, voxel, 0).x);
-    let value = subject.value.x + subject.value.y * texel_at(texture_from_rest(found.surface_rest));
     let ndc = (frame.pick.xy / frame.lens.zw) * 2.0 - 1.0;
     let dir_in_view = normalize(vec3f(ndc.x * frame.lens.x, -ndc.y * frame.lens.y, -1.0));
     let pos = apply_affine(
@@ -538,6 +529,25 @@ fn pick(@builtin(position) at: vec4f) -> @location(0) vec4f {
         frame.subject_from_view_row2,
         dir_in_view * found.surface_t,
     );
+    // On the surface itself half of the voxels are air: a little deeper along the ray it is told what this is.
+    let dir = normalize(pos - vec3f(frame.subject_from_view_row0.w, frame.subject_from_view_row1.w, frame.subject_from_view_row2.w));
+    var segment = 0.0;
+    var value = 0.0;
+    for (var k = 1; k <= 4; k++) {
+        let inside = map_point(pos + dir * (f32(k) * 0.5 * subject.dims.w), 0xffffffffu).pos;
+        let uvw = apply_affine(
+            subject.label_from_rest_row0,
+            subject.label_from_rest_row1,
+            subject.label_from_rest_row2,
+            inside,
+        );
+        let voxel = clamp(vec3i(floor(uvw * subject.label_dims.xyz)), vec3i(0), vec3i(subject.label_dims.xyz) - 1);
+        segment = f32(textureLoad(labels, voxel, 0).x);
+        value = subject.value.x + subject.value.y * texel_at(texture_from_rest(inside));
+        if segment > 0.0 || (k >= 2 && subject.label_dims.w < 0.5) {
+            break;
+        }
+    }
     let part = u32(at.x);
     if part == 0u {
         return vec4f(pos, found.surface_t);

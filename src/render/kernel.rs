@@ -1,6 +1,5 @@
 use super::programs::compile;
 use super::{Gpu, Readback, RenderError};
-use wgpu::util::DeviceExt as _;
 
 /// A compute entry point, compiled once; used to prepare (grids) and to ask for values (probes). The picture itself
 /// never needs one.
@@ -108,12 +107,8 @@ impl Kernel {
 
 /// A uniform buffer with these contents.
 pub fn uniform_buffer<T: bytemuck::NoUninit>(gpu: &Gpu, label: &str, contents: &T) -> wgpu::Buffer {
-    gpu.device
-        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some(label),
-            contents: bytemuck::bytes_of(contents),
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        })
+    let usage = wgpu::BufferUsages::UNIFORM;
+    filled_buffer(gpu, label, bytemuck::bytes_of(contents), usage)
 }
 
 /// A read-only storage buffer with these contents (compute only).
@@ -122,12 +117,33 @@ pub fn storage_buffer<T: bytemuck::NoUninit>(
     label: &str,
     contents: &[T],
 ) -> wgpu::Buffer {
-    gpu.device
-        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some(label),
-            contents: bytemuck::cast_slice(contents),
-            usage: wgpu::BufferUsages::STORAGE,
-        })
+    let usage = wgpu::BufferUsages::STORAGE;
+    filled_buffer(gpu, label, bytemuck::cast_slice(contents), usage)
+}
+
+/// Written through the queue and not mapped at creation: on a device that was just lost, mapping ends the program.
+fn filled_buffer(gpu: &Gpu, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    let alignment = wgpu::COPY_BUFFER_ALIGNMENT;
+    let size = (bytes.len() as u64)
+        .next_multiple_of(alignment)
+        .max(alignment);
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let whole = bytes.len() as u64 - bytes.len() as u64 % alignment;
+    let (head, tail) = bytes.split_at(whole as usize);
+    gpu.queue.write_buffer(&buffer, 0, head);
+    if !tail.is_empty() {
+        let mut last = [0; wgpu::COPY_BUFFER_ALIGNMENT as usize];
+        for (to, from) in last.iter_mut().zip(tail) {
+            *to = *from;
+        }
+        gpu.queue.write_buffer(&buffer, whole, &last);
+    }
+    buffer
 }
 
 /// A storage buffer for results of `size` bytes (compute only).

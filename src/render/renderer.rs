@@ -195,7 +195,10 @@ impl Renderer {
         is_moving: bool,
     ) -> Result<DrawState, RenderError> {
         self.gpu.check()?;
-        if let Err(why) = self.gpu.device.poll(wgpu::PollType::Poll) {
+        let polled = self.gpu.device.poll(wgpu::PollType::Poll);
+        // The loss is reported while polling.
+        self.gpu.check()?;
+        if let Err(why) = polled {
             return Err(RenderError::Refused {
                 pass: "frame",
                 message: why.to_string(),
