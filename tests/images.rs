@@ -138,8 +138,7 @@ fn haze_does_not_depend_on_the_step() {
     );
 }
 
-const CUBE: &str =
-    r#""subject": { "builtin": "cube" }, "camera": { "rotate": [-0.2, 0.1, 0.3, 0.927] }"#;
+const CUBE: &str = r#""subject": { "builtin": "cube" }, "camera": { "rotate": [0.2, 0.1, 0.3, 0.927], "distance": 3.2 }"#;
 
 /// Without templates, and with ones that are shut or switched off, the same object is seen.
 #[test]
@@ -157,7 +156,7 @@ fn shut_templates_change_nothing() {
     let shut = with(r#"{ "kind": "peel", "params": { "progress": 0 } }"#);
     let (_, shut_count) = difference(&plain, &shut, 3);
     assert!(shut_count <= 64 * 64 / 40, "{shut_count} pixels differ");
-    let open = with(r#"{ "kind": "peel" }"#);
+    let open = with(r#"{ "kind": "peel", "size": [0.8, 0.6, 0.8], "at": [0, 0, 0.2] }"#);
     let (worst, open_count) = difference(&plain, &open, 3);
     assert!(
         worst > 60 && open_count > 100,
@@ -342,7 +341,7 @@ fn snapshots_match() {
         .collect();
     for (name, subject, rest) in SNAPSHOTS {
         let json = format!(
-            r#"{{ "fabrica": 1, "subject": {{ "builtin": "{subject}" }}, "camera": {{ "rotate": [-0.2, 0.1, 0.3, 0.927] }} {rest} }}"#
+            r#"{{ "fabrica": 1, "subject": {{ "builtin": "{subject}" }}, "camera": {{ "rotate": [0.2, 0.1, 0.3, 0.927], "distance": 3.2 }} {rest} }}"#
         );
         let studio = &studios
             .iter()
@@ -439,7 +438,7 @@ fn snapshots_would_see_another_picture() {
         draw(
             &volume,
             &format!(
-                r#"{{ "fabrica": 1, {CUBE}, "templates": [{{ "kind": "peel", "params": {{ "progress": {progress} }} }}] }}"#
+                r#"{{ "fabrica": 1, {CUBE}, "templates": [{{ "kind": "peel", "size": [0.8, 0.6, 0.8], "at": [0, 0, 0.2], "params": {{ "progress": {progress} }} }}] }}"#
             ),
             [48, 48],
             1,
