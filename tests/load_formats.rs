@@ -616,7 +616,7 @@ fn damaged_headers_give_a_volume_or_a_message() {
     let space = "space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0.5,2)\nspace origin: (3,4,5)\n";
     let files: Vec<(&str, Vec<u8>)> = vec![
         ("a.nrrd", nrrd(&format!("type: short\ndimension: 3\nsizes: 5 4 3\nendian: little\nencoding: gzip\n{space}"), &gz)),
-        ("b.nrrd", nrrd(&format!("type: uchar\ndimension: 4\nsizes: 2 5 4 3\nkinds: list domain domain domain\nspacings: nan 1 1 2\nencoding: raw\nbyte skip: 0\n"), &[7; 120])),
+        ("b.nrrd", nrrd("type: uchar\ndimension: 4\nsizes: 2 5 4 3\nkinds: list domain domain domain\nspacings: nan 1 1 2\nencoding: raw\nbyte skip: 0\n", &[7; 120])),
         ("c.nrrd", nrrd("type: float\ndimension: 2\nsizes: 3 2\nencoding: ascii\nline skip: 1\nspacings: 1 2\n", b"skip\n1 2 3.5 -4 5e3 6")),
         ("d.mha", [b"ObjectType = Image\nNDims = 3\nDimSize = 5 4 3\nElementSpacing = 1 1 2\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 1 2 3\nElementType = MET_SHORT\nElementDataFile = LOCAL\n".as_slice(), &[9; 120]].concat()),
         ("e.nhdr", b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\ndata file: p%d 1 2 1\n".to_vec()),

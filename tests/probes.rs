@@ -12,11 +12,11 @@ mod reference;
 mod scatter;
 
 use fabrica::displace;
-use fabrica::document::{Align, ParamKind, ParamValue, PlacedTemplate, TemplateKind, TemplateMode};
+use fabrica::document::{ParamValue, PlacedTemplate, TemplateKind, TemplateMode};
 use fabrica::math::{Aabb, Placement};
 use fabrica::render::gpu_types::Templates;
 use fabrica::render::{Gpu, GpuOptions, Probe, Sample};
-use glam::{DQuat, DVec3, Quat, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 use reference::Placed;
 use scatter::{Random, defaults, placed};
 

@@ -62,13 +62,18 @@ impl VolumeSink for Collect {
 
 fn make(name: &str, resolution: u32) -> Held {
     let mut sink = Collect::new();
-    subjects::generate(name, resolution, &mut sink).unwrap();
+    subjects::generate(name, resolution, &mut sink).expect("a subject is made");
     assert_eq!(sink.last_progress, 1.0, "{name}: progress ends at 1");
-    let header = sink.header.unwrap();
+    let header = sink.header.expect("a header came first");
     let dims = header.grid.dims;
     assert_eq!(sink.values.len(), header.grid.voxel_count(), "{name}");
     assert_eq!(sink.labels.len(), header.grid.voxel_count(), "{name}");
-    let names = header.labels.as_ref().unwrap().segments.iter();
+    let names = header
+        .labels
+        .as_ref()
+        .expect("subjects have labels")
+        .segments
+        .iter();
     Held {
         dims: [dims.x as usize, dims.y as usize, dims.z as usize],
         spacing_mm: header.grid.spacing_mm().x,

@@ -374,7 +374,7 @@ pub(crate) fn slim<R>(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui) ->
             style.spacing.slider_width = width;
             style.spacing.interact_size.y = 17.0;
             style.spacing.slider_rail_height = 4.0;
-            for (_, font) in &mut style.text_styles {
+            for font in style.text_styles.values_mut() {
                 font.size = 8.0;
             }
             style.visuals.selection.bg_fill = palette.accent;

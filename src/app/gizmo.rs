@@ -532,10 +532,10 @@ impl<'a> Handles<'a> {
 
     fn paint_turn(&self, painter: &Painter, hot: Option<Part>) {
         for pass in [false, true] {
-            for i in 0..3 {
+            for (i, axis_color) in AXIS_COLORS.into_iter().enumerate() {
                 let points = ring(self.view, self.placement, i);
                 let is_hot = hot == Some(Part::Ring(i));
-                let color = if is_hot { ink::HOT } else { AXIS_COLORS[i] };
+                let color = if is_hot { ink::HOT } else { axis_color };
                 for run in points.chunk_by(|a, b| a.is_front == b.is_front) {
                     if run[0].is_front != pass {
                         continue;

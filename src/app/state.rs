@@ -433,10 +433,10 @@ impl State {
 
     /// The load came to nothing; the document keeps its subject.
     pub(crate) fn load_ended(&mut self) {
-        if let Some(load) = self.load.take() {
-            if !load.is_file {
-                self.requested = None;
-            }
+        if let Some(load) = self.load.take()
+            && !load.is_file
+        {
+            self.requested = None;
         }
     }
 

@@ -136,7 +136,7 @@ pub enum TemplateMode {
     Add,
 }
 
-/// What a template leaves alone (drawn from issue 4 on; kept and named until then).
+/// What a template leaves alone. Kept, and named in a notice: only the first is drawn so far.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Align {
     /// Moves everything.

@@ -289,7 +289,7 @@ impl Model {
             let entry = self.tables[slot];
             let count = (entry & 0x3ff) as usize;
             let odds = i32::from(self.stretch[(entry >> 20) as usize]);
-            self.inputs[i] = odds * TRUST[count.min(7)] >> 6;
+            self.inputs[i] = (odds * TRUST[count.min(7)]) >> 6;
             if (2..7).contains(&i) && count > 0 {
                 seen = i - 1;
             }

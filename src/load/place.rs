@@ -190,10 +190,11 @@ fn counted(
         return Ok(None);
     }
     let mut stream = open(files, name, header_name, None)?;
-    if place.encoding == Encoding::Raw && place.line_skip == 0 {
-        if let Some(len) = stream.byte_len() {
-            return Ok(Some(len));
-        }
+    if place.encoding == Encoding::Raw
+        && place.line_skip == 0
+        && let Some(len) = stream.byte_len()
+    {
+        return Ok(Some(len));
     }
     prepare(&mut stream, place)?;
     let before = stream.position();

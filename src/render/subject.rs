@@ -51,8 +51,6 @@ pub(super) struct SubjectTextures {
     pub bounds: Aabb,
     /// The uniform, as uploaded.
     pub uniform: Subject,
-    /// Bytes of texture memory.
-    pub bytes: u64,
 }
 
 /// A volume on its way to the GPU, slab by slab.
@@ -335,14 +333,12 @@ impl Upload {
                 entry(4, wgpu::BindingResource::TextureView(&palette_view)),
             ],
         });
-        let bytes = 2 * grid.voxel_count() as u64 + labels.map_or(1, |l| l.labels.len() as u64);
         SubjectTextures {
             bind_group,
             bricks: self.bricks.bricks,
             info: info(volume, has_segments),
             bounds: grid.subject_bounds(),
             uniform,
-            bytes,
         }
     }
 }

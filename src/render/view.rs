@@ -75,7 +75,7 @@ mod tests {
 
     const CAMERA: Camera = Camera {
         target: Vec3::new(0.1, -0.2, 0.05),
-        rotate: Quat::from_xyzw(0.1, 0.7, -0.2, 0.6782330),
+        rotate: Quat::from_xyzw(0.1, 0.7, -0.2, 0.678_233),
         distance: 2.5,
         fov_deg: 30.0,
     };
