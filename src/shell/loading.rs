@@ -78,10 +78,7 @@ pub(super) fn make_subject(
 }
 
 /// Makes the slabs of a generator one after the other.
-#[cfg_attr(
-    not(target_arch = "wasm32"),
-    expect(dead_code, reason = "native loads use threads")
-)]
+#[cfg(any(target_arch = "wasm32", test))]
 pub(super) fn slabs_in_turn(
     generator: &Generator,
     thickness: u32,
