@@ -16,9 +16,9 @@ use harness::{Gpu as BrowserGpu, Tab, from_base64, test_data, with_browser};
 use std::time::Duration;
 
 /// Size of the page in these tests, CSS pixels: wide enough for the panels, small enough for a software GPU.
-const PAGE: (u32, u32) = (900, 560);
+const PAGE: (u32, u32) = (780, 420);
 /// The picture's place in it: beside the panels, under the bar.
-const PICTURE: (f64, f64, f64, f64) = (218.0, 46.0, 378.0, 514.0);
+const PICTURE: (f64, f64, f64, f64) = (218.0, 46.0, 258.0, 374.0);
 
 const WHITE: [u8; 3] = [255; 3];
 const AT_REST: &str = "window.fabrica.viewer.is_at_rest()";
@@ -80,7 +80,7 @@ fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
         let closed = object_part(&tab.picture("peel_before").await);
         assert!(drawn_pixels(&closed) > 10_000, "something is drawn");
         // Select it in the list, then take its handle where the head's geometry says that it is.
-        tab.click(690.0, 150.0).await;
+        tab.click(f64::from(PAGE.0) - 210.0, 150.0).await;
         tokio::time::sleep(Duration::from_millis(800)).await;
         tab.picture("peel_selected").await;
         let document = Document::from_json(PEEL).expect("a good document");
@@ -102,7 +102,8 @@ fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
         let to = pixel_of(handle.at + along * 0.15);
         println!("the handle is dragged from {from:?} to {to:?}");
         tab.drag(from, to, 8).await;
-        rest(&tab).await;
+        tab.wait_until(&format!("location.hash !== '#{first}'"), 60)
+            .await;
         tab.picture("peel_dragged").await;
         let progress: f64 = tab
             .eval("JSON.parse(window.fabrica.viewer.get_document()).templates[0].params?.progress ?? 0.5")
@@ -115,7 +116,7 @@ fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
         assert_ne!(hash, format!("#{first}"), "the address follows");
         // The reader's way: the button.
         tab.key("Escape").await;
-        tab.click(826.0, 23.0).await;
+        tab.click(f64::from(PAGE.0) - 74.0, 23.0).await;
         let copied = "navigator.clipboard.readText().catch(error => String(error))";
         tab.wait_until(
             &format!("{copied}.then(text => text.startsWith(location.origin))"),

@@ -31,15 +31,15 @@ function linkIn(src) {
 }
 
 const STYLE = `
-  :host { display: block; position: relative; aspect-ratio: 4 / 3; min-height: 12rem; font: 16px/1.5 system-ui, sans-serif; }
+  :host { display: flex; flex-direction: column; aspect-ratio: 4 / 3; min-height: 12rem; font: 16px/1.5 system-ui, sans-serif; }
   :host([hidden]) { display: none; }
+  .stage { position: relative; flex: 1; min-height: 0; }
   canvas, img.poster { position: absolute; inset: 0; width: 100%; height: 100%; display: block; }
   img.poster { object-fit: contain; }
   .words { position: absolute; inset: 0; overflow: auto; padding: 1rem; white-space: pre-line; }
   .words.over-poster { top: auto; background: rgb(255 255 255 / 0.92); color: #2b2622; max-height: 60%; }
-  .steps { position: absolute; left: 0; right: 0; bottom: 0; display: flex; gap: 0.5rem; align-items: center; padding: 0.5rem; }
+  .steps { display: flex; gap: 0.5rem; align-items: center; padding: 0.5rem; }
   .steps button { font: inherit; min-width: 2.75rem; min-height: 2.75rem; }
-  .steps span { background: rgb(255 255 255 / 0.85); color: #2b2622; padding: 0.25rem 0.5rem; border-radius: 0.25rem; }
   [hidden] { display: none !important; }
 `;
 
@@ -151,6 +151,7 @@ class FabricaViewer extends HTMLElement {
       if (name) element.className = name;
       return element;
     };
+    const stage = make("div", "stage");
     const canvas = make("canvas");
     const poster = make("img", "poster");
     const words = make("div", "words");
@@ -166,7 +167,8 @@ class FabricaViewer extends HTMLElement {
     previous.onclick = () => this.previous();
     next.onclick = () => this.next();
     steps.append(previous, next, where);
-    root.replaceChildren(canvas, poster, words, steps);
+    stage.append(canvas, poster, words);
+    root.replaceChildren(stage, steps);
     this.#parts = { canvas, poster, words, steps, previous, next, where };
     words.textContent = "Loading the illustration…";
     this.#dress();

@@ -80,6 +80,8 @@ pub struct App {
     viewport: Viewport,
     /// That the device was lost has been said.
     has_said_loss: bool,
+    /// The next picture asked for is of the size that is shown.
+    wants_shown_size: bool,
     /// Panels are drawers.
     is_narrow: bool,
     /// The volume that is arriving.
@@ -128,6 +130,7 @@ impl App {
             icons: RenderedIcons::default(),
             viewport: Viewport::default(),
             has_said_loss: false,
+            wants_shown_size: false,
             is_narrow: false,
             incoming: None,
         }
@@ -155,6 +158,12 @@ impl App {
     pub fn is_device_lost(&self) -> bool {
         let gpu = self.picture.as_ref().map(Picture::gpu);
         gpu.is_some_and(|gpu| gpu.lost().is_some())
+    }
+
+    /// Asks for the picture as a PNG in the size in which it is shown; it comes by [`Services::save_file`].
+    pub fn ask_for_picture(&mut self) {
+        self.wants_shown_size = true;
+        self.run(Command::SavePicture);
     }
 
     /// Does something as if a button had been pressed.
@@ -405,7 +414,9 @@ impl App {
             if std::mem::take(&mut self.state.wants_picture_file) {
                 let size = self.viewport.size_px(ui.pixels_per_point());
                 let seen = self.state.document_as_seen();
-                picture.start_file(seen.illustration(), file_size(size));
+                let is_as_shown = std::mem::take(&mut self.wants_shown_size);
+                let size = if is_as_shown { size } else { file_size(size) };
+                picture.start_file(seen.illustration(), size);
             }
             match picture.poll_file() {
                 Some(Ok(bytes)) => {

@@ -213,7 +213,7 @@ impl Viewer {
                 return;
             };
             self.page.borrow_mut().picture_wanted = Some(resolve);
-            shown.0.run(Command::SavePicture);
+            shown.0.ask_for_picture();
             if let Some(ctx) = &self.page.borrow().ctx {
                 ctx.request_repaint();
             }

@@ -35,7 +35,7 @@ pub(crate) enum Gpu {
 }
 
 /// No browser test may take longer; a hanging browser must not hold up everything after it.
-const LIMIT: Duration = Duration::from_secs(600);
+const LIMIT: Duration = Duration::from_secs(900);
 
 /// One browser test at a time: they share two cores and a software GPU.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
