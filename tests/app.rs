@@ -851,11 +851,9 @@ fn documents_and_pictures_are_saved() {
     window.click("More");
     window.look("more_menu");
     window.click("Save picture");
-    for _ in 0..2000 {
+    let patience = clock() + 120.0;
+    while clock() < patience && window.log.0.borrow().saved.len() < 2 {
         window.harness.step();
-        if window.log.0.borrow().saved.len() > 1 {
-            break;
-        }
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
     let log = window.log.0.borrow();
