@@ -690,6 +690,59 @@ fn the_address_follows_what_is_done() {
 // ---------------------------------------------------------------------------------------------------- faults
 
 #[test]
+fn steps_are_walked_and_an_edit_leaves_them() {
+    let document = r#"{ "fabrica": 1, "title": "A cut", "subject": { "builtin": "cube" },
+        "templates": [{ "kind": "split", "params": { "amount": 0 } }],
+        "steps": [{ "title": "Incision", "caption": "It opens.", "seconds": 0.2, "set": { "/templates/0/params/amount": 0.3 } },
+                  { "title": "Wide", "seconds": 0.2, "set": { "/templates/0/params/amount": 0.8, "/camera/distance": 4 } }] }"#;
+    let document = fabrica::document::Document::from_json(document).expect("a document");
+    let link = fabrica::link::fragment(&document, 1);
+    let mut window = Window::open_with(DESK, egui::Theme::Light, Fake::default(), Some(&link));
+    assert_eq!(window.harness.state().step(), 1);
+    window.harness.get_by_label("1 / 2   Incision");
+    let at_one = window.harness.render().expect("a picture");
+    window.look("steps_one");
+
+    window.click("Next step");
+    window.settle();
+    window.harness.get_by_label("2 / 2   Wide");
+    let address = |window: &Window| {
+        window
+            .log
+            .0
+            .borrow()
+            .links
+            .last()
+            .map(|(link, _)| link.clone())
+    };
+    assert!(
+        address(&window).is_some_and(|link| link.ends_with("&step=2")),
+        "the address names the step"
+    );
+    let at_two = window.harness.render().expect("a picture");
+    assert_ne!(at_one, at_two);
+    assert!(
+        window
+            .harness
+            .state()
+            .document()
+            .get("/camera/distance")
+            .is_none(),
+        "the document is as it was"
+    );
+
+    window.press(Key::N);
+    window.settle();
+    assert_eq!(
+        window.harness.state().step(),
+        0,
+        "what is edited is the document as it stands"
+    );
+    window.harness.get_by_label("0 / 2   A cut");
+    assert!(address(&window).is_some_and(|link| !link.contains("step=")));
+}
+
+#[test]
 fn a_broken_link_is_said_and_leaves_a_working_viewer() {
     let window = Window::open_with(
         DESK,

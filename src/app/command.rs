@@ -52,6 +52,10 @@ pub enum Command {
     Open,
     /// Starts from an empty document.
     New,
+    /// Shows a step of the document; 0 is the document as it stands.
+    GoToStep(usize),
+    /// Shows the next step, or with `false` the one before.
+    WalkStep(bool),
     /// Puts the link on the clipboard.
     CopyLink,
     /// Saves the document as a file.
@@ -220,6 +224,8 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
             Command::ShiftSelected(1),
             "Let it act later",
         ),
+        entry(NONE, Key::Space, Command::WalkStep(true), "Next step"),
+        entry(SHIFT, Key::Space, Command::WalkStep(false), "Step before"),
         entry(NONE, Key::P, Command::TogglePanels, "The picture alone"),
         entry(NONE, Key::F1, Command::ToggleKeys, ""),
         entry(NONE, Key::Questionmark, Command::ToggleKeys, "This sheet"),

@@ -31,6 +31,8 @@ pub(crate) enum Icon {
     Info,
     ChevronDown,
     ChevronRight,
+    Previous,
+    Next,
     Reset,
     Grip,
 }
@@ -154,6 +156,8 @@ impl Icon {
             ],
             Self::Up => &[Line(&[(6.0, 14.5), (12.0, 8.5), (18.0, 14.5)])],
             Self::Down | Self::ChevronDown => &[Line(&[(6.0, 9.5), (12.0, 15.5), (18.0, 9.5)])],
+            Self::Previous => &[Line(&[(14.5, 5.0), (7.5, 12.0), (14.5, 19.0)])],
+            Self::Next => &[Line(&[(9.5, 5.0), (16.5, 12.0), (9.5, 19.0)])],
             Self::ChevronRight => &[Line(&[(9.5, 6.0), (15.5, 12.0), (9.5, 18.0)])],
             Self::Close => &[
                 Line(&[(6.5, 6.5), (17.5, 17.5)]),

@@ -22,10 +22,12 @@ mod icons;
 mod keys;
 mod look;
 mod notice;
+mod opening;
 mod orientation;
 mod picture;
 mod services;
 mod state;
+mod steps;
 mod templates;
 mod text;
 mod theme;
@@ -108,14 +110,14 @@ impl App {
         let mut state = State::new(Document::new());
         match (start.text, start.document) {
             (Some(text), _) => state.open_text(&text, services.as_mut()),
-            (None, Some(document)) => state.open_document(document, services.as_mut()),
+            (None, Some(document)) => state.open_document(document, 0, services.as_mut()),
             (None, None) => {
                 // What was kept is a convenience: a broken one is not worth a message.
                 let kept = services
                     .stored(STORED_DOCUMENT)
                     .and_then(|text| crate::link::decode(&text).ok());
                 if let Some(link) = kept {
-                    state.open_document(link.document, services.as_mut());
+                    state.open_document(link.document, link.step, services.as_mut());
                 }
             }
         }
@@ -139,6 +141,11 @@ impl App {
     /// The document with the present camera, for whoever embeds the app.
     pub fn document(&self) -> Document {
         self.state.document_as_seen()
+    }
+
+    /// The step that is shown; 0 is the document as it stands.
+    pub fn step(&self) -> usize {
+        self.state.walk.step()
     }
 
     /// Index of the selected template, if one is.
@@ -413,10 +420,9 @@ impl App {
             }
             if std::mem::take(&mut self.state.wants_picture_file) {
                 let size = self.viewport.size_px(ui.pixels_per_point());
-                let seen = self.state.document_as_seen();
                 let is_as_shown = std::mem::take(&mut self.wants_shown_size);
                 let size = if is_as_shown { size } else { file_size(size) };
-                picture.start_file(seen.illustration(), size);
+                picture.start_file(&self.state.shown_as_seen(), size);
             }
             match picture.poll_file() {
                 Some(Ok(bytes)) => {
@@ -637,6 +643,7 @@ impl App {
             let rect = ui.available_rect_before_wrap();
             self.viewport
                 .ui(ui, &mut self.state, self.picture.as_mut(), commands);
+            steps::ui(ui, rect, &self.state, commands);
             notice::ui(ui, rect, &mut self.state, commands);
             if self.state.are_panels_hidden {
                 text::over_picture_ui(ui, rect, &self.state, commands);

@@ -6,6 +6,7 @@ use glam::{Quat, Vec3};
 use super::camera;
 use super::command::{Command, GizmoMode};
 use super::services::{LinkChange, SaveFile, Services, Ticket};
+use super::steps::Walk;
 use crate::document::{
     Camera, Document, Edit, History, Illustration, PlacedTemplate, SubjectRef, TemplateKind,
 };
@@ -70,7 +71,7 @@ pub(crate) struct Load {
 
 /// The camera on its way.
 #[derive(Clone, Copy, Debug)]
-struct Glide {
+pub(super) struct Glide {
     from: Camera,
     to: Camera,
     since: f64,
@@ -96,7 +97,9 @@ pub(crate) struct State {
     pub camera: Camera,
     /// The camera that the document came with.
     pub home: Camera,
-    glide: Option<Glide>,
+    pub(super) glide: Option<Glide>,
+    /// The step that is shown.
+    pub walk: Walk,
     /// Index in the document's `templates`.
     pub selected: Option<usize>,
     /// The kind that the next click on the object places.
@@ -106,7 +109,7 @@ pub(crate) struct State {
     next_said: u64,
     pub load: Option<Load>,
     /// What the document shows was loaded (or is on its way).
-    requested: Option<SubjectRef>,
+    pub(super) requested: Option<SubjectRef>,
     pub tab: Option<Tab>,
     /// The tab of the right panel where there is room.
     pub side_tab: Tab,
@@ -116,7 +119,7 @@ pub(crate) struct State {
     /// Payload of the document with the present camera.
     pub payload: String,
     /// The link is older than the document or the camera since this time.
-    link_stale_since: Option<f64>,
+    pub(super) link_stale_since: Option<f64>,
     /// The change that made the link stale was a drag or the camera.
     link_change: LinkChange,
     /// When the link was last copied, for the button's answer.
@@ -143,6 +146,7 @@ impl State {
             camera,
             home: camera,
             glide: None,
+            walk: Walk::default(),
             selected: None,
             placing: None,
             gizmo: GizmoMode::Move,
@@ -179,8 +183,26 @@ impl State {
     }
 
     /// The document with the present camera: what a link, a file and the picture show.
+    ///
+    /// At a step it is the author's camera: the one that the step turned would be step 0's.
     pub(crate) fn document_as_seen(&self) -> Document {
-        with_camera(self.document(), &self.camera)
+        match self.walk.step() {
+            0 => with_camera(self.document(), &self.camera),
+            _ => self.document().clone(),
+        }
+    }
+
+    /// What the picture shows: the document, or the step at which one stands.
+    pub(crate) fn shown(&self) -> &Illustration {
+        self.walk.shown().unwrap_or_else(|| self.illustration())
+    }
+
+    /// What the picture shows, from where one looks.
+    pub(crate) fn shown_as_seen(&self) -> Illustration {
+        Illustration {
+            camera: self.camera,
+            ..self.shown().clone()
+        }
     }
 
     /// The selected template, if it is one that can be drawn.
@@ -262,8 +284,15 @@ impl State {
         {
             self.renew_link(services);
         }
+        let is_walking = self.walk.is_moving();
+        if is_walking {
+            if let Some(camera) = self.walk.advance(self.history.document(), now) {
+                self.camera = camera;
+            }
+            self.revision += 1;
+        }
         let Some(glide) = self.glide else {
-            return false;
+            return is_walking;
         };
         let t = ((now - glide.since) / GLIDE_SECONDS).clamp(0.0, 1.0) as f32;
         self.camera = camera::between(&glide.from, &glide.to, t);
@@ -322,121 +351,42 @@ impl State {
 
     fn renew_link(&mut self, services: &mut dyn Services) {
         self.link_stale_since = None;
-        let camera = self.glide.map_or(self.camera, |glide| glide.to);
+        let camera = match self.walk.step() {
+            0 => self.glide.map_or(self.camera, |glide| glide.to),
+            _ => self.illustration().camera,
+        };
         self.payload = make_payload(self.document(), &camera);
-        services.set_link(&self.payload, self.link_change);
-        services.store(STORED_DOCUMENT, &self.payload);
+        services.set_link(&self.link_tail(), self.link_change);
+        services.store(STORED_DOCUMENT, &self.link_tail());
     }
 
-    // ------------------------------------------------------------------------------------------------ documents
+    /// What stands behind the `#` of the link: the payload, and the step one stands at.
+    pub(super) fn link_tail(&self) -> String {
+        match self.walk.step() {
+            0 => self.payload.clone(),
+            step => format!("{}&step={step}", self.payload),
+        }
+    }
 
-    /// Takes another document in place of the present one, and says what of it is not as written.
-    pub(crate) fn open_document(&mut self, document: Document, services: &mut dyn Services) {
-        let notices: Vec<String> = document.notices().iter().map(ToString::to_string).collect();
-        self.camera = document.illustration().camera;
-        self.home = self.camera;
+    /// Goes to a step; nothing is selected or placed there, for a step is looked at.
+    fn go_to_step(&mut self, step: usize) {
         self.glide = None;
         self.selected = None;
         self.placing = None;
-        self.payload = make_payload(&document, &self.camera);
-        self.link_stale_since = None;
-        self.history.replace(document);
+        let document = self.history.document();
+        if let Some(camera) = self.walk.go(document, step, self.now, self.camera) {
+            self.camera = camera;
+        }
         self.revision += 1;
-        services.store(STORED_DOCUMENT, &self.payload);
-        match notices.as_slice() {
-            [] => {}
-            [one] => self.say(Gravity::Warning, one.clone(), ""),
-            [first, ..] => {
-                let more = format!("{first} (and {} more)", notices.len() - 1);
-                self.say(Gravity::Warning, more, notices.join("\n"));
-            }
-        }
-        self.load_subject(services);
+        self.touch_link(LinkChange::Push);
     }
 
-    /// Opens a document from JSON or a link, or says what is wrong with it.
-    pub(crate) fn open_text(&mut self, text: &str, services: &mut dyn Services) {
-        let trimmed = text.trim_start_matches('\u{feff}').trim();
-        let result = if trimmed.starts_with('{') {
-            Document::from_json(trimmed).map_err(|error| error.to_string())
-        } else {
-            link::decode(trimmed)
-                .map(|link| link.document)
-                .map_err(|error| error.to_string())
-        };
-        match result {
-            Ok(document) => self.open_document(document, services),
-            Err(error) => self.say(
-                Gravity::Error,
-                format!("This document cannot be opened: {error}"),
-                "",
-            ),
-        }
-    }
-
-    /// Asks for the document's subject unless it is there or on its way.
-    pub(crate) fn load_subject(&mut self, services: &mut dyn Services) {
-        let subject = self.illustration().subject.clone();
-        if self.requested.as_ref() == Some(&subject) {
-            return;
-        }
-        let ticket = services.load_subject(&subject);
-        self.requested = Some(subject);
-        self.load = Some(Load {
-            ticket,
-            fraction: 0.0,
-            what: "Loading".to_owned(),
-            is_file: false,
-            host: None,
-        });
-    }
-
-    /// A file that the user opened is on its way and will be the subject.
-    pub(crate) fn file_started(&mut self, ticket: Ticket) {
-        self.load = Some(Load {
-            ticket,
-            fraction: 0.0,
-            what: "Reading".to_owned(),
-            is_file: true,
-            host: None,
-        });
-    }
-
-    /// The load is over. A file becomes the subject of the document, as one step of undo.
-    pub(crate) fn load_done(&mut self, sha256: Option<String>) {
-        let Some(load) = self.load.take() else {
-            return;
-        };
-        let Some(sha256) = sha256.filter(|_| load.is_file) else {
-            return;
-        };
-        if let SubjectRef::Supplied { sha256: wanted, .. } = &self.illustration().subject {
-            if *wanted == sha256 {
-                self.requested = Some(self.illustration().subject.clone());
-                return;
-            }
-            if self.template_count() > 0 {
-                self.say(
-                    Gravity::Info,
-                    "This is another file than the one the document was made with; undo brings the first one's name back",
-                    format!("expected {wanted}\nopened {sha256}"),
-                );
-            }
-        }
-        let subject = SubjectRef::Supplied {
-            sha256,
-            name: String::new(),
-        };
-        self.requested = Some(subject.clone());
-        self.apply(&Edit::SetSubject(subject), false);
-    }
-
-    /// The load came to nothing; the document keeps its subject.
-    pub(crate) fn load_ended(&mut self) {
-        if let Some(load) = self.load.take()
-            && !load.is_file
-        {
-            self.requested = None;
+    /// Back from the steps to the document as it stands, which is what is edited.
+    pub(super) fn leave_steps(&mut self) {
+        if self.walk.step() > 0 || self.walk.is_moving() {
+            self.walk = Walk::default();
+            self.revision += 1;
+            self.touch_link(LinkChange::Replace);
         }
     }
 
@@ -449,7 +399,20 @@ impl State {
             Command::Redo => self.undo_or_redo(false, services),
             Command::Apply(edit) => self.apply(&edit, false),
             Command::Drag(edit) => self.apply(&edit, true),
+            Command::GoToStep(step) => self.go_to_step(step),
+            Command::WalkStep(forward) => {
+                let step = self.walk.step();
+                let next = if forward {
+                    step + 1
+                } else {
+                    step.saturating_sub(1)
+                };
+                if self.document().step_count() > 0 {
+                    self.go_to_step(next);
+                }
+            }
             Command::StartPlacing(kind) => {
+                self.leave_steps();
                 self.placing = if self.placing == Some(kind) {
                     None
                 } else {
@@ -465,6 +428,7 @@ impl State {
                 self.selected = index;
                 self.placing = None;
                 if index.is_some() {
+                    self.leave_steps();
                     self.side_tab = Tab::Templates;
                 }
             }
@@ -514,7 +478,7 @@ impl State {
             }
             Command::Open => services.open_file(),
             Command::New => {
-                self.open_document(Document::new(), services);
+                self.open_document(Document::new(), 0, services);
                 self.touch_link(LinkChange::Push);
             }
             Command::CopyLink => self.copy_link(services),
@@ -555,7 +519,7 @@ impl State {
         self.history.end_drag();
     }
 
-    fn apply(&mut self, edit: &Edit, is_drag: bool) {
+    pub(super) fn apply(&mut self, edit: &Edit, is_drag: bool) {
         self.apply_checked(edit, is_drag);
     }
 
@@ -583,6 +547,7 @@ impl State {
     }
 
     fn document_changed(&mut self, change: LinkChange) {
+        self.leave_steps();
         self.revision += 1;
         if self
             .selected
@@ -626,6 +591,7 @@ impl State {
         if count == 0 {
             return;
         }
+        self.leave_steps();
         let step = if forward { 1 } else { count - 1 };
         self.selected = Some(match self.selected {
             Some(index) => (index + step) % count,
@@ -704,7 +670,7 @@ impl State {
         self.renew_link(services);
         let page = services.page_address();
         let page = page.split('#').next().unwrap_or_default();
-        services.copy_text(format!("{page}#{}", self.payload));
+        services.copy_text(format!("{page}#{}", self.link_tail()));
     }
 
     /// File name without an ending, out of the title.
@@ -742,7 +708,7 @@ fn with_camera(document: &Document, camera: &Camera) -> Document {
     edit.apply(document).unwrap_or_else(|_| document.clone())
 }
 
-fn make_payload(document: &Document, camera: &Camera) -> String {
+pub(super) fn make_payload(document: &Document, camera: &Camera) -> String {
     link::encode(&with_camera(document, camera))
 }
 

@@ -83,7 +83,7 @@ impl Viewport {
         let view = Projection::new(&state.camera, rect);
 
         let background = background_color(state, ui);
-        paint_background(ui, rect, state.illustration().look.background, background);
+        paint_background(ui, rect, state.shown().look.background, background);
         self.picture_ui(ui, rect, state, picture, commands);
 
         let painter = ui.painter_at(rect);
@@ -237,7 +237,7 @@ impl Viewport {
             self.last_camera = Some(state.camera);
             self.last_revision = state.revision;
             self.moving_until = now + REST_SECONDS;
-            picture.set(state.illustration(), &state.camera);
+            picture.set(state.shown(), &state.camera);
         }
         let is_moving = now < self.moving_until;
         let size = size_px(rect, ui.pixels_per_point());
@@ -427,7 +427,7 @@ impl Viewport {
             return;
         }
         let palette = Palette::get(ui);
-        for template in &state.illustration().templates {
+        for template in &state.shown().templates {
             if Some(template.index) == state.selected {
                 continue;
             }
@@ -504,7 +504,7 @@ fn size_px(rect: Rect, pixels_per_point: f32) -> [u32; 2] {
 }
 
 fn background_color(state: &State, ui: &Ui) -> Color32 {
-    match state.illustration().look.background {
+    match state.shown().look.background {
         Background::Color([r, g, b]) => Color32::from_rgb(r, g, b),
         Background::None => Palette::get(ui).raised,
     }

@@ -92,7 +92,8 @@ impl Viewer {
     /// # Errors
     /// If there is no device any more.
     pub async fn restart(&self) -> Result<(), JsValue> {
-        let text = self.document_text().unwrap_or_else(|| EMPTY.to_owned());
+        let text = Some(self.get_link()).filter(|link| !link.is_empty());
+        let text = text.unwrap_or_else(|| EMPTY.to_owned());
         self.runner.destroy();
         self.run(Some(text)).await
     }
@@ -164,11 +165,14 @@ impl Viewer {
         self.page.borrow_mut().place.base = address;
     }
 
-    /// Payload of the link to what is shown now.
+    /// Payload of the link to what is shown now, and `&step=N` if a step is.
     pub fn get_link(&self) -> String {
         self.runner
             .app_mut::<Shown>()
-            .map(|shown| link::encode(&shown.0.document()))
+            .map(|shown| {
+                let fragment = link::fragment(&shown.0.document(), shown.0.step());
+                fragment.trim_start_matches('#').to_owned()
+            })
             .unwrap_or_default()
     }
 

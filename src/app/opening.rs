@@ -1,0 +1,134 @@
+//! Opening documents and the subjects that they show.
+
+use super::services::{Services, Ticket};
+use super::state::{Gravity, Load, STORED_DOCUMENT, State, make_payload};
+use super::steps::Walk;
+use crate::document::{Document, Edit, SubjectRef};
+use crate::link;
+
+impl State {
+    /// Takes another document in place of the present one, at one of its steps, and says what of it is not as written.
+    pub(crate) fn open_document(
+        &mut self,
+        document: Document,
+        step: usize,
+        services: &mut dyn Services,
+    ) {
+        let notices: Vec<String> = document.notices().iter().map(ToString::to_string).collect();
+        self.glide = None;
+        self.selected = None;
+        self.placing = None;
+        self.link_stale_since = None;
+        self.payload = make_payload(&document, &document.illustration().camera);
+        self.walk = Walk::at(&document, step);
+        self.history.replace(document);
+        self.camera = self.shown().camera;
+        self.home = self.camera;
+        self.revision += 1;
+        services.store(STORED_DOCUMENT, &self.link_tail());
+        match notices.as_slice() {
+            [] => {}
+            [one] => self.say(Gravity::Warning, one.clone(), ""),
+            [first, ..] => {
+                let more = format!("{first} (and {} more)", notices.len() - 1);
+                self.say(Gravity::Warning, more, notices.join("\n"));
+            }
+        }
+        self.load_subject(services);
+    }
+
+    /// Opens a document from JSON or a link, or says what is wrong with it.
+    pub(crate) fn open_text(&mut self, text: &str, services: &mut dyn Services) {
+        let trimmed = text.trim_start_matches('\u{feff}').trim();
+        let result = if trimmed.starts_with('{') {
+            Document::from_json(trimmed)
+                .map(|document| (document, 0))
+                .map_err(|error| error.to_string())
+        } else {
+            link::decode(trimmed)
+                .map(|link| (link.document, link.step))
+                .map_err(|error| error.to_string())
+        };
+        match result {
+            Ok((document, step)) => {
+                let last = document.step_count();
+                self.open_document(document, step, services);
+                if step > last {
+                    let text = format!("The link opens at step {step}, the last is {last}");
+                    self.say(Gravity::Warning, text, "");
+                }
+            }
+            Err(error) => self.say(
+                Gravity::Error,
+                format!("This document cannot be opened: {error}"),
+                "",
+            ),
+        }
+    }
+
+    /// Asks for the document's subject unless it is there or on its way.
+    pub(crate) fn load_subject(&mut self, services: &mut dyn Services) {
+        let subject = self.illustration().subject.clone();
+        if self.requested.as_ref() == Some(&subject) {
+            return;
+        }
+        let ticket = services.load_subject(&subject);
+        self.requested = Some(subject);
+        self.load = Some(Load {
+            ticket,
+            fraction: 0.0,
+            what: "Loading".to_owned(),
+            is_file: false,
+            host: None,
+        });
+    }
+
+    /// A file that the user opened is on its way and will be the subject.
+    pub(crate) fn file_started(&mut self, ticket: Ticket) {
+        self.load = Some(Load {
+            ticket,
+            fraction: 0.0,
+            what: "Reading".to_owned(),
+            is_file: true,
+            host: None,
+        });
+    }
+
+    /// The load is over. A file becomes the subject of the document, as one step of undo.
+    pub(crate) fn load_done(&mut self, sha256: Option<String>) {
+        let Some(load) = self.load.take() else {
+            return;
+        };
+        let Some(sha256) = sha256.filter(|_| load.is_file) else {
+            return;
+        };
+        if let SubjectRef::Supplied { sha256: wanted, .. } = &self.illustration().subject {
+            if *wanted == sha256 {
+                self.requested = Some(self.illustration().subject.clone());
+                return;
+            }
+            if self.template_count() > 0 {
+                self.say(
+                    Gravity::Info,
+                    "This is another file than the one the document was made with; undo brings the first one's name back",
+                    format!("expected {wanted}\nopened {sha256}"),
+                );
+            }
+        }
+        let subject = SubjectRef::Supplied {
+            sha256,
+            name: String::new(),
+        };
+        self.requested = Some(subject.clone());
+        self.apply(&Edit::SetSubject(subject), false);
+    }
+
+    /// The load came to nothing; the document keeps its subject.
+    pub(crate) fn load_ended(&mut self) {
+        if let Some(load) = self.load.take()
+            && !load.is_file
+        {
+            self.requested = None;
+        }
+    }
+}
