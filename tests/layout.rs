@@ -49,6 +49,10 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Look { lut, modes }
         Grid { origin_min, cell_size, cells }
         Resolve { scale, background, flags }
+        Slice {
+            subject_from_pixel_row0, subject_from_pixel_row1, subject_from_pixel_row2,
+            window, background, modes,
+        }
         GridTemplate { reach0_min, reach0_max, reach1_min, reach1_max, shift_min, shift_max }
         GridJob {
             origin_min, cell_size, cells, brick_from_rest_row0, brick_from_rest_row1,
@@ -138,6 +142,8 @@ fn constants_agree() {
         ("OPACITY_CONSTANCY", gpu_types::OPACITY_CONSTANCY),
         ("OPACITY_MASS", gpu_types::OPACITY_MASS),
         ("OPACITY_NONE", gpu_types::OPACITY_NONE),
+        ("SLICE_GREY", gpu_types::SLICE_GREY),
+        ("SLICE_COLORS", gpu_types::SLICE_COLORS),
     ]);
     let mut found = BTreeMap::new();
     for (_, constant) in module.constants.iter() {
