@@ -113,24 +113,6 @@ struct Resolve {
     flags: vec4u,
 }
 
-/// A flat cut through the deformed object.
-struct Slice {
-    /// Rows of the affine that takes pixels of the slice (origin top left, z is not used) to subject space.
-    subject_from_pixel_row0: vec4f,
-    subject_from_pixel_row1: vec4f,
-    subject_from_pixel_row2: vec4f,
-    /// Grey level = x * texel + y.
-    window: vec4f,
-    /// Linear RGB where nothing is.
-    background: vec4f,
-    /// x: SLICE_ mode; y: samples per pixel along each side.
-    modes: vec4u,
-}
-
-/// How a slice is shown.
-const SLICE_GREY: u32 = 0u;
-const SLICE_COLORS: u32 = 1u;
-
 /// What a template reaches, for the making of the grid. Template space; a side without an end is at 1e30.
 struct GridTemplate {
     /// First box; w of its lowest corner: half side of the largest box in which differences tell how the map changes.
@@ -161,4 +143,56 @@ struct GridJob {
     bricks: vec4u,
     /// As in `Templates`, in the same order.
     items: array<GridTemplate, 32>,
+}
+
+/// What one template leaves alone. Stands at the head of its `add` group and holds for the whole group.
+struct FeatureItem {
+    /// x: sets of kept tissue, bit k for set k, KEEPS_DEEP for what lies deep under the outer surface, 0 keeps nothing; y: index of the
+    /// first template of the run of groups that keep the same; z: sets that the displacement gives way to; w: CONSTRAIN_ mode.
+    keeps: vec4u,
+    /// x: depth under the outer surface from where on tissue is kept; y: width of the blend of normals; z: the longest displacement of
+    /// the group. Subject units.
+    lengths: vec4f,
+}
+
+/// Bit of `keeps.x`: what lies deeper than `lengths.x` under the outer surface.
+const KEEPS_DEEP: u32 = 16u;
+/// How a displacement gives way to kept tissue.
+const CONSTRAIN_NOTHING: u32 = 0u;
+const CONSTRAIN_DISPLACEMENT: u32 = 1u;
+const CONSTRAIN_COORDINATE: u32 = 2u;
+
+/// Kept tissue of a document.
+struct Features {
+    /// Rows of the affine that takes rest space to texture space of the distances.
+    distance_from_rest_row0: vec4f,
+    distance_from_rest_row1: vec4f,
+    distance_from_rest_row2: vec4f,
+    /// xyz: distance voxels along each axis; w: their smallest spacing, subject units.
+    distance_dims: vec4f,
+    /// Slabs of the distances, one behind the other along z: the first has the sets' distances, smoothed. x: how many there are; y: which
+    /// one has the exact distances, 0 for none; z: which one has the depth under the outer surface in its x, 0 for none.
+    slabs: vec4u,
+    /// Sets of each label, four bits each, eight labels in a word.
+    label_sets: array<vec4u, 8>,
+    /// As in `Templates`, in the same order; only heads of groups count.
+    items: array<FeatureItem, 32>,
+}
+
+/// One pass of the making of distances.
+struct DistanceJob {
+    /// Rows of the affine that takes voxels of the fine grid (the labels', else the volume's) to texture space of the volume.
+    volume_from_voxel_row0: vec4f,
+    volume_from_voxel_row1: vec4f,
+    volume_from_voxel_row2: vec4f,
+    /// xyz: fine voxels along each axis; w: fine voxels along each side of a coarse one.
+    fine: vec4u,
+    /// xyz: coarse voxels along each axis; w: channel, 0 to 3 for a set, 4 for the outside.
+    coarse: vec4u,
+    /// xyz: spacing of fine voxels, subject units; w: normalised value from which on a voxel is something.
+    spacing: vec4f,
+    /// x: first fine slice of this part; y: slices in it; z: axis of a sweep or a smoothing; w: 1 to read the labels.
+    part: vec4u,
+    /// As in `Features`.
+    label_sets: array<vec4u, 8>,
 }

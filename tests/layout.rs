@@ -49,9 +49,14 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Look { lut, modes }
         Grid { origin_min, cell_size, cells }
         Resolve { scale, background, flags }
-        Slice {
-            subject_from_pixel_row0, subject_from_pixel_row1, subject_from_pixel_row2,
-            window, background, modes,
+        FeatureItem { keeps, lengths }
+        Features {
+            distance_from_rest_row0, distance_from_rest_row1, distance_from_rest_row2,
+            distance_dims, slabs, label_sets, items,
+        }
+        DistanceJob {
+            volume_from_voxel_row0, volume_from_voxel_row1, volume_from_voxel_row2,
+            fine, coarse, spacing, part, label_sets,
         }
         GridTemplate { reach0_min, reach0_max, reach1_min, reach1_max, shift_min, shift_max }
         GridJob {
@@ -142,8 +147,10 @@ fn constants_agree() {
         ("OPACITY_CONSTANCY", gpu_types::OPACITY_CONSTANCY),
         ("OPACITY_MASS", gpu_types::OPACITY_MASS),
         ("OPACITY_NONE", gpu_types::OPACITY_NONE),
-        ("SLICE_GREY", gpu_types::SLICE_GREY),
-        ("SLICE_COLORS", gpu_types::SLICE_COLORS),
+        ("KEEPS_DEEP", gpu_types::KEEPS_DEEP),
+        ("CONSTRAIN_NOTHING", gpu_types::CONSTRAIN_NOTHING),
+        ("CONSTRAIN_DISPLACEMENT", gpu_types::CONSTRAIN_DISPLACEMENT),
+        ("CONSTRAIN_COORDINATE", gpu_types::CONSTRAIN_COORDINATE),
     ]);
     let mut found = BTreeMap::new();
     for (_, constant) in module.constants.iter() {

@@ -11,7 +11,10 @@
 // small against the box that is not enough, and its bound of displacement is used. Where a template is two-valued (the flap lies over
 // what was there before) both readings are followed, each only if the box can hold material of it.
 // Conservative but for details finer than `fineness`, which tests/grid.rs looks for by probing.
-// needs: types.wgsl bind/templates.wgsl displace/compose.wgsl
+// needs: types.wgsl bind/templates.wgsl bind/feature.wgsl displace/compose.wgsl
+
+/// 1 if templates leave tissue alone or give way to it. A pipeline constant.
+override has_kept: u32 = 1u;
 
 /// What to do (see types.wgsl).
 @group(3) @binding(0) var<uniform> job: GridJob;
@@ -151,6 +154,44 @@ fn rest_continuity(i: u32, q: vec3f, half: vec3f) -> f32 {
     return select(-NO_END, 1.0, is_torn && pokes_out);
 }
 
+/// True if tissue in the box may stay where it is, as template i leaves it alone.
+fn may_stay(i: u32, center: vec3f, half: vec3f) -> bool {
+    if has_kept == 0u {
+        return false;
+    }
+    let item = features.items[templates.items[i].group];
+    if item.keeps.x == 0u {
+        return false;
+    }
+    if item.keeps.y != 0u {
+        // What lies below may have moved it there; where it came from is not known here.
+        return true;
+    }
+    // Nothing acts before: what stays is where it was at rest. Distances change by no more than the way; they are read at the
+    // nearest voxel and smoothed, three voxels in all.
+    let r = vec4f(center, 1.0);
+    let uvw = vec3f(
+        dot(features.distance_from_rest_row0, r),
+        dot(features.distance_from_rest_row1, r),
+        dot(features.distance_from_rest_row2, r),
+    );
+    let inside = clamp(uvw, vec3f(0.0), vec3f(1.0));
+    // Beyond the grid the distance is that at its edge and more; how much more is left out.
+    let last = vec3i(features.distance_dims.xyz) - 1;
+    let voxel = min(vec3i(inside * features.distance_dims.xyz), last);
+    let reach = length(half) + 3.0 * features.distance_dims.w;
+    var least = NO_END;
+    if (item.keeps.x & KEEPS_DEEP) != 0u {
+        let behind = vec3i(0, 0, i32(features.slabs.z) * (last.z + 1));
+        least = item.lengths.x - textureLoad(distances, voxel + behind, 0).x;
+    }
+    let near = textureLoad(distances, voxel, 0);
+    let held = (vec4u(item.keeps.x) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
+    let each = select(vec4f(NO_END), near, held);
+    least = min(least, min(min(each.x, each.y), min(each.z, each.w)));
+    return least <= reach;
+}
+
 /// The box after the group that was being summed.
 fn group_done(walk: Walk) -> Walk {
     var next = walk;
@@ -247,11 +288,20 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
             let is_within = job.items[i].shift_min.w == MATERIAL_WITHIN;
             let is_coarse = max(across.x, max(across.y, across.z)) > job.items[i].reach0_min.w;
             let rest = rest_continuity(i, q, across);
-            let has_rest = rest + margin >= 0.0 || (is_coarse && is_within);
+            let has_rest = rest + margin >= 0.0 || (is_coarse && is_within) || may_stay(i, walk.at, walk.half);
+            // Near kept tissue a constrained template does anything between nothing and all of what it is set to.
+            let is_partial = has_kept != 0u && features.items[templates.items[i].group].keeps.w != CONSTRAIN_NOTHING;
 
             var next = walk;
             var has_moved = true;
-            if is_coarse && job.items[i].shift_min.w < MATERIAL_BENT {
+            if is_partial {
+                let low = min(job.items[i].shift_min.xyz, vec3f(0.0));
+                let high = max(job.items[i].shift_max.xyz, vec3f(0.0));
+                let farthest = max(abs(low), abs(high)) * templates.items[i].size.xyz;
+                // Turned or bent material has no bound of its own; the group's longest displacement holds.
+                let longest = features.items[templates.items[i].group].lengths.z;
+                next.spread += vec3f(max(longest, length(farthest)));
+            } else if is_coarse && job.items[i].shift_min.w < MATERIAL_BENT {
                 if is_within {
                     // From anywhere in the cube.
                     next.sum += to_subject_vector(i, vec3f(0.5) - q);

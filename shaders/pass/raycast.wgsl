@@ -9,7 +9,7 @@
 //
 // Written for devices that run both sides of every branch (software rasterisers): work is put behind loops that end early,
 // not behind `if`; what is needed once per ray (occlusion, shadow) comes after the loop.
-// needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/grid.wgsl march/ray.wgsl march/shade.wgsl displace/compose.wgsl
+// needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/grid.wgsl march/ray.wgsl march/shade.wgsl displace/compose.wgsl march/plain.wgsl|march/align.wgsl
 
 /// 1 if the subject has labels; without them the look-ups are compiled away.
 override has_labels: u32 = 1u;
@@ -76,7 +76,7 @@ fn map_point(pos: vec3f, mask: u32) -> Mapped {
     if drawn_kinds == 0u {
         return Mapped(pos, 1.0);
     }
-    return rest_from_subject(pos, mask);
+    return object_from_subject(pos, mask);
 }
 
 fn texture_from_rest(pos: vec3f) -> vec3f {
@@ -366,13 +366,15 @@ fn march(pixel: vec2f) -> Marched {
         var col2 = vec3f(0.0, 0.0, 1.0);
         var grad_a = vec3f(0.0);
         var base = Mapped(edge.pos, edge.continuity);
+        var path = 0u;
         if drawn_kinds != 0u {
             // First the point itself: the edge may have been sampled in a cell of another mask, and continuities of different masks
             // have no difference.
-            var turn = select(4u, 0u, mask != 0u);
+            path = path_of(pos, mask);
+            var turn = select(4u, 0u, path != 0u);
             while turn < 4u {
                 let along = select(vec3f(0.0), forward * MAP_STEP, vec3u(1u, 2u, 3u) == vec3u(turn));
-                let moved = map_point(pos + along, mask);
+                let moved = map_along(pos + along, path);
                 if turn == 0u {
                     base = moved;
                 }
@@ -434,6 +436,14 @@ fn march(pixel: vec2f) -> Marched {
         cut_weight *= smoothstep(-0.02, 0.08, dot(cut_normal, to_eye));
         normal = normalize(mix(normal, cut_normal, cut_weight) + to_eye * 1e-5);
         surfaceness = max(surfaceness, cut_weight);
+        // Both sides of the surface of kept tissue take their normal from it.
+        var tint_pos = edge.pos;
+        if KEEPS_TISSUE {
+            let kept = kept_surface(edge.pos, path, mat3x3f(col0, col1, col2), to_eye);
+            normal = normalize(mix(normal, kept.normal, kept.weight) + to_eye * 1e-5);
+            surfaceness = max(surfaceness, kept.weight);
+            tint_pos += kept.inwards;
+        }
 
         // Colour: the table's, tinted by the segments around.
         let known = transfer(edge.texel);
@@ -443,7 +453,7 @@ fn march(pixel: vec2f) -> Marched {
             var depth = 0.0;
             var tint = vec4f(0.0);
             loop {
-                tint = tint_at(edge.pos + inwards * depth);
+                tint = tint_at(tint_pos + inwards * depth);
                 if tint.a > 0.02 || depth >= TINT_DEPTH {
                     break;
                 }

@@ -7,12 +7,10 @@ use glam::{EulerRot, Quat, Vec3};
 
 use super::catalogue::kind_title;
 use super::command::Command;
-use super::control::{self, Change, NumberRow};
+use super::control::{self, Change, NumberRow, capitalized};
 use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette};
-use super::words::templates::w;
-use super::words::{fill, kinds};
 use crate::document::{Edit, ParamKind, ParamSpec, ParamValue, PlacedTemplate, TemplateMode};
 use crate::math::Placement;
 
@@ -22,7 +20,7 @@ const ROW: f32 = 36.0;
 /// The author's name for a template, else its kind's.
 pub(crate) fn template_title(template: &PlacedTemplate) -> String {
     if template.name.is_empty() {
-        kind_title(template.kind).to_owned()
+        kind_title(template.kind)
     } else {
         template.name.clone()
     }
@@ -37,9 +35,10 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     } else if let Some(index) = state.selected {
         control::divider(ui);
         let weak = Palette::get(ui).weak;
-        let text = w().unknown_kind;
+        let text =
+            "This version does not know this kind of template. It is kept as it is, and not drawn.";
         ui.add(Label::new(egui::RichText::new(text).color(weak)).wrap());
-        if control::labelled_button(ui, Icon::Trash, w().delete, false, true).clicked() {
+        if control::labelled_button(ui, Icon::Trash, "Delete", false, true).clicked() {
             commands.push(Command::Apply(Edit::RemoveTemplate { template: index }));
         }
     }
@@ -51,20 +50,20 @@ struct DraggedRow(usize);
 
 fn list_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let count = state.template_count();
-    control::heading(ui, w().heading, |ui| {
+    control::heading(ui, "Templates", |ui| {
         let from = state.selected;
         let can_later = from.is_some_and(|from| from + 1 < count);
-        if control::icon_button(ui, Icon::Down, w().later, can_later).clicked() {
+        if control::icon_button(ui, Icon::Down, "Let it act later", can_later).clicked() {
             commands.push(Command::ShiftSelected(1));
         }
         let can_earlier = from.is_some_and(|from| from > 0);
-        if control::icon_button(ui, Icon::Up, w().earlier, can_earlier).clicked() {
+        if control::icon_button(ui, Icon::Up, "Let it act earlier", can_earlier).clicked() {
             commands.push(Command::ShiftSelected(-1));
         }
     });
     if count == 0 {
         let weak = Palette::get(ui).weak;
-        let text = w().nothing_placed;
+        let text = "Nothing is placed yet. Choose a template, then click on the object.";
         ui.add(Label::new(egui::RichText::new(text).color(weak)).wrap());
         return;
     }
@@ -100,7 +99,11 @@ fn list_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     }
     if count > 1 {
         let weak = Palette::get(ui).weak;
-        ui.label(egui::RichText::new(w().order).small().color(weak));
+        ui.label(
+            egui::RichText::new("They act from top to bottom.")
+                .small()
+                .color(weak),
+        );
     }
 }
 
@@ -112,7 +115,7 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
         .templates
         .iter()
         .find(|t| t.index == index);
-    let title = template.map_or_else(|| w().unknown.to_owned(), template_title);
+    let title = template.map_or_else(|| "Unknown template".to_owned(), template_title);
     let is_selected = state.selected == Some(index);
     let (rect, response) =
         ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click_and_drag());
@@ -120,7 +123,7 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
     let name = format!("{number}. {title}");
     response
         .widget_info(|| WidgetInfo::selected(Role::ListItem, ui.is_enabled(), is_selected, &name));
-    let (back, stroke) = if is_selected {
+    let (fill, stroke) = if is_selected {
         (palette.accent_wash, palette.accent)
     } else if response.hovered() {
         (palette.hover, palette.line)
@@ -130,26 +133,22 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
     ui.painter().rect(
         rect,
         CornerRadius::same(6),
-        back,
+        fill,
         Stroke::new(1.0, stroke),
         egui::StrokeKind::Inside,
     );
     control::focus_ring(ui, &response, rect);
 
     let grip = Rect::from_center_size(rect.left_center() + vec2(14.0, 0.0), vec2(16.0, 16.0));
-    Icon::Grip.paint(
-        ui.painter(),
-        control::sided(rect, grip),
-        palette.weak.gamma_multiply(0.7),
-    );
+    Icon::Grip.paint(ui.painter(), grip, palette.weak.gamma_multiply(0.7));
     let is_on = template.is_some_and(|t| t.enabled);
     let color = if is_on { palette.text } else { palette.weak };
-    let clip = control::sided(rect, rect.with_max_x(rect.right() - 66.0));
+    let text = rect.left_center() + vec2(28.0, 0.0);
+    let clip = rect.with_max_x(rect.right() - 66.0);
     let painter = ui.painter().with_clip_rect(clip);
-    let shown = control::line_text(
-        &painter,
-        rect,
-        28.0,
+    let shown = painter.text(
+        text,
+        egui::Align2::LEFT_CENTER,
         &title,
         theme::strong_font(13.0),
         color,
@@ -158,33 +157,38 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
         let mut note = if template.name.is_empty() {
             String::new()
         } else {
-            kind_title(template.kind).to_owned()
+            kind_title(template.kind)
         };
         if template.mode == TemplateMode::Add && index > 0 {
             note = if note.is_empty() {
-                w().added.to_owned()
+                "added".to_owned()
             } else {
-                format!("{note}, {}", w().added)
+                format!("{note}, added")
             };
         }
-        let inset = 28.0 + shown.width() + 8.0;
-        let font = egui::FontId::proportional(11.5);
-        control::line_text(&painter, rect, inset, &note, font, palette.weak);
+        let at = shown.right_center() + vec2(8.0, 0.0);
+        painter.text(
+            at,
+            egui::Align2::LEFT_CENTER,
+            note,
+            egui::FontId::proportional(11.5),
+            palette.weak,
+        );
     }
 
     if let Some(template) = template {
         let (icon, verb) = if template.enabled {
-            (Icon::Eye, w().hide)
+            (Icon::Eye, "Hide")
         } else {
-            (Icon::EyeOff, w().show)
+            (Icon::EyeOff, "Show")
         };
         let right = Rect::from_center_size(rect.right_center() - vec2(20.0, 0.0), vec2(28.0, 28.0));
         let mut inner = ui.new_child(
             egui::UiBuilder::new()
                 .id_salt(("row", index))
-                .max_rect(control::sided(rect, right)),
+                .max_rect(right),
         );
-        if control::icon_button(&mut inner, icon, &fill(verb, &[&name]), true).clicked() {
+        if control::icon_button(&mut inner, icon, &format!("{verb} {name}"), true).clicked() {
             let edit = Edit::SetEnabled {
                 template: index,
                 enabled: !template.enabled,
@@ -207,23 +211,25 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
 
 fn template_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>) {
     let index = template.index;
-    control::heading(ui, kind_title(template.kind), |ui| {
-        if control::icon_button(ui, Icon::Trash, w().delete_template, true).clicked() {
+    control::heading(ui, &kind_title(template.kind), |ui| {
+        if control::icon_button(ui, Icon::Trash, "Delete template", true).clicked() {
             commands.push(Command::DeleteSelected);
         }
-        if control::icon_button(ui, Icon::Copy, w().duplicate_template, true).clicked() {
+        if control::icon_button(ui, Icon::Copy, "Duplicate template", true).clicked() {
             commands.push(Command::DuplicateSelected);
         }
     });
     let weak = Palette::get(ui).weak;
-    ui.add(Label::new(egui::RichText::new(kinds::summary(template.kind)).color(weak)).wrap());
+    ui.add(Label::new(egui::RichText::new(template.kind.spec().summary).color(weak)).wrap());
     ui.add_space(4.0);
-    for (i, value) in template.params.iter().enumerate() {
-        ui.push_id((index, i), |ui| param_ui(ui, template, i, *value, commands));
+    for (param, value) in template.kind.spec().params.iter().zip(&template.params) {
+        ui.push_id((index, param.name), |ui| {
+            param_ui(ui, index, param, *value, commands)
+        });
     }
     ui.add_space(2.0);
     control::row(ui, |ui| {
-        let label = control::row_label(ui, w().name, w().name_hint);
+        let label = control::row_label(ui, "Name", "What you call it; shown in the list");
         let mut name = template.name.clone();
         let edit = TextEdit::singleline(&mut name)
             .hint_text(kind_title(template.kind))
@@ -240,12 +246,16 @@ fn template_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comman
     });
     if index > 0 {
         control::row(ui, |ui| {
-            control::row_label(ui, w().joins, w().joins_hint);
+            control::row_label(
+                ui,
+                "Joins",
+                "After: acts on what the ones before it left. Added: its displacement is summed with that of the one before it.",
+            );
             let options = [
-                (TemplateMode::Compose, w().after),
-                (TemplateMode::Add, w().summed),
+                (TemplateMode::Compose, "After"),
+                (TemplateMode::Add, "Added"),
             ];
-            if let Some(mode) = control::segmented(ui, w().joins, &options, template.mode) {
+            if let Some(mode) = control::segmented(ui, "Joins", &options, template.mode) {
                 commands.push(Command::Apply(Edit::SetMode {
                     template: index,
                     mode,
@@ -264,15 +274,12 @@ fn is_angle(param: &ParamSpec) -> bool {
 
 fn param_ui(
     ui: &mut Ui,
-    placed: &PlacedTemplate,
-    index: usize,
+    template: usize,
+    param: &ParamSpec,
     value: ParamValue,
     commands: &mut Vec<Command>,
 ) {
-    let (template, kind) = (placed.index, placed.kind);
-    let param = &kind.spec().params[index];
-    let name = kinds::param_name(kind, index);
-    let summary = kinds::param_summary(kind, index);
+    let name = capitalized(param.name);
     let send = |change: Change<ParamValue>, commands: &mut Vec<Command>| {
         let edit = |value| Edit::SetParam {
             template,
@@ -291,7 +298,7 @@ fn param_ui(
             let shown = |v: f32| f64::from(v) * factor;
             let row = NumberRow {
                 name: &name,
-                summary,
+                summary: param.summary.trim_end_matches(", radians"),
                 value: shown(value),
                 default: Some(shown(default)),
                 range: [shown(min), shown(max)],
@@ -309,7 +316,7 @@ fn param_ui(
         (ParamKind::Count { default, min, max }, ParamValue::Number(value)) => {
             let row = NumberRow {
                 name: &name,
-                summary,
+                summary: param.summary,
                 value: f64::from(value),
                 default: Some(f64::from(default)),
                 range: [f64::from(min), f64::from(max)],
@@ -325,12 +332,12 @@ fn param_ui(
         }
         (ParamKind::Flag { .. }, ParamValue::Flag(value)) => {
             control::row(ui, |ui| {
-                control::row_label(ui, &name, summary);
+                control::row_label(ui, &name, param.summary);
                 let mut on = value;
                 let response = ui
                     .checkbox(&mut on, "")
                     .accessible_name(name.clone())
-                    .on_hover_text(summary);
+                    .on_hover_text(param.summary);
                 if response.changed() {
                     send(Change::Set(ParamValue::Flag(on)), commands);
                 }
@@ -338,8 +345,8 @@ fn param_ui(
         }
         (ParamKind::Choice { names }, ParamValue::Choice(value)) => {
             control::row(ui, |ui| {
-                control::row_label(ui, &name, summary);
-                let titles: Vec<String> = names.iter().map(|name| kinds::choice(name)).collect();
+                control::row_label(ui, &name, param.summary);
+                let titles: Vec<String> = names.iter().map(|name| capitalized(name)).collect();
                 let selected = titles.get(value as usize).cloned().unwrap_or_default();
                 let combo = control::combo("choice", &selected, ui.available_width() - 4.0);
                 let shown = combo.show_ui(ui, |ui| {
@@ -355,12 +362,13 @@ fn param_ui(
         (ParamKind::Vector { min, max, .. }, ParamValue::Vector(v)) => {
             let value = v.to_array().map(f64::from);
             let range = [f64::from(min), f64::from(max)];
-            if let Some(change) = control::vector_row(ui, &name, summary, value, range, "", 3) {
+            if let Some(change) = control::vector_row(ui, &name, param.summary, value, range, "", 3)
+            {
                 send(change.map(|v| ParamValue::Vector(vec3(v))), commands);
             }
         }
         (ParamKind::Rotation, ParamValue::Rotation(q)) => {
-            if let Some(change) = rotation_row(ui, &name, summary, q) {
+            if let Some(change) = rotation_row(ui, &name, param.summary, q) {
                 send(change.map(ParamValue::Rotation), commands);
             }
         }
@@ -378,11 +386,11 @@ fn placement_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comma
     } else {
         Icon::ChevronRight
     };
-    control::heading(ui, w().placement, |ui| {
+    control::heading(ui, "Placement", |ui| {
         let name = if is_open {
-            w().fold_placement
+            "Fold placement"
         } else {
-            w().unfold_placement
+            "Unfold placement"
         };
         if control::icon_button(ui, icon, name, true).clicked() {
             is_open = !is_open;
@@ -401,8 +409,8 @@ fn placement_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comma
     };
     let range = [-4.0, 4.0];
     let at = placement.at.to_array().map(f64::from);
-    let hint = w().centre_hint;
-    if let Some(change) = control::vector_row(ui, w().centre, hint, at, range, "", 3) {
+    let hint = "Centre, in parts of the subject's longest side: right, front, up";
+    if let Some(change) = control::vector_row(ui, "Centre", hint, at, range, "", 3) {
         send(
             change.map(|v| Placement {
                 at: vec3(v),
@@ -411,7 +419,12 @@ fn placement_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comma
             commands,
         );
     }
-    if let Some(change) = rotation_row(ui, w().turned, w().turned_hint, placement.rotate) {
+    if let Some(change) = rotation_row(
+        ui,
+        "Turned",
+        "About x, y and z, in this order",
+        placement.rotate,
+    ) {
         send(
             change.map(|rotate| Placement {
                 rotate,
@@ -421,7 +434,8 @@ fn placement_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comma
         );
     }
     let size = placement.size.to_array().map(f64::from);
-    if let Some(change) = control::vector_row(ui, w().size, w().size_hint, size, [0.01, 4.0], "", 3)
+    if let Some(change) =
+        control::vector_row(ui, "Size", "Sides of the box", size, [0.01, 4.0], "", 3)
     {
         send(
             change.map(|v| Placement {

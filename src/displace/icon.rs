@@ -30,6 +30,7 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
         enabled: true,
         mode: TemplateMode::Compose,
         align: Align::Axis,
+        constrain: None,
     };
     let [yaw, pitch] = icon.yaw_pitch_deg.map(f32::to_radians);
     let camera = Camera {

@@ -1,7 +1,8 @@
 use super::catalogue::{ParamKind, ParamValue, TemplateKind};
 use super::error::DocumentError;
 use super::illustration::{
-    Align, Background, Camera, Label, OpacityMode, SubjectRef, TemplateMode, Transfer, Window,
+    Align, Background, Camera, Constrain, ConstrainBy, Label, OpacityMode, SubjectRef,
+    TemplateMode, Transfer, Window,
 };
 use super::pointer::{self, join};
 use super::tree::Document;
@@ -94,6 +95,13 @@ pub enum Edit {
         template: usize,
         /// What.
         align: Align,
+    },
+    /// Sets what a template's displacement gives way to.
+    SetConstrain {
+        /// Which.
+        template: usize,
+        /// What; none takes the constraint away.
+        constrain: Option<Constrain>,
     },
     /// Gives a template the author's name.
     RenameTemplate {
@@ -304,6 +312,21 @@ impl Edit {
                     }
                 }
             }
+            Self::SetConstrain {
+                template: i,
+                constrain,
+            } => {
+                let at = format!("{}/constrain", template(i));
+                let Some(Constrain { by, keep }) = constrain else {
+                    return pointer::remove(root, &at).map(|_| ());
+                };
+                let by = match by {
+                    ConstrainBy::Displacement => "displacement",
+                    ConstrainBy::Coordinate => "coordinate",
+                };
+                pointer::set(root, &format!("{at}/by"), json!(by))?;
+                pointer::set(root, &format!("{at}/keep"), json!(keep))
+            }
             Self::RenameTemplate { template: i, name } => {
                 pointer::set(root, &join(&template(i), "name"), json!(name))
             }
@@ -444,6 +467,9 @@ impl Edit {
             }
             Self::SetMode { template, .. } => format!("Change mode of {}", name_of(template)),
             Self::SetAlign { template, .. } => format!("Change alignment of {}", name_of(template)),
+            Self::SetConstrain { template, .. } => {
+                format!("Change constraint of {}", name_of(template))
+            }
             Self::RenameTemplate { template, .. } => format!("Rename {}", name_of(template)),
             Self::SetTransfer(_) => "Change colours".to_owned(),
             Self::SetWindow(_) => "Change window".to_owned(),
@@ -475,6 +501,7 @@ impl Edit {
             Self::SetEnabled { template, .. } => format!("/templates/{template}/enabled"),
             Self::SetMode { template, .. } => format!("/templates/{template}/mode"),
             Self::SetAlign { template, .. } => format!("/templates/{template}/align"),
+            Self::SetConstrain { template, .. } => format!("/templates/{template}/constrain"),
             Self::RenameTemplate { template, .. } => format!("/templates/{template}/name"),
             Self::MoveTemplate { from, to } => format!("/templates/{from}/to/{to}"),
             Self::AddTemplate { index, .. } => format!("/templates/{index}/add"),

@@ -114,6 +114,8 @@ pub struct PlacedTemplate {
     pub mode: TemplateMode,
     /// What it leaves alone.
     pub align: Align,
+    /// What its displacement gives way to.
+    pub constrain: Option<Constrain>,
 }
 
 impl PlacedTemplate {
@@ -136,7 +138,25 @@ pub enum TemplateMode {
     Add,
 }
 
-/// What a template leaves alone. Kept, and named in a notice: only the first is drawn so far.
+/// A displacement that fades towards kept tissue, so that nothing is drawn through it (dissertation, section 5.7).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Constrain {
+    /// What fades.
+    pub by: ConstrainBy,
+    /// Segment names or label numbers written as text; what is never moved.
+    pub keep: Vec<String>,
+}
+
+/// What of a template fades towards kept tissue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConstrainBy {
+    /// The displacement's length (section 5.7.1).
+    Displacement,
+    /// The template's own coordinate, which for ours is its main parameter: a twist turns less (section 5.7.2).
+    Coordinate,
+}
+
+/// What a template leaves alone (dissertation, section 5.4).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Align {
     /// Moves everything.

@@ -43,18 +43,21 @@ pub use edit::Edit;
 pub use error::DocumentError;
 pub use history::History;
 pub use illustration::{
-    Align, Background, Camera, Illustration, Label, Look, OpacityMode, PlacedTemplate, SegmentsRef,
-    Step, SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
+    Align, Background, Camera, Constrain, ConstrainBy, Illustration, Label, Look, OpacityMode,
+    PlacedTemplate, SegmentsRef, Step, SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
 };
 pub use json::MAX_DEPTH;
 pub use notice::{Notice, NoticeKind};
 pub use preset::{PRESETS, Preset, PresetSubject, preset, presets};
+pub use resolve::{keep_set, keep_sets};
 pub use tree::Document;
 
 /// The format's number that this version reads and writes.
 pub const FORMAT: u32 = 1;
 /// Templates in a document at most.
 pub const MAX_TEMPLATES: usize = 32;
+/// Different sets of kept tissue (`align`, `constrain`) in a document at most.
+pub const MAX_KEEP_SETS: usize = 4;
 /// Labels in a document at most.
 pub const MAX_LABELS: usize = 256;
 /// Steps in a document at most.

@@ -3,13 +3,13 @@
 use super::catalogue::{ParamKind, ParamSpec, ParamValue, TemplateKind};
 use super::error::DocumentError;
 use super::illustration::{
-    Align, Background, Camera, Illustration, Label, Look, OpacityMode, PlacedTemplate, SegmentsRef,
-    Step, SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
+    Align, Background, Camera, Constrain, ConstrainBy, Illustration, Label, Look, OpacityMode,
+    PlacedTemplate, SegmentsRef, Step, SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
 };
 use super::json::{number_text, shortened};
 use super::notice::{Notice, NoticeKind};
 use super::pointer::join;
-use super::{BUILTIN_SUBJECTS, FORMAT, MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
+use super::{BUILTIN_SUBJECTS, FORMAT, MAX_KEEP_SETS, MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
 use crate::math::Placement;
 use glam::{DQuat, DVec3, Quat, Vec3};
 use serde_json::{Map, Value};
@@ -366,6 +366,15 @@ impl Reader {
             let object = Object::new(join("/templates", &index.to_string()), value)?;
             templates.extend(self.template(index, &object)?);
         }
+        let sets = keep_sets(&templates).len();
+        if sets > MAX_KEEP_SETS {
+            return Err(DocumentError::TooMany {
+                pointer: "/templates".to_owned(),
+                what: "different sets of kept tissue",
+                found: sets,
+                limit: MAX_KEEP_SETS,
+            });
+        }
         let look = self.look(&root.child("look")?)?;
         let camera = self.camera(&root.child("camera")?)?;
         let mut labels = Vec::new();
@@ -532,20 +541,20 @@ impl Reader {
             }
         };
         let align = self.align(&object.child("align")?)?;
+        let mut constrain = None;
         if object.map.contains_key("constrain") {
-            let constrain = object.child("constrain")?;
-            self.unknown_keys(&constrain, &["by", "keep"]);
-            match constrain.text("by")? {
-                None | Some("displacement" | "coordinate") => {}
-                Some(other) => self.unknown_value(constrain.at("by"), other, "nothing"),
-            }
-            keep(&constrain)?;
-            self.note(
-                object.at("constrain"),
-                NoticeKind::NotDrawn {
-                    what: "constraints are",
-                },
-            );
+            let object = object.child("constrain")?;
+            self.unknown_keys(&object, &["by", "keep"]);
+            let keep = keep(&object)?;
+            let by = match object.text("by")? {
+                None | Some("displacement") => Some(ConstrainBy::Displacement),
+                Some("coordinate") => Some(ConstrainBy::Coordinate),
+                Some(other) => {
+                    self.unknown_value(object.at("by"), other, "nothing");
+                    None
+                }
+            };
+            constrain = by.map(|by| Constrain { by, keep });
         }
         let params = object.child("params")?;
         let kind_name = object.text("kind")?.unwrap_or_default();
@@ -589,6 +598,7 @@ impl Reader {
             enabled,
             mode,
             align,
+            constrain,
         }))
     }
 
@@ -664,22 +674,15 @@ impl Reader {
         let depth = self.scalar(object, "depth", 0.02, [0.0, 10.0])?;
         let thickness = self.scalar(object, "thickness", 0.01, [0.0, 10.0])?;
         let keep = keep(object)?;
-        let align = match object.text("to")? {
-            None | Some("axis") => return Ok(Align::Axis),
+        Ok(match object.text("to")? {
+            None | Some("axis") => Align::Axis,
             Some("surface") => Align::Surface { depth, thickness },
             Some("segment") => Align::Segment { keep, thickness },
             Some(other) => {
                 self.unknown_value(object.at("to"), other, "axis");
-                return Ok(Align::Axis);
+                Align::Axis
             }
-        };
-        self.note(
-            object.pointer.clone(),
-            NoticeKind::NotDrawn {
-                what: "alignment to a surface or a segment is",
-            },
-        );
-        Ok(align)
+        })
     }
 
     fn look(&mut self, object: &Object<'_>) -> Result<Look, DocumentError> {
@@ -819,6 +822,34 @@ fn hash(object: &Object<'_>) -> Result<Option<String>, DocumentError> {
             &object.map["sha256"],
         )),
     }
+}
+
+/// The different sets of names that templates keep or give way to, each sorted, in the order in which they first occur; empty ones
+/// keep nothing and do not count.
+pub fn keep_sets(templates: &[PlacedTemplate]) -> Vec<Vec<String>> {
+    let mut sets: Vec<Vec<String>> = Vec::new();
+    for template in templates {
+        let aligned = match &template.align {
+            Align::Segment { keep, .. } => Some(keep),
+            Align::Axis | Align::Surface { .. } => None,
+        };
+        let constrained = template.constrain.as_ref().map(|c| &c.keep);
+        for keep in aligned.into_iter().chain(constrained) {
+            let set = keep_set(keep);
+            if !set.is_empty() && !sets.contains(&set) {
+                sets.push(set);
+            }
+        }
+    }
+    sets
+}
+
+/// The names of one set, sorted, each once.
+pub fn keep_set(keep: &[String]) -> Vec<String> {
+    let mut set = keep.to_vec();
+    set.sort();
+    set.dedup();
+    set
 }
 
 /// Names or numbers of segments, numbers as text.

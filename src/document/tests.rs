@@ -137,7 +137,7 @@ fn what_is_unknown_is_kept_and_named() {
         "the unknown ones are not drawn"
     );
     assert_eq!(document.illustration().templates[0].index, 1);
-    assert_eq!(notices(&document).len(), 11, "{:#?}", notices(&document));
+    assert_eq!(notices(&document).len(), 9, "{:#?}", notices(&document));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 use super::{Clock, Gpu, RenderError, Studio};
 use crate::data::Volume;
 use crate::document::{
-    Document, Illustration, PlacedTemplate, SubjectRef, TemplateKind, TemplateMode,
+    Align, Document, Illustration, PlacedTemplate, SubjectRef, TemplateKind, TemplateMode,
 };
 use crate::math::Placement;
 use glam::{Quat, Vec3};
@@ -42,7 +42,13 @@ impl std::fmt::Display for BenchRow {
 }
 
 /// The documents that are measured: nothing, one peel, eight templates of eight kinds.
-const CASES: [(&str, usize); 3] = [("undeformed", 0), ("one peel", 1), ("eight templates", 8)];
+const CASES: [(&str, usize); 5] = [
+    ("undeformed", 0),
+    ("one peel", 1),
+    ("eight templates", 8),
+    ("peel, surface", 1),
+    ("peel, segment", 1),
+];
 
 /// Times whole frames (one sample per pixel at rest quality, read back) of a subject: undeformed, one peel, eight
 /// templates, each with and without the grid. `repeats` frames each after one that warms up; the median counts.
@@ -62,7 +68,20 @@ pub async fn bench(
     for has_grid in [true, false] {
         let studio = studio.with_grid(has_grid);
         for (name, count) in CASES {
-            let illustration = case(subject, count);
+            let mut illustration = case(subject, count);
+            if let Some(template) = illustration.templates.first_mut() {
+                template.align = match name {
+                    "peel, surface" => Align::Surface {
+                        depth: 0.03,
+                        thickness: 0.01,
+                    },
+                    "peel, segment" => Align::Segment {
+                        keep: vec!["bone".to_owned(), "brain".to_owned()],
+                        thickness: 0.01,
+                    },
+                    _ => Align::Axis,
+                };
+            }
             // Compiles, and fills caches.
             studio.render_image(&illustration, size_px, 1).await?;
             let mut times = Vec::with_capacity(repeats.max(1));
@@ -116,7 +135,8 @@ fn case(subject: &SubjectRef, count: usize) -> Illustration {
             .collect(),
         enabled: true,
         mode: TemplateMode::Compose,
-        align: crate::document::Align::Axis,
+        align: Align::Axis,
+        constrain: None,
     };
     let all = [
         place(TemplateKind::Peel, [0.0, 0.15, 0.3], [0.4, 0.4, 0.3]),

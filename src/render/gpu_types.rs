@@ -157,6 +157,67 @@ impl Template {
     }
 }
 
+/// `FeatureItem::keeps`: what lies deep under the outer surface.
+pub const KEEPS_DEEP: u32 = 16;
+/// `FeatureItem::keeps`: the displacement gives way to nothing.
+pub const CONSTRAIN_NOTHING: u32 = 0;
+/// By its length.
+pub const CONSTRAIN_DISPLACEMENT: u32 = 1;
+/// By the template's main parameter.
+pub const CONSTRAIN_COORDINATE: u32 = 2;
+
+/// What one template leaves alone.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct FeatureItem {
+    /// x: sets kept; y: first template of the run that keeps the same; z: sets given way to; w: `CONSTRAIN_` mode.
+    pub keeps: [u32; 4],
+    /// x: depth from where on tissue is kept; y: width of the blend; z: longest displacement of the group. Subject units.
+    pub lengths: [f32; 4],
+}
+
+/// Kept tissue of a document.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Features {
+    /// Affine from rest space to texture space of the distances, first row.
+    pub distance_from_rest_row0: [f32; 4],
+    /// Second row.
+    pub distance_from_rest_row1: [f32; 4],
+    /// Third row.
+    pub distance_from_rest_row2: [f32; 4],
+    /// xyz: distance voxels; w: their smallest spacing, subject units.
+    pub distance_dims: [f32; 4],
+    /// x: slabs; y: slab of exact distances, or 0; z: slab of the depth, or 0.
+    pub slabs: [u32; 4],
+    /// Sets of each label, four bits each.
+    pub label_sets: [[u32; 4]; 8],
+    /// As in [`Templates`].
+    pub items: [FeatureItem; MAX_TEMPLATES],
+}
+
+/// One pass of the making of distances.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct DistanceJob {
+    /// Affine from fine voxels to texture space of the volume, first row.
+    pub volume_from_voxel_row0: [f32; 4],
+    /// Second row.
+    pub volume_from_voxel_row1: [f32; 4],
+    /// Third row.
+    pub volume_from_voxel_row2: [f32; 4],
+    /// xyz: fine voxels; w: fine voxels along a side of a coarse one.
+    pub fine: [u32; 4],
+    /// xyz: coarse voxels; w: channel.
+    pub coarse: [u32; 4],
+    /// xyz: spacing of fine voxels, subject units; w: threshold.
+    pub spacing: [f32; 4],
+    /// x: first fine slice, or the slab; y: slices, or the sets; z: axis; w: 1 to read the labels.
+    pub part: [u32; 4],
+    /// As in [`Features`].
+    pub label_sets: [[u32; 4]; 8],
+}
+
 /// One picture's camera and sampling.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -245,29 +306,6 @@ pub struct Resolve {
     /// x: 1 for straight alpha.
     pub flags: [u32; 4],
 }
-
-/// A flat cut through the deformed object.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct Slice {
-    /// Affine from pixels of the slice to subject space, first row.
-    pub subject_from_pixel_row0: [f32; 4],
-    /// Second row.
-    pub subject_from_pixel_row1: [f32; 4],
-    /// Third row.
-    pub subject_from_pixel_row2: [f32; 4],
-    /// Grey level = x · texel + y.
-    pub window: [f32; 4],
-    /// Linear RGB where nothing is.
-    pub background: [f32; 4],
-    /// x: `SLICE_…`; y: samples per pixel along each side.
-    pub modes: [u32; 4],
-}
-
-/// `Slice::modes[0]`: values as grey, by the window.
-pub const SLICE_GREY: u32 = 0;
-/// `Slice::modes[0]`: the look's colours.
-pub const SLICE_COLORS: u32 = 1;
 
 /// What a template reaches, for the making of the grid.
 #[repr(C)]

@@ -1,5 +1,6 @@
 //! The grid over the deformed space: which templates reach a cell, and whether anything visible may map into it.
 
+use super::feature::FeatureTextures;
 use super::gpu_types::{Grid, GridJob, GridTemplate, MAX_TEMPLATES, Templates};
 use super::look::TransferTable;
 use super::programs::module;
@@ -33,15 +34,15 @@ const LONGEST_STEP: f32 = 1.7;
 pub(super) struct GridPasses {
     module: wgpu::ShaderModule,
     spread: [wgpu::ComputePipeline; 3],
-    /// By the kinds that occur: software GPUs run every branch.
-    fill: Mutex<HashMap<u32, Arc<wgpu::ComputePipeline>>>,
+    /// By the kinds that occur, and whether tissue is kept: software GPUs run every branch.
+    fill: Mutex<HashMap<(u32, bool), Arc<wgpu::ComputePipeline>>>,
 }
 
 impl GridPasses {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, RenderError> {
         let module = module(gpu, "grid")?;
-        let spread =
-            ["spread_x", "spread_y", "spread_z"].map(|entry| pipeline(gpu, &module, entry, 0));
+        let spread = ["spread_x", "spread_y", "spread_z"]
+            .map(|entry| pipeline(gpu, &module, entry, 0, false));
         Ok(Self {
             module,
             spread,
@@ -49,11 +50,11 @@ impl GridPasses {
         })
     }
 
-    fn fill(&self, gpu: &Gpu, drawn_kinds: u32) -> Arc<wgpu::ComputePipeline> {
+    fn fill(&self, gpu: &Gpu, drawn_kinds: u32, has_kept: bool) -> Arc<wgpu::ComputePipeline> {
         let mut made = self.fill.lock().unwrap_or_else(PoisonError::into_inner);
-        let made = made
-            .entry(drawn_kinds)
-            .or_insert_with(|| Arc::new(pipeline(gpu, &self.module, "fill", drawn_kinds)));
+        let made = made.entry((drawn_kinds, has_kept)).or_insert_with(|| {
+            Arc::new(pipeline(gpu, &self.module, "fill", drawn_kinds, has_kept))
+        });
         Arc::clone(made)
     }
 }
@@ -63,6 +64,7 @@ fn pipeline(
     module: &wgpu::ShaderModule,
     entry: &str,
     drawn_kinds: u32,
+    has_kept: bool,
 ) -> wgpu::ComputePipeline {
     gpu.device
         .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -71,7 +73,10 @@ fn pipeline(
             module,
             entry_point: Some(entry),
             compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &[("drawn_kinds", f64::from(drawn_kinds))],
+                constants: &[
+                    ("drawn_kinds", f64::from(drawn_kinds)),
+                    ("has_kept", f64::from(u8::from(has_kept))),
+                ],
                 ..Default::default()
             },
             cache: None,
@@ -103,6 +108,8 @@ pub(super) struct GridInput<'a> {
     pub templates: &'a wgpu::Buffer,
     /// Box of the deformed object, subject space.
     pub bounds: Aabb,
+    /// What templates leave alone.
+    pub features: &'a FeatureTextures,
     /// The subject.
     pub subject: &'a SubjectTextures,
     /// The largest step of a ray that will read it, subject units.
@@ -188,7 +195,8 @@ impl SkipGrid {
         gpu.queue
             .write_buffer(&self.job, 0, bytemuck::bytes_of(&job));
         let drawn_kinds = input.packed.drawn_kinds();
-        let fill = passes.fill(gpu, drawn_kinds);
+        let has_kept = input.features.kept().is_some_and(|kept| !kept.is_nothing());
+        let fill = passes.fill(gpu, drawn_kinds, has_kept);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let groups = UVec3::from_slice(&grid.cells[..3]).map(|n| n.div_ceil(4));
         {
@@ -234,7 +242,15 @@ impl SkipGrid {
                     entry(3, self.ways[0].as_entire_binding()),
                 ],
             );
-            let templates = bind(&fill, 2, &[entry(0, input.templates.as_entire_binding())]);
+            let templates = bind(
+                &fill,
+                2,
+                &[
+                    entry(0, input.templates.as_entire_binding()),
+                    entry(5, input.features.uniform.as_entire_binding()),
+                    entry(6, wgpu::BindingResource::TextureView(&input.features.view)),
+                ],
+            );
             pass.set_bind_group(2, &templates, &[]);
             pass.set_bind_group(3, &fill_group, &[]);
             pass.dispatch_workgroups(groups.x, groups.y, groups.z);

@@ -2,11 +2,13 @@
 
 mod bench;
 mod error;
+mod feature;
 mod gpu;
 pub mod gpu_types;
 mod grid;
 mod kernel;
 mod look;
+mod object;
 mod passes;
 mod picture;
 mod probe;
@@ -14,12 +16,12 @@ pub mod programs;
 mod readback;
 mod renderer;
 mod scene;
-mod slice;
 mod subject;
 mod view;
 
 pub use bench::{BenchRow, bench};
 pub use error::RenderError;
+pub use feature::KeptTissue;
 pub use gpu::{Gpu, GpuOptions};
 pub use grid::GridCells;
 pub use kernel::{Binding, Kernel, result_buffer, storage_buffer, submit_and_read, uniform_buffer};
@@ -30,6 +32,5 @@ pub use readback::{Readback, WorkDone};
 #[cfg(not(target_arch = "wasm32"))]
 pub use renderer::system_clock;
 pub use renderer::{Clock, DrawState, Renderer};
-pub use slice::{PendingSlice, SliceColors, SlicePlane, SliceTexel, SliceView};
 pub use subject::{BRICK, Bricks, SubjectInfo};
 pub use view::View;

@@ -1,3 +1,4 @@
+use super::feature::{DistancePasses, FeatureTextures};
 use super::gpu_types::{Grid, Look, TABLE_FORMAT, Templates};
 use super::grid::GridPasses;
 use super::look::{TABLE_SIZE, TransferTable};
@@ -6,7 +7,7 @@ use super::subject::entry;
 use super::{Gpu, RenderError, SubjectInfo, uniform_buffer};
 use crate::document::OpacityMode;
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Format of the accumulated picture: linear light, premultiplied, blendable everywhere.
 pub(super) const LINEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -25,8 +26,27 @@ pub(super) struct RaycastKey {
     pub has_labels: bool,
     /// There is a grid to leap with.
     pub has_grid: bool,
+    /// How kept tissue is found: 0 nothing is kept, 1 by a chain, 2 by asking back.
+    pub align_mode: u32,
+    /// Some displacement gives way to kept tissue.
+    pub has_constraints: bool,
     /// For picking instead of drawing.
     pub is_pick: bool,
+}
+
+impl RaycastKey {
+    /// True if templates leave tissue alone or give way to it: a longer program.
+    pub(super) fn keeps_tissue(&self) -> bool {
+        self.align_mode != 0 || self.has_constraints
+    }
+
+    /// The pipeline constants of march/align.wgsl.
+    pub(super) fn align_constants(&self) -> [(&'static str, f64); 2] {
+        [
+            ("align_mode", f64::from(self.align_mode)),
+            ("has_constraints", f64::from(u8::from(self.has_constraints))),
+        ]
+    }
 }
 
 /// Layouts, samplers and pipelines. Built once per device and shared.
@@ -38,8 +58,11 @@ pub(super) struct Passes {
     pub resolve_layout: wgpu::BindGroupLayout,
     pub linear_sampler: wgpu::Sampler,
     pub grid: GridPasses,
+    distance: OnceLock<Arc<DistancePasses>>,
     resolve_pipeline: wgpu::RenderPipeline,
     raycast_module: wgpu::ShaderModule,
+    /// For documents that keep tissue; compiled when the first one comes.
+    aligned_module: OnceLock<wgpu::ShaderModule>,
     raycast_layout: wgpu::PipelineLayout,
     raycast_pipelines: Mutex<HashMap<RaycastKey, Arc<wgpu::RenderPipeline>>>,
 }
@@ -80,6 +103,8 @@ impl Passes {
                     wgpu::TextureViewDimension::D3,
                     wgpu::TextureSampleType::Uint,
                 ),
+                uniform(5),
+                texture(6, wgpu::TextureViewDimension::D3, FILTERED),
             ],
         );
         let resolve_layout = layout(
@@ -126,7 +151,9 @@ impl Passes {
         );
         Ok(Self {
             grid: GridPasses::new(gpu)?,
+            distance: OnceLock::new(),
             raycast_module: module(gpu, "raycast")?,
+            aligned_module: OnceLock::new(),
             linear_sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("linear"),
                 mag_filter: wgpu::FilterMode::Linear,
@@ -151,18 +178,27 @@ impl Passes {
             .unwrap_or_else(PoisonError::into_inner);
         let pipeline = made.entry(key).or_insert_with(|| {
             let number = |flag: bool| f64::from(u8::from(flag));
+            let mut constants = vec![
+                ("drawn_kinds", f64::from(key.drawn_kinds)),
+                ("has_labels", number(key.has_labels)),
+                ("has_grid", number(key.has_grid)),
+            ];
+            let aligned = if key.keeps_tissue() {
+                self.aligned(gpu)
+            } else {
+                None
+            };
+            if aligned.is_some() {
+                constants.extend(key.align_constants());
+            }
             Arc::new(render_pipeline(
                 gpu,
                 &PipelineParts {
                     label: "raycast",
                     layout: &self.raycast_layout,
-                    module: &self.raycast_module,
+                    module: aligned.unwrap_or(&self.raycast_module),
                     entry: if key.is_pick { "pick" } else { "draw" },
-                    constants: &[
-                        ("drawn_kinds", f64::from(key.drawn_kinds)),
-                        ("has_labels", number(key.has_labels)),
-                        ("has_grid", number(key.has_grid)),
-                    ],
+                    constants: &constants,
                     format: if key.is_pick {
                         PICK_FORMAT
                     } else {
@@ -174,6 +210,25 @@ impl Passes {
             ))
         });
         Arc::clone(pipeline)
+    }
+
+    fn aligned(&self, gpu: &Gpu) -> Option<&wgpu::ShaderModule> {
+        if self.aligned_module.get().is_none()
+            && let Ok(module) = module(gpu, "raycast_aligned")
+        {
+            let _set_already = self.aligned_module.set(module);
+        }
+        self.aligned_module.get()
+    }
+
+    /// The programs that make distances; compiled when first asked for. `None` if the table lacks them.
+    pub(super) fn distance(&self, gpu: &Gpu) -> Option<Arc<DistancePasses>> {
+        if self.distance.get().is_none()
+            && let Ok(passes) = DistancePasses::new(gpu)
+        {
+            let _set_already = self.distance.set(Arc::new(passes));
+        }
+        self.distance.get().cloned()
     }
 
     pub(super) fn resolve(&self) -> &wgpu::RenderPipeline {
@@ -193,7 +248,7 @@ const MEAN: wgpu::BlendState = wgpu::BlendState {
     alpha: MEAN_PART,
 };
 
-pub(super) fn uniform(binding: u32) -> wgpu::BindGroupLayoutEntry {
+fn uniform(binding: u32) -> wgpu::BindGroupLayoutEntry {
     layout_entry(
         binding,
         wgpu::BindingType::Buffer {
@@ -235,18 +290,17 @@ fn layout_entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEnt
     }
 }
 
-/// What a pipeline over the whole target is made of.
-pub(super) struct PipelineParts<'a> {
-    pub label: &'a str,
-    pub layout: &'a wgpu::PipelineLayout,
-    pub module: &'a wgpu::ShaderModule,
-    pub entry: &'a str,
-    pub constants: &'a [(&'a str, f64)],
-    pub format: wgpu::TextureFormat,
-    pub blend: Option<wgpu::BlendState>,
+struct PipelineParts<'a> {
+    label: &'a str,
+    layout: &'a wgpu::PipelineLayout,
+    module: &'a wgpu::ShaderModule,
+    entry: &'a str,
+    constants: &'a [(&'a str, f64)],
+    format: wgpu::TextureFormat,
+    blend: Option<wgpu::BlendState>,
 }
 
-pub(super) fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
+fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
     let options = wgpu::PipelineCompilationOptions {
         constants: parts.constants,
         ..Default::default()
@@ -279,12 +333,38 @@ pub(super) fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::Ren
         })
 }
 
-/// Group 2: templates, look and grid of one illustration.
+fn scene_group(
+    gpu: &Gpu,
+    passes: &Passes,
+    [templates, look]: [&wgpu::Buffer; 2],
+    table: &wgpu::Texture,
+    grid: &(wgpu::Buffer, wgpu::TextureView),
+    features: &FeatureTextures,
+) -> wgpu::BindGroup {
+    let table_view = table.create_view(&Default::default());
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("scene"),
+        layout: &passes.scene_layout,
+        entries: &[
+            entry(0, templates.as_entire_binding()),
+            entry(1, look.as_entire_binding()),
+            entry(2, wgpu::BindingResource::TextureView(&table_view)),
+            entry(3, grid.0.as_entire_binding()),
+            entry(4, wgpu::BindingResource::TextureView(&grid.1)),
+            entry(5, features.uniform.as_entire_binding()),
+            entry(6, wgpu::BindingResource::TextureView(&features.view)),
+        ],
+    })
+}
+
+/// Group 2: templates, look, grid and kept tissue of one illustration.
 #[derive(Debug)]
 pub(super) struct Scene {
     pub templates: wgpu::Buffer,
     look: wgpu::Buffer,
     table: wgpu::Texture,
+    /// Uniform and cells of the grid, or of none.
+    grid: (wgpu::Buffer, wgpu::TextureView),
     pub bind_group: wgpu::BindGroup,
 }
 
@@ -294,6 +374,7 @@ impl Scene {
         gpu: &Gpu,
         passes: &Passes,
         grid: Option<(&wgpu::Buffer, &wgpu::TextureView)>,
+        features: &FeatureTextures,
     ) -> Self {
         let templates = uniform_buffer(gpu, "templates", &Templates::NONE);
         let look = uniform_buffer(gpu, "look", &Look::default());
@@ -330,24 +411,21 @@ impl Scene {
             })
             .create_view(&Default::default());
         let (grid_buffer, grid_view) = grid.unwrap_or((&no_grid, &no_cells));
-        let table_view = table.create_view(&Default::default());
-        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("scene"),
-            layout: &passes.scene_layout,
-            entries: &[
-                entry(0, templates.as_entire_binding()),
-                entry(1, look.as_entire_binding()),
-                entry(2, wgpu::BindingResource::TextureView(&table_view)),
-                entry(3, grid_buffer.as_entire_binding()),
-                entry(4, wgpu::BindingResource::TextureView(grid_view)),
-            ],
-        });
+        let grid = (grid_buffer.clone(), grid_view.clone());
+        let bind_group = scene_group(gpu, passes, [&templates, &look], &table, &grid, features);
         Self {
             templates,
             look,
             table,
+            grid,
             bind_group,
         }
+    }
+
+    /// Takes over another texture of distances.
+    pub(super) fn set_features(&mut self, gpu: &Gpu, passes: &Passes, features: &FeatureTextures) {
+        let uniforms = [&self.templates, &self.look];
+        self.bind_group = scene_group(gpu, passes, uniforms, &self.table, &self.grid, features);
     }
 
     pub(super) fn set_templates(&self, gpu: &Gpu, templates: &Templates) {

@@ -1,10 +1,10 @@
 use super::gpu_types::{Frame, Resolve};
 use super::grid::GridCells;
+use super::object::object_samples;
 use super::passes::{LINEAR_FORMAT, OUTPUT_FORMAT, PICK_FORMAT, Passes};
 use super::scene::{Prepared, frame_of};
-use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
 use super::subject::{SubjectTextures, Upload, entry, reduced_to_fit};
-use super::{Gpu, Readback, RenderError, SubjectInfo, View, WorkDone, uniform_buffer};
+use super::{Gpu, Readback, RenderError, Sample, SubjectInfo, View, WorkDone, uniform_buffer};
 use crate::data::Volume;
 use crate::document::Illustration;
 use glam::{Vec2, Vec3};
@@ -130,6 +130,36 @@ impl Studio {
         }
     }
 
+    /// What the object has at points of subject space when alignment and constraints count: where that material was at rest, and the
+    /// composed continuity along its path, below 0 where there is nothing.
+    ///
+    /// # Errors
+    /// [`RenderError::Shader`], [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn probe_object(
+        &self,
+        illustration: &Illustration,
+        points: &[Vec3],
+    ) -> Result<Vec<Sample>, RenderError> {
+        let mut prepared = Prepared::new(&self.gpu, &self.passes, &self.subject, false);
+        prepared.update(&self.gpu, &self.passes, &self.subject, illustration);
+        object_samples(&self.gpu, &self.subject, &prepared, points).await
+    }
+
+    /// Distances as made for an illustration, read back: voxels along each axis, all slabs counted, and per voxel the four sets' signed
+    /// distances. The first slab is smoothed; behind it lie the exact ones if there are constraints, and then the depth under the
+    /// outer surface if a template is aligned to that. For tests and whoever wants to look.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn distances(
+        &self,
+        illustration: &Illustration,
+    ) -> Result<([u32; 3], Vec<[f32; 4]>), RenderError> {
+        let mut prepared = Prepared::new(&self.gpu, &self.passes, &self.subject, false);
+        prepared.update(&self.gpu, &self.passes, &self.subject, illustration);
+        prepared.features().read(&self.gpu).await
+    }
+
     /// What is at a point of the picture (pixels, origin top left). The future owns what it needs.
     pub fn pick(
         &self,
@@ -139,62 +169,6 @@ impl Studio {
     ) -> impl Future<Output = Result<Option<Pick>, RenderError>> + 'static {
         let reading = self.start_pick(illustration, size_px, pixel);
         async move { reading?.await }
-    }
-
-    /// Draws one slice of the deformed object. The future owns what it needs.
-    ///
-    /// # Errors
-    /// [`RenderError::BadSize`], [`RenderError::DeviceLost`], [`RenderError::Refused`].
-    pub fn slice_image(
-        &self,
-        illustration: &Illustration,
-        view: &SliceView,
-    ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
-        let reading = self.with_slices(illustration, |scene| {
-            let mut board = SliceBoard::default();
-            board.draw(0, view, scene)?;
-            board.read(0, scene.gpu)
-        });
-        let gpu = self.gpu.clone();
-        async move {
-            let image = reading?.await?;
-            match gpu.take_errors().into_iter().next() {
-                Some(message) => Err(RenderError::Refused {
-                    pass: "slice",
-                    message,
-                }),
-                None => Ok(image),
-            }
-        }
-    }
-
-    /// What the deformed object has at each pixel of a slice, row by row from the top. The future owns what it needs.
-    ///
-    /// # Errors
-    /// [`RenderError::BadSize`], [`RenderError::DeviceLost`].
-    pub fn read_slice(
-        &self,
-        illustration: &Illustration,
-        plane: &SlicePlane,
-        size_px: [u32; 2],
-    ) -> Result<PendingSlice, RenderError> {
-        self.with_slices(illustration, |scene| scene.read(plane, size_px))
-    }
-
-    fn with_slices<T>(
-        &self,
-        illustration: &Illustration,
-        run: impl FnOnce(&SliceScene<'_>) -> Result<T, RenderError>,
-    ) -> Result<T, RenderError> {
-        self.gpu.check()?;
-        let mut prepared = Prepared::new(&self.gpu, &self.passes, &self.subject, false);
-        prepared.update(&self.gpu, &self.passes, &self.subject, illustration);
-        run(&SliceScene {
-            gpu: &self.gpu,
-            passes: &SlicePasses::new(&self.gpu, &self.passes)?,
-            subject: &self.subject,
-            prepared: &prepared,
-        })
     }
 
     pub(super) fn start_pick(
@@ -328,7 +302,7 @@ pub(super) fn read_picture(
     gpu: &Gpu,
     encoder: wgpu::CommandEncoder,
     texture: &wgpu::Texture,
-) -> impl Future<Output = Result<Image, RenderError>> + use<> {
+) -> impl Future<Output = Result<Image, RenderError>> + 'static {
     let size = [texture.width(), texture.height()];
     let pitch = (size[0] * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let reading = read_texture(gpu, encoder, texture, pitch);
@@ -344,7 +318,7 @@ pub(super) fn read_picture(
 }
 
 /// Starts reading a whole texture after the encoder's work. Rows are `pitch` bytes apart.
-pub(super) fn read_texture(
+fn read_texture(
     gpu: &Gpu,
     mut encoder: wgpu::CommandEncoder,
     texture: &wgpu::Texture,
@@ -471,7 +445,7 @@ pub(super) fn encode_march(encoder: &mut wgpu::CommandEncoder, march: &March<'_>
     }
 }
 
-pub(super) fn render_pass<'e>(
+fn render_pass<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     label: &str,
     target: &wgpu::TextureView,

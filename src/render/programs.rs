@@ -75,13 +75,17 @@ shader_files![
     "bind/subject.wgsl",
     "bind/look.wgsl",
     "bind/grid.wgsl",
+    "bind/feature.wgsl",
+    "march/align.wgsl",
+    "march/plain.wgsl",
     "march/ray.wgsl",
     "march/shade.wgsl",
+    "pass/distance.wgsl",
     "pass/grid.wgsl",
+    "pass/object.wgsl",
     "pass/probe.wgsl",
     "pass/raycast.wgsl",
     "pass/resolve.wgsl",
-    "pass/slice.wgsl",
 ];
 
 /// The files of `rest_from_subject` (what `displace/compose.wgsl` needs, itself included), and those named after them.
@@ -124,8 +128,32 @@ pub const PROGRAMS: &[Program] = &[
         entries: &[("probe", Stage::Compute)],
     },
     Program {
+        name: "object",
+        files: with_displacement![
+            "bind/subject.wgsl",
+            "bind/feature.wgsl",
+            "march/align.wgsl",
+            "pass/object.wgsl",
+        ],
+        entries: &[("probe_object", Stage::Compute)],
+    },
+    Program {
+        name: "distance",
+        files: &["types.wgsl", "bind/subject.wgsl", "pass/distance.wgsl"],
+        entries: &[
+            ("open_blocks", Stage::Compute),
+            ("sweep", Stage::Compute),
+            ("along_x", Stage::Compute),
+            ("along_y", Stage::Compute),
+            ("along_z", Stage::Compute),
+            ("smooth_out", Stage::Compute),
+            ("smooth_back", Stage::Compute),
+            ("write_texture", Stage::Compute),
+        ],
+    },
+    Program {
         name: "grid",
-        files: with_displacement!["pass/grid.wgsl"],
+        files: with_displacement!["bind/feature.wgsl", "pass/grid.wgsl"],
         entries: &[
             ("fill", Stage::Compute),
             ("spread_x", Stage::Compute),
@@ -140,6 +168,7 @@ pub const PROGRAMS: &[Program] = &[
             "bind/subject.wgsl",
             "bind/look.wgsl",
             "bind/grid.wgsl",
+            "march/plain.wgsl",
             "march/ray.wgsl",
             "march/shade.wgsl",
             "pass/raycast.wgsl",
@@ -151,17 +180,22 @@ pub const PROGRAMS: &[Program] = &[
         ],
     },
     Program {
-        name: "slice",
+        name: "raycast_aligned",
         files: with_displacement![
+            "bind/frame.wgsl",
             "bind/subject.wgsl",
             "bind/look.wgsl",
+            "bind/grid.wgsl",
+            "bind/feature.wgsl",
+            "march/align.wgsl",
             "march/ray.wgsl",
-            "pass/slice.wgsl",
+            "march/shade.wgsl",
+            "pass/raycast.wgsl",
         ],
         entries: &[
             ("cover", Stage::Vertex),
             ("draw", Stage::Fragment),
-            ("read", Stage::Fragment),
+            ("pick", Stage::Fragment),
         ],
     },
     Program {

@@ -1,3 +1,4 @@
+use super::feature::{FeatureTextures, KeptTissue};
 use super::gpu_types::{Frame, Templates, affine_rows};
 use super::grid::{GridInput, SkipGrid};
 use super::look::{TransferTable, background_uniform};
@@ -21,12 +22,14 @@ pub(super) struct Prepared {
     pub background: [f32; 4],
     /// Output texture that a whole picture of this scene was last drawn into.
     pub drawn_generation: u64,
-    /// Rises with every change.
-    pub revision: u64,
     templates: Templates,
     table: Option<(TransferTable, OpacityMode)>,
     has_labels: bool,
     grid: Option<SkipGrid>,
+    features: FeatureTextures,
+    /// Names that were said to be unknown.
+    unknown: Vec<String>,
+    notices: Vec<String>,
 }
 
 impl Prepared {
@@ -38,17 +41,25 @@ impl Prepared {
         wants_grid: bool,
     ) -> Self {
         let grid = wants_grid.then(|| SkipGrid::new(gpu));
+        let features = FeatureTextures::new(gpu);
         Self {
-            scene: Scene::new(gpu, passes, grid.as_ref().map(SkipGrid::binding)),
+            scene: Scene::new(gpu, passes, grid.as_ref().map(SkipGrid::binding), &features),
             bounds: subject.bounds,
             background: [0.0; 4],
             drawn_generation: 0,
-            revision: 0,
             templates: Templates::NONE,
             table: None,
             has_labels: false,
             grid,
+            features,
+            unknown: Vec::new(),
+            notices: Vec::new(),
         }
+    }
+
+    /// What is to be said about the document since the last call.
+    pub(super) fn take_notices(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notices)
     }
 
     /// Takes over what changed. True if the picture changes by it.
@@ -66,6 +77,20 @@ impl Prepared {
             self.scene.set_templates(gpu, &templates);
             self.templates = templates;
             self.bounds = deformed_bounds(&illustration.templates, subject.bounds);
+            is_changed = true;
+            is_grid_stale = true;
+        }
+        let kept = KeptTissue::of(&illustration.templates, &subject.segments, subject.bounds);
+        if self.features.kept() != Some(&kept) {
+            for name in &kept.unknown {
+                if !self.unknown.contains(name) {
+                    self.notices.push(kept_notice(name));
+                    self.unknown.push(name.clone());
+                }
+            }
+            if self.features.update(gpu, passes, subject, kept) {
+                self.scene.set_features(gpu, passes, &self.features);
+            }
             is_changed = true;
             is_grid_stale = true;
         }
@@ -92,6 +117,7 @@ impl Prepared {
                 placed: &illustration.templates,
                 packed: &self.templates,
                 templates: &self.scene.templates,
+                features: &self.features,
                 bounds: self.bounds,
                 subject,
                 step: longest_step(subject),
@@ -103,7 +129,6 @@ impl Prepared {
             self.background = background;
             is_changed = true;
         }
-        self.revision += u64::from(is_changed);
         is_changed
     }
 
@@ -118,8 +143,15 @@ impl Prepared {
             drawn_kinds: self.templates.drawn_kinds(),
             has_labels: self.has_labels,
             has_grid: self.grid.is_some(),
+            align_mode: self.features.kept().map_or(0, KeptTissue::walk_mode),
+            has_constraints: self.features.kept().is_some_and(|k| k.has_constraints),
             is_pick,
         }
+    }
+
+    /// What templates leave alone.
+    pub(super) fn features(&self) -> &FeatureTextures {
+        &self.features
     }
 }
 
@@ -168,4 +200,9 @@ pub(super) fn frame_of(
         bounds_max: [max.x, max.y, max.z, 0.0],
         pick: [0.0; 4],
     }
+}
+
+/// Says that a name in `keep` means nothing here.
+pub(super) fn kept_notice(name: &str) -> String {
+    format!("keep: the subject has no segment “{name}”; nothing is kept for it")
 }

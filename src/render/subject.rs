@@ -1,9 +1,9 @@
 use super::gpu_types::{Subject, affine_rows};
 use super::passes::Passes;
 use super::{Gpu, RenderError, uniform_buffer};
-use crate::data::{Histogram, Reducer, Volume, VolumeBuilder, Voxels};
+use crate::data::{Histogram, Reducer, Segment, Volume, VolumeBuilder, Voxels};
 use crate::math::Aabb;
-use glam::{Affine3A, DAffine3, UVec3};
+use glam::{Affine3A, DAffine3, DVec3, UVec3, Vec3};
 use half::f16;
 
 /// Voxels along a side of a brick.
@@ -51,6 +51,49 @@ pub(super) struct SubjectTextures {
     pub bounds: Aabb,
     /// The uniform, as uploaded.
     pub uniform: Subject,
+    /// The uniform's buffer.
+    pub buffer: wgpu::Buffer,
+    /// Scalars, labels and how the scalars are read: what is made from them by computing.
+    pub volume_view: wgpu::TextureView,
+    pub label_view: wgpu::TextureView,
+    pub sampler: wgpu::Sampler,
+    /// Where the voxels of the scalars lie.
+    pub frame: VoxelFrame,
+    /// Where the voxels of the labels lie.
+    pub label_frame: Option<VoxelFrame>,
+    /// Axis of the volume's grid that runs from foot to head.
+    pub foot_axis: u32,
+    /// Named segments.
+    pub segments: Vec<Segment>,
+}
+
+/// Where the voxels of a grid lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct VoxelFrame {
+    /// Voxels along each axis.
+    pub dims: UVec3,
+    /// Between their centres along each axis, subject units.
+    pub spacing: Vec3,
+    /// Rest space from voxel indices.
+    pub rest_from_voxel: DAffine3,
+}
+
+impl VoxelFrame {
+    fn new(dims: UVec3, rest_from_voxel: DAffine3) -> Self {
+        let m = rest_from_voxel.matrix3;
+        Self {
+            dims,
+            spacing: DVec3::new(m.x_axis.length(), m.y_axis.length(), m.z_axis.length()).as_vec3(),
+            rest_from_voxel,
+        }
+    }
+
+    /// Texture space (outer edges at 0 and 1) from rest space.
+    pub(super) fn texture_from_rest(&self) -> DAffine3 {
+        DAffine3::from_scale(self.dims.as_dvec3().recip())
+            * DAffine3::from_translation(DVec3::splat(0.5))
+            * self.rest_from_voxel.inverse()
+    }
 }
 
 /// A volume on its way to the GPU, slab by slab.
@@ -333,7 +376,20 @@ impl Upload {
                 entry(4, wgpu::BindingResource::TextureView(&palette_view)),
             ],
         });
+        let up = subject_from_world.inverse().matrix3 * grid.subject_from_voxel().matrix3;
+        let rises = [up.x_axis, up.y_axis, up.z_axis].map(|axis| (axis.z / axis.length()).abs());
+        let foot_axis = (0..3).fold(0, |best, i| if rises[i] > rises[best] { i } else { best });
         SubjectTextures {
+            buffer,
+            volume_view,
+            label_view,
+            sampler: passes.linear_sampler.clone(),
+            frame: VoxelFrame::new(grid.dims, grid.subject_from_voxel()),
+            label_frame: labels.map(|l| {
+                VoxelFrame::new(l.grid.dims, subject_from_world * l.grid.world_from_voxel)
+            }),
+            foot_axis: foot_axis as u32,
+            segments: labels.map(|l| l.segments.clone()).unwrap_or_default(),
             bind_group,
             bricks: self.bricks.bricks,
             info: info(volume, has_segments),

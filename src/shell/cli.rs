@@ -20,7 +20,9 @@ use crate::document::{
 };
 use crate::link::{self, LinkError};
 use crate::load::{LoadError, ReadOptions, describe};
-use crate::render::{Gpu, GpuOptions, Probe, RenderError, Sample, encode_png, render_image};
+use crate::render::{
+    Gpu, GpuOptions, KeptTissue, Probe, RenderError, Sample, Studio, encode_png, render_image,
+};
 
 /// Opens CT and MRI scans the way a medical illustrator would.
 ///
@@ -462,6 +464,15 @@ fn subject_of(
     })?)
 }
 
+/// Names what `keep` asks for and the subject has not.
+fn say_kept(illustration: &Illustration, volume: &Volume) {
+    let segments = volume.labels.as_ref().map_or(&[][..], |l| &l.segments);
+    let bounds = volume.grid.subject_bounds();
+    for line in KeptTissue::of(&illustration.templates, segments, bounds).notices() {
+        notice(line);
+    }
+}
+
 fn render(
     common: &Common,
     opened: &Opened,
@@ -487,6 +498,7 @@ fn render(
     }
     let gpu = open_gpu(common)?;
     let volume = subject_of(&illustration, common, &opened.folder, gpu.volume_limits())?;
+    say_kept(&illustration, &volume);
     let image = pollster::block_on(render_image(&gpu, &illustration, &volume, size, samples))?;
     let bytes = encode_png(&image)?;
     write_whole(output, &bytes)
@@ -546,12 +558,19 @@ fn probe(
         .iter()
         .map(|p| DVec3::from_array(*p).as_vec3())
         .collect();
-    let samples = pollster::block_on(async {
-        Probe::new(&gpu)
-            .await?
-            .samples(&illustration, &positions)
-            .await
-    })?;
+    let samples = match &volume {
+        Some(volume) => {
+            say_kept(&illustration, volume);
+            let studio = Studio::new(&gpu, volume, false)?;
+            pollster::block_on(studio.probe_object(&illustration, &positions))?
+        }
+        None => pollster::block_on(async {
+            Probe::new(&gpu)
+                .await?
+                .samples(&illustration, &positions)
+                .await
+        })?,
+    };
     let mut out = io::BufWriter::new(io::stdout().lock());
     for (
         [x, y, z],

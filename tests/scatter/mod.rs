@@ -124,6 +124,7 @@ pub(crate) fn placed(
         enabled: true,
         mode: TemplateMode::Compose,
         align: Align::Axis,
+        constrain: None,
     }
 }
 

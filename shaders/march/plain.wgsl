@@ -1,0 +1,36 @@
+// What the object has at a point where every template moves everything: the map alone. Stands in for march/align.wgsl, function by
+// function, in the programs of documents that keep no tissue, which so hold nothing of alignment.
+// needs: types.wgsl displace/compose.wgsl
+
+/// True where both sides of the surface of kept tissue are lit by it.
+const KEEPS_TISSUE: bool = false;
+
+/// What the object has at a point of subject space: where it was at rest; a continuity below 0 where there is nothing.
+fn object_from_subject(pos: vec3f, mask: u32) -> Mapped {
+    return rest_from_subject(pos, mask);
+}
+
+/// Templates that led to what is at a point.
+fn path_of(_pos: vec3f, mask: u32) -> u32 {
+    return mask;
+}
+
+/// The map along a path: smooth wherever material follows that path.
+fn map_along(pos: vec3f, path: u32) -> Mapped {
+    return rest_from_subject(pos, path);
+}
+
+/// How the surface of kept tissue shows in a piece of material next to it.
+struct KeptSurface {
+    /// Subject space, unit.
+    normal: vec3f,
+    /// 0 to 1.
+    weight: f32,
+    /// Rest space: from the place to where it is surely this side's tissue.
+    inwards: vec3f,
+}
+
+/// None here.
+fn kept_surface(_rest: vec3f, _path: u32, _jacobian: mat3x3f, to_eye: vec3f) -> KeptSurface {
+    return KeptSurface(to_eye, 0.0, vec3f(0.0));
+}

@@ -1,0 +1,310 @@
+// Signed Euclidean distances to sets of kept tissue, and to what lies around the object. Compute only; made anew when a document names
+// other sets or another subject is shown.
+//
+//   fine voxels of one line          along x          along y            along z
+//   . . # # # . . . #        -->   two sweeps   -->  outward search -->  outward search   -->  smoothing, texture
+//    s   s   s   s   s  coarse     nearest # and     squares added       the same; signed
+//                       samples    nearest . of a
+//                                  line, each s
+//
+// Exact: the squared distance is the smallest sum of squares along the three axes, taken axis by axis (Felzenszwalb and Huttenlocher
+// 2012, with a search that ends as soon as nothing nearer can come in place of the envelope of parabolas: near a surface, where
+// distances are used most, it is over after a few steps). It is taken to fine voxels, at coarse samples: what is coarser is only where
+// it is asked for. The signed distance is (way to the set - half a voxel) outside, less (way out of it - half a voxel) inside, so that
+// its zero lies on the faces of voxels. Anisotropic spacing counts; axes are taken as perpendicular (a sheared grid, from a tilted
+// gantry, is off by the cosine of its shear).
+//
+// Source of the use: Correa, sections 5.4.2 and 5.7 (distance field after a background segmentation).
+// The outside of the object: what is less than a threshold, belongs to no segment, and is connected with a side face of the grid.
+// Not with the faces at the head and foot ends of a scan: a windpipe that ends there would let the outside into the lungs.
+// needs: types.wgsl bind/subject.wgsl
+
+/// What to do (see types.wgsl).
+@group(3) @binding(0) var<uniform> job: DistanceJob;
+/// Per coarse x, fine y, slice of the part: way to the nearest voxel of the set, and to the nearest outside it, along x.
+@group(3) @binding(1) var<storage, read_write> line_ways: array<vec2f>;
+/// Per coarse x, coarse y, fine z: squares of the same, along x and y.
+@group(3) @binding(2) var<storage, read_write> plane_squares: array<vec2f>;
+/// Per channel and coarse voxel: signed distance.
+@group(3) @binding(3) var<storage, read_write> fields: array<f32>;
+/// Per coarse voxel: between two passes of a smoothing.
+@group(3) @binding(4) var<storage, read_write> smoothed: array<f32>;
+/// Per coarse voxel: FILLED, OPEN (nothing in it) or OUTSIDE (open and connected with a side of the grid).
+@group(3) @binding(5) var<storage, read_write> flood: array<u32>;
+/// The distances, four channels, in slabs (see `Features`).
+@group(3) @binding(6) var distance_out: texture_storage_3d<rgba16float, write>;
+
+/// Stands for "none on this line"; its square is still finite.
+const FAR: f32 = 1e4;
+const FILLED: u32 = 0u;
+const OPEN: u32 = 1u;
+const OUTSIDE: u32 = 2u;
+/// Channel of the outside.
+const CHANNEL_OUTSIDE: u32 = 4u;
+
+/// Label of a fine voxel.
+fn label_of(voxel: vec3i) -> u32 {
+    return textureLoad(labels, voxel, 0).x;
+}
+
+/// Normalised value at a fine voxel; below every threshold beyond the volume.
+fn texel_of(voxel: vec3i) -> f32 {
+    let v = vec4f(vec3f(voxel), 1.0);
+    let uvw = vec3f(
+        dot(job.volume_from_voxel_row0, v),
+        dot(job.volume_from_voxel_row1, v),
+        dot(job.volume_from_voxel_row2, v),
+    );
+    let is_inside = all(uvw >= vec3f(0.0)) && all(uvw <= vec3f(1.0));
+    return select(-1.0, textureSampleLevel(volume, linear_sampler, uvw, 0.0).x, is_inside);
+}
+
+/// True if there is nothing in a fine voxel.
+fn is_open(voxel: vec3i) -> bool {
+    if job.part.w != 0u && label_of(voxel) != 0u {
+        return false;
+    }
+    return texel_of(voxel) < job.spacing.w;
+}
+
+fn coarse_index(at: vec3u) -> u32 {
+    return at.x + job.coarse.x * (at.y + job.coarse.y * at.z);
+}
+
+/// True if a fine voxel belongs to what distances are taken to.
+fn is_member(voxel: vec3i) -> bool {
+    if job.coarse.w < CHANNEL_OUTSIDE {
+        let label = label_of(voxel);
+        let word = job.label_sets[label >> 5u][(label >> 3u) & 3u];
+        return ((word >> (4u * (label & 7u))) & (1u << job.coarse.w)) != 0u;
+    }
+    if !is_open(voxel) {
+        return false;
+    }
+    // Its coarse voxel may be filled in part; then the ones around tell.
+    let block = voxel / i32(job.fine.w);
+    let last = vec3i(job.coarse.xyz) - 1;
+    var found = false;
+    for (var i = 0; i < 27; i++) {
+        let around = vec3i(i % 3, (i / 3) % 3, i / 9) - 1;
+        let at = clamp(block + around, vec3i(0), last);
+        found = found || flood[coarse_index(vec3u(at))] == OUTSIDE;
+    }
+    return found;
+}
+
+/// Where a coarse sample lies among the fine voxels of an axis.
+fn fine_position(coarse: u32) -> f32 {
+    return (f32(coarse) + 0.5) * f32(job.fine.w) - 0.5;
+}
+
+/// First: which coarse voxels hold nothing, and which of them lie at a side of the grid. The axis that runs from foot to head is
+/// part.z (3: none).
+@compute @workgroup_size(4, 4, 4)
+fn open_blocks(@builtin(global_invocation_id) at: vec3u) {
+    if any(at >= job.coarse.xyz) {
+        return;
+    }
+    let low = at * job.fine.w;
+    let high = min(low + job.fine.w, job.fine.xyz);
+    var open = true;
+    for (var z = low.z; z < high.z && open; z++) {
+        for (var y = low.y; y < high.y && open; y++) {
+            for (var x = low.x; x < high.x && open; x++) {
+                open = is_open(vec3i(vec3u(x, y, z)));
+            }
+        }
+    }
+    let is_end = (at == vec3u(0u)) | (at + 1u == job.coarse.xyz);
+    let is_side = any(is_end & (vec3u(0u, 1u, 2u) != vec3u(job.part.z)));
+    flood[coarse_index(at)] = select(FILLED, select(OPEN, OUTSIDE, is_side), open);
+}
+
+/// Spreads the outside along one axis (part.z), both ways; one line for each invocation.
+@compute @workgroup_size(8, 8, 1)
+fn sweep(@builtin(global_invocation_id) id: vec3u) {
+    let axis = job.part.z;
+    let across = select(select(job.coarse.xy, job.coarse.xz, axis == 1u), job.coarse.yz, axis == 0u);
+    if any(id.xy >= across) {
+        return;
+    }
+    let start = select(select(vec3u(id.xy, 0u), vec3u(id.x, 0u, id.y), axis == 1u), vec3u(0u, id.xy), axis == 0u);
+    let stride = select(select(job.coarse.x * job.coarse.y, job.coarse.x, axis == 1u), 1u, axis == 0u);
+    let count = select(select(job.coarse.z, job.coarse.y, axis == 1u), job.coarse.x, axis == 0u);
+    let first = coarse_index(start);
+    var is_out = false;
+    for (var i = 0u; i < count; i++) {
+        let state = flood[first + i * stride];
+        is_out = state == OUTSIDE || (is_out && state == OPEN);
+        if is_out && state == OPEN {
+            flood[first + i * stride] = OUTSIDE;
+        }
+    }
+    is_out = false;
+    for (var k = 0u; k < count; k++) {
+        let i = count - 1u - k;
+        let state = flood[first + i * stride];
+        is_out = state == OUTSIDE || (is_out && state == OPEN);
+        if is_out && state == OPEN {
+            flood[first + i * stride] = OUTSIDE;
+        }
+    }
+}
+
+/// Along x: one line of fine voxels for each invocation (y, slice of the part), swept there and back.
+@compute @workgroup_size(8, 8, 1)
+fn along_x(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= job.fine.y || id.y >= job.part.y {
+        return;
+    }
+    let z = job.part.x + id.y;
+    let row = job.coarse.x * (id.x + job.fine.y * id.y);
+    let count = i32(job.fine.x);
+    // Positions of the last member and the last other passed.
+    var last = vec2f(-FAR);
+    var x = 0;
+    for (var c = 0u; c < job.coarse.x; c++) {
+        let at = fine_position(c);
+        while x < count && f32(x) <= at {
+            let member = is_member(vec3i(x, i32(id.x), i32(z)));
+            last = select(last, vec2f(f32(x)), vec2<bool>(member, !member));
+            x++;
+        }
+        line_ways[row + c] = vec2f(at) - last;
+    }
+    last = vec2f(FAR + f32(count));
+    x = count - 1;
+    for (var k = 0u; k < job.coarse.x; k++) {
+        let c = job.coarse.x - 1u - k;
+        let at = fine_position(c);
+        while x >= 0 && f32(x) >= at {
+            let member = is_member(vec3i(x, i32(id.x), i32(z)));
+            last = select(last, vec2f(f32(x)), vec2<bool>(member, !member));
+            x--;
+        }
+        line_ways[row + c] = min(min(line_ways[row + c], last - vec2f(at)), vec2f(FAR)) * job.spacing.x;
+    }
+}
+
+/// Along y.
+@compute @workgroup_size(8, 8, 1)
+fn along_y(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= job.coarse.xy) || id.z >= job.part.y {
+        return;
+    }
+    let at = fine_position(id.y);
+    let count = i32(job.fine.y);
+    var best = vec2f(FAR * FAR);
+    // Outwards in both directions at once; `below` is the nearest voxel not above the sample.
+    let below = i32(floor(at));
+    for (var step = 0; step < count; step++) {
+        let low = below - step;
+        let high = below + 1 + step;
+        // The nearer of the two may still win against the worse of the two ways.
+        let least = max(min(at - f32(low), f32(high) - at), 0.0) * job.spacing.y;
+        if least * least >= max(best.x, best.y) || (low < 0 && high >= count) {
+            break;
+        }
+        if low >= 0 {
+            let way = line_ways[id.x + job.coarse.x * (u32(low) + job.fine.y * id.z)];
+            let off = (at - f32(low)) * job.spacing.y;
+            best = min(best, way * way + vec2f(off * off));
+        }
+        if high < count {
+            let way = line_ways[id.x + job.coarse.x * (u32(high) + job.fine.y * id.z)];
+            let off = (f32(high) - at) * job.spacing.y;
+            best = min(best, way * way + vec2f(off * off));
+        }
+    }
+    plane_squares[id.x + job.coarse.x * (id.y + job.coarse.y * (job.part.x + id.z))] = best;
+}
+
+/// Along z, and the sign. The depth under the outer surface is the distance to the outside, positive in the object.
+@compute @workgroup_size(8, 8, 1)
+fn along_z(@builtin(global_invocation_id) id: vec3u) {
+    if any(id >= job.coarse.xyz) {
+        return;
+    }
+    let at = fine_position(id.z);
+    let count = i32(job.fine.z);
+    var best = vec2f(FAR * FAR);
+    let below = i32(floor(at));
+    for (var step = 0; step < count; step++) {
+        let low = below - step;
+        let high = below + 1 + step;
+        let least = max(min(at - f32(low), f32(high) - at), 0.0) * job.spacing.z;
+        if least * least >= max(best.x, best.y) || (low < 0 && high >= count) {
+            break;
+        }
+        if low >= 0 {
+            let square = plane_squares[id.x + job.coarse.x * (id.y + job.coarse.y * u32(low))];
+            let off = (at - f32(low)) * job.spacing.z;
+            best = min(best, square + vec2f(off * off));
+        }
+        if high < count {
+            let square = plane_squares[id.x + job.coarse.x * (id.y + job.coarse.y * u32(high))];
+            let off = (f32(high) - at) * job.spacing.z;
+            best = min(best, square + vec2f(off * off));
+        }
+    }
+    let half_voxel = 0.5 * min(job.spacing.x, min(job.spacing.y, job.spacing.z));
+    let ways = max(sqrt(best) - half_voxel, vec2f(0.0));
+    let volume_size = job.coarse.x * job.coarse.y * job.coarse.z;
+    // Where there is nothing of the set at all, or nothing else, a distance that no subject has.
+    let signed = clamp(ways.x - ways.y, -8.0, 8.0);
+    fields[job.coarse.w * volume_size + coarse_index(id)] = signed;
+}
+
+/// What the smoothing reads: the field the first time, then what the pass before left. Binomial weights 1 4 6 4 1, a Gaussian of one
+/// coarse voxel: takes the stairs off a surface of voxels (section 5.4.3, a mask that is a smooth scalar field).
+fn weighed(at: vec3u, from_field: bool) -> f32 {
+    let unit = select(vec3i(0), vec3i(1), vec3u(0u, 1u, 2u) == vec3u(job.part.z));
+    let last = vec3i(job.coarse.xyz) - 1;
+    let volume_size = job.coarse.x * job.coarse.y * job.coarse.z;
+    var sum = 0.0;
+    for (var i = -2; i <= 2; i++) {
+        let index = coarse_index(vec3u(clamp(vec3i(at) + i * unit, vec3i(0), last)));
+        let weight = select(select(0.375, 0.25, abs(i) == 1), 0.0625, abs(i) == 2);
+        if from_field {
+            sum += weight * fields[job.coarse.w * volume_size + index];
+        } else {
+            sum += weight * smoothed[index];
+        }
+    }
+    return sum;
+}
+
+/// From the field to `smoothed`.
+@compute @workgroup_size(4, 4, 4)
+fn smooth_out(@builtin(global_invocation_id) at: vec3u) {
+    if all(at < job.coarse.xyz) {
+        smoothed[coarse_index(at)] = weighed(at, true);
+    }
+}
+
+/// From `smoothed` to the field.
+@compute @workgroup_size(4, 4, 4)
+fn smooth_back(@builtin(global_invocation_id) at: vec3u) {
+    if all(at < job.coarse.xyz) {
+        let volume_size = job.coarse.x * job.coarse.y * job.coarse.z;
+        fields[job.coarse.w * volume_size + coarse_index(at)] = weighed(at, false);
+    }
+}
+
+/// Into the texture. part.x: slab; part.y: sets, 0 for the depth.
+@compute @workgroup_size(4, 4, 4)
+fn write_texture(@builtin(global_invocation_id) at: vec3u) {
+    if any(at >= job.coarse.xyz) {
+        return;
+    }
+    let volume_size = job.coarse.x * job.coarse.y * job.coarse.z;
+    var texel = vec4f(0.0);
+    if job.part.y != 0u {
+        for (var channel = 0u; channel < job.part.y; channel++) {
+            texel[channel] = fields[channel * volume_size + coarse_index(at)];
+        }
+    } else {
+        texel.x = fields[CHANNEL_OUTSIDE * volume_size + coarse_index(at)];
+    }
+    textureStore(distance_out, vec3u(at.xy, at.z + job.part.x * job.coarse.z), texel);
+}

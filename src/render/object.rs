@@ -1,0 +1,100 @@
+use super::programs::compile;
+use super::scene::Prepared;
+use super::subject::{SubjectTextures, entry};
+use super::{Gpu, RenderError, Sample, result_buffer, storage_buffer, submit_and_read};
+use glam::Vec3;
+
+/// Points of one dispatch, as in the plain probe.
+const CHUNK: usize = 1 << 18;
+
+/// What the object has at points, alignment and constraints counted.
+pub(super) async fn object_samples(
+    gpu: &Gpu,
+    subject: &SubjectTextures,
+    prepared: &Prepared,
+    points: &[Vec3],
+) -> Result<Vec<Sample>, RenderError> {
+    let key = prepared.key(false);
+    let (name, module) = compile(gpu, "object").await?;
+    let [mode, constraints] = key.align_constants();
+    let constants = [
+        ("drawn_kinds", f64::from(key.drawn_kinds)),
+        mode,
+        constraints,
+    ];
+    let pipeline = gpu
+        .device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(name),
+            layout: None,
+            module: &module,
+            entry_point: Some("probe_object"),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
+            cache: None,
+        });
+    let group = |index: u32, entries: &[wgpu::BindGroupEntry<'_>]| {
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(name),
+            layout: &pipeline.get_bind_group_layout(index),
+            entries,
+        })
+    };
+    let features = prepared.features();
+    let subject_group = group(
+        1,
+        &[
+            entry(0, subject.buffer.as_entire_binding()),
+            entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
+            entry(3, wgpu::BindingResource::TextureView(&subject.label_view)),
+        ],
+    );
+    let scene_group = group(
+        2,
+        &[
+            entry(0, prepared.scene.templates.as_entire_binding()),
+            entry(5, features.uniform.as_entire_binding()),
+            entry(6, wgpu::BindingResource::TextureView(&features.view)),
+        ],
+    );
+    let mut samples = Vec::with_capacity(points.len());
+    for chunk in points.chunks(CHUNK) {
+        let padded: Vec<[f32; 4]> = chunk.iter().map(|p| [p.x, p.y, p.z, 0.0]).collect();
+        let input = storage_buffer(gpu, "probe points", &padded);
+        let output = result_buffer(gpu, "probe results", 16 * chunk.len() as u64);
+        let points_group = group(
+            3,
+            &[
+                entry(0, input.as_entire_binding()),
+                entry(1, output.as_entire_binding()),
+            ],
+        );
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(name),
+                timestamp_writes: None,
+            });
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(1, &subject_group, &[]);
+            pass.set_bind_group(2, &scene_group, &[]);
+            pass.set_bind_group(3, &points_group, &[]);
+            pass.dispatch_workgroups(chunk.len().div_ceil(64) as u32, 1, 1);
+        }
+        let bytes = submit_and_read(gpu, encoder, &output).await?;
+        let results: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+        samples.extend(results.into_iter().map(|[x, y, z, a]| Sample {
+            pos_in_rest: Vec3::new(x, y, z),
+            continuity: a,
+        }));
+    }
+    if let Some(message) = gpu.take_errors().into_iter().next() {
+        return Err(RenderError::Refused {
+            pass: "object probe",
+            message,
+        });
+    }
+    Ok(samples)
+}
