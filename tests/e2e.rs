@@ -384,10 +384,16 @@ fn hostile_link_leaves_a_working_viewer() {
     with_browser(BrowserGpu::Software, |session| async move {
         let good = payload(PEEL);
         let cut_off = &good[..good.len() / 2];
-        for (name, bad) in [
-            ("garbage", "1%00<script>alert(1)</script>"),
-            ("cut_off", cut_off),
-            ("foreign", "/route/to?page"),
+        for (name, bad, message) in [
+            (
+                "garbage",
+                "1%00<script>alert(1)</script>",
+                "cut off: 1 of 7",
+            ),
+            ("cut_off", cut_off, "cut off"),
+            ("foreign", "Section-3", "not a Fabrica link"),
+            // What a page's own router keeps there is no link at all.
+            ("route", "/route/to?page", ""),
         ] {
             let tab = session.viewer_sized(&format!("#{bad}"), PAGE).await;
             let before: String = tab.eval("location.hash").await;
@@ -397,6 +403,11 @@ fn hostile_link_leaves_a_working_viewer() {
                 drawn_pixels(&object_part(&picture)) > 5000,
                 "{name}: the viewer draws the head"
             );
+            let said: String = tab
+                .eval("document.getElementById('said').textContent")
+                .await;
+            println!("{name}: {said}");
+            assert!(said.contains(message), "{name}: {said}");
             let after: String = tab.eval("location.hash").await;
             assert_eq!(before, after, "{name}: the link stays in the address");
             assert!(

@@ -82,12 +82,20 @@ pub struct App {
     viewport: Viewport,
     /// That the device was lost has been said.
     has_said_loss: bool,
+    announced: Announced,
     /// The next picture asked for is of the size that is shown.
     wants_shown_size: bool,
     /// Panels are drawers.
     is_narrow: bool,
     /// The volume that is arriving.
     incoming: Option<VolumeBuilder>,
+}
+
+/// What has been said aloud so far.
+#[derive(Debug, Default)]
+struct Announced {
+    next_said: u64,
+    step: usize,
 }
 
 impl App {
@@ -132,6 +140,7 @@ impl App {
             icons: RenderedIcons::default(),
             viewport: Viewport::default(),
             has_said_loss: false,
+            announced: Announced::default(),
             wants_shown_size: false,
             is_narrow: false,
             incoming: None,
@@ -400,6 +409,7 @@ impl App {
 
     /// What happens after everything is shown.
     fn afterwards(&mut self, ui: &Ui) {
+        self.announce();
         let ctx = ui.ctx();
         if std::mem::take(&mut self.state.theme_toggle) {
             let is_dark = ctx.theme() == egui::Theme::Dark;
@@ -458,6 +468,22 @@ impl App {
         }
         if let Some(seconds) = self.state.seconds_to_next_deed() {
             ctx.request_repaint_after(Duration::from_secs_f64(seconds));
+        }
+    }
+
+    /// Says aloud what was said since, and the step that is come to.
+    fn announce(&mut self) {
+        for said in &self.state.said {
+            if said.id >= self.announced.next_said {
+                self.announced.next_said = said.id + 1;
+                self.services.announce(&said.message);
+            }
+        }
+        let step = self.state.walk.step();
+        if step != std::mem::replace(&mut self.announced.step, step)
+            && let Some(text) = steps::spoken(&self.state)
+        {
+            self.services.announce(&text);
         }
     }
 

@@ -54,6 +54,12 @@ pub trait Services {
     fn store(&mut self, key: &str, value: &str);
     /// What was kept.
     fn stored(&self, key: &str) -> Option<String>;
+
+    /// Says a line to whoever cannot see the picture, where the surroundings have a way: a page has no accessibility tree
+    /// of the app's own.
+    fn announce(&mut self, text: &str) {
+        _ = text;
+    }
 }
 
 /// What arrives.

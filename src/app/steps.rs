@@ -139,6 +139,31 @@ fn shown_at(document: &Document, step: usize) -> Option<Illustration> {
     Some(at_step.illustration().clone())
 }
 
+/// Title and caption of the step that is shown.
+fn texts(state: &State) -> (&str, &str) {
+    let illustration = state.document().illustration();
+    let step = state.walk.step().checked_sub(1);
+    match step.and_then(|index| illustration.steps.get(index)) {
+        Some(step) => (&step.title, &step.caption),
+        None => (&illustration.title, &illustration.caption),
+    }
+}
+
+fn label(number: usize, count: usize, title: &str) -> String {
+    if title.is_empty() {
+        format!("{number} / {count}")
+    } else {
+        format!("{number} / {count}   {title}")
+    }
+}
+
+/// The step that is shown, for who cannot see it. Nothing without steps.
+pub(crate) fn spoken(state: &State) -> Option<String> {
+    let count = state.document().step_count();
+    let (title, caption) = texts(state);
+    (count > 0).then(|| format!("{}. {caption}", label(state.walk.step(), count, title)))
+}
+
 /// The bar at the foot of the picture: back, number and title, forth, and the caption. Nothing without steps.
 pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<Command>) {
     let steps = &state.document().illustration().steps;
@@ -147,13 +172,7 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<C
     }
     let palette = Palette::get(ui);
     let number = state.walk.step();
-    let (title, caption) = match number.checked_sub(1).and_then(|index| steps.get(index)) {
-        Some(step) => (step.title.as_str(), step.caption.as_str()),
-        None => (
-            state.document().illustration().title.as_str(),
-            state.document().illustration().caption.as_str(),
-        ),
-    };
+    let (title, caption) = texts(state);
     // Beside the ball of axes where there is room for both, else above it.
     let free = if picture.width() > 620.0 {
         picture.with_min_x(picture.left() + BESIDE_THE_BALL)
@@ -188,11 +207,7 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<C
     if back.clicked() {
         commands.push(Command::GoToStep(number.saturating_sub(1)));
     }
-    let label = if title.is_empty() {
-        format!("{number} / {}", steps.len())
-    } else {
-        format!("{number} / {}   {title}", steps.len())
-    };
+    let label = label(number, steps.len(), title);
     inner.allocate_ui(vec2(row.width() - 76.0, row.height()), |ui| {
         ui.centered_and_justified(|ui| {
             let response = ui.add(egui::Label::new(theme::strong(label.clone())).truncate());

@@ -404,6 +404,15 @@ impl Services for PageServices {
         }
     }
 
+    fn announce(&mut self, text: &str) {
+        let is_page = self.0.borrow().place.is_page;
+        let document = window().and_then(|w| w.document());
+        let line = document.and_then(|d| d.get_element_by_id("said"));
+        if let Some(line) = line.filter(|_| is_page) {
+            line.set_text_content(Some(text));
+        }
+    }
+
     fn store(&mut self, key: &str, value: &str) {
         if self.0.borrow().place.is_page
             && let Some(storage) = storage()
