@@ -113,6 +113,24 @@ struct Resolve {
     flags: vec4u,
 }
 
+/// A flat cut through the deformed object.
+struct Slice {
+    /// Rows of the affine that takes pixels of the slice (origin top left, z is not used) to subject space.
+    subject_from_pixel_row0: vec4f,
+    subject_from_pixel_row1: vec4f,
+    subject_from_pixel_row2: vec4f,
+    /// Grey level = x * texel + y.
+    window: vec4f,
+    /// Linear RGB where nothing is.
+    background: vec4f,
+    /// x: SLICE_ mode; y: samples per pixel along each side.
+    modes: vec4u,
+}
+
+/// How a slice is shown.
+const SLICE_GREY: u32 = 0u;
+const SLICE_COLORS: u32 = 1u;
+
 /// What a template reaches, for the making of the grid. Template space; a side without an end is at 1e30.
 struct GridTemplate {
     /// First box; w of its lowest corner: half side of the largest box in which differences tell how the map changes.

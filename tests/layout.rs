@@ -49,6 +49,10 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Look { lut, modes }
         Grid { origin_min, cell_size, cells }
         Resolve { scale, background, flags }
+        Slice {
+            subject_from_pixel_row0, subject_from_pixel_row1, subject_from_pixel_row2,
+            window, background, modes,
+        }
         FeatureItem { keeps, lengths }
         Features {
             distance_from_rest_row0, distance_from_rest_row1, distance_from_rest_row2,
@@ -147,6 +151,8 @@ fn constants_agree() {
         ("OPACITY_CONSTANCY", gpu_types::OPACITY_CONSTANCY),
         ("OPACITY_MASS", gpu_types::OPACITY_MASS),
         ("OPACITY_NONE", gpu_types::OPACITY_NONE),
+        ("SLICE_GREY", gpu_types::SLICE_GREY),
+        ("SLICE_COLORS", gpu_types::SLICE_COLORS),
         ("KEEPS_DEEP", gpu_types::KEEPS_DEEP),
         ("CONSTRAIN_NOTHING", gpu_types::CONSTRAIN_NOTHING),
         ("CONSTRAIN_DISPLACEMENT", gpu_types::CONSTRAIN_DISPLACEMENT),

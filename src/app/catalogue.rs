@@ -6,9 +6,11 @@ use egui::{
 };
 
 use super::command::Command;
-use super::control::{self, capitalized};
+use super::control;
 use super::state::State;
 use super::theme::{self, Palette};
+use super::words::catalogue::{Catalogue, w};
+use super::words::{fill, in_sentence, kinds};
 use crate::document::TemplateKind;
 
 /// Pictures of the templates, as far as they are drawn. `None` shows an outline.
@@ -18,11 +20,11 @@ pub(crate) trait Icons {
 }
 
 /// Groups in which the catalogue is shown: what one wants to do.
-const GROUPS: [(&str, &[TemplateKind]); 4] = {
+const GROUPS: [(fn(&Catalogue) -> &'static str, &[TemplateKind]); 4] = {
     use TemplateKind as K;
     [
         (
-            "Open up",
+            |w| w.open_up,
             &[
                 K::Peel,
                 K::Flap,
@@ -32,12 +34,12 @@ const GROUPS: [(&str, &[TemplateKind]); 4] = {
                 K::Hole,
             ],
         ),
-        ("Take apart", &[K::Split, K::Slices, K::Move]),
+        (|w| w.take_apart, &[K::Split, K::Slices, K::Move]),
         (
-            "Carve and shape",
+            |w| w.carve,
             &[K::Cut, K::Poke, K::Pull, K::Squeeze, K::Dilate, K::Lens],
         ),
-        ("Bend", &[K::Bend, K::Twist, K::Wave]),
+        (|w| w.bend, &[K::Bend, K::Twist, K::Wave]),
     ]
 };
 
@@ -47,12 +49,8 @@ pub(crate) fn kinds() -> impl Iterator<Item = TemplateKind> {
 }
 
 /// What people call it.
-pub(crate) fn kind_title(kind: TemplateKind) -> String {
-    match kind {
-        TemplateKind::Cutquad => "Incision".to_owned(),
-        TemplateKind::Peeler => "Tongue".to_owned(),
-        _ => capitalized(kind.spec().name),
-    }
+pub(crate) fn kind_title(kind: TemplateKind) -> &'static str {
+    kinds::title(kind)
 }
 
 /// The whole catalogue in columns as the width allows.
@@ -65,7 +63,7 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, icons: &dyn Icons, commands: &mut V
     for (title, kinds) in GROUPS {
         ui.add_space(2.0);
         let weak = Palette::get(ui).weak;
-        ui.label(theme::strong(title).size(11.5).color(weak));
+        ui.label(theme::strong(title(w())).size(11.5).color(weak));
         for row in kinds.chunks(columns as usize) {
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = gap;
@@ -76,7 +74,7 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, icons: &dyn Icons, commands: &mut V
         }
     }
     if state.template_count() >= 32 {
-        ui.label("A document holds at most 32 templates.");
+        ui.label(w().full);
     }
 }
 
@@ -93,7 +91,7 @@ fn cell_ui(
     let picture_side = (width - 8.0).min(64.0);
     let (rect, response) = ui.allocate_exact_size(vec2(width, picture_side + 22.0), Sense::click());
     let is_placing = state.placing == Some(kind);
-    let name = format!("Place {}", title.to_lowercase());
+    let name = fill(w().place, &[&in_sentence(title)]);
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), is_placing, &name));
     if ui.is_rect_visible(rect) {
         let (fill, stroke) = if is_placing {
@@ -135,9 +133,9 @@ fn cell_ui(
         let at = rect.center_bottom() - vec2(0.0, 10.5);
         ui.painter()
             .with_clip_rect(rect)
-            .text(at, Align2::CENTER_CENTER, &title, font, color);
+            .text(at, Align2::CENTER_CENTER, title, font, color);
     }
-    let response = response.on_hover_text(kind.spec().summary);
+    let response = response.on_hover_text(kinds::summary(kind));
     if response.clicked() {
         commands.push(Command::StartPlacing(kind));
     }

@@ -3,6 +3,8 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::camera::StandardView;
+use super::words::Lang;
+use super::words::keys::w;
 use crate::document::{Edit, SubjectRef, TemplateKind};
 
 /// One thing to do.
@@ -72,6 +74,8 @@ pub enum Command {
     ToggleMessages,
     /// Light, dark.
     ToggleTheme,
+    /// The interface speaks another language.
+    Speak(Lang),
     /// Everything larger or smaller, for a projector.
     Scale(f32),
     /// Panels away, the picture alone.
@@ -91,12 +95,8 @@ pub enum GizmoMode {
 }
 
 impl GizmoMode {
-    /// All of them with their names.
-    pub const ALL: [(Self, &'static str); 3] = [
-        (Self::Move, "Move"),
-        (Self::Turn, "Turn"),
-        (Self::Size, "Size"),
-    ];
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Move, Self::Turn, Self::Size];
 }
 
 /// A key, what it does, and how the sheet of keys says it.
@@ -123,112 +123,58 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         command,
         text,
     };
+    let w = w();
     let mut all = vec![
-        entry(COMMAND | SHIFT, Key::Z, Command::Redo, "Redo"),
+        entry(COMMAND | SHIFT, Key::Z, Command::Redo, w.redo),
         entry(COMMAND, Key::Y, Command::Redo, ""),
-        entry(COMMAND, Key::Z, Command::Undo, "Undo"),
-        entry(COMMAND, Key::O, Command::Open, "Open a scan or a document"),
+        entry(COMMAND, Key::Z, Command::Undo, w.undo),
+        entry(COMMAND, Key::O, Command::Open, w.open),
         entry(
             COMMAND | SHIFT,
             Key::S,
             Command::SavePicture,
-            "Save the picture",
+            w.save_picture,
         ),
-        entry(COMMAND, Key::S, Command::SaveDocument, "Save the document"),
-        entry(COMMAND | SHIFT, Key::L, Command::CopyLink, "Copy the link"),
+        entry(COMMAND, Key::S, Command::SaveDocument, w.save_document),
+        entry(COMMAND | SHIFT, Key::L, Command::CopyLink, w.copy_link),
         entry(
             NONE,
             Key::ArrowLeft,
             Command::Orbit(-KEY_ORBIT, 0.0),
-            "Turn the object",
+            w.turn_object,
         ),
         entry(NONE, Key::ArrowRight, Command::Orbit(KEY_ORBIT, 0.0), ""),
         entry(NONE, Key::ArrowUp, Command::Orbit(0.0, -KEY_ORBIT), ""),
         entry(NONE, Key::ArrowDown, Command::Orbit(0.0, KEY_ORBIT), ""),
-        entry(NONE, Key::Plus, Command::Zoom(1.15), "Closer"),
+        entry(NONE, Key::Plus, Command::Zoom(1.15), w.closer),
         entry(NONE, Key::Equals, Command::Zoom(1.15), ""),
-        entry(NONE, Key::Minus, Command::Zoom(1.0 / 1.15), "Further away"),
-        entry(
-            NONE,
-            Key::Num0,
-            Command::ResetView,
-            "Back to the first view",
-        ),
-        entry(
-            NONE,
-            Key::Enter,
-            Command::PlaceInMiddle,
-            "Place in the middle of the picture",
-        ),
-        entry(
-            NONE,
-            Key::Escape,
-            Command::Escape,
-            "Drop what is being done",
-        ),
-        entry(SHIFT, Key::N, Command::SelectNext(false), "Template before"),
-        entry(NONE, Key::N, Command::SelectNext(true), "Next template"),
-        entry(
-            NONE,
-            Key::G,
-            Command::SetGizmo(GizmoMode::Move),
-            "Move the template",
-        ),
-        entry(
-            NONE,
-            Key::T,
-            Command::SetGizmo(GizmoMode::Turn),
-            "Turn the template",
-        ),
-        entry(
-            NONE,
-            Key::S,
-            Command::SetGizmo(GizmoMode::Size),
-            "Size the template",
-        ),
+        entry(NONE, Key::Minus, Command::Zoom(1.0 / 1.15), w.further),
+        entry(NONE, Key::Num0, Command::ResetView, w.first_view),
+        entry(NONE, Key::Enter, Command::PlaceInMiddle, w.place_in_middle),
+        entry(NONE, Key::Escape, Command::Escape, w.drop),
+        entry(SHIFT, Key::N, Command::SelectNext(false), w.before),
+        entry(NONE, Key::N, Command::SelectNext(true), w.next),
+        entry(NONE, Key::G, Command::SetGizmo(GizmoMode::Move), w.move_it),
+        entry(NONE, Key::T, Command::SetGizmo(GizmoMode::Turn), w.turn_it),
+        entry(NONE, Key::S, Command::SetGizmo(GizmoMode::Size), w.size_it),
         entry(
             NONE,
             Key::CloseBracket,
             Command::NudgeMain(5.0),
-            "Open it further",
+            w.open_further,
         ),
-        entry(NONE, Key::OpenBracket, Command::NudgeMain(-5.0), "Close it"),
-        entry(
-            NONE,
-            Key::H,
-            Command::ToggleSelected,
-            "Hide or show the template",
-        ),
-        entry(
-            NONE,
-            Key::D,
-            Command::DuplicateSelected,
-            "Duplicate the template",
-        ),
-        entry(
-            NONE,
-            Key::Delete,
-            Command::DeleteSelected,
-            "Delete the template",
-        ),
+        entry(NONE, Key::OpenBracket, Command::NudgeMain(-5.0), w.close_it),
+        entry(NONE, Key::H, Command::ToggleSelected, w.hide),
+        entry(NONE, Key::D, Command::DuplicateSelected, w.duplicate),
+        entry(NONE, Key::Delete, Command::DeleteSelected, w.delete),
         entry(NONE, Key::Backspace, Command::DeleteSelected, ""),
-        entry(
-            NONE,
-            Key::PageUp,
-            Command::ShiftSelected(-1),
-            "Let it act earlier",
-        ),
-        entry(
-            NONE,
-            Key::PageDown,
-            Command::ShiftSelected(1),
-            "Let it act later",
-        ),
-        entry(NONE, Key::Space, Command::WalkStep(true), "Next step"),
-        entry(SHIFT, Key::Space, Command::WalkStep(false), "Step before"),
-        entry(NONE, Key::P, Command::TogglePanels, "The picture alone"),
+        entry(NONE, Key::PageUp, Command::ShiftSelected(-1), w.earlier),
+        entry(NONE, Key::PageDown, Command::ShiftSelected(1), w.later),
+        entry(NONE, Key::Space, Command::WalkStep(true), w.next_step),
+        entry(SHIFT, Key::Space, Command::WalkStep(false), w.step_before),
+        entry(NONE, Key::P, Command::TogglePanels, w.picture_alone),
         entry(NONE, Key::F1, Command::ToggleKeys, ""),
-        entry(NONE, Key::Questionmark, Command::ToggleKeys, "This sheet"),
+        entry(NONE, Key::Questionmark, Command::ToggleKeys, w.this_sheet),
     ];
     let digits = [
         Key::Num1,
@@ -238,14 +184,7 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         Key::Num5,
         Key::Num6,
     ];
-    let texts = [
-        "From the front",
-        "From the back",
-        "From the patient's right",
-        "From the patient's left",
-        "From above",
-        "From below",
-    ];
+    let texts = [w.front, w.back, w.right, w.left, w.above, w.below];
     for ((view, key), text) in StandardView::ALL.into_iter().zip(digits).zip(texts) {
         all.push(entry(NONE, key, Command::View(view), text));
     }

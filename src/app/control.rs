@@ -8,6 +8,8 @@ use egui::{
 
 use super::icon::Icon;
 use super::theme::{self, CONTROL_HEIGHT, Palette};
+use super::words::templates::w;
+use super::words::{self, fill, in_sentence, localized};
 
 /// What a control did to a value in this frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -180,12 +182,68 @@ pub(crate) fn labelled_button(
             rect.left_center() + vec2(padding.x + 9.0, 0.0),
             Vec2::splat(18.0),
         );
-        icon.paint(ui.painter(), icon_rect, fade(color));
+        icon.paint(ui.painter(), sided(rect, icon_rect), fade(color));
         let at = rect.left_center() + vec2(padding.x + 24.0, -0.5 * galley.size().y);
+        let spot = sided(rect, Rect::from_min_size(at, galley.size()));
         ui.painter()
-            .galley_with_override_text_color(at, galley, fade(color));
+            .galley_with_override_text_color(spot.min, galley, fade(color));
     }
     response
+}
+
+/// Along the line, in the direction in which the language is read.
+pub(crate) fn along() -> egui::Layout {
+    if words::is_rtl() {
+        egui::Layout::right_to_left(egui::Align::Center)
+    } else {
+        egui::Layout::left_to_right(egui::Align::Center)
+    }
+}
+
+/// From the end of the line backwards.
+pub(crate) fn against() -> egui::Layout {
+    if words::is_rtl() {
+        egui::Layout::left_to_right(egui::Align::Center)
+    } else {
+        egui::Layout::right_to_left(egui::Align::Center)
+    }
+}
+
+/// A panel's contents from the top down, lines beginning on the side where the language begins them.
+pub(crate) fn directed<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    if words::is_rtl() {
+        ui.with_layout(egui::Layout::top_down(egui::Align::Max), contents)
+            .inner
+    } else {
+        contents(ui)
+    }
+}
+
+/// A part of a rectangle on the side where the language has it; `part` is as for left to right.
+pub(crate) fn sided(within: Rect, part: Rect) -> Rect {
+    if words::is_rtl() {
+        let x = within.left() + within.right();
+        Rect::from_x_y_ranges((x - part.right())..=(x - part.left()), part.y_range())
+    } else {
+        part
+    }
+}
+
+/// Paints one line of text `inset` points from where lines begin in `rect`, at mid height. Returns what it covers.
+pub(crate) fn line_text(
+    painter: &egui::Painter,
+    rect: Rect,
+    inset: f32,
+    text: &str,
+    font: FontId,
+    color: egui::Color32,
+) -> Rect {
+    let (at, align) = if words::is_rtl() {
+        (rect.right_center() - vec2(inset, 0.0), Align2::RIGHT_CENTER)
+    } else {
+        (rect.left_center() + vec2(inset, 0.0), Align2::LEFT_CENTER)
+    };
+    painter.text(at, align, text, font, color)
 }
 
 /// A heading within a panel, with room for buttons at its right end.
@@ -200,7 +258,7 @@ pub(crate) fn heading(ui: &mut Ui, text: &str, trailing: impl FnOnce(&mut Ui)) {
             node.set_role(egui::Role::Heading);
             node.set_label(text);
         });
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), trailing);
+        ui.with_layout(against(), trailing);
     });
 }
 
@@ -232,6 +290,7 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
             rect.min + vec2(step * i as f32, 0.0),
             vec2(step, rect.height()),
         );
+        let cell = sided(rect, cell);
         let selected = value == current;
         let response = ui.interact(cell, ui.scope_id().with((name, i)), Sense::click());
         let full_name = format!("{name}: {text}");
@@ -314,7 +373,7 @@ impl NumberRow<'_> {
                 let slider = Slider::new(&mut value, low..=high).show_value(false);
                 ui.add(slider.step_by(step).max_decimals(self.decimals))
             });
-            let slider = slider.accessible_name(format!("{} slider", self.name));
+            let slider = slider.accessible_name(fill(w().slider, &[&self.name]));
             result = change(&slider, value);
             let mut typed = self.value;
             let field = DragValue::new(&mut typed)
@@ -322,15 +381,18 @@ impl NumberRow<'_> {
                 .speed((high - low) / 400.0)
                 .max_decimals(self.decimals)
                 .custom_formatter(|value, _| plain(value, self.decimals))
+                .custom_parser(words::parse_number)
                 .suffix(self.unit)
                 .update_while_editing(false);
             let field = ui.add_sized(vec2(FIELD_WIDTH, CONTROL_HEIGHT), field);
-            let field = field.labelled_by(label.id).on_hover_text(format!(
-                "{}\n{} to {}{}",
-                self.summary,
-                plain(low, self.decimals),
-                plain(high, self.decimals),
-                self.unit
+            let field = field.labelled_by(label.id).on_hover_text(fill(
+                w().range,
+                &[
+                    &self.summary,
+                    &plain(low, self.decimals),
+                    &plain(high, self.decimals),
+                    &self.unit,
+                ],
             ));
             result = result.or(change(&field, typed));
             // Controls report what they round away as a change; that is none.
@@ -339,7 +401,7 @@ impl NumberRow<'_> {
                 .take()
                 .filter(|change| (change.value() - self.value).abs() > tolerance);
             if let Some(default) = self.default.filter(|d| (d - self.value).abs() > tolerance) {
-                let name = format!("Reset {}", self.name.to_lowercase());
+                let name = fill(w().reset, &[&in_sentence(self.name)]);
                 if icon_button_sized(ui, Icon::Reset, &name, true, false, 20.0).clicked() {
                     result = Some(Change::Set(default));
                 }
@@ -352,7 +414,7 @@ impl NumberRow<'_> {
 /// A row of controls of one height, so that none of them stands lower than the one before.
 pub(crate) fn row<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
     let size = vec2(ui.available_width(), CONTROL_HEIGHT);
-    let layout = egui::Layout::left_to_right(egui::Align::Center);
+    let layout = along();
     ui.allocate_ui_with_layout(size, layout, |ui| {
         ui.set_min_height(CONTROL_HEIGHT);
         ui.spacing_mut().item_spacing.x = 6.0;
@@ -365,31 +427,27 @@ pub(crate) fn row<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
 pub(crate) fn slim<R>(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui) -> R) -> R {
     let palette = Palette::get(ui);
     let size = vec2(width, CONTROL_HEIGHT);
-    ui.allocate_ui_with_layout(
-        size,
-        egui::Layout::left_to_right(egui::Align::Center),
-        |ui| {
-            ui.set_min_size(size);
-            let style = ui.style_mut();
-            style.spacing.slider_width = width;
-            style.spacing.interact_size.y = 17.0;
-            style.spacing.slider_rail_height = 4.0;
-            for font in style.text_styles.values_mut() {
-                font.size = 8.0;
-            }
-            style.visuals.selection.bg_fill = palette.accent;
-            let widgets = &mut style.visuals.widgets;
-            for (visuals, width) in [
-                (&mut widgets.inactive, 1.5),
-                (&mut widgets.hovered, 2.0),
-                (&mut widgets.active, 2.5),
-            ] {
-                visuals.bg_fill = palette.line;
-                visuals.fg_stroke = Stroke::new(width, palette.accent);
-            }
-            contents(ui)
-        },
-    )
+    ui.allocate_ui_with_layout(size, along(), |ui| {
+        ui.set_min_size(size);
+        let style = ui.style_mut();
+        style.spacing.slider_width = width;
+        style.spacing.interact_size.y = 17.0;
+        style.spacing.slider_rail_height = 4.0;
+        for font in style.text_styles.values_mut() {
+            font.size = 8.0;
+        }
+        style.visuals.selection.bg_fill = palette.accent;
+        let widgets = &mut style.visuals.widgets;
+        for (visuals, width) in [
+            (&mut widgets.inactive, 1.5),
+            (&mut widgets.hovered, 2.0),
+            (&mut widgets.active, 2.5),
+        ] {
+            visuals.bg_fill = palette.line;
+            visuals.fg_stroke = Stroke::new(width, palette.accent);
+        }
+        contents(ui)
+    })
     .inner
 }
 
@@ -415,7 +473,7 @@ pub(crate) fn row_label(ui: &mut Ui, name: &str, summary: &str) -> Response {
     let weak = Palette::get(ui).weak;
     let label = egui::Label::new(egui::RichText::new(name).color(weak)).truncate();
     let size = vec2(LABEL_WIDTH, CONTROL_HEIGHT);
-    let layout = egui::Layout::left_to_right(egui::Align::Center);
+    let layout = along();
     let response = ui
         .allocate_ui_with_layout(size, layout, |ui| {
             ui.set_min_size(size);
@@ -451,6 +509,7 @@ pub(crate) fn vector_row(
                 .speed(0.6 * 0.1_f64.powi(decimals as i32))
                 .max_decimals(decimals)
                 .custom_formatter(|value, _| plain(value, decimals))
+                .custom_parser(words::parse_number)
                 .suffix(unit)
                 .update_while_editing(false);
             let field = ui.add_sized(vec2(width, CONTROL_HEIGHT), field);
@@ -476,7 +535,7 @@ pub(crate) fn plain(value: f64, decimals: usize) -> String {
     if text == "-0" {
         "0".to_owned()
     } else {
-        text.replace('-', "\u{2212}")
+        localized(text.replace('-', "\u{2212}"))
     }
 }
 

@@ -6,8 +6,9 @@ use glam::{Quat, Vec3};
 
 use super::camera::Projection;
 use super::command::GizmoMode;
-use super::control::capitalized;
 use super::theme::over_picture as ink;
+use super::words::picture::w;
+use super::words::{fill, in_sentence, kinds};
 use crate::displace;
 use crate::document::{Edit, PlacedTemplate};
 use crate::math::Placement;
@@ -48,17 +49,14 @@ pub(crate) enum Part {
 impl Part {
     fn name(self, main: &str) -> String {
         match self {
-            Self::Main => format!("Drag {main}"),
-            Self::Free => "Move freely".to_owned(),
-            Self::Axis(i) => format!("Move along {}", AXIS_NAMES[i]),
-            Self::Plane(i) => format!("Move across {}", AXIS_NAMES[i]),
-            Self::Ring(i) => format!("Turn about {}", AXIS_NAMES[i]),
+            Self::Main => fill(w().drag_main, &[&main]),
+            Self::Free => w().move_freely.to_owned(),
+            Self::Axis(i) => fill(w().move_along, &[&AXIS_NAMES[i]]),
+            Self::Plane(i) => fill(w().move_across, &[&AXIS_NAMES[i]]),
+            Self::Ring(i) => fill(w().turn_about, &[&AXIS_NAMES[i]]),
             Self::Face(i, high) => {
-                format!(
-                    "Size {} at {}",
-                    AXIS_NAMES[i],
-                    if high { "the far end" } else { "the near end" }
-                )
+                let text = if high { w().size_far } else { w().size_near };
+                fill(text, &[&AXIS_NAMES[i]])
             }
         }
     }
@@ -310,7 +308,7 @@ struct Handles<'a> {
     main: Option<Pos2>,
     /// What the knob stands for.
     main_at: Option<Pos2>,
-    main_name: &'static str,
+    main_name: String,
     /// Where the tip of each arrow is seen.
     tips: [Option<Pos2>; 3],
     /// Middles of the faces: axis, far end, place, and whether it faces the viewer.
@@ -345,7 +343,9 @@ impl<'a> Handles<'a> {
             center,
             main: main_at.zip(center).map(|(at, center)| knob(at, center)),
             main_at,
-            main_name: spec.main_param.map_or("", |i| spec.params[i].name),
+            main_name: spec
+                .main_param
+                .map_or_else(String::new, |i| kinds::param_name(template.kind, i)),
             tips,
             faces,
         }
@@ -438,7 +438,7 @@ impl<'a> Handles<'a> {
             painter.circle_filled(main, radius, if is_hot { ink::HOT } else { ink::HANDLE });
             if is_hot {
                 let font = super::theme::strong_font(12.0);
-                let text = capitalized(self.main_name);
+                let text = self.main_name.clone();
                 let galley = painter.layout_no_wrap(text, font, egui::Color32::WHITE);
                 let at = main + vec2(16.0, -0.5 * galley.size().y);
                 let back = Rect::from_min_size(at, galley.size()).expand2(vec2(6.0, 3.0));
@@ -586,7 +586,7 @@ impl<'a> Handles<'a> {
             let Some(at) = at.filter(|at| self.view.rect.contains(*at)) else {
                 return;
             };
-            let name = part.name(self.main_name);
+            let name = part.name(&in_sentence(&self.main_name));
             let rect = Rect::from_center_size(at, Vec2::splat(12.0));
             let id = ui.scope_id().with(("gizmo", template.index, &name));
             let response = ui.interact(rect, id, Sense::empty());

@@ -6,16 +6,20 @@ use super::command::{Command, Shortcut, shortcuts};
 use super::control;
 use super::icon::Icon;
 use super::theme::{self, Palette};
+use super::words::keys::w;
 
 /// What the mouse and fingers do in the picture.
-const GESTURES: [(&str, &str); 6] = [
-    ("Drag", "Turn the object"),
-    ("Right drag, two fingers", "Move the picture"),
-    ("Wheel, pinch", "Closer, further away"),
-    ("Double click", "Turn about the point"),
-    ("Ctrl + handle", "Steps of 15°, both sides"),
-    ("Alt drag", "Roll"),
-];
+fn gestures() -> [(&'static str, &'static str); 6] {
+    let w = w();
+    [
+        (w.drag, w.turn_object),
+        (w.pan, w.pan_does),
+        (w.wheel, w.wheel_does),
+        (w.double_click, w.double_click_does),
+        (w.handle, w.handle_does),
+        (w.alt_drag, w.alt_drag_does),
+    ]
+}
 
 /// The sheet over everything. Returns true if it is to be closed.
 pub(crate) fn ui(ui: &Ui, commands: &mut Vec<Command>) {
@@ -26,8 +30,8 @@ pub(crate) fn ui(ui: &Ui, commands: &mut Vec<Command>) {
         .show(ui.ctx(), |ui| {
             let is_wide = content.x > 840.0;
             ui.set_width((content.x - 64.0).min(if is_wide { 760.0 } else { 340.0 }));
-            control::heading(ui, "Keys and gestures", |ui| {
-                if control::icon_button(ui, Icon::Close, "Close the sheet", true).clicked() {
+            control::heading(ui, w().heading, |ui| {
+                if control::icon_button(ui, Icon::Close, w().close, true).clicked() {
                     commands.push(Command::ToggleKeys);
                 }
             });
@@ -37,9 +41,9 @@ pub(crate) fn ui(ui: &Ui, commands: &mut Vec<Command>) {
                 .max_height(height)
                 .min_scrolled_height(height)
                 .show(ui, |ui| {
-                    let mut rows: Vec<(String, &str)> = GESTURES
-                        .iter()
-                        .map(|(what, does)| ((*what).to_owned(), *does))
+                    let mut rows: Vec<(String, &str)> = gestures()
+                        .into_iter()
+                        .map(|(what, does)| (what.to_owned(), does))
                         .collect();
                     let listed = shortcuts();
                     rows.extend(
@@ -79,15 +83,15 @@ pub(crate) fn ui(ui: &Ui, commands: &mut Vec<Command>) {
 
 /// Keys as people write them.
 fn keys_name(ui: &Ui, shortcut: &Shortcut) -> String {
-    match shortcut.text {
-        "Turn the object" => "Arrows".to_owned(),
+    match shortcut.command {
+        Command::Orbit(..) => w().arrows.to_owned(),
         _ => ui
             .ctx()
             .format_shortcut(&shortcut.keys)
             .replace("OpenBracket", "[")
             .replace("CloseBracket", "]")
             .replace("Questionmark", "?")
-            .replace("PageUp", "Page up")
-            .replace("PageDown", "Page down"),
+            .replace("PageUp", w().page_up)
+            .replace("PageDown", w().page_down),
     }
 }

@@ -8,18 +8,20 @@ use super::icon::Icon;
 use super::state::State;
 use super::templates::command;
 use super::theme::{CONTROL_HEIGHT, Palette};
+use super::words::look::{Look, w};
+use super::words::{fill, names};
 use crate::document::{
     Background, Edit, OpacityMode, Preset, Transfer, TransferPoint, Window, preset, presets,
 };
 use crate::render::{SubjectInfo, auto_preset, window_of};
 
 /// Backgrounds at a click: paper, warm paper, grey, slate, black.
-const BACKGROUNDS: [([u8; 3], &str); 5] = [
-    ([255, 255, 255], "White"),
-    ([246, 241, 231], "Paper"),
-    ([200, 204, 208], "Grey"),
-    ([38, 43, 48], "Slate"),
-    ([0, 0, 0], "Black"),
+const BACKGROUNDS: [([u8; 3], fn(&Look) -> &'static str); 5] = [
+    ([255, 255, 255], |w| w.white),
+    ([246, 241, 231], |w| w.paper),
+    ([200, 204, 208], |w| w.grey),
+    ([38, 43, 48], |w| w.slate),
+    ([0, 0, 0], |w| w.black),
 ];
 
 /// The panel. `info` is what is known of the volume shown.
@@ -30,7 +32,7 @@ pub(crate) fn ui(
     commands: &mut Vec<Command>,
 ) {
     let look = &state.illustration().look;
-    control::heading(ui, "Look", |_| {});
+    control::heading(ui, w().heading, |_| {});
     let auto = info.map(|info| auto_preset(&state.illustration().subject, info));
     transfer_ui(ui, &look.transfer, auto, commands);
     let name = match &look.transfer {
@@ -42,19 +44,19 @@ pub(crate) fn ui(
         window_ui(ui, look.window, preset, info, commands);
     }
     control::divider(ui);
-    control::heading(ui, "Opacity under deformation", |_| {});
+    control::heading(ui, w().opacity_heading, |_| {});
     let options = [
-        (OpacityMode::Constancy, "Surfaces"),
-        (OpacityMode::Mass, "Mass"),
-        (OpacityMode::None, "As it is"),
+        (OpacityMode::Constancy, w().surfaces),
+        (OpacityMode::Mass, w().mass),
+        (OpacityMode::None, w().as_it_is),
     ];
-    if let Some(mode) = control::segmented(ui, "Opacity", &options, look.opacity) {
+    if let Some(mode) = control::segmented(ui, w().opacity, &options, look.opacity) {
         commands.push(Command::Apply(Edit::SetOpacity(mode)));
     }
     let hint = match look.opacity {
-        OpacityMode::Constancy => "A stretched surface stays as opaque as it was.",
-        OpacityMode::Mass => "Stretched tissue grows thinner, compressed tissue denser.",
-        OpacityMode::None => "Opacity does not follow the deformation.",
+        OpacityMode::Constancy => w().surfaces_hint,
+        OpacityMode::Mass => w().mass_hint,
+        OpacityMode::None => w().as_it_is_hint,
     };
     let weak = Palette::get(ui).weak;
     ui.add(egui::Label::new(egui::RichText::new(hint).small().color(weak)).wrap());
@@ -67,19 +69,22 @@ fn transfer_ui(ui: &mut Ui, transfer: &Transfer, auto: Option<&str>, commands: &
         presets()
             .iter()
             .find(|preset| preset.name == name)
-            .map_or_else(|| name.to_owned(), |p| p.title.to_owned())
+            .map_or_else(
+                || name.to_owned(),
+                |p| names::preset(p.name, p.title).to_owned(),
+            )
     };
     let auto = auto.map_or_else(
-        || "Automatic".to_owned(),
-        |name| format!("Automatic ({})", title(name)),
+        || w().automatic.to_owned(),
+        |name| fill(w().automatic_is, &[&title(name)]),
     );
     let selected = match transfer {
         Transfer::Auto => auto.clone(),
         Transfer::Preset(name) => title(name),
-        Transfer::Points(points) => format!("Own points ({})", points.len()),
+        Transfer::Points(points) => fill(w().own_points, &[&points.len()]),
     };
     control::row(ui, |ui| {
-        control::row_label(ui, "Colours", "Which values are seen, in which colour");
+        control::row_label(ui, w().colours, w().colours_hint);
         let combo = control::combo("preset", &selected, ui.available_width() - 2.0);
         let shown = combo.height(420.0).show_ui(ui, |ui| {
             if ui
@@ -90,13 +95,16 @@ fn transfer_ui(ui: &mut Ui, transfer: &Transfer, auto: Option<&str>, commands: &
             }
             for preset in presets() {
                 let is_selected = matches!(transfer, Transfer::Preset(name) if name == preset.name);
-                if ui.selectable_label(is_selected, preset.title).clicked() {
+                if ui
+                    .selectable_label(is_selected, names::preset(preset.name, preset.title))
+                    .clicked()
+                {
                     let transfer = Transfer::Preset(preset.name.to_owned());
                     commands.push(Command::Apply(Edit::SetTransfer(transfer)));
                 }
             }
         });
-        shown.response.accessible_name("Colours");
+        shown.response.accessible_name(w().colours);
     });
     if let Transfer::Points(points) = transfer {
         points_ui(ui, points, commands);
@@ -117,22 +125,22 @@ fn points_ui(ui: &mut Ui, points: &[TransferPoint], commands: &mut Vec<Command>)
         control::row(ui, |ui| {
             let mut edited = *point;
             let color = ui.color_edit_button_srgb(&mut edited.color_srgb);
-            let color = color.accessible_name(format!("Colour {}", i + 1));
+            let color = color.accessible_name(fill(w().colour_n, &[&(i + 1)]));
             let value = ui.add_sized(
                 vec2(76.0, CONTROL_HEIGHT),
                 DragValue::new(&mut edited.value).speed(2.0).max_decimals(2),
             );
             let value = value
-                .accessible_name(format!("Value {}", i + 1))
-                .on_hover_text("Value");
+                .accessible_name(fill(w().value_n, &[&(i + 1)]))
+                .on_hover_text(w().value);
             let field = DragValue::new(&mut edited.opacity)
                 .range(0.0..=1.0)
                 .speed(0.005)
                 .max_decimals(3);
             let opacity = ui.add_sized(vec2(60.0, CONTROL_HEIGHT), field);
             let opacity = opacity
-                .accessible_name(format!("Opacity {}", i + 1))
-                .on_hover_text("Opacity of 0.01 subject units");
+                .accessible_name(fill(w().opacity_n, &[&(i + 1)]))
+                .on_hover_text(w().opacity_hint);
             if color.changed() || value.changed() || opacity.changed() {
                 let is_drag = value.is_pointer_button_down_on()
                     || opacity.is_pointer_button_down_on()
@@ -141,7 +149,7 @@ fn points_ui(ui: &mut Ui, points: &[TransferPoint], commands: &mut Vec<Command>)
                 points[i] = edited;
                 commands.push(send(points, is_drag));
             }
-            let name = format!("Remove point {}", i + 1);
+            let name = fill(w().remove_point, &[&(i + 1)]);
             if control::icon_button(ui, Icon::Close, &name, points.len() > 1).clicked() {
                 let mut points = points.to_vec();
                 points.remove(i);
@@ -149,7 +157,7 @@ fn points_ui(ui: &mut Ui, points: &[TransferPoint], commands: &mut Vec<Command>)
             }
         });
     }
-    if control::labelled_button(ui, Icon::Plus, "Add a point", false, points.len() < 64).clicked() {
+    if control::labelled_button(ui, Icon::Plus, w().add_point, false, points.len() < 64).clicked() {
         let mut points = points.to_vec();
         if let Some(last) = points.last().copied() {
             points.push(TransferPoint {
@@ -176,10 +184,10 @@ fn window_ui(
     let mut result: Option<Change<[f32; 2]>> = None;
     control::row(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        control::row_label(ui, "Window", "The values over which the colours are spread");
+        control::row_label(ui, w().window, w().window_hint);
         let width = 66.0;
         let decimals = if span > 50.0 { 0 } else { 3 };
-        for (i, name) in ["Window from", "Window to"].into_iter().enumerate() {
+        for (i, name) in [w().window_from, w().window_to].into_iter().enumerate() {
             let field = DragValue::new(&mut edited[i])
                 .speed(span / 600.0)
                 .max_decimals(decimals)
@@ -194,7 +202,7 @@ fn window_ui(
             }
         }
         if window != Window::Auto
-            && control::icon_button(ui, Icon::Reset, "Reset window", true).clicked()
+            && control::icon_button(ui, Icon::Reset, w().reset_window, true).clicked()
         {
             commands.push(Command::Apply(Edit::SetWindow(Window::Auto)));
         }
@@ -202,7 +210,7 @@ fn window_ui(
     let [mut from, mut to] = shown;
     let width = ui.available_width();
     let slider = control::slim(ui, width, |ui| {
-        ui.name_inputs("Window slider", |ui| {
+        ui.name_inputs(w().window_slider, |ui| {
             ui.add(RangeSlider::new(&mut from, &mut to, low..=high).show_value(false))
         })
     });
@@ -222,14 +230,14 @@ fn window_ui(
 
 fn background_ui(ui: &mut Ui, background: Background, commands: &mut Vec<Command>) {
     let palette = Palette::get(ui);
-    control::heading(ui, "Background", |_| {});
+    control::heading(ui, w().background, |_| {});
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         for (color, name) in BACKGROUNDS {
             let is_selected = background == Background::Color(color);
             let [r, g, b] = color;
             let fill = egui::Color32::from_rgb(r, g, b);
-            if swatch(ui, name, is_selected, |ui, rect| {
+            if swatch(ui, name(w()), is_selected, |ui, rect| {
                 ui.painter().circle(
                     rect.center(),
                     11.0,
@@ -244,7 +252,7 @@ fn background_ui(ui: &mut Ui, background: Background, commands: &mut Vec<Command
         }
         if swatch(
             ui,
-            "Transparent",
+            w().transparent,
             background == Background::None,
             |ui, rect| {
                 ui.painter().circle(
@@ -268,8 +276,8 @@ fn background_ui(ui: &mut Ui, background: Background, commands: &mut Vec<Command
         };
         let response = ui
             .color_edit_button_srgb(&mut color)
-            .accessible_name("Background colour")
-            .on_hover_text("Any colour");
+            .accessible_name(w().background_colour)
+            .on_hover_text(w().any_colour);
         if response.changed() {
             commands.push(Command::Drag(Edit::SetBackground(Background::Color(color))));
         }
@@ -280,7 +288,7 @@ fn background_ui(ui: &mut Ui, background: Background, commands: &mut Vec<Command
 fn swatch(ui: &mut Ui, name: &str, is_selected: bool, paint: impl FnOnce(&Ui, egui::Rect)) -> bool {
     let palette = Palette::get(ui);
     let (rect, response) = ui.allocate_exact_size(egui::Vec2::splat(28.0), egui::Sense::click());
-    let full_name = format!("Background: {name}");
+    let full_name = fill(w().background_is, &[&name]);
     response.widget_info(|| {
         egui::WidgetInfo::selected(
             egui::Role::RadioButton,

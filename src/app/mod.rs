@@ -8,6 +8,7 @@
 //! | `viewport`, `camera`, `gizmo`, `orientation` | the picture and what the hand does on it |
 //! | `picture`, `icons` | the renderer, its texture, questions to it; the catalogue's pictures |
 //! | `topbar`, `catalogue`, `templates`, `look`, `text`, `notice`, `keys` | one panel each |
+//! | `words/` | every text of the interface in every language, a table per panel |
 //! | `theme`, `control`, `icon` | colours and type, the common controls, drawn icons |
 //!
 //! Nothing here knows where it runs. The picture is drawn when something changed; at rest nothing repaints.
@@ -33,6 +34,7 @@ mod text;
 mod theme;
 mod topbar;
 mod viewport;
+mod words;
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -45,6 +47,7 @@ use self::picture::Picture;
 use self::state::{Gravity, STORED_DOCUMENT, State, Tab};
 use self::theme::Palette;
 use self::viewport::Viewport;
+use self::words::fill;
 use crate::data::{VolumeBuilder, VolumeSink as _};
 use crate::document::Document;
 use crate::render::Clock;
@@ -52,6 +55,7 @@ use crate::render::Clock;
 pub use self::camera::StandardView;
 pub use self::command::{Command, GizmoMode};
 pub use self::services::{LinkChange, LoadEvent, Message, SaveFile, Services, Ticket};
+pub use self::words::Lang;
 
 /// Width in points below which panels become drawers.
 const NARROW: f32 = 760.0;
@@ -111,6 +115,8 @@ impl App {
             Some("light") => cc.egui_ctx.set_theme(egui::Theme::Light),
             _ => {}
         }
+        let kept = services.stored(words::STORED_LANGUAGE);
+        words::set_lang(Lang::best(kept.into_iter().chain(services.languages())));
         let picture = cc
             .wgpu_render_state
             .as_ref()
@@ -218,27 +224,25 @@ impl App {
                 Message::Copied(Ok(())) => {
                     self.state.copied_at = Some(self.state.now);
                     self.state
-                        .say(Gravity::Success, "The link is on the clipboard", "");
+                        .say(Gravity::Success, words::said::w().link_on_clipboard, "");
                     let length = self.state.payload.len();
                     if length > state::LONG_LINK {
-                        let text = format!(
-                            "The link has {length} characters, which some programs cut off; a saved document is safer"
-                        );
+                        let text = fill(words::said::w().link_long, &[&length]);
                         self.state.say(Gravity::Warning, text, "");
                     }
                 }
                 Message::Copied(Err(error)) => {
                     self.state
-                        .say(Gravity::Error, "The clipboard did not take the link", error);
+                        .say(Gravity::Error, words::said::w().clipboard_refused, error);
                 }
                 Message::Saved(Ok(name)) => {
                     self.state
-                        .say(Gravity::Success, format!("Saved {name}"), "")
+                        .say(Gravity::Success, fill(words::said::w().saved, &[&name]), "")
                 }
                 Message::Saved(Err(error)) if error.is_empty() => {}
                 Message::Saved(Err(error)) => {
                     self.state
-                        .say(Gravity::Error, "The file was not saved", error)
+                        .say(Gravity::Error, words::said::w().not_saved, error)
                 }
                 Message::Notice { message, details } => {
                     self.state.say(Gravity::Warning, message, details)
@@ -253,7 +257,7 @@ impl App {
                 let mut builder = VolumeBuilder::new();
                 match builder.begin(&header) {
                     Ok(()) => self.incoming = Some(builder),
-                    Err(why) => self.refuse("The scan cannot be held", why),
+                    Err(why) => self.refuse(words::said::w().cannot_be_held, why),
                 }
             }
             LoadEvent::Scalars(scalars) => {
@@ -282,7 +286,8 @@ impl App {
             LoadEvent::Cancelled => {
                 self.incoming = None;
                 self.state.load_ended();
-                self.state.say(Gravity::Info, "Loading was stopped", "");
+                self.state
+                    .say(Gravity::Info, words::said::w().loading_stopped, "");
             }
         }
     }
@@ -310,13 +315,10 @@ impl App {
                     .as_mut()
                     .map(|picture| picture.set_subject(volume));
                 if let Some(Err(error)) = shown {
-                    self.refuse(
-                        "The scan does not fit on the graphics device",
-                        error.to_string(),
-                    );
+                    self.refuse(words::said::w().does_not_fit, error.to_string());
                 }
             }
-            Err(error) => self.refuse("The scan is incomplete", error.to_string()),
+            Err(error) => self.refuse(words::said::w().incomplete, error.to_string()),
         }
     }
 
@@ -446,7 +448,7 @@ impl App {
                 Some(Err(error)) => {
                     self.state.say(
                         Gravity::Error,
-                        "The picture could not be made",
+                        words::said::w().picture_failed,
                         error.to_string(),
                     );
                 }
@@ -496,11 +498,8 @@ impl App {
         if let Some(reason) = lost.filter(|_| !self.has_said_loss) {
             self.has_said_loss = true;
             self.icons.device_lost();
-            self.state.say(
-                Gravity::Error,
-                "The graphics device was lost. Your work is kept: copy the link, or start again",
-                reason,
-            );
+            self.state
+                .say(Gravity::Error, words::said::w().device_lost, reason);
         }
     }
 
@@ -516,7 +515,7 @@ impl App {
                 .exact_size(46.0)
                 .frame(bar)
                 .show(ui, |ui| {
-                    topbar::ui(ui, &self.state, false, commands);
+                    control::directed(ui, |ui| topbar::ui(ui, &self.state, false, commands));
                 });
             let side = Frame::new().fill(palette.panel).inner_margin(Margin {
                 left: 12,
@@ -524,30 +523,35 @@ impl App {
                 top: 8,
                 bottom: 8,
             });
-            Panel::left("catalogue")
+            let (first, last) = if words::is_rtl() {
+                (Panel::right("catalogue"), Panel::left("side"))
+            } else {
+                (Panel::left("catalogue"), Panel::right("side"))
+            };
+            first
                 .exact_size(CATALOGUE_WIDTH)
                 .resizable(false)
                 .frame(side)
                 .show(ui, |ui| {
-                    control::heading(ui, "Add", |_| {});
+                    control::directed(ui, |ui| control::heading(ui, words::bar::w().add, |_| {}));
                     scroll(ui, |ui| {
                         catalogue::ui(ui, &self.state, &self.icons, commands)
                     });
                 });
-            Panel::right("side")
-                .exact_size(SIDE_WIDTH)
+            last.exact_size(SIDE_WIDTH)
                 .resizable(false)
                 .frame(side)
                 .show(ui, |ui| {
                     ui.horizontal(|ui| {
                         ui.set_max_width(ui.available_width() - 8.0);
+                        let w = words::bar::w();
                         let tabs = [
-                            (Tab::Templates, "Templates"),
-                            (Tab::Look, "Look"),
-                            (Tab::Text, "Text"),
+                            (Tab::Templates, w.templates),
+                            (Tab::Look, w.look),
+                            (Tab::Text, w.text),
                         ];
                         if let Some(tab) =
-                            control::segmented(ui, "Panel", &tabs, self.state.side_tab)
+                            control::segmented(ui, w.panel, &tabs, self.state.side_tab)
                         {
                             self.state.side_tab = tab;
                         }
@@ -570,7 +574,7 @@ impl App {
                 .exact_size(48.0)
                 .frame(bar)
                 .show(ui, |ui| {
-                    topbar::ui(ui, &self.state, true, commands);
+                    control::directed(ui, |ui| topbar::ui(ui, &self.state, true, commands));
                 });
             let tabs = Frame::new()
                 .fill(palette.panel)
@@ -579,7 +583,7 @@ impl App {
                 .exact_size(56.0)
                 .frame(tabs)
                 .show(ui, |ui| {
-                    self.tabs_ui(ui);
+                    control::directed(ui, |ui| self.tabs_ui(ui));
                 });
             let drawer = Frame::new().fill(palette.panel).inner_margin(Margin {
                 left: 14,
@@ -618,11 +622,12 @@ impl App {
     /// The row of drawers at the bottom of a narrow window.
     fn tabs_ui(&mut self, ui: &mut Ui) {
         let palette = Palette::get(ui);
+        let w = words::bar::w();
         let tabs = [
-            (Tab::Add, Icon::Plus, "Add"),
-            (Tab::Templates, Icon::Layers, "Templates"),
-            (Tab::Look, Icon::Look, "Look"),
-            (Tab::Text, Icon::Text, "Text"),
+            (Tab::Add, Icon::Plus, w.add),
+            (Tab::Templates, Icon::Layers, w.templates),
+            (Tab::Look, Icon::Look, w.look),
+            (Tab::Text, Icon::Text, w.text),
         ];
         let size = vec2(
             ui.available_width() / tabs.len() as f32,
@@ -685,7 +690,7 @@ impl App {
 fn scroll(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.set_max_width(ui.available_width() - 8.0);
-        contents(ui);
+        control::directed(ui, contents);
         ui.add_space(12.0);
     });
 }

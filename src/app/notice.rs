@@ -7,6 +7,8 @@ use super::control;
 use super::icon::Icon;
 use super::state::{Gravity, Load, Said, State};
 use super::theme::{self, Palette};
+use super::words::said::w;
+use super::words::{fill, names};
 
 /// Lines shown at once over the picture.
 const SHOWN: usize = 3;
@@ -101,12 +103,16 @@ fn said_ui(ui: &mut Ui, said: &mut Said) {
                         });
                     },
                 );
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    if control::icon_button(ui, Icon::Close, "Dismiss", true).clicked() {
+                ui.with_layout(control::against(), |ui| {
+                    if control::icon_button(ui, Icon::Close, w().dismiss, true).clicked() {
                         said.is_shown = false;
                     }
                     if !said.details.is_empty() {
-                        let text = if said.is_unfolded { "Less" } else { "Details" };
+                        let text = if said.is_unfolded {
+                            w().less
+                        } else {
+                            w().details
+                        };
                         if ui.button(text).clicked() {
                             said.is_unfolded = !said.is_unfolded;
                         }
@@ -129,12 +135,12 @@ fn load_ui(ui: &mut Ui, load: &Load, commands: &mut Vec<Command>) {
     let palette = Palette::get(ui);
     card(ui, palette.line, |ui| {
         if let Some(host) = &load.host {
-            ui.add(Label::new(format!("This document shows a scan from {host}. Fetch it?")).wrap());
+            ui.add(Label::new(fill(w().fetch_it, &[host])).wrap());
             ui.horizontal(|ui| {
-                if control::labelled_button(ui, Icon::Download, "Fetch", true, true).clicked() {
+                if control::labelled_button(ui, Icon::Download, w().fetch, true, true).clicked() {
                     commands.push(Command::AllowHost);
                 }
-                if control::labelled_button(ui, Icon::Close, "No", false, true).clicked() {
+                if control::labelled_button(ui, Icon::Close, w().no, false, true).clicked() {
                     commands.push(Command::CancelLoad);
                 }
             });
@@ -142,10 +148,10 @@ fn load_ui(ui: &mut Ui, load: &Load, commands: &mut Vec<Command>) {
         }
         ui.horizontal(|ui| {
             let percent = (load.fraction * 100.0).round();
-            let text = format!("{} {percent} %", load.what);
+            let text = format!("{} {percent} %", names::stage(&load.what));
             ui.add(Label::new(text).truncate());
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                if control::icon_button(ui, Icon::Close, "Cancel loading", true).clicked() {
+            ui.with_layout(control::against(), |ui| {
+                if control::icon_button(ui, Icon::Close, w().cancel_loading, true).clicked() {
                     commands.push(Command::CancelLoad);
                 }
                 let (bar, response) = ui.allocate_exact_size(
@@ -154,7 +160,7 @@ fn load_ui(ui: &mut Ui, load: &Load, commands: &mut Vec<Command>) {
                 );
                 response.widget_info(|| {
                     let mut info =
-                        egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, "Loading");
+                        egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, w().loading);
                     info.value = Some(f64::from(load.fraction));
                     info
                 });
@@ -176,15 +182,15 @@ pub(crate) fn messages_ui(ui: &Ui, state: &State, commands: &mut Vec<Command>) {
         .frame(frame)
         .show(ui.ctx(), |ui| {
             ui.set_width((content.x - 64.0).min(520.0));
-            control::heading(ui, "Messages", |ui| {
-                if control::icon_button(ui, Icon::Close, "Close messages", true).clicked() {
+            control::heading(ui, w().messages, |ui| {
+                if control::icon_button(ui, Icon::Close, w().close_messages, true).clicked() {
                     commands.push(Command::ToggleMessages);
                 }
             });
             control::divider(ui);
             let weak = Palette::get(ui).weak;
             if state.said.is_empty() {
-                ui.label(RichText::new("Nothing so far.").color(weak));
+                ui.label(RichText::new(w().nothing_so_far).color(weak));
             }
             egui::ScrollArea::vertical()
                 .max_height(content.y - 180.0)

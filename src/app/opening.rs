@@ -3,6 +3,8 @@
 use super::services::{Services, Ticket};
 use super::state::{Gravity, Load, STORED_DOCUMENT, State, make_payload};
 use super::steps::Walk;
+use super::words::fill;
+use super::words::said::w;
 use crate::document::{Document, Edit, SubjectRef};
 use crate::link;
 
@@ -30,7 +32,7 @@ impl State {
             [] => {}
             [one] => self.say(Gravity::Warning, one.clone(), ""),
             [first, ..] => {
-                let more = format!("{first} (and {} more)", notices.len() - 1);
+                let more = fill(w().more_notices, &[first, &(notices.len() - 1)]);
                 self.say(Gravity::Warning, more, notices.join("\n"));
             }
         }
@@ -54,15 +56,11 @@ impl State {
                 let last = document.step_count();
                 self.open_document(document, step, services);
                 if step > last {
-                    let text = format!("The link opens at step {step}, the last is {last}");
+                    let text = fill(w().step_too_far, &[&step, &last]);
                     self.say(Gravity::Warning, text, "");
                 }
             }
-            Err(error) => self.say(
-                Gravity::Error,
-                format!("This document cannot be opened: {error}"),
-                "",
-            ),
+            Err(error) => self.say(Gravity::Error, fill(w().cannot_be_opened, &[&error]), ""),
         }
     }
 
@@ -110,8 +108,8 @@ impl State {
             if self.template_count() > 0 {
                 self.say(
                     Gravity::Info,
-                    "This is another file than the one the document was made with; undo brings the first one's name back",
-                    format!("expected {wanted}\nopened {sha256}"),
+                    w().other_file,
+                    fill(w().other_file_details, &[wanted, &sha256]),
                 );
             }
         }

@@ -7,6 +7,8 @@ use glam::Vec3;
 use super::camera::{Projection, StandardView};
 use super::command::Command;
 use super::theme::{self, Palette};
+use super::words::fill;
+use super::words::picture::w;
 
 /// Points of the ball's radius.
 const BALL: f32 = 34.0;
@@ -79,7 +81,7 @@ pub(crate) fn ball_ui(ui: &Ui, view: &Projection, center: Pos2) -> Option<Comman
             ui.scope_id().with(("side", side.letter())),
             Sense::click(),
         );
-        let name = format!("View: {}", side.name());
+        let name = fill(w().view, &[&side_name(side)]);
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
         let is_hot = response.hovered() || response.has_focus();
         let color = match side {
@@ -120,14 +122,26 @@ pub(crate) fn ball_ui(ui: &Ui, view: &Projection, center: Pos2) -> Option<Comman
     tapped
 }
 
+/// As on the button: `Front`.
+fn side_name(side: StandardView) -> &'static str {
+    match side {
+        StandardView::Front => w().front,
+        StandardView::Back => w().back,
+        StandardView::Right => w().right,
+        StandardView::Left => w().left,
+        StandardView::Top => w().top,
+        StandardView::Bottom => w().bottom,
+    }
+}
+
 fn side_hint(side: StandardView) -> &'static str {
     match side {
-        StandardView::Front => "From the front, anterior",
-        StandardView::Back => "From the back, posterior",
-        StandardView::Right => "From the patient's right",
-        StandardView::Left => "From the patient's left",
-        StandardView::Top => "From above, superior",
-        StandardView::Bottom => "From below, inferior",
+        StandardView::Front => w().from_front,
+        StandardView::Back => w().from_back,
+        StandardView::Right => w().from_right,
+        StandardView::Left => w().from_left,
+        StandardView::Top => w().from_above,
+        StandardView::Bottom => w().from_below,
     }
 }
 

@@ -52,6 +52,10 @@ pub trait Services {
     fn set_link(&mut self, payload: &str, change: LinkChange);
     /// Keeps a text for the next time the program is started.
     fn store(&mut self, key: &str, value: &str);
+    /// Language tags that the reader wants, the best liked first.
+    fn languages(&self) -> Vec<String> {
+        Vec::new()
+    }
     /// What was kept.
     fn stored(&self, key: &str) -> Option<String>;
 

@@ -7,6 +7,7 @@ use super::camera;
 use super::command::{Command, GizmoMode};
 use super::services::{LinkChange, SaveFile, Services, Ticket};
 use super::steps::Walk;
+use super::words;
 use crate::document::{
     Camera, Document, Edit, History, Illustration, PlacedTemplate, SubjectRef, TemplateKind,
 };
@@ -506,6 +507,10 @@ impl State {
             Command::ToggleKeys => self.is_keys_sheet_open = !self.is_keys_sheet_open,
             Command::ToggleMessages => self.is_messages_open = !self.is_messages_open,
             Command::ToggleTheme => self.theme_toggle = true,
+            Command::Speak(lang) => {
+                words::set_lang(lang);
+                services.store(words::STORED_LANGUAGE, lang.tag());
+            }
             Command::Scale(factor) => self.scale_change = Some(factor),
             Command::TogglePanels => {
                 self.are_panels_hidden = !self.are_panels_hidden;

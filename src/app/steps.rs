@@ -1,6 +1,6 @@
 //! Walking the steps of a document: which one is shown, the passage to the next, and the bar in the picture.
 
-use egui::{Align, FontId, Layout, Rect, Role, Ui, UiBuilder, WidgetInfo, vec2};
+use egui::{FontId, Rect, Role, Ui, UiBuilder, WidgetInfo, vec2};
 
 use super::camera;
 use super::command::Command;
@@ -9,6 +9,7 @@ use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette};
 use super::viewport;
+use super::words::keys::w;
 use crate::document::{Camera, Document, Illustration};
 
 /// Points that the ball of axes and the way home take at the left, and at the foot of the picture.
@@ -201,9 +202,9 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<C
         UiBuilder::new()
             .id_salt("steps")
             .max_rect(row)
-            .layout(Layout::left_to_right(Align::Center)),
+            .layout(control::along()),
     );
-    let back = control::icon_button(&mut inner, Icon::Previous, "Previous step", number > 0);
+    let back = control::icon_button(&mut inner, Icon::Previous, w().step_before, number > 0);
     if back.clicked() {
         commands.push(Command::GoToStep(number.saturating_sub(1)));
     }
@@ -215,9 +216,9 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<C
             response.widget_info(|| WidgetInfo::labeled(Role::Status, true, &label));
         });
     });
-    inner.with_layout(Layout::right_to_left(Align::Center), |ui| {
+    inner.with_layout(control::against(), |ui| {
         let is_last = number >= steps.len();
-        if control::icon_button(ui, Icon::Next, "Next step", !is_last).clicked() {
+        if control::icon_button(ui, Icon::Next, w().next_step, !is_last).clicked() {
             commands.push(Command::GoToStep(number + 1));
         }
     });

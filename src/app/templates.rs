@@ -7,10 +7,12 @@ use glam::{EulerRot, Quat, Vec3};
 
 use super::catalogue::kind_title;
 use super::command::Command;
-use super::control::{self, Change, NumberRow, capitalized};
+use super::control::{self, Change, NumberRow};
 use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette};
+use super::words::templates::w;
+use super::words::{fill, kinds};
 use crate::document::{Edit, ParamKind, ParamSpec, ParamValue, PlacedTemplate, TemplateMode};
 use crate::math::Placement;
 
@@ -20,7 +22,7 @@ const ROW: f32 = 36.0;
 /// The author's name for a template, else its kind's.
 pub(crate) fn template_title(template: &PlacedTemplate) -> String {
     if template.name.is_empty() {
-        kind_title(template.kind)
+        kind_title(template.kind).to_owned()
     } else {
         template.name.clone()
     }
@@ -35,10 +37,9 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     } else if let Some(index) = state.selected {
         control::divider(ui);
         let weak = Palette::get(ui).weak;
-        let text =
-            "This version does not know this kind of template. It is kept as it is, and not drawn.";
+        let text = w().unknown_kind;
         ui.add(Label::new(egui::RichText::new(text).color(weak)).wrap());
-        if control::labelled_button(ui, Icon::Trash, "Delete", false, true).clicked() {
+        if control::labelled_button(ui, Icon::Trash, w().delete, false, true).clicked() {
             commands.push(Command::Apply(Edit::RemoveTemplate { template: index }));
         }
     }
@@ -50,20 +51,20 @@ struct DraggedRow(usize);
 
 fn list_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let count = state.template_count();
-    control::heading(ui, "Templates", |ui| {
+    control::heading(ui, w().heading, |ui| {
         let from = state.selected;
         let can_later = from.is_some_and(|from| from + 1 < count);
-        if control::icon_button(ui, Icon::Down, "Let it act later", can_later).clicked() {
+        if control::icon_button(ui, Icon::Down, w().later, can_later).clicked() {
             commands.push(Command::ShiftSelected(1));
         }
         let can_earlier = from.is_some_and(|from| from > 0);
-        if control::icon_button(ui, Icon::Up, "Let it act earlier", can_earlier).clicked() {
+        if control::icon_button(ui, Icon::Up, w().earlier, can_earlier).clicked() {
             commands.push(Command::ShiftSelected(-1));
         }
     });
     if count == 0 {
         let weak = Palette::get(ui).weak;
-        let text = "Nothing is placed yet. Choose a template, then click on the object.";
+        let text = w().nothing_placed;
         ui.add(Label::new(egui::RichText::new(text).color(weak)).wrap());
         return;
     }
@@ -99,11 +100,7 @@ fn list_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     }
     if count > 1 {
         let weak = Palette::get(ui).weak;
-        ui.label(
-            egui::RichText::new("They act from top to bottom.")
-                .small()
-                .color(weak),
-        );
+        ui.label(egui::RichText::new(w().order).small().color(weak));
     }
 }
 
@@ -115,7 +112,7 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
         .templates
         .iter()
         .find(|t| t.index == index);
-    let title = template.map_or_else(|| "Unknown template".to_owned(), template_title);
+    let title = template.map_or_else(|| w().unknown.to_owned(), template_title);
     let is_selected = state.selected == Some(index);
     let (rect, response) =
         ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click_and_drag());
@@ -123,7 +120,7 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
     let name = format!("{number}. {title}");
     response
         .widget_info(|| WidgetInfo::selected(Role::ListItem, ui.is_enabled(), is_selected, &name));
-    let (fill, stroke) = if is_selected {
+    let (back, stroke) = if is_selected {
         (palette.accent_wash, palette.accent)
     } else if response.hovered() {
         (palette.hover, palette.line)
@@ -133,22 +130,26 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
     ui.painter().rect(
         rect,
         CornerRadius::same(6),
-        fill,
+        back,
         Stroke::new(1.0, stroke),
         egui::StrokeKind::Inside,
     );
     control::focus_ring(ui, &response, rect);
 
     let grip = Rect::from_center_size(rect.left_center() + vec2(14.0, 0.0), vec2(16.0, 16.0));
-    Icon::Grip.paint(ui.painter(), grip, palette.weak.gamma_multiply(0.7));
+    Icon::Grip.paint(
+        ui.painter(),
+        control::sided(rect, grip),
+        palette.weak.gamma_multiply(0.7),
+    );
     let is_on = template.is_some_and(|t| t.enabled);
     let color = if is_on { palette.text } else { palette.weak };
-    let text = rect.left_center() + vec2(28.0, 0.0);
-    let clip = rect.with_max_x(rect.right() - 66.0);
+    let clip = control::sided(rect, rect.with_max_x(rect.right() - 66.0));
     let painter = ui.painter().with_clip_rect(clip);
-    let shown = painter.text(
-        text,
-        egui::Align2::LEFT_CENTER,
+    let shown = control::line_text(
+        &painter,
+        rect,
+        28.0,
         &title,
         theme::strong_font(13.0),
         color,
@@ -157,38 +158,33 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
         let mut note = if template.name.is_empty() {
             String::new()
         } else {
-            kind_title(template.kind)
+            kind_title(template.kind).to_owned()
         };
         if template.mode == TemplateMode::Add && index > 0 {
             note = if note.is_empty() {
-                "added".to_owned()
+                w().added.to_owned()
             } else {
-                format!("{note}, added")
+                format!("{note}, {}", w().added)
             };
         }
-        let at = shown.right_center() + vec2(8.0, 0.0);
-        painter.text(
-            at,
-            egui::Align2::LEFT_CENTER,
-            note,
-            egui::FontId::proportional(11.5),
-            palette.weak,
-        );
+        let inset = 28.0 + shown.width() + 8.0;
+        let font = egui::FontId::proportional(11.5);
+        control::line_text(&painter, rect, inset, &note, font, palette.weak);
     }
 
     if let Some(template) = template {
         let (icon, verb) = if template.enabled {
-            (Icon::Eye, "Hide")
+            (Icon::Eye, w().hide)
         } else {
-            (Icon::EyeOff, "Show")
+            (Icon::EyeOff, w().show)
         };
         let right = Rect::from_center_size(rect.right_center() - vec2(20.0, 0.0), vec2(28.0, 28.0));
         let mut inner = ui.new_child(
             egui::UiBuilder::new()
                 .id_salt(("row", index))
-                .max_rect(right),
+                .max_rect(control::sided(rect, right)),
         );
-        if control::icon_button(&mut inner, icon, &format!("{verb} {name}"), true).clicked() {
+        if control::icon_button(&mut inner, icon, &fill(verb, &[&name]), true).clicked() {
             let edit = Edit::SetEnabled {
                 template: index,
                 enabled: !template.enabled,
@@ -211,25 +207,23 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
 
 fn template_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>) {
     let index = template.index;
-    control::heading(ui, &kind_title(template.kind), |ui| {
-        if control::icon_button(ui, Icon::Trash, "Delete template", true).clicked() {
+    control::heading(ui, kind_title(template.kind), |ui| {
+        if control::icon_button(ui, Icon::Trash, w().delete_template, true).clicked() {
             commands.push(Command::DeleteSelected);
         }
-        if control::icon_button(ui, Icon::Copy, "Duplicate template", true).clicked() {
+        if control::icon_button(ui, Icon::Copy, w().duplicate_template, true).clicked() {
             commands.push(Command::DuplicateSelected);
         }
     });
     let weak = Palette::get(ui).weak;
-    ui.add(Label::new(egui::RichText::new(template.kind.spec().summary).color(weak)).wrap());
+    ui.add(Label::new(egui::RichText::new(kinds::summary(template.kind)).color(weak)).wrap());
     ui.add_space(4.0);
-    for (param, value) in template.kind.spec().params.iter().zip(&template.params) {
-        ui.push_id((index, param.name), |ui| {
-            param_ui(ui, index, param, *value, commands)
-        });
+    for (i, value) in template.params.iter().enumerate() {
+        ui.push_id((index, i), |ui| param_ui(ui, template, i, *value, commands));
     }
     ui.add_space(2.0);
     control::row(ui, |ui| {
-        let label = control::row_label(ui, "Name", "What you call it; shown in the list");
+        let label = control::row_label(ui, w().name, w().name_hint);
         let mut name = template.name.clone();
         let edit = TextEdit::singleline(&mut name)
             .hint_text(kind_title(template.kind))
@@ -246,16 +240,12 @@ fn template_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comman
     });
     if index > 0 {
         control::row(ui, |ui| {
-            control::row_label(
-                ui,
-                "Joins",
-                "After: acts on what the ones before it left. Added: its displacement is summed with that of the one before it.",
-            );
+            control::row_label(ui, w().joins, w().joins_hint);
             let options = [
-                (TemplateMode::Compose, "After"),
-                (TemplateMode::Add, "Added"),
+                (TemplateMode::Compose, w().after),
+                (TemplateMode::Add, w().summed),
             ];
-            if let Some(mode) = control::segmented(ui, "Joins", &options, template.mode) {
+            if let Some(mode) = control::segmented(ui, w().joins, &options, template.mode) {
                 commands.push(Command::Apply(Edit::SetMode {
                     template: index,
                     mode,
@@ -274,12 +264,15 @@ fn is_angle(param: &ParamSpec) -> bool {
 
 fn param_ui(
     ui: &mut Ui,
-    template: usize,
-    param: &ParamSpec,
+    placed: &PlacedTemplate,
+    index: usize,
     value: ParamValue,
     commands: &mut Vec<Command>,
 ) {
-    let name = capitalized(param.name);
+    let (template, kind) = (placed.index, placed.kind);
+    let param = &kind.spec().params[index];
+    let name = kinds::param_name(kind, index);
+    let summary = kinds::param_summary(kind, index);
     let send = |change: Change<ParamValue>, commands: &mut Vec<Command>| {
         let edit = |value| Edit::SetParam {
             template,
@@ -298,7 +291,7 @@ fn param_ui(
             let shown = |v: f32| f64::from(v) * factor;
             let row = NumberRow {
                 name: &name,
-                summary: param.summary.trim_end_matches(", radians"),
+                summary,
                 value: shown(value),
                 default: Some(shown(default)),
                 range: [shown(min), shown(max)],
@@ -316,7 +309,7 @@ fn param_ui(
         (ParamKind::Count { default, min, max }, ParamValue::Number(value)) => {
             let row = NumberRow {
                 name: &name,
-                summary: param.summary,
+                summary,
                 value: f64::from(value),
                 default: Some(f64::from(default)),
                 range: [f64::from(min), f64::from(max)],
@@ -332,12 +325,12 @@ fn param_ui(
         }
         (ParamKind::Flag { .. }, ParamValue::Flag(value)) => {
             control::row(ui, |ui| {
-                control::row_label(ui, &name, param.summary);
+                control::row_label(ui, &name, summary);
                 let mut on = value;
                 let response = ui
                     .checkbox(&mut on, "")
                     .accessible_name(name.clone())
-                    .on_hover_text(param.summary);
+                    .on_hover_text(summary);
                 if response.changed() {
                     send(Change::Set(ParamValue::Flag(on)), commands);
                 }
@@ -345,8 +338,8 @@ fn param_ui(
         }
         (ParamKind::Choice { names }, ParamValue::Choice(value)) => {
             control::row(ui, |ui| {
-                control::row_label(ui, &name, param.summary);
-                let titles: Vec<String> = names.iter().map(|name| capitalized(name)).collect();
+                control::row_label(ui, &name, summary);
+                let titles: Vec<String> = names.iter().map(|name| kinds::choice(name)).collect();
                 let selected = titles.get(value as usize).cloned().unwrap_or_default();
                 let combo = control::combo("choice", &selected, ui.available_width() - 4.0);
                 let shown = combo.show_ui(ui, |ui| {
@@ -362,13 +355,12 @@ fn param_ui(
         (ParamKind::Vector { min, max, .. }, ParamValue::Vector(v)) => {
             let value = v.to_array().map(f64::from);
             let range = [f64::from(min), f64::from(max)];
-            if let Some(change) = control::vector_row(ui, &name, param.summary, value, range, "", 3)
-            {
+            if let Some(change) = control::vector_row(ui, &name, summary, value, range, "", 3) {
                 send(change.map(|v| ParamValue::Vector(vec3(v))), commands);
             }
         }
         (ParamKind::Rotation, ParamValue::Rotation(q)) => {
-            if let Some(change) = rotation_row(ui, &name, param.summary, q) {
+            if let Some(change) = rotation_row(ui, &name, summary, q) {
                 send(change.map(ParamValue::Rotation), commands);
             }
         }
@@ -386,11 +378,11 @@ fn placement_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comma
     } else {
         Icon::ChevronRight
     };
-    control::heading(ui, "Placement", |ui| {
+    control::heading(ui, w().placement, |ui| {
         let name = if is_open {
-            "Fold placement"
+            w().fold_placement
         } else {
-            "Unfold placement"
+            w().unfold_placement
         };
         if control::icon_button(ui, icon, name, true).clicked() {
             is_open = !is_open;
@@ -409,8 +401,8 @@ fn placement_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comma
     };
     let range = [-4.0, 4.0];
     let at = placement.at.to_array().map(f64::from);
-    let hint = "Centre, in parts of the subject's longest side: right, front, up";
-    if let Some(change) = control::vector_row(ui, "Centre", hint, at, range, "", 3) {
+    let hint = w().centre_hint;
+    if let Some(change) = control::vector_row(ui, w().centre, hint, at, range, "", 3) {
         send(
             change.map(|v| Placement {
                 at: vec3(v),
@@ -419,12 +411,7 @@ fn placement_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comma
             commands,
         );
     }
-    if let Some(change) = rotation_row(
-        ui,
-        "Turned",
-        "About x, y and z, in this order",
-        placement.rotate,
-    ) {
+    if let Some(change) = rotation_row(ui, w().turned, w().turned_hint, placement.rotate) {
         send(
             change.map(|rotate| Placement {
                 rotate,
@@ -434,8 +421,7 @@ fn placement_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comma
         );
     }
     let size = placement.size.to_array().map(f64::from);
-    if let Some(change) =
-        control::vector_row(ui, "Size", "Sides of the box", size, [0.01, 4.0], "", 3)
+    if let Some(change) = control::vector_row(ui, w().size, w().size_hint, size, [0.01, 4.0], "", 3)
     {
         send(
             change.map(|v| Placement {

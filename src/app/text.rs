@@ -8,12 +8,14 @@ use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette};
 use super::viewport;
+use super::words::picture;
+use super::words::text::w;
 use crate::document::{Edit, SubjectRef};
 
 /// The panel.
 pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let illustration = state.illustration();
-    control::heading(ui, "Text", |_| {});
+    control::heading(ui, w().heading, |_| {});
     let mut field =
         |ui: &mut Ui, name: &str, hint: &str, text: &str, rows: usize, edit: fn(String) -> Edit| {
             let weak = Palette::get(ui).weak;
@@ -36,34 +38,34 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         };
     field(
         ui,
-        "Title",
-        "Craniotomy",
+        w().title,
+        w().title_hint,
         &illustration.title,
         1,
         Edit::SetTitle,
     );
     field(
         ui,
-        "Caption",
-        "What the picture shows",
+        w().caption,
+        w().caption_hint,
         &illustration.caption,
         4,
         Edit::SetCaption,
     );
     field(
         ui,
-        "Credit",
-        "Your name, where the scan is from",
+        w().credit,
+        w().credit_hint,
         &illustration.credit,
         1,
         Edit::SetCredit,
     );
     if let SubjectRef::Supplied { sha256, name } = &illustration.subject {
         let weak = Palette::get(ui).weak;
-        let label = ui.label(egui::RichText::new("Name of the scan").color(weak));
+        let label = ui.label(egui::RichText::new(w().scan_name).color(weak));
         let mut text = name.clone();
         let widget = TextEdit::singleline(&mut text)
-            .hint_text("CT head")
+            .hint_text(w().scan_name_example)
             .desired_width(f32::INFINITY);
         if ui.add(widget).labelled_by(label.id).changed() {
             let subject = SubjectRef::Supplied {
@@ -72,7 +74,7 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             };
             commands.push(Command::Drag(Edit::SetSubject(subject)));
         }
-        let hint = "The scan stays on this machine. Whoever opens the link is asked for the file; the name tells which.";
+        let hint = w().scan_stays;
         ui.add(Label::new(egui::RichText::new(hint).small().color(weak)).wrap());
     }
 }
@@ -80,13 +82,14 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 /// Title, caption and credit over the picture when it is shown alone, and the way back to the panels.
 pub(crate) fn over_picture_ui(ui: &mut Ui, rect: Rect, state: &State, commands: &mut Vec<Command>) {
     let button = Rect::from_min_size(rect.right_top() + vec2(-46.0, 12.0), Vec2::splat(34.0));
+    let button = control::sided(rect, button);
     viewport::float_frame(ui, button);
     let mut inner = ui.new_child(
         UiBuilder::new()
             .id_salt("panels")
             .max_rect(button.shrink(3.0)),
     );
-    if control::icon_button(&mut inner, Icon::Close, "Show the panels", true).clicked() {
+    if control::icon_button(&mut inner, Icon::Close, picture::w().show_panels, true).clicked() {
         commands.push(Command::TogglePanels);
     }
     let illustration = state.illustration();

@@ -135,6 +135,12 @@ pub(crate) fn strong_font(size: f32) -> FontId {
     FontId::new(size, FontFamily::Name(STRONG.into()))
 }
 
+/// True if every letter of a text can be drawn. The page draws what the fonts lack with the browser's own.
+pub(crate) fn can_draw(ui: &egui::Ui, text: &str) -> bool {
+    let font = FontId::proportional(13.0);
+    cfg!(target_arch = "wasm32") || ui.fonts_mut(|fonts| fonts.has_glyphs(&font, text))
+}
+
 /// Puts fonts and both themes into a context. Once, at the start.
 pub(crate) fn install(ctx: &egui::Context) {
     ctx.set_fonts(fonts());

@@ -3,10 +3,12 @@
 use egui::{CornerRadius, Ui};
 
 use super::command::Command;
-use super::control::{self, capitalized};
+use super::control;
 use super::icon::Icon;
 use super::state::{LONG_LINK, State};
 use super::theme::{self, Palette};
+use super::words::bar::w;
+use super::words::{self, Lang, fill, names};
 use crate::document::SubjectRef;
 
 /// What a subject is called in the interface.
@@ -19,9 +21,9 @@ pub(crate) fn subject_name(subject: &SubjectRef) -> String {
         }
     };
     match subject {
-        SubjectRef::Builtin { name } => capitalized(name),
-        SubjectRef::Address { name, .. } => or(name, "Scan from an address"),
-        SubjectRef::Supplied { name, .. } => or(name, "Own scan"),
+        SubjectRef::Builtin { name } => names::subject(name),
+        SubjectRef::Address { name, .. } => or(name, w().scan_from_address),
+        SubjectRef::Supplied { name, .. } => or(name, w().own_scan),
     }
 }
 
@@ -38,8 +40,8 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, is_narrow: bool, commands: &mut Vec
         }
         subject_ui(ui, state, commands);
         if !is_narrow
-            && control::labelled_button(ui, Icon::Folder, "Open", false, true)
-                .on_hover_text("Open a scan (NIfTI) or a document. It stays on this machine.")
+            && control::labelled_button(ui, Icon::Folder, w().open, false, true)
+                .on_hover_text(w().open_hint)
                 .clicked()
         {
             commands.push(Command::Open);
@@ -47,34 +49,36 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, is_narrow: bool, commands: &mut Vec
         ui.add_space(if is_narrow { 0.0 } else { 8.0 });
         let undo = state.history.undo_name().map(str::to_owned);
         let redo = state.history.redo_name().map(str::to_owned);
-        let name = undo
-            .as_ref()
-            .map_or("Undo".to_owned(), |what| format!("Undo: {what}"));
+        let name = undo.as_ref().map_or_else(
+            || w().undo.to_owned(),
+            |what| fill(w().undo_what, &[&names::deed(what)]),
+        );
         let response = control::icon_button(ui, Icon::Undo, &name, undo.is_some());
-        if response.accessible_name("Undo").clicked() {
+        if response.accessible_name(w().undo).clicked() {
             commands.push(Command::Undo);
         }
-        let name = redo
-            .as_ref()
-            .map_or("Redo".to_owned(), |what| format!("Redo: {what}"));
+        let name = redo.as_ref().map_or_else(
+            || w().redo.to_owned(),
+            |what| fill(w().redo_what, &[&names::deed(what)]),
+        );
         let response = control::icon_button(ui, Icon::Redo, &name, redo.is_some());
-        if response.accessible_name("Redo").clicked() {
+        if response.accessible_name(w().redo).clicked() {
             commands.push(Command::Redo);
         }
 
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        ui.with_layout(control::against(), |ui| {
             more_menu(ui, state, is_narrow, commands);
             let is_copied = state.copied_at.is_some();
             let (icon, text) = match (is_copied, is_narrow) {
-                (true, _) => (Icon::Check, "Copied"),
-                (false, true) => (Icon::Link, "Link"),
-                (false, false) => (Icon::Link, "Copy link"),
+                (true, _) => (Icon::Check, w().copied),
+                (false, true) => (Icon::Link, w().link),
+                (false, false) => (Icon::Link, w().copy_link),
             };
             let button = control::labelled_button(ui, icon, text, true, true);
             let length = state.payload.len();
-            let hint = format!("The link holds the whole illustration: {length} characters");
+            let hint = fill(w().link_hint, &[&length]);
             if button
-                .accessible_name("Copy link")
+                .accessible_name(w().copy_link)
                 .on_hover_text(hint)
                 .clicked()
             {
@@ -91,10 +95,10 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, is_narrow: bool, commands: &mut Vec
 fn link_length_ui(ui: &mut Ui, length: usize, commands: &mut Vec<Command>) {
     let palette = Palette::get(ui);
     if length > LONG_LINK {
-        let text = theme::strong(format!("{length} characters"))
+        let text = theme::strong(fill(w().characters, &[&length]))
             .size(12.0)
             .color(palette.warning);
-        let advice = "Some programs cut links as long as this: better save the document as a file";
+        let advice = w().link_is_long;
         if ui
             .add(egui::Button::new(text).frame(false))
             .on_hover_text(advice)
@@ -103,10 +107,10 @@ fn link_length_ui(ui: &mut Ui, length: usize, commands: &mut Vec<Command>) {
             commands.push(Command::SaveDocument);
         }
     } else {
-        let text = egui::RichText::new(format!("{length} characters"))
+        let text = egui::RichText::new(fill(w().characters, &[&length]))
             .size(12.0)
             .color(palette.weak);
-        ui.label(text).on_hover_text("Length of the link");
+        ui.label(text).on_hover_text(w().link_length);
     }
     ui.add_space(4.0);
 }
@@ -120,7 +124,7 @@ fn subject_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                 name: (*name).to_owned(),
             };
             if ui
-                .selectable_label(*current == subject, capitalized(name))
+                .selectable_label(*current == subject, names::subject(name))
                 .clicked()
                 && *current != subject
             {
@@ -128,21 +132,21 @@ fn subject_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             }
         }
         ui.separator();
-        if ui.button("Open a file…").clicked() {
+        if ui.button(w().open_file_more).clicked() {
             commands.push(Command::Open);
             ui.close();
         }
     });
     shown
         .response
-        .accessible_name("Subject")
-        .on_hover_text("What is shown");
+        .accessible_name(w().subject)
+        .on_hover_text(w().subject_hint);
 }
 
 fn more_menu(ui: &mut Ui, state: &State, is_narrow: bool, commands: &mut Vec<Command>) {
-    let button = control::icon_button(ui, Icon::More, "More", true);
+    let button = control::icon_button(ui, Icon::More, w().more, true);
     egui::Popup::menu(&button).show(|ui| {
-        ui.set_min_width(210.0);
+        ui.set_min_width(264.0);
         let mut item = |ui: &mut Ui, icon: Icon, text: &str, command: Command| {
             if menu_item(ui, icon, text) {
                 commands.push(command);
@@ -150,25 +154,45 @@ fn more_menu(ui: &mut Ui, state: &State, is_narrow: bool, commands: &mut Vec<Com
             }
         };
         if is_narrow {
-            item(ui, Icon::Folder, "Open a file", Command::Open);
+            item(ui, Icon::Folder, w().open_file, Command::Open);
         }
-        item(ui, Icon::Plus, "New document", Command::New);
-        item(ui, Icon::Download, "Save document", Command::SaveDocument);
-        item(ui, Icon::Picture, "Save picture", Command::SavePicture);
+        item(ui, Icon::Plus, w().new_document, Command::New);
+        item(ui, Icon::Download, w().save_document, Command::SaveDocument);
+        item(ui, Icon::Picture, w().save_picture, Command::SavePicture);
         ui.separator();
-        item(ui, Icon::Eye, "Picture alone", Command::TogglePanels);
-        item(ui, Icon::Contrast, "Light or dark", Command::ToggleTheme);
-        item(ui, Icon::Plus, "Larger", Command::Scale(1.15));
-        item(ui, Icon::Reset, "Smaller", Command::Scale(1.0 / 1.15));
+        item(ui, Icon::Eye, w().picture_alone, Command::TogglePanels);
+        item(ui, Icon::Contrast, w().theme, Command::ToggleTheme);
+        item(ui, Icon::Plus, w().larger, Command::Scale(1.15));
+        item(ui, Icon::Reset, w().smaller, Command::Scale(1.0 / 1.15));
         ui.separator();
-        item(ui, Icon::Info, "Messages", Command::ToggleMessages);
-        item(ui, Icon::Help, "Keys and gestures", Command::ToggleKeys);
+        ui.label(
+            egui::RichText::new(w().language)
+                .small()
+                .color(Palette::get(ui).weak),
+        );
+        let languages = Lang::OFFERED.map(|lang| {
+            let name = lang.own_name();
+            let is_drawn = theme::can_draw(ui, name);
+            (lang, if is_drawn { name } else { lang.plain_name() })
+        });
+        if let Some(lang) = control::segmented(ui, w().language, &languages, words::lang()) {
+            commands.push(Command::Speak(lang));
+        }
+        ui.separator();
+        let mut item = |ui: &mut Ui, icon: Icon, text: &str, command: Command| {
+            if menu_item(ui, icon, text) {
+                commands.push(command);
+                ui.close();
+            }
+        };
+        item(ui, Icon::Info, w().messages, Command::ToggleMessages);
+        item(ui, Icon::Help, w().keys, Command::ToggleKeys);
         if is_narrow {
             ui.separator();
             let length = state.payload.len();
             let weak = Palette::get(ui).weak;
             ui.label(
-                egui::RichText::new(format!("Link: {length} characters"))
+                egui::RichText::new(fill(w().link_of, &[&length]))
                     .small()
                     .color(weak),
             );
@@ -191,10 +215,8 @@ fn menu_item(ui: &mut Ui, icon: Icon, text: &str) -> bool {
         rect.left_center() + egui::vec2(16.0, 0.0),
         egui::Vec2::splat(18.0),
     );
-    icon.paint(ui.painter(), icon_rect, palette.weak);
-    let at = rect.left_center() + egui::vec2(34.0, 0.0);
+    icon.paint(ui.painter(), control::sided(rect, icon_rect), palette.weak);
     let font = egui::TextStyle::Body.resolve(ui.style());
-    ui.painter()
-        .text(at, egui::Align2::LEFT_CENTER, text, font, palette.text);
+    control::line_text(ui.painter(), rect, 34.0, text, font, palette.text);
     response.clicked()
 }

@@ -16,6 +16,8 @@ use super::orientation;
 use super::picture::{PickFor, Picture};
 use super::state::{Gravity, State, placement_on_surface};
 use super::theme::{self, Palette};
+use super::words::picture::w;
+use super::words::{fill, in_sentence, said};
 use crate::document::{Background, Camera, PlacedTemplate};
 use crate::math::Placement;
 use crate::render::Pick;
@@ -106,7 +108,7 @@ impl Viewport {
                 rect,
                 &view,
                 state,
-                &super::catalogue::kind_title(kind).to_lowercase(),
+                &in_sentence(super::catalogue::kind_title(kind)),
                 commands,
             );
         } else {
@@ -138,9 +140,9 @@ impl Viewport {
         let subject = super::topbar::subject_name(&state.illustration().subject);
         response.widget_info(|| {
             let name = if title.is_empty() {
-                format!("Picture of {subject}")
+                fill(w().picture_of, &[&in_sentence(&subject)])
             } else {
-                format!("Picture: {title}")
+                fill(w().picture_named, &[title])
             };
             WidgetInfo::labeled(Role::Image, true, name)
         });
@@ -220,7 +222,7 @@ impl Viewport {
         commands: &mut Vec<Command>,
     ) {
         let Some(picture) = picture else {
-            let text = "There is no graphics device to draw with";
+            let text = w().no_device;
             ui.painter().text(
                 rect.center(),
                 Align2::CENTER_CENTER,
@@ -256,11 +258,7 @@ impl Viewport {
             }
             Err(error) => {
                 if !self.has_failed {
-                    state.say(
-                        Gravity::Error,
-                        "The picture could not be drawn",
-                        error.to_string(),
-                    );
+                    state.say(Gravity::Error, said::w().cannot_draw, error.to_string());
                 }
                 self.has_failed = true;
             }
@@ -313,20 +311,14 @@ impl Viewport {
             asked = picture.ask(PickFor::PlaceInMiddle, pixel(rect.center()), size);
         }
         if let Err(error) = asked {
-            state.say(
-                Gravity::Info,
-                "There is nothing to click on yet",
-                error.to_string(),
-            );
+            state.say(Gravity::Info, said::w().nothing_to_click, error.to_string());
         }
         for (why, answer) in picture.answers() {
             match answer {
                 Ok(pick) => self.answered(why, pick, state),
-                Err(error) => state.say(
-                    Gravity::Error,
-                    "The point could not be found",
-                    error.to_string(),
-                ),
+                Err(error) => {
+                    state.say(Gravity::Error, said::w().point_not_found, error.to_string())
+                }
             }
         }
         if picture.is_waiting() {
@@ -347,11 +339,7 @@ impl Viewport {
                 state.place(pick.pos_in_subject, facing(&pick, &camera));
             }
             (PickFor::Place, None) => {
-                state.say(
-                    Gravity::Info,
-                    "There is nothing at this place: click on the object",
-                    "",
-                );
+                state.say(Gravity::Info, said::w().nothing_here, "");
             }
             (PickFor::PlaceInMiddle, Some(pick)) => {
                 self.preview = None;
@@ -383,9 +371,9 @@ impl Viewport {
         let palette = Palette::get(ui);
         let is_narrow = rect.width() < 420.0;
         let text = if is_narrow {
-            format!("Tap where the {name} goes")
+            fill(w().tap_where, &[&name])
         } else {
-            format!("Click on the object where the {name} goes")
+            fill(w().click_where, &[&name])
         };
         let galley = ui
             .painter()
@@ -395,21 +383,23 @@ impl Viewport {
         let bar =
             Rect::from_center_size(pos2(rect.center().x, rect.top() + 30.0), vec2(width, 40.0));
         float_frame(ui, bar);
-        ui.painter().galley(
-            bar.left_center() + vec2(14.0, -0.5 * galley.size().y),
-            galley,
-            palette.text,
-        );
+        let at = bar.left_center() + vec2(14.0, -0.5 * galley.size().y);
+        let spot = control::sided(bar, Rect::from_min_size(at, galley.size()));
+        ui.painter().galley(spot.min, galley, palette.text);
         let mut inner = ui.new_child(
             UiBuilder::new()
                 .max_rect(bar.shrink2(vec2(6.0, 6.0)))
-                .layout(egui::Layout::right_to_left(egui::Align::Center)),
+                .layout(control::against()),
         );
-        if control::icon_button(&mut inner, Icon::Close, "Cancel placing", true).clicked() {
+        if control::icon_button(&mut inner, Icon::Close, w().cancel_placing, true).clicked() {
             commands.push(Command::Escape);
         }
-        let text = if is_narrow { "Middle" } else { "In the middle" };
-        if inner.button(text).on_hover_text("Enter").clicked() {
+        let text = if is_narrow {
+            w().middle
+        } else {
+            w().in_the_middle
+        };
+        if inner.button(text).on_hover_text(w().enter).clicked() {
             commands.push(Command::PlaceInMiddle);
         }
         _ = state;
@@ -444,8 +434,9 @@ impl Viewport {
                 Sense::click(),
             );
             let name = super::templates::template_title(template);
-            response
-                .widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Select {name}")));
+            response.widget_info(|| {
+                WidgetInfo::labeled(Role::Button, true, fill(w().select, &[&name]))
+            });
             let is_hot = response.hovered() || response.has_focus();
             let fade = if template.enabled { 1.0 } else { 0.5 };
             let painter = ui.painter_at(view.rect);
@@ -480,7 +471,7 @@ impl Viewport {
         let home = Rect::from_center_size(center + vec2(62.0, 32.0), Vec2::splat(30.0));
         float_frame(ui, home);
         let mut inner = ui.new_child(UiBuilder::new().max_rect(home.shrink(1.0)));
-        if control::icon_button(&mut inner, Icon::Home, "Back to the first view", true).clicked() {
+        if control::icon_button(&mut inner, Icon::Home, w().back_to_first, true).clicked() {
             commands.push(Command::ResetView);
         }
     }
@@ -581,7 +572,7 @@ pub(crate) fn drop_hint_ui(ui: &Ui, rect: Rect) {
         stroke,
         egui::StrokeKind::Inside,
     );
-    let text = "Drop a scan or a document to open it. It stays on this machine.";
+    let text = w().drop_here;
     painter.text(
         rect.center(),
         Align2::CENTER_CENTER,
@@ -639,31 +630,41 @@ fn tools_ui(
         UiBuilder::new()
             .id_salt("tools")
             .max_rect(bar.shrink2(vec2(6.0, 6.0)))
-            .layout(egui::Layout::left_to_right(egui::Align::Center)),
+            .layout(control::along()),
     );
     let ui = &mut inner;
     ui.spacing_mut().item_spacing.x = 2.0;
     let choice = (width - 12.0 - 4.0 * 30.0 - 8.0).max(120.0);
+    let handles = GizmoMode::ALL.map(|mode| (mode, gizmo_name(mode)));
     ui.allocate_ui(vec2(choice, 28.0), |ui| {
-        if let Some(mode) = control::segmented(ui, "Handles", &GizmoMode::ALL, state.gizmo) {
+        if let Some(mode) = control::segmented(ui, w().handles, &handles, state.gizmo) {
             commands.push(Command::SetGizmo(mode));
         }
     });
     ui.add_space(6.0);
     let (eye, eye_name) = if template.enabled {
-        (Icon::Eye, "Hide")
+        (Icon::Eye, w().hide)
     } else {
-        (Icon::EyeOff, "Show")
+        (Icon::EyeOff, w().show)
     };
     for (icon, name, command) in [
         (eye, eye_name, Command::ToggleSelected),
-        (Icon::Copy, "Duplicate", Command::DuplicateSelected),
-        (Icon::Trash, "Delete", Command::DeleteSelected),
-        (Icon::Close, "Deselect", Command::Select(None)),
+        (Icon::Copy, w().duplicate, Command::DuplicateSelected),
+        (Icon::Trash, w().delete, Command::DeleteSelected),
+        (Icon::Close, w().deselect, Command::Select(None)),
     ] {
         if control::icon_button(ui, icon, name, true).clicked() {
             commands.push(command);
         }
+    }
+}
+
+/// What a kind of handle is called.
+fn gizmo_name(mode: GizmoMode) -> &'static str {
+    match mode {
+        GizmoMode::Move => w().r#move,
+        GizmoMode::Turn => w().turn,
+        GizmoMode::Size => w().size,
     }
 }
 

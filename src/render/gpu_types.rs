@@ -307,6 +307,29 @@ pub struct Resolve {
     pub flags: [u32; 4],
 }
 
+/// A flat cut through the deformed object.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Slice {
+    /// Affine from pixels of the slice to subject space, first row.
+    pub subject_from_pixel_row0: [f32; 4],
+    /// Second row.
+    pub subject_from_pixel_row1: [f32; 4],
+    /// Third row.
+    pub subject_from_pixel_row2: [f32; 4],
+    /// Grey level = x · texel + y.
+    pub window: [f32; 4],
+    /// Linear RGB where nothing is.
+    pub background: [f32; 4],
+    /// x: `SLICE_…`; y: samples per pixel along each side.
+    pub modes: [u32; 4],
+}
+
+/// `Slice::modes[0]`: values as grey, by the window.
+pub const SLICE_GREY: u32 = 0;
+/// `Slice::modes[0]`: the look's colours.
+pub const SLICE_COLORS: u32 = 1;
+
 /// What a template reaches, for the making of the grid.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -16,6 +16,7 @@ pub mod programs;
 mod readback;
 mod renderer;
 mod scene;
+mod slice;
 mod subject;
 mod view;
 
@@ -32,5 +33,6 @@ pub use readback::{Readback, WorkDone};
 #[cfg(not(target_arch = "wasm32"))]
 pub use renderer::system_clock;
 pub use renderer::{Clock, DrawState, Renderer};
+pub use slice::{PendingSlice, SliceColors, SlicePlane, SliceTexel, SliceView};
 pub use subject::{BRICK, Bricks, SubjectInfo};
 pub use view::View;

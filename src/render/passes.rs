@@ -248,7 +248,7 @@ const MEAN: wgpu::BlendState = wgpu::BlendState {
     alpha: MEAN_PART,
 };
 
-fn uniform(binding: u32) -> wgpu::BindGroupLayoutEntry {
+pub(super) fn uniform(binding: u32) -> wgpu::BindGroupLayoutEntry {
     layout_entry(
         binding,
         wgpu::BindingType::Buffer {
@@ -290,17 +290,18 @@ fn layout_entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEnt
     }
 }
 
-struct PipelineParts<'a> {
-    label: &'a str,
-    layout: &'a wgpu::PipelineLayout,
-    module: &'a wgpu::ShaderModule,
-    entry: &'a str,
-    constants: &'a [(&'a str, f64)],
-    format: wgpu::TextureFormat,
-    blend: Option<wgpu::BlendState>,
+/// What a pipeline over the whole target is made of.
+pub(super) struct PipelineParts<'a> {
+    pub label: &'a str,
+    pub layout: &'a wgpu::PipelineLayout,
+    pub module: &'a wgpu::ShaderModule,
+    pub entry: &'a str,
+    pub constants: &'a [(&'a str, f64)],
+    pub format: wgpu::TextureFormat,
+    pub blend: Option<wgpu::BlendState>,
 }
 
-fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
+pub(super) fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
     let options = wgpu::PipelineCompilationOptions {
         constants: parts.constants,
         ..Default::default()

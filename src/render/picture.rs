@@ -3,6 +3,7 @@ use super::grid::GridCells;
 use super::object::object_samples;
 use super::passes::{LINEAR_FORMAT, OUTPUT_FORMAT, PICK_FORMAT, Passes};
 use super::scene::{Prepared, frame_of};
+use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
 use super::subject::{SubjectTextures, Upload, entry, reduced_to_fit};
 use super::{Gpu, Readback, RenderError, Sample, SubjectInfo, View, WorkDone, uniform_buffer};
 use crate::data::Volume;
@@ -171,6 +172,62 @@ impl Studio {
         async move { reading?.await }
     }
 
+    /// Draws one slice of the deformed object. The future owns what it needs.
+    ///
+    /// # Errors
+    /// [`RenderError::BadSize`], [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub fn slice_image(
+        &self,
+        illustration: &Illustration,
+        view: &SliceView,
+    ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        let reading = self.with_slices(illustration, |scene| {
+            let mut board = SliceBoard::default();
+            board.draw(0, view, scene)?;
+            board.read(0, scene.gpu)
+        });
+        let gpu = self.gpu.clone();
+        async move {
+            let image = reading?.await?;
+            match gpu.take_errors().into_iter().next() {
+                Some(message) => Err(RenderError::Refused {
+                    pass: "slice",
+                    message,
+                }),
+                None => Ok(image),
+            }
+        }
+    }
+
+    /// What the deformed object has at each pixel of a slice, row by row from the top. The future owns what it needs.
+    ///
+    /// # Errors
+    /// [`RenderError::BadSize`], [`RenderError::DeviceLost`].
+    pub fn read_slice(
+        &self,
+        illustration: &Illustration,
+        plane: &SlicePlane,
+        size_px: [u32; 2],
+    ) -> Result<PendingSlice, RenderError> {
+        self.with_slices(illustration, |scene| scene.read(plane, size_px))
+    }
+
+    fn with_slices<T>(
+        &self,
+        illustration: &Illustration,
+        run: impl FnOnce(&SliceScene<'_>) -> Result<T, RenderError>,
+    ) -> Result<T, RenderError> {
+        self.gpu.check()?;
+        let mut prepared = Prepared::new(&self.gpu, &self.passes, &self.subject, false);
+        prepared.update(&self.gpu, &self.passes, &self.subject, illustration);
+        run(&SliceScene {
+            gpu: &self.gpu,
+            passes: &SlicePasses::new(&self.gpu, &self.passes)?,
+            subject: &self.subject,
+            prepared: &prepared,
+        })
+    }
+
     pub(super) fn start_pick(
         &self,
         illustration: &Illustration,
@@ -302,7 +359,7 @@ pub(super) fn read_picture(
     gpu: &Gpu,
     encoder: wgpu::CommandEncoder,
     texture: &wgpu::Texture,
-) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+) -> impl Future<Output = Result<Image, RenderError>> + use<> {
     let size = [texture.width(), texture.height()];
     let pitch = (size[0] * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let reading = read_texture(gpu, encoder, texture, pitch);
@@ -318,7 +375,7 @@ pub(super) fn read_picture(
 }
 
 /// Starts reading a whole texture after the encoder's work. Rows are `pitch` bytes apart.
-fn read_texture(
+pub(super) fn read_texture(
     gpu: &Gpu,
     mut encoder: wgpu::CommandEncoder,
     texture: &wgpu::Texture,
@@ -445,7 +502,7 @@ pub(super) fn encode_march(encoder: &mut wgpu::CommandEncoder, march: &March<'_>
     }
 }
 
-fn render_pass<'e>(
+pub(super) fn render_pass<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     label: &str,
     target: &wgpu::TextureView,

@@ -86,6 +86,7 @@ shader_files![
     "pass/probe.wgsl",
     "pass/raycast.wgsl",
     "pass/resolve.wgsl",
+    "pass/slice.wgsl",
 ];
 
 /// The files of `rest_from_subject` (what `displace/compose.wgsl` needs, itself included), and those named after them.
@@ -196,6 +197,20 @@ pub const PROGRAMS: &[Program] = &[
             ("cover", Stage::Vertex),
             ("draw", Stage::Fragment),
             ("pick", Stage::Fragment),
+        ],
+    },
+    Program {
+        name: "slice",
+        files: with_displacement![
+            "bind/subject.wgsl",
+            "bind/look.wgsl",
+            "march/ray.wgsl",
+            "pass/slice.wgsl",
+        ],
+        entries: &[
+            ("cover", Stage::Vertex),
+            ("draw", Stage::Fragment),
+            ("read", Stage::Fragment),
         ],
     },
     Program {

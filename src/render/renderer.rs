@@ -5,6 +5,7 @@ use super::picture::{
     frame_group, read_picture, tiles_of,
 };
 use super::scene::{Prepared, frame_of};
+use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
 use super::subject::{Upload, reduced_to_fit};
 use super::{Gpu, RenderError, SubjectInfo, View, WorkDone};
 use crate::data::Volume;
@@ -62,6 +63,8 @@ pub struct Renderer {
     pace: Pace,
     under_way: Option<UnderWay>,
     generation: u64,
+    slice_passes: Option<SlicePasses>,
+    slices: SliceBoard,
 }
 
 #[derive(Debug)]
@@ -127,6 +130,8 @@ impl Renderer {
             },
             under_way: None,
             generation: 0,
+            slice_passes: None,
+            slices: SliceBoard::default(),
         }
     }
 
@@ -303,6 +308,71 @@ impl Renderer {
         }
     }
 
+    /// Brings the slice of a slot (0, 1, …; each has its own texture) up to date with what was set last; nothing is drawn
+    /// where nothing changed. True if [`Renderer::slice_view`] has a picture of it.
+    ///
+    /// # Errors
+    /// [`RenderError::BadSize`], [`RenderError::DeviceLost`].
+    pub fn draw_slice(&mut self, slot: usize, view: &SliceView) -> Result<bool, RenderError> {
+        if !self.ready_for_slices()? {
+            return Ok(false);
+        }
+        if let (Some(studio), Some(prepared), Some(passes)) =
+            (&self.studio, &self.prepared, &self.slice_passes)
+        {
+            let scene = SliceScene {
+                gpu: &self.gpu,
+                passes,
+                subject: &studio.subject,
+                prepared,
+            };
+            self.slices.draw(slot, view, &scene)?;
+            return Ok(true);
+        }
+        Ok(false)
+    }
+
+    /// The picture of a slot (Rgba8Unorm, sRGB-encoded, opaque), and a number that changes when its texture is another.
+    pub fn slice_view(&self, slot: usize) -> Option<(&wgpu::TextureView, u64)> {
+        self.slices.view(slot)
+    }
+
+    /// What the deformed object has at each pixel of a slice, row by row from the top.
+    ///
+    /// # Errors
+    /// [`RenderError::NoSubject`], [`RenderError::BadSize`], [`RenderError::DeviceLost`].
+    pub fn read_slice(
+        &mut self,
+        plane: &SlicePlane,
+        size_px: [u32; 2],
+    ) -> Result<PendingSlice, RenderError> {
+        if !self.ready_for_slices()? {
+            return Err(RenderError::NoSubject);
+        }
+        match (&self.studio, &self.prepared, &self.slice_passes) {
+            (Some(studio), Some(prepared), Some(passes)) => SliceScene {
+                gpu: &self.gpu,
+                passes,
+                subject: &studio.subject,
+                prepared,
+            }
+            .read(plane, size_px),
+            _ => Err(RenderError::NoSubject),
+        }
+    }
+
+    fn ready_for_slices(&mut self) -> Result<bool, RenderError> {
+        self.gpu.check()?;
+        if !self.prepare() {
+            return Ok(false);
+        }
+        if self.slice_passes.is_none() {
+            let passes = self.passes()?;
+            self.slice_passes = Some(SlicePasses::new(&self.gpu, &passes)?);
+        }
+        Ok(true)
+    }
+
     /// A finished picture of the subject that is on the GPU, beside what is shown: for PNG export and icons. The future
     /// owns what it needs and may be polled once per frame.
     pub fn render_image(
@@ -360,6 +430,7 @@ impl Renderer {
                     wants_grid: true,
                 });
                 self.prepared = None;
+                self.slices.forget();
                 self.touch();
                 return Ok(());
             }

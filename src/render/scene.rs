@@ -22,6 +22,8 @@ pub(super) struct Prepared {
     pub background: [f32; 4],
     /// Output texture that a whole picture of this scene was last drawn into.
     pub drawn_generation: u64,
+    /// Rises with every change.
+    pub revision: u64,
     templates: Templates,
     table: Option<(TransferTable, OpacityMode)>,
     has_labels: bool,
@@ -47,6 +49,7 @@ impl Prepared {
             bounds: subject.bounds,
             background: [0.0; 4],
             drawn_generation: 0,
+            revision: 0,
             templates: Templates::NONE,
             table: None,
             has_labels: false,
@@ -129,6 +132,7 @@ impl Prepared {
             self.background = background;
             is_changed = true;
         }
+        self.revision += u64::from(is_changed);
         is_changed
     }
 

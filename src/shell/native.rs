@@ -457,6 +457,15 @@ impl Services for NativeServices {
         }
     }
 
+    fn languages(&self) -> Vec<String> {
+        // The order in which the C library looks; what is set but empty does not count.
+        let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+        let first = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(set);
+        let list = set("LANGUAGE").unwrap_or_default();
+        let wanted = list.split(':').map(str::to_owned).chain(first);
+        wanted.filter(|tag| !tag.is_empty()).collect()
+    }
+
     fn stored(&self, key: &str) -> Option<String> {
         std::fs::read_to_string(store_file(key)?).ok()
     }

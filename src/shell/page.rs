@@ -422,6 +422,12 @@ impl Services for PageServices {
         }
     }
 
+    fn languages(&self) -> Vec<String> {
+        let wanted = window().map(|w| w.navigator().languages());
+        let wanted = wanted.into_iter().flat_map(|list| list.to_vec());
+        wanted.filter_map(|tag| tag.as_string()).collect()
+    }
+
     fn stored(&self, key: &str) -> Option<String> {
         if !self.0.borrow().place.is_page {
             return None;

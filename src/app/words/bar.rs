@@ -1,0 +1,43 @@
+//! The top bar, its menu, and the names of the panels.
+
+words! {
+    /// See the module.
+    Bar {
+        open: "Open", "Öffnen", "Abrir", "打开";
+        open_hint: "Open a scan (NIfTI) or a document. It stays on this machine.", "Einen Scan (NIfTI) oder ein Dokument öffnen. Es bleibt auf diesem Gerät.", "Abrir un estudio (NIfTI) o un documento. No sale de este equipo.", "打开扫描（NIfTI）或文档。文件只留在本机。";
+        open_file: "Open a file", "Datei öffnen", "Abrir un archivo", "打开文件";
+        undo: "Undo", "Rückgängig", "Deshacer", "撤销";
+        undo_what: "Undo: {0}", "Rückgängig: {0}", "Deshacer: {0}", "撤销：{0}";
+        redo: "Redo", "Wiederholen", "Rehacer", "重做";
+        redo_what: "Redo: {0}", "Wiederholen: {0}", "Rehacer: {0}", "重做：{0}";
+        copy_link: "Copy link", "Link kopieren", "Copiar enlace", "复制链接";
+        link: "Link", "Link", "Enlace", "链接";
+        copied: "Copied", "Kopiert", "Copiado", "已复制";
+        link_hint: "The link holds the whole illustration: {0} characters", "Der Link enthält die ganze Illustration: {0} Zeichen", "El enlace contiene toda la ilustración: {0} caracteres", "链接包含整幅插图：{0} 个字符";
+        characters: "{0} characters", "{0} Zeichen", "{0} caracteres", "{0} 个字符";
+        link_length: "Length of the link", "Länge des Links", "Longitud del enlace", "链接长度";
+        link_is_long: "Some programs cut links as long as this: better save the document as a file", "Manche Programme kürzen so lange Links: besser das Dokument als Datei sichern", "Algunos programas cortan enlaces tan largos: mejor guardar el documento como archivo", "有些程序会截断这么长的链接：最好将文档存为文件";
+        subject: "Subject", "Objekt", "Objeto", "对象";
+        subject_hint: "What is shown", "Was gezeigt wird", "Lo que se muestra", "显示的内容";
+        open_file_more: "Open a file…", "Datei öffnen …", "Abrir un archivo…", "打开文件…";
+        scan_from_address: "Scan from an address", "Scan von einer Adresse", "Estudio de una dirección", "来自网址的扫描";
+        own_scan: "Own scan", "Eigener Scan", "Estudio propio", "自己的扫描";
+        more: "More", "Mehr", "Más", "更多";
+        new_document: "New document", "Neues Dokument", "Documento nuevo", "新建文档";
+        save_document: "Save document", "Dokument sichern", "Guardar documento", "保存文档";
+        save_picture: "Save picture", "Bild sichern", "Guardar imagen", "保存图片";
+        picture_alone: "Picture alone", "Nur das Bild", "Solo la imagen", "仅显示图像";
+        theme: "Colours of the program", "Farben des Programms", "Colores del programa", "界面颜色";
+        larger: "Larger", "Größer", "Más grande", "放大界面";
+        smaller: "Smaller", "Kleiner", "Más pequeño", "缩小界面";
+        messages: "Messages", "Meldungen", "Mensajes", "消息";
+        keys: "Keys and gestures", "Tasten und Gesten", "Teclas y gestos", "按键与手势";
+        language: "Language", "Sprache", "Idioma", "语言";
+        link_of: "Link: {0} characters", "Link: {0} Zeichen", "Enlace: {0} caracteres", "链接：{0} 个字符";
+        panel: "Panel", "Bereich", "Panel", "面板";
+        add: "Add", "Hinzufügen", "Añadir", "添加";
+        templates: "Templates", "Vorlagen", "Plantillas", "模板";
+        look: "Look", "Aussehen", "Aspecto", "外观";
+        text: "Text", "Text", "Texto", "文字";
+    }
+}

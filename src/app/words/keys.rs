@@ -1,0 +1,57 @@
+//! The sheet of keys and gestures.
+
+words! {
+    /// See the module.
+    Keys {
+        heading: "Keys and gestures", "Tasten und Gesten", "Teclas y gestos", "按键与手势";
+        close: "Close the sheet", "Blatt schließen", "Cerrar la hoja", "关闭此页";
+        drag: "Drag", "Ziehen", "Arrastrar", "拖动";
+        pan: "Right drag, two fingers", "Rechts ziehen, zwei Finger", "Arrastrar con el derecho, dos dedos", "右键拖动、双指";
+        pan_does: "Move the picture", "Bild verschieben", "Mover la imagen", "移动图像";
+        wheel: "Wheel, pinch", "Rad, zwei Finger spreizen", "Rueda, pellizcar", "滚轮、双指捏合";
+        wheel_does: "Closer, further away", "Näher, weiter weg", "Acercar, alejar", "拉近、拉远";
+        double_click: "Double click", "Doppelklick", "Doble clic", "双击";
+        double_click_does: "Turn about the point", "Um den Punkt drehen", "Girar en torno al punto", "绕该点旋转";
+        handle: "Ctrl + handle", "Strg + Griff", "Ctrl + tirador", "Ctrl + 手柄";
+        handle_does: "Steps of 15°, both sides", "Schritte von 15°, beide Seiten", "Pasos de 15°, ambos lados", "15° 步进、两侧同时";
+        alt_drag: "Alt drag", "Alt + Ziehen", "Alt + arrastrar", "Alt 拖动";
+        alt_drag_does: "Roll", "Rollen", "Rodar", "滚转";
+        arrows: "Arrows", "Pfeile", "Flechas", "方向键";
+        page_up: "Page up", "Bild auf", "Re Pág", "Page Up";
+        page_down: "Page down", "Bild ab", "Av Pág", "Page Down";
+        undo: "Undo", "Rückgängig", "Deshacer", "撤销";
+        redo: "Redo", "Wiederholen", "Rehacer", "重做";
+        open: "Open a scan or a document", "Scan oder Dokument öffnen", "Abrir un estudio o un documento", "打开扫描或文档";
+        save_picture: "Save the picture", "Bild sichern", "Guardar la imagen", "保存图片";
+        save_document: "Save the document", "Dokument sichern", "Guardar el documento", "保存文档";
+        copy_link: "Copy the link", "Link kopieren", "Copiar el enlace", "复制链接";
+        turn_object: "Turn the object", "Objekt drehen", "Girar el objeto", "转动对象";
+        closer: "Closer", "Näher", "Acercar", "拉近";
+        further: "Further away", "Weiter weg", "Alejar", "拉远";
+        first_view: "Back to the first view", "Zurück zur ersten Ansicht", "Volver a la primera vista", "回到初始视图";
+        place_in_middle: "Place in the middle of the picture", "In die Bildmitte setzen", "Colocar en el centro de la imagen", "放在图像中央";
+        drop: "Drop what is being done", "Abbrechen", "Dejar lo que se está haciendo", "取消当前操作";
+        before: "Template before", "Vorlage davor", "Plantilla anterior", "上一个模板";
+        next: "Next template", "Nächste Vorlage", "Plantilla siguiente", "下一个模板";
+        move_it: "Move the template", "Vorlage verschieben", "Mover la plantilla", "移动模板";
+        turn_it: "Turn the template", "Vorlage drehen", "Girar la plantilla", "旋转模板";
+        size_it: "Size the template", "Größe der Vorlage", "Tamaño de la plantilla", "缩放模板";
+        open_further: "Open it further", "Weiter öffnen", "Abrirla más", "开得更大";
+        close_it: "Close it", "Schließen", "Cerrarla", "收拢";
+        hide: "Hide or show the template", "Vorlage aus- oder einblenden", "Ocultar o mostrar la plantilla", "隐藏或显示模板";
+        duplicate: "Duplicate the template", "Vorlage verdoppeln", "Duplicar la plantilla", "复制一份模板";
+        delete: "Delete the template", "Vorlage löschen", "Eliminar la plantilla", "删除模板";
+        earlier: "Let it act earlier", "Früher wirken lassen", "Que actúe antes", "更早作用";
+        later: "Let it act later", "Später wirken lassen", "Que actúe después", "更晚作用";
+        next_step: "Next step", "Nächster Schritt", "Paso siguiente", "下一步";
+        step_before: "Step before", "Schritt davor", "Paso anterior", "上一步";
+        picture_alone: "The picture alone", "Nur das Bild", "Solo la imagen", "仅显示图像";
+        this_sheet: "This sheet", "Dieses Blatt", "Esta hoja", "此页";
+        front: "From the front", "Von vorn", "Desde delante", "从前面看";
+        back: "From the back", "Von hinten", "Desde detrás", "从后面看";
+        right: "From the patient's right", "Von rechts (Patient)", "Desde la derecha del paciente", "从患者右侧看";
+        left: "From the patient's left", "Von links (Patient)", "Desde la izquierda del paciente", "从患者左侧看";
+        above: "From above", "Von oben", "Desde arriba", "从上面看";
+        below: "From below", "Von unten", "Desde abajo", "从下面看";
+    }
+}

@@ -1,0 +1,44 @@
+//! The panel of colours and background.
+
+words! {
+    /// See the module.
+    Look {
+        heading: "Look", "Aussehen", "Aspecto", "外观";
+        colours: "Colours", "Farben", "Colores", "颜色";
+        colours_hint: "Which values are seen, in which colour", "Welche Werte man sieht, und in welcher Farbe", "Qué valores se ven y de qué color", "显示哪些数值，用什么颜色";
+        automatic: "Automatic", "Automatisch", "Automático", "自动";
+        automatic_is: "Automatic ({0})", "Automatisch ({0})", "Automático ({0})", "自动（{0}）";
+        own_points: "Own points ({0})", "Eigene Punkte ({0})", "Puntos propios ({0})", "自定义点（{0}）";
+        colour_n: "Colour {0}", "Farbe {0}", "Color {0}", "颜色 {0}";
+        value_n: "Value {0}", "Wert {0}", "Valor {0}", "数值 {0}";
+        opacity_n: "Opacity {0}", "Deckkraft {0}", "Opacidad {0}", "不透明度 {0}";
+        value: "Value", "Wert", "Valor", "数值";
+        opacity_hint: "Opacity of 0.01 subject units", "Deckkraft von 0,01 Objekteinheiten", "Opacidad de 0,01 unidades del objeto", "0.01 对象单位的不透明度";
+        remove_point: "Remove point {0}", "Punkt {0} entfernen", "Quitar el punto {0}", "移除点 {0}";
+        add_point: "Add a point", "Punkt hinzufügen", "Añadir un punto", "添加点";
+        window: "Window", "Fenster", "Ventana", "窗宽窗位";
+        window_hint: "The values over which the colours are spread", "Die Werte, über die sich die Farben verteilen", "Los valores entre los que se reparten los colores", "颜色所覆盖的数值范围";
+        window_from: "Window from", "Fenster von", "Ventana desde", "窗口下限";
+        window_to: "Window to", "Fenster bis", "Ventana hasta", "窗口上限";
+        window_slider: "Window slider", "Fenster-Regler", "Control de ventana", "窗口滑块";
+        reset_window: "Reset window", "Fenster zurücksetzen", "Restablecer la ventana", "重置窗口";
+        opacity_heading: "Opacity under deformation", "Deckkraft bei Verformung", "Opacidad al deformar", "变形时的不透明度";
+        opacity: "Opacity", "Deckkraft", "Opacidad", "不透明度";
+        surfaces: "Surfaces", "Flächen", "Superficies", "表面";
+        mass: "Mass", "Masse", "Masa", "质量";
+        as_it_is: "As it is", "Wie sie ist", "Tal cual", "原样";
+        surfaces_hint: "A stretched surface stays as opaque as it was.", "Eine gedehnte Fläche bleibt so deckend, wie sie war.", "Una superficie estirada sigue igual de opaca.", "拉伸的表面保持原来的不透明度。";
+        mass_hint: "Stretched tissue grows thinner, compressed tissue denser.", "Gedehntes Gewebe wird dünner, gestauchtes dichter.", "El tejido estirado se aclara, el comprimido se densifica.", "拉伸的组织变薄，压缩的组织变密。";
+        as_it_is_hint: "Opacity does not follow the deformation.", "Die Deckkraft folgt der Verformung nicht.", "La opacidad no sigue la deformación.", "不透明度不随变形改变。";
+        background: "Background", "Hintergrund", "Fondo", "背景";
+        background_is: "Background: {0}", "Hintergrund: {0}", "Fondo: {0}", "背景：{0}";
+        white: "White", "Weiß", "Blanco", "白色";
+        paper: "Paper", "Papier", "Papel", "纸色";
+        grey: "Grey", "Grau", "Gris", "灰色";
+        slate: "Slate", "Schiefer", "Pizarra", "石板灰";
+        black: "Black", "Schwarz", "Negro", "黑色";
+        transparent: "Transparent", "Durchsichtig", "Transparente", "透明";
+        background_colour: "Background colour", "Hintergrundfarbe", "Color de fondo", "背景颜色";
+        any_colour: "Any colour", "Beliebige Farbe", "Cualquier color", "任意颜色";
+    }
+}

@@ -1,0 +1,284 @@
+//! What the interface says, in every language that it speaks. A table per panel; a line of it holds one text in all
+//! languages, so that none can be forgotten: a line with a language missing does not compile.
+//!
+//! Panels write `w().heading` with the `w` of their table. The language is the program's, not the document's: `lang` of a
+//! document says what its own texts are written in and changes nothing here.
+//!
+//! A new language is a variant of [`Lang`] and one more column; texts hold `{0}`, `{1}` where [`fill`] puts words and
+//! numbers, in the order that the language wants.
+
+use std::cell::Cell;
+
+/// A table: its name, then a line per text: key, English, German, Spanish, Chinese.
+macro_rules! words {
+    ($(#[$meta:meta])* $name:ident { $($key:ident: $en:literal, $de:literal, $es:literal, $zh:literal;)* }) => {
+        $(#[$meta])*
+        pub(crate) struct $name { $(pub(crate) $key: &'static str),* }
+
+        static TABLES: [$name; crate::app::words::Lang::COUNT] = [
+            $name { $($key: $en),* }, $name { $($key: $de),* }, $name { $($key: $es),* }, $name { $($key: $zh),* },
+        ];
+
+        /// The texts of this table in the language of the interface.
+        pub(crate) fn w() -> &'static $name {
+            &TABLES[crate::app::words::lang().column()]
+        }
+
+        /// Every line, for the tests of all tables.
+        #[cfg(test)]
+        pub(super) const LINES: &[(&str, [&str; crate::app::words::Lang::COUNT])] = &[$((stringify!($key), [$en, $de, $es, $zh])),*];
+    };
+}
+
+pub(crate) mod bar;
+pub(crate) mod catalogue;
+pub(crate) mod keys;
+pub(crate) mod kinds;
+pub(crate) mod look;
+pub(crate) mod names;
+pub(crate) mod picture;
+pub(crate) mod said;
+pub(crate) mod templates;
+pub(crate) mod text;
+
+/// A language of the interface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lang {
+    /// en
+    #[default]
+    English,
+    /// de
+    German,
+    /// es
+    Spanish,
+    /// zh, in simplified characters
+    Chinese,
+    /// English set from right to left: shows what a language of such a script would find. Never offered, only asked for by
+    /// its tag.
+    Mirrored,
+}
+
+impl Lang {
+    /// Columns of the tables.
+    pub(crate) const COUNT: usize = 4;
+
+    /// Those that are offered.
+    pub(crate) const OFFERED: [Self; Self::COUNT] =
+        [Self::English, Self::German, Self::Spanish, Self::Chinese];
+
+    /// What its speakers call it.
+    pub(crate) fn own_name(self) -> &'static str {
+        match self {
+            Self::English => "English",
+            Self::German => "Deutsch",
+            Self::Spanish => "Español",
+            Self::Chinese => "简体中文",
+            Self::Mirrored => "Mirrored",
+        }
+    }
+
+    /// Its name in letters that every font of the program has.
+    pub(crate) fn plain_name(self) -> &'static str {
+        match self {
+            Self::Chinese => "Chinese",
+            Self::Spanish | Self::German | Self::English | Self::Mirrored => self.own_name(),
+        }
+    }
+
+    /// Language tag (BCP 47) under which it is kept.
+    pub(crate) fn tag(self) -> &'static str {
+        match self {
+            Self::English => "en",
+            Self::German => "de",
+            Self::Spanish => "es",
+            Self::Chinese => "zh",
+            Self::Mirrored => "qps-plocm",
+        }
+    }
+
+    /// The one that a tag such as `de-AT`, or a name as in `LANG` (`de_AT.UTF-8`), asks for.
+    pub(crate) fn from_tag(tag: &str) -> Option<Self> {
+        if tag.eq_ignore_ascii_case(Self::Mirrored.tag()) {
+            return Some(Self::Mirrored);
+        }
+        let primary = tag.split(['-', '_', '.', '@']).next().unwrap_or_default();
+        Self::OFFERED
+            .into_iter()
+            .find(|lang| primary.eq_ignore_ascii_case(lang.tag()))
+    }
+
+    /// The first of the wanted ones that is spoken, else English.
+    pub(crate) fn best(wanted: impl IntoIterator<Item = String>) -> Self {
+        wanted
+            .into_iter()
+            .find_map(|tag| Self::from_tag(&tag))
+            .unwrap_or_default()
+    }
+
+    /// Lines begin at the right, and panels change sides.
+    pub(crate) fn is_rtl(self) -> bool {
+        self == Self::Mirrored
+    }
+
+    /// Decimal sign.
+    fn decimal(self) -> char {
+        match self {
+            Self::German | Self::Spanish => ',',
+            Self::English | Self::Chinese | Self::Mirrored => '.',
+        }
+    }
+
+    fn column(self) -> usize {
+        match self {
+            Self::English | Self::Mirrored => 0,
+            Self::German => 1,
+            Self::Spanish => 2,
+            Self::Chinese => 3,
+        }
+    }
+}
+
+/// Under which the language is kept.
+pub(crate) const STORED_LANGUAGE: &str = "language";
+
+thread_local! {
+    /// The interface lives on one thread; every viewer on it speaks the same language, as one reader looks at them all.
+    static LANG: Cell<Lang> = const { Cell::new(Lang::English) };
+}
+
+/// The language of the interface.
+pub(crate) fn lang() -> Lang {
+    LANG.get()
+}
+
+/// Makes it the language of the interface.
+pub(crate) fn set_lang(lang: Lang) {
+    LANG.set(lang);
+}
+
+/// True if lines begin at the right.
+pub(crate) fn is_rtl() -> bool {
+    lang().is_rtl()
+}
+
+/// The text of the interface's language out of one line.
+pub(crate) fn of(line: [&'static str; Lang::COUNT]) -> &'static str {
+    line[lang().column()]
+}
+
+/// A text with `{0}`, `{1}` … filled in. What is filled in is not read again.
+pub(crate) fn fill(text: &str, values: &[&dyn std::fmt::Display]) -> String {
+    let mut filled = String::with_capacity(text.len() + 16);
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('{') {
+        filled.push_str(before);
+        let value = after
+            .split_once('}')
+            .and_then(|(index, tail)| Some((values.get(index.parse::<usize>().ok()?)?, tail)));
+        match value {
+            Some((value, tail)) => {
+                filled.push_str(&value.to_string());
+                rest = tail;
+            }
+            None => {
+                filled.push('{');
+                rest = after;
+            }
+        }
+    }
+    filled.push_str(rest);
+    filled
+}
+
+/// A number as it was formatted with a point, with the decimal sign of the language.
+pub(crate) fn localized(number: String) -> String {
+    match lang().decimal() {
+        '.' => number,
+        sign => number.replace('.', &sign.to_string()),
+    }
+}
+
+/// A number as typed in any of the languages.
+pub(crate) fn parse_number(text: &str) -> Option<f64> {
+    let text: String = text
+        .trim()
+        .chars()
+        .map(|c| match c {
+            ',' => '.',
+            '\u{2212}' => '-',
+            c => c,
+        })
+        .filter(|c| !c.is_whitespace() && *c != '°')
+        .collect();
+    text.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+/// A name within a sentence: where nouns have no capitals, without its own.
+pub(crate) fn in_sentence(name: &str) -> String {
+    match lang() {
+        Lang::English | Lang::Spanish | Lang::Mirrored => name.to_lowercase(),
+        Lang::German | Lang::Chinese => name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_line_has_the_same_gaps_in_every_language() {
+        let tables = [
+            bar::LINES,
+            catalogue::LINES,
+            keys::LINES,
+            look::LINES,
+            names::LINES,
+            picture::LINES,
+            said::LINES,
+            templates::LINES,
+            text::LINES,
+        ];
+        let mut count = 0;
+        for (key, line) in tables.into_iter().flatten() {
+            for text in line {
+                assert!(!text.trim().is_empty(), "{key} says nothing");
+                for index in 0..4 {
+                    let gap = format!("{{{index}}}");
+                    assert_eq!(
+                        text.contains(&gap),
+                        line[0].contains(&gap),
+                        "{key}: {gap} in {text:?}"
+                    );
+                }
+            }
+            count += 1;
+        }
+        assert!(count > 150, "only {count} lines were seen");
+    }
+
+    #[test]
+    fn gaps_are_filled_once() {
+        assert_eq!(fill("{1} of {0}", &[&2, &"{0}"]), "{0} of 2");
+        assert_eq!(fill("a {9} b {", &[&1]), "a {9} b {");
+    }
+
+    #[test]
+    fn languages_are_found_by_their_tags() {
+        assert_eq!(Lang::from_tag("de-AT"), Some(Lang::German));
+        assert_eq!(Lang::from_tag("zh_CN.UTF-8"), Some(Lang::Chinese));
+        assert_eq!(Lang::from_tag("C"), None);
+        let wanted = ["fr-FR", "es-MX", "en"].map(str::to_owned);
+        assert_eq!(Lang::best(wanted), Lang::Spanish);
+        assert_eq!(Lang::best([]), Lang::English);
+    }
+
+    #[test]
+    fn numbers_are_read_as_they_are_written() {
+        set_lang(Lang::German);
+        assert_eq!(localized("0.25".to_owned()), "0,25");
+        assert_eq!(parse_number("\u{2212}0,25°"), Some(-0.25));
+        assert_eq!(parse_number("inf"), None);
+        set_lang(Lang::English);
+        assert_eq!(localized("0.25".to_owned()), "0.25");
+    }
+}

@@ -1,0 +1,207 @@
+//! Names that lower rooms give in English: subjects, presets, steps of undo, what a loader is at. What is not known here
+//! stays as it is.
+
+use super::super::control::capitalized;
+use super::{Lang, fill, kinds, lang, of};
+use crate::document::TemplateKind;
+
+words! {
+    /// What a step of undo did.
+    Names {
+        add: "Add {0}", "{0} hinzufügen", "Añadir {0}", "添加{0}";
+        remove: "Remove {0}", "{0} entfernen", "Quitar {0}", "移除{0}";
+        duplicate: "Duplicate {0}", "{0} verdoppeln", "Duplicar {0}", "复制{0}";
+        reorder: "Reorder {0}", "{0} umordnen", "Reordenar {0}", "调整{0}的顺序";
+        change: "Change {0}", "{0} ändern", "Cambiar {0}", "更改{0}";
+        change_of: "Change {0} of {1}", "{0} von {1} ändern", "Cambiar {0} de {1}", "更改{1}的{0}";
+        r#move: "Move {0}", "{0} verschieben", "Mover {0}", "移动{0}";
+        turn: "Turn {0}", "{0} drehen", "Girar {0}", "旋转{0}";
+        resize: "Resize {0}", "Größe von {0} ändern", "Cambiar el tamaño de {0}", "缩放{0}";
+        place: "Place {0}", "{0} platzieren", "Colocar {0}", "放置{0}";
+        show: "Show {0}", "{0} einblenden", "Mostrar {0}", "显示{0}";
+        hide: "Hide {0}", "{0} ausblenden", "Ocultar {0}", "隐藏{0}";
+        rename: "Rename {0}", "{0} umbenennen", "Cambiar el nombre de {0}", "重命名{0}";
+        mode: "mode", "Wirkung", "el modo", "组合方式";
+        alignment: "alignment", "Ausrichtung", "la alineación", "对齐";
+    }
+}
+
+/// What a built-in subject is called.
+pub(crate) fn subject(name: &str) -> String {
+    let line = match name {
+        "bar" => ["Bar", "Balken", "Barra", "长条"],
+        "cube" => ["Cube", "Würfel", "Cubo", "立方体"],
+        "tomato" => ["Tomato", "Tomate", "Tomate", "番茄"],
+        "piggybank" => ["Piggybank", "Sparschwein", "Hucha", "存钱罐"],
+        "head" => ["Head", "Kopf", "Cabeza", "头部"],
+        "hand" => ["Hand", "Hand", "Mano", "手"],
+        "knee" => ["Knee", "Knie", "Rodilla", "膝"],
+        "torso" => ["Torso", "Rumpf", "Torso", "躯干"],
+        _ => return capitalized(name),
+    };
+    of(line).to_owned()
+}
+
+/// What a preset is called, by its name and its English title.
+pub(crate) fn preset(name: &str, title: &'static str) -> &'static str {
+    of(match name {
+        "tissue" => [title, "Gewebe", "Tejido", "组织"],
+        "ct-soft-tissue" => [title, "CT Weichteile", "TC partes blandas", "CT 软组织"],
+        "ct-skin" => [title, "CT Haut", "TC piel", "CT 皮肤"],
+        "ct-bone" => [title, "CT Knochen", "TC hueso", "CT 骨骼"],
+        "ct-muscle-bone" => [
+            title,
+            "CT Muskel und Knochen",
+            "TC músculo y hueso",
+            "CT 肌肉与骨骼",
+        ],
+        "ct-skin-glass" => [
+            title,
+            "CT Haut wie Glas, Knochen",
+            "TC piel como vidrio, hueso",
+            "CT 透明皮肤、骨骼",
+        ],
+        "mri" => [title, "MRT", "RM", "MRI"],
+        "mri-glass" => [title, "MRT, zart", "RM, tenue", "MRI，淡"],
+        _ => return title,
+    })
+}
+
+/// What a loader is at.
+pub(crate) fn stage(what: &str) -> String {
+    let line = match what {
+        "Loading" => ["Loading", "Laden", "Cargando", "正在载入"],
+        "Reading" => ["Reading", "Lesen", "Leyendo", "正在读取"],
+        "Generating" => ["Generating", "Erzeugen", "Generando", "正在生成"],
+        "Fetching" => ["Fetching", "Abrufen", "Descargando", "正在获取"],
+        _ => return what.to_owned(),
+    };
+    of(line).to_owned()
+}
+
+/// A step of undo, which the document names in English: a verb and what it was done to.
+pub(crate) fn deed(name: &str) -> String {
+    if matches!(lang(), Lang::English | Lang::Mirrored) {
+        return name.to_owned();
+    }
+    let whole = match name {
+        "Change colours" => ["", "Farben ändern", "Cambiar los colores", "更改颜色"],
+        "Change window" => ["", "Fenster ändern", "Cambiar la ventana", "更改窗口"],
+        "Change opacity mode" => [
+            "",
+            "Deckkraft ändern",
+            "Cambiar la opacidad",
+            "更改不透明度",
+        ],
+        "Change background" => ["", "Hintergrund ändern", "Cambiar el fondo", "更改背景"],
+        "Turn the view" => ["", "Ansicht drehen", "Girar la vista", "转动视图"],
+        "Change title" => ["", "Titel ändern", "Cambiar el título", "更改标题"],
+        "Change caption" => ["", "Bildtext ändern", "Cambiar la leyenda", "更改说明"],
+        "Change credit" => ["", "Nachweis ändern", "Cambiar los créditos", "更改署名"],
+        "Change language" => ["", "Sprache ändern", "Cambiar el idioma", "更改语言"],
+        "Change subject" => ["", "Objekt ändern", "Cambiar el objeto", "更改对象"],
+        "Add label" => ["", "Beschriftung hinzufügen", "Añadir etiqueta", "添加标注"],
+        "Change label" => ["", "Beschriftung ändern", "Cambiar etiqueta", "更改标注"],
+        "Remove label" => ["", "Beschriftung entfernen", "Quitar etiqueta", "移除标注"],
+        "Add step" => ["", "Schritt hinzufügen", "Añadir paso", "添加步骤"],
+        "Remove step" => ["", "Schritt entfernen", "Quitar paso", "移除步骤"],
+        "Reorder steps" => ["", "Schritte umordnen", "Reordenar pasos", "调整步骤顺序"],
+        _ => [""; Lang::COUNT],
+    };
+    if !of(whole).is_empty() {
+        return of(whole).to_owned();
+    }
+    let Some((verb, rest)) = name.split_once(' ') else {
+        return name.to_owned();
+    };
+    let kind = |name: &str| TemplateKind::from_name(name);
+    let title =
+        |name: &str| kind(name).map_or_else(|| name.to_owned(), |k| kinds::title(k).to_owned());
+    let w = w();
+    let text = match verb {
+        "Add" => w.add,
+        "Remove" => w.remove,
+        "Duplicate" => w.duplicate,
+        "Reorder" => w.reorder,
+        "Move" => w.r#move,
+        "Turn" => w.turn,
+        "Resize" => w.resize,
+        "Place" => w.place,
+        "Show" => w.show,
+        "Hide" => w.hide,
+        "Rename" => w.rename,
+        "Change" => {
+            let Some((what, of_what)) = rest.split_once(" of ") else {
+                return fill(w.change, &[&rest]);
+            };
+            let param = kind(of_what).and_then(|kind| {
+                let params = kind.spec().params;
+                let index = params.iter().position(|param| param.name == what)?;
+                Some(kinds::param_name(kind, index))
+            });
+            let what = match what {
+                "mode" => w.mode.to_owned(),
+                "alignment" => w.alignment.to_owned(),
+                _ => param.unwrap_or_else(|| what.to_owned()),
+            };
+            return fill(w.change_of, &[&what, &title(of_what)]);
+        }
+        _ => return name.to_owned(),
+    };
+    fill(text, &[&title(rest)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::set_lang;
+    use super::*;
+    use crate::document::{Document, Edit};
+    use crate::math::Placement;
+
+    #[test]
+    fn steps_of_undo_are_named_in_the_language() {
+        set_lang(Lang::German);
+        let document = Document::new();
+        let placement = Placement {
+            at: glam::Vec3::ZERO,
+            rotate: glam::Quat::IDENTITY,
+            size: glam::Vec3::ONE,
+        };
+        let add = Edit::AddTemplate {
+            index: 0,
+            kind: TemplateKind::Peel,
+            placement,
+        };
+        assert_eq!(deed(&add.name(&document)), "Abrollen hinzufügen");
+        let document = add.apply(&document).expect("an empty document takes it");
+        let value = crate::document::ParamValue::Number(0.2);
+        let edit = Edit::SetParam {
+            template: 0,
+            param: "depth",
+            value,
+        };
+        assert_eq!(deed(&edit.name(&document)), "Tiefe von Abrollen ändern");
+        assert_eq!(
+            deed(&Edit::SetTitle(String::new()).name(&document)),
+            "Titel ändern"
+        );
+        assert_eq!(deed("Set peculiar"), "Set peculiar");
+        set_lang(Lang::English);
+    }
+
+    #[test]
+    fn what_is_built_in_has_words() {
+        set_lang(Lang::Chinese);
+        for name in crate::subjects::names() {
+            assert!(!subject(name).is_ascii(), "{name}");
+        }
+        for one in crate::document::presets() {
+            assert!(
+                one.name == "mri" || preset(one.name, one.title) != one.title,
+                "{}",
+                one.name
+            );
+        }
+        set_lang(Lang::English);
+    }
+}
