@@ -50,6 +50,7 @@ const IDENTITY: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 
 fn template(template: &mut Map<String, Value>) {
     drop_if(template, "name", is_text(""));
+    drop_if(template, "group", is_text(""));
     drop_if(template, "at", is_numbers(&[0.0; 3]));
     drop_if(template, "rotate", is_numbers(&IDENTITY));
     drop_if(template, "size", is_numbers(&[0.5; 3]));

@@ -110,6 +110,27 @@ pub enum Edit {
         /// Empty for none.
         name: String,
     },
+    /// Puts a template into a group of the list.
+    SetGroup {
+        /// Which.
+        template: usize,
+        /// Name of the group; empty for none.
+        group: String,
+    },
+    /// Puts templates that come from elsewhere before the one of that index (or last).
+    InsertTemplates {
+        /// Index of the first afterwards; larger than the number of templates means last.
+        index: usize,
+        /// As in a document.
+        templates: Vec<Value>,
+    },
+    /// Several edits, one after the other, as one step.
+    All {
+        /// What they do together.
+        name: String,
+        /// Each sees what the ones before it left.
+        edits: Vec<Edit>,
+    },
     /// Sets opacity and colour over value.
     SetTransfer(Transfer),
     /// Sets the value range of a preset.
@@ -330,6 +351,24 @@ impl Edit {
             Self::RenameTemplate { template: i, name } => {
                 pointer::set(root, &join(&template(i), "name"), json!(name))
             }
+            Self::SetGroup { template: i, group } => {
+                pointer::set(root, &join(&template(i), "group"), json!(group))
+            }
+            Self::InsertTemplates { index, templates } => {
+                let end = list(root, "templates")?.len();
+                let index = (*index).min(end);
+                for (offset, value) in templates.iter().enumerate() {
+                    insert(
+                        root,
+                        "templates",
+                        MAX_TEMPLATES,
+                        index + offset,
+                        value.clone(),
+                    )?;
+                }
+                Ok(())
+            }
+            Self::All { edits, .. } => edits.iter().try_for_each(|edit| edit.change(root)),
             Self::SetTransfer(transfer) => {
                 let value = match transfer {
                     Transfer::Auto => json!("auto"),
@@ -471,6 +510,12 @@ impl Edit {
                 format!("Change constraint of {}", name_of(template))
             }
             Self::RenameTemplate { template, .. } => format!("Rename {}", name_of(template)),
+            Self::SetGroup { template, group } if group.is_empty() => {
+                format!("Ungroup {}", name_of(template))
+            }
+            Self::SetGroup { template, .. } => format!("Group {}", name_of(template)),
+            Self::InsertTemplates { .. } => "Paste templates".to_owned(),
+            Self::All { name, .. } => name.clone(),
             Self::SetTransfer(_) => "Change colours".to_owned(),
             Self::SetWindow(_) => "Change window".to_owned(),
             Self::SetOpacity(_) => "Change opacity mode".to_owned(),
@@ -507,6 +552,12 @@ impl Edit {
             Self::AddTemplate { index, .. } => format!("/templates/{index}/add"),
             Self::RemoveTemplate { template } => format!("/templates/{template}/remove"),
             Self::DuplicateTemplate { template } => format!("/templates/{template}/duplicate"),
+            Self::SetGroup { template, .. } => format!("/templates/{template}/group"),
+            Self::InsertTemplates { index, .. } => format!("/templates/{index}/paste"),
+            Self::All { name, edits } => {
+                let first = edits.first().map(Self::target).unwrap_or_default();
+                format!("{first} {name}")
+            }
             Self::SetTransfer(_) => "/look/transfer".to_owned(),
             Self::SetWindow(_) => "/look/window".to_owned(),
             Self::SetOpacity(_) => "/look/opacity".to_owned(),

@@ -376,6 +376,7 @@ const KEY_ORDER: &[&str] = &[
     "src",
     "sha256",
     "name",
+    "group",
     "segments",
     "names",
     "at",

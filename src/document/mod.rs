@@ -20,6 +20,7 @@
 //! # Ok::<(), fabrica::document::DocumentError>(())
 //! ```
 
+mod authoring;
 mod canonical;
 mod catalogue;
 mod edit;
@@ -36,6 +37,10 @@ mod steps;
 mod tests;
 mod tree;
 
+pub use authoring::{
+    Plane, free_group_name, group_of, groups, mirror, mirrored, templates_from_text,
+    templates_to_text,
+};
 pub use catalogue::{
     MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateKind, TemplateSpec,
 };

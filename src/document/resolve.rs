@@ -510,6 +510,7 @@ impl Reader {
             &[
                 "kind",
                 "name",
+                "group",
                 "at",
                 "rotate",
                 "size",
@@ -531,6 +532,8 @@ impl Reader {
             size: self.vector(object, "size", Placement::DOCUMENT_DEFAULT.size, SIZE_RANGE)?,
         };
         let name = object.string("name")?;
+        // Which templates belong together in the list; nothing that is drawn depends on it.
+        object.string("group")?;
         let enabled = object.flag("enabled")?.unwrap_or(true);
         let mode = match object.text("mode")? {
             None | Some("compose") => TemplateMode::Compose,
