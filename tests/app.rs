@@ -3,6 +3,9 @@
 //! With `FABRICA_LOOK_AT=folder` the windows are written there as PNG, to be looked at.
 #![cfg(feature = "app")]
 
+#[path = "app/making.rs"]
+mod making;
+
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -122,6 +125,11 @@ impl Services for Fake {
         let log = &mut *self.0.borrow_mut();
         log.copied.push(text);
         log.queue.push(Message::Copied(Ok(())));
+    }
+    fn paste_text(&mut self) {
+        let log = &mut *self.0.borrow_mut();
+        let text = log.copied.last().cloned();
+        log.queue.push(Message::Pasted(text));
     }
     fn page_address(&self) -> String {
         "https://fabrica.example/#old".to_owned()

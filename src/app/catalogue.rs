@@ -7,10 +7,11 @@ use egui::{
 
 use super::command::Command;
 use super::control;
+use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette};
 use super::words::catalogue::{Catalogue, w};
-use super::words::{fill, in_sentence, kinds};
+use super::words::{fill, in_sentence, kinds, making};
 use crate::document::TemplateKind;
 
 /// Pictures of the templates, as far as they are drawn. `None` shows an outline.
@@ -60,7 +61,19 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, icons: &dyn Icons, commands: &mut V
         .floor()
         .clamp(2.0, 6.0);
     let cell = ((ui.available_width() - gap * (columns - 1.0)) / columns).floor();
+    search_ui(ui, state, commands);
+    let wanted = state.making.search.trim();
+    let mut found_some = false;
     for (title, kinds) in GROUPS {
+        let kinds: Vec<TemplateKind> = kinds
+            .iter()
+            .copied()
+            .filter(|kind| is_found(*kind, title(w()), wanted))
+            .collect();
+        if kinds.is_empty() {
+            continue;
+        }
+        found_some = true;
         ui.add_space(2.0);
         let weak = Palette::get(ui).weak;
         ui.label(theme::strong(title(w())).size(11.5).color(weak));
@@ -73,9 +86,65 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, icons: &dyn Icons, commands: &mut V
             });
         }
     }
+    if !found_some {
+        let weak = Palette::get(ui).weak;
+        let text = egui::RichText::new(making::w().found_nothing).color(weak);
+        ui.add(egui::Label::new(text).wrap());
+    }
     if state.template_count() >= 32 {
         ui.label(w().full);
     }
+}
+
+/// The field over the catalogue. Enter starts placing the first that is found.
+fn search_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let mut text = state.making.search.clone();
+    let id = egui::Id::unique("search of the catalogue");
+    control::row(ui, |ui| {
+        let has_text = !text.is_empty();
+        let width = ui.available_width() - if has_text { 34.0 } else { 0.0 };
+        let edit = egui::TextEdit::singleline(&mut text)
+            .hint_text(making::w().search_hint)
+            .desired_width(width)
+            .min_size(vec2(0.0, theme::CONTROL_HEIGHT))
+            .char_limit(40)
+            .id(id);
+        let response = ui.add(edit).accessible_name(making::w().search);
+        if state.making.wants_search {
+            response.request_focus();
+        }
+        if response.changed() {
+            commands.push(Command::Search(text.clone()));
+        }
+        if response.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter)) {
+            let found = GROUPS.iter().find_map(|(title, kinds)| {
+                let mut kinds = kinds.iter().copied();
+                kinds.find(|kind| is_found(*kind, title(w()), text.trim()))
+            });
+            if let Some(kind) = found.filter(|_| !text.trim().is_empty()) {
+                commands.push(Command::Search(String::new()));
+                commands.push(Command::StartPlacing(kind));
+            }
+        }
+        let clear = making::w().clear_search;
+        if has_text && control::icon_button(ui, Icon::Close, clear, true).clicked() {
+            commands.push(Command::Search(String::new()));
+        }
+    });
+}
+
+/// True if every word that is searched for is in the template's name, what is said of it, its group, or its name in
+/// documents.
+fn is_found(kind: TemplateKind, group: &str, wanted: &str) -> bool {
+    let text = format!(
+        "{} {} {group} {}",
+        kind_title(kind),
+        kinds::summary(kind),
+        kind.spec().name
+    )
+    .to_lowercase();
+    let wanted = wanted.to_lowercase();
+    wanted.split_whitespace().all(|word| text.contains(word))
 }
 
 fn cell_ui(

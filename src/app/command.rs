@@ -5,7 +5,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 use super::camera::StandardView;
 use super::words::Lang;
 use super::words::keys::w;
-use crate::document::{Edit, SubjectRef, TemplateKind};
+use crate::document::{Edit, Plane, SubjectRef, TemplateKind};
 
 /// One thing to do.
 #[derive(Clone, Debug)]
@@ -32,6 +32,26 @@ pub enum Command {
     DeleteSelected,
     /// Makes a copy of the selected template behind it.
     DuplicateSelected,
+    /// Puts the selected template, with its group, on the clipboard.
+    Copy,
+    /// The same, and takes it out of the document.
+    Cut,
+    /// Takes what is on the clipboard: templates, a link, a document.
+    Paste,
+    /// Mirrors the selected template, with its group, across a middle plane of the subject: as a copy, or where it is.
+    Mirror(Plane, bool),
+    /// Turns and moves the selected template so that it lies on the surface under it.
+    LayOnSurface,
+    /// Puts the selected template into the group of the one before it.
+    GroupWithPrevious,
+    /// Takes the selected template out of its group.
+    LeaveGroup,
+    /// Handles go in steps, or not.
+    ToggleSnap,
+    /// Says what the catalogue is searched for.
+    Search(String),
+    /// Puts the keyboard into the search over the catalogue.
+    StartSearch,
     /// Shows or hides the selected template.
     ToggleSelected,
     /// Makes the selected template act earlier (`-1`) or later (`1`).
@@ -116,6 +136,11 @@ const COMMAND: Modifiers = Modifiers::COMMAND;
 /// Radians by which an arrow key turns the camera.
 const KEY_ORBIT: f32 = 0.13;
 
+/// True for what comes as an event of the clipboard instead of as a key.
+pub(crate) fn is_of_clipboard(command: &Command) -> bool {
+    matches!(command, Command::Copy | Command::Cut | Command::Paste)
+}
+
 /// Every shortcut. Those with more modifiers come first, since egui takes `Ctrl+Z` out of `Ctrl+Shift+Z` as well.
 pub(crate) fn shortcuts() -> Vec<Shortcut> {
     let entry = |modifiers: Modifiers, key: Key, command: Command, text: &'static str| Shortcut {
@@ -128,6 +153,12 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         entry(COMMAND | SHIFT, Key::Z, Command::Redo, w.redo),
         entry(COMMAND, Key::Y, Command::Redo, ""),
         entry(COMMAND, Key::Z, Command::Undo, w.undo),
+        // The window and the page give these three as events of their own, not as keys.
+        entry(COMMAND, Key::C, Command::Copy, w.copy),
+        entry(COMMAND, Key::X, Command::Cut, w.cut),
+        entry(COMMAND, Key::V, Command::Paste, w.paste),
+        entry(COMMAND | SHIFT, Key::G, Command::LeaveGroup, w.ungroup),
+        entry(COMMAND, Key::G, Command::GroupWithPrevious, w.group),
         entry(COMMAND, Key::O, Command::Open, w.open),
         entry(
             COMMAND | SHIFT,
@@ -166,6 +197,15 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         entry(NONE, Key::OpenBracket, Command::NudgeMain(-5.0), w.close_it),
         entry(NONE, Key::H, Command::ToggleSelected, w.hide),
         entry(NONE, Key::D, Command::DuplicateSelected, w.duplicate),
+        entry(
+            NONE,
+            Key::M,
+            Command::Mirror(Plane::Sagittal, true),
+            w.mirror,
+        ),
+        entry(NONE, Key::L, Command::LayOnSurface, w.lay),
+        entry(NONE, Key::K, Command::ToggleSnap, w.snap),
+        entry(NONE, Key::Slash, Command::StartSearch, w.search),
         entry(NONE, Key::Delete, Command::DeleteSelected, w.delete),
         entry(NONE, Key::Backspace, Command::DeleteSelected, ""),
         entry(NONE, Key::PageUp, Command::ShiftSelected(-1), w.earlier),

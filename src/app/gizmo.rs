@@ -6,11 +6,13 @@ use glam::{Quat, Vec3};
 
 use super::camera::Projection;
 use super::command::GizmoMode;
+use super::making::step;
+use super::state::State;
 use super::theme::over_picture as ink;
 use super::words::picture::w;
 use super::words::{fill, in_sentence, kinds};
 use crate::displace;
-use crate::document::{Edit, PlacedTemplate};
+use crate::document::{Edit, ParamKind, ParamValue, PlacedTemplate};
 use crate::math::Placement;
 
 /// Points from the centre to the tip of an arrow.
@@ -105,9 +107,9 @@ impl Gizmo {
         picture: &Response,
         view: &Projection,
         template: &PlacedTemplate,
-        mode: GizmoMode,
+        state: &State,
     ) -> Option<Edit> {
-        let handles = Handles::new(view, template, mode);
+        let handles = Handles::new(view, template, state.gizmo);
         let is_touch = ui.input(|i| i.any_touches());
         let reach = if is_touch { REACH_TOUCH } else { REACH_MOUSE };
         let pointer = ui.input(|i| i.pointer.latest_pos());
@@ -153,7 +155,9 @@ impl Gizmo {
             self.hot = Some(hold.part);
             if pos != hold.start || picture.dragged() {
                 let modifiers = ui.input(|i| i.modifiers);
-                edit = hold.drag(pos, template, modifiers.command);
+                // The key does the other of what is set.
+                let snap = state.making.is_snapping != modifiers.command;
+                edit = hold.drag(pos, template, snap, modifiers.alt);
             }
         }
         if self.is_hot() {
@@ -171,13 +175,13 @@ impl Gizmo {
 }
 
 impl Hold {
-    /// What holding it and being at `pos` now makes of the template.
-    fn drag(&self, pos: Pos2, template: &PlacedTemplate, snap: bool) -> Option<Edit> {
+    /// What holding it and being at `pos` now makes of the template. `snap` goes in steps; `both` takes the opposite face along.
+    fn drag(&self, pos: Pos2, template: &PlacedTemplate, snap: bool, both: bool) -> Option<Edit> {
         let view = &self.view;
         let mut placement = self.placement;
         let at = placement.at;
         match self.part {
-            Part::Main => return self.drag_main(pos, template),
+            Part::Main => return self.drag_main(pos, template, snap),
             Part::Free => {
                 let from = view.on_plane(self.start, at, view.back)?;
                 placement.at += view.on_plane(pos, at, view.back)? - from;
@@ -185,21 +189,21 @@ impl Hold {
             Part::Axis(i) => {
                 let axis = placement.rotate * AXES[i];
                 let from = view.along_line(self.start, at, axis)?;
-                placement.at += axis * (view.along_line(pos, at, axis)? - from);
+                let by = view.along_line(pos, at, axis)? - from;
+                placement.at += axis * stepped(by, step::LENGTH, snap);
             }
             Part::Plane(i) => {
                 let normal = placement.rotate * AXES[i];
                 let from = view.on_plane(self.start, at, normal)?;
-                placement.at += view.on_plane(pos, at, normal)? - from;
+                let by = view.on_plane(pos, at, normal)? - from;
+                placement.at += [(i + 1) % 3, (i + 2) % 3]
+                    .map(|i| placement.rotate * AXES[i])
+                    .map(|axis| axis * stepped(by.dot(axis), step::LENGTH, snap))
+                    .into_iter()
+                    .sum::<Vec3>();
             }
             Part::Ring(i) => {
-                let angle = self.ring_angle(i, pos)?;
-                let step = 15_f32.to_radians();
-                let angle = if snap {
-                    (angle / step).round() * step
-                } else {
-                    angle
-                };
+                let angle = stepped(self.ring_angle(i, pos)?, step::TURN_DEG.to_radians(), snap);
                 placement.rotate =
                     (placement.rotate * Quat::from_axis_angle(AXES[i], angle)).normalize();
             }
@@ -208,10 +212,11 @@ impl Hold {
                 let axis = placement.rotate * AXES[i] * sign;
                 let from = view.along_line(self.start, at, axis)?;
                 let by = view.along_line(pos, at, axis)? - from;
-                // With the command key both faces go; otherwise the far one stays where it is.
-                let grow = if snap { 2.0 * by } else { by };
-                let side = (placement.size[i] + grow).max(SMALLEST_SIDE);
-                if !snap {
+                // With the key for it both faces go; otherwise the far one stays where it is.
+                let grow = if both { 2.0 * by } else { by };
+                let side = stepped(placement.size[i] + grow, step::LENGTH, snap);
+                let side = side.max(if snap { step::LENGTH } else { SMALLEST_SIDE });
+                if !both {
                     placement.at += axis * (0.5 * (side - placement.size[i]));
                 }
                 placement.size[i] = side;
@@ -246,16 +251,35 @@ impl Hold {
     }
 
     /// The value of the main parameter whose handle is seen nearest to the pointer.
-    fn drag_main(&self, pos: Pos2, template: &PlacedTemplate) -> Option<Edit> {
+    fn drag_main(&self, pos: Pos2, template: &PlacedTemplate, snap: bool) -> Option<Edit> {
         let index = template.kind.spec().main_param?;
         let ray = self.view.ray(pos + self.offset);
         // The template as it is now, not as it was: what goes around may go around more than once.
         let value = displace::dragged_along_ray(template, self.view.eye, ray)?;
+        let value = match (value, template.kind.spec().params[index].kind) {
+            (
+                ParamValue::Number(value),
+                ParamKind::Number { min, max, .. } | ParamKind::Count { min, max, .. },
+            ) if snap => {
+                let by = (max - min) * step::PARAM;
+                ParamValue::Number((min + step::nearest(value - min, by)).clamp(min, max))
+            }
+            (value, _) => value,
+        };
         (value != template.params[index]).then(|| Edit::SetParam {
             template: template.index,
             param: template.kind.spec().params[index].name,
             value,
         })
+    }
+}
+
+/// A value in steps, if steps are wanted.
+fn stepped(value: f32, step: f32, snap: bool) -> f32 {
+    if snap {
+        step::nearest(value, step)
+    } else {
+        value
     }
 }
 

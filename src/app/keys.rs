@@ -7,16 +7,20 @@ use super::control;
 use super::icon::Icon;
 use super::theme::{self, Palette};
 use super::words::keys::w;
+use super::words::making;
 
 /// What the mouse and fingers do in the picture.
-fn gestures() -> [(&'static str, &'static str); 6] {
+fn gestures() -> [(&'static str, &'static str); 9] {
     let w = w();
     [
         (w.drag, w.turn_object),
         (w.pan, w.pan_does),
         (w.wheel, w.wheel_does),
         (w.double_click, w.double_click_does),
-        (w.handle, w.handle_does),
+        (w.right_click, w.right_click_does),
+        (w.handle, making::w().step_handles),
+        (w.alt_handle, making::w().both_sides),
+        (w.shift_handle, making::w().alone),
         (w.alt_drag, w.alt_drag_does),
     ]
 }

@@ -22,6 +22,7 @@ mod icon;
 mod icons;
 mod keys;
 mod look;
+mod making;
 mod notice;
 mod opening;
 mod orientation;
@@ -43,8 +44,9 @@ use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, Vec2, vec2};
 
 use self::icon::Icon;
 use self::icons::RenderedIcons;
+use self::making::OnClipboard;
 use self::picture::Picture;
-use self::state::{Gravity, STORED_DOCUMENT, State, Tab};
+use self::state::{Gravity, State, Tab};
 use self::theme::Palette;
 use self::viewport::Viewport;
 use self::words::fill;
@@ -55,6 +57,7 @@ use crate::render::Clock;
 pub use self::camera::StandardView;
 pub use self::command::{Command, GizmoMode};
 pub use self::services::{LinkChange, LoadEvent, Message, SaveFile, Services, Ticket};
+pub use self::state::STORED_DOCUMENT;
 pub use self::words::Lang;
 
 /// Width in points below which panels become drawers.
@@ -221,6 +224,13 @@ impl App {
                         self.take_load_event(event);
                     }
                 }
+                Message::Pasted(text) => self.take_pasted(text),
+                Message::Copied(Ok(())) if self.state.making.on_clipboard != OnClipboard::Link => {
+                    if let OnClipboard::Templates(number) = self.state.making.on_clipboard {
+                        let text = fill(words::making::w().on_clipboard, &[&number]);
+                        self.state.say(Gravity::Success, text, "");
+                    }
+                }
                 Message::Copied(Ok(())) => {
                     self.state.copied_at = Some(self.state.now);
                     self.state
@@ -247,6 +257,23 @@ impl App {
                 Message::Notice { message, details } => {
                     self.state.say(Gravity::Warning, message, details)
                 }
+            }
+        }
+    }
+
+    /// What a tap on “Paste” found. Where the clipboard may not be read, what was copied in this window is taken.
+    fn take_pasted(&mut self, text: Option<String>) {
+        let is_refused = text.is_none();
+        let text = text.or_else(|| self.state.making.clip.clone());
+        match text.filter(|text| !text.trim().is_empty()) {
+            Some(text) => self.state.open_text(&text, self.services.as_mut()),
+            None if is_refused => {
+                let text = words::making::w().press_keys;
+                self.state.say(Gravity::Info, text, "");
+            }
+            None => {
+                let text = words::making::w().nothing_to_paste;
+                self.state.say(Gravity::Info, text, "");
             }
         }
     }
@@ -336,6 +363,7 @@ impl App {
         if let Some(text) = viewport::pasted(ui) {
             self.state.open_text(&text, self.services.as_mut());
         }
+        self.state.making.is_alone = ui.input(|i| i.modifiers.shift);
         let mut commands = Vec::new();
         self.keys(ui, &mut commands);
 
@@ -359,6 +387,7 @@ impl App {
         {
             self.state.end_drag();
         }
+        self.state.making.wants_search = false;
         let has_commands = !commands.is_empty();
         let was_placing = self.state.placing;
         for command in commands {
@@ -390,7 +419,19 @@ impl App {
         let is_typing = ui.ctx().text_edit_focused();
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
         let is_sheet_open = self.state.is_keys_sheet_open || self.state.is_messages_open;
+        if !is_typing && !is_sheet_open {
+            ui.input(|i| {
+                commands.extend(i.events.iter().filter_map(|event| match event {
+                    egui::Event::Copy => Some(Command::Copy),
+                    egui::Event::Cut => Some(Command::Cut),
+                    _ => None,
+                }));
+            });
+        }
         for shortcut in command::shortcuts() {
+            if command::is_of_clipboard(&shortcut.command) {
+                continue;
+            }
             let key = shortcut.keys.logical_key;
             let is_plain = !shortcut.keys.modifiers.command;
             // Letters belong to a text field, arrows to whatever control has the keyboard.
@@ -506,6 +547,8 @@ impl App {
     // ------------------------------------------------------------------------------------------------ layout
 
     fn wide_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        // Everything has a place of its own.
+        self.state.tab = None;
         let palette = Palette::get(ui);
         if !self.state.are_panels_hidden {
             let bar = Frame::new()

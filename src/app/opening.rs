@@ -42,6 +42,9 @@ impl State {
     /// Opens a document from JSON or a link, or says what is wrong with it.
     pub(crate) fn open_text(&mut self, text: &str, services: &mut dyn Services) {
         let trimmed = text.trim_start_matches('\u{feff}').trim();
+        if self.paste_templates(trimmed) {
+            return;
+        }
         let result = if trimmed.starts_with('{') {
             Document::from_json(trimmed)
                 .map(|document| (document, 0))

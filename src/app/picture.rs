@@ -41,6 +41,8 @@ pub(crate) enum PickFor {
     PlaceInMiddle,
     /// To look at the point.
     Target,
+    /// To lay the template of that index on the surface.
+    Surface(usize),
 }
 
 /// The renderer with what the interface needs around it. Built once per window.

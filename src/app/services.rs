@@ -46,6 +46,8 @@ pub trait Services {
     fn save_file(&mut self, file: SaveFile);
     /// Puts text on the clipboard; [`Message::Copied`] follows.
     fn copy_text(&mut self, text: String);
+    /// Reads the clipboard; [`Message::Pasted`] follows.
+    fn paste_text(&mut self);
     /// The page that goes in front of `#payload` when a link is copied.
     fn page_address(&self) -> String;
     /// Shows the document's payload in the address bar, where there is one.
@@ -95,6 +97,8 @@ pub enum Message {
     },
     /// The clipboard has the text, or why not.
     Copied(Result<(), String>),
+    /// What is on the clipboard; `None` where it may not be read.
+    Pasted(Option<String>),
     /// The name under which the file was saved, or why it was not; an empty reason means that the user thought better of it.
     Saved(Result<String, String>),
     /// Something to tell the user.

@@ -1,10 +1,11 @@
 //! What the app knows: the document and its history, what is selected, where one looks from, what is being loaded and what
 //! was said. Commands change it; panels read it.
 
-use glam::{Quat, Vec3};
+use glam::Vec3;
 
 use super::camera;
 use super::command::{Command, GizmoMode};
+use super::making::{Making, OnClipboard, placement_on_surface};
 use super::services::{LinkChange, SaveFile, Services, Ticket};
 use super::steps::Walk;
 use super::words;
@@ -12,7 +13,6 @@ use crate::document::{
     Camera, Document, Edit, History, Illustration, PlacedTemplate, SubjectRef, TemplateKind,
 };
 use crate::link;
-use crate::math::Placement;
 
 /// Characters above which a link is better passed on as a file.
 pub(crate) const LONG_LINK: usize = 2000;
@@ -131,6 +131,8 @@ pub(crate) struct State {
     pub wants_place_in_middle: bool,
     pub theme_toggle: bool,
     pub scale_change: Option<f32>,
+    /// Copying, grouping, snapping, searching.
+    pub making: Making,
     /// Seconds on the clock of the interface.
     pub now: f64,
     /// Rises with every change of document.
@@ -168,6 +170,7 @@ impl State {
             wants_place_in_middle: false,
             theme_toggle: false,
             scale_change: None,
+            making: Making::default(),
             now: 0.0,
             revision: 0,
         }
@@ -398,8 +401,8 @@ impl State {
         match command {
             Command::Undo => self.undo_or_redo(true, services),
             Command::Redo => self.undo_or_redo(false, services),
-            Command::Apply(edit) => self.apply(&edit, false),
-            Command::Drag(edit) => self.apply(&edit, true),
+            Command::Apply(edit) => self.apply(&self.with_group(edit), false),
+            Command::Drag(edit) => self.apply(&self.with_group(edit), true),
             Command::GoToStep(step) => self.go_to_step(step),
             Command::WalkStep(forward) => {
                 let step = self.walk.step();
@@ -447,6 +450,22 @@ impl State {
                 {
                     self.selected = Some(template + 1);
                 }
+            }
+            Command::Copy => {
+                self.copy_templates(services);
+            }
+            Command::Cut => self.cut_templates(services),
+            Command::Paste => services.paste_text(),
+            Command::Mirror(plane, as_copy) => self.mirror_selected(plane, as_copy),
+            Command::LayOnSurface => self.making.wants_surface = self.selected,
+            Command::GroupWithPrevious => self.group_with_previous(),
+            Command::LeaveGroup => self.leave_group(),
+            Command::ToggleSnap => self.making.is_snapping = !self.making.is_snapping,
+            Command::Search(text) => self.making.search = text,
+            Command::StartSearch => {
+                self.making.wants_search = true;
+                self.are_panels_hidden = false;
+                self.tab = Some(Tab::Add);
             }
             Command::ToggleSelected => {
                 if let Some(template) = self.selected_template() {
@@ -529,7 +548,7 @@ impl State {
     }
 
     /// True if the document took it.
-    fn apply_checked(&mut self, edit: &Edit, is_drag: bool) -> bool {
+    pub(super) fn apply_checked(&mut self, edit: &Edit, is_drag: bool) -> bool {
         let result = if is_drag {
             self.history.drag(edit)
         } else {
@@ -582,6 +601,8 @@ impl State {
             self.is_messages_open = false;
         } else if self.placing.is_some() {
             self.placing = None;
+        } else if !self.making.search.is_empty() {
+            self.making.search.clear();
         } else if self.tab.is_some() {
             self.tab = None;
         } else if self.are_panels_hidden {
@@ -672,6 +693,7 @@ impl State {
     }
 
     fn copy_link(&mut self, services: &mut dyn Services) {
+        self.making.on_clipboard = OnClipboard::Link;
         self.renew_link(services);
         let page = services.page_address();
         let page = page.split('#').next().unwrap_or_default();
@@ -703,7 +725,7 @@ impl State {
 }
 
 /// Under which the last document is kept for the next start.
-pub(crate) const STORED_DOCUMENT: &str = "document";
+pub const STORED_DOCUMENT: &str = "document";
 
 fn with_camera(document: &Document, camera: &Camera) -> Document {
     if document.illustration().camera == *camera {
@@ -715,57 +737,4 @@ fn with_camera(document: &Document, camera: &Camera) -> Document {
 
 pub(super) fn make_payload(document: &Document, camera: &Camera) -> String {
     link::encode(&with_camera(document, camera))
-}
-
-/// Where a new template lies that was put on a surface: its z axis along the normal, its y axis up in the picture as far as
-/// that goes, its top a little above the surface. `normal` points out of the object.
-pub(crate) fn placement_on_surface(
-    kind: TemplateKind,
-    pos: Vec3,
-    normal: Vec3,
-    camera: &Camera,
-) -> Placement {
-    // The size follows what one sees: about a quarter of the picture's shorter side, within reason.
-    let seen = 2.0 * camera.distance * (0.5 * camera.fov_deg.to_radians()).tan();
-    let side = (0.25 * seen).clamp(0.08, 0.5);
-    let z = normal.normalize_or(Vec3::Y);
-    let [right, up, _] = camera::axes(camera.rotate);
-    let y = (up - z * up.dot(z))
-        .try_normalize()
-        .or_else(|| (right - z * right.dot(z)).try_normalize());
-    let y = y.unwrap_or_else(|| z.any_orthonormal_vector());
-    let x = y.cross(z);
-    let rotate = Quat::from_mat3(&glam::Mat3::from_cols(x, y, z)).normalize();
-    let Shape { size, above } = shape_of(kind);
-    let size = size * side;
-    // `above` of the box stands over the surface, the rest reaches into the object.
-    let at = pos + z * size.z * (above - 0.5);
-    Placement { at, rotate, size }
-}
-
-/// Proportions of a new template: its box in parts of the sensible side, and how much of its height stands above the surface.
-struct Shape {
-    size: Vec3,
-    above: f32,
-}
-
-fn shape_of(kind: TemplateKind) -> Shape {
-    use TemplateKind as K;
-    let (size, above) = match kind {
-        // Layers: wide and flat, the top just over the skin, so that on a curved surface the layer still reaches it at
-        // the edges.
-        K::Peel | K::Flap => (Vec3::new(1.0, 0.8, 0.6), 0.06),
-        K::Peeler => (Vec3::new(0.8, 1.0, 0.6), 0.7),
-        // Openings: as deep as wide, the top over the skin.
-        K::Retractor | K::Cutquad | K::Hole | K::Split => (Vec3::new(1.0, 1.0, 0.8), 0.15),
-        K::Poke => (Vec3::new(0.9, 0.9, 0.6), 0.2),
-        // What turns or bends the whole goes around the place.
-        K::Twist | K::Bend | K::Squeeze | K::Dilate | K::Slices | K::Wave => {
-            (Vec3::splat(1.5), 0.5)
-        }
-        K::Pull | K::Lens => (Vec3::splat(1.0), 0.5),
-        K::Cut => (Vec3::new(1.0, 1.0, 1.0), 0.5),
-        K::Move => (Vec3::new(0.9, 0.9, 0.7), 0.3),
-    };
-    Shape { size, above }
 }

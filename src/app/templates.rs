@@ -9,11 +9,15 @@ use super::catalogue::kind_title;
 use super::command::Command;
 use super::control::{self, Change, NumberRow};
 use super::icon::Icon;
+use super::making;
 use super::state::State;
 use super::theme::{self, Palette};
 use super::words::templates::w;
-use super::words::{fill, kinds};
-use crate::document::{Edit, ParamKind, ParamSpec, ParamValue, PlacedTemplate, TemplateMode};
+use super::words::{self, fill, kinds};
+use crate::document::{
+    Edit, ParamKind, ParamSpec, ParamValue, PlacedTemplate, TemplateMode, free_group_name,
+    group_of, groups,
+};
 use crate::math::Placement;
 
 /// Height of a row of the list, points.
@@ -33,7 +37,7 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     list_ui(ui, state, commands);
     if let Some(template) = state.selected_template() {
         control::divider(ui);
-        template_ui(ui, template, commands);
+        template_ui(ui, state, template, commands);
     } else if let Some(index) = state.selected {
         control::divider(ui);
         let weak = Palette::get(ui).weak;
@@ -142,6 +146,13 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
         control::sided(rect, grip),
         palette.weak.gamma_multiply(0.7),
     );
+    let group = group_of(state.document(), index);
+    if let Some(place) = groups(state.document()).iter().position(|g| g == group) {
+        let bar = rect.shrink(1.0).with_max_x(rect.left() + 5.0);
+        let color = GROUP_COLORS[place % GROUP_COLORS.len()];
+        let bar = control::sided(rect, bar);
+        ui.painter().rect_filled(bar, CornerRadius::same(2), color);
+    }
     let is_on = template.is_some_and(|t| t.enabled);
     let color = if is_on { palette.text } else { palette.weak };
     let clip = control::sided(rect, rect.with_max_x(rect.right() - 66.0));
@@ -165,6 +176,13 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
                 w().added.to_owned()
             } else {
                 format!("{note}, {}", w().added)
+            };
+        }
+        if !group.is_empty() {
+            note = if note.is_empty() {
+                group.to_owned()
+            } else {
+                format!("{note}, {group}")
             };
         }
         let inset = 28.0 + shown.width() + 8.0;
@@ -199,15 +217,21 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
             Some(index)
         }));
     }
+    if response.secondary_clicked() && !is_selected {
+        commands.push(Command::Select(Some(index)));
+    }
+    response.context_menu(|ui| making::menu_ui(ui, state, commands));
     if response.drag_started() {
         response.dnd_set_drag_payload(DraggedRow(index));
     }
     rect
 }
 
-fn template_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>) {
+fn template_ui(ui: &mut Ui, state: &State, template: &PlacedTemplate, commands: &mut Vec<Command>) {
     let index = template.index;
     control::heading(ui, kind_title(template.kind), |ui| {
+        let more = control::icon_button(ui, Icon::More, words::making::w().actions, true);
+        egui::Popup::menu(&more).show(|ui| making::menu_ui(ui, state, commands));
         if control::icon_button(ui, Icon::Trash, w().delete_template, true).clicked() {
             commands.push(Command::DeleteSelected);
         }
@@ -253,9 +277,53 @@ fn template_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comman
             }
         });
     }
+    if state.template_count() > 1 {
+        group_ui(ui, state, index, commands);
+    }
     control::divider(ui);
     placement_ui(ui, template, commands);
 }
+
+/// Which group the template is in: none, one that there is, a new one.
+fn group_ui(ui: &mut Ui, state: &State, template: usize, commands: &mut Vec<Command>) {
+    let w = words::making::w();
+    let current = group_of(state.document(), template);
+    let known = groups(state.document());
+    control::row(ui, |ui| {
+        control::row_label(ui, w.group, w.group_hint);
+        let shown = if current.is_empty() {
+            w.no_group
+        } else {
+            current
+        };
+        let mut set = |group: &str| {
+            let group = group.to_owned();
+            commands.push(Command::Apply(Edit::SetGroup { template, group }));
+        };
+        let combo = control::combo("group", shown, ui.available_width() - 4.0);
+        let shown = combo.show_ui(ui, |ui| {
+            if ui
+                .selectable_label(current.is_empty(), w.no_group)
+                .clicked()
+            {
+                set("");
+            }
+            for group in &known {
+                if ui.selectable_label(current == group, group).clicked() {
+                    set(group);
+                }
+            }
+            if ui.selectable_label(false, w.new_group).clicked() {
+                set(&free_group_name(w.group, &known));
+            }
+        });
+        let response = shown.response.on_hover_text(w.group_hint);
+        response.accessible_name(w.group.to_owned());
+    });
+}
+
+/// Colours by which groups are told apart in the list.
+const GROUP_COLORS: [egui::Color32; 4] = theme::GROUPS;
 
 /// True if a parameter is an angle in radians, which people read in degrees.
 fn is_angle(param: &ParamSpec) -> bool {

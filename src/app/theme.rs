@@ -106,6 +106,10 @@ pub(crate) mod over_picture {
     pub(crate) const HALO_DARK: Color32 = Color32::from_rgba_premultiplied(0, 0, 0, 150);
 }
 
+/// Marks of groups in the list; each 3:1 on `raised` in every theme.
+pub(crate) const GROUPS: [Color32; 4] =
+    [rgb(0xc0632b), rgb(0x4a7fd0), rgb(0x9a5fc0), rgb(0x4a9a3a)];
+
 impl Palette {
     /// The colours of a theme.
     pub(crate) fn of(theme: Theme) -> &'static Self {

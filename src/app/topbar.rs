@@ -201,7 +201,7 @@ fn more_menu(ui: &mut Ui, state: &State, is_narrow: bool, commands: &mut Vec<Com
 }
 
 /// A row of a menu with an icon. True if it was taken.
-fn menu_item(ui: &mut Ui, icon: Icon, text: &str) -> bool {
+pub(crate) fn menu_item(ui: &mut Ui, icon: Icon, text: &str) -> bool {
     let palette = Palette::get(ui);
     let size = egui::vec2(ui.available_width(), 30.0);
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());

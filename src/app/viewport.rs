@@ -12,12 +12,13 @@ use super::command::{Command, GizmoMode};
 use super::control;
 use super::gizmo::Gizmo;
 use super::icon::Icon;
+use super::making::{self, placement_on_surface};
 use super::orientation;
 use super::picture::{PickFor, Picture};
-use super::state::{Gravity, State, placement_on_surface};
+use super::state::{Gravity, State};
 use super::theme::{self, Palette};
 use super::words::picture::w;
-use super::words::{fill, in_sentence, said};
+use super::words::{self, fill, in_sentence, said};
 use crate::document::{Background, Camera, PlacedTemplate};
 use crate::math::Placement;
 use crate::render::Pick;
@@ -31,6 +32,12 @@ const REST_SECONDS: f64 = 0.18;
 /// Seconds of GPU work per frame while something moves, and at rest.
 const BUDGET_MOVING: f32 = 0.03;
 const BUDGET_REST: f32 = 0.05;
+
+/// Pixels of the view in which a template's surface is looked for.
+const SURFACE_VIEW: u32 = 256;
+/// Pixels of the picture at most. On a 4K screen it is drawn at about seven tenths of the screen's own resolution and
+/// scaled up: nobody sees the difference in tissue, and it takes half as long.
+pub(crate) const MAX_PICTURE_PIXELS: f32 = 4_200_000.0;
 
 /// What of the picture lives from frame to frame.
 #[derive(Default)]
@@ -114,7 +121,7 @@ impl Viewport {
         } else {
             self.markers_ui(ui, &view, state, commands);
             if let Some(template) = state.selected_template().cloned() {
-                if let Some(edit) = self.gizmo.ui(ui, &response, &view, &template, state.gizmo) {
+                if let Some(edit) = self.gizmo.ui(ui, &response, &view, &template, state) {
                     commands.push(Command::Drag(edit));
                 }
                 tools_ui(ui, rect, state, &template, commands);
@@ -128,6 +135,13 @@ impl Viewport {
             && state.selected.is_some()
         {
             commands.push(Command::Select(None));
+        }
+        if state.placing.is_none() {
+            // The right button or a long press. A finger that opened the menu no longer drags a handle.
+            let menu = response.context_menu(|ui| making::menu_ui(ui, state, commands));
+            if menu.is_some() {
+                self.gizmo.release();
+            }
         }
         self.corner_ui(ui, rect, &view, commands);
         if response.has_focus() {
@@ -280,9 +294,9 @@ impl Viewport {
     /// Sends the questions that clicks ask of the picture, and acts on the answers.
     fn questions(&mut self, ui: &Ui, rect: Rect, state: &mut State, picture: &mut Picture) {
         let response = ui.ctx().read_response(ui.scope_id().with("picture"));
-        let ppp = ui.pixels_per_point();
-        let size = size_px(rect, ppp);
-        let pixel = |pos: Pos2| [(pos.x - rect.min.x) * ppp, (pos.y - rect.min.y) * ppp];
+        let size = size_px(rect, ui.pixels_per_point());
+        let scale = size[0] as f32 / rect.width().max(1.0);
+        let pixel = |pos: Pos2| [(pos.x - rect.min.x) * scale, (pos.y - rect.min.y) * scale];
         let mut asked = Ok(());
         if let Some(response) = &response {
             let pointer = response.interact_pointer_pos();
@@ -309,6 +323,16 @@ impl Viewport {
         }
         if std::mem::take(&mut state.wants_place_in_middle) {
             asked = picture.ask(PickFor::PlaceInMiddle, pixel(rect.center()), size);
+        }
+        if let Some(template) = state.making.wants_surface.take()
+            && let Some((seen, camera)) = state.surface_view(template)
+        {
+            // The object is looked at along the template's axis for this one question; then the picture's own view is back.
+            picture.set(&seen, &camera);
+            let middle = [0.5 * SURFACE_VIEW as f32; 2];
+            asked = picture.ask(PickFor::Surface(template), middle, [SURFACE_VIEW; 2]);
+            picture.set(state.shown(), &state.camera);
+            self.moving_until = state.now + REST_SECONDS;
         }
         if let Err(error) = asked {
             state.say(Gravity::Info, said::w().nothing_to_click, error.to_string());
@@ -347,6 +371,12 @@ impl Viewport {
             }
             (PickFor::PlaceInMiddle, None) => {
                 state.place(camera.target, camera::axes(camera.rotate)[2]);
+            }
+            (PickFor::Surface(template), Some(pick)) => {
+                state.lay_on_surface(template, pick.pos_in_subject, pick.normal);
+            }
+            (PickFor::Surface(_), None) => {
+                state.say(Gravity::Info, words::making::w().no_surface, "");
             }
             (PickFor::Target, Some(pick)) => state.look_at(pick.pos_in_subject),
             (PickFor::Target, None) => {}
@@ -488,10 +518,12 @@ fn facing(pick: &Pick, camera: &Camera) -> Vec3 {
     }
 }
 
-/// Size of a rectangle in pixels, at least one by one.
+/// Size of the picture in a rectangle, pixels: those of the screen up to [`MAX_PICTURE_PIXELS`], at least one by one.
 fn size_px(rect: Rect, pixels_per_point: f32) -> [u32; 2] {
+    let area = rect.area() * pixels_per_point * pixels_per_point;
+    let cap = (MAX_PICTURE_PIXELS / area.max(1.0)).sqrt().min(1.0);
     [rect.width(), rect.height()]
-        .map(|side| (side * pixels_per_point).round().clamp(1.0, 8192.0) as u32)
+        .map(|side| (side * pixels_per_point * cap).round().clamp(1.0, 8192.0) as u32)
 }
 
 fn background_color(state: &State, ui: &Ui) -> Color32 {
@@ -623,7 +655,7 @@ fn tools_ui(
     template: &PlacedTemplate,
     commands: &mut Vec<Command>,
 ) {
-    let width = 340.0_f32.min(rect.width() - 12.0);
+    let width = 372.0_f32.min(rect.width() - 12.0);
     let bar = Rect::from_center_size(pos2(rect.center().x, rect.top() + 30.0), vec2(width, 40.0));
     float_frame(ui, bar);
     let mut inner = ui.new_child(
@@ -634,7 +666,7 @@ fn tools_ui(
     );
     let ui = &mut inner;
     ui.spacing_mut().item_spacing.x = 2.0;
-    let choice = (width - 12.0 - 4.0 * 30.0 - 8.0).max(120.0);
+    let choice = (width - 12.0 - 5.0 * 30.0 - 8.0).max(120.0);
     let handles = GizmoMode::ALL.map(|mode| (mode, gizmo_name(mode)));
     ui.allocate_ui(vec2(choice, 28.0), |ui| {
         if let Some(mode) = control::segmented(ui, w().handles, &handles, state.gizmo) {
@@ -657,6 +689,8 @@ fn tools_ui(
             commands.push(command);
         }
     }
+    let more = control::icon_button(ui, Icon::More, words::making::w().actions, true);
+    egui::Popup::menu(&more).show(|ui| making::menu_ui(ui, state, commands));
 }
 
 /// What a kind of handle is called.

@@ -439,6 +439,12 @@ impl Services for NativeServices {
         self.say(Message::Copied(Ok(())));
     }
 
+    fn paste_text(&mut self) {
+        // Comes as an event of the window, as if its keys had been pressed.
+        self.ctx
+            .send_viewport_cmd(egui::ViewportCommand::RequestPaste);
+    }
+
     fn page_address(&self) -> String {
         // A window has no page of its own; who publishes one can say where it is.
         std::env::var("FABRICA_PAGE").unwrap_or_default()

@@ -9,7 +9,7 @@ use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storage, Url, Window};
 
 use super::worker::{Task, WorkerLoad, start, text_of};
-use crate::app::{LinkChange, LoadEvent, Message, SaveFile, Services, Ticket};
+use crate::app::{LinkChange, LoadEvent, Message, STORED_DOCUMENT, SaveFile, Services, Ticket};
 use crate::data::VolumeLimits;
 use crate::document::SubjectRef;
 
@@ -188,6 +188,11 @@ async fn document_text(blob: &Blob) -> Option<String> {
 
 fn window() -> Option<Window> {
     web_sys::window()
+}
+
+/// What only this tab keeps: a document that is edited in one tab is not the one that another tab comes back to.
+fn tab_storage() -> Option<Storage> {
+    window()?.session_storage().ok().flatten()
 }
 
 fn storage() -> Option<Storage> {
@@ -377,6 +382,23 @@ impl Services for PageServices {
         });
     }
 
+    fn paste_text(&mut self) {
+        let services = self.clone();
+        // Firefox asks with a button of its own; what is refused is refused without a reason.
+        let can_read = |c: &web_sys::Clipboard| {
+            c.is_object() && js_sys::Reflect::has(c, &"readText".into()).unwrap_or(false)
+        };
+        let clipboard = window().map(|w| w.navigator().clipboard()).filter(can_read);
+        let reading = clipboard.map(|c| JsFuture::from(c.read_text()));
+        spawn_local(async move {
+            let text = match reading {
+                Some(reading) => reading.await.ok().and_then(|text| text.as_string()),
+                None => None,
+            };
+            services.0.borrow_mut().say(Message::Pasted(text));
+        });
+    }
+
     fn page_address(&self) -> String {
         page_address()
     }
@@ -414,9 +436,12 @@ impl Services for PageServices {
     }
 
     fn store(&mut self, key: &str, value: &str) {
-        if self.0.borrow().place.is_page
-            && let Some(storage) = storage()
-        {
+        if !self.0.borrow().place.is_page {
+            return;
+        }
+        // A tab comes back to its own document; a new one to the last that any tab kept. The rest is for all tabs.
+        let of_tab = tab_storage().filter(|_| key == STORED_DOCUMENT);
+        for storage in [of_tab, storage()].into_iter().flatten() {
             // Full or forbidden: the address bar still holds the document.
             let _ignored = storage.set_item(&format!("fabrica.{key}"), value);
         }
@@ -432,9 +457,10 @@ impl Services for PageServices {
         if !self.0.borrow().place.is_page {
             return None;
         }
-        storage()?
-            .get_item(&format!("fabrica.{key}"))
-            .ok()
-            .flatten()
+        let key = format!("fabrica.{key}");
+        let kept = |storage: Storage| storage.get_item(&key).ok().flatten();
+        tab_storage()
+            .and_then(kept)
+            .or_else(|| storage().and_then(kept))
     }
 }

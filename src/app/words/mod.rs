@@ -35,6 +35,7 @@ pub(crate) mod catalogue;
 pub(crate) mod keys;
 pub(crate) mod kinds;
 pub(crate) mod look;
+pub(crate) mod making;
 pub(crate) mod names;
 pub(crate) mod picture;
 pub(crate) mod said;
@@ -232,6 +233,7 @@ mod tests {
             catalogue::LINES,
             keys::LINES,
             look::LINES,
+            making::LINES,
             names::LINES,
             picture::LINES,
             said::LINES,

@@ -20,6 +20,9 @@ words! {
         place: "Place {0}", "{0} platzieren", "Colocar {0}", "放置{0}";
         show: "Show {0}", "{0} einblenden", "Mostrar {0}", "显示{0}";
         hide: "Hide {0}", "{0} ausblenden", "Ocultar {0}", "隐藏{0}";
+        group: "Group {0}", "{0} gruppieren", "Agrupar {0}", "编组{0}";
+        ungroup: "Ungroup {0}", "{0} aus der Gruppe nehmen", "Desagrupar {0}", "取消编组{0}";
+        group_named: "group {0}", "Gruppe {0}", "grupo {0}", "组{0}";
         rename: "Rename {0}", "{0} umbenennen", "Cambiar el nombre de {0}", "重命名{0}";
         mode: "mode", "Wirkung", "el modo", "组合方式";
         alignment: "alignment", "Ausrichtung", "la alineación", "对齐";
@@ -100,6 +103,16 @@ pub(crate) fn deed(name: &str) -> String {
         "Change credit" => ["", "Nachweis ändern", "Cambiar los créditos", "更改署名"],
         "Change language" => ["", "Sprache ändern", "Cambiar el idioma", "更改语言"],
         "Change subject" => ["", "Objekt ändern", "Cambiar el objeto", "更改对象"],
+        "Paste templates" => ["", "Vorlagen einfügen", "Pegar plantillas", "粘贴模板"],
+        "Cut templates" => ["", "Vorlagen ausschneiden", "Cortar plantillas", "剪切模板"],
+        "Mirror templates" => ["", "Vorlagen spiegeln", "Reflejar plantillas", "镜像模板"],
+        "Group templates" => ["", "Vorlagen gruppieren", "Agrupar plantillas", "编组模板"],
+        "Lay on the surface" => [
+            "",
+            "An die Oberfläche legen",
+            "Ajustar a la superficie",
+            "贴合表面",
+        ],
         "Add label" => ["", "Beschriftung hinzufügen", "Añadir etiqueta", "添加标注"],
         "Change label" => ["", "Beschriftung ändern", "Cambiar etiqueta", "更改标注"],
         "Remove label" => ["", "Beschriftung entfernen", "Quitar etiqueta", "移除标注"],
@@ -115,9 +128,12 @@ pub(crate) fn deed(name: &str) -> String {
         return name.to_owned();
     };
     let kind = |name: &str| TemplateKind::from_name(name);
-    let title =
-        |name: &str| kind(name).map_or_else(|| name.to_owned(), |k| kinds::title(k).to_owned());
     let w = w();
+    let title = |name: &str| match (kind(name), name.strip_prefix("group ")) {
+        (Some(kind), _) => kinds::title(kind).to_owned(),
+        (None, Some(group)) => fill(w.group_named, &[&group]),
+        (None, None) => name.to_owned(),
+    };
     let text = match verb {
         "Add" => w.add,
         "Remove" => w.remove,
@@ -130,6 +146,8 @@ pub(crate) fn deed(name: &str) -> String {
         "Show" => w.show,
         "Hide" => w.hide,
         "Rename" => w.rename,
+        "Group" => w.group,
+        "Ungroup" => w.ungroup,
         "Change" => {
             let Some((what, of_what)) = rest.split_once(" of ") else {
                 return fill(w.change, &[&rest]);

@@ -1,0 +1,229 @@
+//! Copy and paste, mirror, group, lay on the surface, snap, search: what an author does with whole templates.
+
+use super::*;
+
+/// Two templates, the first of them named.
+const PAIR: &str = r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [
+    { "kind": "peel", "name": "skin", "at": [0.2, 0.5, 0.1], "rotate": [-0.7071, 0, 0, 0.7071], "size": [0.3, 0.3, 0.2] },
+    { "kind": "poke", "at": [0.1, 0.4, 0.2] } ] }"#;
+
+fn names(window: &Window) -> Vec<String> {
+    let document = window.document();
+    let templates = document.illustration().templates.iter();
+    templates
+        .map(|t| match t.name.as_str() {
+            "" => t.kind.spec().name.to_owned(),
+            name => name.to_owned(),
+        })
+        .collect()
+}
+
+fn event(window: &mut Window, event: egui::Event) {
+    window.harness.event(event);
+    window.steps(3);
+}
+
+fn copied(window: &Window) -> String {
+    let log = window.log.0.borrow();
+    log.copied.last().cloned().expect("something was copied")
+}
+
+#[test]
+fn templates_go_from_one_document_to_another() {
+    let mut from = Window::open(DESK, PAIR);
+    from.click("1. skin");
+    event(&mut from, egui::Event::Copy);
+    let text = copied(&from);
+    assert!(text.contains("fabrica-templates"), "{text}");
+    assert!(
+        from.harness
+            .query_by_label_contains("On the clipboard: 1")
+            .is_some(),
+        "it is said"
+    );
+    assert_eq!(names(&from), ["skin", "poke"], "copying changes nothing");
+
+    let mut to = Window::open(DESK, CUBE);
+    event(&mut to, egui::Event::Paste(text.clone()));
+    assert_eq!(names(&to), ["skin"]);
+    assert_eq!(to.harness.state().selected(), Some(0));
+    assert_eq!(
+        to.document().get("/templates/0"),
+        from.document().get("/templates/0"),
+        "whole"
+    );
+    to.click("Undo");
+    assert!(names(&to).is_empty(), "one step of undo");
+
+    event(&mut from, egui::Event::Cut);
+    assert_eq!(names(&from), ["poke"]);
+    from.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(names(&from), ["skin", "poke"], "cutting is undone");
+
+    let broken = text.replace("\"peel\"", "3");
+    event(&mut to, egui::Event::Paste(broken));
+    assert!(
+        to.harness
+            .query_by_label_contains("cannot be pasted")
+            .is_some(),
+        "what is wrong is said"
+    );
+}
+
+#[test]
+fn the_menu_copies_and_pastes_without_keys() {
+    let mut window = Window::open(vec2(360.0, 640.0), PAIR);
+    window.press(Key::N);
+    let center = window.picture_center();
+    window.harness.hover_at(center);
+    window.harness.step();
+    let button = egui::PointerButton::Secondary;
+    for pressed in [true, false] {
+        window.harness.event(egui::Event::PointerButton {
+            pos: center,
+            button,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        window.harness.step();
+    }
+    window.steps(3);
+    window.look("phone_menu");
+    window.click("Copy");
+    assert!(copied(&window).contains("\"skin\""));
+    window.click("More for this template");
+    window.click("Paste");
+    assert_eq!(names(&window), ["skin", "skin", "poke"]);
+}
+
+#[test]
+fn a_mirrored_copy_lies_on_the_other_side() {
+    let mut window = Window::open(DESK, PAIR);
+    window.click("1. skin");
+    window.press(Key::M);
+    let document = window.document();
+    let [first, second, _] = document.illustration().templates.as_slice() else {
+        panic!("three templates: {}", document.to_json());
+    };
+    let flip = glam::Vec3::new(-1.0, 1.0, 1.0);
+    assert_eq!(second.placement.at, first.placement.at * flip);
+    let normal = |t: &fabrica::document::PlacedTemplate| t.placement.rotate * glam::Vec3::Z;
+    assert!((normal(second) - normal(first) * flip).length() < 1e-3);
+    assert_eq!(
+        window.harness.state().selected(),
+        Some(1),
+        "the copy is selected"
+    );
+    window.look("desk_mirrored");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(names(&window), ["skin", "poke"], "one step of undo");
+}
+
+#[test]
+fn templates_of_a_group_move_together() {
+    let mut window = Window::open(DESK, PAIR);
+    window.click("2. Poke");
+    window.press_with(Modifiers::COMMAND, Key::G);
+    let group = |window: &Window, i: usize| {
+        let document = window.document();
+        fabrica::document::group_of(&document, i).to_owned()
+    };
+    assert_eq!([group(&window, 0), group(&window, 1)], ["Group", "Group"]);
+    window.look("desk_group");
+    let at = |window: &Window| -> Vec<glam::Vec3> {
+        let document = window.document();
+        let templates = document.illustration().templates.iter();
+        templates.map(|t| t.placement.at).collect()
+    };
+    let before = at(&window);
+    let tip = window.harness.get_by_label("Move along x").rect().center();
+    window.drag(tip, vec2(50.0, 0.0));
+    let after = at(&window);
+    let by: Vec<_> = after.iter().zip(&before).map(|(a, b)| *a - *b).collect();
+    assert!(by[1].length() > 0.02, "it was moved: {by:?}");
+    assert!((by[0] - by[1]).length() < 2e-4, "both alike: {by:?}");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(at(&window), before, "one step of undo");
+
+    // A mirrored copy of a group is a group of its own.
+    window.press(Key::M);
+    assert_eq!(names(&window), ["skin", "skin", "poke", "poke"]);
+    let groups: Vec<_> = (0..4).map(|i| group(&window, i)).collect();
+    assert_eq!(groups, ["Group", "Group 2", "Group", "Group 2"]);
+    window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::G);
+    assert_eq!(group(&window, 3), "", "it leaves its group");
+}
+
+#[test]
+fn a_template_is_laid_on_the_surface_again() {
+    let json = r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [
+        { "kind": "peel", "at": [0.05, 0.8, 0.1], "rotate": [-0.5, 0.2, 0, 0.84], "size": [0.3, 0.3, 0.2] } ] }"#;
+    let mut window = Window::open(DESK, json);
+    window.click("1. Peel");
+    window.press(Key::L);
+    window.settle();
+    let placement = window.document().illustration().templates[0].placement;
+    let up = placement.rotate * glam::Vec3::Z;
+    assert!(up.y > 0.97, "its top looks out of the surface: {up}");
+    let top = placement.at + up * placement.size.z * 0.5;
+    assert!((top.y - 0.5).abs() < 0.06, "and lies on it: {top}");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    let placement = window.document().illustration().templates[0].placement;
+    assert_eq!(placement.at.y, 0.8, "undone");
+}
+
+#[test]
+fn handles_go_in_steps() {
+    let mut window = Window::open(DESK, PAIR);
+    window.click("2. Poke");
+    window.press(Key::K);
+    let tip = window.harness.get_by_label("Move along x").rect().center();
+    let before = window.document().illustration().templates[1].placement;
+    window.drag(tip, vec2(70.0, 0.0));
+    let after = window.document().illustration().templates[1].placement;
+    let by = (after.at - before.at).length();
+    assert!(by > 0.04, "it was moved: {by}");
+    assert!(
+        (by / 0.05 - (by / 0.05).round()).abs() < 0.01,
+        "by whole steps: {by}"
+    );
+    window.press(Key::S);
+    let face = window
+        .harness
+        .get_by_label("Size x at the far end")
+        .rect()
+        .center();
+    window.drag(face, vec2(33.0, 0.0));
+    let side = window.document().illustration().templates[1]
+        .placement
+        .size
+        .x;
+    assert!(
+        (side / 0.05 - (side / 0.05).round()).abs() < 0.01,
+        "a side in whole steps: {side}"
+    );
+}
+
+#[test]
+fn the_catalogue_is_searched() {
+    let mut window = Window::open(DESK, CUBE);
+    window.press(Key::Slash);
+    window.steps(2);
+    window.harness.event(egui::Event::Text("retra".to_owned()));
+    window.steps(3);
+    window.look("desk_search");
+    assert!(window.harness.query_by_label("Place retractor").is_some());
+    assert!(window.harness.query_by_label("Place peel").is_none());
+    window.press(Key::Enter);
+    assert!(
+        window.harness.query_by_label("Cancel placing").is_some(),
+        "Enter places what was found"
+    );
+    window.press(Key::Enter);
+    window.settle();
+    assert_eq!(names(&window), ["retractor"], "and again, in the middle");
+    assert!(
+        window.harness.query_by_label("Place peel").is_some(),
+        "all are back"
+    );
+}
