@@ -165,6 +165,10 @@ const GOLDEN: &[(&str, &str)] = &[
         "knee",
         "bfec928018936b8c9f4cb64fb0c129d1daa7cddefe81aef61786fa62f58cfb93",
     ),
+    (
+        "torso",
+        "71fc7f94040a82b45083b7bd4bb3e3abcba14a3688417cbaf1f7737f270d54fe",
+    ),
 ];
 
 fn digest(held: &Held) -> String {
@@ -244,6 +248,68 @@ fn bar_and_cube_have_their_segments() {
     let cube = make("cube", 64);
     for name in ["top", "middle", "bottom", "ball"] {
         assert!(cube.millilitres(&[name]) > 40.0, "{name}");
+    }
+}
+
+#[test]
+fn the_torso_has_plausible_volumes_and_values() {
+    let torso = make("torso", 128);
+    let mut wrong = Vec::new();
+    for (names, low, high) in [
+        (&["skin"][..], 600.0, 3600.0),
+        (&["muscle"], 5000.0, 16000.0),
+        (&["ribs"], 250.0, 800.0),
+        (&["spine"], 400.0, 1200.0),
+        (&["sternum"], 30.0, 160.0),
+        (&["lungs"], 2500.0, 6000.0),
+        (&["heart"], 200.0, 700.0),
+        (&["liver"], 900.0, 2000.0),
+        (&["spleen"], 100.0, 350.0),
+        (&["kidneys"], 150.0, 450.0),
+        (&["pancreas"], 35.0, 150.0),
+        (&["gallbladder"], 10.0, 60.0),
+        (&["stomach"], 80.0, 500.0),
+        (&["bowel", "colon", "contents"], 800.0, 2500.0),
+    ] {
+        let found = torso.millilitres(names);
+        if !(low..high).contains(&found) {
+            wrong.push(format!("{names:?}: {found:.0} ml"));
+        }
+    }
+    for (name, low, high) in [
+        ("fat", -110, -60),
+        ("muscle", 35, 60),
+        ("lungs", -650, -560),
+        ("liver", 50, 70),
+        ("spleen", 40, 60),
+        ("air", -1000, -800),
+        ("arteries", 150, 240),
+        ("ribs", 150, 1100),
+    ] {
+        let found = torso.median(name);
+        if !(low..=high).contains(&found) {
+            wrong.push(format!("{name}: {found}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("; "));
+    // Liver and gallbladder on the right (x grows to it), heart, stomach and spleen on the left.
+    let middle = torso.dims[0] as f64 / 2.0 - 0.5;
+    let side = |name: &str| {
+        let label = torso.label(name);
+        let places = (0..torso.labels.len()).filter(|&i| torso.labels[i] == label);
+        let (sum, count) = places.fold((0.0, 0.0), |(sum, count), i| {
+            (sum + torso.place(i)[0] as f64 - middle, count + 1.0)
+        });
+        sum / count
+    };
+    for (name, right) in [
+        ("liver", true),
+        ("gallbladder", true),
+        ("heart", false),
+        ("stomach", false),
+        ("spleen", false),
+    ] {
+        assert_eq!(side(name) > 0.0, right, "{name} at {:.1}", side(name));
     }
 }
 

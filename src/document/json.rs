@@ -357,8 +357,8 @@ pub(super) fn shortened(text: &str, limit: usize) -> String {
     }
 }
 
-/// Keys of a document itself, in the order in which they are written.
-pub(super) const ROOT_KEYS: &[&str] = &[
+/// Keys in the order in which they are written: by what they hold, then by name.
+const KEY_ORDER: &[&str] = &[
     "fabrica",
     "title",
     "caption",
@@ -370,10 +370,6 @@ pub(super) const ROOT_KEYS: &[&str] = &[
     "camera",
     "labels",
     "steps",
-];
-
-/// Keys below, in the order in which they are written: by what they hold, then by name.
-const INNER_KEYS: &[&str] = &[
     "kind",
     "builtin",
     "revision",
@@ -381,17 +377,11 @@ const INNER_KEYS: &[&str] = &[
     "sha256",
     "name",
     "group",
-    "frame",
-    "raw",
     "segments",
     "names",
     "at",
     "rotate",
     "size",
-    "type",
-    "order",
-    "spacing",
-    "skip",
     "params",
     "enabled",
     "mode",
@@ -419,11 +409,10 @@ const INNER_KEYS: &[&str] = &[
 /// The value's keys in the order in which they are written.
 pub(crate) fn ordered(map: &Map<String, Value>) -> Vec<(&String, &Value)> {
     let rank = |key: &str| {
-        ROOT_KEYS
+        KEY_ORDER
             .iter()
-            .chain(INNER_KEYS)
             .position(|k| *k == key)
-            .unwrap_or(usize::MAX)
+            .unwrap_or(KEY_ORDER.len())
     };
     let mut entries: Vec<_> = map.iter().collect();
     entries.sort_by_cached_key(|&(key, _)| (rank(key), key));

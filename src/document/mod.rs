@@ -29,11 +29,9 @@ mod history;
 mod illustration;
 mod json;
 mod notice;
-mod object;
 pub mod pointer;
 mod preset;
 mod resolve;
-mod resolve_subject;
 mod steps;
 #[cfg(test)]
 mod tests;
@@ -51,8 +49,7 @@ pub use error::DocumentError;
 pub use history::History;
 pub use illustration::{
     Align, Background, Camera, Constrain, ConstrainBy, Illustration, Label, Look, OpacityMode,
-    PlacedTemplate, RawVoxels, Reading, SegmentsRef, Step, SubjectRef, TemplateMode, Transfer,
-    TransferPoint, Window,
+    PlacedTemplate, SegmentsRef, Step, SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
 };
 pub use json::MAX_DEPTH;
 pub use notice::{Notice, NoticeKind};

@@ -56,6 +56,21 @@ pub const PRESETS: &[Preset] = &[
         specular: 0.10,
     },
     Preset {
+        name: "tissue-and-lungs",
+        title: "Tissue and lungs",
+        subject: PresetSubject::Builtin,
+        window: Some([-1000.0, 1400.0]),
+        points: &[
+            at(0.000, 0xffffff, 0.0),
+            at(0.070, 0xffffff, 0.0),
+            at(0.120, 0xffffff, 1.0),
+            at(0.450, 0xffffff, 1.0),
+            at(1.000, 0xffffff, 1.0),
+        ],
+        tint: 1.0,
+        specular: 0.10,
+    },
+    Preset {
         name: "ct-soft-tissue",
         title: "CT soft tissue",
         subject: PresetSubject::Ct,

@@ -26,7 +26,6 @@ mod describe;
 mod error;
 mod files;
 mod geometry;
-mod header;
 mod labels;
 mod metaimage;
 mod nifti;
@@ -42,7 +41,7 @@ use std::rc::Rc;
 
 use sha2::{Digest as _, Sha256};
 
-pub use describe::{Description, describe, describe_raw};
+pub use describe::{Description, describe};
 pub use error::LoadError;
 pub use files::{FileHandle, FileSet, MemoryFiles, OneFile};
 pub use geometry::orientation_code;

@@ -3,14 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::sync_channel;
 
-use super::files::Folder;
-use super::reading::{ReadingFlags, hint};
+use super::files::read_volume_at;
 use crate::data::{
     BuildError, LabelVolume, Reducer, Segment, Volume, VolumeBuilder, VolumeLimits, VolumeSink,
     Voxels,
 };
-use crate::document::{Illustration, Reading, SegmentsRef, SubjectRef};
-use crate::load::{LoadError, LoadReport, RawLayout, ReadOptions, read_raw, read_volume};
+use crate::document::{Illustration, SegmentsRef, SubjectRef};
+use crate::load::{LoadError, LoadReport, ReadOptions};
 use crate::subjects::{FINE_RESOLUTION, Generator, SubjectError};
 
 /// Why a document's subject is not there.
@@ -80,8 +79,6 @@ pub struct SubjectSource<'a> {
     pub folder: &'a Path,
     /// Takes the place of the document's subject.
     pub instead: Option<&'a Path>,
-    /// How its file is read, before what the document says.
-    pub reading: &'a ReadingFlags,
     /// What the device takes; larger volumes are reduced.
     pub limits: VolumeLimits,
 }
@@ -101,8 +98,7 @@ pub fn load_subject(
             SubjectRef::Address { sha256, .. } => sha256.as_deref(),
             SubjectRef::Builtin { .. } => None,
         };
-        let reading = source.reading.over(illustration.subject.reading());
-        let (mut volume, found) = read(path, &reading, source.limits, notice)?;
+        let (mut volume, found) = read(path, source.limits, notice)?;
         if let Some(wanted) = wanted
             && found.as_deref() != Some(wanted)
         {
@@ -123,15 +119,9 @@ pub fn load_subject(
             }
             (generate(name)?, source.folder)
         }
-        SubjectRef::Address {
-            src,
-            sha256,
-            reading,
-            ..
-        } => {
+        SubjectRef::Address { src, sha256, .. } => {
             let path = local(source.folder, src)?;
-            let reading = source.reading.over(Some(reading));
-            let (volume, found) = read(&path, &reading, source.limits, notice)?;
+            let (volume, found) = read(&path, source.limits, notice)?;
             if let (Some(wanted), Some(found)) = (sha256, &found)
                 && wanted != found
             {
@@ -143,7 +133,7 @@ pub fn load_subject(
             }
             (volume, source.folder)
         }
-        SubjectRef::Supplied { sha256, name, .. } => {
+        SubjectRef::Supplied { sha256, name } => {
             return Err(MissingSubject::Wanted {
                 name: if name.is_empty() {
                     "without a name".to_owned()
@@ -157,7 +147,7 @@ pub fn load_subject(
     if let Some(segments) = &illustration.segments {
         if let Some(src) = &segments.src {
             let path = local(folder, src)?;
-            let (labels, found) = read(&path, &Reading::default(), source.limits, notice)?;
+            let (labels, found) = read(&path, source.limits, notice)?;
             if let (Some(wanted), Some(found)) = (&segments.sha256, found)
                 && *wanted != found
             {
@@ -222,7 +212,6 @@ pub fn generate(name: &str) -> Result<Volume, MissingSubject> {
 /// A volume and the SHA-256 of its file.
 fn read(
     path: &Path,
-    reading: &Reading,
     limits: VolumeLimits,
     notice: &mut dyn FnMut(String),
 ) -> Result<(Volume, Option<String>), MissingSubject> {
@@ -230,22 +219,7 @@ fn read(
     let mut reducer = Reducer::new(&mut builder, limits);
     let mut report = LoadReport::default();
     let shown = path.display().to_string();
-    let options = ReadOptions {
-        frame: reading.frame,
-        ..ReadOptions::default()
-    };
-    let (mut files, name) = Folder::of(path);
-    let result = match &reading.raw {
-        Some(raw) => read_raw(
-            &mut files,
-            &name,
-            &RawLayout::from(raw),
-            &options,
-            &mut reducer,
-            &mut report,
-        ),
-        None => read_volume(&mut files, &name, &options, &mut reducer, &mut report),
-    };
+    let result = read_volume_at(path, &ReadOptions::default(), &mut reducer, &mut report);
     if let Some(reduction) = reducer.reduction() {
         notice(reduction.to_string());
     }
@@ -269,9 +243,6 @@ fn read(
             ));
         }
         Err(source) => {
-            if let Some(hint) = hint(&name, &source) {
-                notice(hint);
-            }
             return Err(MissingSubject::File {
                 path: shown,
                 source,

@@ -38,8 +38,14 @@ mod knee;
 mod lanes;
 mod paint;
 mod piggybank;
+mod profile;
 mod shape;
 mod tomato;
+mod torso;
+mod torso_belly;
+mod torso_chest;
+mod torso_frame;
+mod torso_wall;
 
 use std::ops::Range;
 
@@ -79,7 +85,16 @@ pub enum SubjectError {
 
 /// Names of the built-in subjects that can be made, as written in documents.
 pub fn names() -> &'static [&'static str] {
-    &["bar", "cube", "tomato", "piggybank", "head", "hand", "knee"]
+    &[
+        "bar",
+        "cube",
+        "tomato",
+        "piggybank",
+        "head",
+        "hand",
+        "torso",
+        "knee",
+    ]
 }
 
 fn model(name: &str) -> Option<Box<dyn Model>> {
@@ -90,6 +105,7 @@ fn model(name: &str) -> Option<Box<dyn Model>> {
         "piggybank" => Box::new(piggybank::Piggybank::new()),
         "hand" => Box::new(hand::Hand::new()),
         "knee" => Box::new(knee::Knee::new()),
+        "torso" => Box::new(torso::Torso::new()),
         "head" => Box::new(head::Head::new()),
         _ => return None,
     })

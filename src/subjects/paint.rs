@@ -97,6 +97,13 @@ impl Canvas {
         }
     }
 
+    /// Changes the values where `distance` (mm) is negative, over `width` mm around its border, and leaves the segments.
+    #[inline(always)]
+    pub(super) fn tone(&mut self, row: usize, distance: Lanes, width: f32, value: f32) {
+        let cover = (Lanes::splat(0.5) - distance * (1.0 / width)).clamp(0.0, 1.0);
+        self.values[row] = self.values[row].mix(Lanes::splat(value), cover);
+    }
+
     /// Lays a tissue over what a row shows, where `distance` (mm, negative inside) says so. The label changes at 0, the
     /// value over `width` mm around it: a voxel that the border crosses holds some of both, as in a scan.
     #[inline(always)]

@@ -554,6 +554,20 @@ impl Field {
 
     /// The steps that can matter in a block for distances up to `band` mm; empty if nothing is there.
     pub(super) fn near<'a>(&'a self, block: &Block, band: f32, near: &mut Near<'a>) {
+        if !self.gather(block, band, near) {
+            near.steps.clear();
+        }
+    }
+
+    /// The same for a field that works on a distance from elsewhere ([`Near::onto`]): its dents count alone.
+    pub(super) fn near_onto<'a>(&'a self, block: &Block, band: f32) -> Near<'a> {
+        let mut near = Near::default();
+        self.gather(block, band, &mut near);
+        near
+    }
+
+    /// Keeps the steps that can matter; true if one of them adds something.
+    fn gather<'a>(&'a self, block: &Block, band: f32, near: &mut Near<'a>) -> bool {
         near.steps.clear();
         near.shapes.clear();
         let (center, radius) = (block.center(), block.radius());
@@ -574,9 +588,7 @@ impl Field {
                 near.steps.push((*op, near.shapes.len() - first));
             }
         }
-        if !any {
-            near.steps.clear();
-        }
+        any
     }
 }
 
@@ -616,7 +628,12 @@ impl Near<'_> {
     /// Signed distance, mm.
     #[inline]
     pub(super) fn distance(&self, p: &Places) -> Lanes {
-        let mut d = Lanes::splat(FAR);
+        self.onto(p, Lanes::splat(FAR))
+    }
+
+    /// What the steps make of a distance from elsewhere, mm.
+    #[inline]
+    pub(super) fn onto(&self, p: &Places, mut d: Lanes) -> Lanes {
         let mut rest = self.shapes.as_slice();
         for (op, count) in &self.steps {
             let (shapes, later) = rest.split_at(*count);

@@ -49,6 +49,7 @@ pub(crate) fn subject(name: &str) -> String {
 pub(crate) fn preset(name: &str, title: &'static str) -> &'static str {
     of(match name {
         "tissue" => [title, "Gewebe", "Tejido", "组织"],
+        "tissue-and-lungs" => [title, "Gewebe und Lunge", "Tejido y pulmones", "组织与肺"],
         "ct-soft-tissue" => [title, "CT Weichteile", "TC partes blandas", "CT 软组织"],
         "ct-skin" => [title, "CT Haut", "TC piel", "CT 皮肤"],
         "ct-bone" => [title, "CT Knochen", "TC hueso", "CT 骨骼"],
