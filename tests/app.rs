@@ -14,9 +14,11 @@ use std::sync::Arc;
 use egui::{Key, Modifiers, Pos2, Role, Vec2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, wgpu::WgpuTestRenderer};
-use fabrica::app::{App, LinkChange, LoadEvent, Message, SaveFile, Services, Start, Ticket};
+use fabrica::app::{
+    App, LinkChange, LoadEvent, Message, RawQuestion, SaveFile, Services, Start, Ticket,
+};
 use fabrica::data::{Volume, VolumeSink, Voxels};
-use fabrica::document::{Document, ParamValue, SubjectRef, TemplateMode};
+use fabrica::document::{Document, ParamValue, RawVoxels, SubjectRef, TemplateMode};
 
 // ---------------------------------------------------------------------------------------------------- surroundings
 
@@ -28,6 +30,7 @@ struct Log {
     links: Vec<(String, LinkChange)>,
     stored: BTreeMap<String, String>,
     loads: Vec<SubjectRef>,
+    answered_raw: Vec<(Ticket, RawVoxels)>,
     cancelled: Vec<Ticket>,
     allowed: Vec<Ticket>,
     dialogs: usize,
@@ -107,6 +110,9 @@ impl Services for Fake {
     }
     fn allow_host(&mut self, ticket: Ticket) {
         self.0.borrow_mut().allowed.push(ticket);
+    }
+    fn answer_raw(&mut self, ticket: Ticket, raw: &RawVoxels) {
+        self.0.borrow_mut().answered_raw.push((ticket, raw.clone()));
     }
     fn cancel_load(&mut self, ticket: Ticket) {
         let log = &mut *self.0.borrow_mut();
@@ -844,6 +850,110 @@ fn another_host_is_asked_about_before_it_is_fetched_from() {
     assert_eq!(log.0.borrow().allowed, [ticket]);
 }
 
+/// A file of the user's that was read: the bar, under a hash.
+fn file_arrives(log: &Fake, ticket: Ticket, before_done: Option<LoadEvent>) {
+    let log = &mut *log.0.borrow_mut();
+    fabrica::subjects::generate("bar", 32, &mut Queue(log, ticket)).expect("a built-in subject");
+    let sha256 = Some("ab".repeat(32));
+    let events = before_done.into_iter().chain([LoadEvent::Done { sha256 }]);
+    for event in events {
+        log.queue.push(Message::Load { ticket, event });
+    }
+}
+
+#[test]
+fn one_of_several_volumes_is_chosen_and_taken_back() {
+    let log = Fake::default();
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(CUBE));
+    let ticket = Ticket(99);
+    log.0
+        .borrow_mut()
+        .queue
+        .push(Message::FileStarted { ticket });
+    window.steps(2);
+    file_arrives(&log, ticket, Some(LoadEvent::Frames { count: 20 }));
+    window.settle();
+    let frame = |window: &Window| {
+        let subject = window.document().illustration().subject.clone();
+        subject.reading().map(|reading| reading.frame)
+    };
+    assert_eq!(frame(&window), Some(0), "the first is shown");
+    window
+        .harness
+        .get_by_role_and_label(Role::Slider, "Volume")
+        .focus();
+    window.steps(2);
+    window.harness.key_press(egui::Key::ArrowRight);
+    window.steps(3);
+    assert_eq!(frame(&window), Some(1), "one further");
+    let asked = log.0.borrow().loads.last().cloned();
+    assert_eq!(
+        asked
+            .as_ref()
+            .and_then(SubjectRef::reading)
+            .map(|r| r.frame),
+        Some(1),
+        "and it is loaded"
+    );
+    window.click("Undo");
+    window.steps(3);
+    assert_eq!(frame(&window), Some(0), "and back");
+}
+
+#[test]
+fn bare_voxels_are_opened_by_what_one_says_of_them() {
+    let log = Fake::default();
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(CUBE));
+    let ticket = Ticket(99);
+    let question = RawQuestion {
+        byte_len: Some(4 * 3 * 2),
+        is_packed: false,
+        guess: Some(RawVoxels {
+            size: [4, 3, 2],
+            element: "uint8",
+            big_endian: false,
+            spacing_mm: [1.0; 3],
+            skip_bytes: 0,
+        }),
+    };
+    {
+        let queue = &mut log.0.borrow_mut().queue;
+        queue.push(Message::FileStarted { ticket });
+        queue.push(Message::Load {
+            ticket,
+            event: LoadEvent::AskRaw(question),
+        });
+    }
+    window.steps(3);
+    window
+        .harness
+        .get_by_label("The size fits the file to the byte");
+    window
+        .harness
+        .get_by_role_and_label(Role::CheckBox, "High byte first")
+        .click();
+    window.steps(2);
+    // "Open" also stands in the bar above, behind the dialog.
+    let buttons = window
+        .harness
+        .get_all_by_role_and_label(Role::Button, "Open");
+    buttons.last().expect("the dialog's").click();
+    window.steps(2);
+    let answered = log.0.borrow().answered_raw.clone();
+    assert_eq!(answered.len(), 1, "one answer");
+    assert!(answered[0].1.big_endian, "as it was said");
+    file_arrives(&log, ticket, None);
+    window.settle();
+    let subject = window.document().illustration().subject.clone();
+    let raw = subject.reading().and_then(|reading| reading.raw.clone());
+    assert_eq!(raw.as_ref(), Some(&answered[0].1), "kept in the document");
+    let json = window.document().to_json_compact();
+    assert!(
+        json.contains(r#""raw":{"size":[4,3,2],"order":"big"}"#),
+        "{json}"
+    );
+}
+
 #[test]
 fn an_opened_file_becomes_the_subject_by_its_hash() {
     let log = Fake::default();
@@ -868,7 +978,7 @@ fn an_opened_file_becomes_the_subject_by_its_hash() {
     }
     window.settle();
     match &window.document().illustration().subject {
-        SubjectRef::Supplied { sha256, name } => {
+        SubjectRef::Supplied { sha256, name, .. } => {
             assert_eq!(*sha256, "ab".repeat(32));
             assert!(name.is_empty(), "never the file's own name");
         }

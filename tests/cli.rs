@@ -581,6 +581,56 @@ fn subjects_are_found_or_named() {
 }
 
 #[test]
+fn what_a_file_leaves_open_is_said() {
+    let folder = folder();
+    // Bare voxels, of which the ramp along x shows that the sizes were taken in order.
+    let bytes: Vec<u8> = (0..24u8).flat_map(|i| [0, i % 4]).collect();
+    let bare = write(&folder, "bare.raw", [&[9u8; 7][..], &bytes].concat());
+    let out = fabrica(&["info", text(&bare)]);
+    assert_eq!(out.status, 1, "nothing is said of it");
+    assert!(out.err.contains("--raw"), "{}", out.err);
+    let layout = "4x3x2,int16,big,1x1x2.5,skip=7";
+    let out = fabrica(&["info", text(&bare), "--raw", layout]);
+    assert_eq!(out.status, 0, "{}", out.err);
+    for line in [
+        "size: 4 × 3 × 2 voxels",
+        "spacing: 1 × 1 × 2.5 mm",
+        "values: 0 to 3",
+    ] {
+        assert!(out.out.contains(line), "{line}: {}", out.out);
+    }
+    let out = fabrica(&["info", text(&bare), "--raw", "5x3x2,int16"]);
+    assert_eq!(out.status, 1, "too short for this");
+    let out = fabrica(&["info", text(&bare), "--raw", "4x3x2"]);
+    assert_eq!(out.status, 2, "no type");
+
+    // Two volumes in one file: the document says which, the flag goes before it.
+    let mut series = scan();
+    let header: Vec<u8> = series.drain(..352).collect();
+    let twice = series.iter().map(|byte| byte ^ 1).collect::<Vec<u8>>();
+    let mut header = header;
+    header[40] = 4;
+    header[48] = 2;
+    let file = write(&folder, "series.nii", [header, series, twice].concat());
+    let values = |args: &[&str]| {
+        let out = fabrica(&[&["info", text(&file)], args].concat());
+        (out.status, out.out, out.err)
+    };
+    let (first, second) = (values(&["--frame", "1"]), values(&["--frame", "2"]));
+    assert_eq!((first.0, second.0), (0, 0), "{} {}", first.2, second.2);
+    assert_ne!(first.1, second.1, "another volume");
+    assert_eq!(values(&[]).1, first.1, "the first unless said");
+    let third = values(&["--frame", "3"]);
+    assert_eq!(third.0, 1);
+    assert!(
+        third.2.contains("volume 3 was asked for, the file has 2"),
+        "{}",
+        third.2
+    );
+    assert_eq!(values(&["--frame", "0"]).0, 2, "counted from 1");
+}
+
+#[test]
 fn pictures_are_whole_or_not_there() {
     let folder = folder();
     write(

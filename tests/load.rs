@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use fabrica::data::{Volume, VolumeBuilder, VolumeSink};
+use fabrica::data::{Volume, VolumeBuilder, VolumeSink, Voxels};
 use fabrica::load::{self, FileHandle, FileSet, LoadError, LoadReport, ReadOptions, Warning};
 use glam::{DVec3, UVec3};
 
@@ -508,15 +508,49 @@ fn frames_are_chosen() {
 }
 
 #[test]
+fn colours_are_read_as_brightness() {
+    let Some(folder) = data_folder("colours_are_read_as_brightness") else {
+        return;
+    };
+    for (file, components) in [
+        ("rgb24_3d.nii", 3),
+        ("rgb24_4d.nii", 3),
+        ("rgba32_4d.nii", 4),
+    ] {
+        let path = folder.join("mri/nifti_variants").join(file);
+        let bytes = std::fs::read(&path).expect(file);
+        let (volume, report) = load_path(&path).expect(file);
+        assert!(
+            report.warnings.contains(&load::Warning::Luminance),
+            "{file}: {report:?}"
+        );
+        assert_eq!(volume.grid.dims, UVec3::splat(3), "{file}");
+        let Voxels::U8(voxels) = &volume.voxels else {
+            panic!("{file}: bytes");
+        };
+        for (voxel, color) in voxels.iter().zip(bytes[352..].chunks_exact(components)) {
+            let part = |i: usize| f64::from(color[i]);
+            let opacity = if components == 4 {
+                part(3) / 255.0
+            } else {
+                1.0
+            };
+            let expected = (0.2126 * part(0) + 0.7152 * part(1) + 0.0722 * part(2)) * opacity;
+            assert!(
+                (f64::from(*voxel) - expected).abs() <= 0.51,
+                "{file}: {voxel} for {color:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn what_is_not_read_says_so() {
     let Some(folder) = data_folder("what_is_not_read_says_so") else {
         return;
     };
     for (file, words) in [
         ("mri/nifti_variants/nibabel_test.mgz", "MGH"),
-        ("mri/nifti_variants/rgb24_3d.nii", "colour"),
-        ("mri/nifti_variants/rgb24_4d.nii", "colour"),
-        ("mri/nifti_variants/rgba32_4d.nii", "colour"),
         ("ct/stent_ct.npz", "ZIP"),
         ("dicom/single/CT_small.dcm", "DICOM"),
         ("mesh/bunny.obj", "surface"),

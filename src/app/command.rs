@@ -92,6 +92,8 @@ pub enum Command {
     ToggleKeys,
     /// Shows or hides what the program has said so far.
     ToggleMessages,
+    /// Shows or hides the choice among the volumes of the subject's file.
+    ToggleFrames,
     /// Light, dark.
     ToggleTheme,
     /// The interface speaks another language.

@@ -17,6 +17,7 @@ mod camera;
 mod catalogue;
 mod command;
 mod control;
+mod frames;
 mod gizmo;
 mod icon;
 mod icons;
@@ -27,6 +28,7 @@ mod notice;
 mod opening;
 mod orientation;
 mod picture;
+mod raw;
 mod services;
 mod state;
 mod steps;
@@ -56,7 +58,7 @@ use crate::render::Clock;
 
 pub use self::camera::StandardView;
 pub use self::command::{Command, GizmoMode};
-pub use self::services::{LinkChange, LoadEvent, Message, SaveFile, Services, Ticket};
+pub use self::services::{LinkChange, LoadEvent, Message, RawQuestion, SaveFile, Services, Ticket};
 pub use self::state::STORED_DOCUMENT;
 pub use self::words::Lang;
 
@@ -304,9 +306,15 @@ impl App {
                 }
             }
             LoadEvent::Coarse => self.show_incoming(),
+            LoadEvent::Frames { count } => {
+                if let Some(load) = &mut self.state.load {
+                    load.frame_count = count;
+                }
+            }
+            LoadEvent::AskRaw(question) => self.state.ask_raw(question, self.services.as_mut()),
             LoadEvent::Done { sha256 } => {
                 self.show_incoming();
-                self.state.load_done(sha256);
+                self.state.load_done(sha256, self.services.as_mut());
             }
             LoadEvent::Notice(text) => self.state.say(Gravity::Warning, text, ""),
             LoadEvent::Failed { message, details } => self.refuse(&message, details),
@@ -380,6 +388,9 @@ impl App {
             notice::messages_ui(ui, &self.state, &mut commands);
         }
 
+        frames::ui(ui, &mut self.state, &mut commands);
+        raw::ui(ui, &mut self.state, self.services.as_mut());
+
         // A drag is one step of undo: it ends when nothing is held any more.
         if !ui.input(|i| i.pointer.any_down())
             && !ui.ctx().text_edit_focused()
@@ -418,7 +429,9 @@ impl App {
     fn keys(&self, ui: &Ui, commands: &mut Vec<Command>) {
         let is_typing = ui.ctx().text_edit_focused();
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
-        let is_sheet_open = self.state.is_keys_sheet_open || self.state.is_messages_open;
+        let is_sheet_open = self.state.is_keys_sheet_open
+            || self.state.is_messages_open
+            || self.state.files.raw.is_some();
         if !is_typing && !is_sheet_open {
             ui.input(|i| {
                 commands.extend(i.events.iter().filter_map(|event| match event {

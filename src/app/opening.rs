@@ -5,7 +5,7 @@ use super::state::{Gravity, Load, STORED_DOCUMENT, State, make_payload};
 use super::steps::Walk;
 use super::words::fill;
 use super::words::said::w;
-use crate::document::{Document, Edit, SubjectRef};
+use crate::document::{Document, Edit, Reading, SubjectRef};
 use crate::link;
 
 impl State {
@@ -81,6 +81,8 @@ impl State {
             what: "Loading".to_owned(),
             is_file: false,
             host: None,
+            reading: Reading::default(),
+            frame_count: 1,
         });
     }
 
@@ -92,18 +94,26 @@ impl State {
             what: "Reading".to_owned(),
             is_file: true,
             host: None,
+            reading: Reading::default(),
+            frame_count: 1,
         });
     }
 
     /// The load is over. A file becomes the subject of the document, as one step of undo.
-    pub(crate) fn load_done(&mut self, sha256: Option<String>) {
+    pub(crate) fn load_done(&mut self, sha256: Option<String>, services: &mut dyn Services) {
         let Some(load) = self.load.take() else {
             return;
         };
+        self.files.loaded(load.frame_count, load.is_file);
         let Some(sha256) = sha256.filter(|_| load.is_file) else {
             return;
         };
         if let SubjectRef::Supplied { sha256: wanted, .. } = &self.illustration().subject {
+            if *wanted == sha256 && self.wants_other_frame(&load.reading) {
+                self.requested = None;
+                self.load_subject(services);
+                return;
+            }
             if *wanted == sha256 {
                 self.requested = Some(self.illustration().subject.clone());
                 return;
@@ -119,6 +129,7 @@ impl State {
         let subject = SubjectRef::Supplied {
             sha256,
             name: String::new(),
+            reading: load.reading,
         };
         self.requested = Some(subject.clone());
         self.apply(&Edit::SetSubject(subject), false);

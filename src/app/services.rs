@@ -2,7 +2,7 @@
 //! tests have a false one. Nothing here blocks and nothing here knows a file, a thread or an address bar.
 
 use crate::data::{Volume, Voxels};
-use crate::document::SubjectRef;
+use crate::document::{RawVoxels, SubjectRef};
 
 /// Names one load, so that what still arrives from an earlier one is dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -40,6 +40,8 @@ pub trait Services {
     fn load_subject(&mut self, subject: &SubjectRef) -> Ticket;
     /// The reader agreed to fetch from the host that [`Message::AskHost`] named.
     fn allow_host(&mut self, ticket: Ticket);
+    /// How the voxels lie in the file that [`LoadEvent::AskRaw`] asked about; its load goes on under the same ticket.
+    fn answer_raw(&mut self, ticket: Ticket, raw: &RawVoxels);
     /// Stops a load; [`LoadEvent::Cancelled`] follows.
     fn cancel_load(&mut self, ticket: Ticket);
     /// Gives bytes to the user as a file; [`Message::Saved`] follows.
@@ -128,6 +130,13 @@ pub enum LoadEvent {
     },
     /// What has come makes a whole coarse volume: show it. A finer `Begin` follows.
     Coarse,
+    /// The file holds several volumes, of which the wanted one comes. Told before `Done`.
+    Frames {
+        /// How many.
+        count: u64,
+    },
+    /// The file does not say how its voxels lie. The load waits for [`Services::answer_raw`].
+    AskRaw(RawQuestion),
     /// The volume is whole.
     Done {
         /// Of the file's bytes, lower-case hex; `None` for a built-in subject.
@@ -144,4 +153,15 @@ pub enum LoadEvent {
     },
     /// Stopped by the user.
     Cancelled,
+}
+
+/// What is known of a file that may hold bare voxels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawQuestion {
+    /// Its length in bytes, if that is known.
+    pub byte_len: Option<u64>,
+    /// It is packed by gzip, so that its length says nothing.
+    pub is_packed: bool,
+    /// A guess from its name and length.
+    pub guess: Option<RawVoxels>,
 }

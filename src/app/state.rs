@@ -5,12 +5,14 @@ use glam::Vec3;
 
 use super::camera;
 use super::command::{Command, GizmoMode};
+use super::frames::FileChoice;
 use super::making::{Making, OnClipboard, placement_on_surface};
 use super::services::{LinkChange, SaveFile, Services, Ticket};
 use super::steps::Walk;
 use super::words;
 use crate::document::{
-    Camera, Document, Edit, History, Illustration, PlacedTemplate, SubjectRef, TemplateKind,
+    Camera, Document, Edit, History, Illustration, PlacedTemplate, Reading, SubjectRef,
+    TemplateKind,
 };
 use crate::link;
 
@@ -68,6 +70,10 @@ pub(crate) struct Load {
     pub is_file: bool,
     /// It waits for leave to fetch from this host.
     pub host: Option<String>,
+    /// How the file is read.
+    pub reading: Reading,
+    /// Volumes in the file, once that is known.
+    pub frame_count: u64,
 }
 
 /// The camera on its way.
@@ -109,6 +115,8 @@ pub(crate) struct State {
     pub said: Vec<Said>,
     next_said: u64,
     pub load: Option<Load>,
+    /// What the subject's file leaves to choose.
+    pub files: FileChoice,
     /// What the document shows was loaded (or is on its way).
     pub(super) requested: Option<SubjectRef>,
     pub tab: Option<Tab>,
@@ -156,6 +164,7 @@ impl State {
             said: Vec::new(),
             next_said: 0,
             load: None,
+            files: FileChoice::default(),
             requested: None,
             tab: None,
             side_tab: Tab::Templates,
@@ -524,6 +533,7 @@ impl State {
                 }
             }
             Command::ToggleKeys => self.is_keys_sheet_open = !self.is_keys_sheet_open,
+            Command::ToggleFrames => self.files.is_open = !self.files.is_open,
             Command::ToggleMessages => self.is_messages_open = !self.is_messages_open,
             Command::ToggleTheme => self.theme_toggle = true,
             Command::Speak(lang) => {
@@ -543,7 +553,7 @@ impl State {
         self.history.end_drag();
     }
 
-    pub(super) fn apply(&mut self, edit: &Edit, is_drag: bool) {
+    pub(crate) fn apply(&mut self, edit: &Edit, is_drag: bool) {
         self.apply_checked(edit, is_drag);
     }
 

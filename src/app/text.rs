@@ -4,6 +4,7 @@ use egui::{FontId, Label, Rect, TextEdit, Ui, UiBuilder, Vec2, vec2};
 
 use super::command::Command;
 use super::control;
+use super::frames;
 use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette};
@@ -60,7 +61,12 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         1,
         Edit::SetCredit,
     );
-    if let SubjectRef::Supplied { sha256, name } = &illustration.subject {
+    if let SubjectRef::Supplied {
+        sha256,
+        name,
+        reading,
+    } = &illustration.subject
+    {
         let weak = Palette::get(ui).weak;
         let label = ui.label(egui::RichText::new(w().scan_name).color(weak));
         let mut text = name.clone();
@@ -71,11 +77,15 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             let subject = SubjectRef::Supplied {
                 sha256: sha256.clone(),
                 name: text,
+                reading: reading.clone(),
             };
             commands.push(Command::Drag(Edit::SetSubject(subject)));
         }
         let hint = w().scan_stays;
         ui.add(Label::new(egui::RichText::new(hint).small().color(weak)).wrap());
+    }
+    if frames::row_ui(ui, state) {
+        commands.push(Command::ToggleFrames);
     }
 }
 

@@ -10,6 +10,14 @@ pub(super) fn strip(root: &mut Map<String, Value>) {
     }
     if let Some(Value::Object(subject)) = root.get_mut("subject") {
         drop_if(subject, "name", is_text(""));
+        drop_if(subject, "frame", is_number(0.0));
+        if let Some(Value::Object(raw)) = subject.get_mut("raw") {
+            drop_if(raw, "size", is_numbers(&[1.0; 3]));
+            drop_if(raw, "type", is_text("uint8"));
+            drop_if(raw, "order", is_text("little"));
+            drop_if(raw, "spacing", is_numbers(&[1.0; 3]));
+            drop_if(raw, "skip", is_number(0.0));
+        }
         if let Some(Value::Object(segments)) = subject.get_mut("segments") {
             drop_if(segments, "names", is_empty);
         }

@@ -1,7 +1,7 @@
 use super::catalogue::{ParamKind, ParamValue, TemplateKind};
 use super::error::DocumentError;
 use super::illustration::{
-    Align, Background, Camera, Constrain, ConstrainBy, Label, OpacityMode, SubjectRef,
+    Align, Background, Camera, Constrain, ConstrainBy, Label, OpacityMode, Reading, SubjectRef,
     TemplateMode, Transfer, Window,
 };
 use super::pointer::{self, join};
@@ -419,7 +419,13 @@ impl Edit {
             Self::SetCredit(text) => pointer::set(root, "/credit", json!(text)),
             Self::SetLang(text) => pointer::set(root, "/lang", json!(text)),
             Self::SetSubject(subject) => {
-                for key in ["builtin", "revision", "src", "sha256", "name", "segments"] {
+                // Segments belong to the file, however it is called and read.
+                if !is_same_file(root, subject) {
+                    pointer::remove(root, "/subject/segments")?;
+                }
+                for key in [
+                    "builtin", "revision", "src", "sha256", "name", "frame", "raw",
+                ] {
                     pointer::remove(root, &join("/subject", key))?;
                 }
                 let mut set = |key: &str, value: &str| {
@@ -427,17 +433,23 @@ impl Edit {
                 };
                 match subject {
                     SubjectRef::Builtin { name } => set("builtin", name),
-                    SubjectRef::Address { src, sha256, name } => {
+                    SubjectRef::Address {
+                        src, sha256, name, ..
+                    } => {
                         set("src", src)?;
                         if let Some(sha256) = sha256 {
                             set("sha256", sha256)?;
                         }
                         set("name", name)
                     }
-                    SubjectRef::Supplied { sha256, name } => {
+                    SubjectRef::Supplied { sha256, name, .. } => {
                         set("sha256", sha256)?;
                         set("name", name)
                     }
+                }?;
+                match subject.reading() {
+                    Some(reading) => set_reading(root, reading),
+                    None => Ok(()),
                 }
             }
             Self::AddLabel(label) => {
@@ -576,6 +588,43 @@ impl Edit {
             Self::MoveStep { from, to } => format!("/steps/{from}/to/{to}"),
         }
     }
+}
+
+/// True if the document's subject is the same file as this one.
+fn is_same_file(root: &Value, subject: &SubjectRef) -> bool {
+    let text = |key| {
+        pointer::get(root, &join("/subject", key))
+            .and_then(Value::as_str)
+            .unwrap_or_default()
+    };
+    match subject {
+        SubjectRef::Builtin { .. } => false,
+        SubjectRef::Address { src, .. } => text("src") == src,
+        SubjectRef::Supplied { sha256, .. } => {
+            text("src").is_empty() && text("sha256").eq_ignore_ascii_case(sha256)
+        }
+    }
+}
+
+fn set_reading(root: &mut Value, reading: &Reading) -> Result<(), DocumentError> {
+    if reading.frame > 0 {
+        pointer::set(root, "/subject/frame", json!(reading.frame))?;
+    }
+    let Some(raw) = &reading.raw else {
+        return Ok(());
+    };
+    let mut value = json!({ "size": raw.size, "type": raw.element });
+    let mut set = |key: &str, to: Value| value[key] = to;
+    if raw.big_endian {
+        set("order", json!("big"));
+    }
+    if raw.spacing_mm != [1.0; 3] {
+        set("spacing", json!(raw.spacing_mm));
+    }
+    if raw.skip_bytes > 0 {
+        set("skip", json!(raw.skip_bytes));
+    }
+    pointer::set(root, "/subject/raw", value)
 }
 
 fn label_value(label: &Label) -> Value {

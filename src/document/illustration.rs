@@ -74,6 +74,8 @@ pub enum SubjectRef {
         sha256: Option<String>,
         /// What the author called it.
         name: String,
+        /// How it is to be read.
+        reading: Reading,
     },
     /// A file that the reader supplies, matched by hash.
     Supplied {
@@ -81,7 +83,64 @@ pub enum SubjectRef {
         sha256: String,
         /// What the author called it.
         name: String,
+        /// How it is to be read.
+        reading: Reading,
     },
+}
+
+impl SubjectRef {
+    /// How its file is to be read; nothing for a built-in one.
+    pub fn reading(&self) -> Option<&Reading> {
+        match self {
+            Self::Builtin { .. } => None,
+            Self::Address { reading, .. } | Self::Supplied { reading, .. } => Some(reading),
+        }
+    }
+
+    /// The same subject, read in another way. A built-in one has no other.
+    #[must_use]
+    pub fn with_reading(mut self, new: Reading) -> Self {
+        match &mut self {
+            Self::Builtin { .. } => {}
+            Self::Address { reading, .. } | Self::Supplied { reading, .. } => *reading = new,
+        }
+        self
+    }
+}
+
+/// How a file is to be read where it leaves a choice: `"frame"` and `"raw"` of a document's `"subject"`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Which of the volumes in the file, from 0: a time point, a component, a layer.
+    pub frame: u64,
+    /// How the voxels lie in a file that does not say so itself.
+    pub raw: Option<RawVoxels>,
+}
+
+/// Bare voxels, as their author says they lie: `{ "size": [128, 128, 256], "type": "int16", "order": "big",
+/// "spacing": [1, 1, 1], "skip": 0 }` in a document; defaults are one voxel, `uint8`, `little`, 1 mm and 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawVoxels {
+    /// Voxels along each axis, x fastest.
+    pub size: [u32; 3],
+    /// Type of a voxel: one of [`RawVoxels::ELEMENTS`].
+    pub element: &'static str,
+    /// The high byte comes first.
+    pub big_endian: bool,
+    /// Size of a voxel, mm.
+    pub spacing_mm: [f64; 3],
+    /// Bytes before the voxels, unpacked.
+    pub skip_bytes: u64,
+}
+
+impl RawVoxels {
+    /// Types that bare voxels may have.
+    pub const ELEMENTS: [&'static str; 10] = [
+        "uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float32",
+        "float64",
+    ];
+    /// The type of voxels whose document names none.
+    pub const DEFAULT_ELEMENT: &'static str = Self::ELEMENTS[0];
 }
 
 /// A label volume that goes with a subject.

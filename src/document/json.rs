@@ -357,8 +357,8 @@ pub(super) fn shortened(text: &str, limit: usize) -> String {
     }
 }
 
-/// Keys in the order in which they are written: by what they hold, then by name.
-const KEY_ORDER: &[&str] = &[
+/// Keys of a document itself, in the order in which they are written.
+pub(super) const ROOT_KEYS: &[&str] = &[
     "fabrica",
     "title",
     "caption",
@@ -370,6 +370,10 @@ const KEY_ORDER: &[&str] = &[
     "camera",
     "labels",
     "steps",
+];
+
+/// Keys below, in the order in which they are written: by what they hold, then by name.
+const INNER_KEYS: &[&str] = &[
     "kind",
     "builtin",
     "revision",
@@ -377,11 +381,17 @@ const KEY_ORDER: &[&str] = &[
     "sha256",
     "name",
     "group",
+    "frame",
+    "raw",
     "segments",
     "names",
     "at",
     "rotate",
     "size",
+    "type",
+    "order",
+    "spacing",
+    "skip",
     "params",
     "enabled",
     "mode",
@@ -409,10 +419,11 @@ const KEY_ORDER: &[&str] = &[
 /// The value's keys in the order in which they are written.
 pub(crate) fn ordered(map: &Map<String, Value>) -> Vec<(&String, &Value)> {
     let rank = |key: &str| {
-        KEY_ORDER
+        ROOT_KEYS
             .iter()
+            .chain(INNER_KEYS)
             .position(|k| *k == key)
-            .unwrap_or(KEY_ORDER.len())
+            .unwrap_or(usize::MAX)
     };
     let mut entries: Vec<_> = map.iter().collect();
     entries.sort_by_cached_key(|&(key, _)| (rank(key), key));

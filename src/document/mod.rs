@@ -29,9 +29,11 @@ mod history;
 mod illustration;
 mod json;
 mod notice;
+mod object;
 pub mod pointer;
 mod preset;
 mod resolve;
+mod resolve_subject;
 mod steps;
 #[cfg(test)]
 mod tests;
@@ -49,7 +51,8 @@ pub use error::DocumentError;
 pub use history::History;
 pub use illustration::{
     Align, Background, Camera, Constrain, ConstrainBy, Illustration, Label, Look, OpacityMode,
-    PlacedTemplate, SegmentsRef, Step, SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
+    PlacedTemplate, RawVoxels, Reading, SegmentsRef, Step, SubjectRef, TemplateMode, Transfer,
+    TransferPoint, Window,
 };
 pub use json::MAX_DEPTH;
 pub use notice::{Notice, NoticeKind};

@@ -4,12 +4,13 @@ use super::catalogue::{ParamKind, ParamSpec, ParamValue, TemplateKind};
 use super::error::DocumentError;
 use super::illustration::{
     Align, Background, Camera, Constrain, ConstrainBy, Illustration, Label, Look, OpacityMode,
-    PlacedTemplate, SegmentsRef, Step, SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
+    PlacedTemplate, Step, TemplateMode, Transfer, TransferPoint, Window,
 };
-use super::json::{number_text, shortened};
+use super::json::{ROOT_KEYS, number_text, shortened};
 use super::notice::{Notice, NoticeKind};
+use super::object::{Object, wrong};
 use super::pointer::join;
-use super::{BUILTIN_SUBJECTS, FORMAT, MAX_KEEP_SETS, MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
+use super::{FORMAT, MAX_KEEP_SETS, MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
 use crate::math::Placement;
 use glam::{DQuat, DVec3, Quat, Vec3};
 use serde_json::{Map, Value};
@@ -57,142 +58,6 @@ fn version(root: &Map<String, Value>) -> Result<(), DocumentError> {
     }
 }
 
-fn wrong(pointer: &str, expected: &'static str, found: &Value) -> DocumentError {
-    let found = match found {
-        Value::Null => "null".to_owned(),
-        Value::Bool(flag) => flag.to_string(),
-        Value::Number(number) => number_text(number),
-        Value::String(text) => format!("“{}”", shortened(text, 40)),
-        Value::Array(items) => format!("a list of {}", items.len()),
-        Value::Object(_) => "an object".to_owned(),
-    };
-    DocumentError::WrongType {
-        pointer: super::pointer::shortened(pointer),
-        expected,
-        found,
-    }
-}
-
-/// One object of the tree and where it is.
-struct Object<'a> {
-    pointer: String,
-    map: &'a Map<String, Value>,
-}
-
-/// Stands for an object that is not there: everything at its default.
-static NOTHING: std::sync::LazyLock<Map<String, Value>> = std::sync::LazyLock::new(Map::new);
-
-impl<'a> Object<'a> {
-    fn new(pointer: String, value: &'a Value) -> Result<Self, DocumentError> {
-        match value {
-            Value::Object(map) => Ok(Self { pointer, map }),
-            other => Err(wrong(&pointer, "an object", other)),
-        }
-    }
-
-    fn child(&self, key: &str) -> Result<Self, DocumentError> {
-        let pointer = self.at(key);
-        match self.map.get(key) {
-            Some(value) => Object::new(pointer, value),
-            None => Ok(Self {
-                pointer,
-                map: &NOTHING,
-            }),
-        }
-    }
-
-    fn at(&self, key: &str) -> String {
-        join(&self.pointer, key)
-    }
-
-    fn text(&self, key: &str) -> Result<Option<&'a str>, DocumentError> {
-        match self.map.get(key) {
-            None => Ok(None),
-            Some(Value::String(text)) => Ok(Some(text)),
-            Some(other) => Err(wrong(&self.at(key), "a text", other)),
-        }
-    }
-
-    fn string(&self, key: &str) -> Result<String, DocumentError> {
-        Ok(self.text(key)?.unwrap_or_default().to_owned())
-    }
-
-    fn flag(&self, key: &str) -> Result<Option<bool>, DocumentError> {
-        match self.map.get(key) {
-            None => Ok(None),
-            Some(Value::Bool(flag)) => Ok(Some(*flag)),
-            Some(other) => Err(wrong(&self.at(key), "true or false", other)),
-        }
-    }
-
-    fn number(&self, key: &str) -> Result<Option<f64>, DocumentError> {
-        self.map
-            .get(key)
-            .map(|value| number(&self.at(key), value))
-            .transpose()
-    }
-
-    fn list(&self, key: &str) -> Result<&'a [Value], DocumentError> {
-        match self.map.get(key) {
-            None => Ok(&[]),
-            Some(Value::Array(items)) => Ok(items),
-            Some(other) => Err(wrong(&self.at(key), "a list", other)),
-        }
-    }
-
-    fn limited_list(
-        &self,
-        key: &str,
-        what: &'static str,
-        limit: usize,
-    ) -> Result<&'a [Value], DocumentError> {
-        let items = self.list(key)?;
-        if items.len() > limit {
-            return Err(DocumentError::TooMany {
-                pointer: self.at(key),
-                what,
-                found: items.len(),
-                limit,
-            });
-        }
-        Ok(items)
-    }
-
-    fn numbers<const N: usize>(
-        &self,
-        key: &str,
-        expected: &'static str,
-    ) -> Result<Option<[f64; N]>, DocumentError> {
-        let Some(value) = self.map.get(key) else {
-            return Ok(None);
-        };
-        let pointer = self.at(key);
-        match value {
-            Value::Array(items) if items.len() == N => {
-                let mut out = [0.0; N];
-                for (i, (slot, item)) in out.iter_mut().zip(items).enumerate() {
-                    *slot = number(&join(&pointer, &i.to_string()), item)?;
-                }
-                Ok(Some(out))
-            }
-            other => Err(wrong(&pointer, expected, other)),
-        }
-    }
-}
-
-fn number(pointer: &str, value: &Value) -> Result<f64, DocumentError> {
-    match value {
-        Value::Number(number) => match number.as_f64() {
-            Some(float) if float.is_finite() => Ok(float),
-            _ => Err(DocumentError::NotFinite {
-                pointer: pointer.to_owned(),
-                found: number.to_string(),
-            }),
-        },
-        other => Err(wrong(pointer, "a number", other)),
-    }
-}
-
 fn written(values: &[f64]) -> String {
     let one = |value: f64| number_text(&super::json::number(value));
     match values {
@@ -219,16 +84,16 @@ pub(super) fn color(text: &str) -> Option<[u8; 3]> {
 }
 
 #[derive(Default)]
-struct Reader {
+pub(super) struct Reader {
     notices: Vec<Notice>,
 }
 
 impl Reader {
-    fn note(&mut self, pointer: impl Into<String>, kind: NoticeKind) {
+    pub(super) fn note(&mut self, pointer: impl Into<String>, kind: NoticeKind) {
         self.notices.push(Notice::new(pointer, kind));
     }
 
-    fn unknown_keys(&mut self, object: &Object<'_>, known: &[&str]) {
+    pub(super) fn unknown_keys(&mut self, object: &Object<'_>, known: &[&str]) {
         for key in object.map.keys() {
             if self.notices.len() > super::tree::MAX_NOTICES {
                 break;
@@ -242,7 +107,7 @@ impl Reader {
         }
     }
 
-    fn unknown_value(&mut self, pointer: String, found: &str, instead: &str) {
+    pub(super) fn unknown_value(&mut self, pointer: String, found: &str, instead: &str) {
         self.note(
             pointer,
             NoticeKind::UnknownValue {
@@ -252,7 +117,7 @@ impl Reader {
         );
     }
 
-    fn clamp<const N: usize>(
+    pub(super) fn clamp<const N: usize>(
         &mut self,
         pointer: impl FnOnce() -> String,
         values: [f64; N],
@@ -340,22 +205,7 @@ impl Reader {
             pointer: String::new(),
             map: root,
         };
-        self.unknown_keys(
-            &root,
-            &[
-                "fabrica",
-                "title",
-                "caption",
-                "credit",
-                "lang",
-                "subject",
-                "templates",
-                "look",
-                "camera",
-                "labels",
-                "steps",
-            ],
-        );
+        self.unknown_keys(&root, ROOT_KEYS);
         let subject_object = root.child("subject")?;
         let subject = self.subject(&subject_object)?;
         let subject_revision = self.revision(&subject_object)?;
@@ -416,88 +266,6 @@ impl Reader {
             labels,
             steps,
         })
-    }
-
-    fn subject(&mut self, object: &Object<'_>) -> Result<SubjectRef, DocumentError> {
-        self.unknown_keys(
-            object,
-            &["builtin", "revision", "src", "sha256", "name", "segments"],
-        );
-        let builtin = object.text("builtin")?;
-        let src = object.text("src")?;
-        let sha256 = hash(object)?;
-        let name = object.string("name")?;
-        if let Some(builtin) = builtin {
-            if !BUILTIN_SUBJECTS.contains(&builtin) {
-                self.note(
-                    object.at("builtin"),
-                    NoticeKind::UnknownSubject {
-                        found: shortened(builtin, 40),
-                    },
-                );
-            }
-            for key in ["src", "sha256"] {
-                if object.map.contains_key(key) {
-                    self.note(
-                        object.at(key),
-                        NoticeKind::LeftAside {
-                            taken: "the built-in subject",
-                        },
-                    );
-                }
-            }
-            return Ok(SubjectRef::Builtin {
-                name: builtin.to_owned(),
-            });
-        }
-        Ok(match (src, sha256) {
-            (Some(src), sha256) => SubjectRef::Address {
-                src: src.to_owned(),
-                sha256,
-                name,
-            },
-            (None, Some(sha256)) => SubjectRef::Supplied { sha256, name },
-            (None, None) => SubjectRef::Builtin {
-                name: super::DEFAULT_SUBJECT.to_owned(),
-            },
-        })
-    }
-
-    fn revision(&mut self, object: &Object<'_>) -> Result<Option<u32>, DocumentError> {
-        match object.map.get("revision") {
-            None => Ok(None),
-            Some(value) => value
-                .as_u64()
-                .and_then(|revision| u32::try_from(revision).ok())
-                .map(Some)
-                .ok_or_else(|| wrong(&object.at("revision"), "a whole number", value)),
-        }
-    }
-
-    fn segments(&mut self, subject: &Object<'_>) -> Result<Option<SegmentsRef>, DocumentError> {
-        if !subject.map.contains_key("segments") {
-            return Ok(None);
-        }
-        let object = subject.child("segments")?;
-        self.unknown_keys(&object, &["src", "sha256", "names"]);
-        let names = object.child("names")?;
-        let mut list = Vec::new();
-        for (number, value) in names.map {
-            let name = match value {
-                Value::String(name) => name.clone(),
-                other => return Err(wrong(&names.at(number), "a name", other)),
-            };
-            match number.parse::<u32>() {
-                Ok(label) => list.push((label, name)),
-                Err(_) => self.unknown_value(names.at(number), number, "no label"),
-            }
-        }
-        list.sort();
-        Ok(Some(SegmentsRef {
-            src: object.text("src")?.map(str::to_owned),
-            sha256: hash(&object)?,
-            names: list,
-        }))
     }
 
     fn template(
@@ -810,20 +578,6 @@ impl Reader {
             caption: object.string("caption")?,
             seconds: self.scalar(object, "seconds", 1.0, [0.0, MAX_SECONDS])?,
         })
-    }
-}
-
-fn hash(object: &Object<'_>) -> Result<Option<String>, DocumentError> {
-    match object.text("sha256")? {
-        None => Ok(None),
-        Some(text) if text.len() == 64 && text.bytes().all(|b| b.is_ascii_hexdigit()) => {
-            Ok(Some(text.to_ascii_lowercase()))
-        }
-        Some(_) => Err(wrong(
-            &object.at("sha256"),
-            "64 hexadecimal digits",
-            &object.map["sha256"],
-        )),
     }
 }
 

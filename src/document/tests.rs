@@ -499,3 +499,52 @@ fn typed_edits_write_what_they_say() {
         "/templates: 33 templates, at most 32 are allowed"
     );
 }
+
+#[test]
+fn how_a_file_is_read_is_kept() {
+    let text = r#"{"fabrica":1,"subject":{"sha256":"HASH","name":"a","frame":3,"raw":{"size":[4,3,2],"type":"int16","order":"big","spacing":[1,1,2],"skip":7},"segments":{"names":{"1":"bone"}}}}"#;
+    let text = text.replace("HASH", &"0f".repeat(32));
+    let document = Document::from_json(&text).expect("a document");
+    assert!(document.notices().is_empty(), "{:?}", document.notices());
+    let subject = document.illustration().subject.clone();
+    let reading = subject.reading().cloned().expect("a file");
+    assert_eq!(reading.frame, 3);
+    let raw = reading.raw.clone().expect("it is said");
+    assert_eq!((raw.size, raw.element), ([4, 3, 2], "int16"));
+    assert!(raw.big_endian && raw.skip_bytes == 7);
+    assert_eq!(document.to_json_compact(), text, "written as read");
+    // Another volume of the same file keeps the names of its segments; another file does not.
+    let other = subject.with_reading(Reading {
+        frame: 0,
+        ..reading
+    });
+    let edited = Edit::SetSubject(other.clone())
+        .apply(&document)
+        .expect("possible");
+    assert_eq!(edited.illustration().subject, other);
+    assert!(edited.illustration().segments.is_some(), "the same file");
+    assert!(!edited.to_json_compact().contains("frame"), "the default");
+    let fresh = SubjectRef::Supplied {
+        sha256: "ab".repeat(32),
+        name: String::new(),
+        reading: Reading::default(),
+    };
+    let edited = Edit::SetSubject(fresh).apply(&document).expect("possible");
+    assert!(edited.illustration().segments.is_none(), "another file");
+
+    let wrong = [
+        (r#""frame":-1"#, "/subject/frame"),
+        (r#""frame":1.5"#, "/subject/frame"),
+        (r#""raw":[]"#, "/subject/raw"),
+        (r#""raw":{"size":[1,2]}"#, "/subject/raw/size"),
+        (r#""raw":{"skip":"x"}"#, "/subject/raw/skip"),
+    ];
+    for (keys, pointer) in wrong {
+        let text = format!(r#"{{"fabrica":1,"subject":{{"src":"a.raw",{keys}}}}}"#);
+        let error = Document::from_json(&text).expect_err(keys).to_string();
+        assert!(error.contains(pointer), "{keys}: {error}");
+    }
+    let odd = r#"{"fabrica":1,"subject":{"src":"a.raw","raw":{"size":[0,1e9,2],"type":"quux","order":"middle"}}}"#;
+    let document = Document::from_json(odd).expect("drawn as well as can be");
+    assert_eq!(document.notices().len(), 3, "{:?}", document.notices());
+}

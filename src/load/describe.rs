@@ -2,7 +2,10 @@ use std::fmt;
 
 use glam::DVec3;
 
-use super::{FileSet, LoadError, LoadReport, ReadOptions, geometry::orientation_code, read_volume};
+use super::{
+    FileSet, LoadError, LoadReport, RawLayout, ReadOptions, geometry::orientation_code, read_raw,
+    read_volume,
+};
 use crate::data::{Segment, Statistics, Volume, VolumeSink, Voxels};
 
 /// Segments listed at most.
@@ -28,12 +31,31 @@ pub fn describe(
     name: &str,
     options: &ReadOptions,
 ) -> Result<Description, LoadError> {
+    describe_by(|sink, report| read_volume(files, name, options, sink, report))
+}
+
+/// Reads a file of bare voxels through and says what it holds.
+///
+/// # Errors
+/// As [`read_raw`].
+pub fn describe_raw(
+    files: &mut dyn FileSet,
+    name: &str,
+    raw: &RawLayout,
+    options: &ReadOptions,
+) -> Result<Description, LoadError> {
+    describe_by(|sink, report| read_raw(files, name, raw, options, sink, report))
+}
+
+fn describe_by(
+    read: impl FnOnce(&mut dyn VolumeSink, &mut LoadReport) -> Result<(), LoadError>,
+) -> Result<Description, LoadError> {
     let mut report = LoadReport::default();
     let mut counter = Counter {
         header: None,
         statistics: Statistics::new(),
     };
-    read_volume(files, name, options, &mut counter, &mut report)?;
+    read(&mut counter, &mut report)?;
     let mut header = counter.header.ok_or(LoadError::Cancelled)?;
     header.value_range = counter
         .statistics

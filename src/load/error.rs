@@ -120,7 +120,7 @@ pub enum LoadError {
         limit: u64,
     },
     /// The asked frame of a series is not there.
-    #[error("frame {asked} was asked for, the file has {count} ({name})")]
+    #[error("volume {} was asked for, the file has {count} ({name})", .asked.saturating_add(1))]
     NoSuchFrame {
         /// The file.
         name: String,

@@ -2,11 +2,10 @@
 //!
 //! Directions are the axes one after the other, in LPS as ITK has it.
 
-use std::collections::BTreeMap;
-
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::geometry::{self, checked_dims};
+use super::header::Fields;
 use super::nrrd::pattern_files;
 use super::place::{Encoding, Header, Place, Skip};
 use super::stream::Stream;
@@ -43,19 +42,9 @@ pub(crate) fn is_header(start: &[u8]) -> bool {
     .contains(&key.trim())
 }
 
-struct Fields {
-    name: String,
-    fields: BTreeMap<String, (usize, String)>,
-    list: Vec<String>,
-}
-
 impl Fields {
-    fn read(stream: &mut Stream<'_>) -> Result<Self, LoadError> {
-        let mut header = Self {
-            name: stream.name().to_owned(),
-            fields: BTreeMap::new(),
-            list: Vec::new(),
-        };
+    fn read_metaimage(stream: &mut Stream<'_>) -> Result<Self, LoadError> {
+        let mut header = Self::new(stream);
         for number in 1..=MAX_LINES {
             let Some(line) = stream.line(MAX_LINE_BYTES)? else {
                 break;
@@ -65,13 +54,8 @@ impl Fields {
                 continue;
             }
             let Some((key, value)) = line.split_once('=') else {
-                return Err(LoadError::HeaderLine {
-                    name: header.name,
-                    line: number,
-                    field: "line".to_owned(),
-                    expected: "\"Key = value\"".to_owned(),
-                    found: line.escape_debug().take(40).collect(),
-                });
+                let found = line.escape_debug().take(40).collect();
+                return Err(header.wrong_line(number, "line", "\"Key = value\"", found));
             };
             let (key, value) = (key.trim().to_lowercase(), value.trim().to_owned());
             let is_last = key == "elementdatafile";
@@ -93,21 +77,6 @@ impl Fields {
             }
         }
         Err(header.wrong("elementdatafile", "the voxels' file or LOCAL"))
-    }
-
-    fn get(&self, field: &str) -> Option<&str> {
-        self.fields.get(field).map(|(_, value)| value.as_str())
-    }
-
-    fn wrong(&self, field: &str, expected: &str) -> LoadError {
-        let (line, found) = self.fields.get(field).cloned().unwrap_or_default();
-        LoadError::HeaderLine {
-            name: self.name.clone(),
-            line,
-            field: field.to_owned(),
-            expected: expected.to_owned(),
-            found: found.chars().take(60).collect(),
-        }
     }
 
     fn is_true(&self, field: &str) -> bool {
@@ -140,7 +109,7 @@ pub(crate) fn read_header(
     report: &mut LoadReport,
 ) -> Result<Header, LoadError> {
     report.format = Some(Format::MetaImage);
-    let fields = Fields::read(stream)?;
+    let fields = Fields::read_metaimage(stream)?;
     let name = fields.name.clone();
     let refuse = |what: &str| LoadError::Unsupported {
         name: name.clone(),
@@ -180,12 +149,15 @@ pub(crate) fn read_header(
             .filter(|n| (1..=4096).contains(n))
             .ok_or_else(|| fields.wrong("elementnumberofchannels", "1 or more"))?,
     };
-    if matches!(components, 3 | 4) && element == ElementType::U8 {
-        return Err(refuse(
-            "colour voxels are not drawn: a transfer function needs one number per voxel; save one channel",
-        ));
-    }
-    let count = frames.saturating_mul(u64::from(components));
+    // Bytes by threes or fours are colours; ITK writes them so, and has no other mark.
+    let is_color = matches!(components, 3 | 4) && element == ElementType::U8;
+    let frame_components = if is_color {
+        report.warn(Warning::Luminance);
+        1
+    } else {
+        components
+    };
+    let count = frames.saturating_mul(u64::from(frame_components));
     if options.frame >= count {
         return Err(LoadError::NoSuchFrame {
             name,
@@ -205,7 +177,8 @@ pub(crate) fn read_header(
             || fields.is_true("elementbyteordermsb"),
         dims,
         components,
-        component: (options.frame % u64::from(components)) as u32,
+        component: (options.frame % u64::from(frame_components)) as u32,
+        is_color,
     };
     report.stored_type = stored_type;
     report.dims = dims;
@@ -241,7 +214,7 @@ pub(crate) fn read_header(
             line_skip: 0,
             skip,
             frame_count: frames,
-            frame: options.frame / u64::from(components),
+            frame: options.frame / u64::from(frame_components),
             is_exact: files.is_some(),
         },
         files,

@@ -26,6 +26,7 @@ mod describe;
 mod error;
 mod files;
 mod geometry;
+mod header;
 mod labels;
 mod metaimage;
 mod nifti;
@@ -41,7 +42,7 @@ use std::rc::Rc;
 
 use sha2::{Digest as _, Sha256};
 
-pub use describe::{Description, describe};
+pub use describe::{Description, describe, describe_raw};
 pub use error::LoadError;
 pub use files::{FileHandle, FileSet, MemoryFiles, OneFile};
 pub use geometry::orientation_code;

@@ -242,7 +242,10 @@ fn understand(
         }
     }
     let dims = checked_dims(name, dims, options)?;
-    let (element, type_name) = element_type(fields, name)?;
+    let (element, type_name, components) = element_type(fields, name)?;
+    if components > 1 {
+        report.warn(Warning::Luminance);
+    }
     if matches!(element, ElementType::C64 | ElementType::C128) {
         report.warn(Warning::Magnitude);
     }
@@ -250,8 +253,9 @@ fn understand(
         element,
         big_endian: fields.big_endian,
         dims,
-        components: 1,
+        components,
         component: 0,
+        is_color: components > 1,
     };
     report.stored_type = type_name;
     report.dims = dims;
@@ -281,7 +285,11 @@ fn understand(
     })
 }
 
-fn element_type(fields: &Fields<'_>, name: &str) -> Result<(ElementType, &'static str), LoadError> {
+/// The type of a number, its name, and how many of them a voxel has.
+fn element_type(
+    fields: &Fields<'_>,
+    name: &str,
+) -> Result<(ElementType, &'static str, u32), LoadError> {
     let code = fields.whole(70, (12, 16));
     let refused = |what: &str| {
         Err(LoadError::Unsupported {
@@ -289,7 +297,7 @@ fn element_type(fields: &Fields<'_>, name: &str) -> Result<(ElementType, &'stati
             what: what.to_owned(),
         })
     };
-    Ok(match code {
+    let (element, name) = match code {
         2 => (ElementType::U8, "uint8"),
         4 => (ElementType::I16, "int16"),
         8 => (ElementType::I32, "int32"),
@@ -303,11 +311,8 @@ fn element_type(fields: &Fields<'_>, name: &str) -> Result<(ElementType, &'stati
         1280 => (ElementType::U64, "uint64"),
         1792 => (ElementType::C128, "complex128"),
         1 => return refused("voxels of one bit are not read: save them as 8-bit numbers"),
-        128 | 2304 => {
-            return refused(
-                "colour voxels (RGB) are not drawn: a transfer function needs one number per voxel; save one channel",
-            );
-        }
+        128 => return Ok((ElementType::U8, "RGB24", 3)),
+        2304 => return Ok((ElementType::U8, "RGBA32", 4)),
         1536 | 2048 => return refused("128-bit floats are not read: save them as 32-bit floats"),
         other => {
             return Err(LoadError::Header {
@@ -318,7 +323,8 @@ fn element_type(fields: &Fields<'_>, name: &str) -> Result<(ElementType, &'stati
                 found: other.to_string(),
             });
         }
-    })
+    };
+    Ok((element, name, 1))
 }
 
 fn vox_offset(fields: &Fields<'_>, name: &str) -> Result<u64, LoadError> {

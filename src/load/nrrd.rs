@@ -3,11 +3,10 @@
 //! Axes that are in space make the volume, at most three of them. What runs faster than they do are components of a
 //! voxel, what runs slower are frames; of both one is taken. Space is turned into RAS+ mm.
 
-use std::collections::BTreeMap;
-
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::geometry::{self, checked_dims};
+use super::header::Fields;
 use super::place::{Encoding, Header, Place, Skip};
 use super::report::clean_name;
 use super::stream::Stream;
@@ -30,25 +29,9 @@ pub(crate) fn is_header(start: &[u8]) -> bool {
     start.starts_with(b"NRRD")
 }
 
-/// The lines of a header as names and values.
-struct Fields {
-    name: String,
-    /// Field to (line number, value); names in lower case without blanks.
-    fields: BTreeMap<String, (usize, String)>,
-    /// Free pairs of key and value.
-    pairs: BTreeMap<String, String>,
-    /// Lines after `data file: LIST`.
-    list: Vec<String>,
-}
-
 impl Fields {
-    fn read(stream: &mut Stream<'_>) -> Result<Self, LoadError> {
-        let mut header = Self {
-            name: stream.name().to_owned(),
-            fields: BTreeMap::new(),
-            pairs: BTreeMap::new(),
-            list: Vec::new(),
-        };
+    fn read_nrrd(stream: &mut Stream<'_>) -> Result<Self, LoadError> {
+        let mut header = Self::new(stream);
         let mut is_list = false;
         for number in 1..=MAX_LINES {
             let Some(line) = stream.line(MAX_LINE_BYTES)? else {
@@ -82,34 +65,14 @@ impl Fields {
                 is_list = field == "datafile" && value.split_whitespace().next() == Some("LIST");
                 header.fields.insert(field, (number, value));
             } else {
-                return Err(LoadError::HeaderLine {
-                    name: header.name,
-                    line: number,
-                    field: "line".to_owned(),
-                    expected: "\"field: value\"".to_owned(),
-                    found: line.chars().take(40).collect(),
-                });
+                let found = line.chars().take(40).collect();
+                return Err(header.wrong_line(number, "line", "\"field: value\"", found));
             }
         }
         Err(LoadError::Unsupported {
             name: header.name,
             what: "the header has no end".to_owned(),
         })
-    }
-
-    fn get(&self, field: &str) -> Option<&str> {
-        self.fields.get(field).map(|(_, value)| value.as_str())
-    }
-
-    fn wrong(&self, field: &str, expected: &str) -> LoadError {
-        let (line, found) = self.fields.get(field).cloned().unwrap_or_default();
-        LoadError::HeaderLine {
-            name: self.name.clone(),
-            line,
-            field: field.to_owned(),
-            expected: expected.to_owned(),
-            found: found.chars().take(60).collect(),
-        }
     }
 
     fn number<T: std::str::FromStr>(
@@ -175,7 +138,7 @@ pub(crate) fn read_header(
     report: &mut LoadReport,
 ) -> Result<Header, LoadError> {
     report.format = Some(Format::Nrrd);
-    let fields = Fields::read(stream)?;
+    let fields = Fields::read_nrrd(stream)?;
     let name = fields.name.clone();
     let rank: usize = fields
         .number("dimension", "1 to 16")?
@@ -225,7 +188,14 @@ pub(crate) fn read_header(
             name: name.clone(),
             what: format!("{components} components per voxel are too many"),
         })?;
-    let count = frames.saturating_mul(u64::from(components));
+    let is_color = axes.is_color(&fields, components);
+    let frame_components = if is_color {
+        report.warn(Warning::Luminance);
+        1
+    } else {
+        components
+    };
+    let count = frames.saturating_mul(u64::from(frame_components));
     if options.frame >= count {
         return Err(LoadError::NoSuchFrame {
             name,
@@ -238,7 +208,8 @@ pub(crate) fn read_header(
         big_endian,
         dims,
         components,
-        component: (options.frame % u64::from(components)) as u32,
+        component: (options.frame % u64::from(frame_components)) as u32,
+        is_color,
     };
     report.stored_type = stored_type;
     report.dims = dims;
@@ -273,7 +244,7 @@ pub(crate) fn read_header(
             line_skip,
             skip,
             frame_count: frames,
-            frame: options.frame / u64::from(components),
+            frame: options.frame / u64::from(frame_components),
             is_exact: files.is_some(),
         },
         files,
@@ -334,11 +305,6 @@ impl Axes {
             .get("kinds")
             .map(|text| text.split_whitespace().map(str::to_lowercase).collect())
             .unwrap_or_default();
-        if kinds.iter().any(|kind| kind.contains("color")) {
-            return Err(refuse(
-                "colour voxels are not drawn: a transfer function needs one number per voxel; save one channel".to_owned(),
-            ));
-        }
         let vectors = fields.vectors("spacedirections")?;
         if vectors
             .as_ref()
@@ -392,6 +358,21 @@ impl Axes {
             spatial,
             directions,
         })
+    }
+
+    /// True if the one axis before those in space holds red, green and blue, with or without opacity.
+    fn is_color(&self, fields: &Fields, components: u32) -> bool {
+        let kind = fields
+            .get("kinds")
+            .and_then(|text| text.split_whitespace().next())
+            .unwrap_or_default()
+            .to_lowercase();
+        self.first() == 1
+            && match kind.as_str() {
+                "rgb-color" | "3-color" => components == 3,
+                "rgba-color" | "4-color" => components == 4,
+                _ => false,
+            }
     }
 
     fn first(&self) -> usize {

@@ -11,6 +11,7 @@ use super::stream::{Packing, SharedHash};
 use super::voxels::Layout;
 use super::{ElementType, FileSet, Format, LoadError, LoadReport, ReadOptions, Warning};
 use crate::data::VolumeSink;
+use crate::document::RawVoxels;
 
 /// What a file of bare voxels does not say of itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +75,31 @@ impl RawLayout {
             spacing_mm: DVec3::ONE,
             header_bytes: len.map_or(0, |len| len.saturating_sub(needed)),
         })
+    }
+}
+
+impl From<&RawVoxels> for RawLayout {
+    fn from(raw: &RawVoxels) -> Self {
+        let element = ElementType::from_name(raw.element);
+        Self {
+            dims: UVec3::from(raw.size),
+            element: element.unwrap_or(ElementType::U8),
+            big_endian: raw.big_endian,
+            spacing_mm: DVec3::from(raw.spacing_mm),
+            header_bytes: raw.skip_bytes,
+        }
+    }
+}
+
+impl From<&RawLayout> for RawVoxels {
+    fn from(raw: &RawLayout) -> Self {
+        Self {
+            size: raw.dims.to_array(),
+            element: raw.element.name(),
+            big_endian: raw.big_endian,
+            spacing_mm: raw.spacing_mm.to_array(),
+            skip_bytes: raw.header_bytes,
+        }
     }
 }
 
@@ -141,6 +167,7 @@ pub fn read_raw(
         dims,
         components: 1,
         component: 0,
+        is_color: false,
     };
     let mut world_from_voxel = geometry::unoriented(raw.spacing_mm);
     if !geometry::is_usable(&world_from_voxel) {

@@ -66,6 +66,8 @@ pub enum Warning {
     },
     /// Complex voxels: their magnitude is shown.
     Magnitude,
+    /// Colours: their brightness is shown.
+    Luminance,
     /// A header field is out of order but could be read around.
     Repaired {
         /// The field.
@@ -114,6 +116,9 @@ impl fmt::Display for Warning {
                 write!(f, "the file holds {count} volumes; number {} is shown", shown + 1)
             }
             Self::Magnitude => f.write_str("the voxels are complex numbers; their magnitude is shown"),
+            Self::Luminance => f.write_str(
+                "the voxels are colours; their brightness is shown, coloured by the transfer function",
+            ),
             Self::Repaired { field, what } => write!(f, "{field}: {what}"),
             Self::LabelNames => f.write_str("the names of the labels could not be read"),
             Self::Layers { count } => write!(

@@ -63,6 +63,23 @@ impl ElementType {
         }
     }
 
+    /// The scalar type of a name; `None` for complex ones and unknown names.
+    pub fn from_name(name: &str) -> Option<Self> {
+        const SCALAR: [ElementType; 10] = [
+            ElementType::U8,
+            ElementType::I8,
+            ElementType::U16,
+            ElementType::I16,
+            ElementType::U32,
+            ElementType::I32,
+            ElementType::U64,
+            ElementType::I64,
+            ElementType::F32,
+            ElementType::F64,
+        ];
+        SCALAR.into_iter().find(|element| element.name() == name)
+    }
+
     /// Bytes of one element in a file.
     pub fn byte_count(self) -> usize {
         match self {
@@ -120,6 +137,8 @@ pub(crate) struct Layout {
     pub(crate) components: u32,
     /// The one that is taken.
     pub(crate) component: u32,
+    /// The three or four elements are red, green, blue and opacity: their brightness is taken.
+    pub(crate) is_color: bool,
 }
 
 impl Layout {
@@ -413,6 +432,9 @@ fn decode(out: &mut Voxels, bytes: &[u8], layout: &Layout, tally: &mut Tally) {
             }
         }};
     }
+    if layout.is_color {
+        return decode_brightness(out, bytes, layout, tally);
+    }
     match (layout.element, out) {
         (ElementType::U8, Voxels::U8(out)) if layout.components == 1 => {
             out.extend_from_slice(bytes)
@@ -472,5 +494,36 @@ fn decode(out: &mut Voxels, bytes: &[u8], layout: &Layout, tally: &mut Tally) {
         }),
         // `out` is always what `kept_as` gives.
         _ => {}
+    }
+}
+
+/// Appends the brightness of colours: the luma of ITU-R BT.709 of the stored, gamma-coded values, in the range of their
+/// type; where there is opacity, bytes are weighted by it, so that what is transparent is dark. Other types ignore it.
+fn decode_brightness(out: &mut Voxels, bytes: &[u8], layout: &Layout, tally: &mut Tally) {
+    const WEIGHTS: [f32; 3] = [0.2126, 0.7152, 0.0722];
+    let element = layout.element.byte_count();
+    let single = Layout {
+        components: 1,
+        component: 0,
+        is_color: false,
+        ..*layout
+    };
+    let stride = element * layout.components as usize;
+    let mut parts = layout.element.kept_as();
+    decode(&mut parts, bytes, &single, tally);
+    for (index, voxel) in bytes.chunks_exact(stride).enumerate() {
+        let first = index * layout.components as usize;
+        let part = |i: usize| parts.get(first + i).unwrap_or(0.0);
+        let mut luma: f32 = (0..3).map(|i| WEIGHTS[i] * part(i)).sum();
+        if layout.components == 4 && element == 1 {
+            luma *= f32::from(voxel.last().copied().unwrap_or(255)) / 255.0;
+        }
+        match out {
+            // Weights that sum to one stay in the type's range.
+            Voxels::U8(out) => out.push(luma.round() as u8),
+            Voxels::I16(out) => out.push(luma.round() as i16),
+            Voxels::U16(out) => out.push(luma.round() as u16),
+            Voxels::F32(out) => out.push(luma),
+        }
     }
 }

@@ -12,14 +12,14 @@ use clap::{Parser, Subcommand};
 use glam::{DVec3, UVec3, Vec3};
 use serde_json::{Value, json};
 
-use super::files::Folder;
+use super::reading::{ReadingFlags, hint};
 use super::subject::{MissingSubject, SubjectSource, load_subject};
 use crate::data::{Volume, VolumeLimits};
 use crate::document::{
     Document, DocumentError, Illustration, MAX_BYTES, ParamKind, TemplateKind, plain_f64,
 };
 use crate::link::{self, LinkError};
-use crate::load::{LoadError, ReadOptions, describe};
+use crate::load::LoadError;
 use crate::render::{
     Gpu, GpuOptions, KeptTissue, Probe, RenderError, Sample, Studio, encode_png, render_image,
 };
@@ -41,6 +41,8 @@ struct Common {
     /// A scan that takes the place of the document's subject.
     #[arg(long, global = true, value_name = "FILE")]
     subject: Option<PathBuf>,
+    #[command(flatten)]
+    reading: ReadingFlags,
     /// The graphics adapter to use, by (part of) its name.
     #[arg(long, global = true, value_name = "NAME")]
     adapter: Option<String>,
@@ -243,6 +245,7 @@ fn execute(args: Args) -> Result<(), CliError> {
                 folder: opened.as_ref().map(|opened| opened.folder.clone()),
                 document: opened.map(|opened| opened.document),
                 subject: common.subject.clone(),
+                reading: common.reading.clone(),
                 adapter: common.adapter.clone(),
             };
             super::native::view(opening).map_err(|error| CliError::Window(error.to_string()))
@@ -288,7 +291,7 @@ fn execute(args: Args) -> Result<(), CliError> {
             opened.say_notices();
             print(&opened.document.to_json())
         }
-        Command::Info { file } => info(&file),
+        Command::Info { file } => info(common, &file),
         Command::Templates { json } => print(&if json {
             templates_json()
         } else {
@@ -457,6 +460,7 @@ fn subject_of(
     let source = SubjectSource {
         folder,
         instead: common.subject.as_deref(),
+        reading: &common.reading,
         limits,
     };
     Ok(load_subject(illustration, source, &mut |line| {
@@ -695,10 +699,14 @@ fn segment_at(volume: &Volume, pos_in_rest: Vec3) -> String {
     }
 }
 
-fn info(file: &Path) -> Result<(), CliError> {
-    let (mut folder, name) = Folder::of(file);
-    let description = describe(&mut folder, &name, &ReadOptions::default())
-        .map_err(|error| CliError::Load(error, file.display().to_string()))?;
+fn info(common: &Common, file: &Path) -> Result<(), CliError> {
+    let description = common.reading.describe(file).map_err(|error| {
+        let name = file.to_string_lossy();
+        if let Some(hint) = hint(&name, &error) {
+            notice(hint);
+        }
+        CliError::Load(error, name.into_owned())
+    })?;
     for line in description.report.notices() {
         notice(line);
     }

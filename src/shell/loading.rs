@@ -1,9 +1,13 @@
 //! One load, from its description to the events that the app waits for. The same natively (in a thread) and on the page
 //! (in a worker); where it runs and how events travel is the caller's affair.
 
-use crate::app::LoadEvent;
+use crate::app::{LoadEvent, RawQuestion};
 use crate::data::{Reducer, Volume, VolumeLimits, VolumeSink, Voxels};
-use crate::load::{FileSet, LabelSource, LoadError, LoadReport, ReadOptions, read_subject};
+use crate::document::Reading;
+use crate::load::{
+    FileSet, LabelSource, LoadError, LoadReport, RawLayout, ReadOptions, Warning, read_raw,
+    read_subject,
+};
 use crate::subjects::{COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab};
 
 /// Slabs are made of about this many voxels: large enough to travel well, small enough to stop soon.
@@ -95,12 +99,16 @@ pub(super) fn slabs_in_turn(
     true
 }
 
+/// Endings of files that may hold bare voxels.
+const RAW_ENDINGS: [&str; 7] = [".raw", ".bin", ".dat", ".vol", ".img", ".data", ".zraw"];
+
 /// Reads a file. `expected` is the hash that the document gives, lower-case hex.
 pub(super) fn read_file(
     files: &mut dyn FileSet,
     name: &str,
     expected: Option<&str>,
     limits: VolumeLimits,
+    reading: &Reading,
     post: &mut dyn Post,
 ) {
     let mut sink = PostingSink {
@@ -111,14 +119,28 @@ pub(super) fn read_file(
     let mut report = LoadReport::default();
     let mut reducer = Reducer::new(&mut sink, limits);
     // A file that says it holds labels brings its segments.
-    let outcome = read_subject(
-        files,
-        name,
-        &LabelSource::default(),
-        &ReadOptions::default(),
-        &mut reducer,
-        &mut report,
-    );
+    let options = ReadOptions {
+        frame: reading.frame,
+        ..ReadOptions::default()
+    };
+    let outcome = match &reading.raw {
+        Some(raw) => read_raw(
+            files,
+            name,
+            &RawLayout::from(raw),
+            &options,
+            &mut reducer,
+            &mut report,
+        ),
+        None => read_subject(
+            files,
+            name,
+            &LabelSource::default(),
+            &options,
+            &mut reducer,
+            &mut report,
+        ),
+    };
     let reduction = reducer.reduction();
     let is_stopped = sink.is_stopped;
     match outcome {
@@ -137,8 +159,16 @@ pub(super) fn read_file(
                 });
                 return;
             }
-            for notice in report.notices() {
-                post.post(LoadEvent::Notice(notice));
+            if report.frame_count > 1 {
+                post.post(LoadEvent::Frames {
+                    count: report.frame_count,
+                });
+            }
+            for warning in &report.warnings {
+                // Which of several volumes is shown stands in a dialog of its own.
+                if !matches!(warning, Warning::Frames { .. }) {
+                    post.post(LoadEvent::Notice(warning.to_string()));
+                }
             }
             if let Some(reduction) = reduction {
                 post.post(LoadEvent::Notice(reduction.to_string()));
@@ -148,12 +178,39 @@ pub(super) fn read_file(
         Err(LoadError::Cancelled) if is_stopped => {
             post.post(LoadEvent::Cancelled);
         }
+        Err(LoadError::UnknownFormat { .. }) if may_be_raw(name) => {
+            post.post(LoadEvent::AskRaw(question(files, name)));
+        }
         Err(error) => {
             post.post(LoadEvent::Failed {
                 message: error.to_string(),
                 details: report.notices().join("\n"),
             });
         }
+    }
+}
+
+/// True if a name promises voxels and no more.
+pub(super) fn may_be_raw(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    let lower = lower.strip_suffix(".gz").unwrap_or(&lower);
+    RAW_ENDINGS.iter().any(|ending| lower.ends_with(ending))
+        || RawLayout::guess(lower, None).is_some()
+}
+
+fn question(files: &mut dyn FileSet, name: &str) -> RawQuestion {
+    let mut start = [0; 2];
+    let mut byte_len = None;
+    let mut is_packed = false;
+    if let Ok(mut file) = files.open(name) {
+        byte_len = file.byte_len;
+        is_packed = file.read.read_exact(&mut start).is_ok() && start == [0x1f, 0x8b];
+    }
+    let guess = RawLayout::guess(name, byte_len.filter(|_| !is_packed));
+    RawQuestion {
+        byte_len,
+        is_packed,
+        guess: guess.as_ref().map(Into::into),
     }
 }
 
@@ -258,6 +315,7 @@ mod tests {
             "x.nii",
             None,
             LIMITS,
+            &Reading::default(),
             &mut |event: LoadEvent| {
                 last = Some(event);
                 true
@@ -266,6 +324,36 @@ mod tests {
         assert!(
             matches!(&last, Some(LoadEvent::Failed { message, .. }) if message.contains("x.nii")),
             "{last:?}"
+        );
+    }
+
+    #[test]
+    fn bare_voxels_are_asked_about_and_then_read() {
+        let mut files = MemoryFiles::new([("scan_4x3x2_uint8.raw", vec![7; 24])]);
+        let mut read = |reading: &Reading| {
+            let mut last = None;
+            let mut post = |event: LoadEvent| {
+                last = Some(event);
+                true
+            };
+            let name = "scan_4x3x2_uint8.raw";
+            read_file(&mut files, name, None, LIMITS, reading, &mut post);
+            last
+        };
+        let Some(LoadEvent::AskRaw(question)) = read(&Reading::default()) else {
+            panic!("it should have asked");
+        };
+        assert_eq!((question.byte_len, question.is_packed), (Some(24), false));
+        let raw = question.guess.expect("its name says it");
+        assert_eq!(raw.size, [4, 3, 2]);
+        let frame = 0;
+        let done = read(&Reading {
+            frame,
+            raw: Some(raw),
+        });
+        assert!(
+            matches!(done, Some(LoadEvent::Done { sha256: Some(_) })),
+            "{done:?}"
         );
     }
 }

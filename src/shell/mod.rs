@@ -17,6 +17,8 @@ pub mod cli;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod files;
 #[cfg(not(target_arch = "wasm32"))]
+pub mod reading;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod subject;
 
 /// What is said where a document asks for a file of the reader's own. `name` is what the author called it.

@@ -10,9 +10,10 @@ use std::time::Instant;
 
 use super::files::Folder;
 use super::loading::{make_subject, read_file};
+use super::reading::ReadingFlags;
 use crate::app::{App, LinkChange, LoadEvent, Message, SaveFile, Services, Start, Ticket};
 use crate::data::VolumeLimits;
-use crate::document::{Document, SubjectRef};
+use crate::document::{Document, RawVoxels, Reading, SubjectRef};
 use crate::render::Gpu;
 use crate::subjects::{Generator, Slab};
 
@@ -28,6 +29,8 @@ pub struct Opening {
     pub folder: Option<PathBuf>,
     /// A file that takes the place of the document's subject.
     pub subject: Option<PathBuf>,
+    /// How that file is read, before what the document says.
+    pub reading: ReadingFlags,
     /// Part of the name of the adapter to draw with.
     pub adapter: Option<String>,
 }
@@ -82,9 +85,12 @@ pub fn view(opening: Opening) -> Result<(), WindowError> {
             }
         }
         let mut services = NativeServices::new(cc.egui_ctx.clone(), limits, opening.folder);
+        let document = opening.document.as_ref();
+        let said = document.and_then(|document| document.illustration().subject.reading());
+        let reading = opening.reading.over(said);
         let subject = opening
             .subject
-            .map(|path| services.start_file(path, None, true));
+            .map(|path| services.start_file(path, None, true, reading));
         let start = Start {
             document: opening.document,
             text: None,
@@ -148,6 +154,8 @@ struct NativeServices {
     picks: Sender<PathBuf>,
     picked: Receiver<PathBuf>,
     load: Option<Load>,
+    /// The file of the latest load, for when its layout is told.
+    opened: Option<(Ticket, PathBuf)>,
     next_ticket: u64,
     /// Files that were opened here, by the hash of their bytes.
     known: Arc<Mutex<BTreeMap<String, PathBuf>>>,
@@ -166,6 +174,7 @@ impl NativeServices {
             picks,
             picked,
             load: None,
+            opened: None,
             next_ticket: 1,
             known: Arc::default(),
         }
@@ -199,12 +208,32 @@ impl NativeServices {
         ticket
     }
 
-    fn start_file(&mut self, path: PathBuf, expected: Option<String>, is_asked: bool) -> Ticket {
+    fn start_file(
+        &mut self,
+        path: PathBuf,
+        expected: Option<String>,
+        is_asked: bool,
+        reading: Reading,
+    ) -> Ticket {
         let (ticket, is_wanted) = self.new_ticket();
         if !is_asked {
             // The ticket is announced before any event of the load.
             self.say(Message::FileStarted { ticket });
         }
+        self.opened = Some((ticket, path.clone()));
+        self.read(ticket, is_wanted, path, expected, reading);
+        ticket
+    }
+
+    /// Reads in a thread.
+    fn read(
+        &self,
+        ticket: Ticket,
+        is_wanted: Arc<AtomicBool>,
+        path: PathBuf,
+        expected: Option<String>,
+        reading: Reading,
+    ) {
         let (sender, ctx, limits) = (self.sender.clone(), self.ctx.clone(), self.limits);
         let known = Arc::clone(&self.known);
         std::thread::spawn(move || {
@@ -216,9 +245,9 @@ impl NativeServices {
                 post_while_wanted(&sender, &ctx, ticket, &is_wanted, event)
             };
             let (mut folder, name) = Folder::of(&path);
-            read_file(&mut folder, &name, expected.as_deref(), limits, &mut post);
+            let expected = expected.as_deref();
+            read_file(&mut folder, &name, expected, limits, &reading, &mut post);
         });
-        ticket
     }
 
     fn start_builtin(&mut self, name: String) -> Ticket {
@@ -242,7 +271,7 @@ impl NativeServices {
                 self.say(Message::OpenText { text });
             }
             None => {
-                self.start_file(path, None, false);
+                self.start_file(path, None, false, Reading::default());
             }
         }
     }
@@ -386,20 +415,31 @@ impl Services for NativeServices {
     fn load_subject(&mut self, subject: &SubjectRef) -> Ticket {
         match subject {
             SubjectRef::Builtin { name } => self.start_builtin(name.clone()),
-            SubjectRef::Address { src, sha256, .. } => {
+            SubjectRef::Address {
+                src,
+                sha256,
+                reading,
+                ..
+            } => {
                 if src.contains("://") {
                     return self.fail(format!(
                         "This program reads local files only: download the scan and start with --subject FILE ({src})"
                     ));
                 }
-                self.start_file(self.folder.join(src), sha256.clone(), true)
+                self.start_file(self.folder.join(src), sha256.clone(), true, reading.clone())
             }
-            SubjectRef::Supplied { sha256, name } => {
+            SubjectRef::Supplied {
+                sha256,
+                name,
+                reading,
+            } => {
                 let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
                 let path = known.get(&sha256.to_lowercase()).cloned();
                 drop(known);
                 match path {
-                    Some(path) => self.start_file(path, Some(sha256.clone()), true),
+                    Some(path) => {
+                        self.start_file(path, Some(sha256.clone()), true, reading.clone())
+                    }
                     None => self.fail(super::wanted_file(name)),
                 }
             }
@@ -407,6 +447,19 @@ impl Services for NativeServices {
     }
 
     fn allow_host(&mut self, _ticket: Ticket) {}
+
+    fn answer_raw(&mut self, ticket: Ticket, raw: &RawVoxels) {
+        let load = self.load.as_ref().filter(|load| load.ticket == ticket);
+        let opened = self.opened.as_ref().filter(|(t, _)| *t == ticket);
+        if let (Some(load), Some((_, path))) = (load, opened) {
+            let (is_wanted, path) = (Arc::clone(&load.is_wanted), path.clone());
+            let reading = Reading {
+                frame: 0,
+                raw: Some(raw.clone()),
+            };
+            self.read(ticket, is_wanted, path, None, reading);
+        }
+    }
 
     fn cancel_load(&mut self, ticket: Ticket) {
         if let Some(load) = self.load.take_if(|load| load.ticket == ticket) {

@@ -11,7 +11,7 @@ use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storag
 use super::worker::{Task, WorkerLoad, start, text_of};
 use crate::app::{LinkChange, LoadEvent, Message, STORED_DOCUMENT, SaveFile, Services, Ticket};
 use crate::data::VolumeLimits;
-use crate::document::SubjectRef;
+use crate::document::{RawVoxels, Reading, SubjectRef};
 
 /// A larger file is no document (the contract's limit is 1 MiB), and is opened as a scan.
 const MAX_DOCUMENT_BYTES: f64 = 2e6;
@@ -36,7 +36,7 @@ pub(super) struct Page {
     load: Option<(Ticket, WorkerLoad)>,
     next_ticket: u64,
     /// Loads that wait for leave to fetch.
-    asking: BTreeMap<Ticket, (String, Option<String>)>,
+    asking: BTreeMap<Ticket, (String, Option<String>, Reading)>,
     allowed_hosts: BTreeSet<String>,
     /// Files that the reader gave, by the hash of their bytes.
     known: BTreeMap<String, Vec<(String, Blob)>>,
@@ -155,7 +155,7 @@ impl PageServices {
                 page.say(Message::FileStarted { ticket });
                 ticket
             };
-            services.start(ticket, &Task::Files(files, None));
+            services.start(ticket, &Task::Files(files, None, Reading::default()));
         });
     }
 }
@@ -275,7 +275,12 @@ impl Services for PageServices {
                 self.start(ticket, &Task::Builtin(name.clone()));
                 ticket
             }
-            SubjectRef::Address { src, sha256, .. } => {
+            SubjectRef::Address {
+                src,
+                sha256,
+                reading,
+                ..
+            } => {
                 let base = self.0.borrow().place.base.clone();
                 let Ok(url) = Url::new_with_base(src, &base) else {
                     return self.fail(format!("This is no address: {src}"));
@@ -288,22 +293,29 @@ impl Services for PageServices {
                 let ticket = page.new_ticket();
                 match foreign_host(&address) {
                     Some(host) if !page.allowed_hosts.contains(&host) => {
-                        page.asking.insert(ticket, (address, sha256.clone()));
+                        page.asking
+                            .insert(ticket, (address, sha256.clone(), reading.clone()));
                         page.say(Message::AskHost { ticket, host });
                     }
                     _ => {
                         drop(page);
-                        self.start(ticket, &Task::Address(address, sha256.clone()));
+                        let task = Task::Address(address, sha256.clone(), reading.clone());
+                        self.start(ticket, &task);
                     }
                 }
                 ticket
             }
-            SubjectRef::Supplied { sha256, name } => {
+            SubjectRef::Supplied {
+                sha256,
+                name,
+                reading,
+            } => {
                 let known = self.0.borrow().known.get(&sha256.to_lowercase()).cloned();
                 match known {
                     Some(files) => {
                         let ticket = self.0.borrow_mut().new_ticket();
-                        self.start(ticket, &Task::Files(files, Some(sha256.clone())));
+                        let task = Task::Files(files, Some(sha256.clone()), reading.clone());
+                        self.start(ticket, &task);
                         ticket
                     }
                     None => self.fail(super::wanted_file(name)),
@@ -314,11 +326,26 @@ impl Services for PageServices {
 
     fn allow_host(&mut self, ticket: Ticket) {
         let asked = self.0.borrow_mut().asking.remove(&ticket);
-        if let Some((address, expected)) = asked {
+        if let Some((address, expected, reading)) = asked {
             if let Some(host) = foreign_host(&address) {
                 self.0.borrow_mut().allowed_hosts.insert(host);
             }
-            self.start(ticket, &Task::Address(address, expected));
+            self.start(ticket, &Task::Address(address, expected, reading));
+        }
+    }
+
+    fn answer_raw(&mut self, ticket: Ticket, raw: &RawVoxels) {
+        let files = {
+            let page = self.0.borrow();
+            let opened = page.opened.as_ref().filter(|(t, _)| *t == ticket);
+            opened.map(|(_, files)| files.clone())
+        };
+        if let Some(files) = files {
+            let reading = Reading {
+                frame: 0,
+                raw: Some(raw.clone()),
+            };
+            self.start(ticket, &Task::Files(files, None, reading));
         }
     }
 

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::sync_channel;
 
-use super::files::read_volume_at;
+use super::files::Folder;
+use super::reading::{ReadingFlags, hint};
 use crate::data::{
     BuildError, LabelVolume, Reducer, Segment, Volume, VolumeBuilder, VolumeLimits, VolumeSink,
     Voxels,
 };
-use crate::document::{Illustration, SegmentsRef, SubjectRef};
-use crate::load::{LoadError, LoadReport, ReadOptions};
+use crate::document::{Illustration, Reading, SegmentsRef, SubjectRef};
+use crate::load::{LoadError, LoadReport, RawLayout, ReadOptions, read_raw, read_volume};
 use crate::subjects::{FINE_RESOLUTION, Generator, SubjectError};
 
 /// Why a document's subject is not there.
@@ -79,6 +80,8 @@ pub struct SubjectSource<'a> {
     pub folder: &'a Path,
     /// Takes the place of the document's subject.
     pub instead: Option<&'a Path>,
+    /// How its file is read, before what the document says.
+    pub reading: &'a ReadingFlags,
     /// What the device takes; larger volumes are reduced.
     pub limits: VolumeLimits,
 }
@@ -98,7 +101,8 @@ pub fn load_subject(
             SubjectRef::Address { sha256, .. } => sha256.as_deref(),
             SubjectRef::Builtin { .. } => None,
         };
-        let (mut volume, found) = read(path, source.limits, notice)?;
+        let reading = source.reading.over(illustration.subject.reading());
+        let (mut volume, found) = read(path, &reading, source.limits, notice)?;
         if let Some(wanted) = wanted
             && found.as_deref() != Some(wanted)
         {
@@ -119,9 +123,15 @@ pub fn load_subject(
             }
             (generate(name)?, source.folder)
         }
-        SubjectRef::Address { src, sha256, .. } => {
+        SubjectRef::Address {
+            src,
+            sha256,
+            reading,
+            ..
+        } => {
             let path = local(source.folder, src)?;
-            let (volume, found) = read(&path, source.limits, notice)?;
+            let reading = source.reading.over(Some(reading));
+            let (volume, found) = read(&path, &reading, source.limits, notice)?;
             if let (Some(wanted), Some(found)) = (sha256, &found)
                 && wanted != found
             {
@@ -133,7 +143,7 @@ pub fn load_subject(
             }
             (volume, source.folder)
         }
-        SubjectRef::Supplied { sha256, name } => {
+        SubjectRef::Supplied { sha256, name, .. } => {
             return Err(MissingSubject::Wanted {
                 name: if name.is_empty() {
                     "without a name".to_owned()
@@ -147,7 +157,7 @@ pub fn load_subject(
     if let Some(segments) = &illustration.segments {
         if let Some(src) = &segments.src {
             let path = local(folder, src)?;
-            let (labels, found) = read(&path, source.limits, notice)?;
+            let (labels, found) = read(&path, &Reading::default(), source.limits, notice)?;
             if let (Some(wanted), Some(found)) = (&segments.sha256, found)
                 && *wanted != found
             {
@@ -212,6 +222,7 @@ pub fn generate(name: &str) -> Result<Volume, MissingSubject> {
 /// A volume and the SHA-256 of its file.
 fn read(
     path: &Path,
+    reading: &Reading,
     limits: VolumeLimits,
     notice: &mut dyn FnMut(String),
 ) -> Result<(Volume, Option<String>), MissingSubject> {
@@ -219,7 +230,22 @@ fn read(
     let mut reducer = Reducer::new(&mut builder, limits);
     let mut report = LoadReport::default();
     let shown = path.display().to_string();
-    let result = read_volume_at(path, &ReadOptions::default(), &mut reducer, &mut report);
+    let options = ReadOptions {
+        frame: reading.frame,
+        ..ReadOptions::default()
+    };
+    let (mut files, name) = Folder::of(path);
+    let result = match &reading.raw {
+        Some(raw) => read_raw(
+            &mut files,
+            &name,
+            &RawLayout::from(raw),
+            &options,
+            &mut reducer,
+            &mut report,
+        ),
+        None => read_volume(&mut files, &name, &options, &mut reducer, &mut report),
+    };
     if let Some(reduction) = reducer.reduction() {
         notice(reduction.to_string());
     }
@@ -243,6 +269,9 @@ fn read(
             ));
         }
         Err(source) => {
+            if let Some(hint) = hint(&name, &source) {
+                notice(hint);
+            }
             return Err(MissingSubject::File {
                 path: shown,
                 source,

@@ -2,7 +2,8 @@
 //!
 //! A message to the page is an array: `["begin", header as JSON]`, `["scalars", typed array]`, `["labels", Uint8Array]`,
 //! `["progress", fraction, what]`, `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`,
-//! `["failed", message, details]`, `["cancelled"]`. Arrays travel without being copied again. One worker does one load; to
+//! `["frames", count]`, `["raw", bytes or undefined, is packed, guess or undefined]`, `["failed", message, details]`,
+//! `["cancelled"]`. Arrays travel without being copied again. One worker does one load; to
 //! cancel it is to end it.
 
 use std::io::{self, Read};
@@ -18,8 +19,9 @@ use web_sys::{
 };
 
 use super::loading::{make_subject, read_file, slabs_in_turn};
-use crate::app::LoadEvent;
+use crate::app::{LoadEvent, RawQuestion};
 use crate::data::{Grid, LabelVolume, Segment, Volume, VolumeLimits, Voxels};
+use crate::document::{Document, Edit, Reading, SubjectRef};
 use crate::load::{FileHandle, FileSet};
 
 /// Bytes of a file that are in memory at a time.
@@ -30,9 +32,9 @@ pub(super) enum Task {
     /// A built-in subject.
     Builtin(String),
     /// A file that the reader gave, first, and those beside it.
-    Files(Vec<(String, Blob)>, Option<String>),
+    Files(Vec<(String, Blob)>, Option<String>, Reading),
     /// An address that may be fetched, and the expected hash.
-    Address(String, Option<String>),
+    Address(String, Option<String>, Reading),
 }
 
 /// A load under way. Ends when dropped.
@@ -83,17 +85,19 @@ pub(super) fn start(
         Task::Builtin(name) => {
             set("builtin", &name.into())?;
         }
-        Task::Files(files, expected) => {
+        Task::Files(files, expected, reading) => {
             let list = Array::new();
             for (name, blob) in files {
                 list.push(&Array::of2(&name.into(), blob));
             }
             set("files", &list)?;
             set("expected", &expected.clone().into())?;
+            set("reading", &text_of_reading(reading).into())?;
         }
-        Task::Address(address, expected) => {
+        Task::Address(address, expected, reading) => {
             set("address", &address.into())?;
             set("expected", &expected.clone().into())?;
+            set("reading", &text_of_reading(reading).into())?;
         }
     }
     worker.post_message(&message)?;
@@ -102,6 +106,24 @@ pub(super) fn start(
         _on_message: on_message,
         _on_error: on_error,
     })
+}
+
+/// How a file is to be read, as the document of which it would be the subject.
+fn text_of_reading(reading: &Reading) -> String {
+    let subject = SubjectRef::Supplied {
+        sha256: "0".repeat(64),
+        name: String::new(),
+        reading: reading.clone(),
+    };
+    let document = Edit::SetSubject(subject).apply(&Document::new());
+    document.map_or_else(|_nothing_said| String::new(), |d| d.to_json_compact())
+}
+
+fn reading_of(text: &str) -> Reading {
+    Document::from_json(text)
+        .ok()
+        .and_then(|document| document.illustration().subject.reading().cloned())
+        .unwrap_or_default()
 }
 
 // ---------------------------------------------------------------------------------------------------- in the worker
@@ -120,6 +142,7 @@ pub async fn worker_task(message: JsValue) -> Result<(), JsValue> {
     };
     let mut post = |event: LoadEvent| post_event(&scope, event).is_ok();
     let expected = get("expected")?.as_string();
+    let reading = reading_of(&get("reading")?.as_string().unwrap_or_default());
     if let Some(name) = get("builtin")?.as_string() {
         make_subject(&name, limits, slabs_in_turn, &mut post);
     } else if let Some(address) = get("address")?.as_string() {
@@ -128,7 +151,8 @@ pub async fn worker_task(message: JsValue) -> Result<(), JsValue> {
         match fetch(&scope, &address).await {
             Ok(blob) => {
                 let mut files = BlobFiles(vec![(name.clone(), blob)]);
-                read_file(&mut files, &name, expected.as_deref(), limits, &mut post);
+                let expected = expected.as_deref();
+                read_file(&mut files, &name, expected, limits, &reading, &mut post);
             }
             Err(error) => {
                 post(LoadEvent::Failed {
@@ -152,7 +176,8 @@ pub async fn worker_task(message: JsValue) -> Result<(), JsValue> {
             .collect();
         let name = files.first().map(|f| f.0.clone()).unwrap_or_default();
         let mut files = BlobFiles(files);
-        read_file(&mut files, &name, expected.as_deref(), limits, &mut post);
+        let expected = expected.as_deref();
+        read_file(&mut files, &name, expected, limits, &reading, &mut post);
     }
     Ok(())
 }
@@ -294,6 +319,22 @@ fn post_event(scope: &DedicatedWorkerGlobalScope, event: LoadEvent) -> Result<()
             push(&what.into());
         }
         LoadEvent::Coarse => push(&"coarse".into()),
+        LoadEvent::Frames { count } => {
+            push(&"frames".into());
+            push(&(count as f64).into());
+        }
+        LoadEvent::AskRaw(question) => {
+            push(&"raw".into());
+            push(&question.byte_len.map(|n| n as f64).into());
+            push(&question.is_packed.into());
+            let guess = question.guess.map(|raw| {
+                text_of_reading(&Reading {
+                    frame: 0,
+                    raw: Some(raw),
+                })
+            });
+            push(&guess.into());
+        }
         LoadEvent::Done { sha256 } => {
             push(&"done".into());
             push(&sha256.into());
@@ -340,6 +381,14 @@ fn event_of(message: &JsValue) -> Option<LoadEvent> {
             what: text(2),
         },
         "coarse" => LoadEvent::Coarse,
+        "frames" => LoadEvent::Frames {
+            count: message.get(1).as_f64()? as u64,
+        },
+        "raw" => LoadEvent::AskRaw(RawQuestion {
+            byte_len: message.get(1).as_f64().map(|n| n as u64),
+            is_packed: message.get(2).is_truthy(),
+            guess: reading_of(&text(3)).raw,
+        }),
         "done" => LoadEvent::Done {
             sha256: message.get(1).as_string(),
         },

@@ -32,6 +32,7 @@ macro_rules! words {
 
 pub(crate) mod bar;
 pub(crate) mod catalogue;
+pub(crate) mod files;
 pub(crate) mod keys;
 pub(crate) mod kinds;
 pub(crate) mod look;
@@ -231,6 +232,7 @@ mod tests {
         let tables = [
             bar::LINES,
             catalogue::LINES,
+            files::LINES,
             keys::LINES,
             look::LINES,
             making::LINES,
