@@ -57,6 +57,30 @@ fn every_program_validates() {
     }
 }
 
+/// Where a folder is named, the programs are left there as the GPU gets them, each line with the file and line it came from.
+#[test]
+fn programs_are_written_where_a_folder_is_named() {
+    let scratch = tempfile::tempdir().expect("a folder");
+    let folder = std::env::var_os("FABRICA_DUMP_SHADERS")
+        .map_or_else(|| scratch.path().to_owned(), std::path::PathBuf::from);
+    std::fs::create_dir_all(&folder).expect("the folder");
+    for program in PROGRAMS {
+        let text = assembled(program);
+        std::fs::write(folder.join(format!("{}.wgsl", program.name)), &text.source)
+            .expect("the program");
+        let map: String = (1..=text.source.lines().count())
+            .map(|line| format!("{line}\t{}\n", text.place(line)))
+            .collect();
+        assert!(
+            map.ends_with(&format!("{}\n", text.place(text.source.lines().count())))
+                && map.starts_with("1\t"),
+            "{} has a line map",
+            program.name
+        );
+        std::fs::write(folder.join(format!("{}.lines", program.name)), map).expect("the line map");
+    }
+}
+
 /// The picture needs only what WebGL2 also has: no storage buffers or textures in programs that draw.
 #[test]
 fn drawing_uses_no_storage() {

@@ -251,7 +251,7 @@ impl Studio {
 }
 
 /// Everything for one picture, so that drawing it borrows nothing.
-struct Shot {
+pub(super) struct Shot {
     gpu: Gpu,
     passes: Arc<Passes>,
     subject: Arc<SubjectTextures>,
@@ -261,7 +261,7 @@ struct Shot {
 }
 
 impl Shot {
-    fn new(
+    pub(super) fn new(
         studio: &Studio,
         illustration: &Illustration,
         size: [u32; 2],
@@ -292,7 +292,8 @@ impl Shot {
         })
     }
 
-    async fn develop(self, samples: u32) -> Result<Image, RenderError> {
+    /// Draws it, from the start each time.
+    pub(super) async fn develop(&self, samples: u32) -> Result<Image, RenderError> {
         let linear = Target::new(&self.gpu, "linear", self.size, LINEAR_FORMAT);
         let output = Target::new(&self.gpu, "image", self.size, OUTPUT_FORMAT);
         let pipeline = self.passes.raycast(&self.gpu, self.prepared.key(false));

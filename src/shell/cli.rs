@@ -839,7 +839,7 @@ fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
             .map(|row| {
                 json!({
                     "name": row.name, "templates": row.template_count, "grid": row.has_grid,
-                    "ms": row.seconds * 1e3, "ratio": row.ratio, "grid_gain": row.grid_gain,
+                    "ms": row.seconds * 1e3, "making_ms": row.making_seconds * 1e3, "ratio": row.ratio, "grid_gain": row.grid_gain,
                 })
             })
             .collect();
