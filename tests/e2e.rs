@@ -526,6 +526,30 @@ fn embedded_viewer_walks_its_steps() {
                 "the step is seen"
             );
         }
+        // What the step sets, set by the page itself, is the same picture.
+        let set = |pointer: &str, value: &str| {
+            format!(
+                "(() => {{ try {{ {root}.setParam('{pointer}', {value}); return ''; }} catch (e) {{ return String(e); }} }})()"
+            )
+        };
+        tab.eval::<bool>(&format!("({root}.previous(), true)"))
+            .await;
+        let refused: String = tab.eval(&set("/templates/0/params/amount", "'wide'")).await;
+        assert!(
+            refused.contains("/templates/0/params/amount"),
+            "a wrong type is refused: {refused}"
+        );
+        let accepted: String = tab.eval(&set("/templates/0/params/amount", "0.3")).await;
+        assert_eq!(accepted, "", "a value is taken");
+        tokio::time::sleep(Duration::from_secs(8)).await;
+        let by_page: String = tab.eval(&picture).await;
+        let by_page = decode(&by_page);
+        assert_eq!(by_page.dimensions(), after.dimensions());
+        let apart = difference(&by_page, &after, WHITE).mean;
+        assert!(
+            apart < 0.5,
+            "the page's own value draws what the step draws: {apart}"
+        );
         tab.assert_no_complaints().await;
         let kept: u32 = tab.eval("localStorage.length").await;
         assert_eq!(kept, 0, "an embedded viewer keeps nothing");
@@ -553,6 +577,20 @@ fn embedded_viewer_without_webgpu_gives_words() {
             .eval("!document.getElementById('it').shadowRoot.querySelector('.poster').hidden")
             .await;
         assert!(poster, "the poster is shown");
+
+        // A lazy one far down the page fetches nothing before it comes near.
+        let mut page = b"<div style=\"height: 4000px\"></div>".to_vec();
+        page.extend(embedding_page("loading=\"lazy\""));
+        session.server.add("long.html", page);
+        let tab = session.open("long.html").await;
+        tokio::time::sleep(Duration::from_secs(2)).await;
+        let fetched =
+            "performance.getEntriesByType('resource').filter(e => e.name.endsWith('.wasm')).length";
+        assert_eq!(tab.eval::<u32>(fetched).await, 0, "nothing is fetched yet");
+        tab.eval::<bool>("(document.getElementById('it').scrollIntoView(), true)")
+            .await;
+        tab.wait_until(&format!("({words}).includes('WebGPU')"), 60)
+            .await;
     });
 }
 

@@ -259,6 +259,18 @@ impl App {
                 Message::Notice { message, details } => {
                     self.state.say(Gravity::Warning, message, details)
                 }
+                // For who writes shaders, and so in English, as the compiler's words are.
+                #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+                Message::ShadersChanged => {
+                    match self.picture.as_mut().map(Picture::reload_shaders) {
+                        Some(Err(error)) => {
+                            let text = "A shader does not compile; the last good ones stay";
+                            self.state.say(Gravity::Error, text, error.to_string());
+                        }
+                        Some(Ok(())) => self.state.say(Gravity::Success, "Shaders reloaded", ""),
+                        None => {}
+                    }
+                }
             }
         }
     }

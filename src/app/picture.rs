@@ -83,6 +83,13 @@ impl Picture {
         }
     }
 
+    /// Takes the shaders from their files again.
+    #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+    pub(crate) fn reload_shaders(&mut self) -> Result<(), RenderError> {
+        self.state.is_done = false;
+        self.renderer.reload_shaders()
+    }
+
     pub(crate) fn gpu(&self) -> &Gpu {
         self.renderer.gpu()
     }

@@ -103,6 +103,9 @@ pub enum Message {
     Pasted(Option<String>),
     /// The name under which the file was saved, or why it was not; an empty reason means that the user thought better of it.
     Saved(Result<String, String>),
+    /// A shader file was changed; only debug builds ever say so.
+    #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+    ShadersChanged,
     /// Something to tell the user.
     Notice {
         /// One line in plain words.

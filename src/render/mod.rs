@@ -14,6 +14,8 @@ mod picture;
 mod probe;
 pub mod programs;
 mod readback;
+#[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+mod reload;
 mod renderer;
 mod scene;
 mod slice;
@@ -30,6 +32,8 @@ pub use look::{TABLE_SIZE, TransferTable, auto_preset, linear_color, linear_from
 pub use picture::{Image, PendingPick, Pick, Studio, encode_png, render_image};
 pub use probe::{Probe, Sample};
 pub use readback::{Readback, WorkDone};
+#[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+pub use reload::watch_shaders;
 #[cfg(not(target_arch = "wasm32"))]
 pub use renderer::system_clock;
 pub use renderer::{Clock, DrawState, Renderer};

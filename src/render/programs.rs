@@ -257,9 +257,13 @@ impl Assembled {
         for path in program.files {
             let file = file(path).ok_or_else(|| RenderError::NoSuchProgram((*path).to_owned()))?;
             starts.push((line, file.path));
-            source.push_str(file.source);
+            #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+            let text = super::reload::text_of(file);
+            #[cfg(not(all(debug_assertions, not(target_arch = "wasm32"))))]
+            let text = file.source;
+            source.push_str(&text);
             source.push('\n');
-            line += file.source.matches('\n').count() + 1;
+            line += text.matches('\n').count() + 1;
         }
         Ok(Self { source, starts })
     }

@@ -443,6 +443,25 @@ impl Renderer {
         }
     }
 
+    /// Takes the shaders from their files again, for whoever is changing them. With an error all stays as it was.
+    ///
+    /// # Errors
+    /// [`RenderError::Shader`] with file and line.
+    #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+    pub fn reload_shaders(&mut self) -> Result<(), RenderError> {
+        super::reload::check_programs()?;
+        let passes = Arc::new(Passes::new(&self.gpu)?);
+        if let Some(studio) = &mut self.studio {
+            studio.passes = Arc::clone(&passes);
+        }
+        self.passes = Some(passes);
+        self.slice_passes = None;
+        self.prepared = None;
+        self.slices.forget();
+        self.touch();
+        Ok(())
+    }
+
     fn passes(&mut self) -> Result<Arc<Passes>, RenderError> {
         if let Some(passes) = &self.passes {
             return Ok(Arc::clone(passes));

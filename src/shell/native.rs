@@ -85,6 +85,8 @@ pub fn view(opening: Opening) -> Result<(), WindowError> {
             }
         }
         let mut services = NativeServices::new(cc.egui_ctx.clone(), limits, opening.folder);
+        #[cfg(debug_assertions)]
+        services.watch_shaders();
         let document = opening.document.as_ref();
         let said = document.and_then(|document| document.illustration().subject.reading());
         let reading = opening.reading.over(said);
@@ -178,6 +180,17 @@ impl NativeServices {
             next_ticket: 1,
             known: Arc::default(),
         }
+    }
+
+    /// Tells the app when a shader file changes, as long as there is a window.
+    #[cfg(debug_assertions)]
+    fn watch_shaders(&self) {
+        let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
+        crate::render::watch_shaders(move || {
+            let is_open = sender.send(Message::ShadersChanged).is_ok();
+            ctx.request_repaint();
+            is_open
+        });
     }
 
     fn say(&self, message: Message) {
@@ -394,7 +407,9 @@ impl Services for NativeServices {
         let dialog = rfd::AsyncFileDialog::new()
             .add_filter(
                 "Scans and illustrations",
-                &["nii", "gz", "hdr", "img", "json"],
+                &[
+                    "nii", "gz", "hdr", "img", "nrrd", "nhdr", "mha", "mhd", "raw", "json",
+                ],
             )
             .add_filter("All files", &["*"])
             .pick_file();
