@@ -15,7 +15,8 @@ const FARTHEST: f32 = 64.0;
 pub fn deformed_bounds(templates: &[PlacedTemplate], at_rest: Aabb) -> Aabb {
     let mut object = at_rest;
     let mut group: Vec<&PlacedTemplate> = Vec::new();
-    for template in templates.iter().filter(|t| t.enabled) {
+    let acting: Vec<PlacedTemplate> = templates.iter().map(PlacedTemplate::acting).collect();
+    for template in acting.iter().filter(|t| t.enabled) {
         if template.mode == TemplateMode::Compose || group.is_empty() {
             object = after(&group, object);
             group.clear();
@@ -30,7 +31,8 @@ pub fn deformed_bounds(templates: &[PlacedTemplate], at_rest: Aabb) -> Aabb {
 
 /// An upper bound of how far a template moves any material of a box (subject space), subject units.
 pub fn max_displacement(template: &PlacedTemplate, object: Aabb) -> f32 {
-    let shift = shift(template, object);
+    let template = template.acting();
+    let shift = shift(&template, object);
     if shift.is_empty() {
         return 0.0;
     }

@@ -19,8 +19,48 @@ const COARSE_STEPS: usize = 96;
 /// Halvings of the interval about the best coarse value: past f32's resolution of any range.
 const REFINEMENTS: usize = 24;
 
-/// The handle of a template; `None` if its kind has no main parameter.
+/// Below this amount a handle stands where it would at the whole amount: a drag could not be divided by it.
+const LEAST_AMOUNT: f32 = 0.01;
+
+/// The template as it is held, with the amount that is worked into it.
+fn held(template: &PlacedTemplate) -> (PlacedTemplate, f32) {
+    if template.amount < LEAST_AMOUNT {
+        let whole = PlacedTemplate {
+            amount: 1.0,
+            ..template.clone()
+        };
+        return (whole, 1.0);
+    }
+    (template.acting(), template.amount)
+}
+
+/// The value to be set so that at this amount it acts as given.
+fn set_from_acting(template: &PlacedTemplate, acting: ParamValue, amount: f32) -> ParamValue {
+    let spec = template.kind.spec();
+    let kind = spec.main_param.and_then(|i| spec.params.get(i));
+    match (acting, kind.map(|spec| spec.kind)) {
+        (ParamValue::Number(value), Some(ParamKind::Number { min, max, .. })) => {
+            ParamValue::Number((value / amount).clamp(min, max))
+        }
+        (
+            ParamValue::Vector(value),
+            Some(ParamKind::Vector {
+                min,
+                max,
+                max_length,
+                ..
+            }),
+        ) => {
+            let clamped = (value / amount).clamp(Vec3::splat(min), Vec3::splat(max));
+            ParamValue::Vector(clamped.clamp_length_max(max_length))
+        }
+        (other, _) => other,
+    }
+}
+
+/// The handle of a template, as much as it does; `None` if its kind has no main parameter.
 pub fn handle(template: &PlacedTemplate) -> Option<Handle> {
+    let (template, _) = &held(template);
     let param = template.kind.spec().main_param?;
     let at = match &facts_of(template.kind).grip {
         Grip::None => return None,
@@ -51,7 +91,9 @@ pub fn handle(template: &PlacedTemplate) -> Option<Handle> {
 
 /// The main parameter's value that puts the handle nearest to a point (subject space).
 pub fn dragged(template: &PlacedTemplate, to: Vec3) -> Option<ParamValue> {
-    nearest(template, to, |pos| pos.distance_squared(to))
+    let (acting, amount) = held(template);
+    let value = nearest(&acting, to, |pos| pos.distance_squared(to))?;
+    Some(set_from_acting(&acting, value, amount))
 }
 
 /// The main parameter's value that puts the handle nearest to a ray, such as the one under the pointer (subject space). A vector moves
@@ -62,12 +104,14 @@ pub fn dragged_along_ray(
     direction: Vec3,
 ) -> Option<ParamValue> {
     let direction = direction.try_normalize()?;
-    let at = handle(template)?.at;
+    let (acting, amount) = held(template);
+    let at = handle(&acting)?.at;
     let on_plane = origin + direction * (at - origin).dot(direction);
-    nearest(template, on_plane, |pos| {
+    let value = nearest(&acting, on_plane, |pos| {
         let from = pos - origin;
         (from - direction * from.dot(direction)).length_squared()
-    })
+    })?;
+    Some(set_from_acting(&acting, value, amount))
 }
 
 /// Puts a value into the main parameter.
@@ -193,6 +237,31 @@ mod tests {
                 set_main(&mut template, ParamValue::Number(b));
                 let now = handle(&template).expect("still a handle").at;
                 assert!(now.distance(to) < 0.01, "{kind:?}: {now} is not at {to}");
+            }
+        }
+    }
+
+    #[test]
+    fn at_half_the_amount_the_handle_is_where_the_tissue_is() {
+        for kind in TemplateKind::ALL {
+            let (whole, _) = icon(kind);
+            let half = PlacedTemplate {
+                amount: 0.5,
+                ..whole.clone()
+            };
+            let (Some(grip), Some(far)) = (handle(&half), handle(&whole)) else {
+                continue;
+            };
+            assert!(grip.at.distance(far.at) > 1e-4, "{kind:?} does not move");
+            let (a, b) = (half.params[grip.param], dragged(&half, grip.at));
+            match (a, b.expect("a value")) {
+                (ParamValue::Number(a), ParamValue::Number(b)) => {
+                    assert!((a - b).abs() < 2e-3, "{kind:?}: {a} became {b}");
+                }
+                (ParamValue::Vector(a), ParamValue::Vector(b)) => {
+                    assert!((a - b).length() < 1e-5, "{kind:?}: {a} became {b}");
+                }
+                other => panic!("{kind:?}: {other:?}"),
             }
         }
     }

@@ -29,6 +29,7 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
         params: params.collect(),
         enabled: true,
         mode: TemplateMode::Compose,
+        amount: 1.0,
         align: Align::Axis,
         constrain: None,
     };

@@ -46,7 +46,7 @@ use facts::{Facts, Given};
 
 /// What a template reaches with the parameters and the size it has, template space.
 pub fn reach(template: &PlacedTemplate) -> Reach {
-    (facts_of(template.kind).reach)(&Given::new(template))
+    (facts_of(template.kind).reach)(&Given::new(&template.acting()))
 }
 
 /// Everything known about a kind.

@@ -62,6 +62,7 @@ fn template(template: &mut Map<String, Value>) {
     drop_if(template, "at", is_numbers(&[0.0; 3]));
     drop_if(template, "rotate", is_numbers(&IDENTITY));
     drop_if(template, "size", is_numbers(&[0.5; 3]));
+    drop_if(template, "amount", is_number(1.0));
     drop_if(template, "enabled", |value| value == &Value::Bool(true));
     drop_if(template, "mode", is_text("compose"));
     if let Some(Value::Object(align)) = template.get_mut("align") {

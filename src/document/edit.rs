@@ -2,7 +2,7 @@ use super::catalogue::{ParamKind, ParamValue, TemplateKind};
 use super::error::DocumentError;
 use super::illustration::{
     Align, Background, Camera, Constrain, ConstrainBy, Label, OpacityMode, Reading, SubjectRef,
-    TemplateMode, Transfer, Window,
+    TemplateMode, Transfer, TransferPoint, Window,
 };
 use super::pointer::{self, join};
 use super::tree::Document;
@@ -75,6 +75,13 @@ pub enum Edit {
         /// Where its cube lies then.
         placement: Placement,
     },
+    /// Sets how much of a template is done.
+    SetAmount {
+        /// Which.
+        template: usize,
+        /// 0 (as if not there) to 1 (as its parameters say).
+        amount: f32,
+    },
     /// Switches a template on or off.
     SetEnabled {
         /// Which.
@@ -131,8 +138,15 @@ pub enum Edit {
         /// Each sees what the ones before it left.
         edits: Vec<Edit>,
     },
-    /// Sets opacity and colour over value.
+    /// Sets opacity and colour over value. A preset brings its own tint; listed points leave the tint as it is.
     SetTransfer(Transfer),
+    /// Lists points in place of a preset, and says how much the segments' own colours tint them.
+    SetPoints {
+        /// At absolute values, sorted.
+        points: Vec<TransferPoint>,
+        /// 0 to 1; 0 is not written.
+        tint: f32,
+    },
     /// Sets the value range of a preset.
     SetWindow(Window),
     /// Sets how opacity follows the deformation.
@@ -221,6 +235,19 @@ fn hex(color_srgb: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
+fn listed(points: &[TransferPoint]) -> Value {
+    points
+        .iter()
+        .map(|point| {
+            json!({
+                "value": rounded_value(point.value),
+                "color": hex(point.color_srgb),
+                "opacity": rounded(point.opacity),
+            })
+        })
+        .collect()
+}
+
 impl Edit {
     /// The document with the edit done.
     ///
@@ -294,6 +321,10 @@ impl Edit {
                 let size = placement.size.to_array().map(rounded_size);
                 pointer::set(root, &join(&at, "size"), json!(size))
             }
+            Self::SetAmount {
+                template: i,
+                amount,
+            } => pointer::set(root, &join(&template(i), "amount"), rounded(*amount)),
             Self::SetEnabled {
                 template: i,
                 enabled,
@@ -373,18 +404,20 @@ impl Edit {
                 let value = match transfer {
                     Transfer::Auto => json!("auto"),
                     Transfer::Preset(name) => json!(name),
-                    Transfer::Points(points) => points
-                        .iter()
-                        .map(|point| {
-                            json!({
-                                "value": rounded_value(point.value),
-                                "color": hex(point.color_srgb),
-                                "opacity": rounded(point.opacity),
-                            })
-                        })
-                        .collect(),
+                    Transfer::Points(points) => listed(points),
                 };
+                if !matches!(transfer, Transfer::Points(_)) {
+                    pointer::remove(root, "/look/tint")?;
+                }
                 pointer::set(root, "/look/transfer", value)
+            }
+            Self::SetPoints { points, tint } => {
+                if *tint > 0.0 {
+                    pointer::set(root, "/look/tint", rounded(*tint))?;
+                } else {
+                    pointer::remove(root, "/look/tint")?;
+                }
+                pointer::set(root, "/look/transfer", listed(points))
             }
             Self::SetWindow(window) => {
                 let value = match window {
@@ -509,6 +542,7 @@ impl Edit {
                 };
                 format!("{verb} {}", name_of(template))
             }
+            Self::SetAmount { template, .. } => format!("Change amount of {}", name_of(template)),
             Self::SetEnabled { template, enabled } => {
                 format!(
                     "{} {}",
@@ -528,7 +562,7 @@ impl Edit {
             Self::SetGroup { template, .. } => format!("Group {}", name_of(template)),
             Self::InsertTemplates { .. } => "Paste templates".to_owned(),
             Self::All { name, .. } => name.clone(),
-            Self::SetTransfer(_) => "Change colours".to_owned(),
+            Self::SetTransfer(_) | Self::SetPoints { .. } => "Change colours".to_owned(),
             Self::SetWindow(_) => "Change window".to_owned(),
             Self::SetOpacity(_) => "Change opacity mode".to_owned(),
             Self::SetBackground(_) => "Change background".to_owned(),
@@ -555,6 +589,7 @@ impl Edit {
                 template, param, ..
             } => format!("/templates/{template}/params/{param}"),
             Self::SetPlacement { template, .. } => format!("/templates/{template}/placement"),
+            Self::SetAmount { template, .. } => format!("/templates/{template}/amount"),
             Self::SetEnabled { template, .. } => format!("/templates/{template}/enabled"),
             Self::SetMode { template, .. } => format!("/templates/{template}/mode"),
             Self::SetAlign { template, .. } => format!("/templates/{template}/align"),
@@ -570,7 +605,7 @@ impl Edit {
                 let first = edits.first().map(Self::target).unwrap_or_default();
                 format!("{first} {name}")
             }
-            Self::SetTransfer(_) => "/look/transfer".to_owned(),
+            Self::SetTransfer(_) | Self::SetPoints { .. } => "/look/transfer".to_owned(),
             Self::SetWindow(_) => "/look/window".to_owned(),
             Self::SetOpacity(_) => "/look/opacity".to_owned(),
             Self::SetBackground(_) => "/look/background".to_owned(),

@@ -48,6 +48,7 @@ impl Illustration {
             look: Look {
                 transfer: Transfer::Auto,
                 window: Window::Auto,
+                tint: None,
                 opacity: OpacityMode::Constancy,
                 background: Background::Color([255; 3]),
             },
@@ -167,6 +168,8 @@ pub struct PlacedTemplate {
     pub placement: Placement,
     /// One value per entry of `kind.spec().params`, same order.
     pub params: Vec<ParamValue>,
+    /// How much of it is done, 0 (as if not there) to 1 (as the parameters say); see [`PlacedTemplate::acting`].
+    pub amount: f32,
     /// Off means: as if not there.
     pub enabled: bool,
     /// How it joins the one before it.
@@ -178,6 +181,55 @@ pub struct PlacedTemplate {
 }
 
 impl PlacedTemplate {
+    /// What acts: the same template with its amount worked in, the amount 1. The main parameter is taken in proportion (0 is the
+    /// identity for every kind); a move turns in proportion as well. A cut has no such parameter: a sphere grows about its
+    /// centre, the other shapes go down from the top of the box, and none of it is there at 0.
+    pub fn acting(&self) -> Self {
+        let mut acting = self.clone();
+        if self.amount >= 1.0 {
+            return acting;
+        }
+        let part = self.amount.max(0.0);
+        acting.amount = 1.0;
+        if let Some(main) = self
+            .kind
+            .spec()
+            .main_param
+            .and_then(|i| acting.params.get_mut(i))
+        {
+            *main = match *main {
+                ParamValue::Number(value) => ParamValue::Number(value * part),
+                ParamValue::Vector(value) => ParamValue::Vector(value * part),
+                other => other,
+            };
+        }
+        match self.kind {
+            TemplateKind::Move => {
+                for value in &mut acting.params {
+                    if let ParamValue::Rotation(turn) = value {
+                        *turn = Quat::IDENTITY.slerp(*turn, part);
+                    }
+                }
+            }
+            TemplateKind::Cut => {
+                const SPHERE: u32 = 1;
+                acting.enabled &= part > 0.0;
+                let size = self.placement.size;
+                // A box without a size has no inverse.
+                let part = part.max(1e-3);
+                if self.params.first() == Some(&ParamValue::Choice(SPHERE)) {
+                    acting.placement.size = size * part;
+                } else {
+                    acting.placement.size.z = size.z * part;
+                    let down = 0.5 * size.z * (1.0 - part);
+                    acting.placement.at += self.placement.rotate * Vec3::new(0.0, 0.0, down);
+                }
+            }
+            _ => {}
+        }
+        acting
+    }
+
     /// Value of a number parameter by name; 0 if there is none of that name.
     pub fn number(&self, name: &str) -> f32 {
         let found = self.kind.spec().params.iter().position(|p| p.name == name);
@@ -243,6 +295,8 @@ pub struct Look {
     pub transfer: Transfer,
     /// Value range that a preset is stretched over.
     pub window: Window,
+    /// How much the segments' own colours tint, 0 to 1; none: as the preset says, and not at all over listed points.
+    pub tint: Option<f32>,
     /// How opacity follows compression (dissertation, section 4.5.4).
     pub opacity: OpacityMode,
     /// Behind the object.

@@ -283,6 +283,7 @@ impl Reader {
                 "rotate",
                 "size",
                 "params",
+                "amount",
                 "enabled",
                 "mode",
                 "align",
@@ -302,6 +303,7 @@ impl Reader {
         let name = object.string("name")?;
         // Which templates belong together in the list; nothing that is drawn depends on it.
         object.string("group")?;
+        let amount = self.scalar(object, "amount", 1.0, [0.0, 1.0])?;
         let enabled = object.flag("enabled")?.unwrap_or(true);
         let mode = match object.text("mode")? {
             None | Some("compose") => TemplateMode::Compose,
@@ -366,6 +368,7 @@ impl Reader {
             name,
             placement,
             params: values?,
+            amount,
             enabled,
             mode,
             align,
@@ -457,7 +460,10 @@ impl Reader {
     }
 
     fn look(&mut self, object: &Object<'_>) -> Result<Look, DocumentError> {
-        self.unknown_keys(object, &["transfer", "window", "opacity", "background"]);
+        self.unknown_keys(
+            object,
+            &["transfer", "window", "tint", "opacity", "background"],
+        );
         let transfer = match object.map.get("transfer") {
             None => Transfer::Auto,
             Some(Value::String(name)) if name == "auto" => Transfer::Auto,
@@ -500,6 +506,10 @@ impl Reader {
                 }
             },
         };
+        let tint = match object.map.contains_key("tint") {
+            true => Some(self.scalar(object, "tint", 0.0, [0.0, 1.0])?),
+            false => None,
+        };
         let opacity = match object.text("opacity")? {
             None | Some("constancy") => OpacityMode::Constancy,
             Some("mass") => OpacityMode::Mass,
@@ -520,6 +530,7 @@ impl Reader {
         Ok(Look {
             transfer,
             window,
+            tint,
             opacity,
             background,
         })

@@ -127,6 +127,9 @@ pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illu
     if let (Window::Range(a), Window::Range(b)) = (start.look.window, end.look.window) {
         out.look.window = Window::Range([mix(a[0], b[0]), mix(a[1], b[1])]);
     }
+    if let (Some(a), Some(b)) = (start.look.tint, end.look.tint) {
+        out.look.tint = Some(mix(a, b));
+    }
     if let (Transfer::Points(a), Transfer::Points(b)) = (&start.look.transfer, &end.look.transfer)
         && a.len() == b.len()
     {
@@ -152,6 +155,7 @@ fn blend_template(start: &PlacedTemplate, out: &mut PlacedTemplate, part: f32) {
     out.placement.at = start.placement.at.lerp(out.placement.at, part);
     out.placement.rotate = slerp(start.placement.rotate, out.placement.rotate, part);
     out.placement.size = start.placement.size.lerp(out.placement.size, part);
+    out.amount = mix(start.amount, out.amount);
     let specs = out.kind.spec().params;
     for ((value, before), spec) in out.params.iter_mut().zip(&start.params).zip(specs) {
         *value = match (*before, *value) {

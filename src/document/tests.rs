@@ -548,3 +548,79 @@ fn how_a_file_is_read_is_kept() {
     let document = Document::from_json(odd).expect("drawn as well as can be");
     assert_eq!(document.notices().len(), 3, "{:?}", document.notices());
 }
+
+#[test]
+fn an_amount_of_nothing_is_nothing_and_of_all_is_what_is_set() {
+    for kind in TemplateKind::ALL {
+        let json = |amount: f64| {
+            document(
+                json!({ "fabrica": 1, "templates": [{ "kind": kind.spec().name, "amount": amount,
+                "params": match kind { TemplateKind::Move => json!({ "turn": [0, 0, 0.6, 0.8] }), _ => json!({}) } }] }),
+            )
+        };
+        let acting = |amount| json(amount).illustration().templates[0].acting();
+        let (none, half, all) = (acting(0.0), acting(0.5), acting(1.0));
+        assert_eq!(all.params, json(1.0).illustration().templates[0].params);
+        assert_eq!(
+            (none.amount, half.amount),
+            (1.0, 1.0),
+            "it is worked in once"
+        );
+        assert_eq!(half.acting(), half);
+        match kind
+            .spec()
+            .main_param
+            .map(|i| (none.params[i], half.params[i], all.params[i]))
+        {
+            Some((ParamValue::Number(a), ParamValue::Number(b), ParamValue::Number(c))) => {
+                assert_eq!((a, b), (0.0, c / 2.0), "{kind:?}");
+            }
+            Some((ParamValue::Vector(a), ParamValue::Vector(b), ParamValue::Vector(c))) => {
+                assert_eq!((a, b), (Vec3::ZERO, c / 2.0), "{kind:?}");
+            }
+            None => {
+                assert!(!none.enabled && half.enabled, "{kind:?}");
+                assert_eq!(half.placement.size.z, 0.5 * all.placement.size.z);
+                let top = |t: &PlacedTemplate| {
+                    t.placement.subject_from_template(Vec3::new(0.5, 0.5, 1.0))
+                };
+                assert!(
+                    top(&half).distance(top(&all)) < 1e-6,
+                    "it goes down from the top"
+                );
+            }
+            other => panic!("{kind:?}: {other:?}"),
+        }
+        if kind == TemplateKind::Move {
+            assert_eq!(none.params[1], ParamValue::Rotation(Quat::IDENTITY));
+        }
+    }
+}
+
+#[test]
+fn an_amount_is_kept_in_range_and_left_out_when_whole() {
+    let given = document(
+        json!({ "fabrica": 1, "templates": [{ "kind": "peel", "amount": 1.5 }, { "kind": "cut", "amount": 0.25 }] }),
+    );
+    let templates = &given.illustration().templates;
+    assert_eq!((templates[0].amount, templates[1].amount), (1.0, 0.25));
+    assert_eq!(given.notices().len(), 1, "{:?}", given.notices());
+    let whole = Edit::SetAmount {
+        template: 1,
+        amount: 1.0,
+    }
+    .apply(&given)
+    .expect("set");
+    assert_eq!(whole.illustration().templates[1].amount, 1.0);
+    let wrong = Document::from_json(
+        r#"{ "fabrica": 1, "templates": [{ "kind": "cut", "amount": "all" }] }"#,
+    );
+    assert!(wrong.is_err());
+    // Half way from nothing to all of it.
+    let walked = document(
+        json!({ "fabrica": 1, "templates": [{ "kind": "peel", "amount": 0 }],
+        "steps": [{ "set": { "/templates/0/amount": 1 } }] }),
+    );
+    let middle = walked.at_time(1, 0.5);
+    assert!((0.3..0.7).contains(&middle.expect("a step").templates[0].amount));
+}

@@ -151,6 +151,7 @@ fn case(subject: &SubjectRef, count: usize) -> Illustration {
             .collect(),
         enabled: true,
         mode: TemplateMode::Compose,
+        amount: 1.0,
         align: Align::Axis,
         constrain: None,
     };

@@ -87,13 +87,14 @@ impl Templates {
     /// [`MAX_TEMPLATES`] cannot come from a valid document; what is over is left out.
     pub fn pack(placed: &[PlacedTemplate]) -> Self {
         let mut packed = Self::NONE;
-        let enabled = placed.iter().filter(|t| t.enabled).take(MAX_TEMPLATES);
+        let acting = placed.iter().map(PlacedTemplate::acting);
+        let enabled = acting.filter(|t| t.enabled).take(MAX_TEMPLATES);
         let (mut count, mut group) = (0, 0);
         for (slot, template) in packed.items.iter_mut().zip(enabled) {
             if count == 0 || template.mode == TemplateMode::Compose {
                 group = count;
             }
-            *slot = Template::pack(template, group, count);
+            *slot = Template::pack(&template, group, count);
             count += 1;
         }
         packed.count[0] = count;
@@ -108,6 +109,7 @@ impl Templates {
 }
 
 impl Template {
+    /// Of one that acts ([`PlacedTemplate::acting`]).
     fn pack(placed: &PlacedTemplate, group: u32, index: u32) -> Self {
         let p = &placed.placement;
         let rotate = Mat3A::from_quat(p.rotate);

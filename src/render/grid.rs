@@ -343,7 +343,8 @@ fn plan(input: &GridInput<'_>, along: u32) -> (Grid, GridJob) {
     let cells = cells.as_uvec3();
     let spread = (LONGEST_STEP * input.step / cell_size.min_element()).ceil() as u32;
     let mut items = [GridTemplate::default(); MAX_TEMPLATES];
-    let enabled = input.placed.iter().filter(|t| t.enabled);
+    let acting: Vec<PlacedTemplate> = input.placed.iter().map(PlacedTemplate::acting).collect();
+    let enabled = acting.iter().filter(|t| t.enabled);
     for (slot, template) in items.iter_mut().zip(enabled) {
         *slot = item(template);
     }

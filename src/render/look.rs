@@ -60,6 +60,17 @@ pub fn window_of(window: Window, preset: &Preset, info: &SubjectInfo) -> [f32; 2
     }
 }
 
+/// A preset's points at the values that they stand for in a window.
+pub fn absolute_points(preset: &Preset, [low, high]: [f32; 2]) -> Vec<TransferPoint> {
+    let points = preset.points.iter();
+    points
+        .map(|p| TransferPoint {
+            value: low + p.value * (high - low),
+            ..*p
+        })
+        .collect()
+}
+
 impl TransferTable {
     /// Of a look on a subject. An unknown preset (kept in the document, named in a notice) counts as "auto".
     pub fn new(look: &Look, subject: &SubjectRef, info: &SubjectInfo) -> Self {
@@ -70,18 +81,13 @@ impl TransferTable {
             Transfer::Points(_) => None,
         };
         match (&look.transfer, named) {
-            (Transfer::Points(points), _) => Self::from_points(points, 0.0, 0.1),
+            (Transfer::Points(points), _) => {
+                Self::from_points(points, look.tint.unwrap_or(0.0), 0.1)
+            }
             (_, Some(preset)) => {
-                let [low, high] = window_of(look.window, preset, info);
-                let points: Vec<TransferPoint> = preset
-                    .points
-                    .iter()
-                    .map(|p| TransferPoint {
-                        value: low + p.value * (high - low),
-                        ..*p
-                    })
-                    .collect();
-                Self::from_points(&points, preset.tint, preset.specular)
+                let window = window_of(look.window, preset, info);
+                let points = absolute_points(preset, window);
+                Self::from_points(&points, look.tint.unwrap_or(preset.tint), preset.specular)
             }
             (_, None) => Self::from_points(&[], 0.0, 0.0),
         }

@@ -28,7 +28,10 @@ pub use feature::KeptTissue;
 pub use gpu::{Gpu, GpuOptions};
 pub use grid::GridCells;
 pub use kernel::{Binding, Kernel, result_buffer, storage_buffer, submit_and_read, uniform_buffer};
-pub use look::{TABLE_SIZE, TransferTable, auto_preset, linear_color, linear_from_srgb, window_of};
+pub use look::{
+    TABLE_SIZE, TransferTable, absolute_points, auto_preset, linear_color, linear_from_srgb,
+    window_of,
+};
 pub use picture::{Image, PendingPick, Pick, Studio, encode_png, render_image};
 pub use probe::{Probe, Sample};
 pub use readback::{Readback, WorkDone};

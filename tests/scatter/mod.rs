@@ -123,6 +123,7 @@ pub(crate) fn placed(
         params,
         enabled: true,
         mode: TemplateMode::Compose,
+        amount: 1.0,
         align: Align::Axis,
         constrain: None,
     }
