@@ -1,7 +1,7 @@
 // A flat cut through the deformed object: at each pixel of a plane the same question as in the picture, where does this come
 // from, and what is there. Nothing is marched, so a slice costs about as much as one step of the picture.
 //
-//   pixel --> subject space --> rest_from_subject --> value, label --> grey by the window, or colours of the look
+//   pixel --> subject space --> object_from_subject --> value, label --> grey by the window, or colours of the look
 //
 // needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl march/ray.wgsl displace/compose.wgsl
 
@@ -29,7 +29,7 @@ struct Here {
 
 /// What the deformed object has at a point of subject space.
 fn object_at(pos: vec3f) -> Here {
-    let mapped = rest_from_subject(pos, 0xffffffffu);
+    let mapped = object_from_subject(pos, 0xffffffffu);
     let uvw = apply_affine(
         subject.texture_from_rest_row0,
         subject.texture_from_rest_row1,

@@ -86,12 +86,13 @@ impl KeptTissue {
             align_mode: 0,
             has_constraints: false,
         };
-        let enabled: Vec<&PlacedTemplate> = templates
+        let acting: Vec<PlacedTemplate> = templates
             .iter()
+            .map(PlacedTemplate::acting)
             .filter(|t| t.enabled)
             .take(MAX_TEMPLATES)
             .collect();
-        let acting: Vec<PlacedTemplate> = enabled.iter().map(|t| (*t).clone()).collect();
+        let enabled: Vec<&PlacedTemplate> = acting.iter().collect();
         let sets = keep_sets(&acting);
         for (set, names) in sets.iter().take(MAX_KEEP_SETS).enumerate() {
             for name in names {

@@ -204,6 +204,23 @@ pub const PROGRAMS: &[Program] = &[
         files: with_displacement![
             "bind/subject.wgsl",
             "bind/look.wgsl",
+            "march/plain.wgsl",
+            "march/ray.wgsl",
+            "pass/slice.wgsl",
+        ],
+        entries: &[
+            ("cover", Stage::Vertex),
+            ("draw", Stage::Fragment),
+            ("read", Stage::Fragment),
+        ],
+    },
+    Program {
+        name: "slice_aligned",
+        files: with_displacement![
+            "bind/subject.wgsl",
+            "bind/look.wgsl",
+            "bind/feature.wgsl",
+            "march/align.wgsl",
             "march/ray.wgsl",
             "pass/slice.wgsl",
         ],

@@ -2,7 +2,9 @@
 
 use super::gpu_types::{SLICE_COLORS, SLICE_GREY, Slice};
 use super::look::linear_color;
-use super::passes::{OUTPUT_FORMAT, PICK_FORMAT, Passes, PipelineParts, render_pipeline, uniform};
+use super::passes::{
+    OUTPUT_FORMAT, PICK_FORMAT, Passes, PipelineParts, RaycastKey, render_pipeline, uniform,
+};
 use super::picture::{Image, Target, encoder, read_picture, read_texture, render_pass};
 use super::programs::module;
 use super::scene::Prepared;
@@ -10,7 +12,7 @@ use super::subject::{SubjectTextures, entry};
 use super::{Gpu, Readback, RenderError, uniform_buffer};
 use glam::{Vec2, Vec3};
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Where a slice lies: subject space from pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,7 +131,8 @@ fn texels(bytes: &[u8], [width, height]: [u32; 2], pitch: u32) -> Vec<SliceTexel
 /// What a pipeline is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 struct SliceKey {
-    drawn_kinds: u32,
+    /// What of the document the program has to hold.
+    drawn: RaycastKey,
     is_read: bool,
 }
 
@@ -138,7 +141,9 @@ struct SliceKey {
 pub(super) struct SlicePasses {
     layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
-    module: wgpu::ShaderModule,
+    plain: wgpu::ShaderModule,
+    /// For documents that keep tissue; made for the first of them.
+    aligned: OnceLock<wgpu::ShaderModule>,
     pipelines: Mutex<HashMap<SliceKey, Arc<wgpu::RenderPipeline>>>,
 }
 
@@ -167,14 +172,27 @@ impl SlicePasses {
                 immediate_size: 0,
             });
         Ok(Self {
-            module: module(gpu, "slice")?,
+            plain: module(gpu, "slice")?,
+            aligned: OnceLock::new(),
             layout,
             pipeline_layout,
             pipelines: Mutex::new(HashMap::new()),
         })
     }
 
-    fn pipeline(&self, gpu: &Gpu, key: SliceKey) -> Arc<wgpu::RenderPipeline> {
+    fn pipeline(&self, gpu: &Gpu, key: SliceKey) -> Result<Arc<wgpu::RenderPipeline>, RenderError> {
+        let mut constants = vec![("drawn_kinds", f64::from(key.drawn.drawn_kinds))];
+        let mut program = &self.plain;
+        if key.drawn.keeps_tissue() {
+            constants.extend(key.drawn.align_constants());
+            program = match self.aligned.get() {
+                Some(made) => made,
+                None => {
+                    let made = module(gpu, "slice_aligned")?;
+                    self.aligned.get_or_init(|| made)
+                }
+            };
+        }
         let mut made = self
             .pipelines
             .lock()
@@ -185,9 +203,9 @@ impl SlicePasses {
                 &PipelineParts {
                     label: "slice",
                     layout: &self.pipeline_layout,
-                    module: &self.module,
+                    module: program,
                     entry: if key.is_read { "read" } else { "draw" },
-                    constants: &[("drawn_kinds", f64::from(key.drawn_kinds))],
+                    constants: &constants,
                     format: if key.is_read {
                         PICK_FORMAT
                     } else {
@@ -197,7 +215,7 @@ impl SlicePasses {
                 },
             ))
         });
-        Arc::clone(pipeline)
+        Ok(Arc::clone(pipeline))
     }
 }
 
@@ -216,12 +234,12 @@ impl SliceScene<'_> {
         target: &wgpu::TextureView,
         slice: &Slice,
         is_read: bool,
-    ) {
+    ) -> Result<(), RenderError> {
         let key = SliceKey {
-            drawn_kinds: self.prepared.key(false).drawn_kinds,
+            drawn: self.prepared.key(false),
             is_read,
         };
-        let pipeline = self.passes.pipeline(self.gpu, key);
+        let pipeline = self.passes.pipeline(self.gpu, key)?;
         let buffer = uniform_buffer(self.gpu, "slice", slice);
         let group = self
             .gpu
@@ -237,6 +255,7 @@ impl SliceScene<'_> {
         pass.set_bind_group(2, &self.prepared.scene.bind_group, &[]);
         pass.set_bind_group(3, &group, &[]);
         pass.draw(0..3, 0..1);
+        Ok(())
     }
 
     /// Starts reading the numbers of a slice.
@@ -253,7 +272,7 @@ impl SliceScene<'_> {
             PICK_FORMAT,
         );
         let mut encoder = encoder(self.gpu);
-        self.encode(&mut encoder, &target.view, &uniform_of(plane), true);
+        self.encode(&mut encoder, &target.view, &uniform_of(plane), true)?;
         let pitch = (32 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         Ok(PendingSlice {
             reading: read_texture(self.gpu, encoder, &target.texture, pitch),
@@ -354,7 +373,7 @@ impl SliceBoard {
             ..uniform_of(&view.plane)
         };
         let mut encoder = encoder(scene.gpu);
-        scene.encode(&mut encoder, &place.target.view, &slice, false);
+        scene.encode(&mut encoder, &place.target.view, &slice, false)?;
         scene.gpu.queue.submit([encoder.finish()]);
         place.shown = shown;
         Ok(true)
