@@ -3,6 +3,8 @@
 //! With `FABRICA_LOOK_AT=folder` the windows are written there as PNG, to be looked at.
 #![cfg(feature = "app")]
 
+#[path = "app/looking.rs"]
+mod looking;
 #[path = "app/making.rs"]
 mod making;
 

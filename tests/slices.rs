@@ -41,12 +41,12 @@ const DEFORMED: &str = r#"{ "fabrica": 1, "subject": { "builtin": "head" }, "tem
     { "kind": "cut", "at": [0.25, 0, 0.2], "size": [0.25, 0.3, 0.4] },
     { "kind": "twist", "at": [0, 0, -0.1], "size": [0.9, 0.9, 0.6], "params": { "angle": 0.6 } } ] }"#;
 
-/// A flap of skin over what is kept, and a hole that gives way to the brain.
+/// A flap and a retractor that leave the skull alone.
 const KEPT: &str = r#"{ "fabrica": 1, "subject": { "builtin": "head" }, "templates": [
     { "kind": "flap", "at": [0, 0.35, 0.15], "rotate": [-0.7071068, 0, 0, 0.7071068], "size": [0.4, 0.4, 0.3],
-      "amount": 0.6, "align": { "to": "segment", "keep": ["skull", "brain"] } },
+      "amount": 0.6, "align": { "to": "segment", "keep": ["bone"] } },
     { "kind": "retractor", "at": [0.25, 0, 0.2], "size": [0.4, 0.5, 0.4], "amount": 0.5,
-      "align": { "to": "segment", "keep": ["skull"] } } ] }"#;
+      "align": { "to": "segment", "keep": ["bone"] } } ] }"#;
 
 fn volume(name: &str, resolution: u32) -> Volume {
     let mut builder = VolumeBuilder::new();

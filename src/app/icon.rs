@@ -22,6 +22,7 @@ pub(crate) enum Icon {
     Help,
     Contrast,
     Home,
+    Magnifier,
     More,
     Layers,
     Look,
@@ -177,6 +178,12 @@ impl Icon {
             Self::Home => &[
                 Line(&[(3.5, 11.8), (12.0, 4.5), (20.5, 11.8)]),
                 Line(&[(6.0, 10.5), (6.0, 19.5), (18.0, 19.5), (18.0, 10.5)]),
+            ],
+            Self::Magnifier => &[
+                Circle(10.5, 10.5, 6.0),
+                Line(&[(15.0, 15.0), (20.5, 20.5)]),
+                Line(&[(7.8, 10.5), (13.2, 10.5)]),
+                Line(&[(10.5, 7.8), (10.5, 13.2)]),
             ],
             Self::More => &[
                 Dot(5.5, 12.0, 1.6),

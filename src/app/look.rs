@@ -1,22 +1,24 @@
 //! Colours and light: preset, window, opacity, background.
 
-use egui::{DragValue, RangeSlider, Ui, vec2};
+use egui::{DragValue, Ui, vec2};
 
 use super::command::Command;
-use super::control::{self, Change};
+use super::control::{self, Change, NumberRow};
 use super::icon::Icon;
 use super::state::State;
 use super::templates::command;
 use super::theme::{CONTROL_HEIGHT, Palette};
-use super::words::look::{Look, w};
+use super::transfer::{self, Editor};
+use super::words::look::{Look as Words, w};
+use super::words::transfer::w as transfer_words;
 use super::words::{fill, names};
 use crate::document::{
-    Background, Edit, OpacityMode, Preset, Transfer, TransferPoint, Window, preset, presets,
+    Background, Edit, Look, OpacityMode, Preset, Transfer, Window, preset, presets,
 };
 use crate::render::{SubjectInfo, auto_preset, window_of};
 
 /// Backgrounds at a click: paper, warm paper, grey, slate, black.
-const BACKGROUNDS: [([u8; 3], fn(&Look) -> &'static str); 5] = [
+const BACKGROUNDS: [([u8; 3], fn(&Words) -> &'static str); 5] = [
     ([255, 255, 255], |w| w.white),
     ([246, 241, 231], |w| w.paper),
     ([200, 204, 208], |w| w.grey),
@@ -29,19 +31,27 @@ pub(crate) fn ui(
     ui: &mut Ui,
     state: &State,
     info: Option<&SubjectInfo>,
+    editor: &mut Editor,
     commands: &mut Vec<Command>,
 ) {
     let look = &state.illustration().look;
     control::heading(ui, w().heading, |_| {});
     let auto = info.map(|info| auto_preset(&state.illustration().subject, info));
-    transfer_ui(ui, &look.transfer, auto, commands);
+    transfer_ui(ui, &look.transfer, info, auto, commands);
+    // Listed points ignore the window; what it is then is for the grey of slices.
     let name = match &look.transfer {
-        Transfer::Auto => auto,
         Transfer::Preset(name) => Some(name.as_str()),
-        Transfer::Points(_) => None,
+        Transfer::Auto | Transfer::Points(_) => auto,
     };
     if let (Some(info), Some(preset)) = (info, name.and_then(preset)) {
-        window_ui(ui, look.window, preset, info, commands);
+        let window = window_of(look.window, preset, info);
+        let is_listed = matches!(look.transfer, Transfer::Points(_));
+        let stretched = (!is_listed).then_some(preset);
+        editor.ui(ui, state, info, stretched, window, commands);
+        window_ui(ui, look.window, window, info, commands);
+        if info.has_segments {
+            tint_ui(ui, look, stretched, commands);
+        }
     }
     control::divider(ui);
     control::heading(ui, w().opacity_heading, |_| {});
@@ -64,7 +74,13 @@ pub(crate) fn ui(
     background_ui(ui, look.background, commands);
 }
 
-fn transfer_ui(ui: &mut Ui, transfer: &Transfer, auto: Option<&str>, commands: &mut Vec<Command>) {
+fn transfer_ui(
+    ui: &mut Ui,
+    transfer: &Transfer,
+    info: Option<&SubjectInfo>,
+    auto: Option<&str>,
+    commands: &mut Vec<Command>,
+) {
     let title = |name: &str| {
         presets()
             .iter()
@@ -93,99 +109,38 @@ fn transfer_ui(ui: &mut Ui, transfer: &Transfer, auto: Option<&str>, commands: &
             {
                 commands.push(Command::Apply(Edit::SetTransfer(Transfer::Auto)));
             }
-            for preset in presets() {
-                let is_selected = matches!(transfer, Transfer::Preset(name) if name == preset.name);
-                if ui
-                    .selectable_label(is_selected, names::preset(preset.name, preset.title))
-                    .clicked()
-                {
-                    let transfer = Transfer::Preset(preset.name.to_owned());
-                    commands.push(Command::Apply(Edit::SetTransfer(transfer)));
+            for (title, presets) in transfer::grouped_presets(info) {
+                transfer::group_heading(ui, title);
+                for preset in presets {
+                    let is_selected =
+                        matches!(transfer, Transfer::Preset(name) if name == preset.name);
+                    let title = names::preset(preset.name, preset.title);
+                    if ui.selectable_label(is_selected, title).clicked() {
+                        let transfer = Transfer::Preset(preset.name.to_owned());
+                        commands.push(Command::Apply(Edit::SetTransfer(transfer)));
+                    }
                 }
             }
         });
         shown.response.accessible_name(w().colours);
     });
-    if let Transfer::Points(points) = transfer {
-        points_ui(ui, points, commands);
-    }
 }
 
-/// Listed points: value, colour, opacity.
-fn points_ui(ui: &mut Ui, points: &[TransferPoint], commands: &mut Vec<Command>) {
-    let send = |points: Vec<TransferPoint>, is_drag: bool| {
-        let edit = Edit::SetTransfer(Transfer::Points(points));
-        if is_drag {
-            Command::Drag(edit)
-        } else {
-            Command::Apply(edit)
-        }
-    };
-    for (i, point) in points.iter().enumerate() {
-        control::row(ui, |ui| {
-            let mut edited = *point;
-            let color = ui.color_edit_button_srgb(&mut edited.color_srgb);
-            let color = color.accessible_name(fill(w().colour_n, &[&(i + 1)]));
-            let value = ui.add_sized(
-                vec2(76.0, CONTROL_HEIGHT),
-                DragValue::new(&mut edited.value).speed(2.0).max_decimals(2),
-            );
-            let value = value
-                .accessible_name(fill(w().value_n, &[&(i + 1)]))
-                .on_hover_text(w().value);
-            let field = DragValue::new(&mut edited.opacity)
-                .range(0.0..=1.0)
-                .speed(0.005)
-                .max_decimals(3);
-            let opacity = ui.add_sized(vec2(60.0, CONTROL_HEIGHT), field);
-            let opacity = opacity
-                .accessible_name(fill(w().opacity_n, &[&(i + 1)]))
-                .on_hover_text(w().opacity_hint);
-            if color.changed() || value.changed() || opacity.changed() {
-                let is_drag = value.is_pointer_button_down_on()
-                    || opacity.is_pointer_button_down_on()
-                    || color.changed();
-                let mut points = points.to_vec();
-                points[i] = edited;
-                commands.push(send(points, is_drag));
-            }
-            let name = fill(w().remove_point, &[&(i + 1)]);
-            if control::icon_button(ui, Icon::Close, &name, points.len() > 1).clicked() {
-                let mut points = points.to_vec();
-                points.remove(i);
-                commands.push(send(points, false));
-            }
-        });
-    }
-    if control::labelled_button(ui, Icon::Plus, w().add_point, false, points.len() < 64).clicked() {
-        let mut points = points.to_vec();
-        if let Some(last) = points.last().copied() {
-            points.push(TransferPoint {
-                value: last.value + 100.0,
-                ..last
-            });
-        }
-        commands.push(send(points, false));
-    }
-}
-
+/// Both ends of the window as numbers; the handles are in the plot.
 fn window_ui(
     ui: &mut Ui,
     window: Window,
-    preset: &Preset,
+    shown: [f32; 2],
     info: &SubjectInfo,
     commands: &mut Vec<Command>,
 ) {
-    let shown = window_of(window, preset, info);
     let [low, high] = info.value_range;
-    let (low, high) = (low.min(shown[0]), high.max(shown[1]));
-    let span = (high - low).max(1e-6);
+    let span = (high.max(shown[1]) - low.min(shown[0])).max(1e-6);
     let mut edited = shown;
     let mut result: Option<Change<[f32; 2]>> = None;
     control::row(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         control::row_label(ui, w().window, w().window_hint);
-        let width = 66.0;
         let decimals = if span > 50.0 { 0 } else { 3 };
         for (i, name) in [w().window_from, w().window_to].into_iter().enumerate() {
             let field = DragValue::new(&mut edited[i])
@@ -194,7 +149,7 @@ fn window_ui(
                 .custom_formatter(|value, _| control::plain(value, decimals))
                 .update_while_editing(false);
             let field = ui
-                .add_sized(vec2(width, CONTROL_HEIGHT), field)
+                .add_sized(vec2(66.0, CONTROL_HEIGHT), field)
                 .accessible_name(name)
                 .on_hover_text(name);
             if let Some(change) = control::change(&field, edited) {
@@ -207,16 +162,6 @@ fn window_ui(
             commands.push(Command::Apply(Edit::SetWindow(Window::Auto)));
         }
     });
-    let [mut from, mut to] = shown;
-    let width = ui.available_width();
-    let slider = control::slim(ui, width, |ui| {
-        ui.name_inputs(w().window_slider, |ui| {
-            ui.add(RangeSlider::new(&mut from, &mut to, low..=high).show_value(false))
-        })
-    });
-    if let Some(change) = control::change(&slider, [from, to]) {
-        result = Some(change);
-    }
     let tolerance = span * 1e-5;
     let is_new =
         |[from, to]: &[f32; 2]| (from - shown[0]).abs().max((to - shown[1]).abs()) > tolerance;
@@ -225,6 +170,27 @@ fn window_ui(
         let edit =
             |[from, to]: [f32; 2]| Edit::SetWindow(Window::Range([from, to.max(from + least)]));
         commands.push(command(change.map(edit)));
+    }
+}
+
+/// How much the segments' own colours show.
+fn tint_ui(ui: &mut Ui, look: &Look, preset: Option<&Preset>, commands: &mut Vec<Command>) {
+    let own = preset.map_or(0.0, |preset| preset.tint);
+    let row = NumberRow {
+        name: transfer_words().tint,
+        summary: transfer_words().tint_hint,
+        value: f64::from(look.tint.unwrap_or(own)) * 100.0,
+        default: look.tint.is_some().then_some(f64::from(own) * 100.0),
+        range: [0.0, 100.0],
+        unit: " %",
+        decimals: 0,
+    };
+    if let Some(change) = row.ui(ui) {
+        commands.push(command(change.map(|percent| Edit::Set {
+            pointer: "/look/tint".to_owned(),
+            value: (percent.round() / 100.0).into(),
+            name: "Change tint".to_owned(),
+        })));
     }
 }
 

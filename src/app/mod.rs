@@ -7,7 +7,7 @@
 //! | `services` | what the shell does for the app, and what comes back |
 //! | `viewport`, `camera`, `gizmo`, `orientation` | the picture and what the hand does on it |
 //! | `picture`, `icons` | the renderer, its texture, questions to it; the catalogue's pictures |
-//! | `topbar`, `catalogue`, `templates`, `look`, `text`, `notice`, `keys` | one panel each |
+//! | `topbar`, `catalogue`, `templates`, `look` with `transfer` and `transfer_plot`, `text`, `notice`, `keys` | one panel each |
 //! | `words/` | every text of the interface in every language, a table per panel |
 //! | `theme`, `control`, `icon` | colours and type, the common controls, drawn icons |
 //!
@@ -36,6 +36,8 @@ mod templates;
 mod text;
 mod theme;
 mod topbar;
+mod transfer;
+mod transfer_plot;
 mod viewport;
 mod words;
 
@@ -52,7 +54,7 @@ use self::state::{Gravity, State, Tab};
 use self::theme::Palette;
 use self::viewport::Viewport;
 use self::words::fill;
-use crate::data::{VolumeBuilder, VolumeSink as _};
+use crate::data::{Statistics, VolumeBuilder, VolumeSink as _};
 use crate::document::Document;
 use crate::render::Clock;
 
@@ -98,6 +100,10 @@ pub struct App {
     is_narrow: bool,
     /// The volume that is arriving.
     incoming: Option<VolumeBuilder>,
+    /// Its values, counted as they arrive.
+    statistics: Statistics,
+    /// The plot of the transfer function.
+    transfer: transfer::Editor,
 }
 
 /// What has been said aloud so far.
@@ -155,6 +161,8 @@ impl App {
             wants_shown_size: false,
             is_narrow: false,
             incoming: None,
+            statistics: Statistics::new(),
+            transfer: transfer::Editor::default(),
         }
     }
 
@@ -297,12 +305,16 @@ impl App {
             LoadEvent::Begin(header) => {
                 let mut builder = VolumeBuilder::new();
                 match builder.begin(&header) {
-                    Ok(()) => self.incoming = Some(builder),
+                    Ok(()) => {
+                        self.incoming = Some(builder);
+                        self.statistics = Statistics::new();
+                    }
                     Err(why) => self.refuse(words::said::w().cannot_be_held, why),
                 }
             }
             LoadEvent::Scalars(scalars) => {
                 if let Some(builder) = &mut self.incoming {
+                    self.statistics.add(&scalars);
                     builder.scalars(scalars);
                 }
             }
@@ -356,6 +368,8 @@ impl App {
         };
         match builder.finish() {
             Ok(volume) => {
+                let histogram = self.statistics.histogram(volume.slope, volume.intercept);
+                self.transfer.set_histogram(histogram);
                 let volume = Arc::new(volume);
                 let shown = self
                     .picture
@@ -386,6 +400,8 @@ impl App {
         self.state.making.is_alone = ui.input(|i| i.modifiers.shift);
         let mut commands = Vec::new();
         self.keys(ui, &mut commands);
+        // Said anew by whoever is shown in this frame.
+        self.transfer.has_keyboard = false;
 
         self.is_narrow = ui.available_width() < NARROW;
         if self.is_narrow {
@@ -461,6 +477,11 @@ impl App {
             let is_plain = !shortcut.keys.modifiers.command;
             // Letters belong to a text field, arrows to whatever control has the keyboard.
             if is_plain && (is_typing || (viewport::is_widget_key(key) && !has_arrows)) {
+                continue;
+            }
+            // A point of the transfer function is removed by the same keys as a template.
+            let is_delete = matches!(key, egui::Key::Delete | egui::Key::Backspace);
+            if is_delete && self.transfer.has_keyboard {
                 continue;
             }
             if is_sheet_open && !matches!(shortcut.command, Command::ToggleKeys | Command::Escape) {
@@ -681,7 +702,7 @@ impl App {
             Tab::Add | Tab::Templates => templates::ui(ui, &self.state, commands),
             Tab::Look => {
                 let info = self.picture.as_ref().and_then(Picture::subject_info);
-                look::ui(ui, &self.state, info.as_ref(), commands);
+                look::ui(ui, &self.state, info.as_ref(), &mut self.transfer, commands);
             }
             Tab::Text => text::ui(ui, &self.state, commands),
         }

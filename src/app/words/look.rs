@@ -17,10 +17,9 @@ words! {
         remove_point: "Remove point {0}", "Punkt {0} entfernen", "Quitar el punto {0}", "移除点 {0}";
         add_point: "Add a point", "Punkt hinzufügen", "Añadir un punto", "添加点";
         window: "Window", "Fenster", "Ventana", "窗宽窗位";
-        window_hint: "The values over which the colours are spread", "Die Werte, über die sich die Farben verteilen", "Los valores entre los que se reparten los colores", "颜色所覆盖的数值范围";
+        window_hint: "The values over which a preset's colours are spread, and the grey of slices", "Die Werte, über die sich die Farben einer Vorlage und das Grau der Schnitte verteilen", "Los valores entre los que se reparten los colores de un ajuste y el gris de los cortes", "预设颜色和切片灰度所覆盖的数值范围";
         window_from: "Window from", "Fenster von", "Ventana desde", "窗口下限";
         window_to: "Window to", "Fenster bis", "Ventana hasta", "窗口上限";
-        window_slider: "Window slider", "Fenster-Regler", "Control de ventana", "窗口滑块";
         reset_window: "Reset window", "Fenster zurücksetzen", "Restablecer la ventana", "重置窗口";
         opacity_heading: "Opacity under deformation", "Deckkraft bei Verformung", "Opacidad al deformar", "变形时的不透明度";
         opacity: "Opacity", "Deckkraft", "Opacidad", "不透明度";

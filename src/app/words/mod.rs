@@ -42,6 +42,7 @@ pub(crate) mod picture;
 pub(crate) mod said;
 pub(crate) mod templates;
 pub(crate) mod text;
+pub(crate) mod transfer;
 
 /// A language of the interface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -241,6 +242,7 @@ mod tests {
             said::LINES,
             templates::LINES,
             text::LINES,
+            transfer::LINES,
         ];
         let mut count = 0;
         for (key, line) in tables.into_iter().flatten() {

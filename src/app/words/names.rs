@@ -26,6 +26,7 @@ words! {
         rename: "Rename {0}", "{0} umbenennen", "Cambiar el nombre de {0}", "重命名{0}";
         mode: "mode", "Wirkung", "el modo", "组合方式";
         alignment: "alignment", "Ausrichtung", "la alineación", "对齐";
+        amount: "amount", "Anteil", "la cantidad", "程度";
     }
 }
 
@@ -90,6 +91,7 @@ pub(crate) fn deed(name: &str) -> String {
     }
     let whole = match name {
         "Change colours" => ["", "Farben ändern", "Cambiar los colores", "更改颜色"],
+        "Change tint" => ["", "Tönung ändern", "Cambiar el tinte", "更改着色"],
         "Change window" => ["", "Fenster ändern", "Cambiar la ventana", "更改窗口"],
         "Change opacity mode" => [
             "",
@@ -161,6 +163,7 @@ pub(crate) fn deed(name: &str) -> String {
             let what = match what {
                 "mode" => w.mode.to_owned(),
                 "alignment" => w.alignment.to_owned(),
+                "amount" if param.is_none() => w.amount.to_owned(),
                 _ => param.unwrap_or_else(|| what.to_owned()),
             };
             return fill(w.change_of, &[&what, &title(of_what)]);
