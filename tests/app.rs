@@ -5,6 +5,8 @@
 
 #[path = "app/looking.rs"]
 mod looking;
+#[path = "app/comfort.rs"]
+mod comfort;
 #[path = "app/making.rs"]
 mod making;
 

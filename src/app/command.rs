@@ -96,6 +96,14 @@ pub enum Command {
     ToggleFrames,
     /// Light, dark.
     ToggleTheme,
+    /// Turns to the next panel and gives it the keyboard, or with `false` to the one before.
+    NextPanel(bool),
+    /// High contrast or the usual one.
+    ToggleContrast,
+    /// Title and credit are written into saved pictures, or not.
+    ToggleLettering,
+    /// The first hint does not come again.
+    PutHintAway,
     /// The interface speaks another language.
     Speak(Lang),
     /// Everything larger or smaller, for a projector.
@@ -214,6 +222,8 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         entry(NONE, Key::PageDown, Command::ShiftSelected(1), w.later),
         entry(NONE, Key::Space, Command::WalkStep(true), w.next_step),
         entry(SHIFT, Key::Space, Command::WalkStep(false), w.step_before),
+        entry(SHIFT, Key::E, Command::NextPanel(false), ""),
+        entry(NONE, Key::E, Command::NextPanel(true), w.next_panel),
         entry(NONE, Key::P, Command::TogglePanels, w.picture_alone),
         entry(NONE, Key::F1, Command::ToggleKeys, ""),
         entry(NONE, Key::Questionmark, Command::ToggleKeys, w.this_sheet),

@@ -1,6 +1,7 @@
 //! The controls that every panel is built of: named icon buttons, headings, choices, numbers. Each has a name that a screen
 //! reader reads and a test finds.
 
+use egui::output::OutputEvent;
 use egui::{
     Align2, CornerRadius, DragValue, FontId, Rect, Response, Role, Sense, Slider, Stroke,
     TextStyle, Ui, Vec2, WidgetInfo, vec2,
@@ -271,6 +272,29 @@ pub(crate) fn divider(ui: &mut Ui) {
     ui.add_space(6.0);
 }
 
+/// Gives the keyboard to the chosen one of the next choice of that name.
+pub(crate) fn focus_chosen(ui: &Ui, name: &str) {
+    let id = egui::Id::unique(("focus the chosen", name));
+    ui.data_mut(|data| data.insert_temp(id, true));
+}
+
+/// What a screen reader is to say of the control that the keyboard has come to or changed, if it has.
+pub(crate) fn spoken(ui: &Ui) -> Option<String> {
+    if ui.input(|i| i.pointer.any_down() || i.pointer.any_released()) {
+        return None;
+    }
+    let info = ui.ctx().output(|output| {
+        output.events.iter().rev().find_map(|event| match event {
+            OutputEvent::FocusGained(info) | OutputEvent::ValueChanged(info) => Some(info.clone()),
+            _ => None,
+        })
+    })?;
+    let value = info.value.map(|value| plain(value, 3));
+    let parts = [info.label, info.current_text_value, value];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    Some(parts.join(": ")).filter(|text| !text.is_empty())
+}
+
 /// A choice of a few, side by side. Returns what was chosen.
 pub(crate) fn segmented<T: Copy + PartialEq>(
     ui: &mut Ui,
@@ -284,6 +308,7 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     ui.painter()
         .rect_filled(rect, CornerRadius::same(7), palette.sunken);
     let mut chosen = None;
+    let wants_focus = egui::Id::unique(("focus the chosen", name));
     let step = rect.width() / options.len().max(1) as f32;
     for (i, &(value, text)) in options.iter().enumerate() {
         let cell = Rect::from_min_size(
@@ -293,6 +318,13 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
         let cell = sided(rect, cell);
         let selected = value == current;
         let response = ui.interact(cell, ui.scope_id().with((name, i)), Sense::click());
+        if selected
+            && ui
+                .data_mut(|data| data.remove_temp::<bool>(wants_focus))
+                .is_some()
+        {
+            response.request_focus();
+        }
         let full_name = format!("{name}: {text}");
         response.widget_info(|| {
             WidgetInfo::selected(

@@ -75,6 +75,41 @@ impl State {
             .collect()
     }
 
+    /// Turns to the next panel, or the one before, and gives it the keyboard.
+    pub(crate) fn next_panel(&mut self, forward: bool, are_drawers: bool) {
+        const PANELS: [Tab; 4] = [Tab::Add, Tab::Templates, Tab::Look, Tab::Text];
+        // The catalogue has a place of its own where there is room.
+        let panels = if are_drawers {
+            &PANELS[..]
+        } else {
+            &PANELS[1..]
+        };
+        let current = if are_drawers {
+            self.tab
+        } else {
+            Some(self.side_tab)
+        };
+        let at = panels.iter().position(|tab| Some(*tab) == current);
+        let count = panels.len();
+        let next = match (at, forward) {
+            (Some(at), true) => (at + 1) % count,
+            (Some(at), false) => (at + count - 1) % count,
+            (None, true) => 0,
+            (None, false) => count - 1,
+        };
+        self.are_panels_hidden = false;
+        self.side_tab = panels[next];
+        self.tab = are_drawers.then_some(panels[next]);
+        self.wants_panel_focus = true;
+    }
+
+    /// The first hint was read or followed to its end: it does not come again.
+    pub(crate) fn put_hint_away(&mut self, services: &mut dyn Services) {
+        if std::mem::take(&mut self.wants_hint) {
+            services.store(super::hint::STORED, "seen");
+        }
+    }
+
     /// Puts the selected templates on the clipboard. True if there were any.
     pub(crate) fn copy_templates(&mut self, services: &mut dyn Services) -> bool {
         let templates = self.acted_on();
@@ -131,6 +166,23 @@ impl State {
             self.say(Gravity::Success, text, "");
         }
         true
+    }
+
+    /// What a tap on “Paste” found. Where the clipboard may not be read, what was copied in this window is taken.
+    pub(crate) fn take_pasted(&mut self, text: Option<String>, services: &mut dyn Services) {
+        let is_refused = text.is_none();
+        let text = text.or_else(|| self.making.clip.clone());
+        match text.filter(|text| !text.trim().is_empty()) {
+            Some(text) => self.open_text(&text, services),
+            None if is_refused => {
+                let text = w().press_keys;
+                self.say(Gravity::Info, text, "");
+            }
+            None => {
+                let text = w().nothing_to_paste;
+                self.say(Gravity::Info, text, "");
+            }
+        }
     }
 
     /// Groups that come from elsewhere do not join those of the same name here.

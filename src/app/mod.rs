@@ -19,9 +19,11 @@ mod command;
 mod control;
 mod frames;
 mod gizmo;
+mod hint;
 mod icon;
 mod icons;
 mod keys;
+mod lettering;
 mod look;
 mod making;
 mod notice;
@@ -56,10 +58,11 @@ use self::viewport::Viewport;
 use self::words::fill;
 use crate::data::{Statistics, VolumeBuilder, VolumeSink as _};
 use crate::document::Document;
-use crate::render::Clock;
+use crate::render::{Clock, encode_png};
 
 pub use self::camera::StandardView;
 pub use self::command::{Command, GizmoMode};
+pub use self::lettering::letter;
 pub use self::services::{LinkChange, LoadEvent, Message, RawQuestion, SaveFile, Services, Ticket};
 pub use self::state::STORED_DOCUMENT;
 pub use self::words::Lang;
@@ -71,6 +74,10 @@ const CATALOGUE_WIDTH: f32 = 218.0;
 const SIDE_WIDTH: f32 = 304.0;
 /// Under which the theme is kept.
 const STORED_THEME: &str = "theme";
+/// Under which it is kept whether the contrast is high.
+const STORED_CONTRAST: &str = "contrast";
+/// Under which it is kept whether title and credit are written into saved pictures.
+const STORED_LETTERING: &str = "lettering";
 
 /// How the app starts.
 pub struct Start {
@@ -96,6 +103,8 @@ pub struct App {
     announced: Announced,
     /// The next picture asked for is of the size that is shown.
     wants_shown_size: bool,
+    /// Title and credit are written into the picture that is being made.
+    is_lettering: bool,
     /// Panels are drawers.
     is_narrow: bool,
     /// The volume that is arriving.
@@ -121,6 +130,9 @@ impl App {
         start: Start,
     ) -> Self {
         theme::install(&cc.egui_ctx);
+        let contrast = services.stored(STORED_CONTRAST);
+        let is_wanted = contrast.map_or_else(|| services.wants_contrast(), |text| text == "high");
+        theme::set_contrast(&cc.egui_ctx, is_wanted);
         match services.stored(STORED_THEME).as_deref() {
             Some("dark") => cc.egui_ctx.set_theme(egui::Theme::Dark),
             Some("light") => cc.egui_ctx.set_theme(egui::Theme::Light),
@@ -133,6 +145,12 @@ impl App {
             .as_ref()
             .map(|render_state| Picture::new(render_state, start.clock));
         let mut state = State::new(Document::new());
+        state.is_lettering = services.stored(STORED_LETTERING).as_deref() == Some("yes");
+        // Who comes with a document has been here before, or comes to look.
+        let is_first = start.text.is_none()
+            && start.document.is_none()
+            && services.stored(STORED_DOCUMENT).is_none();
+        state.wants_hint = is_first && services.stored(hint::STORED).is_none();
         match (start.text, start.document) {
             (Some(text), _) => state.open_text(&text, services.as_mut()),
             (None, Some(document)) => state.open_document(document, 0, services.as_mut()),
@@ -159,6 +177,7 @@ impl App {
             has_said_loss: false,
             announced: Announced::default(),
             wants_shown_size: false,
+            is_lettering: false,
             is_narrow: false,
             incoming: None,
             statistics: Statistics::new(),
@@ -234,7 +253,7 @@ impl App {
                         self.take_load_event(event);
                     }
                 }
-                Message::Pasted(text) => self.take_pasted(text),
+                Message::Pasted(text) => self.state.take_pasted(text, self.services.as_mut()),
                 Message::Copied(Ok(())) if self.state.making.on_clipboard != OnClipboard::Link => {
                     if let OnClipboard::Templates(number) = self.state.making.on_clipboard {
                         let text = fill(words::making::w().on_clipboard, &[&number]);
@@ -279,23 +298,6 @@ impl App {
                         None => {}
                     }
                 }
-            }
-        }
-    }
-
-    /// What a tap on “Paste” found. Where the clipboard may not be read, what was copied in this window is taken.
-    fn take_pasted(&mut self, text: Option<String>) {
-        let is_refused = text.is_none();
-        let text = text.or_else(|| self.state.making.clip.clone());
-        match text.filter(|text| !text.trim().is_empty()) {
-            Some(text) => self.state.open_text(&text, self.services.as_mut()),
-            None if is_refused => {
-                let text = words::making::w().press_keys;
-                self.state.say(Gravity::Info, text, "");
-            }
-            None => {
-                let text = words::making::w().nothing_to_paste;
-                self.state.say(Gravity::Info, text, "");
             }
         }
     }
@@ -430,6 +432,9 @@ impl App {
         let has_commands = !commands.is_empty();
         let was_placing = self.state.placing;
         for command in commands {
+            if let Command::NextPanel(forward) = command {
+                self.state.next_panel(forward, self.is_narrow);
+            }
             self.state.run(command, self.services.as_mut());
         }
         if self.state.placing.is_some() && self.state.placing != was_placing {
@@ -498,7 +503,7 @@ impl App {
 
     /// What happens after everything is shown.
     fn afterwards(&mut self, ui: &Ui) {
-        self.announce();
+        self.announce(ui);
         let ctx = ui.ctx();
         if std::mem::take(&mut self.state.theme_toggle) {
             let is_dark = ctx.theme() == egui::Theme::Dark;
@@ -509,6 +514,13 @@ impl App {
             });
             self.services
                 .store(STORED_THEME, if is_dark { "light" } else { "dark" });
+        }
+        if std::mem::take(&mut self.state.contrast_toggle) {
+            let is_high = !theme::has_contrast();
+            theme::set_contrast(ctx, is_high);
+            let kept = if is_high { "high" } else { "usual" };
+            self.services.store(STORED_CONTRAST, kept);
+            ctx.request_repaint();
         }
         if let Some(factor) = self.state.scale_change.take() {
             ctx.set_zoom_factor((ctx.zoom_factor() * factor).clamp(0.6, 3.0));
@@ -522,8 +534,17 @@ impl App {
                 let is_as_shown = std::mem::take(&mut self.wants_shown_size);
                 let size = if is_as_shown { size } else { file_size(size) };
                 picture.start_file(&self.state.shown_as_seen(), size);
+                // What a script asks for is the picture as it is shown.
+                self.is_lettering = self.state.is_lettering && !is_as_shown;
             }
-            match picture.poll_file() {
+            let file = picture.poll_file().map(|image| {
+                let mut image = image?;
+                if self.is_lettering {
+                    lettering::letter_with(ctx, &mut image, self.state.shown());
+                }
+                encode_png(&image)
+            });
+            match file {
                 Some(Ok(bytes)) => {
                     let name = format!("{}.png", self.state.file_stem());
                     self.services.save_file(SaveFile {
@@ -560,8 +581,11 @@ impl App {
         }
     }
 
-    /// Says aloud what was said since, and the step that is come to.
-    fn announce(&mut self) {
+    /// Says aloud what was said since, the step that is come to, and what the keyboard has come to or changed.
+    fn announce(&mut self, ui: &Ui) {
+        if let Some(text) = control::spoken(ui) {
+            self.services.announce(&text);
+        }
         for said in &self.state.said {
             if said.id >= self.announced.next_said {
                 self.announced.next_said = said.id + 1;
@@ -639,6 +663,9 @@ impl App {
                             (Tab::Look, w.look),
                             (Tab::Text, w.text),
                         ];
+                        if std::mem::take(&mut self.state.wants_panel_focus) {
+                            control::focus_chosen(ui, w.panel);
+                        }
                         if let Some(tab) =
                             control::segmented(ui, w.panel, &tabs, self.state.side_tab)
                         {
@@ -730,6 +757,9 @@ impl App {
                 response.widget_info(|| {
                     egui::WidgetInfo::selected(egui::Role::Button, ui.is_enabled(), is_open, name)
                 });
+                if is_open && std::mem::take(&mut self.state.wants_panel_focus) {
+                    response.request_focus();
+                }
                 let color = if is_open {
                     palette.accent
                 } else {
@@ -764,6 +794,7 @@ impl App {
             self.viewport
                 .ui(ui, &mut self.state, self.picture.as_mut(), commands);
             steps::ui(ui, rect, &self.state, commands);
+            hint::ui(ui, rect, &self.state, commands);
             notice::ui(ui, rect, &mut self.state, commands);
             if self.state.are_panels_hidden {
                 text::over_picture_ui(ui, rect, &self.state, commands);

@@ -13,7 +13,7 @@ use glam::Vec2;
 use crate::data::Volume;
 use crate::document::{Camera, Illustration};
 use crate::render::{
-    Clock, DrawState, Gpu, Image, PendingPick, Pick, RenderError, Renderer, SubjectInfo, encode_png,
+    Clock, DrawState, Gpu, Image, PendingPick, Pick, RenderError, Renderer, SubjectInfo,
 };
 
 /// Work on the GPU that is looked after once per frame.
@@ -182,11 +182,11 @@ impl Picture {
         self.file = Some(Box::pin(future));
     }
 
-    /// The file's bytes once they are there.
-    pub(crate) fn poll_file(&mut self) -> Option<Result<Vec<u8>, RenderError>> {
+    /// The picture for a file once it is there.
+    pub(crate) fn poll_file(&mut self) -> Option<Result<Image, RenderError>> {
         let image = poll_once(self.file.as_mut()?)?;
         self.file = None;
-        Some(image.and_then(|image| encode_png(&image)))
+        Some(image)
     }
 
     /// The GPU is busy with something that the interface waits for.

@@ -60,6 +60,10 @@ pub trait Services {
     fn languages(&self) -> Vec<String> {
         Vec::new()
     }
+    /// True if the reader has asked for high contrast everywhere.
+    fn wants_contrast(&self) -> bool {
+        false
+    }
     /// What was kept.
     fn stored(&self, key: &str) -> Option<String>;
 

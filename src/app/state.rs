@@ -138,6 +138,13 @@ pub(crate) struct State {
     /// A place in the middle of the picture is wanted for the template being placed.
     pub wants_place_in_middle: bool,
     pub theme_toggle: bool,
+    pub contrast_toggle: bool,
+    /// The panel that was turned to wants the keyboard.
+    pub wants_panel_focus: bool,
+    /// The first hint is shown.
+    pub wants_hint: bool,
+    /// Title and credit are written into saved pictures.
+    pub is_lettering: bool,
     pub scale_change: Option<f32>,
     /// Copying, grouping, snapping, searching.
     pub making: Making,
@@ -178,6 +185,10 @@ impl State {
             wants_picture_file: false,
             wants_place_in_middle: false,
             theme_toggle: false,
+            contrast_toggle: false,
+            wants_panel_focus: false,
+            wants_hint: false,
+            is_lettering: false,
             scale_change: None,
             making: Making::default(),
             now: 0.0,
@@ -535,6 +546,15 @@ impl State {
             Command::ToggleKeys => self.is_keys_sheet_open = !self.is_keys_sheet_open,
             Command::ToggleFrames => self.files.is_open = !self.files.is_open,
             Command::ToggleMessages => self.is_messages_open = !self.is_messages_open,
+            Command::ToggleContrast => self.contrast_toggle = true,
+            Command::ToggleLettering => {
+                self.is_lettering = !self.is_lettering;
+                let kept = if self.is_lettering { "yes" } else { "no" };
+                services.store(super::STORED_LETTERING, kept);
+            }
+            // Which panels there are depends on the room for them: the app does it.
+            Command::NextPanel(_) => {}
+            Command::PutHintAway => self.put_hint_away(services),
             Command::ToggleTheme => self.theme_toggle = true,
             Command::Speak(lang) => {
                 words::set_lang(lang);
@@ -704,6 +724,8 @@ impl State {
 
     fn copy_link(&mut self, services: &mut dyn Services) {
         self.making.on_clipboard = OnClipboard::Link;
+        // The last of its three steps.
+        self.put_hint_away(services);
         self.renew_link(services);
         let page = services.page_address();
         let page = page.split('#').next().unwrap_or_default();

@@ -61,6 +61,13 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         1,
         Edit::SetCredit,
     );
+    let mut is_lettering = state.is_lettering;
+    ui.horizontal_wrapped(|ui| {
+        if ui.checkbox(&mut is_lettering, w().lettering).changed() {
+            commands.push(Command::ToggleLettering);
+        }
+    });
+    ui.add_space(6.0);
     if let SubjectRef::Supplied {
         sha256,
         name,

@@ -1,5 +1,6 @@
 //! Colours, type and spacing of the program, light and dark. Every colour that a panel, an icon or the gizmo uses is named here.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use egui::{
@@ -85,6 +86,59 @@ const DARK: Palette = Palette {
     float: Color32::from_rgba_premultiplied(28, 31, 33, 240),
 };
 
+/// High contrast: text 7:1 and more on what is behind it, lines 3:1, nothing told by a tint alone.
+const LIGHT_CONTRAST: Palette = Palette {
+    panel: rgb(0xffffff),
+    raised: rgb(0xffffff),
+    sunken: rgb(0xf0f0f0),
+    line: rgb(0x5a5a5a),
+    text: rgb(0x000000),
+    weak: rgb(0x2b2b2b),
+    accent: rgb(0x004a46),
+    accent_hover: rgb(0x00302d),
+    on_accent: rgb(0xffffff),
+    accent_wash: rgb(0xcfe9e6),
+    hover: rgb(0xe4e4e4),
+    warning: rgb(0x5c3a00),
+    danger: rgb(0x8a0f08),
+    float: rgb(0xffffff),
+};
+
+const DARK_CONTRAST: Palette = Palette {
+    panel: rgb(0x000000),
+    raised: rgb(0x000000),
+    sunken: rgb(0x161616),
+    line: rgb(0xb5b5b5),
+    text: rgb(0xffffff),
+    weak: rgb(0xe0e0e0),
+    accent: rgb(0x7ff0e4),
+    accent_hover: rgb(0xb5fff7),
+    on_accent: rgb(0x000000),
+    accent_wash: rgb(0x07403b),
+    hover: rgb(0x2a2a2a),
+    warning: rgb(0xffd27a),
+    danger: rgb(0xffaaa2),
+    float: rgb(0x000000),
+};
+
+thread_local! {
+    /// As with the language: one reader looks at all viewers on this thread.
+    static HAS_CONTRAST: Cell<bool> = const { Cell::new(false) };
+}
+
+/// True while the contrast is high.
+pub(crate) fn has_contrast() -> bool {
+    HAS_CONTRAST.get()
+}
+
+/// Sets the contrast and gives both themes of a context its colours.
+pub(crate) fn set_contrast(ctx: &egui::Context, is_high: bool) {
+    HAS_CONTRAST.set(is_high);
+    for theme in [Theme::Light, Theme::Dark] {
+        ctx.style_mut_of(theme, |style| apply(style, Palette::of(theme)));
+    }
+}
+
 /// Colours of the gizmo, the same over every theme since they lie on the picture.
 pub(crate) mod over_picture {
     use super::{Color32, rgb};
@@ -113,19 +167,21 @@ pub(crate) const GROUPS: [Color32; 4] =
 impl Palette {
     /// The colours of a theme.
     pub(crate) fn of(theme: Theme) -> &'static Self {
-        match theme {
-            Theme::Light => &LIGHT,
-            Theme::Dark => &DARK,
+        match (theme, has_contrast()) {
+            (Theme::Light, false) => &LIGHT,
+            (Theme::Dark, false) => &DARK,
+            (Theme::Light, true) => &LIGHT_CONTRAST,
+            (Theme::Dark, true) => &DARK_CONTRAST,
         }
     }
 
     /// The colours of the theme that a piece of interface is drawn in.
     pub(crate) fn get(ui: &egui::Ui) -> &'static Self {
-        if ui.visuals().dark_mode {
-            &DARK
+        Self::of(if ui.visuals().dark_mode {
+            Theme::Dark
         } else {
-            &LIGHT
-        }
+            Theme::Light
+        })
     }
 }
 
@@ -148,9 +204,7 @@ pub(crate) fn can_draw(ui: &egui::Ui, text: &str) -> bool {
 /// Puts fonts and both themes into a context. Once, at the start.
 pub(crate) fn install(ctx: &egui::Context) {
     ctx.set_fonts(fonts());
-    for theme in [Theme::Light, Theme::Dark] {
-        ctx.style_mut_of(theme, |style| apply(style, Palette::of(theme)));
-    }
+    set_contrast(ctx, has_contrast());
 }
 
 /// Inter in two cuts, cut down to Latin and Greek. Other scripts are drawn by the browser's own text engine, or natively
@@ -283,5 +337,56 @@ fn apply(style: &mut egui::Style, palette: &Palette) {
         visual.fg_stroke = Stroke::new(1.5, text);
         visual.corner_radius = radius;
         visual.expansion = 0.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance (WCAG 2.2).
+    fn luminance(color: Color32) -> f32 {
+        let linear = egui::Rgba::from(color);
+        0.2126 * linear.r() + 0.7152 * linear.g() + 0.0722 * linear.b()
+    }
+
+    fn contrast(a: Color32, b: Color32) -> f32 {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn what_is_written_can_be_read() {
+        let themes = [
+            ("light", LIGHT, 4.5, 1.0),
+            ("dark", DARK, 4.5, 1.0),
+            ("light, high", LIGHT_CONTRAST, 7.0, 3.0),
+            ("dark, high", DARK_CONTRAST, 7.0, 3.0),
+        ];
+        for (name, p, letters, lines) in themes {
+            for (what, ink, ground) in [
+                ("text on panel", p.text, p.panel),
+                ("text on raised", p.text, p.raised),
+                ("text on sunken", p.text, p.sunken),
+                ("text on hover", p.text, p.hover),
+                ("weak on panel", p.weak, p.panel),
+                ("weak on raised", p.weak, p.raised),
+                ("accent on raised", p.accent, p.raised),
+                ("text on the wash", p.text, p.accent_wash),
+                ("on the main button", p.on_accent, p.accent),
+                ("on the main button, hot", p.on_accent, p.accent_hover),
+                ("warning on panel", p.warning, p.panel),
+                ("danger on panel", p.danger, p.panel),
+            ] {
+                let found = contrast(ink, ground);
+                assert!(found >= letters, "{name}: {what} {found:.2}");
+            }
+            let found = contrast(p.line, p.raised);
+            assert!(found >= lines, "{name}: lines {found:.2}");
+            for group in GROUPS {
+                let found = contrast(group, p.raised);
+                assert!(found >= 3.0, "{name}: mark of a group {found:.2}");
+            }
+        }
     }
 }

@@ -162,6 +162,12 @@ fn more_menu(ui: &mut Ui, state: &State, is_narrow: bool, commands: &mut Vec<Com
         ui.separator();
         item(ui, Icon::Eye, w().picture_alone, Command::TogglePanels);
         item(ui, Icon::Contrast, w().theme, Command::ToggleTheme);
+        let contrast = if theme::has_contrast() {
+            w().usual_contrast
+        } else {
+            w().high_contrast
+        };
+        item(ui, Icon::Look, contrast, Command::ToggleContrast);
         item(ui, Icon::Plus, w().larger, Command::Scale(1.15));
         item(ui, Icon::Reset, w().smaller, Command::Scale(1.0 / 1.15));
         ui.separator();

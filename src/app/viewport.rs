@@ -732,3 +732,29 @@ pub(crate) fn pasted(ui: &Ui) -> Option<String> {
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_large_screen_does_not_make_the_picture_larger() {
+        let rect = Rect::from_min_size(Pos2::ZERO, vec2(1920.0, 1080.0));
+        assert_eq!(
+            size_px(rect, 1.0),
+            [1920, 1080],
+            "as many as the screen has"
+        );
+        let [width, height] = size_px(rect, 2.0);
+        assert!(
+            (width * height) as f32 <= 1.001 * MAX_PICTURE_PIXELS,
+            "capped on 4K"
+        );
+        assert!(
+            (width as f32 / height as f32 - 16.0 / 9.0).abs() < 0.01,
+            "in its proportions"
+        );
+        let phone = Rect::from_min_size(Pos2::ZERO, vec2(360.0, 640.0));
+        assert_eq!(size_px(phone, 3.0), [1080, 1920], "a phone keeps its own");
+    }
+}

@@ -70,6 +70,9 @@ enum Command {
         /// Samples per pixel against jagged edges.
         #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=1024))]
         samples: u32,
+        /// Writes title and credit into the picture.
+        #[arg(long)]
+        lettering: bool,
     },
     /// Says where the material at a point comes from: reads x,y,z lines, prints x,y,z,sx,sy,sz,a lines.
     Probe {
@@ -256,7 +259,15 @@ fn execute(args: Args) -> Result<(), CliError> {
             size,
             moment,
             samples,
-        } => render(common, &open(&doc)?, &output, size, moment, samples),
+            lettering,
+        } => {
+            let paper = Paper {
+                size,
+                samples,
+                lettering,
+            };
+            render(common, &open(&doc)?, &output, moment, paper)
+        }
         Command::Probe {
             doc,
             points,
@@ -477,13 +488,22 @@ fn say_kept(illustration: &Illustration, volume: &Volume) {
     }
 }
 
+/// What a picture is drawn on.
+struct Paper {
+    /// Width and height, pixels.
+    size: [u32; 2],
+    /// Per pixel.
+    samples: u32,
+    /// With title and credit.
+    lettering: bool,
+}
+
 fn render(
     common: &Common,
     opened: &Opened,
     output: &Path,
-    size: [u32; 2],
     moment: Moment,
-    samples: u32,
+    paper: Paper,
 ) -> Result<(), CliError> {
     let illustration = opened.illustration(moment)?;
     // Found out before minutes of drawing, not after.
@@ -503,7 +523,14 @@ fn render(
     let gpu = open_gpu(common)?;
     let volume = subject_of(&illustration, common, &opened.folder, gpu.volume_limits())?;
     say_kept(&illustration, &volume);
-    let image = pollster::block_on(render_image(&gpu, &illustration, &volume, size, samples))?;
+    let drawing = render_image(&gpu, &illustration, &volume, paper.size, paper.samples);
+    let mut image = pollster::block_on(drawing)?;
+    if paper.lettering {
+        let missing = crate::app::letter(&mut image, &illustration);
+        if !missing.is_empty() {
+            notice(&format!("no font here has the characters {missing}"));
+        }
+    }
     let bytes = encode_png(&image)?;
     write_whole(output, &bytes)
 }

@@ -480,6 +480,12 @@ impl Services for PageServices {
         wanted.filter_map(|tag| tag.as_string()).collect()
     }
 
+    fn wants_contrast(&self) -> bool {
+        let query = "(prefers-contrast: more)";
+        let found = window().and_then(|w| w.match_media(query).ok().flatten());
+        found.is_some_and(|query| query.matches())
+    }
+
     fn stored(&self, key: &str) -> Option<String> {
         if !self.0.borrow().place.is_page {
             return None;

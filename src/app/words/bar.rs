@@ -28,6 +28,8 @@ words! {
         save_picture: "Save picture", "Bild sichern", "Guardar imagen", "保存图片";
         picture_alone: "Picture alone", "Nur das Bild", "Solo la imagen", "仅显示图像";
         theme: "Colours of the program", "Farben des Programms", "Colores del programa", "界面颜色";
+        high_contrast: "High contrast", "Hoher Kontrast", "Contraste alto", "高对比度";
+        usual_contrast: "Usual contrast", "Üblicher Kontrast", "Contraste normal", "普通对比度";
         larger: "Larger", "Größer", "Más grande", "放大界面";
         smaller: "Smaller", "Kleiner", "Más pequeño", "缩小界面";
         messages: "Messages", "Meldungen", "Mensajes", "消息";

@@ -25,6 +25,7 @@ words! {
         group: "Group with the one before", "Mit der davor gruppieren", "Agrupar con la anterior", "与上一个编组";
         ungroup: "Leave the group", "Gruppe verlassen", "Dejar el grupo", "离开组";
         snap: "Handles in steps or not", "Griffe in Schritten oder nicht", "Tiradores por pasos o no", "手柄步进开关";
+        next_panel: "Next panel", "Nächster Bereich", "Panel siguiente", "下一个面板";
         search: "Search the catalogue", "Im Katalog suchen", "Buscar en el catálogo", "搜索目录";
         alt_drag: "Alt drag", "Alt + Ziehen", "Alt + arrastrar", "Alt 拖动";
         alt_drag_does: "Roll", "Rollen", "Rodar", "滚转";

@@ -1,0 +1,103 @@
+//! The first hint, contrast, lettering of saved pictures, large screens.
+
+use super::*;
+
+fn stored(window: &Window, key: &str) -> Option<String> {
+    window.log.0.borrow().stored.get(key).cloned()
+}
+
+#[test]
+fn the_first_hint_is_followed_and_does_not_come_again() {
+    let log = Fake::default();
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), None);
+    assert!(
+        window.harness.query_by_label("Got it").is_some(),
+        "the first visit shows it"
+    );
+    window.look("hint");
+    window.click("Place peel");
+    window.press(Key::Enter);
+    window.settle();
+    window.look("hint_placed");
+    assert!(window.harness.query_by_label("Got it").is_some());
+    window.click("Copy link");
+    window.steps(3);
+    assert!(
+        window.harness.query_by_label("Got it").is_none(),
+        "its last step puts it away"
+    );
+    assert_eq!(stored(&window, "hint").as_deref(), Some("seen"));
+
+    let phone = vec2(360.0, 640.0);
+    let mut window = Window::open_with(phone, egui::Theme::Light, Fake::default(), None);
+    window.look("hint_phone");
+    window.click("Got it");
+    assert!(window.harness.query_by_label("Got it").is_none());
+    assert_eq!(stored(&window, "hint").as_deref(), Some("seen"));
+
+    let window = Window::open(DESK, CUBE);
+    assert!(
+        window.harness.query_by_label("Got it").is_none(),
+        "who opens a link comes to look"
+    );
+}
+
+#[test]
+fn high_contrast_is_switched_and_kept() {
+    let json = r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [ { "kind": "peel" } ] }"#;
+    for theme in [egui::Theme::Light, egui::Theme::Dark] {
+        let mut window = Window::open_with(DESK, theme, Fake::default(), Some(json));
+        window.click("1. Peel");
+        window.click("More");
+        window.click("High contrast");
+        window.steps(3);
+        assert_eq!(stored(&window, "contrast").as_deref(), Some("high"));
+        window.look(&format!("contrast_{theme:?}"));
+        let log = window.log.clone();
+        let mut again = Window::open_with(DESK, theme, log, Some(json));
+        again.click("More");
+        again.click("Usual contrast");
+        assert_eq!(stored(&again, "contrast").as_deref(), Some("usual"));
+    }
+}
+
+#[test]
+fn title_and_credit_are_written_into_a_saved_picture() {
+    let json = r##"{ "fabrica": 1, "title": "Strata of a cube", "credit": "Drawn by a test", "subject": { "builtin": "cube" } }"##;
+    let mut window = Window::open(DESK, json);
+    let mut save = |is_lettered: bool| {
+        if is_lettered {
+            window.click("Panel: Text");
+            window.click("Write title and credit into saved pictures");
+            assert_eq!(stored(&window, "lettering").as_deref(), Some("yes"));
+        }
+        let before = window.log.0.borrow().saved.len();
+        window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+        let patience = clock() + 120.0;
+        while clock() < patience && window.log.0.borrow().saved.len() == before {
+            window.steps(1);
+        }
+        let log = window.log.0.borrow();
+        let file = log.saved.get(before).expect("a picture was saved");
+        image::load_from_memory(&file.bytes)
+            .expect("a PNG")
+            .to_rgba8()
+    };
+    let plain = save(false);
+    let lettered = save(true);
+    if let Some(folder) = std::env::var_os("FABRICA_LOOK_AT") {
+        let path = std::path::Path::new(&folder).join("lettered.png");
+        lettered.save(path).expect("a picture to look at");
+    }
+    let ink = |picture: &image::RgbaImage, rows: std::ops::Range<u32>| {
+        let dark = |p: &image::Rgba<u8>| p.0[..3].iter().all(|c| *c < 70);
+        rows.flat_map(|y| (0..picture.width()).map(move |x| (x, y)))
+            .filter(|&(x, y)| dark(picture.get_pixel(x, y)))
+            .count()
+    };
+    let height = lettered.height();
+    for rows in [0..height / 8, height * 9 / 10..height] {
+        let (without, with) = (ink(&plain, rows.clone()), ink(&lettered, rows.clone()));
+        assert!(with > without + 200, "rows {rows:?}: {without} and {with}");
+    }
+}
