@@ -446,8 +446,11 @@ fn march(pixel: vec2f) -> Marched {
         }
 
         // Colour: the table's, tinted by the segments around.
-        let known = transfer(edge.texel);
-        var albedo = known.rgb;
+        var texel = edge.texel;
+        if KEEPS_TISSUE {
+            texel = texel_at(texture_from_rest(tint_pos));
+        }
+        var albedo = transfer(texel).rgb;
         if has_labels != 0u {
             let inwards = grad / max(length(grad), 1e-9) * (subject.dims.w * smoothstep(0.01, 0.05, steepness));
             var depth = 0.0;
