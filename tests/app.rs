@@ -1203,3 +1203,47 @@ fn at_rest_nothing_repaints() {
     }
     panic!("still repainting");
 }
+
+// ---------------------------------------------------------------------------------------------------- kept tissue
+
+/// What a template leaves alone is chosen in its panel, by a list of the subject's segments, and undone step by step.
+#[test]
+fn tissue_is_left_alone_by_check_boxes() {
+    let mut window = Window::open(DESK, CUBE);
+    window.place_peel();
+    let get = |window: &Window, key: &str| {
+        let pointer = format!("/templates/0/{key}");
+        window.document().get(&pointer).cloned()
+    };
+    window.click("Leaves alone: Tissue");
+    assert_eq!(get(&window, "align/to"), Some("segment".into()));
+    let before = get(&window, "align/keep");
+    window
+        .harness
+        .get_by_label("Leaves alone: ball")
+        .click_accesskit();
+    window.settle();
+    window.look("keep");
+    let keep = get(&window, "align/keep").expect("a set");
+    assert_ne!(Some(&keep), before.as_ref(), "the box changes the set");
+    assert!(
+        keep.as_array()
+            .is_some_and(|names| names.contains(&"ball".into())),
+        "{keep}"
+    );
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(get(&window, "align/keep"), before, "one step back");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(get(&window, "align"), None, "nothing is kept by default");
+
+    window.click("Leaves alone: What lies deep");
+    assert_eq!(get(&window, "align/to"), Some("surface".into()));
+    window
+        .harness
+        .get_by_label("Gives way to: Acts less")
+        .click_accesskit();
+    window.settle();
+    assert_eq!(get(&window, "constrain/by"), Some("coordinate".into()));
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(get(&window, "constrain"), None);
+}

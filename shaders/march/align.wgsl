@@ -365,7 +365,8 @@ fn kept_surface(rest: vec3f, path: u32, jacobian: mat3x3f, to_eye: vec3f) -> Kep
         let away = distance_to_kept(rest, item.keeps.x, item.lengths.x, 0u);
         let has_moved = (path & (1u << i)) != 0u;
         let is_on_side = select(away <= slack, away >= -slack, has_moved);
-        let near = 1.0 - abs(away) / max(item.lengths.y, slack);
+        // Within the stairs of the labels it is the surface itself.
+        let near = 1.0 - max(abs(away) - slack, 0.0) / max(item.lengths.y, slack);
         if is_on_side && near > weight {
             weight = near;
             keeps = item.keeps.x;

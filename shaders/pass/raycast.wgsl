@@ -258,6 +258,7 @@ fn march(pixel: vec2f) -> Marched {
     // The ray's surface, and its share of the colour, for shadow and occlusion.
     var surface_key = vec3f(0.0);
     var surface_ambient = vec3f(0.0);
+    var surface_lift = 0.0;
     var t_cell = -1.0;
 
     for (var event = 0u; event < MAX_EVENTS; event++) {
@@ -438,11 +439,14 @@ fn march(pixel: vec2f) -> Marched {
         surfaceness = max(surfaceness, cut_weight);
         // Both sides of the surface of kept tissue take their normal from it.
         var tint_pos = edge.pos;
+        var lift = 0.0;
         if KEEPS_TISSUE {
             let kept = kept_surface(edge.pos, path, mat3x3f(col0, col1, col2), to_eye);
             normal = normalize(mix(normal, kept.normal, kept.weight) + to_eye * 1e-5);
             surfaceness = max(surfaceness, kept.weight);
             tint_pos += kept.inwards;
+            // Labels end in stairs, its normal is smooth: what stands in its light is looked for from above the stairs.
+            lift = kept.weight * subject.dims.w;
         }
 
         // Colour: the table's, tinted by the segments around.
@@ -480,6 +484,7 @@ fn march(pixel: vec2f) -> Marched {
             result.surface_t = t_shade;
             result.surface_normal = normal;
             result.surface_rest = edge.pos;
+            surface_lift = lift;
             surface_key = key;
             surface_ambient = ambient;
         }
@@ -496,7 +501,10 @@ fn march(pixel: vec2f) -> Marched {
 
     // Once per ray: what stands in the light of its surface.
     if result.surface_t >= 0.0 {
-        let pos = origin + dir * result.surface_t;
+        var pos = origin + dir * result.surface_t;
+        if KEEPS_TISSUE {
+            pos += result.surface_normal * surface_lift;
+        }
         let noise = pixel_noise(floor(pixel));
         let key_dir = apply_linear(
             frame.subject_from_view_row0,

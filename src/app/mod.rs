@@ -22,6 +22,7 @@ mod gizmo;
 mod hint;
 mod icon;
 mod icons;
+mod keep;
 mod keys;
 mod lettering;
 mod look;
@@ -726,7 +727,10 @@ impl App {
 
     fn tab_ui(&mut self, ui: &mut Ui, tab: Tab, commands: &mut Vec<Command>) {
         match tab {
-            Tab::Add | Tab::Templates => templates::ui(ui, &self.state, commands),
+            Tab::Add | Tab::Templates => {
+                let segments = self.picture.as_ref().map_or(&[][..], Picture::segments);
+                templates::ui(ui, &self.state, segments, commands);
+            }
             Tab::Look => {
                 let info = self.picture.as_ref().and_then(Picture::subject_info);
                 look::ui(ui, &self.state, info.as_ref(), &mut self.transfer, commands);

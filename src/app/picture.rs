@@ -10,7 +10,7 @@ use eframe::egui_wgpu::RenderState;
 
 use glam::Vec2;
 
-use crate::data::Volume;
+use crate::data::{Segment, Volume};
 use crate::document::{Camera, Illustration};
 use crate::render::{
     Clock, DrawState, Gpu, Image, PendingPick, Pick, RenderError, Renderer, SubjectInfo,
@@ -108,6 +108,11 @@ impl Picture {
     /// Value range, window and preset of what is shown.
     pub(crate) fn subject_info(&self) -> Option<SubjectInfo> {
         self.renderer.subject_info()
+    }
+
+    /// The named segments of what is shown.
+    pub(crate) fn segments(&self) -> &[Segment] {
+        self.renderer.segments()
     }
 
     /// Takes another illustration or camera to be drawn.

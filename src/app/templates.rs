@@ -9,11 +9,13 @@ use super::catalogue::kind_title;
 use super::command::Command;
 use super::control::{self, Change, NumberRow};
 use super::icon::Icon;
+use super::keep;
 use super::making;
 use super::state::State;
 use super::theme::{self, Palette};
 use super::words::templates::w;
 use super::words::{self, fill, kinds};
+use crate::data::Segment;
 use crate::document::{
     Edit, ParamKind, ParamSpec, ParamValue, PlacedTemplate, TemplateMode, free_group_name,
     group_of, groups,
@@ -33,11 +35,11 @@ pub(crate) fn template_title(template: &PlacedTemplate) -> String {
 }
 
 /// The list, then the selected template.
-pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+pub(crate) fn ui(ui: &mut Ui, state: &State, segments: &[Segment], commands: &mut Vec<Command>) {
     list_ui(ui, state, commands);
     if let Some(template) = state.selected_template() {
         control::divider(ui);
-        template_ui(ui, state, template, commands);
+        template_ui(ui, state, segments, template, commands);
     } else if let Some(index) = state.selected {
         control::divider(ui);
         let weak = Palette::get(ui).weak;
@@ -227,7 +229,13 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
     rect
 }
 
-fn template_ui(ui: &mut Ui, state: &State, template: &PlacedTemplate, commands: &mut Vec<Command>) {
+fn template_ui(
+    ui: &mut Ui,
+    state: &State,
+    segments: &[Segment],
+    template: &PlacedTemplate,
+    commands: &mut Vec<Command>,
+) {
     let index = template.index;
     control::heading(ui, kind_title(template.kind), |ui| {
         let more = control::icon_button(ui, Icon::More, words::making::w().actions, true);
@@ -280,6 +288,9 @@ fn template_ui(ui: &mut Ui, state: &State, template: &PlacedTemplate, commands: 
     if state.template_count() > 1 {
         group_ui(ui, state, index, commands);
     }
+    control::divider(ui);
+    let all = &state.illustration().templates;
+    keep::ui(ui, template, all, segments, commands);
     control::divider(ui);
     placement_ui(ui, template, commands);
 }

@@ -6,7 +6,7 @@ use super::scene::{Prepared, frame_of};
 use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
 use super::subject::{SubjectTextures, Upload, entry, reduced_to_fit};
 use super::{Gpu, Readback, RenderError, Sample, SubjectInfo, View, WorkDone, uniform_buffer};
-use crate::data::Volume;
+use crate::data::{Segment, Volume};
 use crate::document::Illustration;
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
@@ -129,6 +129,11 @@ impl Studio {
             Some(grid) => Ok(Some(grid.read(&self.gpu).await?)),
             None => Ok(None),
         }
+    }
+
+    /// Its named segments.
+    pub fn segments(&self) -> &[Segment] {
+        &self.subject.segments
     }
 
     /// What the object has at points of subject space when alignment and constraints count: where that material was at rest, and the

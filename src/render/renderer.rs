@@ -8,7 +8,7 @@ use super::scene::{Prepared, frame_of};
 use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
 use super::subject::{Upload, reduced_to_fit};
 use super::{Gpu, RenderError, SubjectInfo, View, WorkDone};
-use crate::data::Volume;
+use crate::data::{Segment, Volume};
 use crate::document::{Camera, Illustration};
 use glam::Vec2;
 use std::sync::Arc;
@@ -278,6 +278,11 @@ impl Renderer {
     /// What the subject is, once one is on the GPU.
     pub fn subject_info(&self) -> Option<SubjectInfo> {
         self.studio.as_ref().map(|s| s.info())
+    }
+
+    /// The named segments of the subject, once one is on the GPU.
+    pub fn segments(&self) -> &[Segment] {
+        self.studio.as_ref().map_or(&[], |s| s.segments())
     }
 
     /// Notices since the last call (a volume was made coarser, …).

@@ -33,6 +33,7 @@ macro_rules! words {
 pub(crate) mod bar;
 pub(crate) mod catalogue;
 pub(crate) mod files;
+pub(crate) mod keep;
 pub(crate) mod keys;
 pub(crate) mod kinds;
 pub(crate) mod look;
@@ -234,6 +235,7 @@ mod tests {
             bar::LINES,
             catalogue::LINES,
             files::LINES,
+            keep::LINES,
             keys::LINES,
             look::LINES,
             making::LINES,

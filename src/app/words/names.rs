@@ -164,6 +164,7 @@ pub(crate) fn deed(name: &str) -> String {
                 "mode" => w.mode.to_owned(),
                 "alignment" => w.alignment.to_owned(),
                 "amount" if param.is_none() => w.amount.to_owned(),
+                "constraint" => super::keep::w().constraint.to_owned(),
                 _ => param.unwrap_or_else(|| what.to_owned()),
             };
             return fill(w.change_of, &[&what, &title(of_what)]);
