@@ -3,10 +3,10 @@
 //! With `FABRICA_LOOK_AT=folder` the windows are written there as PNG, to be looked at.
 #![cfg(feature = "app")]
 
-#[path = "app/looking.rs"]
-mod looking;
 #[path = "app/comfort.rs"]
 mod comfort;
+#[path = "app/looking.rs"]
+mod looking;
 #[path = "app/making.rs"]
 mod making;
 

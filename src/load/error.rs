@@ -29,7 +29,7 @@ pub enum LoadError {
     },
     /// Neither content nor name is one of the formats known.
     #[error(
-        "not a volume file that Fabrica knows (NIfTI, NRRD, MetaImage): it begins with {begins} ({name})"
+        "not a volume file that Fabrica knows (NIfTI, NRRD, MetaImage, DICOM): it begins with {begins} ({name})"
     )]
     UnknownFormat {
         /// The file.

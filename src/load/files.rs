@@ -32,6 +32,12 @@ pub trait FileSet {
     /// [`io::ErrorKind::NotFound`] if there is none of this name.
     fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>>;
 
+    /// Names of all files, for formats whose volumes are spread over many (DICOM). None where only those are given that a
+    /// header asks for.
+    fn names(&mut self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// False if a file can be opened once only.
     fn can_reopen(&self) -> bool {
         true
@@ -104,6 +110,10 @@ impl MemoryFiles {
 }
 
 impl FileSet for MemoryFiles {
+    fn names(&mut self) -> Vec<String> {
+        self.files.keys().cloned().collect()
+    }
+
     fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>> {
         let bytes = self
             .files

@@ -23,6 +23,10 @@
 //! ```
 
 mod describe;
+mod dicom;
+mod dicom_data;
+mod dicom_pixels;
+mod dicom_series;
 mod error;
 mod files;
 mod geometry;
@@ -43,6 +47,7 @@ use std::rc::Rc;
 use sha2::{Digest as _, Sha256};
 
 pub use describe::{Description, describe, describe_raw};
+pub use dicom::main_name;
 pub use error::LoadError;
 pub use files::{FileHandle, FileSet, MemoryFiles, OneFile};
 pub use geometry::orientation_code;
@@ -55,6 +60,9 @@ use crate::data::VolumeSink;
 use files::open;
 use place::Source;
 use stream::{Packing, SharedHash};
+
+/// Stands for a file's name where all files of a set are meant: a folder of DICOM, or many files dropped together.
+pub const ALL_FILES: &str = ".";
 
 /// Bytes looked at to tell what a file is.
 const SNIFF_BYTES: usize = 1024;
@@ -100,9 +108,9 @@ pub fn read_volume(
         report,
         hash,
     };
-    reading.read(name)?;
-    let digest = reading.hash.borrow().clone().finalize();
-    report.sha256 = Some(digest.into());
+    let own = reading.read(name)?;
+    let digest = own.unwrap_or_else(|| reading.hash.borrow().clone().finalize().into());
+    report.sha256 = Some(digest);
     Ok(())
 }
 
@@ -116,7 +124,11 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    fn read(&mut self, name: &str) -> Result<(), LoadError> {
+    /// Reads; returns a hash where it is not that of all bytes in the order read.
+    fn read(&mut self, name: &str) -> Result<Option<[u8; 32]>, LoadError> {
+        if name == ALL_FILES {
+            return self.read_dicom(name);
+        }
         // The image half of a pair is bare voxels: only its name tells.
         if let Some(headers) = files::siblings(name, "img", "hdr") {
             let header = files::first_there(self.files, name, &headers)?;
@@ -127,7 +139,7 @@ impl Reading<'_> {
             stream.unpack(Packing::Gzip);
         }
         let start = stream.peek(SNIFF_BYTES)?;
-        match sniff(&start, name) {
+        let outcome = match sniff(&start, name) {
             Kind::Nifti => {
                 let pair = nifti::read(&mut stream, name, self.options, self.sink, self.report)?;
                 self.report.bytes_read += stream.raw_count();
@@ -153,6 +165,10 @@ impl Reading<'_> {
                     }
                 }
             }
+            Kind::Dicom => {
+                drop(stream);
+                return self.read_dicom(name);
+            }
             Kind::Empty => Err(LoadError::Empty {
                 name: name.to_owned(),
             }),
@@ -169,7 +185,12 @@ impl Reading<'_> {
                     .collect::<Vec<_>>()
                     .join(" "),
             }),
-        }
+        };
+        outcome.map(|()| None)
+    }
+
+    fn read_dicom(&mut self, name: &str) -> Result<Option<[u8; 32]>, LoadError> {
+        dicom::read(self.files, name, self.options, self.sink, self.report).map(Some)
     }
 
     fn read_other_files(
@@ -205,6 +226,7 @@ impl Reading<'_> {
 }
 
 enum Kind {
+    Dicom,
     Nifti,
     Nrrd,
     MetaImage,
@@ -234,10 +256,8 @@ fn sniff(start: &[u8], name: &str) -> Kind {
     if metaimage::is_header(start) || named(".mha") || named(".mhd") {
         return Kind::MetaImage;
     }
-    if start.get(128..132) == Some(b"DICM") || named(".dcm") || named(".ima") {
-        return Kind::Refused(
-            "DICOM is not read yet: convert the series to NIfTI or NRRD (dcm2niix does)",
-        );
+    if start.get(128..132) == Some(b"DICM") || dicom::has_ending(name) {
+        return Kind::Dicom;
     }
     if named(".mgz") || named(".mgh") {
         return Kind::Refused(
@@ -266,6 +286,9 @@ fn sniff(start: &[u8], name: &str) -> Kind {
         if start.starts_with(sign) {
             return Kind::Refused(what);
         }
+    }
+    if dicom::is_header(start) && !named(".raw") {
+        return Kind::Dicom;
     }
     if named(".obj") || named(".stl") || named(".ply") {
         return Kind::Refused("a surface, no volume");

@@ -68,6 +68,40 @@ pub enum Warning {
     Magnitude,
     /// Colours: their brightness is shown.
     Luminance,
+    /// DICOM: slices are missing between others; their neighbours are shown there.
+    MissingSlices {
+        /// How many.
+        count: u64,
+    },
+    /// DICOM: more than one image at the same place; the first is shown.
+    DoubledSlices {
+        /// How many are left out.
+        count: u64,
+    },
+    /// DICOM: slices lie at uneven distances and are drawn evenly.
+    UnevenSlices {
+        /// The smallest distance, mm.
+        smallest_mm: f64,
+        /// The largest, mm.
+        largest_mm: f64,
+    },
+    /// DICOM: slices do not lie square on each other, as the gantry was tilted.
+    Tilted {
+        /// By how much.
+        degrees: f64,
+    },
+    /// DICOM: nothing says how large a pixel is.
+    NoPixelSpacing,
+    /// DICOM: images that are left out because they cannot be read.
+    LeftOut {
+        /// How many.
+        count: u64,
+    },
+    /// Voxels that belong to several segments; the last is shown.
+    OverlappingSegments {
+        /// How many.
+        count: u64,
+    },
     /// A header field is out of order but could be read around.
     Repaired {
         /// The field.
@@ -119,6 +153,27 @@ impl fmt::Display for Warning {
             Self::Luminance => f.write_str(
                 "the voxels are colours; their brightness is shown, coloured by the transfer function",
             ),
+            Self::MissingSlices { count } => write!(
+                f,
+                "{count} slices are missing; their neighbours are shown in their place"
+            ),
+            Self::DoubledSlices { count } => write!(
+                f,
+                "{count} images lie where others do already; the first at each place is shown"
+            ),
+            Self::UnevenSlices { smallest_mm, largest_mm } => write!(
+                f,
+                "slices lie from {smallest_mm:.2} to {largest_mm:.2} mm apart and are drawn evenly: lengths across them are not exact"
+            ),
+            Self::Tilted { degrees } => write!(
+                f,
+                "the gantry was tilted: slices are shifted against each other by {degrees:.1}°, and drawn as they lie"
+            ),
+            Self::NoPixelSpacing => f.write_str("nothing says how large a pixel is; 1 mm was taken"),
+            Self::LeftOut { count } => write!(f, "{count} DICOM files cannot be read and are left out"),
+            Self::OverlappingSegments { count } => {
+                write!(f, "{count} voxels belong to several segments; the last is shown")
+            }
             Self::Repaired { field, what } => write!(f, "{field}: {what}"),
             Self::LabelNames => f.write_str("the names of the labels could not be read"),
             Self::Layers { count } => write!(
@@ -146,6 +201,8 @@ pub enum Format {
     Nrrd,
     /// MetaImage, .mha or .mhd.
     MetaImage,
+    /// DICOM, one file or many.
+    Dicom,
     /// Bare voxels whose layout the user gave.
     Raw,
 }
@@ -160,6 +217,7 @@ impl fmt::Display for Format {
             Self::Analyze => "Analyze 7.5",
             Self::Nrrd => "NRRD",
             Self::MetaImage => "MetaImage",
+            Self::Dicom => "DICOM",
             Self::Raw => "raw voxels",
         })
     }
@@ -183,7 +241,7 @@ pub struct LoadReport {
     /// True if the header says that the voxels are labels.
     pub is_labels: bool,
     /// SHA-256 over the bytes of the file as they lie on disk; of several files, one after the other in the order
-    /// opened, the header first. `None` until all was read.
+    /// opened, the header first; of several DICOM files, over the sorted hashes of each. `None` until all was read.
     pub sha256: Option<[u8; 32]>,
     /// Bytes read, as they lie on disk.
     pub bytes_read: u64,

@@ -5,22 +5,40 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use crate::data::VolumeSink;
-use crate::load::{FileHandle, FileSet, LoadError, LoadReport, ReadOptions, read_volume};
+use crate::load::{
+    ALL_FILES, FileHandle, FileSet, LoadError, LoadReport, ReadOptions, read_volume,
+};
+
+/// Files of a folder that are looked at, and folders within each other.
+const MAX_FILES: usize = 20_000;
+const MAX_DEPTH: u32 = 5;
 
 /// The files of one folder and what lies below it, nothing else.
 #[derive(Clone, Debug)]
 pub struct Folder {
     path: PathBuf,
+    /// It was opened itself, so that the files in its folders belong to it.
+    is_whole: bool,
 }
 
 impl Folder {
     /// A folder by its path.
     pub fn new(path: impl Into<PathBuf>) -> Self {
-        Self { path: path.into() }
+        Self {
+            path: path.into(),
+            is_whole: false,
+        }
     }
 
-    /// The folder that a file is in, and the file's name there.
+    /// The folder that a file is in, and the file's name there; of a folder, itself and [`ALL_FILES`].
     pub fn of(file: &Path) -> (Self, String) {
+        if file.is_dir() {
+            let folder = Self {
+                path: file.to_owned(),
+                is_whole: true,
+            };
+            return (folder, ALL_FILES.to_owned());
+        }
         let name = file
             .file_name()
             .map_or_else(String::new, |name| name.to_string_lossy().into_owned());
@@ -32,7 +50,35 @@ impl Folder {
     }
 }
 
+/// Adds the plain files of a folder, named from where it began.
+fn list(folder: &Path, before: &str, depth: u32, names: &mut Vec<String>) {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        if names.len() >= MAX_FILES {
+            return;
+        }
+        // A name that is no text cannot be asked for again; links are not followed, they may lead anywhere.
+        let (Ok(name), Ok(kind)) = (entry.file_name().into_string(), entry.file_type()) else {
+            continue;
+        };
+        if kind.is_file() {
+            names.push(format!("{before}{name}"));
+        } else if kind.is_dir() && depth > 0 {
+            list(&entry.path(), &format!("{before}{name}/"), depth - 1, names);
+        }
+    }
+}
+
 impl FileSet for Folder {
+    fn names(&mut self) -> Vec<String> {
+        let mut names = Vec::new();
+        let depth = if self.is_whole { MAX_DEPTH } else { 0 };
+        list(&self.path, "", depth, &mut names);
+        names
+    }
+
     fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>> {
         let below = Path::new(name);
         let stays = below

@@ -408,7 +408,7 @@ impl Services for NativeServices {
             .add_filter(
                 "Scans and illustrations",
                 &[
-                    "nii", "gz", "hdr", "img", "nrrd", "nhdr", "mha", "mhd", "raw", "json",
+                    "nii", "gz", "hdr", "img", "nrrd", "nhdr", "mha", "mhd", "dcm", "raw", "json",
                 ],
             )
             .add_filter("All files", &["*"])

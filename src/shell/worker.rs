@@ -6,6 +6,7 @@
 //! `["cancelled"]`. Arrays travel without being copied again. One worker does one load; to
 //! cancel it is to end it.
 
+use std::collections::BTreeSet;
 use std::io::{self, Read};
 
 use glam::{DAffine3, UVec3};
@@ -22,7 +23,7 @@ use super::loading::{make_subject, read_file, slabs_in_turn};
 use crate::app::{LoadEvent, RawQuestion};
 use crate::data::{Grid, LabelVolume, Segment, Volume, VolumeLimits, Voxels};
 use crate::document::{Document, Edit, Reading, SubjectRef};
-use crate::load::{FileHandle, FileSet};
+use crate::load::{FileHandle, FileSet, main_name};
 
 /// Bytes of a file that are in memory at a time.
 const CHUNK_BYTES: usize = 4 << 20;
@@ -166,7 +167,7 @@ pub async fn worker_task(message: JsValue) -> Result<(), JsValue> {
         }
     } else {
         let list: Array = get("files")?.unchecked_into();
-        let files: Vec<(String, Blob)> = list
+        let mut files: Vec<(String, Blob)> = list
             .iter()
             .map(|pair| {
                 let pair: Array = pair.unchecked_into();
@@ -175,7 +176,15 @@ pub async fn worker_task(message: JsValue) -> Result<(), JsValue> {
             })
             .collect();
         let name = files.first().map(|f| f.0.clone()).unwrap_or_default();
+        // Files from several folders may be called alike.
+        let mut names = BTreeSet::new();
+        for (index, (name, _)) in files.iter_mut().enumerate() {
+            if !names.insert(name.clone()) {
+                *name = format!("{index}/{name}");
+            }
+        }
         let mut files = BlobFiles(files);
+        let name = main_name(&mut files, &name);
         let expected = expected.as_deref();
         read_file(&mut files, &name, expected, limits, &reading, &mut post);
     }
@@ -233,6 +242,10 @@ async fn fetch(scope: &DedicatedWorkerGlobalScope, address: &str) -> Result<Blob
 struct BlobFiles(Vec<(String, Blob)>);
 
 impl FileSet for BlobFiles {
+    fn names(&mut self) -> Vec<String> {
+        self.0.iter().map(|(name, _)| name.clone()).collect()
+    }
+
     fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>> {
         let found = self.0.iter().find(|(n, _)| n == name);
         let (_, blob) = found.ok_or(io::ErrorKind::NotFound)?;
