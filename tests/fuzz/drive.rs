@@ -1,0 +1,175 @@
+//! What a fuzzer drives: bytes in, and whatever comes of them, no panic, no hang, and no memory beyond what really came.
+//! Where a format spreads over files, the bytes are cut in two: the first two say where.
+
+use fabrica::data::{Volume, VolumeSink, Voxels};
+use fabrica::document::Document;
+use fabrica::load::{
+    self, ElementType, FileSet, LoadReport, MemoryFiles, RawLayout, ReadOptions,
+};
+
+/// Counts what comes, looks at its header, keeps nothing.
+#[derive(Default)]
+struct Counter {
+    expected: u64,
+    found: u64,
+}
+
+impl VolumeSink for Counter {
+    fn begin(&mut self, header: &Volume) -> Result<(), String> {
+        let dims = header.grid.dims.as_u64vec3();
+        self.expected = dims.element_product();
+        assert!(self.expected > 0, "a volume has voxels");
+        let affine = header.grid.world_from_voxel;
+        assert!(affine.is_finite() && affine.matrix3.determinant() != 0.0, "it lies somewhere");
+        assert!(header.slope.is_finite() && header.intercept.is_finite(), "values are finite");
+        Ok(())
+    }
+
+    fn scalars(&mut self, next: Voxels) {
+        self.found += next.len() as u64;
+        if let Voxels::F32(values) = &next {
+            assert!(values.iter().all(|value| value.is_finite()), "voxels are finite");
+        }
+    }
+
+    fn labels(&mut self, next: Vec<u8>) {
+        std::hint::black_box(next.len());
+    }
+
+    // A hundred million voxels out of a packed file prove no more than the first ones.
+    fn progress(&mut self, _fraction: f32) -> bool {
+        self.found < 1 << 24
+    }
+}
+
+fn read(files: &mut dyn FileSet, name: &str) {
+    for frame in [0, 1] {
+        let options = ReadOptions {
+            frame,
+            ..ReadOptions::default()
+        };
+        let (mut sink, mut report) = (Counter::default(), LoadReport::default());
+        match load::read_volume(files, name, &options, &mut sink, &mut report) {
+            Ok(()) => {
+                assert_eq!(sink.found, sink.expected, "all voxels come");
+                assert!(report.sha256.is_some(), "the file has a hash");
+            }
+            Err(error) => {
+                let line = error.to_string();
+                assert!(!line.contains('\n') && !line.is_empty(), "one line: {line}");
+            }
+        }
+        for notice in report.notices() {
+            assert!(!notice.contains('\n'), "one line: {notice}");
+        }
+    }
+    let mut report = LoadReport::default();
+    let names = Default::default();
+    let labels = load::read_labels(files, name, &names, &limited(), &mut report);
+    if let Ok(labels) = labels {
+        assert_eq!(labels.labels.len(), labels.grid.voxel_count());
+    }
+}
+
+/// Labels are kept, so that a packed file may not hold too many.
+fn limited() -> ReadOptions {
+    ReadOptions {
+        max_voxels: 1 << 20,
+        ..ReadOptions::default()
+    }
+}
+
+/// The bytes as one file of this name, or as the first of two.
+fn one_or_two(data: &[u8], name: &str, other: &str) {
+    read(&mut MemoryFiles::new([(name, data.to_vec())]), name);
+    let Some((cut, rest)) = data.split_first_chunk::<2>() else {
+        return;
+    };
+    let cut = usize::from(u16::from_le_bytes(*cut)).min(rest.len());
+    let (first, second) = rest.split_at(cut);
+    let files = [(name, first.to_vec()), (other, second.to_vec())];
+    read(&mut MemoryFiles::new(files), name);
+}
+
+/// NIfTI-1 and -2, Analyze, single files and pairs, packed or not.
+pub fn nifti(data: &[u8]) {
+    one_or_two(data, "a.nii", "b.nii");
+    one_or_two(data, "a.hdr", "a.img");
+}
+
+/// NRRD, attached and detached.
+pub fn nrrd(data: &[u8]) {
+    one_or_two(data, "a.nhdr", "a.raw");
+}
+
+/// MetaImage, attached and detached.
+pub fn metaimage(data: &[u8]) {
+    one_or_two(data, "a.mhd", "a.raw");
+}
+
+/// Bare voxels; the first sixteen bytes say how they lie.
+pub fn raw(data: &[u8]) {
+    let name = String::from_utf8_lossy(&data[..data.len().min(40)]);
+    std::hint::black_box(RawLayout::guess(&name, Some(data.len() as u64)));
+    let Some((how, rest)) = data.split_first_chunk::<16>() else {
+        return;
+    };
+    let side = |i: usize| u32::from(u16::from_le_bytes([how[i], how[i + 1]]));
+    const ELEMENTS: [ElementType; 4] = [
+        ElementType::U8,
+        ElementType::I16,
+        ElementType::F32,
+        ElementType::F64,
+    ];
+    let layout = RawLayout {
+        dims: [side(0), side(2), side(4)].into(),
+        element: ELEMENTS[usize::from(how[6] % 4)],
+        big_endian: how[7] & 1 == 1,
+        spacing_mm: [
+            f64::from(f32::from_le_bytes([how[8], how[9], how[10], how[11]])),
+            1.0,
+            1.0,
+        ]
+        .into(),
+        header_bytes: u64::from(how[12]),
+    };
+    let (mut sink, mut report) = (Counter::default(), LoadReport::default());
+    let mut files = MemoryFiles::new([("a.raw", rest.to_vec())]);
+    let options = ReadOptions::default();
+    if load::read_raw(&mut files, "a.raw", &layout, &options, &mut sink, &mut report).is_ok() {
+        assert_eq!(sink.found, sink.expected, "all voxels come");
+    }
+}
+
+/// DICOM: one file, and a folder of two.
+pub fn dicom(data: &[u8]) {
+    one_or_two(data, "a.dcm", "b.dcm");
+}
+
+/// Links: any text gives a document or an error, and a document comes back from its link.
+pub fn link(data: &[u8]) {
+    let text = String::from_utf8_lossy(data);
+    if let Ok(link) = fabrica::link::decode(&text) {
+        round_trip(&link.document);
+    }
+}
+
+/// Documents in JSON.
+pub fn document(data: &[u8]) {
+    let text = String::from_utf8_lossy(data);
+    if let Ok(document) = Document::from_json(&text) {
+        round_trip(&document);
+        let json = document.to_json();
+        let again = Document::from_json(&json).expect("what was written is read");
+        assert_eq!(again.to_json(), json, "written twice, it is the same");
+        for step in 0..=document.step_count() {
+            document.at_step(step).expect("a step of a valid document").illustration();
+        }
+    }
+}
+
+fn round_trip(document: &Document) {
+    let payload = fabrica::link::encode(document);
+    let again = fabrica::link::decode(&payload).expect("our own link");
+    assert_eq!(again.document.to_json(), document.to_json(), "without loss");
+}
