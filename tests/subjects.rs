@@ -163,7 +163,7 @@ const GOLDEN: &[(&str, &str)] = &[
     ),
     (
         "knee",
-        "bfec928018936b8c9f4cb64fb0c129d1daa7cddefe81aef61786fa62f58cfb93",
+        "26578f053e9101034553186b01afe0b7896e6e245b6648b278792c2817bc6c32",
     ),
     (
         "torso",

@@ -4,11 +4,11 @@
 
 use glam::Vec3;
 
+use super::hand_cords::{arteries, nerves, tendons, veins};
 use super::lanes::Lanes;
+use super::limb::{Cord, inner_width, lay_bone, lay_skin, near, parted};
 use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, border_width, segment};
-use super::shape::{
-    Field, Knot, Near, Places, Shape, ball, capsule, curve, ellipsoid, strap, turn_deg,
-};
+use super::shape::{Field, Knot, Places, Shape, ball, capsule, curve, ellipsoid, strap, turn_deg};
 
 const SEGMENTS: &[SegmentSpec] = &[
     segment("skin", [226, 176, 148]),
@@ -27,15 +27,15 @@ const SEGMENTS: &[SegmentSpec] = &[
 const END_MM: f32 = -58.0;
 
 /// One finger: its joints from the base of the metacarpal to the tip, and the direction out of its palmar side at each.
-struct Finger {
+pub(super) struct Finger {
     /// Base and head of the metacarpal, the two joints of the finger, end of the last bone.
-    joints: [Vec3; 5],
+    pub(super) joints: [Vec3; 5],
     /// Across the finger.
-    across: Vec3,
+    pub(super) across: Vec3,
     /// Out of the palmar side, by bone.
-    palmar: [Vec3; 4],
+    pub(super) palmar: [Vec3; 4],
     /// Half widths of the flesh at the joints.
-    flesh: [f32; 5],
+    pub(super) flesh: [f32; 5],
 }
 
 fn fingers() -> Vec<Finger> {
@@ -139,7 +139,7 @@ pub(super) struct Hand {
     nerves: Field,
 }
 
-fn arr(p: Vec3) -> [f32; 3] {
+pub(super) fn arr(p: Vec3) -> [f32; 3] {
     p.to_array()
 }
 
@@ -512,232 +512,6 @@ fn muscles() -> Field {
     f
 }
 
-fn tendons(fingers: &[Finger]) -> Field {
-    let mut f = Field::default();
-    for (index, finger) in fingers.iter().enumerate() {
-        let j = &finger.joints;
-        let x = index as f32;
-        let (palm, back) = if index == 4 {
-            (Vec3::new(-12.0, 9.0, 6.0), Vec3::new(-22.0, -7.0, 4.0))
-        } else {
-            (
-                Vec3::new(-7.0 + 4.2 * x, 9.5, 6.0),
-                Vec3::new(-6.0 + 4.0 * x, -12.0, 2.0),
-            )
-        };
-        // Flexors run through the tunnel of the wrist, extensors over its back.
-        let below = |joint: usize, depth: f32| {
-            let bone = joint.min(3);
-            (j[joint] + finger.palmar[bone] * depth).to_array()
-        };
-        f.join_all(
-            0.0,
-            curve(&[
-                ([palm.x * 1.1, palm.y, -108.0], 2.2),
-                (arr(palm + Vec3::new(0.0, 0.0, -30.0)), 2.2),
-                (arr(palm), 2.1),
-                (arr((palm + j[1]) * 0.5 + Vec3::Y * 5.0), 2.1),
-                (below(1, 7.4), 2.2),
-                (below(2, 5.8), 1.9),
-                (below(3, 4.6), 1.6),
-                (
-                    arr(j[3] + (j[4] - j[3]) * 0.45 + finger.palmar[3] * 2.6),
-                    1.0,
-                ),
-            ]),
-        );
-        let mut over: Vec<Knot> = vec![
-            ([back.x * 1.4, back.y - 1.0, -108.0], 1.9),
-            (arr(back), 1.8),
-            (arr((back + j[1]) * 0.5 - Vec3::Y * 4.0), 1.7),
-            (below(1, -7.6), 1.9),
-            (below(2, -5.6), 1.7),
-            (below(3, -4.4), 1.2),
-        ];
-        if index == 4 {
-            over[2] = (arr((j[0] + j[1]) * 0.5 - finger.palmar[0] * 6.0), 1.6);
-        }
-        f.join_all(0.0, curve(&over));
-    }
-    // Long palmar tendon, and the band over the tunnel.
-    f.join_all(
-        0.0,
-        curve(&[
-            ([0.0, 15.5, -108.0], 1.8),
-            ([-1.0, 15.0, -20.0], 1.6),
-            ([-1.0, 15.0, 12.0], 1.6),
-        ]),
-    );
-    f.join(
-        0.0,
-        strap(
-            [-13.0, 9.5, 13.0],
-            [11.0, 10.0, 13.0],
-            10.0,
-            10.0,
-            [0.0, 1.0, 0.0],
-            0.16,
-        ),
-    );
-    f
-}
-
-fn arteries(fingers: &[Finger]) -> Field {
-    let mut f = Field::default();
-    f.join_all(
-        0.0,
-        curve(&[
-            ([-19.0, 9.0, -108.0], 1.9),
-            ([-20.0, 10.0, -20.0], 1.8),
-            ([-25.0, 2.0, 8.0], 1.6),
-            ([-24.0, -6.0, 28.0], 1.5),
-            ([-12.0, 3.0, 46.0], 1.5),
-            ([6.0, 4.0, 46.0], 1.4),
-            ([18.0, 5.0, 40.0], 1.2),
-        ]),
-    );
-    let arch: [Knot; 8] = [
-        ([18.0, 9.0, -108.0], 1.9),
-        ([17.0, 11.0, -20.0], 1.8),
-        ([17.0, 11.0, 12.0], 1.7),
-        ([19.0, 11.0, 34.0], 1.7),
-        ([12.0, 11.5, 54.0], 1.6),
-        ([-3.0, 11.5, 60.0], 1.6),
-        ([-17.0, 11.5, 52.0], 1.4),
-        ([-24.0, 12.0, 40.0], 1.2),
-    ];
-    f.join_all(0.0, curve(&arch));
-    for finger in fingers {
-        let j = &finger.joints;
-        for side in [-1.0, 1.0] {
-            let beside = |joint: usize, r: f32| {
-                let out = finger.flesh[joint] * 0.52 * side;
-                let depth = finger.flesh[joint] * 0.24;
-                (
-                    arr(j[joint] + finger.across * out + finger.palmar[joint.min(3)] * depth),
-                    r,
-                )
-            };
-            let root =
-                j[1] * 0.55 + Vec3::new(0.0, 11.0, 26.0) * 0.5 + finger.across * (side * 2.0);
-            f.join_all(
-                0.0,
-                curve(&[
-                    (arr(root), 1.2),
-                    beside(1, 1.15),
-                    beside(2, 1.0),
-                    beside(3, 0.9),
-                    beside(4, 0.6),
-                ]),
-            );
-        }
-    }
-    f
-}
-
-fn veins(fingers: &[Finger], skin: &Field) -> Field {
-    let mut f = Field::default();
-    let mut tube = |knots: &[Knot]| {
-        let knots: Vec<Knot> = knots
-            .iter()
-            .map(|&(p, r)| (skin.pull(p, -(r + 1.9)), r))
-            .collect();
-        f.join_all(0.0, curve(&knots));
-    };
-    // Along the back of the fingers into a net on the back of the hand, and up the forearm.
-    for pair in fingers[..4].windows(2) {
-        let root = (pair[0].joints[1] + pair[1].joints[1]) * 0.5;
-        let (x, z) = (root.x, root.z);
-        tube(&[
-            ([x, -12.0, z - 4.0], 1.2),
-            ([x * 0.85, -14.0, z - 24.0], 1.5),
-            ([x * 0.6, -14.0, z - 46.0], 1.6),
-        ]);
-    }
-    tube(&[
-        ([-34.0, -9.0, 62.0], 1.2),
-        ([-14.0, -14.0, 48.0], 1.5),
-        ([2.0, -15.0, 40.0], 1.6),
-        ([18.0, -14.0, 44.0], 1.5),
-        ([30.0, -11.0, 56.0], 1.2),
-    ]);
-    tube(&[
-        ([-14.0, -14.0, 48.0], 1.6),
-        ([-22.0, -12.0, 18.0], 1.8),
-        ([-27.0, -6.0, -20.0], 2.0),
-        ([-26.0, 2.0, -70.0], 2.1),
-        ([-22.0, 8.0, -108.0], 2.1),
-    ]);
-    tube(&[
-        ([18.0, -14.0, 44.0], 1.5),
-        ([20.0, -13.0, 10.0], 1.7),
-        ([24.0, -10.0, -40.0], 1.9),
-        ([26.0, -6.0, -108.0], 2.0),
-    ]);
-    for finger in fingers {
-        let j = &finger.joints;
-        let beside = |joint: usize, r: f32| {
-            (
-                arr(j[joint] - finger.palmar[joint.min(3)] * 20.0 + finger.across * 3.0),
-                r,
-            )
-        };
-        tube(&[beside(3, 0.9), beside(2, 1.1), beside(1, 1.2)]);
-    }
-    f
-}
-
-fn nerves(fingers: &[Finger]) -> Field {
-    let mut f = Field::default();
-    f.join_all(
-        0.0,
-        curve(&[
-            ([-1.0, 10.0, -108.0], 2.3),
-            ([-3.0, 12.0, -20.0], 2.3),
-            ([-4.0, 12.0, 16.0], 2.4),
-            ([-8.0, 11.0, 34.0], 1.8),
-        ]),
-    );
-    f.join_all(
-        0.0,
-        curve(&[
-            ([22.0, 7.0, -108.0], 1.9),
-            ([20.5, 10.0, -10.0], 1.9),
-            ([20.5, 10.0, 14.0], 1.8),
-            ([24.0, 9.0, 36.0], 1.5),
-        ]),
-    );
-    for (index, finger) in fingers.iter().enumerate() {
-        let j = &finger.joints;
-        let root = if index == 3 {
-            Vec3::new(24.0, 9.0, 36.0)
-        } else {
-            Vec3::new(-7.0, 11.0, 32.0)
-        };
-        for side in [-1.0, 1.0] {
-            let beside = |joint: usize, r: f32| {
-                let out = finger.flesh[joint] * 0.42 * side;
-                let depth = finger.flesh[joint] * 0.46;
-                (
-                    arr(j[joint] + finger.across * out + finger.palmar[joint.min(3)] * depth),
-                    r,
-                )
-            };
-            f.join_all(
-                0.0,
-                curve(&[
-                    (arr(root), 1.4),
-                    beside(1, 1.1),
-                    beside(2, 0.95),
-                    beside(3, 0.8),
-                    beside(4, 0.5),
-                ]),
-            );
-        }
-    }
-    f
-}
-
 impl Model for Hand {
     fn bounds_mm(&self) -> (Vec3, Vec3) {
         (Vec3::new(-86.0, -24.0, -61.0), Vec3::new(64.0, 52.0, 192.0))
@@ -752,69 +526,40 @@ impl Model for Hand {
     }
 
     fn paint(&self, block: &Block, out: &mut Canvas) {
-        let width = border_width(block.spacing);
-        let soft = 0.55 * width;
-        let near = |field, band: f32| {
-            let mut near = Near::default();
-            Field::near(field, block, band + width, &mut near);
-            near
-        };
-        let skin = near(&self.skin, 6.0);
-        let nails = near(&self.nails, 1.0);
+        let skin = near(&self.skin, block, 6.0);
         if skin.is_empty() {
             return;
         }
-        let muscles = near(&self.muscles, 5.0);
-        let bones = near(&self.bones, 4.0);
-        let cartilage = near(&self.cartilage, 1.0);
-        let tubes = [
-            (near(&self.veins, 0.0), 160.0, 7),
-            (near(&self.arteries, 0.0), 230.0, 6),
-            (near(&self.nerves, 0.0), 32.0, 8),
+        let nails = near(&self.nails, block, 1.0);
+        let muscles = near(&self.muscles, block, 5.0);
+        let bones = near(&self.bones, block, 4.0);
+        let cartilage = Cord::new(&self.cartilage, block, 110.0, 9, 2.4);
+        let cords = [
+            Cord::new(&self.tendons, block, 90.0, 5, 2.2),
+            Cord::new(&self.veins, block, 160.0, 7, 1.9),
+            Cord::new(&self.arteries, block, 230.0, 6, 1.9),
+            Cord::new(&self.nerves, block, 32.0, 8, 1.9),
         ];
-        let tendons = near(&self.tendons, 1.0);
+        let (width, soft) = (border_width(block.spacing), inner_width(block));
         let flat = Lanes::splat;
-        let thickness = 1.9f32.max(0.9 * block.spacing);
         for row in 0..ROWS {
             let p = Places::new(block.row(row));
             let s = skin.distance(&p);
             if s.lowest() > width {
                 continue;
             }
-            out.lay(row, s - 0.5 * block.spacing, width, flat(30.0), 1);
-            out.lay(row, s + thickness, soft, flat(-100.0), 2);
+            lay_skin(out, row, block, s, 1.9, [1, 2]);
             if !muscles.is_empty() {
-                let (first, second) = muscles.two_nearest(&p);
-                let d = (first - 0.8).max(flat(0.9) - (second - first));
+                let d = parted(muscles.two_nearest(&p), 0.8, 0.9);
                 out.lay(row, d.max(s + 3.0), soft, flat(55.0), 3);
             }
-            if !cartilage.is_empty() {
-                out.lay(
-                    row,
-                    cartilage.distance(&p).max(s + 2.4),
-                    soft,
-                    flat(110.0),
-                    9,
-                );
-            }
+            cartilage.lay(out, row, block, &p, s);
             if !bones.is_empty() {
                 let d = bones.distance(&p).max(s + 2.2);
-                let spongy = ((-d - 1.4) * 0.8).clamp(0.0, 1.0);
-                out.lay(row, d, width, flat(1200.0).mix(flat(420.0), spongy), 4);
+                lay_bone(out, row, block, d, flat(1.4), [1200.0, 420.0].map(flat), 4);
             }
-            if !tendons.is_empty() {
-                out.lay(row, tendons.distance(&p).max(s + 2.2), soft, flat(90.0), 5);
-            }
-            for (field, value, label) in &tubes {
-                if !field.is_empty() {
-                    out.lay(
-                        row,
-                        field.distance(&p).max(s + 1.9),
-                        soft,
-                        flat(*value),
-                        *label,
-                    );
-                }
+            for cord in &cords {
+                cord.lay(out, row, block, &p, s);
             }
             if !nails.is_empty() {
                 let d = nails.distance(&p).max(s - 0.6).max(-(s + 1.2));

@@ -5,10 +5,9 @@
 use glam::Vec3;
 
 use super::lanes::Lanes;
+use super::limb::{Cord, inner_width, lay_bone, lay_skin, near, parted};
 use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, border_width, segment};
-use super::shape::{
-    Field, Knot, Near, Places, Shape, ball, capsule, curve, ellipsoid, smooth_min, strap,
-};
+use super::shape::{Field, Knot, Places, Shape, ball, capsule, curve, ellipsoid, strap};
 
 const SEGMENTS: &[SegmentSpec] = &[
     segment("skin", [226, 176, 148]),
@@ -533,54 +532,41 @@ impl Model for Knee {
     }
 
     fn paint(&self, block: &Block, out: &mut Canvas) {
-        let width = border_width(block.spacing);
-        let soft = 0.55 * width;
-        let near = |field, band: f32| {
-            let mut near = Near::default();
-            Field::near(field, block, band + width, &mut near);
-            near
-        };
-        let skin = near(&self.skin, 12.0);
+        let skin = near(&self.skin, block, 12.0);
         if skin.is_empty() {
             return;
         }
-        let muscles = near(&self.muscles, 7.0);
+        let muscles = near(&self.muscles, block, 7.0);
         let bones = [
-            (near(&self.femur, 6.0), 4),
-            (near(&self.tibia, 6.0), 5),
-            (near(&self.fibula, 4.0), 6),
-            (near(&self.patella, 6.0), 7),
+            (near(&self.femur, block, 6.0), 4),
+            (near(&self.tibia, block, 6.0), 5),
+            (near(&self.fibula, block, 4.0), 6),
+            (near(&self.patella, block, 6.0), 7),
         ];
-        let gliding = near(&self.gliding, 1.0);
-        let [menisci, ligaments, tendons, bag, veins, arteries, nerves] = [
-            (&self.menisci, 1.0),
-            (&self.ligaments, 1.0),
-            (&self.tendons, 1.0),
-            (&self.capsule, 1.0),
-            (&self.veins, 0.0),
-            (&self.arteries, 0.0),
-            (&self.nerves, 0.0),
-        ]
-        .map(|(field, band)| near(field, band));
+        let gliding = near(&self.gliding, block, 1.0);
+        let menisci = near(&self.menisci, block, 1.0);
+        let bag = Cord::new(&self.capsule, block, 12.0, 12, 5.0);
+        let cords = [
+            Cord::new(&self.ligaments, block, 95.0, 10, 4.0),
+            Cord::new(&self.tendons, block, 90.0, 11, 3.0),
+            Cord::new(&self.veins, block, 160.0, 14, 3.0),
+            Cord::new(&self.arteries, block, 230.0, 13, 3.0),
+            Cord::new(&self.nerves, block, 32.0, 15, 3.0),
+        ];
+        let (width, soft) = (border_width(block.spacing), inner_width(block));
         let flat = Lanes::splat;
-        let thickness = 2.2f32.max(0.9 * block.spacing);
         for row in 0..ROWS {
             let p = Places::new(block.row(row));
             let s = skin.distance(&p);
             if s.lowest() > width {
                 continue;
             }
-            out.lay(row, s - 0.5 * block.spacing, width, flat(30.0), 1);
-            out.lay(row, s + thickness, soft, flat(-100.0), 2);
+            lay_skin(out, row, block, s, 2.2, [1, 2]);
             if !muscles.is_empty() {
-                let (first, second) = muscles.two_nearest(&p);
-                let d = smooth_min(first, second, 0.1) - 2.5;
-                let d = d.max(flat(1.2) - (second - first));
+                let d = parted(muscles.two_nearest(&p), 2.5, 1.2);
                 out.lay(row, d.max(s + 6.5), soft, flat(55.0), 3);
             }
-            if !bag.is_empty() {
-                out.lay(row, bag.distance(&p).max(s + 5.0), soft, flat(12.0), 12);
-            }
+            bag.lay(out, row, block, &p, s);
             // Cartilage is the outermost layer of a bone where another glides on it.
             let joint = if gliding.is_empty() {
                 flat(1e3)
@@ -600,31 +586,21 @@ impl Model for Knee {
                 let d = d + covered;
                 let shaft = ((p.plain.z.abs() - 45.0) * 0.03).clamp(0.0, 1.0);
                 let compact = shaft * 3.2 + 1.3;
-                let spongy = ((-d - compact) * 0.8).clamp(0.0, 1.0);
                 let inside = flat(380.0).mix(flat(60.0), shaft);
-                out.lay(row, d, width, flat(1250.0).mix(inside, spongy), *label);
+                lay_bone(out, row, block, d, compact, [flat(1250.0), inside], *label);
             }
-            for (field, value, label, depth) in [
-                (&menisci, 90.0, 9, 5.0),
-                (&ligaments, 95.0, 10, 4.0),
-                (&tendons, 90.0, 11, 3.0),
-                (&veins, 160.0, 14, 3.0),
-                (&arteries, 230.0, 13, 3.0),
-                (&nerves, 32.0, 15, 3.0),
-            ] {
-                if field.is_empty() {
-                    continue;
-                }
-                let mut d = field.distance(&p).max(s + depth);
-                if label == 9 {
-                    // A meniscus fills the wedge between the bones.
-                    for (bone, _) in &bones[..2] {
-                        if !bone.is_empty() {
-                            d = d.max(flat(0.9) - bone.distance(&p));
-                        }
+            if !menisci.is_empty() {
+                // A meniscus fills the wedge between the bones.
+                let mut d = menisci.distance(&p).max(s + 5.0);
+                for (bone, _) in &bones[..2] {
+                    if !bone.is_empty() {
+                        d = d.max(flat(0.9) - bone.distance(&p));
                     }
                 }
-                out.lay(row, d, soft, flat(value), label);
+                out.lay(row, d, soft, flat(90.0), 9);
+            }
+            for cord in &cords {
+                cord.lay(out, row, block, &p, s);
             }
             let ends = flat(HALF_MM) - p.plain.z.abs();
             out.lay(row, ends, width, flat(-1000.0), 0);

@@ -29,6 +29,7 @@
 mod bar;
 mod cube;
 mod hand;
+mod hand_cords;
 mod head;
 mod head_brain;
 mod head_skin;
@@ -36,6 +37,7 @@ mod head_skull;
 mod head_soft;
 mod knee;
 mod lanes;
+mod limb;
 mod paint;
 mod piggybank;
 mod profile;

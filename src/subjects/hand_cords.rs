@@ -1,0 +1,232 @@
+//! What runs through the hand: tendons, arteries, veins, nerves.
+
+use glam::Vec3;
+
+use super::hand::{Finger, arr};
+use super::shape::{Field, Knot, curve, strap};
+
+pub(super) fn tendons(fingers: &[Finger]) -> Field {
+    let mut f = Field::default();
+    for (index, finger) in fingers.iter().enumerate() {
+        let j = &finger.joints;
+        let x = index as f32;
+        let (palm, back) = if index == 4 {
+            (Vec3::new(-12.0, 9.0, 6.0), Vec3::new(-22.0, -7.0, 4.0))
+        } else {
+            (
+                Vec3::new(-7.0 + 4.2 * x, 9.5, 6.0),
+                Vec3::new(-6.0 + 4.0 * x, -12.0, 2.0),
+            )
+        };
+        // Flexors run through the tunnel of the wrist, extensors over its back.
+        let below = |joint: usize, depth: f32| {
+            let bone = joint.min(3);
+            (j[joint] + finger.palmar[bone] * depth).to_array()
+        };
+        f.join_all(
+            0.0,
+            curve(&[
+                ([palm.x * 1.1, palm.y, -108.0], 2.2),
+                (arr(palm + Vec3::new(0.0, 0.0, -30.0)), 2.2),
+                (arr(palm), 2.1),
+                (arr((palm + j[1]) * 0.5 + Vec3::Y * 5.0), 2.1),
+                (below(1, 7.4), 2.2),
+                (below(2, 5.8), 1.9),
+                (below(3, 4.6), 1.6),
+                (
+                    arr(j[3] + (j[4] - j[3]) * 0.45 + finger.palmar[3] * 2.6),
+                    1.0,
+                ),
+            ]),
+        );
+        let mut over: Vec<Knot> = vec![
+            ([back.x * 1.4, back.y - 1.0, -108.0], 1.9),
+            (arr(back), 1.8),
+            (arr((back + j[1]) * 0.5 - Vec3::Y * 4.0), 1.7),
+            (below(1, -7.6), 1.9),
+            (below(2, -5.6), 1.7),
+            (below(3, -4.4), 1.2),
+        ];
+        if index == 4 {
+            over[2] = (arr((j[0] + j[1]) * 0.5 - finger.palmar[0] * 6.0), 1.6);
+        }
+        f.join_all(0.0, curve(&over));
+    }
+    // Long palmar tendon, and the band over the tunnel.
+    f.join_all(
+        0.0,
+        curve(&[
+            ([0.0, 15.5, -108.0], 1.8),
+            ([-1.0, 15.0, -20.0], 1.6),
+            ([-1.0, 15.0, 12.0], 1.6),
+        ]),
+    );
+    f.join(
+        0.0,
+        strap(
+            [-13.0, 9.5, 13.0],
+            [11.0, 10.0, 13.0],
+            10.0,
+            10.0,
+            [0.0, 1.0, 0.0],
+            0.16,
+        ),
+    );
+    f
+}
+
+pub(super) fn arteries(fingers: &[Finger]) -> Field {
+    let mut f = Field::default();
+    f.join_all(
+        0.0,
+        curve(&[
+            ([-19.0, 9.0, -108.0], 1.9),
+            ([-20.0, 10.0, -20.0], 1.8),
+            ([-25.0, 2.0, 8.0], 1.6),
+            ([-24.0, -6.0, 28.0], 1.5),
+            ([-12.0, 3.0, 46.0], 1.5),
+            ([6.0, 4.0, 46.0], 1.4),
+            ([18.0, 5.0, 40.0], 1.2),
+        ]),
+    );
+    let arch: [Knot; 8] = [
+        ([18.0, 9.0, -108.0], 1.9),
+        ([17.0, 11.0, -20.0], 1.8),
+        ([17.0, 11.0, 12.0], 1.7),
+        ([19.0, 11.0, 34.0], 1.7),
+        ([12.0, 11.5, 54.0], 1.6),
+        ([-3.0, 11.5, 60.0], 1.6),
+        ([-17.0, 11.5, 52.0], 1.4),
+        ([-24.0, 12.0, 40.0], 1.2),
+    ];
+    f.join_all(0.0, curve(&arch));
+    for finger in fingers {
+        let j = &finger.joints;
+        for side in [-1.0, 1.0] {
+            let beside = |joint: usize, r: f32| {
+                let out = finger.flesh[joint] * 0.52 * side;
+                let depth = finger.flesh[joint] * 0.24;
+                (
+                    arr(j[joint] + finger.across * out + finger.palmar[joint.min(3)] * depth),
+                    r,
+                )
+            };
+            let root =
+                j[1] * 0.55 + Vec3::new(0.0, 11.0, 26.0) * 0.5 + finger.across * (side * 2.0);
+            f.join_all(
+                0.0,
+                curve(&[
+                    (arr(root), 1.2),
+                    beside(1, 1.15),
+                    beside(2, 1.0),
+                    beside(3, 0.9),
+                    beside(4, 0.6),
+                ]),
+            );
+        }
+    }
+    f
+}
+
+pub(super) fn veins(fingers: &[Finger], skin: &Field) -> Field {
+    let mut f = Field::default();
+    let mut tube = |knots: &[Knot]| {
+        let knots: Vec<Knot> = knots
+            .iter()
+            .map(|&(p, r)| (skin.pull(p, -(r + 1.9)), r))
+            .collect();
+        f.join_all(0.0, curve(&knots));
+    };
+    // Along the back of the fingers into a net on the back of the hand, and up the forearm.
+    for pair in fingers[..4].windows(2) {
+        let root = (pair[0].joints[1] + pair[1].joints[1]) * 0.5;
+        let (x, z) = (root.x, root.z);
+        tube(&[
+            ([x, -12.0, z - 4.0], 1.2),
+            ([x * 0.85, -14.0, z - 24.0], 1.5),
+            ([x * 0.6, -14.0, z - 46.0], 1.6),
+        ]);
+    }
+    tube(&[
+        ([-34.0, -9.0, 62.0], 1.2),
+        ([-14.0, -14.0, 48.0], 1.5),
+        ([2.0, -15.0, 40.0], 1.6),
+        ([18.0, -14.0, 44.0], 1.5),
+        ([30.0, -11.0, 56.0], 1.2),
+    ]);
+    tube(&[
+        ([-14.0, -14.0, 48.0], 1.6),
+        ([-22.0, -12.0, 18.0], 1.8),
+        ([-27.0, -6.0, -20.0], 2.0),
+        ([-26.0, 2.0, -70.0], 2.1),
+        ([-22.0, 8.0, -108.0], 2.1),
+    ]);
+    tube(&[
+        ([18.0, -14.0, 44.0], 1.5),
+        ([20.0, -13.0, 10.0], 1.7),
+        ([24.0, -10.0, -40.0], 1.9),
+        ([26.0, -6.0, -108.0], 2.0),
+    ]);
+    for finger in fingers {
+        let j = &finger.joints;
+        let beside = |joint: usize, r: f32| {
+            (
+                arr(j[joint] - finger.palmar[joint.min(3)] * 20.0 + finger.across * 3.0),
+                r,
+            )
+        };
+        tube(&[beside(3, 0.9), beside(2, 1.1), beside(1, 1.2)]);
+    }
+    f
+}
+
+pub(super) fn nerves(fingers: &[Finger]) -> Field {
+    let mut f = Field::default();
+    f.join_all(
+        0.0,
+        curve(&[
+            ([-1.0, 10.0, -108.0], 2.3),
+            ([-3.0, 12.0, -20.0], 2.3),
+            ([-4.0, 12.0, 16.0], 2.4),
+            ([-8.0, 11.0, 34.0], 1.8),
+        ]),
+    );
+    f.join_all(
+        0.0,
+        curve(&[
+            ([22.0, 7.0, -108.0], 1.9),
+            ([20.5, 10.0, -10.0], 1.9),
+            ([20.5, 10.0, 14.0], 1.8),
+            ([24.0, 9.0, 36.0], 1.5),
+        ]),
+    );
+    for (index, finger) in fingers.iter().enumerate() {
+        let j = &finger.joints;
+        let root = if index == 3 {
+            Vec3::new(24.0, 9.0, 36.0)
+        } else {
+            Vec3::new(-7.0, 11.0, 32.0)
+        };
+        for side in [-1.0, 1.0] {
+            let beside = |joint: usize, r: f32| {
+                let out = finger.flesh[joint] * 0.42 * side;
+                let depth = finger.flesh[joint] * 0.46;
+                (
+                    arr(j[joint] + finger.across * out + finger.palmar[joint.min(3)] * depth),
+                    r,
+                )
+            };
+            f.join_all(
+                0.0,
+                curve(&[
+                    (arr(root), 1.4),
+                    beside(1, 1.1),
+                    beside(2, 0.95),
+                    beside(3, 0.8),
+                    beside(4, 0.5),
+                ]),
+            );
+        }
+    }
+    f
+}
