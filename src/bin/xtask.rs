@@ -1,8 +1,10 @@
-//! The developer's commands: `cargo xtask serve`, `cargo xtask test` and a few more. Needs nothing but std, so that setting
-//! up starts within seconds on a fresh machine.
+//! The developer's commands: `cargo xtask serve`, `cargo xtask test` and a few more. Needs nothing but std and
+//! the bare library, so that setting up starts within seconds on a fresh machine.
 
 #[path = "xtask/check.rs"]
 mod check;
+#[path = "xtask/gallery.rs"]
+mod gallery;
 #[path = "xtask/page.rs"]
 mod page;
 #[path = "xtask/run.rs"]
@@ -26,6 +28,8 @@ cargo xtask COMMAND
   build             build the page into dist/
   size              what the built page weighs: raw, gzip, brotli
   bless [NAME]      accept the pictures that tests draw now as the expected ones
+  gallery [--only NAME]  draw every built-in subject and every illustration of web/gallery into
+                    target/gallery/index.html (also --size PIXELS, --program FILE, --page URL)
   shaders [FOLDER]  write the assembled shader programs into a folder (default target/shaders)
   setup             only set up what serve and test need";
 
@@ -39,6 +43,7 @@ fn main() -> ExitCode {
         Some("build") => page::build(),
         Some("size") => page::size(),
         Some("bless") => test::bless(rest),
+        Some("gallery") => gallery::gallery(rest),
         Some("shaders") => check::shaders(rest),
         Some("setup") => setup::for_page().and_then(|()| setup::for_tests()),
         _ => {

@@ -1,0 +1,342 @@
+//! `cargo xtask gallery`: every built-in subject from four sides, and every illustration of the gallery, drawn by the native
+//! program into one page to look through.
+//!
+//! The gallery's documents are `web/gallery/*.json`: the page serves that folder, so that each opens as
+//! `?doc=gallery/NAME.json`, and `fabrica view` opens the same files.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fabrica::document::Document;
+use fabrica::link;
+use fabrica::subjects::{self, Generator};
+use serde_json::{Value, json};
+
+use crate::Outcome;
+use crate::run::{cargo, program, root, run, say};
+
+/// Where `cargo xtask serve` shows the page.
+const PAGE: &str = "http://127.0.0.1:8080/";
+
+/// The four sides: name, and degrees that the eye goes round from the front, to the subject's left first.
+const SIDES: [(&str, f32); 4] = [
+    ("front", 0.0),
+    ("left", 90.0),
+    ("back", 180.0),
+    ("right", 270.0),
+];
+
+/// What is asked for.
+struct Wish {
+    program: Option<PathBuf>,
+    size_px: u32,
+    only: Option<String>,
+    page: String,
+}
+
+/// Draws the gallery into target/gallery.
+pub(crate) fn gallery(args: &[String]) -> Outcome {
+    let wish = read(args)?;
+    let fabrica = match &wish.program {
+        Some(path) => path.clone(),
+        None => {
+            run(
+                "build the native program",
+                cargo().args(["build", "--bin", "fabrica"]),
+            )?;
+            root().join("target/debug/fabrica")
+        }
+    };
+    let folder = root().join("target/gallery");
+    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut page = String::from(HEAD);
+    let is_wanted = |name: &str| wish.only.as_deref().is_none_or(|only| name.contains(only));
+    page.push_str("<h1>Gallery</h1>\n");
+    for (name, document) in documents()? {
+        if is_wanted(&name) {
+            illustration(&mut page, &name, &document, &fabrica, &folder, &wish)?;
+        }
+    }
+    page.push_str("<h1>Built-in subjects</h1>\n");
+    for name in subjects::names() {
+        if is_wanted(name) {
+            sheet(&mut page, name, &fabrica, &folder, &wish)?;
+        }
+    }
+    page.push_str("</html>\n");
+    let index = folder.join("index.html");
+    fs::write(&index, page).map_err(|error| format!("{}: {error}", index.display()))?;
+    say(&format!("look at {}", index.display()));
+    Ok(())
+}
+
+fn read(args: &[String]) -> Result<Wish, String> {
+    let mut wish = Wish {
+        program: None,
+        size_px: 384,
+        only: None,
+        page: PAGE.to_owned(),
+    };
+    let mut args = args.iter();
+    while let Some(flag) = args.next() {
+        let value = args
+            .next()
+            .ok_or_else(|| format!("{flag} needs something after it"))?;
+        match flag.as_str() {
+            "--program" => wish.program = Some(value.into()),
+            "--only" => wish.only = Some(value.clone()),
+            "--page" => wish.page.clone_from(value),
+            "--size" => {
+                wish.size_px = value
+                    .parse()
+                    .ok()
+                    .filter(|size| (32..=4096).contains(size))
+                    .ok_or("--size is 32 to 4096 pixels")?;
+            }
+            _ => {
+                return Err(format!(
+                    "gallery takes --size PIXELS, --only NAME, --program FILE and --page URL, not {flag}"
+                ));
+            }
+        }
+    }
+    Ok(wish)
+}
+
+/// The gallery's documents by file name, in the order of the names.
+fn documents() -> Result<Vec<(String, Document)>, String> {
+    let folder = root().join("web/gallery");
+    let entries =
+        fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut files: Vec<PathBuf> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.extension().is_some_and(|end| end == "json"))
+        .collect();
+    files.sort();
+    files
+        .into_iter()
+        .map(|path| {
+            let said = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+            let text = fs::read_to_string(&path).map_err(|error| said(&error))?;
+            let document = Document::from_json(&text).map_err(|error| said(&error))?;
+            let stem = path.file_stem().unwrap_or_default();
+            Ok((stem.to_string_lossy().into_owned(), document))
+        })
+        .collect()
+}
+
+/// One illustration: its text, its link, a picture for every step.
+fn illustration(
+    page: &mut String,
+    name: &str,
+    document: &Document,
+    fabrica: &Path,
+    folder: &Path,
+    wish: &Wish,
+) -> Outcome {
+    let shown = document.illustration();
+    section(page, name, &shown.title, &shown.caption);
+    for step in 0..=shown.steps.len() {
+        let caption = match step.checked_sub(1) {
+            None => "as it opens".to_owned(),
+            Some(i) => format!("{step}. {}", shown.steps[i].title),
+        };
+        let file = format!("{name}-{step}.png");
+        draw(fabrica, document, step, &folder.join(&file), wish.size_px)?;
+        figure(page, document, step, &file, &caption, wish);
+    }
+    let _ = writeln!(
+        page,
+        "</div><p><small>{} · <a href=\"{}?doc=gallery/{name}.json\">document</a></small></p></section>",
+        escaped(&shown.credit),
+        escaped(&wish.page),
+    );
+    Ok(())
+}
+
+/// One subject: plain, peeled and sliced from four sides, and drawn apart.
+fn sheet(page: &mut String, name: &str, fabrica: &Path, folder: &Path, wish: &Wish) -> Outcome {
+    let header = Generator::new(name, subjects::MIN_RESOLUTION)
+        .map_err(|error| error.to_string())?
+        .header();
+    let dims = header.grid.dims.as_vec3();
+    let half = dims / (2.0 * dims.max_element());
+    section(
+        page,
+        name,
+        name,
+        "Plain, peeled and sliced, from four sides.",
+    );
+    for (how, is_from_above) in [("plain", false), ("peeled", true), ("sliced", false)] {
+        for (side, angle_deg) in SIDES {
+            let (width, depth) = if angle_deg % 180.0 == 0.0 {
+                (half.x, half.y)
+            } else {
+                (half.y, half.x)
+            };
+            let templates = match how {
+                "peeled" => json!([peel(name, angle_deg, width, half.z, depth)]),
+                "sliced" => {
+                    json!([{ "kind": "cut", "at": middle(name), "rotate": facing(angle_deg), "params": { "shape": "halfspace" } }])
+                }
+                _ => json!([]),
+            };
+            // A little from the side and from above, so that the picture has depth.
+            let camera = json!({
+                "rotate": eye(angle_deg + 14.0, if is_from_above { 18.0 } else { 10.0 }),
+                // The cube fills its box; the others leave its corners free.
+                "distance": if name == "cube" { 3.2 } else { 2.35 },
+            });
+            let document = made(name, &templates, &camera)?;
+            let file = format!("{name}-{how}-{side}.png");
+            draw(fabrica, &document, 0, &folder.join(&file), wish.size_px)?;
+            figure(page, &document, 0, &file, &format!("{how}, {side}"), wish);
+        }
+    }
+    page.push_str("</div></section>\n");
+    Ok(())
+}
+
+/// A layer of the middle of one side, rolled back over three quarters.
+fn peel(name: &str, angle_deg: f32, width: f32, height: f32, depth: f32) -> Value {
+    // How much of the way to the middle comes off: far enough for what lies under the skin.
+    let layer = match name {
+        "tomato" => 0.16,
+        "piggybank" => 0.2,
+        "torso" => 0.42,
+        // Ears and nose stand out of what is peeled.
+        "head" => 0.45,
+        // The fingers come forward before the palm.
+        "hand" if angle_deg == 0.0 => 1.0,
+        "hand" => 0.6,
+        _ => 0.3,
+    } * depth;
+    let box_depth = layer * 1.6;
+    let out = depth - box_depth / 2.0;
+    // Of the head, the part that holds the brain.
+    let (up, height) = if name == "head" {
+        (0.18, height * 0.6)
+    } else {
+        (0.0, height)
+    };
+    let angle = angle_deg.to_radians();
+    json!({
+        "kind": "peel",
+        "at": rounded([-angle.sin() * out, angle.cos() * out, up]),
+        "rotate": facing(angle_deg),
+        "size": rounded([width * 1.3, height * 1.1, box_depth]),
+        "params": { "progress": 0.7, "depth": 0.625, "radius": 0.16 },
+    })
+}
+
+/// Where a subject is cut through: the middle of its box, but for the hand, which bends forward in its own.
+fn middle(name: &str) -> Value {
+    let forward = if name == "hand" { -0.055 } else { 0.0 };
+    rounded([0.0, forward, 0.0])
+}
+
+/// Turns a template's z towards a side, its x to the left as one looks at it.
+fn facing(angle_deg: f32) -> Value {
+    let (s, c) = (angle_deg / 2.0).to_radians().sin_cos();
+    let (r, t) = (
+        -std::f32::consts::FRAC_1_SQRT_2,
+        std::f32::consts::FRAC_1_SQRT_2,
+    );
+    rounded([c * r, s * r, s * t, c * t])
+}
+
+/// A camera that has gone round, then up.
+fn eye(angle_deg: f32, up_deg: f32) -> Value {
+    let (s, c) = (angle_deg / 2.0).to_radians().sin_cos();
+    let (r, t) = (up_deg / 2.0).to_radians().sin_cos();
+    rounded([c * r, s * r, s * t, c * t])
+}
+
+fn rounded<const N: usize>(numbers: [f32; N]) -> Value {
+    numbers
+        .iter()
+        .map(|n| json!((f64::from(*n) * 1e4).round() / 1e4))
+        .collect()
+}
+
+fn made(name: &str, templates: &Value, camera: &Value) -> Result<Document, String> {
+    let tree = json!({
+        "fabrica": 1,
+        "subject": { "builtin": name },
+        "templates": templates,
+        "camera": camera,
+    });
+    Document::from_json(&tree.to_string()).map_err(|error| error.to_string())
+}
+
+/// Draws a document at a step.
+fn draw(fabrica: &Path, document: &Document, step: usize, to: &Path, size_px: u32) -> Outcome {
+    let from = to.with_extension("json");
+    fs::write(&from, document.to_json()).map_err(|error| format!("{}: {error}", from.display()))?;
+    let mut command = program(fabrica);
+    command.arg("render").arg(&from).arg("-o").arg(to);
+    command.args([
+        "--size",
+        &format!("{size_px}x{size_px}"),
+        "--step",
+        &step.to_string(),
+    ]);
+    let done = command
+        .output()
+        .map_err(|error| format!("{} could not be started: {error}", fabrica.display()))?;
+    let _ = fs::remove_file(&from);
+    let told = String::from_utf8_lossy(&done.stderr);
+    if !done.status.success() {
+        return Err(format!("{}: {}", to.display(), told.trim()));
+    }
+    Ok(())
+}
+
+fn section(page: &mut String, name: &str, title: &str, caption: &str) {
+    let _ = writeln!(
+        page,
+        "<section id=\"{}\"><h2>{}</h2><p>{}</p><div>",
+        escaped(name),
+        escaped(title),
+        escaped(caption)
+    );
+}
+
+fn figure(
+    page: &mut String,
+    document: &Document,
+    step: usize,
+    file: &str,
+    caption: &str,
+    wish: &Wish,
+) {
+    let address = format!("{}{}", wish.page, link::fragment(document, step));
+    let _ = writeln!(
+        page,
+        "<figure><a href=\"{}\"><img src=\"{}\" alt=\"{}\" width=\"{size}\" height=\"{size}\"></a><figcaption>{}</figcaption></figure>",
+        escaped(&address),
+        escaped(file),
+        escaped(caption),
+        escaped(caption),
+        size = wish.size_px,
+    );
+}
+
+/// Text as HTML shows it.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+const HEAD: &str = "<!doctype html>
+<html lang=\"en\"><meta charset=\"utf-8\"><title>Fabrica: gallery</title>
+<style>
+body { font: 16px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 104rem; padding: 0 1rem; color: #222; }
+section { margin: 2rem 0; } section > div { display: flex; flex-wrap: wrap; gap: 0.75rem; }
+figure { margin: 0; } figure img { background: #fff; border: 1px solid #ddd; max-width: 100%; height: auto; }
+figcaption { font-size: 0.85rem; color: #555; } p { max-width: 44rem; }
+</style>
+";
