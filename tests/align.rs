@@ -654,3 +654,53 @@ fn distances_agree_with_brute_force() {
         "the comparison tells sets apart"
     );
 }
+
+/// The knee: bones stay, and soft tissue comes from where the way to it is free of bone.
+#[test]
+fn nothing_is_drawn_through_bone() {
+    let volume = builtin("knee", 64);
+    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let labels = Labels::new(&volume);
+    let keep: Vec<String> = ["femur", "tibia", "fibula", "patella"]
+        .map(str::to_owned)
+        .to_vec();
+    let bones: Vec<u8> = keep.iter().map(|name| labels.number(name)).collect();
+    let mut random = Random(0x0b01_e5ea);
+    for kind in [TemplateKind::Bend, TemplateKind::Twist, TemplateKind::Poke] {
+        let placement = Placement {
+            at: Vec3::new(0.0, 0.0, 0.0),
+            rotate: Quat::IDENTITY,
+            size: Vec3::new(0.5, 0.5, 0.9),
+        };
+        let free = placed(kind, placement, defaults(kind));
+        let points: Vec<Vec3> = (0..600).map(|_| random.vector(-0.4, 0.4)).collect();
+        let passed_bone = |template: &PlacedTemplate| {
+            let (mut passed, mut moved) = (0, 0);
+            for (sample, point) in probe(&studio, &[template.clone()], &points)
+                .iter()
+                .zip(&points)
+            {
+                let (from, to) = (point.as_dvec3(), sample.pos_in_rest.as_dvec3());
+                let is_bone = bones.contains(&labels.at(from));
+                moved += usize::from(from.distance(to) > 1e-3);
+                let mut way = (1..=24).map(|i| from.lerp(to, f64::from(i) / 24.0));
+                let meets = way.any(|at| labels.firm_at(at).is_some_and(|l| bones.contains(&l)));
+                passed += usize::from(if is_bone { from != to } else { meets });
+            }
+            (passed, moved)
+        };
+        let (unconstrained, _) = passed_bone(&free);
+        for by in [ConstrainBy::Displacement, ConstrainBy::Coordinate] {
+            let mut template = free.clone();
+            let keep = keep.clone();
+            template.constrain = Some(Constrain { by, keep });
+            let (passed, moved) = passed_bone(&template);
+            println!(
+                "{kind:?} {by:?}: {moved} moved, {passed} through bone, {unconstrained} without a constraint"
+            );
+            assert_eq!(passed, 0, "{kind:?} {by:?}");
+            assert!(moved > 30, "{kind:?} {by:?} moves {moved} points only");
+        }
+        assert!(unconstrained > 5, "{kind:?} reaches bone: {unconstrained}");
+    }
+}

@@ -300,6 +300,22 @@ const SNAPSHOTS: &[(&str, &str, &str)] = &[
         "bar",
         r#", "templates": [{ "kind": "twist", "size": [0.5, 0.5, 1] }, { "kind": "bend", "size": [0.4, 1, 0.4] }]"#,
     ),
+    // One peel, three alignments (the dissertation's figure 5.4).
+    (
+        "align/axis",
+        "head",
+        r#", "templates": [{ "kind": "peel", "at": [0, 0.04, 0.31], "rotate": [0, 0, -0.7071, 0.7071], "size": [0.5, 0.5, 0.38], "params": { "progress": 0.7, "depth": 0.6, "radius": 0.12, "angle": 2.6 } }], "camera": { "rotate": [0.3177, -0.0704, -0.2047, 0.9231], "distance": 1.5, "target": [0, 0.05, 0.24] }"#,
+    ),
+    (
+        "align/surface",
+        "head",
+        r#", "templates": [{ "kind": "peel", "at": [0, 0.04, 0.31], "rotate": [0, 0, -0.7071, 0.7071], "size": [0.5, 0.5, 0.38], "params": { "progress": 0.7, "depth": 0.6, "radius": 0.12, "angle": 2.6 }, "align": { "to": "surface", "depth": 0.06 } }], "camera": { "rotate": [0.3177, -0.0704, -0.2047, 0.9231], "distance": 1.5, "target": [0, 0.05, 0.24] }"#,
+    ),
+    (
+        "align/segment",
+        "head",
+        r#", "templates": [{ "kind": "peel", "at": [0, 0.04, 0.31], "rotate": [0, 0, -0.7071, 0.7071], "size": [0.5, 0.5, 0.38], "params": { "progress": 0.7, "depth": 0.6, "radius": 0.12, "angle": 2.6 }, "align": { "to": "segment", "keep": ["brain", "white matter", "csf", "ventricles", "veins", "arteries"] } }], "camera": { "rotate": [0.3177, -0.0704, -0.2047, 0.9231], "distance": 1.5, "target": [0, 0.05, 0.24] }"#,
+    ),
     (
         "look/glass",
         "cube",
@@ -330,18 +346,23 @@ fn snapshots_match() {
     // Another version of the rasteriser rounds otherwise: silhouettes move by parts of a pixel.
     let is_recorded_adapter = recorded.trim() == adapter.trim();
     let mut failures = Vec::new();
-    let studios: Vec<(&str, Studio)> = ["cube", "bar"]
+    let studios: Vec<(&str, Studio)> = [("cube", 64), ("bar", 64), ("head", 112)]
         .into_iter()
-        .map(|name| {
+        .map(|(name, resolution)| {
             (
                 name,
-                Studio::new(gpu(), &builtin(name, 64), true).expect("fits"),
+                Studio::new(gpu(), &builtin(name, resolution), true).expect("fits"),
             )
         })
         .collect();
     for (name, subject, rest) in SNAPSHOTS {
+        let camera = if rest.contains("\"camera\"") {
+            ""
+        } else {
+            r#", "camera": { "rotate": [0.2, 0.1, 0.3, 0.927], "distance": 3.2 }"#
+        };
         let json = format!(
-            r#"{{ "fabrica": 1, "subject": {{ "builtin": "{subject}" }}, "camera": {{ "rotate": [0.2, 0.1, 0.3, 0.927], "distance": 3.2 }} {rest} }}"#
+            r#"{{ "fabrica": 1, "subject": {{ "builtin": "{subject}" }} {camera} {rest} }}"#
         );
         let studio = &studios
             .iter()

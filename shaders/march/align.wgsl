@@ -175,7 +175,10 @@ fn group_map(pos: vec3f, head: u32, bits: u32) -> Mapped {
     let away = max(distance_to_kept(pos, sets, 0.0, features.slabs.y) - 0.5 * features.distance_dims.w, 0.0);
     let part = min(away / max(features.items[head].lengths.z, 1e-6), 1.0);
     if features.items[head].keeps.w == CONSTRAIN_COORDINATE {
-        return group_done_partly(pos, bits, part);
+        // Half of a turn is more than half of its chord: no farther than the way there is.
+        let partly = group_done_partly(pos, bits, part);
+        let way = partly.pos - pos;
+        return Mapped(pos + way * min(away / max(length(way), 1e-9), 1.0), partly.continuity);
     }
     let whole = rest_from_subject(pos, bits);
     return Mapped(pos + part * (whole.pos - pos), whole.continuity);
