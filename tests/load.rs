@@ -1,68 +1,11 @@
 //! Files in, volumes out: real scans against the facts known of them, written ones in every type and order, broken ones.
 
-use std::path::{Path, PathBuf};
+mod scans;
 
-use fabrica::data::{Volume, VolumeBuilder, VolumeSink, Voxels};
-use fabrica::load::{self, FileHandle, FileSet, LoadError, LoadReport, ReadOptions, Warning};
+use fabrica::data::Voxels;
+use fabrica::load::{self, FileSet, LoadError, ReadOptions, Warning};
 use glam::{DVec3, UVec3};
-
-/// The folder of real scans, or `None` with a line that says so.
-fn data_folder(test: &str) -> Option<PathBuf> {
-    match std::env::var_os("FABRICA_TEST_DATA") {
-        Some(folder) => Some(folder.into()),
-        None => {
-            println!("{test}: NOT RUN, FABRICA_TEST_DATA names no folder of scans");
-            None
-        }
-    }
-}
-
-fn load_frame(path: &Path, frame: u64) -> Result<(Volume, LoadReport), LoadError> {
-    let mut report = LoadReport::default();
-    let mut builder = VolumeBuilder::new();
-    let options = ReadOptions {
-        frame,
-        ..ReadOptions::default()
-    };
-    read_volume_at(path, &options, &mut builder, &mut report)?;
-    Ok((builder.finish().expect("all voxels came"), report))
-}
-
-/// The files of a folder, for paths that the tests themselves write.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(path: impl Into<PathBuf>) -> Self {
-        Self(path.into())
-    }
-}
-
-impl FileSet for Folder {
-    fn open(&mut self, name: &str) -> std::io::Result<FileHandle<'_>> {
-        let file = std::fs::File::open(self.0.join(name))?;
-        let byte_len = Some(file.metadata()?.len());
-        Ok(FileHandle {
-            read: Box::new(file),
-            byte_len,
-        })
-    }
-}
-
-/// Reads the volume at a path.
-fn read_volume_at(
-    path: &Path,
-    options: &ReadOptions,
-    sink: &mut dyn VolumeSink,
-    report: &mut LoadReport,
-) -> Result<(), LoadError> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let folder = path.parent().unwrap_or(Path::new("."));
-    load::read_volume(&mut Folder::new(folder), &name, options, sink, report)
-}
-
-fn load_path(path: &Path) -> Result<(Volume, LoadReport), LoadError> {
-    load_frame(path, 0)
-}
+use scans::{Folder, data_folder, load_frame, load_path};
 
 struct Fact {
     file: &'static str,
@@ -571,6 +514,48 @@ fn what_is_not_read_says_so() {
         assert!(message.contains(words), "{file}: {message}");
         assert!(!message.contains('\n'), "{file}: one line");
     }
+}
+
+#[test]
+fn every_file_loads_but_those_refused_for_a_stated_reason() {
+    let Some(folder) = data_folder("every_file_loads_but_those_refused_for_a_stated_reason") else {
+        return;
+    };
+    let refused = [
+        ("mri/nifti_variants/nibabel_test.mgz", "MGH"),
+        ("nrrd/pynrrd/BallBinary30x30x30.raw", "not a volume file"),
+        (
+            "nrrd/pynrrd/BallBinary30x30x30_byteskip_minus_five.nhdr",
+            "-5",
+        ),
+        (
+            "nrrd/pynrrd/BallBinary30x30x30_nifti.nhdr",
+            "more than the header explains",
+        ),
+        ("raw/foot.raw", "not a volume file"),
+        ("raw/stent_128x128x256_int16le.raw.gz", "not a volume file"),
+        ("raw/tooth.raw", "not a volume file"),
+    ];
+    let mut count = 0;
+    for place in ["nrrd", "raw", "mri/nifti_variants"] {
+        for name in Folder::new(folder.join(place)).names() {
+            let name = format!("{place}/{name}");
+            let expected = refused.iter().find(|(refused, _)| *refused == name);
+            match (load_path(&folder.join(&name)), expected) {
+                (Ok((volume, report)), None) => {
+                    assert_eq!(volume.voxels.len(), volume.grid.voxel_count(), "{name}");
+                    assert!(report.sha256.is_some(), "{name}");
+                }
+                (Err(error), Some((_, words))) => {
+                    assert!(error.to_string().contains(words), "{name}: {error}");
+                    count += 1;
+                }
+                (Ok(_), Some(_)) => panic!("{name} was read"),
+                (Err(error), None) => panic!("{name}: {error}"),
+            }
+        }
+    }
+    assert_eq!(count, refused.len(), "all of them were there");
 }
 
 #[test]

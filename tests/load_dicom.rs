@@ -1,5 +1,7 @@
 //! DICOM: series written here in several ways and damaged, and real ones against the facts known of them.
 
+mod scans;
+
 use std::path::PathBuf;
 
 use fabrica::data::{Volume, VolumeBuilder, Voxels};
@@ -8,6 +10,7 @@ use fabrica::load::{
     orientation_code,
 };
 use glam::{DVec3, UVec3};
+use scans::{data_folder, load_frame};
 
 /// Stands in the header of every file written here, and nowhere else ever.
 const PATIENT: &str = "Doe^Jane^ZQXJ";
@@ -432,19 +435,6 @@ fn damaged_files_are_refused_or_read() {
 
 // ------------------------------------------------------------------------------------------------- real ones
 
-fn data_folder(test: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("FABRICA_TEST_DATA").map(PathBuf::from);
-    if folder.is_none() {
-        println!("{test}: NOT RUN, FABRICA_TEST_DATA names no folder of scans");
-    }
-    folder
-}
-
-fn at(path: &std::path::Path, frame: u64) -> Result<(Volume, LoadReport), LoadError> {
-    let (mut files, name) = fabrica::shell::files::Folder::of(path);
-    read(&mut files, &name, frame)
-}
-
 fn range(volume: &Volume) -> [f32; 2] {
     volume.value_range
 }
@@ -455,7 +445,7 @@ fn real_series_are_as_is_known_of_them() {
         return;
     };
     let folder = folder.join("dicom");
-    let (chest, report) = at(&folder.join("chest_ct_uncompressed"), 0).expect("chest");
+    let (chest, report) = load_frame(&folder.join("chest_ct_uncompressed"), 0).expect("chest");
     assert_eq!(chest.grid.dims, UVec3::new(512, 512, 10));
     assert!(
         chest
@@ -469,7 +459,7 @@ fn real_series_are_as_is_known_of_them() {
     assert_eq!(orientation_code(&chest.grid), "LPS");
     assert_eq!(report.notices(), Vec::<String>::new());
 
-    let (abdomen, report) = at(&folder.join("abdomen_ct_j2k"), 0).expect("abdomen");
+    let (abdomen, report) = load_frame(&folder.join("abdomen_ct_j2k"), 0).expect("abdomen");
     assert_eq!(abdomen.grid.dims, UVec3::new(512, 512, 20));
     let spacing = abdomen.grid.spacing_mm();
     assert!(
@@ -479,7 +469,7 @@ fn real_series_are_as_is_known_of_them() {
     assert_eq!(range(&abdomen), [-1024.0, 1839.0]);
     assert_eq!(report.notices(), Vec::<String>::new());
 
-    let (head, _) = at(&folder.join("head_mr_17slices"), 0).expect("head");
+    let (head, _) = load_frame(&folder.join("head_mr_17slices"), 0).expect("head");
     assert_eq!(
         head.grid.dims,
         UVec3::new(88, 128, 17),
@@ -492,7 +482,7 @@ fn real_series_are_as_is_known_of_them() {
         "rows run to the right of the patient"
     );
 
-    let (disc, report) = at(&folder.join("dicomdir"), 0).expect("a disc");
+    let (disc, report) = load_frame(&folder.join("dicomdir"), 0).expect("a disc");
     assert!(report.frame_count >= 8, "{} series", report.frame_count);
     assert_eq!(disc.grid.dims.truncate(), glam::UVec2::splat(16));
 }
@@ -551,7 +541,7 @@ fn the_same_picture_in_every_syntax() {
     assert_eq!((same, refused), (files.len() - 1, 1));
     // One volume as three slices and as one file with three images.
     let seg = folder.join("dicom/seg_23x38x3");
-    let (many, _) = at(&seg.join("IMG0001.dcm"), 0).expect("three files");
+    let (many, _) = load_frame(&seg.join("IMG0001.dcm"), 0).expect("three files");
     let (one, _) = alone(&seg.join("multiframe.dcm")).expect("one file");
     assert_eq!(many.grid.dims, UVec3::new(23, 38, 3));
     assert_eq!(one.grid.dims, many.grid.dims);

@@ -1,63 +1,13 @@
 //! NRRD, MetaImage and raw voxels: real files against the facts known of them, written ones, broken ones.
 
-use std::path::{Path, PathBuf};
+mod scans;
 
-use fabrica::data::{Volume, VolumeBuilder, VolumeSink, Voxels};
+use fabrica::data::{Volume, VolumeBuilder, Voxels};
 use fabrica::load::{
-    self, FileHandle, FileSet, LoadError, LoadReport, MemoryFiles, ReadOptions, Warning,
-    orientation_code,
+    self, FileSet, LoadError, LoadReport, MemoryFiles, ReadOptions, Warning, orientation_code,
 };
 use glam::{DVec3, UVec3};
-
-/// The folder of real scans, or `None` with a line that says so.
-fn data_folder(test: &str) -> Option<PathBuf> {
-    match std::env::var_os("FABRICA_TEST_DATA") {
-        Some(folder) => Some(folder.into()),
-        None => {
-            println!("{test}: NOT RUN, FABRICA_TEST_DATA names no folder of scans");
-            None
-        }
-    }
-}
-
-/// The files of a folder, for paths that the tests themselves write.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(path: impl Into<PathBuf>) -> Self {
-        Self(path.into())
-    }
-}
-
-impl FileSet for Folder {
-    fn open(&mut self, name: &str) -> std::io::Result<FileHandle<'_>> {
-        let file = std::fs::File::open(self.0.join(name))?;
-        let byte_len = Some(file.metadata()?.len());
-        Ok(FileHandle {
-            read: Box::new(file),
-            byte_len,
-        })
-    }
-}
-
-/// Reads the volume at a path.
-fn read_volume_at(
-    path: &Path,
-    options: &ReadOptions,
-    sink: &mut dyn VolumeSink,
-    report: &mut LoadReport,
-) -> Result<(), LoadError> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let folder = path.parent().unwrap_or(Path::new("."));
-    load::read_volume(&mut Folder::new(folder), &name, options, sink, report)
-}
-
-fn load_path(path: &Path) -> Result<(Volume, LoadReport), LoadError> {
-    let mut report = LoadReport::default();
-    let mut builder = VolumeBuilder::new();
-    read_volume_at(path, &ReadOptions::default(), &mut builder, &mut report)?;
-    Ok((builder.finish().expect("all voxels came"), report))
-}
+use scans::{Folder, data_folder, load_path};
 
 fn load_files(
     files: &mut dyn FileSet,
