@@ -3,6 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::camera::StandardView;
+use super::view::See;
 use super::words::Lang;
 use super::words::keys::w;
 use crate::document::{Edit, Plane, SubjectRef, TemplateKind};
@@ -110,6 +111,8 @@ pub enum Command {
     Scale(f32),
     /// Panels away, the picture alone.
     TogglePanels,
+    /// Changes how one looks: slices, ghost, distances.
+    See(See),
 }
 
 /// What the handles in the picture do.
@@ -159,6 +162,7 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         text,
     };
     let w = w();
+    let s = super::words::slices::w();
     let mut all = vec![
         entry(COMMAND | SHIFT, Key::Z, Command::Redo, w.redo),
         entry(COMMAND, Key::Y, Command::Redo, ""),
@@ -225,6 +229,14 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         entry(SHIFT, Key::E, Command::NextPanel(false), ""),
         entry(NONE, Key::E, Command::NextPanel(true), w.next_panel),
         entry(NONE, Key::P, Command::TogglePanels, w.picture_alone),
+        entry(NONE, Key::V, Command::See(See::ToggleSlices), s.key_slices),
+        entry(NONE, Key::B, Command::See(See::ToggleGhost), s.key_ghost),
+        entry(
+            NONE,
+            Key::R,
+            Command::See(See::ToggleMeasure),
+            s.key_measure,
+        ),
         entry(NONE, Key::F1, Command::ToggleKeys, ""),
         entry(NONE, Key::Questionmark, Command::ToggleKeys, w.this_sheet),
     ];

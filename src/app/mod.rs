@@ -6,6 +6,7 @@
 //! | `command` | everything that can be done, as values, and the table of keys |
 //! | `services` | what the shell does for the app, and what comes back |
 //! | `viewport`, `camera`, `gizmo`, `orientation` | the picture and what the hand does on it |
+//! | `view`, `view_bar`, `panes`, `slices` with `slice_plot`, `measure` | slices beside the picture, distances, the ghost |
 //! | `picture`, `icons` | the renderer, its texture, questions to it; the catalogue's pictures |
 //! | `topbar`, `catalogue`, `templates`, `look` with `transfer` and `transfer_plot`, `text`, `notice`, `keys` | one panel each |
 //! | `words/` | every text of the interface in every language, a table per panel |
@@ -27,12 +28,16 @@ mod keys;
 mod lettering;
 mod look;
 mod making;
+mod measure;
 mod notice;
 mod opening;
 mod orientation;
+mod panes;
 mod picture;
 mod raw;
 mod services;
+mod slice_plot;
+mod slices;
 mod state;
 mod steps;
 mod templates;
@@ -41,13 +46,15 @@ mod theme;
 mod topbar;
 mod transfer;
 mod transfer_plot;
+mod view;
+mod view_bar;
 mod viewport;
 mod words;
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, Vec2, vec2};
+use egui::{Frame, Margin, Panel, ScrollArea, Ui, Vec2, vec2};
 
 use self::icon::Icon;
 use self::icons::RenderedIcons;
@@ -66,6 +73,7 @@ pub use self::command::{Command, GizmoMode};
 pub use self::lettering::letter;
 pub use self::services::{LinkChange, LoadEvent, Message, RawQuestion, SaveFile, Services, Ticket};
 pub use self::state::STORED_DOCUMENT;
+pub use self::view::{Pane, See};
 pub use self::words::Lang;
 
 /// Width in points below which panels become drawers.
@@ -114,6 +122,8 @@ pub struct App {
     statistics: Statistics,
     /// The plot of the transfer function.
     transfer: transfer::Editor,
+    /// The slices beside the picture.
+    slices: slices::Slices,
 }
 
 /// What has been said aloud so far.
@@ -183,6 +193,7 @@ impl App {
             incoming: None,
             statistics: Statistics::new(),
             transfer: transfer::Editor::default(),
+            slices: slices::Slices::default(),
         }
     }
 
@@ -373,6 +384,7 @@ impl App {
             Ok(volume) => {
                 let histogram = self.statistics.histogram(volume.slope, volume.intercept);
                 self.transfer.set_histogram(histogram);
+                self.state.view.set_subject(&volume);
                 let volume = Arc::new(volume);
                 let shown = self
                     .picture
@@ -488,6 +500,10 @@ impl App {
             // A point of the transfer function is removed by the same keys as a template.
             let is_delete = matches!(key, egui::Key::Delete | egui::Key::Backspace);
             if is_delete && self.transfer.has_keyboard {
+                continue;
+            }
+            // A slice is scrolled by the keys that order templates.
+            if self.slices.has_keyboard && matches!(key, egui::Key::PageUp | egui::Key::PageDown) {
                 continue;
             }
             if is_sheet_open && !matches!(shortcut.command, Command::ToggleKeys | Command::Escape) {
@@ -788,23 +804,6 @@ impl App {
                 if response.clicked() {
                     self.state.tab = if is_open { None } else { Some(tab) };
                 }
-            }
-        });
-    }
-
-    fn picture_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
-        CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
-            let rect = ui.available_rect_before_wrap();
-            self.viewport
-                .ui(ui, &mut self.state, self.picture.as_mut(), commands);
-            steps::ui(ui, rect, &self.state, commands);
-            hint::ui(ui, rect, &self.state, commands);
-            notice::ui(ui, rect, &mut self.state, commands);
-            if self.state.are_panels_hidden {
-                text::over_picture_ui(ui, rect, &self.state, commands);
-            }
-            if ui.input(|i| !i.raw.hovered_files.is_empty()) {
-                viewport::drop_hint_ui(ui, rect);
             }
         });
     }

@@ -134,7 +134,7 @@ fn side_name(side: StandardView) -> &'static str {
     }
 }
 
-fn side_hint(side: StandardView) -> &'static str {
+pub(crate) fn side_hint(side: StandardView) -> &'static str {
     match side {
         StandardView::Front => w().from_front,
         StandardView::Back => w().from_back,

@@ -11,9 +11,10 @@ use eframe::egui_wgpu::RenderState;
 use glam::Vec2;
 
 use crate::data::{Segment, Volume};
-use crate::document::{Camera, Illustration};
+use crate::document::{Background, Camera, Illustration};
 use crate::render::{
-    Clock, DrawState, Gpu, Image, PendingPick, Pick, RenderError, Renderer, SubjectInfo,
+    Clock, DrawState, Gpu, Image, PendingPick, PendingSlice, Pick, RenderError, Renderer,
+    SlicePlane, SliceView, SubjectInfo,
 };
 
 /// Work on the GPU that is looked after once per frame.
@@ -41,6 +42,8 @@ pub(crate) enum PickFor {
     PlaceInMiddle,
     /// To look at the point.
     Target,
+    /// To measure from or to it.
+    Measure,
     /// To lay the template of that index on the surface.
     Surface(usize),
 }
@@ -51,6 +54,12 @@ pub(crate) struct Picture {
     render_state: RenderState,
     texture: Option<egui::TextureId>,
     generation: u64,
+    /// What egui shows of each slice, with the number of its texture.
+    slices: Vec<Option<(egui::TextureId, u64)>>,
+    /// The untouched object, drawn over the other while somebody wants it.
+    ghost: Option<Renderer>,
+    ghost_texture: Option<(egui::TextureId, u64)>,
+    clock: Clock,
     picks: Vec<(PickFor, PendingPick)>,
     file: Option<Pending<Result<Image, RenderError>>>,
     /// As of the last frame.
@@ -72,6 +81,10 @@ impl Picture {
             render_state: render_state.clone(),
             texture: None,
             generation: 0,
+            slices: Vec::new(),
+            ghost: None,
+            ghost_texture: None,
+            clock,
             picks: Vec::new(),
             file: None,
             state: DrawState {
@@ -146,6 +159,76 @@ impl Picture {
         Ok(self.texture.filter(|_| self.state.has_picture))
     }
 
+    /// The texture of a slice, brought up to date. None until there is something to show.
+    pub(crate) fn slice(
+        &mut self,
+        slot: usize,
+        view: &SliceView,
+    ) -> Result<Option<egui::TextureId>, RenderError> {
+        if !self.renderer.draw_slice(slot, view)? {
+            return Ok(None);
+        }
+        if self.slices.len() <= slot {
+            self.slices.resize(slot + 1, None);
+        }
+        let (Some((texture, generation)), Some(shown)) =
+            (self.renderer.slice_view(slot), self.slices.get_mut(slot))
+        else {
+            return Ok(None);
+        };
+        Ok(Some(registered(
+            &self.render_state,
+            texture,
+            generation,
+            shown,
+        )))
+    }
+
+    /// Starts reading the numbers of a slice.
+    pub(crate) fn read_slice(
+        &mut self,
+        plane: &SlicePlane,
+        size_px: [u32; 2],
+    ) -> Result<PendingSlice, RenderError> {
+        self.renderer.read_slice(plane, size_px)
+    }
+
+    /// Draws the untouched object as seen by a camera, on a clear background. It shares the volume with the picture.
+    pub(crate) fn draw_ghost(
+        &mut self,
+        illustration: &Illustration,
+        camera: &Camera,
+        size_px: [u32; 2],
+        (budget_seconds, is_moving): (f32, bool),
+    ) -> Result<Option<egui::TextureId>, RenderError> {
+        let ghost = self
+            .ghost
+            .get_or_insert_with(|| Renderer::new(self.renderer.gpu().clone(), self.clock));
+        ghost.share_subject(&self.renderer);
+        let mut untouched = illustration.clone();
+        untouched.templates.clear();
+        untouched.look.background = Background::None;
+        untouched.camera = *camera;
+        ghost.set_illustration(&untouched);
+        let state = ghost.draw(size_px, budget_seconds, is_moving)?;
+        self.state.is_done &= state.is_done;
+        let generation = ghost.output_generation();
+        Ok(match ghost.output_view() {
+            Some(view) if state.has_picture => Some(registered(
+                &self.render_state,
+                view,
+                generation,
+                &mut self.ghost_texture,
+            )),
+            _ => None,
+        })
+    }
+
+    /// Nobody wants the ghost any more: what it holds on the device is given back.
+    pub(crate) fn drop_ghost(&mut self) {
+        self.ghost = None;
+    }
+
     /// Asks what is seen at a place of the picture, in pixels.
     pub(crate) fn ask(
         &mut self,
@@ -197,6 +280,31 @@ impl Picture {
     /// The GPU is busy with something that the interface waits for.
     pub(crate) fn is_waiting(&self) -> bool {
         !self.picks.is_empty() || self.file.is_some()
+    }
+}
+
+/// The texture as egui knows it, made known anew if it is another than before.
+fn registered(
+    render_state: &RenderState,
+    view: &wgpu::TextureView,
+    generation: u64,
+    shown: &mut Option<(egui::TextureId, u64)>,
+) -> egui::TextureId {
+    let (device, filter) = (&render_state.device, wgpu::FilterMode::Linear);
+    match shown {
+        Some((id, known)) if *known == generation => *id,
+        Some((id, known)) => {
+            *known = generation;
+            let mut painter = render_state.renderer.write();
+            painter.update_egui_texture_from_wgpu_texture(device, view, filter, *id);
+            *id
+        }
+        None => {
+            let mut painter = render_state.renderer.write();
+            let id = painter.register_native_texture(device, view, filter);
+            *shown = Some((id, generation));
+            id
+        }
     }
 }
 

@@ -9,6 +9,7 @@ use super::frames::FileChoice;
 use super::making::{Making, OnClipboard, placement_on_surface};
 use super::services::{LinkChange, SaveFile, Services, Ticket};
 use super::steps::Walk;
+use super::view::ViewState;
 use super::words;
 use crate::document::{
     Camera, Document, Edit, History, Illustration, PlacedTemplate, Reading, SubjectRef,
@@ -152,6 +153,8 @@ pub(crate) struct State {
     pub now: f64,
     /// Rises with every change of document.
     pub revision: u64,
+    /// How one looks besides the camera.
+    pub view: ViewState,
 }
 
 impl State {
@@ -193,6 +196,7 @@ impl State {
             making: Making::default(),
             now: 0.0,
             revision: 0,
+            view: ViewState::default(),
         }
     }
 
@@ -437,6 +441,7 @@ impl State {
             }
             Command::StartPlacing(kind) => {
                 self.leave_steps();
+                self.view.measures.is_on = false;
                 self.placing = if self.placing == Some(kind) {
                     None
                 } else {
@@ -543,6 +548,7 @@ impl State {
                     services.allow_host(load.ticket);
                 }
             }
+            Command::See(see) => self.view.run(see),
             Command::ToggleKeys => self.is_keys_sheet_open = !self.is_keys_sheet_open,
             Command::ToggleFrames => self.files.is_open = !self.files.is_open,
             Command::ToggleMessages => self.is_messages_open = !self.is_messages_open,
@@ -631,6 +637,8 @@ impl State {
             self.is_messages_open = false;
         } else if self.placing.is_some() {
             self.placing = None;
+        } else if self.view.escape() {
+            // It dropped what was being measured, or went back to all views.
         } else if !self.making.search.is_empty() {
             self.making.search.clear();
         } else if self.tab.is_some() {

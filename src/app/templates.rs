@@ -250,6 +250,7 @@ fn template_ui(
     let weak = Palette::get(ui).weak;
     ui.add(Label::new(egui::RichText::new(kinds::summary(template.kind)).color(weak)).wrap());
     ui.add_space(4.0);
+    amount_ui(ui, template, commands);
     for (i, value) in template.params.iter().enumerate() {
         ui.push_id((index, i), |ui| param_ui(ui, template, i, *value, commands));
     }
@@ -293,6 +294,27 @@ fn template_ui(
     keep::ui(ui, template, all, segments, commands);
     control::divider(ui);
     placement_ui(ui, template, commands);
+}
+
+/// How much of it is done.
+fn amount_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>) {
+    let w = words::slices::w();
+    let row = NumberRow {
+        name: w.amount,
+        summary: w.amount_hint,
+        value: f64::from(template.amount) * 100.0,
+        default: Some(100.0),
+        range: [0.0, 100.0],
+        unit: " %",
+        decimals: 0,
+    };
+    if let Some(change) = row.ui(ui) {
+        let index = template.index;
+        commands.push(command(change.map(|percent| Edit::SetAmount {
+            template: index,
+            amount: (percent / 100.0).clamp(0.0, 1.0) as f32,
+        })));
+    }
 }
 
 /// Which group the template is in: none, one that there is, a new one.

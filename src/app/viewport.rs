@@ -15,8 +15,10 @@ use super::icon::Icon;
 use super::making::{self, placement_on_surface};
 use super::orientation;
 use super::picture::{PickFor, Picture};
+use super::slice_plot;
 use super::state::{Gravity, State};
 use super::theme::{self, Palette};
+use super::view_bar;
 use super::words::picture::w;
 use super::words::{self, fill, in_sentence, said};
 use crate::document::{Background, Camera, PlacedTemplate};
@@ -33,6 +35,8 @@ const REST_SECONDS: f64 = 0.18;
 const BUDGET_MOVING: f32 = 0.03;
 const BUDGET_REST: f32 = 0.05;
 
+/// How much of the untouched object is seen, of 255.
+const GHOST_ALPHA: u8 = 84;
 /// Pixels of the view in which a template's surface is looked for.
 const SURFACE_VIEW: u32 = 256;
 /// Pixels of the picture at most. On a 4K screen it is drawn at about seven tenths of the screen's own resolution and
@@ -71,15 +75,19 @@ impl Viewport {
         self.id
     }
 
-    /// Draws the picture and everything on it into what is left of the window.
+    /// Draws the picture and everything on it into a part of the window; none: only slices are seen.
     pub(crate) fn ui(
         &mut self,
         ui: &mut Ui,
+        rect: Option<Rect>,
         state: &mut State,
         picture: Option<&mut Picture>,
         commands: &mut Vec<Command>,
     ) {
-        let rect = ui.available_rect_before_wrap();
+        let Some(rect) = rect else {
+            self.unseen_ui(ui, state, picture);
+            return;
+        };
         let id = ui.scope_id().with("picture");
         let response = ui.interact(rect, id, Sense::click_and_drag());
         ui.advance_cursor_after_rect(rect);
@@ -131,11 +139,13 @@ impl Viewport {
         }
         if response.clicked()
             && state.placing.is_none()
+            && !state.view.measures.is_on
             && !self.gizmo.is_hot()
             && state.selected.is_some()
         {
             commands.push(Command::Select(None));
         }
+        self.seen_ui(ui, rect, &view, state, commands);
         if state.placing.is_none() {
             // The right button or a long press. A finger that opened the menu no longer drags a handle.
             let menu = response.context_menu(|ui| making::menu_ui(ui, state, commands));
@@ -143,7 +153,7 @@ impl Viewport {
                 self.gizmo.release();
             }
         }
-        self.corner_ui(ui, rect, &view, commands);
+        view_bar::corner_ui(ui, rect, &view, state, commands);
         if response.has_focus() {
             control::focus_ring(ui, &response, rect.shrink(1.0));
         }
@@ -277,6 +287,7 @@ impl Viewport {
                 self.has_failed = true;
             }
         }
+        self.ghost_ui(ui, rect, state, picture, (size, budget, is_moving));
         if !picture.state.is_done && !self.has_failed {
             ui.ctx().request_repaint();
         } else if is_moving {
@@ -289,6 +300,32 @@ impl Viewport {
         }
         _ = commands;
         self.questions(ui, rect, state, picture);
+    }
+
+    /// The untouched object faintly over the picture: where nothing moved, it changes nothing.
+    fn ghost_ui(
+        &self,
+        ui: &Ui,
+        rect: Rect,
+        state: &State,
+        picture: &mut Picture,
+        (size, budget, is_moving): ([u32; 2], f32, bool),
+    ) {
+        let shown = state.shown();
+        if !state.view.has_ghost || shown.templates.iter().all(|t| !t.acting().enabled) {
+            picture.drop_ghost();
+            return;
+        }
+        if self.has_failed || !picture.state.has_picture {
+            return;
+        }
+        // A failure of the same device is said by the picture.
+        let drawn = picture.draw_ghost(shown, &state.camera, size, (budget, is_moving));
+        if let Ok(Some(texture)) = drawn {
+            let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            let tint = Color32::from_white_alpha(GHOST_ALPHA);
+            ui.painter().image(texture, rect, uv, tint);
+        }
     }
 
     /// Sends the questions that clicks ask of the picture, and acts on the answers.
@@ -313,6 +350,12 @@ impl Viewport {
                     self.preview_at = Some(pos);
                     // A preview is no reason for a message.
                     _ = picture.ask(PickFor::Hover, pixel(pos), size);
+                }
+            } else if state.view.measures.is_on {
+                if response.clicked()
+                    && let Some(pos) = pointer
+                {
+                    asked = picture.ask(PickFor::Measure, pixel(pos), size);
                 }
             } else if response.double_clicked()
                 && !self.gizmo.is_hot()
@@ -380,6 +423,8 @@ impl Viewport {
             }
             (PickFor::Target, Some(pick)) => state.look_at(pick.pos_in_subject),
             (PickFor::Target, None) => {}
+            (PickFor::Measure, Some(pick)) => state.view.measures.add(pick.pos_in_subject),
+            (PickFor::Measure, None) => state.say(Gravity::Info, said::w().nothing_here, ""),
         }
     }
 
@@ -491,18 +536,45 @@ impl Viewport {
         }
     }
 
-    /// The ball of axes and the way back home.
-    fn corner_ui(&self, ui: &mut Ui, rect: Rect, view: &Projection, commands: &mut Vec<Command>) {
-        if rect.height() < 220.0 {
-            return;
+    /// The crosshair of the slices and the distances, over the picture.
+    fn seen_ui(
+        &self,
+        ui: &mut Ui,
+        rect: Rect,
+        view: &Projection,
+        state: &State,
+        commands: &mut Vec<Command>,
+    ) {
+        let painter = ui.painter_at(rect);
+        slice_plot::mark_in_picture(&painter, view, &state.view);
+        let measures = &state.view.measures;
+        if let Some(mm_per_unit) = state.view.mm_per_unit() {
+            measures.paint(
+                &painter,
+                mm_per_unit,
+                |pos| view.ui_from_subject(pos),
+                |_| 1.0,
+            );
         }
-        let center = rect.left_bottom() + vec2(62.0, -62.0);
-        commands.extend(orientation::ball_ui(ui, view, center));
-        let home = Rect::from_center_size(center + vec2(62.0, 32.0), Vec2::splat(30.0));
-        float_frame(ui, home);
-        let mut inner = ui.new_child(UiBuilder::new().max_rect(home.shrink(1.0)));
-        if control::icon_button(&mut inner, Icon::Home, w().back_to_first, true).clicked() {
-            commands.push(Command::ResetView);
+        if measures.is_on {
+            ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
+        }
+        let corner = rect.left_top() + vec2(8.0, 60.0);
+        let room = rect.size() - vec2(16.0, 200.0);
+        measures.list_ui(ui, corner, room, &state.view, commands);
+    }
+
+    /// The picture is not seen: what slices need of it goes on.
+    fn unseen_ui(&mut self, ui: &Ui, state: &State, picture: Option<&mut Picture>) {
+        let Some(picture) = picture else {
+            return;
+        };
+        picture.set(state.shown(), &state.camera);
+        self.last_camera = None;
+        // A failure is said when it is seen.
+        _ = picture.draw([64, 64], BUDGET_REST, false);
+        if !picture.state.is_done {
+            ui.ctx().request_repaint();
         }
     }
 }
@@ -588,29 +660,6 @@ pub(crate) fn float_frame(ui: &Ui, rect: Rect) {
         palette.float,
         Stroke::new(1.0, palette.line),
         egui::StrokeKind::Inside,
-    );
-}
-
-/// Over everything while a file is held over the window.
-pub(crate) fn drop_hint_ui(ui: &Ui, rect: Rect) {
-    let palette = Palette::get(ui);
-    let painter = ui.painter_at(rect);
-    let frame = rect.shrink(10.0);
-    painter.rect_filled(rect, 0.0, palette.float.gamma_multiply(0.85));
-    let stroke = Stroke::new(2.0, palette.accent);
-    painter.rect_stroke(
-        frame,
-        CornerRadius::same(12),
-        stroke,
-        egui::StrokeKind::Inside,
-    );
-    let text = w().drop_here;
-    painter.text(
-        rect.center(),
-        Align2::CENTER_CENTER,
-        text,
-        theme::strong_font(15.0),
-        palette.text,
     );
 }
 

@@ -159,6 +159,22 @@ impl Renderer {
         Ok(())
     }
 
+    /// Shows the subject that another renderer on the same device shows; the volume is on the device once.
+    pub fn share_subject(&mut self, other: &Self) {
+        let is_same = match (&self.studio, &other.studio) {
+            (Some(mine), Some(theirs)) => Arc::ptr_eq(&mine.subject, &theirs.subject),
+            (None, None) => true,
+            _ => false,
+        };
+        if !is_same {
+            self.passes = other.passes.clone();
+            self.studio = other.studio.clone();
+            self.prepared = None;
+            self.slices.forget();
+            self.touch();
+        }
+    }
+
     /// Shows this illustration from the next [`Renderer::draw`] on. Cheap; call it every frame.
     pub fn set_illustration(&mut self, illustration: &Illustration) {
         if let Some(shown) = &self.illustration

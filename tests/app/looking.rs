@@ -203,3 +203,261 @@ fn the_transfer_function_of_the_head_to_look_at() {
         window.look(name);
     }
 }
+
+// ---------------------------------------------------------------------------------------------------- slices
+
+/// Room for all four views.
+const FOUR: Vec2 = Vec2::new(1100.0, 700.0);
+
+/// A cube with a piece cut out at its upper corner in front, on the patient's right.
+const CUT: &str = r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [
+    { "kind": "cut", "at": [0.3, 0.3, 0.3], "size": [0.4, 0.4, 0.4] } ] }"#;
+
+fn slice_rect(window: &Window, name: &str) -> egui::Rect {
+    let label = format!("{name} slice");
+    window
+        .harness
+        .get_by_role_and_label(Role::Image, &label)
+        .rect()
+}
+
+/// What a label says.
+fn said(node: &egui_kittest::kittest::AccessKitNode<'_>) -> String {
+    node.value().or(node.label()).unwrap_or_default()
+}
+
+/// What is said of the point under the crosshair or the pointer.
+fn readout(window: &Window) -> String {
+    let node = window.harness.get_by_label_contains(" mm · ");
+    said(&node.accesskit_node())
+}
+
+#[test]
+fn slices_are_linked_by_their_crosshair_and_say_what_is_there() {
+    let mut window = Window::open(FOUR, CUT);
+    assert!(window.harness.query_by_label("Axial slice").is_none());
+    window.press(Key::V);
+    window.settle();
+    window.look("slices");
+    let [axial, coronal, sagittal] =
+        ["Axial", "Coronal", "Sagittal"].map(|name| slice_rect(&window, name));
+    assert!(axial.right() < sagittal.left() && axial.bottom() < coronal.top());
+    assert!(
+        readout(&window).starts_with("0, 0, 0 "),
+        "{}",
+        readout(&window)
+    );
+
+    // Right of the middle in an axial slice is the patient's left: x falls.
+    window.click_at(axial.center() + vec2(40.0, 0.0));
+    window.harness.hover_at(Pos2::ZERO);
+    window.settle();
+    let text = readout(&window);
+    let x: f32 = text
+        .split(',')
+        .next()
+        .and_then(|n| n.replace('\u{2212}', "-").parse().ok())
+        .expect("a number");
+    assert!((-0.5..-0.05).contains(&x), "{text}");
+    assert!(text.contains("value"), "inside the cube: {text}");
+
+    // The same way back by the keyboard; the pane was clicked, so it has it.
+    window.press_with(Modifiers::SHIFT, Key::ArrowLeft);
+    window.settle();
+    assert_ne!(readout(&window), text, "ten voxels to the left");
+    // Page up scrolls the slice and moves no template.
+    window.press(Key::PageUp);
+    window.settle();
+    assert!(!readout(&window).contains(", 0 "), "{}", readout(&window));
+
+    // In the cut there is nothing: up and to the left in the coronal slice, once it runs through it.
+    let sagittal_front = sagittal.center() - vec2(0.3 * sagittal.width() * 0.8, 0.0);
+    window.click_at(sagittal_front);
+    let corner = coronal.center() - vec2(0.18, 0.18) * coronal.size().min_elem();
+    window.click_at(corner);
+    window.harness.hover_at(Pos2::ZERO);
+    window.settle();
+    window.look("slices_cut");
+    assert!(
+        readout(&window).ends_with("nothing"),
+        "{}",
+        readout(&window)
+    );
+
+    // One pane alone, and all of them again.
+    window.click("Axial alone");
+    window.settle();
+    assert!(window.harness.query_by_label("Coronal slice").is_none());
+    window.press(Key::Escape);
+    window.settle();
+    assert!(window.harness.query_by_label("Coronal slice").is_some());
+    window.press(Key::V);
+    assert!(window.harness.query_by_label("Axial slice").is_none());
+}
+
+#[test]
+fn templates_are_placed_and_moved_in_slices() {
+    let mut window = Window::open(FOUR, CUBE);
+    window.click("Slices beside the picture");
+    window.settle();
+    let axial = slice_rect(&window, "Axial");
+    window.click("Place cut");
+    window.click_at(axial.center() - vec2(50.0, 0.0));
+    window.settle();
+    let template = window.document().illustration().templates[0].clone();
+    let at = template.placement.at;
+    assert!(
+        at.x > 0.05 && at.y.abs() < 0.02 && at.z.abs() < 0.02,
+        "{at}"
+    );
+    let outwards = template.placement.rotate * glam::Vec3::Z;
+    assert!(outwards.x > 0.99, "it looks out of the object: {outwards}");
+    window.look("slices_placed");
+    // It is taken by its dot and moved within the slice; the drag is one step of undo.
+    let dot = window
+        .harness
+        .get_all_by_label("Move Cut in the slice")
+        .next()
+        .expect("the first pane has it")
+        .rect()
+        .center();
+    window.drag(dot, vec2(0.0, 30.0));
+    let moved = window.document().illustration().templates[0].placement.at;
+    assert!(
+        moved.y < at.y - 0.03 && (moved.z - at.z).abs() < 1e-4,
+        "down is posterior: {at} {moved}"
+    );
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    let back = window.document().illustration().templates[0].placement.at;
+    assert!(back.distance(at) < 1e-4);
+}
+
+#[test]
+fn a_phone_shows_one_pane_with_tabs() {
+    let mut window = Window::open(Vec2::new(360.0, 740.0), CUT);
+    window.click("Slices beside the picture");
+    window.settle();
+    assert!(
+        window.harness.query_by_label("Axial slice").is_none(),
+        "the picture first"
+    );
+    window.click("View: Coronal");
+    window.settle();
+    window.look("slices_phone");
+    let pane = slice_rect(&window, "Coronal");
+    assert!(pane.width() > 350.0 && pane.height() > 400.0, "{pane}");
+    window.click_at(pane.center() + vec2(60.0, -40.0));
+    assert!(!readout(&window).starts_with("0, "), "{}", readout(&window));
+    window.click("View: Picture");
+    window.settle();
+    assert!(window.harness.query_by_label("Coronal slice").is_none());
+}
+
+#[test]
+fn an_amount_is_set_shown_and_taken_back() {
+    let mut window = Window::open(
+        DESK,
+        r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [
+            { "kind": "peel", "at": [0, 0, 0.4], "size": [0.6, 0.6, 0.3], "amount": 0.5 } ] }"#,
+    );
+    window.click("1. Peel");
+    window.press(Key::B);
+    window.settle();
+    window.look("ghost");
+    window
+        .harness
+        .get_by_role_and_label(Role::Slider, "Overall slider")
+        .focus();
+    window.steps(2);
+    window.press(Key::ArrowRight);
+    let amount = window.document().illustration().templates[0].amount;
+    assert!(amount > 0.5, "{amount}");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.document().illustration().templates[0].amount, 0.5);
+    window.click("Hide what was before");
+    window.settle();
+    window.look("ghost_off");
+}
+
+#[test]
+fn distances_are_measured_on_the_surface_and_in_slices() {
+    let mut window = Window::open(FOUR, CUBE);
+    window.press(Key::Num1);
+    window.settle();
+    window.press(Key::R);
+    let middle = window.picture_center();
+    window.click_at(middle - vec2(40.0, 0.0));
+    window.click_at(middle + vec2(40.0, 0.0));
+    window.settle();
+    let text = |window: &Window| {
+        let node = window.harness.get_by_label_contains("Distance 1:");
+        said(&node.accesskit_node())
+    };
+    let on_surface = text(&window);
+    assert!(on_surface.contains(" mm · 0."), "{on_surface}");
+    window.look("measured");
+    window.press(Key::V);
+    window.settle();
+    let axial = slice_rect(&window, "Axial");
+    window.click_at(axial.center());
+    window.click_at(axial.center() + vec2(30.0, 0.0));
+    window.settle();
+    window.look("measured_slices");
+    assert!(
+        window
+            .harness
+            .query_by_label_contains("Distance 2:")
+            .is_some()
+    );
+    window.press(Key::Escape);
+    assert!(window.harness.query_by_label("End measuring").is_none());
+    window.click("Remove distance 1");
+    assert_ne!(text(&window), on_surface);
+    assert!(
+        window
+            .harness
+            .query_by_label_contains("Distance 2:")
+            .is_none()
+    );
+}
+
+#[test]
+fn slices_of_the_head_to_look_at() {
+    if std::env::var_os("FABRICA_LOOK_AT").is_none() {
+        println!("FABRICA_LOOK_AT is not set: nobody looks, nothing is drawn");
+        return;
+    }
+    let json = r#"{ "fabrica": 1, "templates": [
+        { "kind": "flap", "at": [0.05, 0.28, 0.25], "rotate": [-0.7071068, 0, 0, 0.7071068], "size": [0.4, 0.4, 0.3] },
+        { "kind": "cut", "at": [-0.25, 0, 0.2], "size": [0.3, 0.3, 0.3] } ] }"#;
+    for (name, size, theme) in [
+        ("head_slices", Vec2::new(1280.0, 800.0), egui::Theme::Light),
+        (
+            "head_slices_dark",
+            Vec2::new(1280.0, 800.0),
+            egui::Theme::Dark,
+        ),
+    ] {
+        let mut window = Window::open_with(size, theme, Fake::default(), Some(json));
+        window.press(Key::V);
+        window.settle();
+        let axial = slice_rect(&window, "Axial");
+        window.click_at(axial.center() + vec2(30.0, -40.0));
+        window.settle();
+        window.look(name);
+        if theme == egui::Theme::Dark {
+            window
+                .harness
+                .get_all_by_label("Slices in colour")
+                .next()
+                .expect("a button")
+                .click();
+            window.settle();
+            window.look("head_slices_colour");
+            window.press(Key::V);
+            window.press(Key::B);
+            window.settle();
+            window.look("head_ghost");
+        }
+    }
+}

@@ -41,6 +41,7 @@ pub(crate) mod making;
 pub(crate) mod names;
 pub(crate) mod picture;
 pub(crate) mod said;
+pub(crate) mod slices;
 pub(crate) mod templates;
 pub(crate) mod text;
 pub(crate) mod transfer;
@@ -242,6 +243,7 @@ mod tests {
             names::LINES,
             picture::LINES,
             said::LINES,
+            slices::LINES,
             templates::LINES,
             text::LINES,
             transfer::LINES,

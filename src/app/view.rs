@@ -1,0 +1,162 @@
+//! How one looks at the object besides the camera: slices next to the picture, the ghost of the untouched object, distances.
+//! None of it belongs to the document, so that none of it is undone.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec3, Vec3};
+
+use super::measure::Measures;
+use crate::data::Volume;
+use crate::math::Aabb;
+
+/// A part of the window in which the object is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pane {
+    /// The picture.
+    Picture,
+    /// The slice across z.
+    Axial,
+    /// The slice across y.
+    Coronal,
+    /// The slice across x.
+    Sagittal,
+}
+
+impl Pane {
+    /// In the order of the panes: by rows, from the left.
+    pub const ALL: [Self; 4] = [Self::Axial, Self::Picture, Self::Coronal, Self::Sagittal];
+}
+
+/// Changes how one looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum See {
+    /// Slices beside the picture, or the picture alone.
+    ToggleSlices,
+    /// One pane alone, or with none all four.
+    Expand(Option<Pane>),
+    /// Grey or the look's colours in slices.
+    ToggleSliceColors,
+    /// Puts the crosshair to a point, subject space.
+    Cross(Vec3),
+    /// The untouched object faintly over the deformed one.
+    ToggleGhost,
+    /// Clicks measure, or do what they did before.
+    ToggleMeasure,
+    /// Drops one distance by its place in the list.
+    RemoveMeasure(usize),
+}
+
+/// What panels want to know of the volume that is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SubjectFacts {
+    /// Millimetres in one subject unit.
+    pub mm_per_unit: f32,
+    /// Where the middle of its box lies in the scanner's space, mm.
+    pub middle_mm: DVec3,
+    /// Box of the untouched subject, subject space.
+    pub bounds: Aabb,
+    /// Smallest spacing of its voxels, subject units.
+    pub voxel: f32,
+    /// Names of its segments by label.
+    pub segments: BTreeMap<u16, String>,
+}
+
+impl SubjectFacts {
+    fn new(volume: &Volume) -> Self {
+        let (min, max) = volume.grid.world_bounds();
+        let mm_per_unit = volume.grid.mm_per_unit();
+        let segments = volume.labels.iter().flat_map(|labels| &labels.segments);
+        Self {
+            mm_per_unit: mm_per_unit as f32,
+            middle_mm: 0.5 * (min + max),
+            bounds: volume.grid.subject_bounds(),
+            voxel: (volume.grid.spacing_mm().min_element() / mm_per_unit) as f32,
+            segments: segments
+                .map(|segment| (segment.label, segment.name.clone()))
+                .collect(),
+        }
+    }
+
+    /// The scanner's space, mm, from a point of the subject.
+    pub(crate) fn world_from_subject(&self, pos: Vec3) -> Vec3 {
+        (self.middle_mm + pos.as_dvec3() * f64::from(self.mm_per_unit)).as_vec3()
+    }
+}
+
+/// All of it.
+#[derive(Debug, Default)]
+pub(crate) struct ViewState {
+    /// Slices are shown beside the picture.
+    pub is_split: bool,
+    /// The pane that is shown alone.
+    pub expanded: Option<Pane>,
+    /// Slices are in the look's colours.
+    pub has_slice_colors: bool,
+    /// Where the slices cross, subject space.
+    pub cross: Vec3,
+    /// The volume that is shown.
+    pub subject: Option<SubjectFacts>,
+    /// The untouched object is seen over the deformed one.
+    pub has_ghost: bool,
+    /// Distances in the picture.
+    pub measures: Measures,
+    /// Rises with every volume.
+    pub subject_revision: u64,
+}
+
+impl ViewState {
+    /// Another volume is shown.
+    pub(crate) fn set_subject(&mut self, volume: &Volume) {
+        let facts = SubjectFacts::new(volume);
+        let is_same_place = self
+            .subject
+            .as_ref()
+            .is_some_and(|old| old.mm_per_unit == facts.mm_per_unit && old.bounds == facts.bounds);
+        if !is_same_place {
+            self.cross = facts.bounds.center();
+            self.measures.clear();
+        }
+        self.subject = Some(facts);
+        self.subject_revision += 1;
+    }
+
+    /// Does it.
+    pub(crate) fn run(&mut self, see: See) {
+        match see {
+            See::ToggleSlices => {
+                self.is_split = !self.is_split;
+                self.expanded = None;
+            }
+            See::Expand(pane) => self.expanded = pane,
+            See::ToggleSliceColors => self.has_slice_colors = !self.has_slice_colors,
+            See::Cross(pos) => self.set_cross(pos),
+            See::ToggleGhost => self.has_ghost = !self.has_ghost,
+            See::ToggleMeasure => self.measures.toggle(),
+            See::RemoveMeasure(index) => self.measures.remove(index),
+        }
+    }
+
+    /// Puts the crosshair to a point, within reach of the object.
+    pub(crate) fn set_cross(&mut self, pos: Vec3) {
+        if pos.is_finite() {
+            self.cross = pos.clamp(Vec3::splat(-1.5), Vec3::splat(1.5));
+        }
+    }
+
+    /// Drops what is being done. True if there was something.
+    pub(crate) fn escape(&mut self) -> bool {
+        if self.measures.is_on {
+            self.measures.escape();
+            return true;
+        }
+        if self.expanded.take().is_some() {
+            return true;
+        }
+        false
+    }
+
+    /// Millimetres in one subject unit, once a volume is there.
+    pub(crate) fn mm_per_unit(&self) -> Option<f32> {
+        self.subject.as_ref().map(|subject| subject.mm_per_unit)
+    }
+}

@@ -1,0 +1,90 @@
+//! At the bottom of the picture: the ball of axes, the way back home, standard views, slices, the ghost, distances.
+
+use egui::{Rect, Ui, UiBuilder, Vec2, vec2};
+
+use super::camera::{Projection, StandardView};
+use super::command::Command;
+use super::control;
+use super::icon::Icon;
+use super::orientation;
+use super::state::State;
+use super::topbar::menu_item;
+use super::view::See;
+use super::viewport::float_frame;
+use super::words::{picture, slices};
+
+/// Side of a button with its frame, points.
+const BUTTON: f32 = 34.0;
+
+/// All of it, in the corners of a rectangle.
+pub(crate) fn corner_ui(
+    ui: &mut Ui,
+    rect: Rect,
+    view: &Projection,
+    state: &State,
+    commands: &mut Vec<Command>,
+) {
+    if rect.height() < 220.0 {
+        return;
+    }
+    let center = rect.left_bottom() + vec2(62.0, -62.0);
+    commands.extend(orientation::ball_ui(ui, view, center));
+    let home = Rect::from_center_size(center + vec2(62.0, 32.0), Vec2::splat(BUTTON));
+    if button_ui(ui, home, Icon::Home, picture::w().back_to_first, false).clicked() {
+        commands.push(Command::ResetView);
+    }
+
+    let w = slices::w();
+    let seen = &state.view;
+    let corner = rect.right_bottom() - vec2(12.0 + 0.5 * BUTTON, 12.0 + 0.5 * BUTTON);
+    let spot = |i: f32| {
+        let center = corner - vec2(0.0, i * (BUTTON + 4.0));
+        Rect::from_center_size(center, Vec2::splat(BUTTON))
+    };
+    let (text, is_on) = match seen.is_split {
+        true => (w.hide, true),
+        false => (w.show, false),
+    };
+    if button_ui(ui, spot(0.0), Icon::Panes, text, is_on).clicked() {
+        commands.push(Command::See(See::ToggleSlices));
+    }
+    let (text, is_on) = match seen.measures.is_on {
+        true => (w.measure_end, true),
+        false => (w.measure, false),
+    };
+    if button_ui(ui, spot(1.0), Icon::Ruler, text, is_on).clicked() {
+        commands.push(Command::See(See::ToggleMeasure));
+    }
+    let (text, is_on) = match seen.has_ghost {
+        true => (w.ghost_hide, true),
+        false => (w.ghost_show, false),
+    };
+    if button_ui(ui, spot(2.0), Icon::Ghost, text, is_on).clicked() {
+        commands.push(Command::See(See::ToggleGhost));
+    }
+    let views = button_ui(ui, spot(3.0), Icon::Cube, w.views, false);
+    egui::Popup::menu(&views).show(|ui| {
+        ui.set_min_width(220.0);
+        for (i, side) in StandardView::ALL.into_iter().enumerate() {
+            let text = format!("{}   {}", orientation::side_hint(side), i + 1);
+            if menu_item(ui, Icon::Cube, &text) {
+                commands.push(Command::View(side));
+                ui.close();
+            }
+        }
+        if menu_item(
+            ui,
+            Icon::Home,
+            &format!("{}   0", picture::w().back_to_first),
+        ) {
+            commands.push(Command::ResetView);
+            ui.close();
+        }
+    });
+}
+
+fn button_ui(ui: &mut Ui, rect: Rect, icon: Icon, name: &str, is_on: bool) -> egui::Response {
+    float_frame(ui, rect);
+    let mut inner = ui.new_child(UiBuilder::new().id_salt(name).max_rect(rect.shrink(2.0)));
+    control::icon_button_sized(&mut inner, icon, name, true, is_on, BUTTON - 4.0)
+}

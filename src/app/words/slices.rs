@@ -1,0 +1,38 @@
+//! Slices, distances, the ghost and standard views.
+
+words! {
+    /// See the module.
+    Slices {
+        axial: "Axial", "Axial", "Axial", "横断面";
+        coronal: "Coronal", "Koronal", "Coronal", "冠状面";
+        sagittal: "Sagittal", "Sagittal", "Sagital", "矢状面";
+        picture: "Picture", "Bild", "Imagen", "图像";
+        pane: "View", "Ansicht", "Vista", "视图";
+        slice: "{0} slice", "Schnitt {0}", "Corte {0}", "{0}切片";
+        position: "{0} position", "Lage {0}", "Posición {0}", "{0}位置";
+        at: "{0} · {1} mm", "{0} · {1} mm", "{0} · {1} mm", "{0} · {1} 毫米";
+        value: "value {0}", "Wert {0}", "valor {0}", "数值 {0}";
+        nothing: "nothing", "nichts", "nada", "空";
+        show: "Slices beside the picture", "Schnitte neben dem Bild", "Cortes junto a la imagen", "在图像旁显示切片";
+        hide: "The picture without slices", "Das Bild ohne Schnitte", "La imagen sin cortes", "仅显示图像";
+        expand: "{0} alone", "Nur {0}", "Solo {0}", "仅{0}";
+        all: "All four views", "Alle vier Ansichten", "Las cuatro vistas", "四个视图";
+        colours: "Slices in colour", "Schnitte in Farbe", "Cortes en color", "彩色切片";
+        greys: "Slices in grey", "Schnitte in Grau", "Cortes en gris", "灰度切片";
+        move_template: "Move {0} in the slice", "{0} im Schnitt verschieben", "Mover {0} en el corte", "在切片中移动{0}";
+        ghost_show: "Show what was before", "Zeigen, was vorher war", "Mostrar el estado original", "显示变形前的样子";
+        ghost_hide: "Hide what was before", "Verbergen, was vorher war", "Ocultar el estado original", "隐藏变形前的样子";
+        measure: "Measure distances", "Abstände messen", "Medir distancias", "测量距离";
+        measure_end: "End measuring", "Messen beenden", "Terminar de medir", "结束测量";
+        measure_hint: "Choose two points", "Zwei Punkte wählen", "Elija dos puntos", "选择两点";
+        measure_remove: "Remove distance {0}", "Abstand {0} entfernen", "Quitar la distancia {0}", "移除距离 {0}";
+        mm: "{0} mm", "{0} mm", "{0} mm", "{0} 毫米";
+        distance_n: "Distance {0}: {1}", "Abstand {0}: {1}", "Distancia {0}: {1}", "距离 {0}：{1}";
+        views: "Standard views", "Standardansichten", "Vistas estándar", "标准视图";
+        amount: "Overall", "Insgesamt", "Total", "总体";
+        amount_hint: "From closed to what is set below", "Von geschlossen bis zu dem, was unten eingestellt ist", "De cerrado a lo que se indica abajo", "从闭合到下方设置的程度";
+        key_slices: "Slices", "Schnitte", "Cortes", "切片";
+        key_ghost: "What was before", "Was vorher war", "El estado original", "变形前的样子";
+        key_measure: "Measure", "Messen", "Medir", "测量";
+    }
+}
