@@ -3,6 +3,8 @@
 //! `cargo xtask test` builds the page and sets up Chromium and Xvfb first. Pictures are left in target/e2e.
 #![cfg(feature = "app")]
 
+#[path = "e2e/author.rs"]
+mod author;
 #[path = "e2e/compare.rs"]
 mod compare;
 #[path = "e2e/harness.rs"]
