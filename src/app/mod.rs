@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `state` | the document and its history, selection, camera, loading, what was said |
 //! | `command` | everything that can be done, as values, and the table of keys |
-//! | `services` | what the shell does for the app, and what comes back |
+//! | `services`, `arrivals` | what the shell does for the app, and what comes back |
 //! | `viewport`, `camera`, `gizmo`, `orientation` | the picture and what the hand does on it |
 //! | `view`, `view_bar`, `panes`, `slices` with `slice_plot`, `measure` | slices beside the picture, distances, the ghost |
 //! | `picture`, `icons` | the renderer, its texture, questions to it; the catalogue's pictures |
@@ -14,6 +14,7 @@
 //!
 //! Nothing here knows where it runs. The picture is drawn when something changed; at rest nothing repaints.
 
+mod arrivals;
 mod camera;
 mod catalogue;
 mod command;
@@ -51,20 +52,17 @@ mod view_bar;
 mod viewport;
 mod words;
 
-use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{Frame, Margin, Panel, ScrollArea, Ui, Vec2, vec2};
 
 use self::icon::Icon;
 use self::icons::RenderedIcons;
-use self::making::OnClipboard;
 use self::picture::Picture;
 use self::state::{Gravity, State, Tab};
 use self::theme::Palette;
 use self::viewport::Viewport;
-use self::words::fill;
-use crate::data::{Statistics, VolumeBuilder, VolumeSink as _};
+use crate::data::{Statistics, VolumeBuilder};
 use crate::document::Document;
 use crate::render::{Clock, encode_png};
 
@@ -235,167 +233,6 @@ impl App {
     /// Does something as if a button had been pressed.
     pub fn run(&mut self, command: Command) {
         self.state.run(command, self.services.as_mut());
-    }
-
-    // ------------------------------------------------------------------------------------------------ messages
-
-    fn take_messages(&mut self) {
-        for message in self.services.poll() {
-            match message {
-                Message::OpenText { text } => self.state.open_text(&text, self.services.as_mut()),
-                Message::FileStarted { ticket } => self.state.file_started(ticket),
-                Message::AskHost { ticket, host } => {
-                    if let Some(load) = self
-                        .state
-                        .load
-                        .as_mut()
-                        .filter(|load| load.ticket == ticket)
-                    {
-                        load.host = Some(host);
-                    }
-                }
-                Message::Load { ticket, event } => {
-                    // What still comes from an earlier load is dropped.
-                    if self
-                        .state
-                        .load
-                        .as_ref()
-                        .is_some_and(|load| load.ticket == ticket)
-                    {
-                        self.take_load_event(event);
-                    }
-                }
-                Message::Pasted(text) => self.state.take_pasted(text, self.services.as_mut()),
-                Message::Copied(Ok(())) if self.state.making.on_clipboard != OnClipboard::Link => {
-                    if let OnClipboard::Templates(number) = self.state.making.on_clipboard {
-                        let text = fill(words::making::w().on_clipboard, &[&number]);
-                        self.state.say(Gravity::Success, text, "");
-                    }
-                }
-                Message::Copied(Ok(())) => {
-                    self.state.copied_at = Some(self.state.now);
-                    self.state
-                        .say(Gravity::Success, words::said::w().link_on_clipboard, "");
-                    let length = self.state.payload.len();
-                    if length > state::LONG_LINK {
-                        let text = fill(words::said::w().link_long, &[&length]);
-                        self.state.say(Gravity::Warning, text, "");
-                    }
-                }
-                Message::Copied(Err(error)) => {
-                    self.state
-                        .say(Gravity::Error, words::said::w().clipboard_refused, error);
-                }
-                Message::Saved(Ok(name)) => {
-                    self.state
-                        .say(Gravity::Success, fill(words::said::w().saved, &[&name]), "")
-                }
-                Message::Saved(Err(error)) if error.is_empty() => {}
-                Message::Saved(Err(error)) => {
-                    self.state
-                        .say(Gravity::Error, words::said::w().not_saved, error)
-                }
-                Message::Notice { message, details } => {
-                    self.state.say(Gravity::Warning, message, details)
-                }
-                // For who writes shaders, and so in English, as the compiler's words are.
-                #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
-                Message::ShadersChanged => {
-                    match self.picture.as_mut().map(Picture::reload_shaders) {
-                        Some(Err(error)) => {
-                            let text = "A shader does not compile; the last good ones stay";
-                            self.state.say(Gravity::Error, text, error.to_string());
-                        }
-                        Some(Ok(())) => self.state.say(Gravity::Success, "Shaders reloaded", ""),
-                        None => {}
-                    }
-                }
-            }
-        }
-    }
-
-    fn take_load_event(&mut self, event: LoadEvent) {
-        match event {
-            LoadEvent::Begin(header) => {
-                let mut builder = VolumeBuilder::new();
-                match builder.begin(&header) {
-                    Ok(()) => {
-                        self.incoming = Some(builder);
-                        self.statistics = Statistics::new();
-                    }
-                    Err(why) => self.refuse(words::said::w().cannot_be_held, why),
-                }
-            }
-            LoadEvent::Scalars(scalars) => {
-                if let Some(builder) = &mut self.incoming {
-                    self.statistics.add(&scalars);
-                    builder.scalars(scalars);
-                }
-            }
-            LoadEvent::Labels(labels) => {
-                if let Some(builder) = &mut self.incoming {
-                    builder.labels(labels);
-                }
-            }
-            LoadEvent::Progress { fraction, what } => {
-                if let Some(load) = &mut self.state.load {
-                    load.fraction = fraction;
-                    load.what = what;
-                }
-            }
-            LoadEvent::Coarse => self.show_incoming(),
-            LoadEvent::Frames { count } => {
-                if let Some(load) = &mut self.state.load {
-                    load.frame_count = count;
-                }
-            }
-            LoadEvent::AskRaw(question) => self.state.ask_raw(question, self.services.as_mut()),
-            LoadEvent::Done { sha256 } => {
-                self.show_incoming();
-                self.state.load_done(sha256, self.services.as_mut());
-            }
-            LoadEvent::Notice(text) => self.state.say(Gravity::Warning, text, ""),
-            LoadEvent::Failed { message, details } => self.refuse(&message, details),
-            LoadEvent::Cancelled => {
-                self.incoming = None;
-                self.state.load_ended();
-                self.state
-                    .say(Gravity::Info, words::said::w().loading_stopped, "");
-            }
-        }
-    }
-
-    /// There will be no volume of this load.
-    fn refuse(&mut self, message: &str, details: String) {
-        self.incoming = None;
-        if let Some(load) = &self.state.load {
-            self.services.cancel_load(load.ticket);
-        }
-        self.state.load_ended();
-        self.state.say(Gravity::Error, message, details);
-    }
-
-    /// What has come is whole: it is shown.
-    fn show_incoming(&mut self) {
-        let Some(builder) = self.incoming.take() else {
-            return;
-        };
-        match builder.finish() {
-            Ok(volume) => {
-                let histogram = self.statistics.histogram(volume.slope, volume.intercept);
-                self.transfer.set_histogram(histogram);
-                self.state.view.set_subject(&volume);
-                let volume = Arc::new(volume);
-                let shown = self
-                    .picture
-                    .as_mut()
-                    .map(|picture| picture.set_subject(volume));
-                if let Some(Err(error)) = shown {
-                    self.refuse(words::said::w().does_not_fit, error.to_string());
-                }
-            }
-            Err(error) => self.refuse(words::said::w().incomplete, error.to_string()),
-        }
     }
 
     // ------------------------------------------------------------------------------------------------ frame
