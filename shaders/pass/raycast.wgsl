@@ -254,6 +254,8 @@ fn march(pixel: vec2f) -> Marched {
     var stretch = 1.0;
     var clear = 1.0;
     var mask = 0u;
+    // Templates that reach the cell of the sample before: a cut between the two samples may be one of theirs alone.
+    var mask_before = 0u;
     var color = vec3f(0.0);
     // The ray's surface, and its share of the colour, for shadow and occlusion.
     var surface_key = vec3f(0.0);
@@ -289,6 +291,7 @@ fn march(pixel: vec2f) -> Marched {
                 }
                 t = max(t_cell, t + step * 0.01);
                 t_before = t;
+                mask_before = 0u;
                 stretch = 1.0;
             }
             // Cells that no template reaches are sampled plainly.
@@ -303,6 +306,7 @@ fn march(pixel: vec2f) -> Marched {
                     break;
                 }
                 t_before = t;
+                mask_before = mask;
                 t += step;
             }
             if drawn_kinds != 0u {
@@ -319,6 +323,7 @@ fn march(pixel: vec2f) -> Marched {
                     // The step follows the Jacobian: compressed tissue gets more samples, stretched tissue fewer.
                     stretch = clamp(distance(here.pos, last) / max(t - t_before, 0.25 * step), 0.6, 3.0);
                     t_before = t;
+                    mask_before = mask;
                     t += step / stretch;
                 }
             }
@@ -340,11 +345,12 @@ fn march(pixel: vec2f) -> Marched {
         if is_rising || !is_jump {
             edge = here;
         }
+        let either = mask | mask_before;
         var halvings = select(0u, BISECTIONS, is_jump);
         while halvings > 0u {
             halvings--;
             let middle = 0.5 * (low + high);
-            let found = sample_mapped(map_point(origin + dir * middle, mask));
+            let found = sample_mapped(map_point(origin + dir * middle, either));
             if (found.opacity > level) == is_rising {
                 high = middle;
                 if is_rising {
@@ -358,6 +364,18 @@ fn march(pixel: vec2f) -> Marched {
             }
         }
         let t_edge = select(0.5 * (t_before + t), select(low, high, is_rising), is_jump);
+        // Behind a surface towards nothing the first stretch has always the same length, and so the same share of the colour: were it what is
+        // left of the step, the surface would fade wherever a sample happens to lie right behind it. Thin tissue keeps the sample
+        // that found it.
+        if is_rising && before.opacity <= VISIBLE {
+            let next = t_edge + step;
+            let at = origin + dir * next;
+            let found = sample_mapped(map_point(at, either | cell_at(at).x));
+            if found.opacity >= 0.5 * here.opacity && next > t {
+                here = found;
+                t = next;
+            }
+        }
         let t_shade = select(t, t_edge, is_jump);
         let pos = origin + dir * t_shade;
 
@@ -371,7 +389,7 @@ fn march(pixel: vec2f) -> Marched {
         if drawn_kinds != 0u {
             // First the point itself: the edge may have been sampled in a cell of another mask, and continuities of different masks
             // have no difference.
-            path = path_of(pos, mask);
+            path = path_of(pos, either);
             var turn = select(4u, 0u, path != 0u);
             while turn < 4u {
                 let along = select(vec3f(0.0), forward * MAP_STEP, vec3u(1u, 2u, 3u) == vec3u(turn));
@@ -496,6 +514,7 @@ fn march(pixel: vec2f) -> Marched {
         }
         before = here;
         t_before = t;
+        mask_before = mask;
         t += step / clamp(exponent_for_step(col0, col1, col2, dir), 0.6, 3.0);
     }
 
