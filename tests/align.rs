@@ -375,7 +375,7 @@ fn a_wrong_reading_is_caught() {
         keep: vec!["bone".to_owned(), "brain".to_owned()],
         thickness: 0.01,
     })];
-    let points: Vec<Vec3> = (0..400).map(|_| random.point(&list)).collect();
+    let points: Vec<Vec3> = (0..4000).map(|_| random.point(&list)).collect();
     let mut reading = Reading::new(&list, &labels, &depths);
     let mut tally = Tally::default();
     tally.compare(&studio, &reading, &list, &points);

@@ -7,7 +7,9 @@ use std::path::Path;
 use std::process::Command;
 
 use fabrica::data::VolumeBuilder;
+use fabrica::document::Document;
 use fabrica::load::{LoadReport, OneFile, ReadOptions, read_volume};
+use fabrica::render::{Gpu, GpuOptions, Studio};
 
 /// Set for the process that is measured: the file it loads.
 const LOAD: &str = "FABRICA_MEASURED_LOAD";
@@ -147,6 +149,39 @@ fn a_large_volume_is_held_once() {
         // Negative control: the measure sees at least the voxels.
         assert!(ratio > 0.98, "{ratio:.2}: the measure is blind");
     }
+    let ratio = allocated_on_gpu(&plain) as f64 / voxel_bytes as f64;
+    println!("on the graphics device: {ratio:.2} times its voxels");
+    assert!(ratio < 1.6, "{ratio:.2} times the voxels' bytes on the GPU");
+    assert!(ratio > 0.98, "{ratio:.2}: the measure is blind");
+}
+
+/// Bytes that the graphics device holds more once a scan is uploaded and a picture of it drawn.
+fn allocated_on_gpu(path: &Path) -> u64 {
+    let gpu = pollster::block_on(Gpu::open(&GpuOptions::default())).expect("a Vulkan adapter");
+    let allocated = || {
+        let report = gpu.device.generate_allocator_report();
+        report.expect("Vulkan keeps count").total_allocated_bytes
+    };
+    let before = allocated();
+    let mut builder = VolumeBuilder::new();
+    read_volume(
+        &mut OneFile::new(
+            "large.nii",
+            std::fs::File::open(path).expect("it is there"),
+            None,
+        ),
+        "large.nii",
+        &ReadOptions::default(),
+        &mut builder,
+        &mut LoadReport::default(),
+    )
+    .expect("it was read before");
+    let volume = builder.finish().expect("whole");
+    let studio = Studio::new(&gpu, &volume, true).expect("it fits");
+    let document = Document::new();
+    pollster::block_on(studio.render_image(document.illustration(), [32, 32], 1))
+        .expect("a picture");
+    allocated().saturating_sub(before)
 }
 
 #[test]
