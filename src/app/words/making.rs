@@ -35,7 +35,7 @@ words! {
         step_handles: "Steps of 15° and 0.05", "Schritte von 15° und 0,05", "Pasos de 15° y 0,05", "15° 与 0.05 步进";
         both_sides: "Both sides", "Beide Seiten", "Ambos lados", "两侧同时";
         alone: "Alone, without its group", "Allein, ohne die Gruppe", "Sola, sin su grupo", "单独移动，不带组";
-        hint_title: "Three steps to an illustration", "In drei Schritten zur Illustration", "Una ilustración en tres pasos", "三步完成插图";
+        hint_title: "Three steps", "Drei Schritte", "Tres pasos", "三步完成";
         hint_choose: "Choose a template in the catalogue.", "Eine Vorlage im Katalog wählen.", "Elija una plantilla del catálogo.", "在目录中选择一个模板。";
         hint_place: "Click on the object; drag the yellow knob to open it.", "Auf das Objekt klicken; am gelben Knopf öffnen.", "Haga clic en el objeto; arrastre el botón amarillo para abrirlo.", "点击对象；拖动黄色旋钮将其打开。";
         hint_link: "Copy the link: it holds everything.", "Den Link kopieren: er enthält alles.", "Copie el enlace: lo contiene todo.", "复制链接：其中包含一切。";
