@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use super::App;
 use super::making::OnClipboard;
-use super::picture::Picture;
 use super::services::{LoadEvent, Message};
 use super::state::{self, Gravity};
 use super::words::{self, fill};
@@ -73,7 +72,11 @@ impl App {
                 // For who writes shaders, and so in English, as the compiler's words are.
                 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
                 Message::ShadersChanged => {
-                    match self.picture.as_mut().map(Picture::reload_shaders) {
+                    match self
+                        .picture
+                        .as_mut()
+                        .map(|picture| picture.reload_shaders())
+                    {
                         Some(Err(error)) => {
                             let text = "A shader does not compile; the last good ones stay";
                             self.state.say(Gravity::Error, text, error.to_string());
