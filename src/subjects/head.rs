@@ -296,7 +296,7 @@ impl Model for Head {
             let hollow = cavity.at(&p);
             let tube = canal.at(&p);
             let cranium = hollow.map(|c| {
-                let thickness = 4.0 + ((p.plain.z - 2.0) * (1.0 / 30.0)).clamp(0.0, 1.0).0[0] * 2.6;
+                let thickness = 4.0 + ((p.plain.z - 2.0) * (1.0 / 30.0)).clamp(0.0, 1.0)[0] * 2.6;
                 c - thickness
             });
             let mut bone = face_bones.at(&p);
@@ -518,13 +518,13 @@ mod tests {
                         near.distance(&p)
                     };
                     for i in 0..8 {
-                        if all.0[i].abs() < 1.6 {
+                        if all[i].abs() < 1.6 {
                             compared += 1;
                             assert!(
-                                (all.0[i] - some.0[i]).abs() < 0.02,
+                                (all[i] - some[i]).abs() < 0.02,
                                 "{} and {} at {:?}",
-                                all.0[i],
-                                some.0[i],
+                                all[i],
+                                some[i],
                                 block.origin
                             );
                         }

@@ -173,7 +173,7 @@ impl Folds {
                 for i in 0..LANES {
                     let u = ((chunk * LANES + i) as f32 + 0.5) / TABLE as f32;
                     let d = direction(u, (row as f32 + 0.5) / TABLE as f32);
-                    (way.x.0[i], way.y.0[i], way.z.0[i]) = (d[0], d[1], d[2]);
+                    (way.x[i], way.y[i], way.z[i]) = (d[0], d[1], d[2]);
                 }
                 // Walk to the surface.
                 let mut t = Lanes::splat(6.0);
@@ -190,11 +190,7 @@ impl Folds {
                 }
                 let line = lines.distance(&places).max(Lanes::splat(0.0));
                 for (i, cell) in cells.iter_mut().enumerate() {
-                    let p = [
-                        places.plain.x.0[i],
-                        places.plain.y.0[i],
-                        places.plain.z.0[i],
-                    ];
+                    let p = [places.plain.x[i], places.plain.y[i], places.plain.z[i]];
                     let (mut f, mut g) = (0.0f32, [0.0f32; 3]);
                     for (k, phase) in &waves {
                         let (sin, cos) =
@@ -207,8 +203,8 @@ impl Folds {
                     let slope = (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]).sqrt();
                     let wave = f.abs() / slope.max(0.35);
                     // Lines that have names push the others away, and are opened a little wider.
-                    let wave = wave + (5.5 - line.0[i]).max(0.0) * 0.9;
-                    *cell = wave.min(line.0[i] - 0.3).clamp(-0.3, 8.0);
+                    let wave = wave + (5.5 - line[i]).max(0.0) * 0.9;
+                    *cell = wave.min(line[i] - 0.3).clamp(-0.3, 8.0);
                 }
             }
         }
@@ -260,25 +256,25 @@ impl Cortex {
         let smooth = (solid + FLUID_MM).max(Lanes::splat(0.3) - fissure);
         let mut out = smooth;
         for i in 0..LANES {
-            let d = smooth.0[i];
+            let d = smooth[i];
             if !(-SULCUS_DEPTH_MM - 6.0..6.0).contains(&d) {
                 continue;
             }
             // What joins the hemispheres has no folds.
-            let x = p.x.0[i].abs();
-            if x < 10.0 && fissure.0[i] > x {
+            let x = p.x[i].abs();
+            if x < 10.0 && fissure[i] > x {
                 continue;
             }
-            let folds = if p.x.0[i] < 0.0 {
+            let folds = if p.x[i] < 0.0 {
                 &self.left
             } else {
                 &self.right
             };
-            let (s, depth) = folds.at(p.x.0[i], p.y.0[i], p.z.0[i]);
+            let (s, depth) = folds.at(p.x[i], p.y[i], p.z[i]);
             let edge = (1.0 - s.max(0.0) * (1.0 / 5.0)).max(0.0);
             // A sulcus narrows and ends inwards.
             let cut = (s - SULCUS_HALF_MM).max(-d - depth);
-            out.0[i] = (d + CROWN_MM * edge * edge).max(-cut);
+            out[i] = (d + CROWN_MM * edge * edge).max(-cut);
         }
         out
     }
@@ -306,11 +302,11 @@ pub(super) fn cerebellum() -> Field {
 pub(super) fn folia(p: &Points, smooth: Lanes) -> Lanes {
     let mut out = smooth;
     for i in 0..LANES {
-        let d = smooth.0[i];
+        let d = smooth[i];
         if !(-14.0..4.0).contains(&d) {
             continue;
         }
-        let (x, y, z) = (p.x.0[i], p.y.0[i], p.z.0[i]);
+        let (x, y, z) = (p.x[i], p.y[i], p.z[i]);
         // Leaves lie about the axis from ear to ear.
         let angle = libm::atan2f(z + 3.0, -(y + 26.0));
         let along = angle * 34.0 + 0.10 * x.abs() + 1.3 * libm::sinf(x * 0.16);
@@ -320,7 +316,7 @@ pub(super) fn folia(p: &Points, smooth: Lanes) -> Lanes {
         };
         let small = (line(4.4) - 0.55).max(-d - 3.4);
         let large = (line(13.2) - 0.75).max(-d - 11.0);
-        out.0[i] = d.max(-small).max(-large);
+        out[i] = d.max(-small).max(-large);
     }
     out
 }

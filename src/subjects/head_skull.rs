@@ -689,7 +689,7 @@ pub(super) fn sutures(p: &Places) -> Lanes {
     let p = &p.plain;
     let mut out = [0.0f32; super::lanes::LANES];
     for (i, depth) in out.iter_mut().enumerate() {
-        let (x, y, z) = (p.x.0[i], p.y.0[i], p.z.0[i]);
+        let (x, y, z) = (p.x[i], p.y[i], p.z[i]);
         let ax = x.abs();
         // Triangle waves of two lengths make the teeth of the line.
         let zigzag = |s: f32, size: f32| {
@@ -718,5 +718,5 @@ pub(super) fn sutures(p: &Places) -> Lanes {
         let t = (near * (1.0 / 1.5)).min(1.0);
         *depth = 1.7 * (1.0 - t * t);
     }
-    Lanes(out)
+    Lanes::from(out)
 }

@@ -404,7 +404,7 @@ fn fitted(knots: &[Knot], skin: &Field, cavity: &Field) -> Vec<Knot> {
             y: lane(1),
             z: lane(2),
         };
-        field.everywhere().distance(&Places::new(place)).0[0]
+        field.everywhere().distance(&Places::new(place))[0]
     };
     knots
         .iter()

@@ -1,65 +1,61 @@
 //! Eight floats side by side: a row of eight voxels is worked out at once.
 //!
-//! Only operations that IEEE 754 rounds exactly (+, −, ×, ÷, √, comparison) are offered, each written lane by lane, so
-//! the bits are the same on every machine whether or not the compiler turns a loop into vector instructions.
+//! Only operations that IEEE 754 rounds exactly (+, −, ×, ÷, √, comparison) are offered, so the bits are the same on every
+//! machine, whichever vector instructions it has. (Which of two zeros is the smaller may differ; nothing asks for their sign.)
 
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, Neg, Sub};
+
+use wide::f32x8;
 
 /// Voxels in a row of a block, and rows and layers of a block.
 pub(super) const LANES: usize = 8;
 
 /// Eight floats.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Lanes(pub(super) [f32; LANES]);
+pub(super) struct Lanes(f32x8);
 
-/// One lane by lane operation.
-macro_rules! each {
-    ($lane:ident => $value:expr) => {{
-        let mut out = [0.0f32; LANES];
-        let mut $lane = 0;
-        while $lane < LANES {
-            out[$lane] = $value;
-            $lane += 1;
-        }
-        Lanes(out)
-    }};
+impl From<[f32; LANES]> for Lanes {
+    #[inline(always)]
+    fn from(lanes: [f32; LANES]) -> Self {
+        Self(f32x8::from(lanes))
+    }
 }
 
 impl Lanes {
     /// The same number in every lane.
     #[inline(always)]
     pub(super) fn splat(value: f32) -> Self {
-        Self([value; LANES])
+        Self(f32x8::splat(value))
     }
 
     /// `start`, `start + step`, … each by one multiplication, so that no error adds up.
     #[inline(always)]
     pub(super) fn ramp(start: f32, step: f32) -> Self {
-        each!(i => start + step * i as f32)
+        Self::from([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]) * step + start
     }
 
     /// Square root.
     #[inline(always)]
     pub(super) fn sqrt(self) -> Self {
-        each!(i => self.0[i].sqrt())
+        Self(self.0.sqrt())
     }
 
     /// Magnitude.
     #[inline(always)]
     pub(super) fn abs(self) -> Self {
-        each!(i => self.0[i].abs())
+        Self(self.0.abs())
     }
 
     /// The smaller one; lanes hold no NaN.
     #[inline(always)]
     pub(super) fn min(self, other: Self) -> Self {
-        each!(i => if other.0[i] < self.0[i] { other.0[i] } else { self.0[i] })
+        Self(self.0.fast_min(other.0))
     }
 
     /// The larger one; lanes hold no NaN.
     #[inline(always)]
     pub(super) fn max(self, other: Self) -> Self {
-        each!(i => if other.0[i] > self.0[i] { other.0[i] } else { self.0[i] })
+        Self(self.0.fast_max(other.0))
     }
 
     /// Between two numbers.
@@ -76,22 +72,41 @@ impl Lanes {
 
     /// Smallest lane.
     pub(super) fn lowest(self) -> f32 {
-        self.0
-            .iter()
-            .fold(f32::INFINITY, |a, &b| if b < a { b } else { a })
+        (0..LANES).fold(
+            f32::INFINITY,
+            |low, i| if self[i] < low { self[i] } else { low },
+        )
     }
 
     /// Largest lane.
     pub(super) fn highest(self) -> f32 {
-        self.0
-            .iter()
-            .fold(f32::NEG_INFINITY, |a, &b| if b > a { b } else { a })
+        (0..LANES).fold(f32::NEG_INFINITY, |high, i| {
+            if self[i] > high { self[i] } else { high }
+        })
     }
 
     /// A function of each lane, for what cannot be written in lanes.
     #[inline(always)]
-    pub(super) fn map(self, mut f: impl FnMut(f32) -> f32) -> Self {
-        each!(i => f(self.0[i]))
+    pub(super) fn map(mut self, mut f: impl FnMut(f32) -> f32) -> Self {
+        for lane in self.0.as_mut_array() {
+            *lane = f(*lane);
+        }
+        self
+    }
+}
+
+impl Index<usize> for Lanes {
+    type Output = f32;
+    #[inline(always)]
+    fn index(&self, i: usize) -> &f32 {
+        &self.0.as_array()[i]
+    }
+}
+
+impl IndexMut<usize> for Lanes {
+    #[inline(always)]
+    fn index_mut(&mut self, i: usize) -> &mut f32 {
+        &mut self.0.as_mut_array()[i]
     }
 }
 
@@ -101,14 +116,14 @@ macro_rules! operator {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                each!(i => self.0[i] $op other.0[i])
+                Self(self.0 $op other.0)
             }
         }
         impl $name<f32> for Lanes {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: f32) -> Self {
-                each!(i => self.0[i] $op other)
+                Self(self.0 $op f32x8::splat(other))
             }
         }
     };
@@ -129,7 +144,7 @@ impl Neg for Lanes {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        each!(i => -self.0[i])
+        Self(-self.0)
     }
 }
 

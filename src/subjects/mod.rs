@@ -227,7 +227,7 @@ impl Generator {
                         let at = x0 + nx * (y + ny * (z - start) as usize);
                         let n = LANES.min(nx - x0);
                         for i in 0..n {
-                            let value = canvas.values[row].0[i].clamp(lowest, highest);
+                            let value = canvas.values[row][i].clamp(lowest, highest);
                             slab.values[at + i] = (value + 0.5).floor() as i16;
                         }
                         slab.labels[at..at + n].copy_from_slice(&canvas.labels[row][..n]);

@@ -82,7 +82,7 @@ impl Canvas {
     /// Gives voxels that have no segment yet one where `distance` (mm) is negative, and leaves their values.
     pub(super) fn claim(&mut self, row: usize, distance: Lanes, label: u8) {
         for (i, mine) in self.labels[row].iter_mut().enumerate() {
-            if *mine == 0 && distance.0[i] < 0.0 {
+            if *mine == 0 && distance[i] < 0.0 {
                 *mine = label;
             }
         }
@@ -91,7 +91,7 @@ impl Canvas {
     /// Gives voxels another segment where `distance` (mm) is negative, and leaves their values.
     pub(super) fn relabel(&mut self, row: usize, distance: Lanes, label: u8) {
         for (i, mine) in self.labels[row].iter_mut().enumerate() {
-            if distance.0[i] < 0.0 {
+            if distance[i] < 0.0 {
                 *mine = label;
             }
         }

@@ -73,7 +73,7 @@ impl Profile {
     /// Signed distance of points of one height, mm: exact to first order near the surface.
     #[inline]
     pub(super) fn distance(&self, p: &Points) -> Lanes {
-        let ([half, middle, front, back], slope) = self.section(p.z.0[0]);
+        let ([half, middle, front, back], slope) = self.section(p.z[0]);
         let zero = Lanes::splat(0.0);
         let y = p.y - middle;
         let (inv_front, inv_back) = (1.0 / front, 1.0 / back);

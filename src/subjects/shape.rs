@@ -531,15 +531,15 @@ impl Field {
             let offsets = |axis: usize| {
                 let mut lanes = [pos.to_array()[axis]; super::lanes::LANES];
                 lanes[axis + 1] += 0.5;
-                Lanes(lanes)
+                Lanes::from(lanes)
             };
             let d = near.distance(&Places::new(Points {
                 x: offsets(0),
                 y: offsets(1),
                 z: offsets(2),
             }));
-            let slope = (Vec3::new(d.0[1], d.0[2], d.0[3]) - Vec3::splat(d.0[0])) / 0.5;
-            pos += slope * ((target - d.0[0]) / slope.length_squared().max(0.3));
+            let slope = (Vec3::new(d[1], d[2], d[3]) - Vec3::splat(d[0])) / 0.5;
+            pos += slope * ((target - d[0]) / slope.length_squared().max(0.3));
         }
         pos.to_array()
     }

@@ -372,7 +372,7 @@ impl Model for Torso {
                 continue;
             }
             let p = Places::new(block.row(row));
-            let z = p.plain.z.0[0];
+            let z = p.plain.z[0];
             // Lungs are nearly air, so the surface of the picture lies low on the slope that leads out of the air: a wide one
             // keeps it off the bend at its foot, where it would be terraced.
             out.lay(row, s, 1.4 * width, flat(30.0), Tissue::Skin as u8);

@@ -68,7 +68,7 @@ impl Outside {
                 y: Lanes::splat(p.y),
                 z: Lanes::splat(p.z),
             });
-            near.onto(&p, self.trunk.distance(&p.plain)).0[0] + SKIN_MM
+            near.onto(&p, self.trunk.distance(&p.plain))[0] + SKIN_MM
         };
         let lay = |&(p, r): &Knot| {
             let mut p = at(p);
