@@ -1,5 +1,7 @@
 //! Layer 4: everything GPU. Opens devices, assembles shader programs, uploads volumes and draws the picture.
 
+#[cfg(any(test, target_arch = "wasm32"))]
+mod bare;
 mod bench;
 mod error;
 mod feature;

@@ -1,6 +1,8 @@
 //! The table of shader programs. A program is the concatenation of its files; a line map turns the compiler's line
 //! into `file.wgsl:line`. WGSL does not care about order, so the order is only that of reading.
 
+#[cfg(target_arch = "wasm32")]
+use super::bare;
 use super::{Gpu, RenderError};
 use std::fmt::Write as _;
 
@@ -35,13 +37,33 @@ pub struct Program {
     pub entries: &'static [(&'static str, Stage)],
 }
 
+/// The text of a file as it is built in: whole, or without comments in what visitors download.
+#[cfg(not(target_arch = "wasm32"))]
+macro_rules! embedded {
+    ($path:expr) => {
+        include_str!($path)
+    };
+}
+
+/// The text of a file as it is built in: whole, or without comments in what visitors download.
+#[cfg(target_arch = "wasm32")]
+macro_rules! embedded {
+    ($path:expr) => {{
+        const BARE: [u8; bare::length(include_str!($path))] = bare::bytes(include_str!($path));
+        match std::str::from_utf8(&BARE) {
+            Ok(text) => text,
+            Err(_) => panic!("a shader file is no UTF-8"),
+        }
+    }};
+}
+
 macro_rules! shader_files {
     ($($path:literal),* $(,)?) => {
         /// Every embedded WGSL file.
         pub const FILES: &[ShaderFile] = &[
             $(ShaderFile {
                 path: $path,
-                source: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/", $path)),
+                source: embedded!(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/", $path)),
             }),*
         ];
     };
