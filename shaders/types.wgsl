@@ -86,6 +86,8 @@ struct Look {
     lut: vec4f,
     /// x: OPACITY_ mode.
     modes: vec4u,
+    /// x: how much opacity follows the steepness of the value, 0 to 1.
+    edges: vec4f,
 }
 
 /// How opacity follows the deformation.

@@ -46,7 +46,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
             label_from_rest_row0, label_from_rest_row1, label_from_rest_row2,
             dims, label_dims, texture_end, value,
         }
-        Look { lut, modes }
+        Look { lut, modes, edges }
         Grid { origin_min, cell_size, cells }
         Resolve { scale, background, flags }
         Slice {

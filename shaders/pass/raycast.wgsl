@@ -15,6 +15,8 @@
 override has_labels: u32 = 1u;
 /// 1 if there is a grid to leap with.
 override has_grid: u32 = 1u;
+/// 1 if opacity follows the gradient.
+override has_edges: u32 = 0u;
 /// Taps of ambient occlusion, once per ray. More are smoother and cost a map and two texture reads each.
 override occlusion_taps: u32 = 8u;
 /// Taps towards the key light, once per ray.
@@ -36,6 +38,10 @@ const GRADIENT_FAR: f32 = 2.2;
 /// How far inside a surface its segment is looked up, voxels, if the voxels around it belong to none: where tissue fills less
 /// than half of a voxel, its label is air. The nearest segment counts, for skin is thin.
 const TINT_DEPTH: f32 = 1.9;
+/// Steepness of the value (of the whole transfer table, per voxel) from which on an edge shows, and at which it is as opaque as the table says. The
+/// scan's noise lies below the first.
+const EDGE_NONE: f32 = 0.006;
+const EDGE_FULL: f32 = 0.09;
 /// Offset of finite differences of the map, subject units: small against every bend, large against the rounding of f32.
 const MAP_STEP: f32 = 0.0005;
 /// Columns of the Jacobian longer than this come from a jump of the map, not from tissue.
@@ -130,6 +136,30 @@ fn gradient_at(uvw: vec3f) -> vec3f {
     ) * subject.dims.w;
 }
 
+/// How much of its opacity a place keeps if opacity follows the gradient (equation 6.2), 0 to 1.
+fn edge_gain(steepness: f32) -> f32 {
+    return mix(1.0, smoothstep(EDGE_NONE, EDGE_FULL, steepness), look.edges.x);
+}
+
+/// Where a value lies in the transfer table, 0 to 1: how dense the tissue counts as (equation 6.3).
+fn density_of(found: Sample) -> f32 {
+    return clamp(found.texel * look.lut.x + look.lut.y, 0.0, 1.0);
+}
+
+/// The opacity of what was sampled for a test of light: by the gradient at rest, whatever the deformation makes of it.
+fn shading_opacity(found: Sample) -> f32 {
+    if has_edges == 0u {
+        return found.opacity;
+    }
+    var gain = 0.0;
+    var left = select(0u, 1u, found.opacity > VISIBLE);
+    while left > 0u {
+        left--;
+        gain = edge_gain(length(gradient_at(texture_from_rest(found.pos))) * look.lut.x);
+    }
+    return found.opacity * gain;
+}
+
 /// Colour of the segments around a point, blended over the 27 label voxels, premultiplied by how much of it is known.
 fn tint_at(pos: vec3f) -> vec4f {
     let uvw = apply_affine(
@@ -205,7 +235,7 @@ fn openness(pos: vec3f, normal: vec3f, noise: f32) -> f32 {
         let at = pos + (tangent * d.x + bitangent * d.y + normal * d.z) * reach;
         let found = sample_mapped(map_point(at, cell_at(at).x));
         let weight = d.z;
-        closed += weight * smoothstep(0.02, 0.5, found.opacity);
+        closed += weight * smoothstep(0.02, 0.5, shading_opacity(found));
         weights += weight;
     }
     return 1.0 - closed / weights;
@@ -222,7 +252,7 @@ fn key_light_at(pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> f32 {
         let at = start + key_dir * (0.006 + 0.30 * part * part);
         let found = sample_mapped(map_point(at, cell_at(at).x));
         // Farther occluders dim less: a large soft lamp.
-        open *= 1.0 - smoothstep(0.02, 0.6, found.opacity) * mix(0.62, 0.30, part);
+        open *= 1.0 - smoothstep(0.02, 0.6, shading_opacity(found)) * mix(0.62, 0.30, part);
     }
     return open;
 }
@@ -251,6 +281,8 @@ fn march(pixel: vec2f) -> Marched {
     var t = max(span.x, 0.0) + step * frame.jitter.z;
     var t_before = max(span.x, 0.0);
     var before = Sample(vec3f(0.0), 0.0, 0.0, 1.0);
+    // Share of its opacity that the sample before keeps.
+    var gain_before = 1.0;
     var stretch = 1.0;
     var clear = 1.0;
     var mask = 0u;
@@ -410,16 +442,13 @@ fn march(pixel: vec2f) -> Marched {
             }
         }
 
-        // Opacity over the way since the sample before (equations 4.23 and 4.30).
+        // What the opacity is said for: the way since the sample before (equations 4.23 and 4.30).
         var exponent = 1.0;
         if look.modes.x == OPACITY_CONSTANCY {
             exponent = length(col0 * dir.x + col1 * dir.y + col2 * dir.z);
         } else if look.modes.x == OPACITY_MASS {
             exponent = abs(dot(col0, cross(col1, col2)));
         }
-        let passed = transmittance(before.opacity, (t_edge - t_before) * exponent)
-            * transmittance(here.opacity, (t - t_edge) * exponent);
-        let weight = clear * (1.0 - passed);
 
         // Normal: gradient of the value carried over by the transposed Jacobian (equation 4.10) ...
         let uvw = texture_from_rest(edge.pos);
@@ -433,7 +462,8 @@ fn march(pixel: vec2f) -> Marched {
         // ... blended into the gradient of the continuity near a cut (section 4.5.3), and the scan's own edge is a cut too.
         let slope_a = length(grad_a);
         let cut_distance = base.continuity / max(slope_a, 1e-6);
-        var cut_weight = select(0.0, 1.0 - smoothstep(0.25, 1.0, cut_distance / subject.dims.w), slope_a > 1e-3 && slope_a < MAX_SLOPE);
+        let is_cut = slope_a > 1e-3 && slope_a < MAX_SLOPE;
+        var cut_weight = select(0.0, 1.0 - smoothstep(0.25, 1.0, cut_distance / subject.dims.w), is_cut);
         var cut_normal = -grad_a / max(slope_a, 1e-9);
         let end_low = uvw * subject.dims.xyz;
         let end_high = (subject.texture_end.xyz - uvw) * subject.dims.xyz;
@@ -451,6 +481,8 @@ fn march(pixel: vec2f) -> Marched {
             cut_normal = normalize(vec3f(dot(col0, end_rest), dot(col1, end_rest), dot(col2, end_rest)) + to_eye * 1e-6);
             cut_weight = end_weight;
         }
+        // A cut face is an edge too, as steep as the tissue there is dense (equation 6.3): where the cut goes through a hole, no face appears.
+        var edge_weight = cut_weight;
         // A cut that faces away is not the face that is seen.
         cut_weight *= smoothstep(-0.02, 0.08, dot(cut_normal, to_eye));
         normal = normalize(mix(normal, cut_normal, cut_weight) + to_eye * 1e-5);
@@ -462,10 +494,37 @@ fn march(pixel: vec2f) -> Marched {
             let kept = kept_surface(edge.pos, path, mat3x3f(col0, col1, col2), to_eye);
             normal = normalize(mix(normal, kept.normal, kept.weight) + to_eye * 1e-5);
             surfaceness = max(surfaceness, kept.weight);
+            edge_weight = max(edge_weight, kept.weight);
             tint_pos += kept.inwards;
             // Labels end in stairs, its normal is smooth: what stands in its light is looked for from above the stairs.
             lift = kept.weight * subject.dims.w;
         }
+
+        var gain = 1.0;
+        var gain_here = 1.0;
+        if has_edges != 0u {
+            gain = edge_gain(mix(length(carried) * look.lut.x, density_of(edge), edge_weight));
+            gain_here = gain;
+            // Behind a surface the layer of its steepness ends within a step: the share is the mean of both ends of the way.
+            var turns = select(0u, 1u, is_jump && is_rising);
+            while turns > 0u {
+                turns--;
+                let uvw_here = texture_from_rest(here.pos);
+                let grad_here = gradient_at(uvw_here);
+                let carried_here = vec3f(dot(col0, grad_here), dot(col1, grad_here), dot(col2, grad_here));
+                let inside = min(uvw_here, subject.texture_end.xyz - uvw_here) * subject.dims.xyz;
+                let away = min(min(inside.x, inside.y), inside.z);
+                let from_cut = select(1.0, here.continuity / max(slope_a, 1e-6) / subject.dims.w, is_cut);
+                let face = 1.0 - smoothstep(0.25, 1.0, min(away, from_cut));
+                gain_here = edge_gain(mix(length(carried_here) * look.lut.x, density_of(here), face));
+                gain = 0.5 * (gain + gain_here);
+            }
+            gain_before = select(gain_before, 0.5 * (gain_before + gain), is_jump && !is_rising);
+        }
+        let passed = transmittance(before.opacity * gain_before, (t_edge - t_before) * exponent)
+            * transmittance(here.opacity * gain, (t - t_edge) * exponent);
+        let weight = clear * (1.0 - passed);
+        gain_before = gain_here;
 
         // Colour: the table's, tinted by the segments around.
         var texel = edge.texel;

@@ -70,6 +70,7 @@ pub(crate) fn ui(
     };
     let weak = Palette::get(ui).weak;
     ui.add(egui::Label::new(egui::RichText::new(hint).small().color(weak)).wrap());
+    edges_ui(ui, look, commands);
     control::divider(ui);
     background_ui(ui, look.background, commands);
 }
@@ -190,6 +191,26 @@ fn tint_ui(ui: &mut Ui, look: &Look, preset: Option<&Preset>, commands: &mut Vec
             pointer: "/look/tint".to_owned(),
             value: (percent.round() / 100.0).into(),
             name: "Change tint".to_owned(),
+        })));
+    }
+}
+
+/// How much opacity follows the steepness of the value.
+fn edges_ui(ui: &mut Ui, look: &Look, commands: &mut Vec<Command>) {
+    let row = NumberRow {
+        name: w().edges,
+        summary: w().edges_hint,
+        value: f64::from(look.gradient) * 100.0,
+        default: Some(0.0),
+        range: [0.0, 100.0],
+        unit: " %",
+        decimals: 0,
+    };
+    if let Some(change) = row.ui(ui) {
+        commands.push(command(change.map(|percent| Edit::Set {
+            pointer: "/look/gradient".to_owned(),
+            value: (percent.round() / 100.0).into(),
+            name: "Change edges".to_owned(),
         })));
     }
 }

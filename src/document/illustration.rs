@@ -50,6 +50,7 @@ impl Illustration {
                 window: Window::Auto,
                 tint: None,
                 opacity: OpacityMode::Constancy,
+                gradient: 0.0,
                 background: Background::Color([255; 3]),
             },
             camera: Camera::DOCUMENT_DEFAULT,
@@ -299,6 +300,8 @@ pub struct Look {
     pub tint: Option<f32>,
     /// How opacity follows compression (dissertation, section 4.5.4).
     pub opacity: OpacityMode,
+    /// How much opacity follows the steepness of the value (dissertation, section 6.2.5): 0 not at all, 1 only edges and cut faces show.
+    pub gradient: f32,
     /// Behind the object.
     pub background: Background,
 }

@@ -409,6 +409,7 @@ const INNER_KEYS: &[&str] = &[
     "window",
     "tint",
     "opacity",
+    "gradient",
     "background",
     "target",
     "distance",

@@ -462,7 +462,14 @@ impl Reader {
     fn look(&mut self, object: &Object<'_>) -> Result<Look, DocumentError> {
         self.unknown_keys(
             object,
-            &["transfer", "window", "tint", "opacity", "background"],
+            &[
+                "transfer",
+                "window",
+                "tint",
+                "opacity",
+                "gradient",
+                "background",
+            ],
         );
         let transfer = match object.map.get("transfer") {
             None => Transfer::Auto,
@@ -519,6 +526,7 @@ impl Reader {
                 OpacityMode::Constancy
             }
         };
+        let gradient = self.scalar(object, "gradient", 0.0, [0.0, 1.0])?;
         let background = match object.text("background")? {
             None => Background::Color([255; 3]),
             Some("none") => Background::None,
@@ -532,6 +540,7 @@ impl Reader {
             window,
             tint,
             opacity,
+            gradient,
             background,
         })
     }

@@ -127,6 +127,7 @@ pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illu
     if let (Window::Range(a), Window::Range(b)) = (start.look.window, end.look.window) {
         out.look.window = Window::Range([mix(a[0], b[0]), mix(a[1], b[1])]);
     }
+    out.look.gradient = mix(start.look.gradient, end.look.gradient);
     if let (Some(a), Some(b)) = (start.look.tint, end.look.tint) {
         out.look.tint = Some(mix(a, b));
     }

@@ -52,7 +52,7 @@ fn every_default_is_left_out_and_filled_in() {
             "kind": spec.name, "name": "", "at": [0, 0, 0], "rotate": [0, 0, 0, 1], "size": [0.5, 0.5, 0.5], "enabled": true,
             "mode": "compose", "align": { "to": "axis", "depth": 0.02, "thickness": 0.01 }, "params": params }],
             "subject": { "builtin": "head" }, "labels": [], "steps": [], "camera": { "target": [0, 0, 0], "rotate": [0, 0, 0, 1], "distance": 2.5, "fov": 30 },
-            "look": { "transfer": "auto", "window": "auto", "opacity": "constancy", "background": "#ffffff" } }));
+            "look": { "transfer": "auto", "window": "auto", "opacity": "constancy", "gradient": 0, "background": "#ffffff" } }));
         let bare = document(json!({ "fabrica": 1, "templates": [{ "kind": spec.name }] }));
         assert_eq!(written, bare, "of {}", spec.name);
         assert_eq!(
@@ -448,6 +448,11 @@ fn typed_edits_write_what_they_say() {
         }])),
         Edit::SetWindow(Window::Range([-160.0, 420.5])),
         Edit::SetOpacity(OpacityMode::Mass),
+        Edit::Set {
+            pointer: "/look/gradient".to_owned(),
+            value: json!(0.5),
+            name: "Change edges".to_owned(),
+        },
         Edit::SetBackground(Background::None),
         Edit::SetCamera(Camera {
             distance: 1.0,
@@ -475,7 +480,7 @@ fn typed_edits_write_what_they_say() {
         concat!(
             r#"{"fabrica":1,"subject":{"builtin":"bar"},"templates":[{"kind":"move","name":"lid","at":[0.1235,0.1235,0.1235],"size":[1e-4,1e-4,1e-4],"#,
             r#""params":{"turn":[0,0,0.6,0.8]},"enabled":false,"mode":"add","align":{"to":"segment","keep":["bone"],"thickness":0.02}}],"#,
-            r##""look":{"transfer":[{"value":1.2346e-4,"color":"#0102ff","opacity":0.25}],"window":[-160,420.5],"opacity":"mass","background":"none"},"##,
+            r##""look":{"transfer":[{"value":1.2346e-4,"color":"#0102ff","opacity":0.25}],"window":[-160,420.5],"opacity":"mass","gradient":0.5,"background":"none"},"##,
             r#""camera":{"distance":1},"labels":[{"at":[1,0,0],"text":"a"}],"steps":[{"title":"s"}]}"#
         )
     );

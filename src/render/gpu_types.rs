@@ -276,6 +276,8 @@ pub struct Look {
     pub lut: [f32; 4],
     /// x: `OPACITY_…`.
     pub modes: [u32; 4],
+    /// x: how much opacity follows the gradient.
+    pub edges: [f32; 4],
 }
 
 /// `Look::modes[0]`: a surface keeps its opacity.

@@ -21,6 +21,8 @@ pub struct TransferTable {
     pub tint: f32,
     /// Strength of highlights, 0 to 1.
     pub specular: f32,
+    /// How much opacity follows the steepness of the value, 0 to 1.
+    pub gradient: f32,
 }
 
 /// Linear from sRGB, one byte (IEC 61966-2-1).
@@ -80,7 +82,7 @@ impl TransferTable {
             Transfer::Preset(name) => preset(name).or_else(auto),
             Transfer::Points(_) => None,
         };
-        match (&look.transfer, named) {
+        let table = match (&look.transfer, named) {
             (Transfer::Points(points), _) => {
                 Self::from_points(points, look.tint.unwrap_or(0.0), 0.1)
             }
@@ -90,6 +92,10 @@ impl TransferTable {
                 Self::from_points(&points, look.tint.unwrap_or(preset.tint), preset.specular)
             }
             (_, None) => Self::from_points(&[], 0.0, 0.0),
+        };
+        Self {
+            gradient: look.gradient,
+            ..table
         }
     }
 
@@ -115,6 +121,7 @@ impl TransferTable {
             domain,
             tint,
             specular,
+            gradient: 0.0,
         }
     }
 
@@ -166,6 +173,7 @@ impl TransferTable {
                 0,
                 0,
             ],
+            edges: [self.gradient, 0.0, 0.0, 0.0],
         }
     }
 }

@@ -30,6 +30,8 @@ pub(super) struct RaycastKey {
     pub align_mode: u32,
     /// Some displacement gives way to kept tissue.
     pub has_constraints: bool,
+    /// Opacity follows the gradient.
+    pub has_edges: bool,
     /// For picking instead of drawing.
     pub is_pick: bool,
 }
@@ -182,6 +184,7 @@ impl Passes {
                 ("drawn_kinds", f64::from(key.drawn_kinds)),
                 ("has_labels", number(key.has_labels)),
                 ("has_grid", number(key.has_grid)),
+                ("has_edges", number(key.has_edges)),
             ];
             let aligned = if key.keeps_tissue() {
                 self.aligned(gpu)

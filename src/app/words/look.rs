@@ -29,6 +29,8 @@ words! {
         surfaces_hint: "A stretched surface stays as opaque as it was.", "Eine gedehnte Fläche bleibt so deckend, wie sie war.", "Una superficie estirada sigue igual de opaca.", "拉伸的表面保持原来的不透明度。";
         mass_hint: "Stretched tissue grows thinner, compressed tissue denser.", "Gedehntes Gewebe wird dünner, gestauchtes dichter.", "El tejido estirado se aclara, el comprimido se densifica.", "拉伸的组织变薄，压缩的组织变密。";
         as_it_is_hint: "Opacity does not follow the deformation.", "Die Deckkraft folgt der Verformung nicht.", "La opacidad no sigue la deformación.", "不透明度不随变形改变。";
+        edges: "Edges only", "Nur Kanten", "Solo bordes", "仅边缘";
+        edges_hint: "Even tissue turns clear; where the value changes, and at cuts, it stays as opaque as it was. Shows with faint opacities", "Gleichmäßiges Gewebe wird klar; wo sich der Wert ändert und an Schnitten bleibt es so deckend, wie es war. Wirkt bei schwachen Deckkräften", "El tejido uniforme se vuelve claro; donde cambia el valor y en los cortes sigue igual de opaco. Se nota con opacidades débiles", "均匀组织变得透明；数值变化处和切面保持原有不透明度。在低不透明度下效果明显";
         background: "Background", "Hintergrund", "Fondo", "背景";
         background_is: "Background: {0}", "Hintergrund: {0}", "Fondo: {0}", "背景：{0}";
         white: "White", "Weiß", "Blanco", "白色";

@@ -91,6 +91,7 @@ pub(crate) fn deed(name: &str) -> String {
     }
     let whole = match name {
         "Change colours" => ["", "Farben ändern", "Cambiar los colores", "更改颜色"],
+        "Change edges" => ["", "Kanten ändern", "Cambiar los bordes", "更改边缘"],
         "Change tint" => ["", "Tönung ändern", "Cambiar el tinte", "更改着色"],
         "Change window" => ["", "Fenster ändern", "Cambiar la ventana", "更改窗口"],
         "Change opacity mode" => [
