@@ -2,14 +2,19 @@
 //!
 //! A reader or generator pushes pieces into a [`VolumeSink`]: [`VolumeBuilder`] collects them into a [`Volume`]; a
 //! browser's worker posts them to the page. [`Statistics`] counts as they pass; a [`Reducer`] in between
-//! makes what is too large coarser.
+//! makes what is too large coarser. [`segment`] finds the features that a document's author described, and joins them with the segments of
+//! label volumes.
 
 mod builder;
+mod feature;
+mod mask;
 mod reduce;
 mod statistics;
 mod volume;
 
 pub use builder::{BuildError, VolumeBuilder};
+pub use feature::{FEATURE_COLORS_SRGB, Segmented, segment};
+pub use mask::{Mask, Turns};
 pub use reduce::{Reducer, Reduction, VolumeLimits, dims_that_fit, resized};
 pub use statistics::{Histogram, Statistics};
 pub use volume::{Grid, LabelVolume, Segment, Volume, VolumeSink, Voxels};

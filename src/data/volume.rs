@@ -135,7 +135,8 @@ pub struct LabelVolume {
     pub grid: Grid,
     /// One label per voxel, x fastest.
     pub labels: Vec<u8>,
-    /// Named segments in label order.
+    /// Named segments, those of files in label order. A name may stand under several labels: where segments overlap, a label of its own
+    /// stands for the overlap, and is listed once for each of them.
     pub segments: Vec<Segment>,
 }
 

@@ -21,7 +21,15 @@ pub(super) fn strip(root: &mut Map<String, Value>) {
         if let Some(Value::Object(segments)) = subject.get_mut("segments") {
             drop_if(segments, "names", is_empty);
         }
+        for_each(subject, "segments", |segments| {
+            drop_if(segments, "names", is_empty);
+        });
         drop_if(subject, "segments", is_empty);
+        for_each(subject, "features", |feature| {
+            drop_if(feature, "name", is_text(""));
+            drop_if(feature, "clean", is_empty);
+        });
+        drop_if(subject, "features", is_empty);
         if subject.len() == 1 {
             drop_if(subject, "builtin", is_text(super::DEFAULT_SUBJECT));
         }

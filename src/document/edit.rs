@@ -455,6 +455,7 @@ impl Edit {
                 // Segments belong to the file, however it is called and read.
                 if !is_same_file(root, subject) {
                     pointer::remove(root, "/subject/segments")?;
+                    pointer::remove(root, "/subject/features")?;
                 }
                 for key in [
                     "builtin", "revision", "src", "sha256", "name", "frame", "raw",

@@ -1,4 +1,5 @@
 use super::catalogue::{ParamValue, TemplateKind};
+use super::feature::FeatureRecipe;
 use crate::math::Placement;
 use glam::{Quat, Vec3};
 
@@ -17,8 +18,10 @@ pub struct Illustration {
     pub subject: SubjectRef,
     /// Revision of a built-in subject that was improved since; none means the first.
     pub subject_revision: Option<u32>,
-    /// A label volume beside the subject, if one is named.
-    pub segments: Option<SegmentsRef>,
+    /// Label volumes beside the subject.
+    pub segments: Vec<SegmentsRef>,
+    /// Features made here, besides the segments that come with the file.
+    pub features: Vec<FeatureRecipe>,
     /// Enabled and disabled templates in the order in which they act. Unknown kinds are left out (and were named in a notice).
     pub templates: Vec<PlacedTemplate>,
     /// Colours, opacity, background.
@@ -43,7 +46,8 @@ impl Illustration {
                 name: super::DEFAULT_SUBJECT.to_owned(),
             },
             subject_revision: None,
-            segments: None,
+            segments: Vec::new(),
+            features: Vec::new(),
             templates: Vec::new(),
             look: Look {
                 transfer: Transfer::Auto,

@@ -25,6 +25,7 @@ mod canonical;
 mod catalogue;
 mod edit;
 mod error;
+mod feature;
 mod history;
 mod illustration;
 mod json;
@@ -48,6 +49,10 @@ pub use catalogue::{
 };
 pub use edit::Edit;
 pub use error::DocumentError;
+pub use feature::{
+    CleanStep, FeatureRecipe, FeatureSource, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_FEATURES,
+    MAX_SEEDS, MAX_SMOOTH_MM,
+};
 pub use history::History;
 pub use illustration::{
     Align, Background, Camera, Constrain, ConstrainBy, Illustration, Label, Look, OpacityMode,
@@ -66,6 +71,8 @@ pub const FORMAT: u32 = 1;
 pub const MAX_TEMPLATES: usize = 32;
 /// Different sets of kept tissue (`align`, `constrain`) in a document at most.
 pub const MAX_KEEP_SETS: usize = 4;
+/// Label volumes beside a subject at most.
+pub const MAX_LABEL_FILES: usize = 8;
 /// Labels in a document at most.
 pub const MAX_LABELS: usize = 256;
 /// Steps in a document at most.

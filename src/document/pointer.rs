@@ -119,7 +119,7 @@ pub(super) fn set(root: &mut Value, pointer: &str, new: Value) -> Result<(), Doc
 fn default_at(keys: &[String], kind: Option<TemplateKind>) -> Option<Value> {
     let path: Vec<&str> = keys.iter().map(String::as_str).collect();
     Some(match path.as_slice() {
-        ["templates" | "labels" | "steps"] => json!([]),
+        ["templates" | "labels" | "steps"] | ["subject", "features"] => json!([]),
         ["subject" | "look" | "camera"]
         | ["subject", "segments"]
         | ["subject", "segments", "names"] => json!({}),

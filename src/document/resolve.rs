@@ -128,7 +128,7 @@ impl Reader {
     }
 
     /// Says so if what is drawn is not what is written.
-    fn clamped<const N: usize>(
+    pub(super) fn clamped<const N: usize>(
         &mut self,
         pointer: impl FnOnce() -> String,
         values: [f64; N],
@@ -210,6 +210,7 @@ impl Reader {
         let subject = self.subject(&subject_object)?;
         let subject_revision = self.revision(&subject_object)?;
         let segments = self.segments(&subject_object)?;
+        let features = self.features(&subject_object)?;
         let mut templates = Vec::new();
         let items = root.limited_list("templates", "templates", MAX_TEMPLATES)?;
         for (index, value) in items.iter().enumerate() {
@@ -260,6 +261,7 @@ impl Reader {
             subject,
             subject_revision,
             segments,
+            features,
             templates,
             look,
             camera,

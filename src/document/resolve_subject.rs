@@ -2,13 +2,14 @@
 
 use serde_json::Value;
 
-use super::BUILTIN_SUBJECTS;
 use super::error::DocumentError;
 use super::illustration::{RawVoxels, Reading, SegmentsRef, SubjectRef};
 use super::json::shortened;
 use super::notice::NoticeKind;
 use super::object::{Object, wrong};
+use super::pointer::join;
 use super::resolve::Reader;
+use super::{BUILTIN_SUBJECTS, MAX_LABEL_FILES};
 
 /// Longest side of bare voxels.
 const MAX_RAW_SIDE: f64 = 65_536.0;
@@ -21,6 +22,7 @@ impl Reader {
             object,
             &[
                 "builtin", "revision", "src", "sha256", "name", "frame", "raw", "segments",
+                "features",
             ],
         );
         let builtin = object.text("builtin")?;
@@ -132,15 +134,30 @@ impl Reader {
         }
     }
 
+    /// One label volume, or a list of them.
     pub(super) fn segments(
         &mut self,
         subject: &Object<'_>,
-    ) -> Result<Option<SegmentsRef>, DocumentError> {
-        if !subject.map.contains_key("segments") {
-            return Ok(None);
+    ) -> Result<Vec<SegmentsRef>, DocumentError> {
+        match subject.map.get("segments") {
+            None => Ok(Vec::new()),
+            Some(Value::Array(_)) => {
+                let items = subject.limited_list("segments", "label volumes", MAX_LABEL_FILES)?;
+                let at = subject.at("segments");
+                items
+                    .iter()
+                    .enumerate()
+                    .map(|(i, item)| {
+                        self.label_volume(&Object::new(join(&at, &i.to_string()), item)?)
+                    })
+                    .collect()
+            }
+            Some(_) => Ok(vec![self.label_volume(&subject.child("segments")?)?]),
         }
-        let object = subject.child("segments")?;
-        self.unknown_keys(&object, &["src", "sha256", "names"]);
+    }
+
+    fn label_volume(&mut self, object: &Object<'_>) -> Result<SegmentsRef, DocumentError> {
+        self.unknown_keys(object, &["src", "sha256", "names"]);
         let names = object.child("names")?;
         let mut list = Vec::new();
         for (number, value) in names.map {
@@ -154,11 +171,11 @@ impl Reader {
             }
         }
         list.sort();
-        Ok(Some(SegmentsRef {
+        Ok(SegmentsRef {
             src: object.text("src")?.map(str::to_owned),
-            sha256: hash(&object)?,
+            sha256: hash(object)?,
             names: list,
-        }))
+        })
     }
 }
 

@@ -69,7 +69,16 @@ fn labels_of(name: &str, segments: &[Segment]) -> Vec<u8> {
         return similar;
     }
     match name.parse::<u8>() {
-        Ok(label) if label > 0 => vec![label],
+        Ok(label) if label > 0 => {
+            // Where the segment overlaps others it stands under labels of their own.
+            let own = segments.iter().find(|s| s.label == u16::from(label));
+            let stands_for = |label: u16| segments.iter().filter(|s| s.label == label).count();
+            let overlaps = segments
+                .iter()
+                .filter(|s| own.is_some_and(|own| s.name == own.name) && stands_for(s.label) > 1)
+                .filter_map(|s| u8::try_from(s.label).ok());
+            std::iter::once(label).chain(overlaps).collect()
+        }
         _ => Vec::new(),
     }
 }

@@ -39,6 +39,9 @@ pub(super) struct Common {
     /// A scan that takes the place of the document's subject.
     #[arg(long, global = true, value_name = "FILE")]
     subject: Option<PathBuf>,
+    /// A label volume beside the scan; may be given several times.
+    #[arg(long, global = true, value_name = "FILE")]
+    segments: Vec<PathBuf>,
     #[command(flatten)]
     reading: ReadingFlags,
     /// The graphics adapter to use, by (part of) its name.
@@ -470,6 +473,7 @@ pub(super) fn subject_of(
         folder,
         instead: common.subject.as_deref(),
         reading: &common.reading,
+        segments: &common.segments,
         limits,
     };
     Ok(load_subject(illustration, source, &mut |line| {

@@ -21,6 +21,8 @@ mod probing;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod reading;
 #[cfg(not(target_arch = "wasm32"))]
+mod segments;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod subject;
 
 /// What is said where a document asks for a file of the reader's own. `name` is what the author called it.

@@ -5,9 +5,9 @@ use std::sync::mpsc::sync_channel;
 
 use super::files::Folder;
 use super::reading::{ReadingFlags, hint};
+use super::segments::add_segments;
 use crate::data::{
-    BuildError, LabelVolume, Reducer, Segment, Volume, VolumeBuilder, VolumeLimits, VolumeSink,
-    Voxels,
+    BuildError, Reducer, Segment, Volume, VolumeBuilder, VolumeLimits, VolumeSink, Voxels,
 };
 use crate::document::{Illustration, Reading, SegmentsRef, SubjectRef};
 use crate::load::{LoadError, LoadReport, RawLayout, ReadOptions, read_raw, read_volume};
@@ -63,14 +63,6 @@ pub enum MissingSubject {
         /// Why.
         source: BuildError,
     },
-    /// A label volume with values that are no labels.
-    #[error("{path} is no label volume: it holds {value}, labels are whole numbers from 0 to 255")]
-    NoLabels {
-        /// The file.
-        path: String,
-        /// The first value that is no label.
-        value: f32,
-    },
 }
 
 /// Where a document's subject comes from.
@@ -82,15 +74,31 @@ pub struct SubjectSource<'a> {
     pub instead: Option<&'a Path>,
     /// How its file is read, before what the document says.
     pub reading: &'a ReadingFlags,
+    /// Label volumes beside it, besides those that the document names.
+    pub segments: &'a [PathBuf],
     /// What the device takes; larger volumes are reduced.
     pub limits: VolumeLimits,
 }
 
-/// Generates or reads the subject of a document. `notice` takes what the user should know.
+/// Generates or reads the subject of a document with its segments: those of its file, those of label volumes beside it, and the features
+/// that the document describes. `notice` takes what the user should know.
 ///
 /// # Errors
 /// Why it is not there.
 pub fn load_subject(
+    illustration: &Illustration,
+    source: SubjectSource<'_>,
+    notice: &mut dyn FnMut(String),
+) -> Result<Volume, MissingSubject> {
+    let mut volume = load_scan(illustration, source, notice)?;
+    let is_of_scan = |named: &&SegmentsRef| named.src.is_none() && named.sha256.is_none();
+    for named in illustration.segments.iter().filter(is_of_scan) {
+        name_segments(&mut volume, named);
+    }
+    add_segments(volume, illustration, source.folder, source.segments, notice)
+}
+
+fn load_scan(
     illustration: &Illustration,
     source: SubjectSource<'_>,
     notice: &mut dyn FnMut(String),
@@ -102,7 +110,7 @@ pub fn load_subject(
             SubjectRef::Builtin { .. } => None,
         };
         let reading = source.reading.over(illustration.subject.reading());
-        let (mut volume, found) = read(path, &reading, source.limits, notice)?;
+        let (volume, found) = read(path, &reading, source.limits, notice)?;
         if let Some(wanted) = wanted
             && found.as_deref() != Some(wanted)
         {
@@ -111,17 +119,16 @@ pub fn load_subject(
                 path.display()
             ));
         }
-        name_segments(&mut volume, illustration.segments.as_ref());
         return Ok(volume);
     }
-    let (mut volume, folder) = match &illustration.subject {
+    match &illustration.subject {
         SubjectRef::Builtin { name } => {
             if let Some(revision) = illustration.subject_revision.filter(|r| *r > 1) {
                 notice(format!(
                     "/subject/revision: this version does not know revision {revision} of {name}; the first is drawn"
                 ));
             }
-            (generate(name)?, source.folder)
+            generate(name)
         }
         SubjectRef::Address {
             src,
@@ -141,37 +148,17 @@ pub fn load_subject(
                     found: found.clone(),
                 });
             }
-            (volume, source.folder)
+            Ok(volume)
         }
-        SubjectRef::Supplied { sha256, name, .. } => {
-            return Err(MissingSubject::Wanted {
-                name: if name.is_empty() {
-                    "without a name".to_owned()
-                } else {
-                    format!("“{name}”")
-                },
-                sha256: sha256.clone(),
-            });
-        }
-    };
-    if let Some(segments) = &illustration.segments {
-        if let Some(src) = &segments.src {
-            let path = local(folder, src)?;
-            let (labels, found) = read(&path, &Reading::default(), source.limits, notice)?;
-            if let (Some(wanted), Some(found)) = (&segments.sha256, found)
-                && *wanted != found
-            {
-                return Err(MissingSubject::OtherFile {
-                    path: path.display().to_string(),
-                    wanted: wanted.clone(),
-                    found,
-                });
-            }
-            volume.labels = Some(as_labels(labels, &path)?);
-        }
-        name_segments(&mut volume, Some(segments));
+        SubjectRef::Supplied { sha256, name, .. } => Err(MissingSubject::Wanted {
+            name: if name.is_empty() {
+                "without a name".to_owned()
+            } else {
+                format!("“{name}”")
+            },
+            sha256: sha256.clone(),
+        }),
     }
-    Ok(volume)
 }
 
 /// A built-in subject in full resolution, with as many threads as there are cores.
@@ -290,7 +277,7 @@ fn read(
 }
 
 /// The file that an address in a document means.
-fn local(folder: &Path, src: &str) -> Result<PathBuf, MissingSubject> {
+pub(super) fn local(folder: &Path, src: &str) -> Result<PathBuf, MissingSubject> {
     if src.contains("://") || src.starts_with("//") || src.starts_with("data:") {
         return Err(MissingSubject::Remote {
             src: src.chars().take(200).collect(),
@@ -319,32 +306,9 @@ fn percent_decoded(src: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
-fn as_labels(volume: Volume, path: &Path) -> Result<LabelVolume, MissingSubject> {
-    let n = volume.voxels.len();
-    let mut labels = Vec::with_capacity(n);
-    for i in 0..n {
-        let value = volume.voxels.get(i).unwrap_or(0.0) * volume.slope + volume.intercept;
-        if value.fract() != 0.0 || !(0.0..=255.0).contains(&value) {
-            return Err(MissingSubject::NoLabels {
-                path: path.display().to_string(),
-                value,
-            });
-        }
-        labels.push(value as u8);
-    }
-    Ok(LabelVolume {
-        grid: volume.grid,
-        labels,
-        segments: volume
-            .labels
-            .map(|labels| labels.segments)
-            .unwrap_or_default(),
-    })
-}
-
 /// The author's names go before those of the file.
-fn name_segments(volume: &mut Volume, named: Option<&SegmentsRef>) {
-    let (Some(labels), Some(named)) = (&mut volume.labels, named) else {
+fn name_segments(volume: &mut Volume, named: &SegmentsRef) {
+    let Some(labels) = &mut volume.labels else {
         return;
     };
     for (label, name) in &named.names {

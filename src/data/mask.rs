@@ -1,0 +1,507 @@
+//! Sets of voxels, and what is done to them: parts that hang together, growing and shrinking by millimetres, smoothing.
+//!
+//! Everything here is the same bit for bit on every machine: whole numbers, or floats by additions, products and comparisons in a fixed
+//! order. It runs slice by slice and lets others have their turn in between ([`Turns`]); besides the set itself it holds a few slices.
+
+use std::cell::Cell;
+use std::collections::VecDeque;
+use std::fmt;
+use std::future::Future;
+use std::pin::Pin;
+use std::rc::Rc;
+use std::task::{Context, Poll};
+
+use glam::UVec3;
+
+/// Lets long work stand aside: between two slices it asks whether its time is up, and says how far it is.
+#[derive(Clone)]
+pub struct Turns {
+    is_up: Rc<dyn Fn() -> bool>,
+    progress: Rc<Cell<f32>>,
+}
+
+impl fmt::Debug for Turns {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Turns")
+            .field("progress", &self.progress)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Turns {
+    /// Work that nobody waits for.
+    pub fn endless() -> Self {
+        Self::until(|| false)
+    }
+
+    /// Work that stands aside when the function says so; polled again, it goes on.
+    pub fn until(is_up: impl Fn() -> bool + 'static) -> Self {
+        Self {
+            is_up: Rc::new(is_up),
+            progress: Rc::default(),
+        }
+    }
+
+    /// How far the work is, 0 to 1.
+    pub fn progress(&self) -> f32 {
+        self.progress.get()
+    }
+
+    pub(super) fn set_progress(&self, fraction: f32) {
+        self.progress.set(fraction);
+    }
+
+    /// Stands aside once if the time is up.
+    pub(super) fn pass(&self) -> Pass {
+        Pass {
+            is_due: (self.is_up)(),
+        }
+    }
+}
+
+/// Pending once, or not at all.
+pub(super) struct Pass {
+    is_due: bool,
+}
+
+impl Future for Pass {
+    type Output = ();
+
+    fn poll(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<()> {
+        if std::mem::take(&mut self.is_due) {
+            context.waker().wake_by_ref();
+            Poll::Pending
+        } else {
+            Poll::Ready(())
+        }
+    }
+}
+
+/// A set of voxels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mask {
+    /// Voxels along each axis.
+    pub dims: UVec3,
+    /// 1 in the set, else 0; x fastest.
+    pub bits: Vec<u8>,
+}
+
+/// A row's stretch of voxels in the set.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    start: u32,
+    end: u32,
+    /// Another run of the same part that comes earlier in the file, or itself.
+    parent: u32,
+}
+
+/// What of a set hangs together over faces.
+struct Parts {
+    runs: Vec<Run>,
+    /// First run of each row, and the number of runs at the end.
+    rows: Vec<u32>,
+}
+
+impl Parts {
+    /// The first run of the part that a run belongs to, once all are joined.
+    fn root(&self, run: u32) -> u32 {
+        self.runs[run as usize].parent
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.shortened(a), self.shortened(b));
+        // The earlier one stays, so that the order of parts is that of the file.
+        let (first, second) = (a.min(b), a.max(b));
+        self.runs[second as usize].parent = first;
+    }
+
+    /// The root, and half of the way to it made shorter.
+    fn shortened(&mut self, mut run: u32) -> u32 {
+        loop {
+            let parent = self.runs[run as usize].parent;
+            if parent == run {
+                return run;
+            }
+            let above = self.runs[parent as usize].parent;
+            self.runs[run as usize].parent = above;
+            run = above;
+        }
+    }
+
+    fn row(&self, row: usize) -> std::ops::Range<u32> {
+        self.rows[row]..self.rows[row + 1]
+    }
+
+    /// Joins the runs of a row with those of an earlier one that lie beside them.
+    fn join_rows(&mut self, row: usize, earlier: usize) {
+        let (mut a, a_end) = (self.row(row).start, self.row(row).end);
+        let (mut b, b_end) = (self.row(earlier).start, self.row(earlier).end);
+        while a < a_end && b < b_end {
+            let (x, y) = (self.runs[a as usize], self.runs[b as usize]);
+            if x.start < y.end && y.start < x.end {
+                self.join(a, b);
+            }
+            if x.end < y.end {
+                a += 1;
+            } else {
+                b += 1;
+            }
+        }
+    }
+}
+
+impl Mask {
+    fn row_length(&self) -> usize {
+        self.dims.x as usize
+    }
+
+    fn slice_length(&self) -> usize {
+        self.dims.x as usize * self.dims.y as usize
+    }
+
+    fn slices(&self) -> usize {
+        self.dims.z as usize
+    }
+
+    async fn parts(&self, wanted: u8, turns: &Turns) -> Parts {
+        let height = self.dims.y as usize;
+        let mut parts = Parts {
+            runs: Vec::new(),
+            rows: Vec::with_capacity(height * self.slices() + 1),
+        };
+        parts.rows.push(0);
+        for (row, bits) in self.bits.chunks_exact(self.row_length()).enumerate() {
+            let mut x = 0;
+            while let Some(start) = bits[x..].iter().position(|&b| b == wanted) {
+                let start = x + start;
+                let length = bits[start..].iter().position(|&b| b != wanted);
+                x = length.map_or(bits.len(), |length| start + length);
+                let number = parts.runs.len() as u32;
+                parts.runs.push(Run {
+                    start: start as u32,
+                    end: x as u32,
+                    parent: number,
+                });
+            }
+            parts.rows.push(parts.runs.len() as u32);
+            if row % height > 0 {
+                parts.join_rows(row, row - 1);
+            }
+            if row >= height {
+                parts.join_rows(row, row - height);
+            }
+            if row % height == 0 {
+                turns.pass().await;
+            }
+        }
+        // A parent comes earlier, so that in order each step leads to the end.
+        for run in 0..parts.runs.len() {
+            let parent = parts.runs[run].parent as usize;
+            parts.runs[run].parent = parts.runs[parent].parent;
+        }
+        parts
+    }
+
+    /// Sets all voxels of the runs that `changes` names by their part's first run.
+    async fn set_parts(
+        &mut self,
+        parts: &Parts,
+        to: u8,
+        changes: impl Fn(u32) -> bool,
+        turns: &Turns,
+    ) {
+        let (length, height) = (self.row_length(), self.dims.y as usize);
+        for row in 0..parts.rows.len() - 1 {
+            for run in parts.row(row) {
+                if changes(parts.root(run)) {
+                    let Run { start, end, .. } = parts.runs[run as usize];
+                    let at = row * length;
+                    self.bits[at + start as usize..at + end as usize].fill(to);
+                }
+            }
+            if row % height == 0 {
+                turns.pass().await;
+            }
+        }
+    }
+
+    /// Keeps the largest parts; of parts of one size the one that comes first.
+    pub async fn keep_largest(&mut self, count: usize, turns: &Turns) {
+        let parts = self.parts(1, turns).await;
+        let mut sizes = vec![0u64; parts.runs.len()];
+        for (index, run) in parts.runs.iter().enumerate() {
+            sizes[parts.root(index as u32) as usize] += u64::from(run.end - run.start);
+        }
+        let mut roots: Vec<u32> = (0..sizes.len() as u32)
+            .filter(|&root| sizes[root as usize] > 0)
+            .collect();
+        roots.sort_by_key(|&root| (std::cmp::Reverse(sizes[root as usize]), root));
+        for &root in roots.iter().take(count) {
+            sizes[root as usize] = 0;
+        }
+        let goes = |root: u32| sizes[root as usize] > 0;
+        self.set_parts(&parts, 0, goes, turns).await;
+    }
+
+    /// Keeps the parts that hold one of these voxels.
+    pub async fn keep_parts_at(&mut self, seeds: &[UVec3], turns: &Turns) {
+        let parts = self.parts(1, turns).await;
+        let mut kept = Vec::new();
+        for seed in seeds.iter().filter(|seed| seed.cmplt(self.dims).all()) {
+            let row = (seed.y + self.dims.y * seed.z) as usize;
+            let holds = |run: &u32| {
+                let run = parts.runs[*run as usize];
+                (run.start..run.end).contains(&seed.x)
+            };
+            kept.extend(parts.row(row).find(holds).map(|run| parts.root(run)));
+        }
+        self.set_parts(&parts, 0, |root| !kept.contains(&root), turns)
+            .await;
+    }
+
+    /// Adds what is closed in on all sides: parts of the rest that do not come to an end of the grid.
+    pub async fn fill(&mut self, turns: &Turns) {
+        let parts = self.parts(0, turns).await;
+        let (height, rows) = (self.dims.y as usize, parts.rows.len() - 1);
+        let mut is_open = vec![false; parts.runs.len()];
+        for row in 0..rows {
+            let (y, z) = (row % height, row / height);
+            let is_end = y == 0 || y + 1 == height || z == 0 || z + 1 == self.slices();
+            for run in parts.row(row) {
+                let Run { start, end, .. } = parts.runs[run as usize];
+                if is_end || start == 0 || end == self.dims.x {
+                    is_open[parts.root(run) as usize] = true;
+                }
+            }
+        }
+        self.set_parts(&parts, 1, |root| !is_open[root as usize], turns)
+            .await;
+    }
+
+    /// Adds every voxel whose centre is at most `reach` from that of one in the set, by plain distance; or, where `wanted` is 0, takes
+    /// away those as near to one outside the set. What lies beyond the grid is neither.
+    ///
+    /// The squared distance is found axis by axis (Saito and Toriwaki 1994); only slices within reach are held.
+    pub async fn spread(&mut self, wanted: u8, spacing_mm: [f32; 3], reach_mm: f32, turns: &Turns) {
+        // Room for the rounding of spacings, so that "1 mm" reaches the next voxel at 1 mm.
+        let most = reach_mm * reach_mm * (1.0 + 1e-5);
+        let [sx, sy, sz] = spacing_mm;
+        let steps = |spacing: f32, count: u32| {
+            let steps = (most.sqrt() / spacing.max(1e-6)) as u32;
+            steps.min(count.saturating_sub(1)) as usize
+        };
+        let (rx, ry, rz) = (
+            steps(sx, self.dims.x),
+            steps(sy, self.dims.y),
+            steps(sz, self.dims.z),
+        );
+        if rx + ry + rz == 0 {
+            return;
+        }
+        let (width, length, slices) = (self.row_length(), self.slice_length(), self.slices());
+        let squared = |steps: usize, spacing: f32| {
+            let distance = steps as f32 * spacing;
+            distance * distance
+        };
+        // Slices of squared distances within their slice, from `first` on; an empty one is far from everything.
+        let mut ring: VecDeque<Vec<f32>> = VecDeque::new();
+        let mut first = 0;
+        let mut next = 0;
+        let mut spare: Vec<Vec<f32>> = Vec::new();
+        let mut rows = Vec::new();
+        let mut near = Vec::new();
+        for z in 0..slices {
+            while next < slices && next <= z + rz {
+                let bits = &self.bits[next * length..(next + 1) * length];
+                let mut flat = Vec::new();
+                if bits.contains(&wanted) {
+                    flat = spare.pop().unwrap_or_default();
+                    rows.clear();
+                    for row in bits.chunks_exact(width) {
+                        let at = rows.len();
+                        rows.resize(at + width, f32::INFINITY);
+                        along_row(row, wanted, rx, sx, &mut rows[at..]);
+                    }
+                    flat.clear();
+                    flat.extend_from_slice(&rows);
+                    for k in 1..=ry {
+                        let more = squared(k, sy);
+                        let shift = k * width;
+                        lower(&mut flat[shift..], &rows[..length - shift], more);
+                        lower(&mut flat[..length - shift], &rows[shift..], more);
+                        if k % 8 == 0 {
+                            turns.pass().await;
+                        }
+                    }
+                }
+                ring.push_back(flat);
+                next += 1;
+                turns.pass().await;
+            }
+            while first + rz < z {
+                spare.extend(ring.pop_front().filter(|slice| !slice.is_empty()));
+                first += 1;
+            }
+            near.clear();
+            near.resize(length, f32::INFINITY);
+            for (i, slice) in ring.iter().enumerate() {
+                if !slice.is_empty() {
+                    lower(&mut near, slice, squared((first + i).abs_diff(z), sz));
+                    turns.pass().await;
+                }
+            }
+            let bits = &mut self.bits[z * length..(z + 1) * length];
+            for (bit, &distance) in bits.iter_mut().zip(&near) {
+                if distance <= most {
+                    *bit = wanted;
+                }
+            }
+        }
+    }
+
+    /// Smooths the outline: the set's voxels as 1 and the others as 0, blurred by a Gaussian, and what is then at least one half. What
+    /// lies beyond the grid is as its nearest voxel.
+    pub async fn smooth(&mut self, spacing_mm: [f32; 3], sigma_mm: f32, turns: &Turns) {
+        let (width, length, slices) = (self.row_length(), self.slice_length(), self.slices());
+        let kernels = spacing_mm.map(|spacing| kernel(sigma_mm / spacing.max(1e-6)));
+        let [kx, ky, kz] = &kernels;
+        let rz = kz.len() - 1;
+        let mut ring: VecDeque<Vec<u16>> = VecDeque::new();
+        let (mut first, mut next) = (0, 0);
+        let mut row_blurred = vec![0u16; length];
+        let mut sums = vec![0u32; length];
+        for z in 0..slices {
+            while next < slices && next <= z + rz {
+                let bits = &self.bits[next * length..(next + 1) * length];
+                for (row, out) in bits
+                    .chunks_exact(width)
+                    .zip(row_blurred.chunks_exact_mut(width))
+                {
+                    blur_row(row, kx, out);
+                }
+                turns.pass().await;
+                let height = self.dims.y as usize;
+                for y in 0..height {
+                    let sums = &mut sums[y * width..(y + 1) * width];
+                    weigh(sums, ky, y, height, |y| {
+                        &row_blurred[y * width..(y + 1) * width]
+                    });
+                    if y % 32 == 0 {
+                        turns.pass().await;
+                    }
+                }
+                ring.push_back(sums.iter().map(|&sum| (sum >> 16) as u16).collect());
+                next += 1;
+            }
+            while first + rz < z {
+                ring.pop_front();
+                first += 1;
+            }
+            weigh(&mut sums, kz, z, slices, |z| &ring[z - first]);
+            turns.pass().await;
+            let bits = &mut self.bits[z * length..(z + 1) * length];
+            for (bit, &sum) in bits.iter_mut().zip(&sums) {
+                *bit = u8::from(sum >= 1 << 31);
+            }
+        }
+    }
+}
+
+/// Squared distance along a row to the nearest of its voxels that are `wanted`, as far as `reach` voxels.
+fn along_row(row: &[u8], wanted: u8, reach: usize, spacing: f32, out: &mut [f32]) {
+    let mut run = |indices: &mut dyn Iterator<Item = usize>| {
+        let mut since = usize::MAX;
+        for x in indices {
+            since = if row[x] == wanted {
+                0
+            } else {
+                since.saturating_add(1)
+            };
+            if since <= reach {
+                let distance = since as f32 * spacing;
+                out[x] = out[x].min(distance * distance);
+            }
+        }
+    };
+    run(&mut (0..row.len()));
+    run(&mut (0..row.len()).rev());
+}
+
+fn lower(into: &mut [f32], from: &[f32], more: f32) {
+    for (into, &from) in into.iter_mut().zip(from) {
+        let other = from + more;
+        if other < *into {
+            *into = other;
+        }
+    }
+}
+
+/// Half of a Gaussian of `sigma` voxels, the middle first, in 65536ths; the whole sums to one.
+fn kernel(sigma: f32) -> Vec<u32> {
+    let sigma = f64::from(sigma.min(1000.0));
+    let reach = (3.0 * sigma).ceil() as usize;
+    let weights: Vec<f64> = (0..=reach)
+        .map(|k| falling(0.5 * (k as f64 / sigma.max(1e-9)).powi(2)))
+        .collect();
+    let sum = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
+    let mut kernel: Vec<u32> = weights
+        .iter()
+        .map(|w| (w / sum * 65536.0 + 0.5) as u32)
+        .collect();
+    kernel[0] = 65536 - 2 * kernel[1..].iter().sum::<u32>().min(32768);
+    kernel
+}
+
+/// e to the power of −t by additions and products alone, for those of the system's libraries differ in the last digit.
+fn falling(t: f64) -> f64 {
+    if t > 700.0 {
+        return 0.0;
+    }
+    let small = t / 1024.0;
+    let mut sum = 1.0;
+    for n in (1..=12).rev() {
+        sum = 1.0 + sum * small / f64::from(n);
+    }
+    for _ in 0..10 {
+        sum *= sum;
+    }
+    1.0 / sum
+}
+
+fn blur_row(row: &[u8], kernel: &[u32], out: &mut [u16]) {
+    let last = row.len() - 1;
+    // Where a row is of one kind all along, so is what comes out.
+    if row.iter().all(|&bit| bit == row[0]) {
+        out.fill(if row[0] == 1 { u16::MAX } else { 0 });
+        return;
+    }
+    for (x, out) in out.iter_mut().enumerate() {
+        let mut sum = kernel[0] * u32::from(row[x]);
+        for (k, &weight) in kernel.iter().enumerate().skip(1) {
+            let (a, b) = (row[x.saturating_sub(k)], row[(x + k).min(last)]);
+            sum += weight * u32::from(a + b);
+        }
+        *out = sum.min(65535) as u16;
+    }
+}
+
+/// Sums of lines around line `at` of `count`, weighted; lines beyond the ends are as the last.
+fn weigh<'a>(
+    sums: &mut [u32],
+    kernel: &[u32],
+    at: usize,
+    count: usize,
+    line: impl Fn(usize) -> &'a [u16],
+) {
+    sums.fill(0);
+    let mut add = |line: &[u16], weight: u32| {
+        for (sum, &value) in sums.iter_mut().zip(line) {
+            *sum += weight * u32::from(value);
+        }
+    };
+    add(line(at), kernel[0]);
+    for (k, &weight) in kernel.iter().enumerate().skip(1) {
+        add(line(at.saturating_sub(k)), weight);
+        add(line((at + k).min(count - 1)), weight);
+    }
+}
