@@ -21,7 +21,7 @@ struct Template {
     subject_from_template_row2: vec4f,
     /// xyz: side lengths, subject units.
     size: vec4f,
-    /// Parameters in the order of the catalogue, flags 0 or 1, choices as index.
+    /// Parameters in the order of the catalogue, flags 0 or 1, choices as index. The last is an index in the pool for kinds that use it.
     params0: vec4f,
     params1: vec4f,
     /// Number of the kind (TemplateKind).
@@ -39,6 +39,8 @@ struct Templates {
     items: array<Template, 32>,
     /// x: how many of them count.
     count: vec4u,
+    /// What templates hold besides parameters (displace/rbf.wgsl, displace/field.wgsl).
+    pool: array<vec4f, 512>,
 }
 
 /// One picture's camera and sampling.

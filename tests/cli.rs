@@ -197,14 +197,15 @@ fn link_and_doc_are_inverse() {
 
 #[test]
 fn notices_are_lines_with_exit_0() {
-    let odd = r#"{"fabrica":1,"x":1,"templates":[{"kind":"peel","params":{"progress":3,"colour":1}},{"kind":"unknown"},{"kind":"rbf"}]}"#;
+    let odd = r#"{"fabrica":1,"x":1,"templates":[{"kind":"peel","params":{"progress":3,"colour":1}},{"kind":"unknown"},{"kind":"rbf","params":{"points":[POINTS]}}]}"#;
+    let odd = odd.replace("POINTS", &vec!["{}"; 65].join(","));
     let outcome = fabrica_with(Path::new("."), &["doc", "-"], odd.as_bytes()).ok();
     for part in [
         "/x:",
         "/templates/0/params/progress: 3 is outside",
         "/templates/0/params/colour",
         "“unknown”",
-        "rbf templates are not drawn yet",
+        "/templates/2/params/points: 65 is outside the range; the first 64 is drawn",
     ] {
         assert!(
             outcome.err.contains(part),
@@ -337,7 +338,7 @@ fn the_catalogue_is_listed() {
     let catalogue: Value =
         serde_json::from_str(&fabrica(&["templates", "--json"]).ok().out).expect("JSON");
     let kinds = catalogue.as_array().expect("a list");
-    assert_eq!(kinds.len(), 18);
+    assert_eq!(kinds.len(), 20);
     let param = |kind: &str, name: &str| {
         let kind = kinds.iter().find(|k| k["kind"] == kind).expect("the kind");
         let params = kind["params"].as_array().expect("params");

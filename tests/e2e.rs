@@ -153,7 +153,7 @@ fn browser_draws_what_the_native_program_draws() {
     const SIZE: [u32; 2] = [160, 120];
     const RESOLUTION: u32 = 64;
     const SAMPLES: u32 = 4;
-    let mut documents: Vec<(String, String)> = TemplateKind::ALL
+    let mut documents: Vec<(String, String)> = TemplateKind::FORMULAS
         .iter()
         .map(|kind| {
             let name = kind.spec().name;

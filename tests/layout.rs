@@ -36,7 +36,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
             subject_from_template_row0, subject_from_template_row1, subject_from_template_row2,
             size, params0, params1, kind, mode, flags, group,
         }
-        Templates { items, count }
+        Templates { items, count, pool }
         Frame {
             subject_from_view_row0, subject_from_view_row1, subject_from_view_row2,
             lens, jitter, bounds_min, bounds_max, pick,

@@ -81,7 +81,7 @@ impl Random {
     fn document(&mut self) -> Value {
         let templates: Vec<Value> = (0..self.below(9))
             .map(|_| {
-                let kind = TemplateKind::ALL[self.below(TemplateKind::ALL.len())];
+                let kind = TemplateKind::FORMULAS[self.below(TemplateKind::FORMULAS.len())];
                 let mut params = Map::new();
                 for spec in kind.spec().params {
                     if let (ParamValue::Number(_), 0..2) = (spec.kind.default_value(), self.below(3)) {
@@ -583,6 +583,9 @@ fn golden_links_open_for_ever() {
     for kind in TemplateKind::ALL {
         wanted.push(json!({ "fabrica": 1, "subject": { "builtin": "bar" }, "templates": [{ "kind": kind.spec().name, "at": [0.1, -0.2, 0.3] }] }));
     }
+    wanted.push(json!({ "fabrica": 1, "subject": { "builtin": "bar" }, "templates": [{ "kind": "rbf", "params": { "points": [
+        { "at": [0.2, 0.5, 0.5], "move": [0.1, 0, -0.05] }, { "at": [0.8, 0.5, 0.5] }], "cut": [[0.5, 0], [0.55, 1]], "extrude": true, "edge": 0.2 } }] }));
+    wanted.push(json!({ "fabrica": 1, "templates": [{ "kind": "field", "params": { "sha256": "b".repeat(64), "name": "Warp", "units": "subject" } }] }));
     wanted.push(lesson(&mut Random(2026)));
     wanted.push(Random(1543).document());
     wanted.push(json!({ "fabrica": 1, "title": "Дом 家 🧠", "x-unknown": { "deep": [null, true, 1e-7, -2.5e300, 18_446_744_073_709_551_615_u64] } }));

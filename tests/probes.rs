@@ -94,7 +94,7 @@ impl Tally {
 fn every_template_alone_agrees_with_the_reference() {
     let (gpu, probe) = probe();
     println!("on {} ({})", gpu.info.name, gpu.info.driver_info);
-    for kind in TemplateKind::ALL {
+    for kind in TemplateKind::FORMULAS {
         let mut random = Random(0x5EED_0001 + kind as u64);
         let mut tally = Tally::default();
         for _ in 0..200 {
@@ -116,7 +116,7 @@ fn lists_and_add_groups_agree_with_the_reference() {
             let count = 2 + random.index(7);
             let mut list = Vec::new();
             for _ in 0..count {
-                let kind = TemplateKind::ALL[random.index(TemplateKind::ALL.len())];
+                let kind = TemplateKind::FORMULAS[random.index(TemplateKind::FORMULAS.len())];
                 let mut template = random.template(kind);
                 if random.unit() < add_share {
                     template.mode = TemplateMode::Add;
@@ -140,7 +140,7 @@ fn a_planted_sign_error_is_caught() {
     // The comparison must fail when one side is wrong. Every template whose sign can be turned by a parameter gets it turned; the
     // others (those without a direction) are compared with a neighbouring parameter.
     let (_gpu, probe) = probe();
-    for kind in TemplateKind::ALL {
+    for kind in TemplateKind::FORMULAS {
         let mut random = Random(0xBAD + kind as u64);
         let right = placed(kind, Placement::DOCUMENT_DEFAULT, defaults(kind));
         let mut wrong = right.clone();
@@ -192,7 +192,7 @@ fn closed(kind: TemplateKind) -> Option<Vec<ParamValue>> {
 fn an_unopened_template_is_exactly_the_identity() {
     let (_gpu, probe) = probe();
     let mut random = Random(11);
-    for kind in TemplateKind::ALL {
+    for kind in TemplateKind::FORMULAS {
         let Some(params) = closed(kind) else { continue };
         for _ in 0..8 {
             let mut template = random.template(kind);
@@ -289,7 +289,7 @@ fn order_matters_and_an_add_with_nothing_before_it_composes() {
 fn hostile_placements_and_points_do_no_harm() {
     let (gpu, probe) = probe();
     let mut random = Random(19);
-    for kind in TemplateKind::ALL {
+    for kind in TemplateKind::FORMULAS {
         for (at, size) in [
             (1e30, 1e-30),
             (-1e38, 1e38),
@@ -360,7 +360,7 @@ fn inside(aabb: Aabb, pos: Vec3) -> bool {
 #[test]
 fn outside_its_reach_a_template_changes_nothing() {
     let (_gpu, probe) = probe();
-    for kind in TemplateKind::ALL {
+    for kind in TemplateKind::FORMULAS {
         let mut random = Random(0xA11 + kind as u64);
         let (mut outside, mut changed_inside) = (0, 0);
         for _ in 0..200 {
@@ -407,7 +407,7 @@ fn no_material_leaves_the_deformed_bounds() {
         let count = if round < 360 { 1 } else { 2 + random.index(5) };
         let mut list: Vec<PlacedTemplate> = Vec::new();
         for i in 0..count {
-            let kind = TemplateKind::ALL[if count == 1 {
+            let kind = TemplateKind::FORMULAS[if count == 1 {
                 round % 18
             } else {
                 random.index(18)

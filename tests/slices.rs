@@ -16,7 +16,6 @@ use fabrica::subjects::{self, FINE_RESOLUTION};
 use glam::{DVec3, Vec2, Vec3};
 
 #[path = "scatter/mod.rs"]
-#[expect(dead_code, reason = "templates at random are for other tests")]
 mod scatter;
 use scatter::Random;
 

@@ -11,7 +11,7 @@
 //
 // `drawn_kinds` is what makes this fast on devices that run both sides of every branch (software rasterisers do): a pipeline made for
 // a document leaves out the kinds that it does not use. All ones, the default, serves every document.
-// needs: types.wgsl bind/templates.wgsl displace/frame.wgsl displace/angles.wgsl displace/poke.wgsl displace/twist.wgsl displace/wave.wgsl displace/bend.wgsl displace/squeeze.wgsl displace/dilate.wgsl displace/peel.wgsl displace/flap.wgsl displace/split.wgsl displace/slices.wgsl displace/retractor.wgsl displace/cutquad.wgsl displace/peeler.wgsl displace/pull.wgsl displace/cut.wgsl displace/hole.wgsl displace/lens.wgsl displace/move.wgsl
+// needs: types.wgsl bind/templates.wgsl displace/frame.wgsl displace/angles.wgsl displace/poke.wgsl displace/twist.wgsl displace/wave.wgsl displace/bend.wgsl displace/squeeze.wgsl displace/dilate.wgsl displace/peel.wgsl displace/flap.wgsl displace/split.wgsl displace/slices.wgsl displace/retractor.wgsl displace/cutquad.wgsl displace/peeler.wgsl displace/pull.wgsl displace/cut.wgsl displace/hole.wgsl displace/lens.wgsl displace/move.wgsl displace/rbf.wgsl displace/field.wgsl
 
 /// Bit k set: templates of kind k occur. A pipeline constant.
 override drawn_kinds: u32 = 0xffffffffu;
@@ -116,6 +116,16 @@ fn displace(kind: u32, q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced
         case 18u: {
             if (drawn_kinds & 0x40000u) != 0u {
                 d = displace_move(q, size, p0, p1);
+            }
+        }
+        case 19u: {
+            if (drawn_kinds & 0x80000u) != 0u {
+                d = displace_rbf(q, size, p0, p1);
+            }
+        }
+        case 20u: {
+            if (drawn_kinds & 0x100000u) != 0u {
+                d = displace_field(q, size, p0, p1);
             }
         }
         default: {}

@@ -37,7 +37,7 @@ impl Icons for RenderedIcons {
 impl RenderedIcons {
     /// All are drawn, or none can be.
     pub(crate) fn is_done(&self) -> bool {
-        self.has_failed || self.textures.len() == TemplateKind::ALL.len()
+        self.has_failed || self.textures.len() == super::catalogue::kinds().count()
     }
 
     /// Drops what lies on a lost device; the icons that are drawn stay.

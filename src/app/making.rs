@@ -409,7 +409,7 @@ fn shape_of(kind: TemplateKind) -> Shape {
         K::Twist | K::Bend | K::Squeeze | K::Dilate | K::Slices | K::Wave => {
             (Vec3::splat(1.5), 0.5)
         }
-        K::Pull | K::Lens => (Vec3::splat(1.0), 0.5),
+        K::Pull | K::Lens | K::Rbf | K::Field => (Vec3::splat(1.0), 0.5),
         K::Cut => (Vec3::new(1.0, 1.0, 1.0), 0.5),
         K::Move => (Vec3::new(0.9, 0.9, 0.7), 0.3),
     };

@@ -1,4 +1,4 @@
-use crate::document::{MAX_PARAM_FLOATS, PlacedTemplate};
+use crate::document::{MAX_PARAM_FLOATS, PlacedTemplate, TemplateData};
 use crate::math::Aabb;
 use glam::{Vec2, Vec3};
 
@@ -112,6 +112,8 @@ pub(super) struct Given {
     pub(super) size: Vec3,
     /// As packed for the GPU.
     pub(super) p: [f32; MAX_PARAM_FLOATS],
+    /// What is no number.
+    pub(super) data: TemplateData,
 }
 
 impl Given {
@@ -122,6 +124,7 @@ impl Given {
         Self {
             size: template.placement.size,
             p: std::array::from_fn(|i| floats[i]),
+            data: template.data.clone(),
         }
     }
 }

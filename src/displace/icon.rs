@@ -1,5 +1,8 @@
 use super::facts_of;
-use crate::document::{Align, Camera, ParamValue, PlacedTemplate, TemplateKind, TemplateMode};
+use crate::document::{
+    Align, Camera, ControlPoint, ControlPoints, ParamValue, PlacedTemplate, TemplateData,
+    TemplateKind, TemplateMode,
+};
 use crate::math::Placement;
 use glam::{Quat, Vec3};
 
@@ -32,6 +35,7 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
         amount: 1.0,
         align: Align::Axis,
         constrain: None,
+        data: icon_data(kind),
     };
     let [yaw, pitch] = icon.yaw_pitch_deg.map(f32::to_radians);
     let camera = Camera {
@@ -41,4 +45,26 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
         fov_deg: 30.0,
     };
     (template, camera)
+}
+
+/// Of an rbf: the top drawn up to one side and down on the other.
+fn icon_data(kind: TemplateKind) -> TemplateData {
+    if kind != TemplateKind::Rbf {
+        return TemplateData::None;
+    }
+    let point = |x, y, z, dx, dz| ControlPoint {
+        at: Vec3::new(x, y, z),
+        shift: Vec3::new(dx, 0.0, dz),
+    };
+    TemplateData::Points(ControlPoints {
+        points: vec![
+            point(0.0, 0.0, 0.0, 0.0, 0.0),
+            point(1.0, 0.0, 0.0, 0.0, 0.0),
+            point(0.0, 1.0, 0.0, 0.0, 0.0),
+            point(1.0, 1.0, 0.0, 0.0, 0.0),
+            point(0.3, 0.3, 0.8, -0.1, -0.3),
+            point(0.75, 0.7, 0.8, 0.1, 0.2),
+        ],
+        cut: Vec::new(),
+    })
 }

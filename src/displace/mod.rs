@@ -19,6 +19,7 @@ mod cut;
 mod cutquad;
 mod dilate;
 mod facts;
+mod field;
 mod flap;
 mod handle;
 mod hole;
@@ -29,6 +30,7 @@ mod peel;
 mod peeler;
 mod poke;
 mod pull;
+mod rbf;
 mod retractor;
 mod slices;
 mod split;
@@ -47,6 +49,11 @@ use facts::{Facts, Given};
 /// What a template reaches with the parameters and the size it has, template space.
 pub fn reach(template: &PlacedTemplate) -> Reach {
     (facts_of(template.kind).reach)(&Given::new(&template.acting()))
+}
+
+/// What the shader of an `rbf` that acts ([`PlacedTemplate::acting`]) reads besides its parameters (shaders/displace/rbf.wgsl).
+pub fn solved_points(template: &PlacedTemplate) -> Vec<[f32; 4]> {
+    rbf::Interpolant::of(&Given::new(template)).pack()
 }
 
 /// Everything known about a kind.
@@ -70,5 +77,7 @@ fn facts_of(kind: TemplateKind) -> &'static Facts {
         TemplateKind::Hole => &hole::FACTS,
         TemplateKind::Lens => &lens::FACTS,
         TemplateKind::Move => &r#move::FACTS,
+        TemplateKind::Rbf => &rbf::FACTS,
+        TemplateKind::Field => &field::FACTS,
     }
 }

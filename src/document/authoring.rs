@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::catalogue::{ParamValue, TemplateKind};
 use super::edit::Edit;
 use super::error::DocumentError;
-use super::illustration::PlacedTemplate;
+use super::illustration::{PlacedTemplate, TemplateData};
 use super::tree::Document;
 use super::{FORMAT, MAX_BYTES};
 use crate::math::Placement;
@@ -68,7 +68,9 @@ pub fn mirrored(template: &PlacedTemplate, plane: Plane) -> (Placement, Vec<Para
         | K::Cut
         | K::Hole
         | K::Lens
-        | K::Move => 0,
+        | K::Move
+        | K::Rbf
+        | K::Field => 0,
     };
     let params = template
         .params
@@ -102,7 +104,12 @@ pub fn mirrored(template: &PlacedTemplate, plane: Plane) -> (Placement, Vec<Para
 }
 
 /// The edits that mirror a template where it is, or its copy right behind it.
+///
+/// A field has no mirror image: its samples are what they are.
 pub fn mirror(template: &PlacedTemplate, plane: Plane, as_copy: bool) -> Vec<Edit> {
+    if template.kind == TemplateKind::Field {
+        return Vec::new();
+    }
     let (placement, params) = mirrored(template, plane);
     let index = template.index + usize::from(as_copy);
     let mut edits = Vec::new();
@@ -115,6 +122,20 @@ pub fn mirror(template: &PlacedTemplate, plane: Plane, as_copy: bool) -> Vec<Edi
         template: index,
         placement,
     });
+    if let TemplateData::Points(points) = &template.data {
+        let mut points = points.clone();
+        for point in &mut points.points {
+            point.at.x = 1.0 - point.at.x;
+            point.shift.x = -point.shift.x;
+        }
+        for place in &mut points.cut {
+            place.x = 1.0 - place.x;
+        }
+        edits.push(Edit::SetControlPoints {
+            template: index,
+            points,
+        });
+    }
     let specs = template.kind.spec().params;
     for ((spec, old), new) in specs.iter().zip(&template.params).zip(params) {
         if *old != new {

@@ -68,9 +68,12 @@ const IDENTITY: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 fn template(template: &mut Map<String, Value>) {
     drop_if(template, "name", is_text(""));
     drop_if(template, "group", is_text(""));
-    drop_if(template, "at", is_numbers(&[0.0; 3]));
-    drop_if(template, "rotate", is_numbers(&IDENTITY));
-    drop_if(template, "size", is_numbers(&[0.5; 3]));
+    // A field without a place lies where its file says: there a default is no default.
+    if template.get("kind").and_then(Value::as_str) != Some("field") {
+        drop_if(template, "at", is_numbers(&[0.0; 3]));
+        drop_if(template, "rotate", is_numbers(&IDENTITY));
+        drop_if(template, "size", is_numbers(&[0.5; 3]));
+    }
     drop_if(template, "amount", is_number(1.0));
     drop_if(template, "enabled", |value| value == &Value::Bool(true));
     drop_if(template, "mode", is_text("compose"));
@@ -87,6 +90,13 @@ fn template(template: &mut Map<String, Value>) {
     if let (Some(kind), Some(Value::Object(params))) = (kind, template.get_mut("params")) {
         for spec in kind.spec().params {
             drop_if(params, spec.name, |value| is_param_default(spec, value));
+        }
+        if kind == TemplateKind::Rbf {
+            drop_if(params, "points", is_empty);
+            drop_if(params, "cut", is_empty);
+        }
+        if kind == TemplateKind::Field {
+            drop_if(params, "name", is_text(""));
         }
     }
     drop_if(template, "params", is_empty);

@@ -23,6 +23,8 @@ pub enum TemplateKind {
     Hole,
     Lens,
     Move,
+    Rbf,
+    Field,
 }
 
 /// A kind's name, meaning and parameters.
@@ -157,7 +159,19 @@ const fn number(
 
 impl TemplateKind {
     /// Every kind, in catalogue order.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 20] = {
+        let mut all = [Self::Rbf; 20];
+        let mut i = 0;
+        while i < Self::FORMULAS.len() {
+            all[i] = Self::FORMULAS[i];
+            i += 1;
+        }
+        all[19] = Self::Field;
+        all
+    };
+
+    /// The kinds that are described whole by their parameters. The others have [`super::TemplateData`] besides.
+    pub const FORMULAS: [Self; 18] = [
         Self::Poke,
         Self::Twist,
         Self::Wave,
@@ -522,6 +536,84 @@ impl TemplateKind {
                                 summary: "Turned about its centre",
                                 kind: ParamKind::Rotation,
                             },
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Rbf => {
+                const {
+                    &TemplateSpec {
+                        name: "rbf",
+                        summary: "Displacements at control points, interpolated",
+                        params: &[
+                            number("strength", "Times the displacements", 1.0, 0.0, 2.0),
+                            number(
+                                "softness",
+                                "Reach of a control point, fractions of the box",
+                                0.2,
+                                0.01,
+                                2.0,
+                            ),
+                            number(
+                                "exponent",
+                                "Of the multiquadric; -0.5 is smooth and local",
+                                -0.5,
+                                -2.0,
+                                0.9,
+                            ),
+                            ParamSpec {
+                                name: "extrude",
+                                summary: "Control points count in x and y alone, for every z",
+                                kind: ParamKind::Flag { default: false },
+                            },
+                            number(
+                                "falloff",
+                                "0 extrudes through the whole box, 1 falls off from its middle on",
+                                0.3,
+                                0.0,
+                                1.0,
+                            ),
+                            number(
+                                "edge",
+                                "Width over which it ends at the faces of the box",
+                                0.0,
+                                0.0,
+                                0.5,
+                            ),
+                        ],
+                        main_param: Some(0),
+                    }
+                }
+            }
+            Self::Field => {
+                const {
+                    &TemplateSpec {
+                        name: "field",
+                        summary: "A displacement field from a file",
+                        params: &[
+                            number("strength", "Times the displacement", 1.0, 0.0, 2.0),
+                            ParamSpec {
+                                name: "units",
+                                summary: "Of the vectors in the file",
+                                kind: ParamKind::Choice {
+                                    names: &["mm", "subject"],
+                                },
+                            },
+                            ParamSpec {
+                                name: "axes",
+                                summary: "Directions of the vectors in the file",
+                                kind: ParamKind::Choice {
+                                    names: &["auto", "lps", "ras"],
+                                },
+                            },
+                            number(
+                                "edge",
+                                "Width over which it ends at the faces of the box",
+                                0.0,
+                                0.0,
+                                0.5,
+                            ),
                         ],
                         main_param: Some(0),
                     }

@@ -1,8 +1,8 @@
 use super::catalogue::{ParamKind, ParamValue, TemplateKind};
 use super::error::DocumentError;
 use super::illustration::{
-    Align, Background, Camera, Constrain, ConstrainBy, Label, OpacityMode, Reading, SubjectRef,
-    TemplateMode, Transfer, TransferPoint, Window,
+    Align, Background, Camera, Constrain, ConstrainBy, ControlPoints, Label, OpacityMode, Reading,
+    SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
 };
 use super::pointer::{self, join};
 use super::tree::Document;
@@ -67,6 +67,13 @@ pub enum Edit {
         param: &'static str,
         /// Of the type that the catalogue says.
         value: ParamValue,
+    },
+    /// Sets the control points and the cut of an `rbf`.
+    SetControlPoints {
+        /// Which.
+        template: usize,
+        /// Template space.
+        points: ControlPoints,
     },
     /// Moves, turns or sizes a template.
     SetPlacement {
@@ -267,12 +274,24 @@ impl Edit {
                 kind,
                 placement,
             } => {
-                let value = json!({
+                let mut value = json!({
                     "kind": kind.spec().name,
                     "at": vector(placement.at),
                     "rotate": rotation(placement.rotate),
                     "size": placement.size.to_array().map(rounded_size),
                 });
+                if *kind == TemplateKind::Rbf {
+                    // Something to take hold of: the middle drawn up between four points that stay.
+                    let point = |x: f32, y: f32| json!({ "at": vector(Vec3::new(x, y, 0.5)) });
+                    let mut points = vec![
+                        point(0.25, 0.25),
+                        point(0.75, 0.25),
+                        point(0.25, 0.75),
+                        point(0.75, 0.75),
+                    ];
+                    points.insert(0, json!({ "at": [0.5, 0.5, 0.6], "move": [0, 0, -0.15] }));
+                    value["params"] = json!({ "points": points, "edge": 0.25 });
+                }
                 insert(root, "templates", MAX_TEMPLATES, *index, value)
             }
             Self::RemoveTemplate { template } => take(root, "templates", *template).map(|_| ()),
@@ -310,6 +329,25 @@ impl Edit {
                     (ParamValue::Rotation(value), _) => rotation(*value),
                 };
                 pointer::set(root, &pointer, value)
+            }
+            Self::SetControlPoints {
+                template: i,
+                points,
+            } => {
+                let listed = points.points.iter().map(|point| {
+                    let mut value = json!({ "at": vector(point.at) });
+                    if point.shift != Vec3::ZERO {
+                        value["move"] = vector(point.shift);
+                    }
+                    value
+                });
+                let cut = points
+                    .cut
+                    .iter()
+                    .map(|p| json!([rounded(p.x), rounded(p.y)]));
+                let at = join(&template(i), "params");
+                pointer::set(root, &join(&at, "points"), listed.collect())?;
+                pointer::set(root, &join(&at, "cut"), cut.collect())
             }
             Self::SetPlacement {
                 template: i,
@@ -525,6 +563,9 @@ impl Edit {
             Self::SetParam {
                 template, param, ..
             } => format!("Change {param} of {}", name_of(template)),
+            Self::SetControlPoints { template, .. } => {
+                format!("Change points of {}", name_of(template))
+            }
             Self::SetPlacement {
                 template,
                 placement,
@@ -589,6 +630,7 @@ impl Edit {
             Self::SetParam {
                 template, param, ..
             } => format!("/templates/{template}/params/{param}"),
+            Self::SetControlPoints { template, .. } => format!("/templates/{template}/points"),
             Self::SetPlacement { template, .. } => format!("/templates/{template}/placement"),
             Self::SetAmount { template, .. } => format!("/templates/{template}/amount"),
             Self::SetEnabled { template, .. } => format!("/templates/{template}/enabled"),

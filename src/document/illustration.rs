@@ -1,7 +1,8 @@
 use super::catalogue::{ParamValue, TemplateKind};
 use super::feature::FeatureRecipe;
 use crate::math::Placement;
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec2, Vec3};
+use std::sync::Arc;
 
 /// What a document says, with every default filled in and every value inside its range.
 #[derive(Clone, Debug, PartialEq)]
@@ -183,6 +184,8 @@ pub struct PlacedTemplate {
     pub align: Align,
     /// What its displacement gives way to.
     pub constrain: Option<Constrain>,
+    /// What it holds besides numbers.
+    pub data: TemplateData,
 }
 
 impl PlacedTemplate {
@@ -402,4 +405,80 @@ pub struct Step {
     pub caption: String,
     /// Seconds of the passage to it.
     pub seconds: f32,
+}
+
+/// What a template holds that are no parameters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum TemplateData {
+    /// Nothing: the parameters say all.
+    #[default]
+    None,
+    /// Of an `rbf`.
+    Points(ControlPoints),
+    /// Of a `field`.
+    Field(FieldRef),
+}
+
+/// Control points of an `rbf`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ControlPoints {
+    /// At most [`super::MAX_POINTS`].
+    pub points: Vec<ControlPoint>,
+    /// A line in the xy plane of the box that parts it in two; its ends go on straight. Fewer than two places part nothing.
+    /// At most [`super::MAX_CUT`].
+    pub cut: Vec<Vec2>,
+}
+
+/// One control point, template space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControlPoint {
+    /// Where it is.
+    pub at: Vec3,
+    /// The inverse displacement there: what is seen at `at` comes from `at + shift`.
+    pub shift: Vec3,
+}
+
+/// The file of a `field`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FieldRef {
+    /// Where it is, relative to the document or absolute; without it the reader supplies the file.
+    pub src: Option<String>,
+    /// SHA-256 of its bytes, lower-case hex, if given.
+    pub sha256: Option<String>,
+    /// What the author called it.
+    pub name: String,
+    /// The document says where the box lies; else the file does.
+    pub is_placed: bool,
+    /// What was read from it. A document never has it: whoever draws puts it in.
+    pub samples: Option<FieldSamples>,
+}
+
+impl FieldRef {
+    /// What names the file among others.
+    pub fn key(&self) -> Option<&str> {
+        self.sha256.as_deref().or(self.src.as_deref())
+    }
+}
+
+/// A displacement field on a grid that fills the box of its template, from outer edge to outer edge. Shared, never changed.
+#[derive(Clone, Debug)]
+pub struct FieldSamples(pub Arc<SampledField>);
+
+/// What [`FieldSamples`] share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SampledField {
+    /// Samples along each axis, x fastest.
+    pub dims: [u32; 3],
+    /// Displacement (template space) and continuity as 16-bit floats, four per sample.
+    pub texels: Vec<u16>,
+    /// Least and greatest displacement along each axis, template space.
+    pub shift: [Vec3; 2],
+    /// Where the file says that the box lies, subject space.
+    pub placement: Placement,
+}
+
+impl PartialEq for FieldSamples {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }

@@ -533,7 +533,8 @@ pub(crate) fn number_text(number: &Number) -> String {
         Some(float) => {
             // Both forms are the shortest digits that round-trip; very small and very large ones need the exponent.
             let (plain, scientific) = (format!("{float}"), format!("{float:e}"));
-            if scientific.len() < plain.len() {
+            // A whole number too large for a float to count would read back as another kind of number.
+            if scientific.len() < plain.len() || float.abs() > MAX_EXACT_WHOLE {
                 scientific
             } else {
                 plain

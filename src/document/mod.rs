@@ -34,6 +34,7 @@ mod object;
 pub mod pointer;
 mod preset;
 mod resolve;
+mod resolve_data;
 mod resolve_subject;
 mod steps;
 #[cfg(test)]
@@ -55,8 +56,9 @@ pub use feature::{
 };
 pub use history::History;
 pub use illustration::{
-    Align, Background, Camera, Constrain, ConstrainBy, Illustration, Label, Look, OpacityMode,
-    PlacedTemplate, RawVoxels, Reading, SegmentsRef, Step, SubjectRef, TemplateMode, Transfer,
+    Align, Background, Camera, Constrain, ConstrainBy, ControlPoint, ControlPoints, FieldRef,
+    FieldSamples, Illustration, Label, Look, OpacityMode, PlacedTemplate, RawVoxels, Reading,
+    SampledField, SegmentsRef, Step, SubjectRef, TemplateData, TemplateMode, Transfer,
     TransferPoint, Window,
 };
 pub use json::MAX_DEPTH;
@@ -73,6 +75,12 @@ pub const MAX_TEMPLATES: usize = 32;
 pub const MAX_KEEP_SETS: usize = 4;
 /// Label volumes beside a subject at most.
 pub const MAX_LABEL_FILES: usize = 8;
+/// Control points of an `rbf` at most.
+pub const MAX_POINTS: usize = 64;
+/// Fields of a document that are drawn at most.
+pub const MAX_FIELDS: usize = 4;
+/// Places on the cut of an `rbf` at most.
+pub const MAX_CUT: usize = 16;
 /// Labels in a document at most.
 pub const MAX_LABELS: usize = 256;
 /// Steps in a document at most.

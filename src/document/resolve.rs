@@ -10,7 +10,7 @@ use super::json::{ROOT_KEYS, number_text, shortened};
 use super::notice::{Notice, NoticeKind};
 use super::object::{Object, wrong};
 use super::pointer::join;
-use super::{FORMAT, MAX_KEEP_SETS, MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
+use super::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS, MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
 use crate::math::Placement;
 use glam::{DQuat, DVec3, Quat, Vec3};
 use serde_json::{Map, Value};
@@ -217,6 +217,14 @@ impl Reader {
             let object = Object::new(join("/templates", &index.to_string()), value)?;
             templates.extend(self.template(index, &object)?);
         }
+        let is_field = |t: &&PlacedTemplate| t.kind == TemplateKind::Field && t.enabled;
+        if let Some(over) = templates.iter().filter(is_field).nth(MAX_FIELDS) {
+            let what = "more than four fields are";
+            self.note(
+                format!("/templates/{}", over.index),
+                NoticeKind::NotDrawn { what },
+            );
+        }
         let sets = keep_sets(&templates).len();
         if sets > MAX_KEEP_SETS {
             return Err(DocumentError::TooMany {
@@ -334,16 +342,8 @@ impl Reader {
         let params = object.child("params")?;
         let kind_name = object.text("kind")?.unwrap_or_default();
         let Some(kind) = TemplateKind::from_name(kind_name) else {
-            let kind = match kind_name {
-                "rbf" => NoticeKind::NotDrawn {
-                    what: "rbf templates are",
-                },
-                "field" => NoticeKind::NotDrawn {
-                    what: "field templates are",
-                },
-                other => NoticeKind::UnknownTemplate {
-                    kind: shortened(other, 40),
-                },
+            let kind = NoticeKind::UnknownTemplate {
+                kind: shortened(kind_name, 40),
             };
             let at = match object.map.get("kind") {
                 Some(_) => object.at("kind"),
@@ -353,8 +353,16 @@ impl Reader {
             return Ok(None);
         };
         let spec = kind.spec();
+        let data = self.data(kind, object, &params)?;
+        let others: &[&str] = match kind {
+            TemplateKind::Rbf => &["points", "cut"],
+            TemplateKind::Field => &["src", "sha256", "name"],
+            _ => &[],
+        };
         for key in params.map.keys() {
-            if !spec.params.iter().any(|param| param.name == key) {
+            let is_known =
+                spec.params.iter().any(|p| p.name == key) || others.contains(&key.as_str());
+            if !is_known {
                 let at = super::pointer::shortened(&params.at(key));
                 self.note(at, NoticeKind::UnknownParam { kind: spec.name });
             }
@@ -375,6 +383,7 @@ impl Reader {
             mode,
             align,
             constrain,
+            data,
         }))
     }
 

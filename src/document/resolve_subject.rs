@@ -189,7 +189,7 @@ fn whole(object: &Object<'_>, key: &str) -> Result<u64, DocumentError> {
     }
 }
 
-fn hash(object: &Object<'_>) -> Result<Option<String>, DocumentError> {
+pub(super) fn hash(object: &Object<'_>) -> Result<Option<String>, DocumentError> {
     match object.text("sha256")? {
         None => Ok(None),
         Some(text) if text.len() == 64 && text.bytes().all(|b| b.is_ascii_hexdigit()) => {

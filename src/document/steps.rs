@@ -3,7 +3,7 @@
 use super::catalogue::{ParamKind, ParamValue};
 use super::error::DocumentError;
 use super::illustration::{
-    Align, Background, Illustration, PlacedTemplate, Transfer, TransferPoint, Window,
+    Align, Background, Illustration, PlacedTemplate, TemplateData, Transfer, TransferPoint, Window,
 };
 use super::notice::{Notice, NoticeKind};
 use super::{json, pointer, resolve};
@@ -174,6 +174,14 @@ fn blend_template(start: &PlacedTemplate, out: &mut PlacedTemplate, part: f32) {
             }
             (_, other) => other,
         };
+    }
+    if let (TemplateData::Points(a), TemplateData::Points(b)) = (&start.data, &mut out.data)
+        && a.points.len() == b.points.len()
+    {
+        for (from, to) in a.points.iter().zip(&mut b.points) {
+            to.at = from.at.lerp(to.at, part);
+            to.shift = from.shift.lerp(to.shift, part);
+        }
     }
     match (&start.align, &mut out.align) {
         (

@@ -30,7 +30,11 @@ fn the_empty_document_is_one() {
 
 #[test]
 fn every_default_is_left_out_and_filled_in() {
-    for kind in TemplateKind::ALL {
+    // A field's place is no default: without one its file says where it lies.
+    for kind in TemplateKind::ALL
+        .into_iter()
+        .filter(|kind| *kind != TemplateKind::Field)
+    {
         let spec = kind.spec();
         let params: serde_json::Map<String, Value> = spec
             .params
@@ -628,4 +632,49 @@ fn an_amount_is_kept_in_range_and_left_out_when_whole() {
     );
     let middle = walked.at_time(1, 0.5);
     assert!((0.3..0.7).contains(&middle.expect("a step").templates[0].amount));
+}
+
+#[test]
+fn control_points_and_files_are_read_or_refused() {
+    let drawn = |params: Value| {
+        let kind = if params.get("points").is_some() {
+            "rbf"
+        } else {
+            "field"
+        };
+        let value = json!({ "fabrica": 1, "templates": [{ "kind": kind, "params": params }] });
+        Document::from_value(value)
+    };
+    let points = json!({ "points": [{ "at": [0.1, 0.2, 99], "move": [0, 0.5, 0], "later": 1 }, {}], "cut": [[0.5, 0], [0.5, 1]] });
+    let document = drawn(points).expect("right");
+    let TemplateData::Points(points) = &document.illustration().templates[0].data else {
+        panic!("an rbf has points");
+    };
+    assert_eq!(points.points[0].at, Vec3::new(0.1, 0.2, 10.0), "clamped");
+    assert_eq!(points.points[1].at, Vec3::splat(0.5));
+    assert_eq!(points.cut.len(), 2);
+    assert_eq!(notices(&document).len(), 2, "{:?}", notices(&document));
+    assert_eq!(
+        document,
+        Document::from_json(&document.to_json()).expect("round")
+    );
+    for wrong in [
+        json!({ "points": 3 }),
+        json!({ "points": [3] }),
+        json!({ "points": [{ "at": [0, 1] }] }),
+        json!({ "points": [{ "move": "up" }] }),
+        json!({ "points": [], "cut": [[0, 1, 2]] }),
+        json!({ "points": [], "cut": [[0, null]] }),
+        json!({ "src": 3 }),
+        json!({ "sha256": "abc" }),
+    ] {
+        assert!(drawn(wrong.clone()).is_err(), "{wrong}");
+    }
+    let five = vec![json!({ "kind": "field", "params": { "src": "a.nrrd" } }); 5];
+    let many = super::tests::document(json!({ "fabrica": 1, "templates": five }));
+    assert!(
+        many.notices()[0]
+            .to_string()
+            .contains("/templates/4: more than four fields")
+    );
 }

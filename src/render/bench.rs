@@ -154,6 +154,7 @@ fn case(subject: &SubjectRef, count: usize) -> Illustration {
         amount: 1.0,
         align: Align::Axis,
         constrain: None,
+        data: Default::default(),
     };
     let all = [
         place(TemplateKind::Peel, [0.0, 0.15, 0.3], [0.4, 0.4, 0.3]),

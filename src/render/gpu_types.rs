@@ -1,6 +1,10 @@
 //! Mirrors of the structs in `shaders/types.wgsl`, member by member and in order; `tests/layout.rs` compares them.
 
-use crate::document::{MAX_PARAM_FLOATS, PlacedTemplate, TemplateMode};
+use crate::displace::solved_points;
+use crate::document::{
+    FieldRef, FieldSamples, MAX_FIELDS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData,
+    TemplateMode,
+};
 use glam::{Affine3A, Mat3A, Vec3A};
 
 /// Format of the transfer table.
@@ -8,6 +12,8 @@ pub const TABLE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
 /// Templates of one document at most (spec/contract.md, "Limits").
 pub const MAX_TEMPLATES: usize = 32;
+/// Entries of [`Templates::pool`].
+pub const POOL: usize = 512;
 /// `Template::mode`: acts on what the ones before left.
 pub const MODE_COMPOSE: u32 = 0;
 /// `Template::mode`: summed with the one before.
@@ -60,6 +66,8 @@ pub struct Templates {
     pub items: [Template; MAX_TEMPLATES],
     /// x: how many.
     pub count: [u32; 4],
+    /// What templates hold besides parameters.
+    pub pool: [[f32; 4]; POOL],
 }
 
 impl Templates {
@@ -81,6 +89,7 @@ impl Templates {
             group: 0,
         }; MAX_TEMPLATES],
         count: [0; 4],
+        pool: [[0.0; 4]; POOL],
     };
 
     /// Packs the enabled templates. An `add` with no enabled one before it composes (spec/templates.md). More than
@@ -90,11 +99,29 @@ impl Templates {
         let acting = placed.iter().map(PlacedTemplate::acting);
         let enabled = acting.filter(|t| t.enabled).take(MAX_TEMPLATES);
         let (mut count, mut group) = (0, 0);
+        // The first entry stays 0: no points and no samples.
+        let (mut used, mut slice) = (1, 0);
+        let mut fields = 0;
         for (slot, template) in packed.items.iter_mut().zip(enabled) {
             if count == 0 || template.mode == TemplateMode::Compose {
                 group = count;
             }
             *slot = Template::pack(&template, group, count);
+            let held = match &template.data {
+                TemplateData::Points(_) => solved_points(&template),
+                TemplateData::Field(field) if fields < MAX_FIELDS => {
+                    fields += usize::from(field.samples.is_some());
+                    field_place(field, &mut slice)
+                }
+                TemplateData::Field(_) | TemplateData::None => Vec::new(),
+            };
+            if let Some(free) = packed.pool.get_mut(used..used + held.len())
+                && !held.is_empty()
+            {
+                free.copy_from_slice(&held);
+                slot.params1[3] = used as f32;
+                used += held.len();
+            }
             count += 1;
         }
         packed.count[0] = count;
@@ -106,6 +133,17 @@ impl Templates {
         let used = self.items.iter().take(self.count[0] as usize);
         used.fold(0, |bits, t| bits | 1u32.checked_shl(t.kind).unwrap_or(0))
     }
+}
+
+/// Where the samples of a field begin among those of all, as packed into the pool.
+fn field_place(field: &FieldRef, slice: &mut u32) -> Vec<[f32; 4]> {
+    let Some(FieldSamples(samples)) = &field.samples else {
+        return Vec::new();
+    };
+    let [x, y, z] = samples.dims;
+    let place = [x as f32, y as f32, z as f32, *slice as f32];
+    *slice += z;
+    vec![place]
 }
 
 impl Template {

@@ -110,6 +110,8 @@ pub(super) struct GridInput<'a> {
     pub bounds: Aabb,
     /// What templates leave alone.
     pub features: &'a FeatureTextures,
+    /// Sampled displacements.
+    pub fields: &'a wgpu::TextureView,
     /// The subject.
     pub subject: &'a SubjectTextures,
     /// The largest step of a ray that will read it, subject units.
@@ -249,6 +251,7 @@ impl SkipGrid {
                     entry(0, input.templates.as_entire_binding()),
                     entry(5, input.features.uniform.as_entire_binding()),
                     entry(6, wgpu::BindingResource::TextureView(&input.features.view)),
+                    entry(7, wgpu::BindingResource::TextureView(input.fields)),
                 ],
             );
             pass.set_bind_group(2, &templates, &[]);

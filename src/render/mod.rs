@@ -5,6 +5,7 @@ mod bare;
 mod bench;
 mod error;
 mod feature;
+mod field;
 mod gpu;
 pub mod gpu_types;
 mod grid;

@@ -57,6 +57,7 @@ pub(super) async fn object_samples(
             entry(0, prepared.scene.templates.as_entire_binding()),
             entry(5, features.uniform.as_entire_binding()),
             entry(6, wgpu::BindingResource::TextureView(&features.view)),
+            entry(7, wgpu::BindingResource::TextureView(prepared.fields())),
         ],
     );
     let mut samples = Vec::with_capacity(points.len());

@@ -107,6 +107,7 @@ impl Passes {
                 ),
                 uniform(5),
                 texture(6, wgpu::TextureViewDimension::D3, FILTERED),
+                texture(7, wgpu::TextureViewDimension::D3, FILTERED),
             ],
         );
         let resolve_layout = layout(
@@ -344,6 +345,7 @@ fn scene_group(
     table: &wgpu::Texture,
     grid: &(wgpu::Buffer, wgpu::TextureView),
     features: &FeatureTextures,
+    fields: &wgpu::TextureView,
 ) -> wgpu::BindGroup {
     let table_view = table.create_view(&Default::default());
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -357,6 +359,7 @@ fn scene_group(
             entry(4, wgpu::BindingResource::TextureView(&grid.1)),
             entry(5, features.uniform.as_entire_binding()),
             entry(6, wgpu::BindingResource::TextureView(&features.view)),
+            entry(7, wgpu::BindingResource::TextureView(fields)),
         ],
     })
 }
@@ -379,6 +382,7 @@ impl Scene {
         passes: &Passes,
         grid: Option<(&wgpu::Buffer, &wgpu::TextureView)>,
         features: &FeatureTextures,
+        fields: &wgpu::TextureView,
     ) -> Self {
         let templates = uniform_buffer(gpu, "templates", &Templates::NONE);
         let look = uniform_buffer(gpu, "look", &Look::default());
@@ -416,7 +420,15 @@ impl Scene {
             .create_view(&Default::default());
         let (grid_buffer, grid_view) = grid.unwrap_or((&no_grid, &no_cells));
         let grid = (grid_buffer.clone(), grid_view.clone());
-        let bind_group = scene_group(gpu, passes, [&templates, &look], &table, &grid, features);
+        let bind_group = scene_group(
+            gpu,
+            passes,
+            [&templates, &look],
+            &table,
+            &grid,
+            features,
+            fields,
+        );
         Self {
             templates,
             look,
@@ -426,10 +438,24 @@ impl Scene {
         }
     }
 
-    /// Takes over another texture of distances.
-    pub(super) fn set_features(&mut self, gpu: &Gpu, passes: &Passes, features: &FeatureTextures) {
+    /// Takes over another texture of distances, or of fields.
+    pub(super) fn set_features(
+        &mut self,
+        gpu: &Gpu,
+        passes: &Passes,
+        features: &FeatureTextures,
+        fields: &wgpu::TextureView,
+    ) {
         let uniforms = [&self.templates, &self.look];
-        self.bind_group = scene_group(gpu, passes, uniforms, &self.table, &self.grid, features);
+        self.bind_group = scene_group(
+            gpu,
+            passes,
+            uniforms,
+            &self.table,
+            &self.grid,
+            features,
+            fields,
+        );
     }
 
     pub(super) fn set_templates(&self, gpu: &Gpu, templates: &Templates) {

@@ -1,3 +1,4 @@
+use super::field::FieldTexture;
 use super::gpu_types::Templates;
 use super::{
     Binding, Gpu, Kernel, RenderError, result_buffer, storage_buffer, submit_and_read,
@@ -49,17 +50,29 @@ impl Probe {
         illustration: &Illustration,
         points: &[Vec3],
     ) -> Result<Vec<Sample>, RenderError> {
-        self.samples_of(&Templates::pack(&illustration.templates), points)
-            .await
+        let placed = &illustration.templates;
+        let fields = FieldTexture::new(&self.gpu);
+        let fields = fields.update(&self.gpu, placed).unwrap_or(fields);
+        self.ask(&Templates::pack(placed), &fields, points).await
     }
 
-    /// As [`Probe::samples`], for templates that are packed already.
+    /// As [`Probe::samples`], for templates that are packed already; fields among them are at rest.
     ///
     /// # Errors
     /// As [`Probe::samples`].
     pub async fn samples_of(
         &self,
         templates: &Templates,
+        points: &[Vec3],
+    ) -> Result<Vec<Sample>, RenderError> {
+        let fields = FieldTexture::new(&self.gpu);
+        self.ask(templates, &fields, points).await
+    }
+
+    async fn ask(
+        &self,
+        templates: &Templates,
+        fields: &FieldTexture,
         points: &[Vec3],
     ) -> Result<Vec<Sample>, RenderError> {
         let templates = uniform_buffer(&self.gpu, "probe templates", templates);
@@ -76,6 +89,11 @@ impl Probe {
             };
             let bindings = [
                 bind(2, 0, &templates),
+                Binding {
+                    group: 2,
+                    binding: 7,
+                    resource: wgpu::BindingResource::TextureView(&fields.view),
+                },
                 bind(3, 0, &input),
                 bind(3, 1, &output),
             ];

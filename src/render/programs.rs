@@ -92,6 +92,8 @@ shader_files![
     "displace/hole.wgsl",
     "displace/lens.wgsl",
     "displace/move.wgsl",
+    "displace/rbf.wgsl",
+    "displace/field.wgsl",
     "displace/compose.wgsl",
     "bind/frame.wgsl",
     "bind/subject.wgsl",
@@ -137,6 +139,8 @@ macro_rules! with_displacement {
             "displace/hole.wgsl",
             "displace/lens.wgsl",
             "displace/move.wgsl",
+            "displace/rbf.wgsl",
+            "displace/field.wgsl",
             "displace/compose.wgsl",
             $($path),*
         ]

@@ -1,4 +1,5 @@
 use super::feature::{FeatureTextures, KeptTissue};
+use super::field::FieldTexture;
 use super::gpu_types::{Frame, Templates, affine_rows};
 use super::grid::{GridInput, SkipGrid};
 use super::look::{TransferTable, background_uniform};
@@ -29,6 +30,7 @@ pub(super) struct Prepared {
     has_labels: bool,
     grid: Option<SkipGrid>,
     features: FeatureTextures,
+    fields: FieldTexture,
     /// Names that were said to be unknown.
     unknown: Vec<String>,
     notices: Vec<String>,
@@ -44,8 +46,11 @@ impl Prepared {
     ) -> Self {
         let grid = wants_grid.then(|| SkipGrid::new(gpu));
         let features = FeatureTextures::new(gpu);
+        let fields = FieldTexture::new(gpu);
+        let cells = grid.as_ref().map(SkipGrid::binding);
         Self {
-            scene: Scene::new(gpu, passes, grid.as_ref().map(SkipGrid::binding), &features),
+            scene: Scene::new(gpu, passes, cells, &features, &fields.view),
+            fields,
             bounds: subject.bounds,
             background: [0.0; 4],
             drawn_generation: 0,
@@ -75,6 +80,14 @@ impl Prepared {
     ) -> bool {
         let mut is_changed = false;
         let mut is_grid_stale = false;
+        let mut is_bound_anew = false;
+        if let Some(fields) = self.fields.update(gpu, &illustration.templates) {
+            self.fields = fields;
+            is_bound_anew = true;
+            is_changed = true;
+            is_grid_stale = true;
+            self.templates = Templates::NONE;
+        }
         let templates = Templates::pack(&illustration.templates);
         if templates != self.templates || self.table.is_none() {
             self.scene.set_templates(gpu, &templates);
@@ -91,11 +104,13 @@ impl Prepared {
                     self.unknown.push(name.clone());
                 }
             }
-            if self.features.update(gpu, passes, subject, kept) {
-                self.scene.set_features(gpu, passes, &self.features);
-            }
+            is_bound_anew |= self.features.update(gpu, passes, subject, kept);
             is_changed = true;
             is_grid_stale = true;
+        }
+        if is_bound_anew {
+            let fields = &self.fields.view;
+            self.scene.set_features(gpu, passes, &self.features, fields);
         }
         let table = TransferTable::new(&illustration.look, &illustration.subject, &subject.info);
         let mode = illustration.look.opacity;
@@ -121,6 +136,7 @@ impl Prepared {
                 packed: &self.templates,
                 templates: &self.scene.templates,
                 features: &self.features,
+                fields: &self.fields.view,
                 bounds: self.bounds,
                 subject,
                 step: longest_step(subject),
@@ -152,6 +168,11 @@ impl Prepared {
             has_edges: self.table.as_ref().is_some_and(|(t, _)| t.gradient > 0.0),
             is_pick,
         }
+    }
+
+    /// Sampled displacements.
+    pub(super) fn fields(&self) -> &wgpu::TextureView {
+        &self.fields.view
     }
 
     /// What templates leave alone.

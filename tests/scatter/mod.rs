@@ -1,5 +1,7 @@
 //! Random templates, placements and points, the same on every machine.
 
+#![allow(dead_code, reason = "each test uses a part of it")]
+
 use fabrica::document::{Align, ParamKind, ParamValue, PlacedTemplate, TemplateKind, TemplateMode};
 use fabrica::math::Placement;
 use glam::{Quat, Vec3};
@@ -126,6 +128,7 @@ pub(crate) fn placed(
         amount: 1.0,
         align: Align::Axis,
         constrain: None,
+        data: Default::default(),
     }
 }
 

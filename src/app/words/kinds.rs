@@ -22,6 +22,17 @@ const AMOUNT: Line = ["Maß", "Cantidad", "幅度"];
 const LENGTH: Line = ["Länge", "Longitud", "长度"];
 const FALLOFF: Line = ["Abklingen", "Atenuación", "衰减"];
 const STRENGTH: Line = ["Stärke", "Intensidad", "强度"];
+const EDGE: Line = ["Rand", "Borde", "边缘"];
+const EDGE_MEANS: Line = [
+    "Breite, in der es an den Flächen des Quaders endet",
+    "Anchura en que termina en las caras de la caja",
+    "在盒子各面处收尾的宽度",
+];
+const TIMES: Line = [
+    "Mal die Verschiebung",
+    "Veces el desplazamiento",
+    "位移的倍数",
+];
 const OFFSET: Line = ["Versatz", "Desplazamiento", "位移"];
 const HALF_OPENING: Line = [
     "Halbe Öffnung oben",
@@ -439,6 +450,88 @@ fn kind_words(kind: TemplateKind) -> Kind {
                 ),
             ],
         },
+        K::Rbf => Kind {
+            title: [
+                "Control points",
+                "Kontrollpunkte",
+                "Puntos de control",
+                "控制点",
+            ],
+            summary: [
+                "Verschiebungen an Kontrollpunkten, dazwischen interpoliert",
+                "Desplazamientos en puntos de control, interpolados",
+                "控制点处的位移，其间插值",
+            ],
+            params: &[
+                (STRENGTH, TIMES),
+                (
+                    ["Weichheit", "Suavidad", "柔度"],
+                    [
+                        "Reichweite eines Punktes, Teile des Quaders",
+                        "Alcance de un punto, fracciones de la caja",
+                        "控制点的作用范围，盒子的比例",
+                    ],
+                ),
+                (
+                    ["Exponent", "Exponente", "指数"],
+                    [
+                        "Der Multiquadrik; -0,5 ist glatt und örtlich",
+                        "De la multicuádrica; -0,5 es suave y local",
+                        "多二次函数的指数；-0.5 平滑而局部",
+                    ],
+                ),
+                (
+                    ["Ausziehen", "Extruir", "拉伸"],
+                    [
+                        "Die Punkte gelten in x und y, für jedes z",
+                        "Los puntos cuentan en x e y, para cada z",
+                        "控制点仅按 x 和 y 计，对所有 z 有效",
+                    ],
+                ),
+                (
+                    FALLOFF,
+                    [
+                        "0 zieht durch den ganzen Quader, 1 klingt von der Mitte an ab",
+                        "0 extruye toda la caja, 1 se atenúa desde el centro",
+                        "0 贯穿整个盒子，1 从中部开始衰减",
+                    ],
+                ),
+                (EDGE, EDGE_MEANS),
+            ],
+        },
+        K::Field => Kind {
+            title: [
+                "Displacement field",
+                "Verschiebungsfeld",
+                "Campo de desplazamiento",
+                "位移场",
+            ],
+            summary: [
+                "Ein Verschiebungsfeld aus einer Datei",
+                "Un campo de desplazamiento de un archivo",
+                "文件中的位移场",
+            ],
+            params: &[
+                (STRENGTH, TIMES),
+                (
+                    ["Einheit", "Unidad", "单位"],
+                    [
+                        "Der Vektoren in der Datei",
+                        "De los vectores del archivo",
+                        "文件中矢量的单位",
+                    ],
+                ),
+                (
+                    ["Achsen", "Ejes", "坐标轴"],
+                    [
+                        "Richtungen der Vektoren in der Datei",
+                        "Direcciones de los vectores del archivo",
+                        "文件中矢量的方向",
+                    ],
+                ),
+                (EDGE, EDGE_MEANS),
+            ],
+        },
     }
 }
 
@@ -489,6 +582,31 @@ pub(crate) fn choice(name: &str) -> String {
         "box" => ["Box", "Quader", "Caja", "盒子"],
         "sphere" => ["Sphere", "Kugel", "Esfera", "球"],
         "cylinder" => ["Cylinder", "Zylinder", "Cilindro", "圆柱"],
+        "mm" => ["Millimetres", "Millimeter", "Milímetros", "毫米"],
+        "subject" => [
+            "Subject units",
+            "Objekteinheiten",
+            "Unidades del objeto",
+            "对象单位",
+        ],
+        "auto" => [
+            "As the file says",
+            "Wie die Datei sagt",
+            "Según el archivo",
+            "按文件",
+        ],
+        "lps" => [
+            "Left, posterior, superior",
+            "Links, hinten, oben",
+            "Izquierda, posterior, superior",
+            "左、后、上",
+        ],
+        "ras" => [
+            "Right, anterior, superior",
+            "Rechts, vorne, oben",
+            "Derecha, anterior, superior",
+            "右、前、上",
+        ],
         "halfspace" => ["Halfspace", "Halbraum", "Semiespacio", "半空间"],
         _ => return capitalized(name),
     };
