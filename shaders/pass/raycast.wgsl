@@ -9,7 +9,7 @@
 //
 // Written for devices that run both sides of every branch (software rasterisers): work is put behind loops that end early,
 // not behind `if`; what is needed once per ray (occlusion, shadow) comes after the loop.
-// needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/grid.wgsl march/ray.wgsl march/shade.wgsl displace/compose.wgsl march/plain.wgsl|march/align.wgsl
+// needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/grid.wgsl march/ray.wgsl march/value.wgsl march/shade.wgsl displace/compose.wgsl march/plain.wgsl|march/align.wgsl
 
 /// 1 if the subject has labels; without them the look-ups are compiled away.
 override has_labels: u32 = 1u;
@@ -32,9 +32,6 @@ const BISECTIONS: u32 = 7u;
 const OPAQUE: f32 = 0.002;
 /// Opacity is said for this length, subject units (spec/contract.md, "Transfer functions").
 const OPACITY_LENGTH: f32 = 0.01;
-/// Reaches of the two central differences that a gradient is the mean of, voxels. One of 1 alone shows the voxels as terraces.
-const GRADIENT_NEAR: f32 = 1.0;
-const GRADIENT_FAR: f32 = 2.2;
 /// How far inside a surface its segment is looked up, voxels, if the voxels around it belong to none: where tissue fills less
 /// than half of a voxel, its label is air. The nearest segment counts, for skin is thin.
 const TINT_DEPTH: f32 = 1.9;
@@ -85,19 +82,6 @@ fn map_point(pos: vec3f, mask: u32) -> Mapped {
     return object_from_subject(pos, mask);
 }
 
-fn texture_from_rest(pos: vec3f) -> vec3f {
-    return apply_affine(
-        subject.texture_from_rest_row0,
-        subject.texture_from_rest_row1,
-        subject.texture_from_rest_row2,
-        pos,
-    );
-}
-
-fn texel_at(uvw: vec3f) -> f32 {
-    return textureSampleLevel(volume, linear_sampler, uvw, 0.0).x;
-}
-
 /// Linear RGB and opacity of a normalised value.
 fn transfer(texel: f32) -> vec4f {
     return textureSampleLevel(lut, linear_sampler, vec2f(texel * look.lut.x + look.lut.y, 0.5), 0.0);
@@ -114,26 +98,6 @@ fn sample_mapped(mapped: Mapped) -> Sample {
         select(0.0, opacity, is_inside && mapped.continuity >= 0.0),
         mapped.continuity,
     );
-}
-
-/// Gradient of the normalised value in rest space, per voxel spacing: central differences of two reaches along the voxel axes.
-fn gradient_at(uvw: vec3f) -> vec3f {
-    var difference = vec3f(0.0);
-    for (var i = 0u; i < 3u; i++) {
-        let axis = select(vec3f(0.0), vec3f(1.0), vec3u(0u, 1u, 2u) == vec3u(i));
-        let near = axis * GRADIENT_NEAR / subject.dims.xyz;
-        let far = axis * GRADIENT_FAR / subject.dims.xyz;
-        let slope = 0.5 * (texel_at(uvw + near) - texel_at(uvw - near)) / GRADIENT_NEAR
-            + 0.5 * (texel_at(uvw + far) - texel_at(uvw - far)) / GRADIENT_FAR;
-        difference += axis * 0.5 * slope;
-    }
-    difference *= subject.dims.xyz;
-    return apply_transposed(
-        subject.texture_from_rest_row0,
-        subject.texture_from_rest_row1,
-        subject.texture_from_rest_row2,
-        difference,
-    ) * subject.dims.w;
 }
 
 /// How much of its opacity a place keeps if opacity follows the gradient (equation 6.2), 0 to 1.

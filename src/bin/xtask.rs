@@ -3,6 +3,8 @@
 
 #[path = "xtask/check.rs"]
 mod check;
+#[path = "xtask/evaluate.rs"]
+mod evaluate;
 #[path = "xtask/gallery.rs"]
 mod gallery;
 #[path = "xtask/page.rs"]
@@ -30,6 +32,8 @@ cargo xtask COMMAND
   bless [NAME]      accept the pictures that tests draw now as the expected ones
   gallery [--only NAME]  draw every built-in subject and every illustration of web/gallery into
                     target/gallery/index.html (also --size PIXELS, --program FILE, --page URL)
+  evaluate          measure maps, normals, opacity and cost against closed forms (some minutes, test profile):
+                    tables and plots in target/evaluation/index.html
   shaders [FOLDER]  write the assembled shader programs into a folder (default target/shaders)
   setup             only set up what serve and test need";
 
@@ -44,6 +48,7 @@ fn main() -> ExitCode {
         Some("size") => page::size(),
         Some("bless") => test::bless(rest),
         Some("gallery") => gallery::gallery(rest),
+        Some("evaluate") => evaluate::evaluate(),
         Some("shaders") => check::shaders(rest),
         Some("setup") => setup::for_page().and_then(|()| setup::for_tests()),
         _ => {

@@ -104,6 +104,7 @@ shader_files![
     "march/plain.wgsl",
     "march/ray.wgsl",
     "march/shade.wgsl",
+    "march/value.wgsl",
     "pass/distance.wgsl",
     "pass/grid.wgsl",
     "pass/object.wgsl",
@@ -198,6 +199,7 @@ pub const PROGRAMS: &[Program] = &[
             "march/plain.wgsl",
             "march/ray.wgsl",
             "march/shade.wgsl",
+            "march/value.wgsl",
             "pass/raycast.wgsl",
         ],
         entries: &[
@@ -217,6 +219,7 @@ pub const PROGRAMS: &[Program] = &[
             "march/align.wgsl",
             "march/ray.wgsl",
             "march/shade.wgsl",
+            "march/value.wgsl",
             "pass/raycast.wgsl",
         ],
         entries: &[

@@ -50,7 +50,7 @@ fn one(name: &str) -> Outcome {
 }
 
 /// `cargo test` under a software GPU.
-fn tests(args: &[&str]) -> std::process::Command {
+pub(crate) fn tests(args: &[&str]) -> std::process::Command {
     let mut command = cargo();
     command.arg("test").args(args);
     // Mesa complains without it.

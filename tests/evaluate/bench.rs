@@ -1,0 +1,327 @@
+//! What the evaluation asks the GPU: the program's own files with `methods.wgsl` behind them, on an analytic object.
+
+use crate::reference::{self, Placed};
+use fabrica::document::{PlacedTemplate, TemplateMode};
+use fabrica::render::gpu_types::{Subject, Templates, affine_rows};
+use fabrica::render::programs::{file, program};
+use fabrica::render::{
+    Gpu, GpuOptions, Probe, Sample, WorkDone, result_buffer, storage_buffer, submit_and_read,
+    uniform_buffer,
+};
+use glam::{Affine3A, DMat3, DQuat, DVec3, Vec3};
+use half::f16;
+use std::fmt::Write as _;
+use std::sync::OnceLock;
+
+/// Direction of the light in methods.wgsl.
+pub(crate) const LIGHT: DVec3 = DVec3::new(0.48, -0.64, 0.6);
+
+/// The numbers of methods.wgsl, with the names of table 6.2.
+pub(crate) const METHODS: [(u32, &str); 6] = [
+    (0, "unlit"),
+    (1, "Jacobian"),
+    (5, "Jacobian, Sobel at rest"),
+    (2, "central differences on the fly"),
+    (3, "Sobel on the fly"),
+    (4, "dot product"),
+];
+
+pub(crate) fn gpu() -> &'static Gpu {
+    static GPU: OnceLock<Gpu> = OnceLock::new();
+    GPU.get_or_init(|| {
+        pollster::block_on(Gpu::open(&GpuOptions {
+            adapter: None,
+            is_strict: true,
+        }))
+        .expect("an adapter (lavapipe is enough)")
+    })
+}
+
+/// The exact map at points, by the program's WGSL.
+pub(crate) fn probe(list: &[PlacedTemplate], points: &[Vec3]) -> Vec<Sample> {
+    let probe = pollster::block_on(Probe::new(gpu())).expect("the probe program compiles");
+    pollster::block_on(probe.samples_of(&Templates::pack(list), points)).expect("samples")
+}
+
+/// The same list for the f64 reading of the catalogue.
+pub(crate) fn plain(list: &[PlacedTemplate]) -> Vec<Placed> {
+    list.iter()
+        .map(|t| {
+            let mut floats = Vec::new();
+            t.params.iter().for_each(|p| p.pack(&mut floats));
+            Placed {
+                kind: t.kind.spec().name,
+                at: t.placement.at.as_dvec3(),
+                rotate: DQuat::from_array(t.placement.rotate.to_array().map(f64::from)).normalize(),
+                size: t.placement.size.as_dvec3(),
+                params: floats.into_iter().map(f64::from).collect(),
+                is_added: t.mode == TemplateMode::Add,
+            }
+        })
+        .collect()
+}
+
+/// Jacobian of the whole map in f64: differences of the closed form over 2e-6, wrong by about 1e-10.
+pub(crate) fn jacobian(list: &[Placed], pos: DVec3) -> DMat3 {
+    let h = 1e-6;
+    let column = |axis: DVec3| {
+        let (a, b) = (pos + axis * h, pos - axis * h);
+        (reference::map(list, a).0 - reference::map(list, b).0) / (2.0 * h)
+    };
+    DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
+}
+
+/// An object whose surface is known: its signed distance, positive outside, and the gradient of that.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Object {
+    /// An ellipsoid of these radii. Its distance is exact to first order at the surface.
+    Egg(DVec3),
+    /// Half sides.
+    Block(DVec3),
+}
+
+impl Object {
+    pub(crate) fn distance(self, p: DVec3) -> f64 {
+        match self {
+            Self::Egg(radii) => {
+                let (k, slope) = ((p / radii).length(), (p / (radii * radii)).length());
+                k * (k - 1.0) / slope.max(1e-9)
+            }
+            Self::Block(half) => {
+                let d = p.abs() - half;
+                d.max(DVec3::ZERO).length() + d.max_element().min(0.0)
+            }
+        }
+    }
+
+    /// Unit, outwards.
+    pub(crate) fn normal(self, p: DVec3) -> DVec3 {
+        match self {
+            Self::Egg(radii) => (p / (radii * radii)).normalize(),
+            Self::Block(half) => {
+                let d = p.abs() - half;
+                let out = d.max(DVec3::ZERO);
+                if out.length() > 0.0 {
+                    return (out * p.signum()).normalize();
+                }
+                let largest = d.max_element();
+                let axis = d.cmpeq(DVec3::splat(largest));
+                DVec3::select(axis, p.signum(), DVec3::ZERO).normalize()
+            }
+        }
+    }
+}
+
+/// How softly a scanner sees an edge: value = 1 / (1 + exp(distance / this)), voxels.
+const SOFTNESS: f64 = 0.8;
+
+/// An analytic object as a scan of n³ voxels over the unit cube, on the GPU in the program's own format.
+pub(crate) struct Scan {
+    uniform: wgpu::Buffer,
+    texture: wgpu::TextureView,
+    sampler: wgpu::Sampler,
+    full_slope: f64,
+}
+
+impl Scan {
+    pub(crate) fn new(object: Object, n: u32) -> Self {
+        let gpu = gpu();
+        let spacing = 1.0 / f64::from(n);
+        let centre = |i: u32| (f64::from(i) + 0.5) * spacing - 0.5;
+        let mut voxels = Vec::with_capacity((n * n * n) as usize);
+        for i in 0..n * n * n {
+            let at = DVec3::new(centre(i % n), centre(i / n % n), centre(i / n / n));
+            let value = 1.0 / (1.0 + (object.distance(at) / spacing / SOFTNESS).exp());
+            voxels.push(f16::from_f64(value).to_bits());
+        }
+        let texture = texture(wgpu::TextureFormat::R16Float, n);
+        gpu.queue.write_texture(
+            texture.as_image_copy(),
+            bytemuck::cast_slice(&voxels),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(2 * n),
+                rows_per_image: Some(n),
+            },
+            texture.size(),
+        );
+        let rows = affine_rows(&Affine3A::from_translation(Vec3::splat(0.5)));
+        let uniform = Subject {
+            texture_from_rest_row0: rows[0],
+            texture_from_rest_row1: rows[1],
+            texture_from_rest_row2: rows[2],
+            dims: [n as f32, n as f32, n as f32, spacing as f32],
+            texture_end: [1.0; 4],
+            value: [0.0, 1.0, 0.0, 0.0],
+            ..Subject::default()
+        };
+        Self {
+            uniform: uniform_buffer(gpu, "analytic scan", &uniform),
+            texture: texture.create_view(&Default::default()),
+            sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            }),
+            full_slope: 0.25 / SOFTNESS,
+        }
+    }
+}
+
+/// A cube of n³ texels.
+fn texture(format: wgpu::TextureFormat, n: u32) -> wgpu::Texture {
+    gpu().device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("texels"),
+        size: wgpu::Extent3d {
+            width: n,
+            height: n,
+            depth_or_array_layers: n,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D3,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
+/// A method on a deformed scan, ready to run.
+pub(crate) struct Method<'a> {
+    scan: &'a Scan,
+    pipeline: wgpu::ComputePipeline,
+    templates: wgpu::Buffer,
+    /// Of a list without fields.
+    fields: wgpu::TextureView,
+}
+
+fn source() -> String {
+    let mut text = String::new();
+    let probe = program("probe").expect("in the table");
+    let more = ["bind/subject.wgsl", "march/ray.wgsl", "march/value.wgsl"];
+    let own = probe.files.iter().filter(|path| !path.starts_with("pass/"));
+    for path in own.copied().chain(more) {
+        let file = file(path).expect("in the table");
+        let _ = writeln!(text, "{}", file.source);
+    }
+    text + include_str!("methods.wgsl")
+}
+
+impl<'a> Method<'a> {
+    pub(crate) fn new(scan: &'a Scan, list: &[PlacedTemplate], entry: &str, method: u32) -> Self {
+        let gpu = gpu();
+        let module = gpu
+            .device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("methods"),
+                source: wgpu::ShaderSource::Wgsl(source().into()),
+            });
+        let packed = Templates::pack(list);
+        let constants = [
+            ("method", f64::from(method)),
+            ("full_slope", scan.full_slope),
+            ("drawn_kinds", f64::from(packed.drawn_kinds())),
+        ];
+        let pipeline = gpu
+            .device
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some("methods"),
+                layout: None,
+                module: &module,
+                entry_point: Some(entry),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &constants,
+                    ..Default::default()
+                },
+                cache: None,
+            });
+        Self {
+            scan,
+            pipeline,
+            templates: uniform_buffer(gpu, "templates", &packed),
+            fields: texture(wgpu::TextureFormat::Rgba16Float, 1).create_view(&Default::default()),
+        }
+    }
+
+    /// Normal and light at each point.
+    pub(crate) fn run(&self, points: &[Vec3]) -> Vec<(DVec3, f64)> {
+        let gpu = gpu();
+        let padded: Vec<[f32; 4]> = points.iter().map(|p| [p.x, p.y, p.z, 0.0]).collect();
+        let input = storage_buffer(gpu, "points", &padded);
+        let output = result_buffer(gpu, "results", 16 * points.len() as u64);
+        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+        let group = |index, entries: &[wgpu::BindGroupEntry<'_>]| {
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("methods"),
+                layout: &self.pipeline.get_bind_group_layout(index),
+                entries,
+            })
+        };
+        let groups = [
+            (
+                1,
+                group(
+                    1,
+                    &[
+                        entry(0, self.scan.uniform.as_entire_binding()),
+                        entry(1, wgpu::BindingResource::TextureView(&self.scan.texture)),
+                        entry(2, wgpu::BindingResource::Sampler(&self.scan.sampler)),
+                    ],
+                ),
+            ),
+            (
+                2,
+                group(
+                    2,
+                    &[
+                        entry(0, self.templates.as_entire_binding()),
+                        entry(7, wgpu::BindingResource::TextureView(&self.fields)),
+                    ],
+                ),
+            ),
+            (
+                3,
+                group(
+                    3,
+                    &[
+                        entry(0, input.as_entire_binding()),
+                        entry(1, output.as_entire_binding()),
+                    ],
+                ),
+            ),
+        ];
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&self.pipeline);
+            for (index, group) in &groups {
+                pass.set_bind_group(*index, group, &[]);
+            }
+            pass.dispatch_workgroups(points.len().div_ceil(64) as u32, 1, 1);
+        }
+        let bytes = pollster::block_on(submit_and_read(gpu, encoder, &output)).expect("results");
+        assert_eq!(
+            gpu.take_errors(),
+            Vec::<String>::new(),
+            "the device refused something"
+        );
+        bytemuck::pod_collect_to_vec::<u8, [f32; 4]>(&bytes)
+            .into_iter()
+            .map(|[x, y, z, w]| (Vec3::new(x, y, z).as_dvec3(), f64::from(w)))
+            .collect()
+    }
+}
+
+/// Seconds of the fastest of some runs, after one that warms up: what disturbs a run only makes it longer.
+pub(crate) fn seconds(repeats: usize, mut run: impl FnMut()) -> f64 {
+    let mut best = f64::INFINITY;
+    for turn in 0..=repeats {
+        let start = std::time::Instant::now();
+        run();
+        pollster::block_on(WorkDone::start(gpu())).expect("done");
+        if turn > 0 {
+            best = best.min(start.elapsed().as_secs_f64());
+        }
+    }
+    best
+}
