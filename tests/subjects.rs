@@ -147,7 +147,7 @@ const GOLDEN: &[(&str, &str)] = &[
     ),
     (
         "head",
-        "b408dcd9ee700f0e6f520ba58778683785c995fe5f20c3da1eed0365c65ea287",
+        "3fe1c6c449313b2910e917dccefc4414edfe2bc9daa819a39fd1f2fe8d805f1b",
     ),
     (
         "tomato",
@@ -159,11 +159,11 @@ const GOLDEN: &[(&str, &str)] = &[
     ),
     (
         "hand",
-        "8c98b3e0002eaefcb6ff59f3a7a6653ce36388770ac48778d1a20152fd665725",
+        "7992125f0638f698ba3709319e42aa37849e3a74a584b871b103c2a5e3287651",
     ),
     (
         "knee",
-        "26578f053e9101034553186b01afe0b7896e6e245b6648b278792c2817bc6c32",
+        "adcb66547ee211d9a82bd82a0b1c72558e90b913168498c614f3ad9144ed5295",
     ),
     (
         "torso",

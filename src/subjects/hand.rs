@@ -304,20 +304,41 @@ fn skin(fingers: &[Finger]) -> (Field, Field) {
     (f, nails)
 }
 
-/// A long bone: slim in the middle, broad at both ends.
+/// A long bone: it narrows from both ends to its waist, which lies nearer to the head.
 fn long_bone(f: &mut Field, a: Vec3, b: Vec3, shaft: f32, base: f32, head: f32) {
     let way = b - a;
-    f.join(
-        0.0,
-        capsule(arr(a + way * 0.1), arr(b - way * 0.1), shaft, shaft * 0.95),
-    );
-    f.join(4.0, ball(arr(a + way * (base / way.length())), base));
-    f.join(4.0, ball(arr(b - way * (head / way.length())), head));
+    let along = way * way.length().recip();
+    let waist = a + way * 0.58;
+    let (low, high) = (a + along * (base * 0.9), b - along * (head * 0.9));
+    f.join(0.0, capsule(arr(low), arr(waist), base * 0.84, shaft));
+    f.join(3.0, capsule(arr(waist), arr(high), shaft, head * 0.84));
+    f.join(3.0, ball(arr(low), base * 0.92));
+    f.join(3.0, ball(arr(high), head * 0.92));
 }
 
 fn bones(fingers: &[Finger]) -> (Field, Field) {
     let mut f = Field::default();
     let mut cartilage = Field::default();
+    // Radius and ulna.
+    f.join(
+        0.0,
+        capsule([-9.0, -1.0, -110.0], [-11.0, -1.0, -22.0], 6.8, 7.5),
+    );
+    f.join(8.0, ellipsoid([-10.0, -1.0, -8.0], [14.0, 9.0, 9.5]));
+    f.join(
+        3.0,
+        capsule([-20.0, 0.0, -6.0], [-22.0, 0.0, 2.0], 4.5, 3.0),
+    );
+    f.carve(2.0, ellipsoid([-8.0, -2.0, 8.5], [14.0, 9.0, 9.0]));
+    f.join(
+        0.0,
+        capsule([13.0, -3.0, -110.0], [14.0, -3.0, -12.0], 5.6, 5.4),
+    );
+    f.join(5.0, ball([14.0, -3.0, -8.0], 7.0));
+    f.join(
+        2.0,
+        capsule([17.0, -5.0, -6.0], [18.5, -6.0, 2.0], 3.0, 2.0),
+    );
     for (index, finger) in fingers.iter().enumerate() {
         let j = &finger.joints;
         let scale = [0.95, 1.0, 0.93, 0.82, 1.05][index];
@@ -349,6 +370,9 @@ fn bones(fingers: &[Finger]) -> (Field, Field) {
                 head * scale,
             );
             f.append(single, 0.0);
+            if bone == 0 {
+                cartilage.join(0.0, ball(arr(j[0]), 5.4 * scale));
+            }
             if !last {
                 cartilage.join(0.0, ball(arr(j[bone + 1]), (head - 0.6) * scale));
             }
@@ -364,40 +388,52 @@ fn bones(fingers: &[Finger]) -> (Field, Field) {
         5.4,
         3.4,
     );
-    // Wrist: two rows of four.
-    for (p, r) in [
-        ([-14.0, -1.0, 10.0], [7.5, 7.0, 7.5]),
-        ([-2.0, -3.0, 8.0], [6.8, 7.5, 6.5]),
-        ([9.5, -3.0, 9.5], [6.0, 6.5, 6.5]),
-        ([13.5, 6.0, 11.0], [4.6, 4.4, 4.6]),
-        ([-20.5, 1.5, 20.0], [6.0, 6.5, 5.5]),
-        ([-12.0, -2.5, 23.5], [4.8, 6.5, 6.0]),
-        ([-2.5, -3.0, 22.0], [6.0, 7.5, 9.0]),
-        ([9.5, -1.5, 21.5], [7.0, 6.8, 7.5]),
-    ] {
-        f.join(0.0, ellipsoid(p, r));
+    // Wrist: two rows of four, from the thumb's side. Each is hollow where its neighbour lies.
+    let wrist: [([f32; 3], [f32; 3], f32); 8] = [
+        ([-13.4, -0.8, 9.2], [8.6, 6.0, 5.4], -34.0),
+        ([-1.4, -2.6, 7.8], [6.3, 7.6, 5.8], 0.0),
+        ([9.6, -2.6, 10.6], [5.6, 6.2, 6.4], 20.0),
+        ([13.6, 6.0, 11.0], [4.6, 4.4, 4.8], 0.0),
+        ([-20.2, 1.8, 18.8], [5.8, 6.4, 5.2], -30.0),
+        ([-11.6, -2.6, 23.0], [4.8, 6.6, 6.0], 0.0),
+        ([-2.2, -3.0, 21.4], [5.6, 7.2, 8.8], 0.0),
+        ([8.8, -1.8, 22.0], [6.4, 6.8, 7.0], 30.0),
+    ];
+    let mut carpals = Field::default();
+    for (at, radii, tilt) in wrist {
+        let shape = ellipsoid(at, radii).turned(0.0, tilt, 0.0);
+        // What is there already keeps its place, but for a gap.
+        carpals.carve(
+            0.6,
+            ellipsoid(at, radii.map(|r| r + 0.9)).turned(0.0, tilt, 0.0),
+        );
+        carpals.join(0.0, shape);
     }
-    f.join(1.0, capsule([10.0, 5.0, 22.0], [10.5, 9.0, 21.0], 3.0, 2.6));
-    // Radius and ulna.
-    f.join(
-        0.0,
-        capsule([-9.0, -1.0, -110.0], [-11.0, -1.0, -22.0], 6.8, 7.5),
-    );
-    f.join(8.0, ellipsoid([-10.0, -1.0, -8.0], [14.0, 9.0, 9.5]));
-    f.join(
-        3.0,
-        capsule([-20.0, 0.0, -6.0], [-22.0, 0.0, 2.0], 4.5, 3.0),
-    );
-    f.carve(2.0, ellipsoid([-8.0, -2.0, 8.5], [14.0, 9.0, 9.0]));
-    f.join(
-        0.0,
-        capsule([13.0, -3.0, -110.0], [14.0, -3.0, -12.0], 5.6, 5.4),
-    );
-    f.join(5.0, ball([14.0, -3.0, -8.0], 7.0));
-    f.join(
+    // The hook over the tunnel, and the ridge across from it.
+    carpals.join(1.5, capsule([10.0, 4.0, 22.0], [10.5, 9.5, 21.0], 3.2, 2.6));
+    carpals.join(
         2.0,
-        capsule([17.0, -5.0, -6.0], [18.5, -6.0, 2.0], 3.0, 2.0),
+        capsule([-19.0, 6.0, 17.0], [-16.5, 8.6, 18.5], 3.0, 2.2),
     );
+    f.append(carpals, 0.0);
+    // Where they glide on each other.
+    for (a, b) in [
+        (0, 1),
+        (1, 2),
+        (2, 3),
+        (0, 4),
+        (0, 5),
+        (0, 6),
+        (1, 6),
+        (2, 7),
+        (4, 5),
+        (5, 6),
+        (6, 7),
+    ] {
+        let (a, b) = (Vec3::from_array(wrist[a].0), Vec3::from_array(wrist[b].0));
+        cartilage.join(0.0, ball(arr((a + b) * 0.5), 3.8));
+    }
+    cartilage.join(0.0, ellipsoid([-8.0, -1.8, 2.6], [12.5, 7.4, 3.2]));
     cartilage.join(0.0, ellipsoid([11.0, -3.0, 1.0], [8.0, 6.0, 3.0]));
     (f, cartilage)
 }

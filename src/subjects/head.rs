@@ -69,8 +69,8 @@ const SEGMENTS: &[SegmentSpec] = &[
     segment("nerves", [236, 206, 90]),
     segment("cartilage", [190, 208, 214]),
     segment("glands", [214, 168, 110]),
-    segment("lips", [198, 122, 110]),
-    segment("hair", [112, 84, 66]),
+    segment("lips", [206, 134, 120]),
+    segment("hair", [140, 104, 82]),
     segment("dura", [218, 206, 184]),
 ];
 
@@ -83,6 +83,7 @@ pub(super) struct Head {
     cartilages: Field,
     muscles: Field,
     facial_muscles: Field,
+    temples: Field,
     tongue: Field,
     glands: Field,
     airway: Field,
@@ -134,6 +135,7 @@ impl Head {
             cartilages: head_skull::cartilages(),
             muscles,
             facial_muscles: head_soft::facial_muscles(),
+            temples: head_soft::temples(),
             tongue: head_soft::tongue(),
             glands: head_soft::glands(),
             airway: head_soft::airway(),
@@ -188,7 +190,7 @@ impl<'a> Layer<'a> {
 impl Model for Head {
     fn bounds_mm(&self) -> (Vec3, Vec3) {
         (
-            Vec3::new(-95.0, -99.0, -144.0),
+            Vec3::new(-95.0, -103.34, -144.0),
             Vec3::new(95.0, 124.0, 134.0),
         )
     }
@@ -215,6 +217,7 @@ impl Model for Head {
         let cartilages = layer(&self.cartilages, 0.0);
         let muscles = layer(&self.muscles, 5.0);
         let facial = layer(&self.facial_muscles, 0.0);
+        let temples = layer(&self.temples, 0.0);
         let tongue = layer(&self.tongue, 0.0);
         let glands = layer(&self.glands, 0.0);
         let airway = layer(&self.airway, 4.0);
@@ -269,7 +272,7 @@ impl Model for Head {
                 let (first, second) = muscles.0.two_nearest(&p);
                 let swell = ((p.plain.z + 34.0) * (-1.0 / 16.0)).clamp(0.0, 1.0) * 3.2 + 0.4;
                 let d = (first - swell).max(flat(1.1) - (second - first));
-                lay(d.max(s + 3.8), flat(55.0), Tissue::Muscle);
+                lay(d.max(s + 3.4), flat(55.0), Tissue::Muscle);
             }
             if let Some(d) = facial.at(&p) {
                 let sheet = (s + 4.2).abs() - 1.8;
@@ -286,7 +289,7 @@ impl Model for Head {
                 lay((d - 2.6).max(s + 1.0), flat(45.0), Tissue::Mucosa);
             }
             if let Some(d) = cartilage_regions.at(&p) {
-                lay(d.max(s + 2.4), flat(110.0), Tissue::Cartilage);
+                lay(d.max(s + 1.8), flat(110.0), Tissue::Cartilage);
             }
             if let Some(d) = cartilages.at(&p) {
                 lay(d.max(s + 2.5), flat(110.0), Tissue::Cartilage);
@@ -341,7 +344,14 @@ impl Model for Head {
                     - (p.plain.z - 8.0) * (p.plain.z - 8.0) * (1.0 / 600.0))
                     .max(flat(0.0));
                 let nose = nose * ((p.plain.y - 84.0) * 0.1).clamp(0.0, 1.0);
-                let d = d.max(s + 5.2 - nose * 2.6);
+                let mut under = s + 5.2 - nose * 2.6;
+                if let (Some(temple), Some(hollow)) = (temples.at(&p), hollow) {
+                    // Room for the temporal muscle, as far as the vault keeps a wall.
+                    let high = ((p.plain.z - 4.0) * 0.1).clamp(0.0, 1.0);
+                    let room = s + 5.2 + (temple * -0.5).clamp(0.0, 2.8) * high;
+                    under = under.max(room.min(hollow - 3.6f32.max(2.2 * block.spacing)));
+                }
+                let d = d.max(under);
                 // Compact outside, spongy inside.
                 let spongy = ((-d - 1.5) * 0.8).clamp(0.0, 1.0);
                 lay(d, flat(1250.0).mix(flat(420.0), spongy), Tissue::Bone);

@@ -414,12 +414,12 @@ fn ears(f: &mut Field) {
     );
 }
 
-/// Where the auricle and the front of the nose have cartilage under the skin.
+/// Where the auricle and the front of the nose have cartilage under the skin; the ear's rim is too thin to draw it.
 pub(super) fn cartilage_regions() -> Field {
     let mut f = Field::default();
     f.join(
         0.0,
-        ellipsoid(ear([2.0, 6.0, 0.0]), [20.0, 27.0, 12.0])
+        ellipsoid(ear([1.0, 5.0, 0.0]), [15.0, 23.0, 9.0])
             .oriented(ear_frame())
             .both(),
     );

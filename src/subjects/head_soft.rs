@@ -7,13 +7,25 @@ use super::shape::{
     Field, Knot, Places, Shape, ball, both, capsule, cuboid, curve, ellipsoid, strap,
 };
 
+/// The fan of the temporal muscle.
+fn temporal() -> Shape {
+    ellipsoid([59.0, 20.0, 38.0], [14.0, 46.0, 42.0]).turned(0.0, -6.0, 0.0)
+}
+
+/// The hollow of the skull that holds the fan.
+pub(super) fn temples() -> Field {
+    let mut f = Field::default();
+    f.join(0.0, temporal().both());
+    f
+}
+
 /// Muscles that have a body of their own.
 pub(super) fn muscles() -> Field {
     let mut f = Field::default();
     f.join_all(
         0.0,
         both(vec![
-            ellipsoid([59.0, 20.0, 38.0], [14.0, 46.0, 42.0]).turned(0.0, -6.0, 0.0),
+            temporal(),
             strap(
                 [59.0, 30.0, 14.0],
                 [48.5, 36.0, -12.0],
@@ -217,7 +229,8 @@ pub(super) fn facial_muscles() -> Field {
     band([17.0, 94.0, -66.0], [20.0, 88.0, -86.0], 5.5, 6.5);
     band([5.0, 97.0, -73.0], [6.0, 96.0, -88.0], 5.0, 6.0);
     // Back of the scalp.
-    band([22.0, -88.0, 18.0], [22.0, -90.0, 46.0], 15.0, 15.0);
+    band([13.0, -91.0, 17.0], [33.0, -83.0, 19.0], 10.0, 9.0);
+    band([21.0, -90.0, 20.0], [23.0, -89.0, 45.0], 13.0, 9.0);
     f
 }
 

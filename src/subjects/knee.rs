@@ -29,6 +29,8 @@ const SEGMENTS: &[SegmentSpec] = &[
 
 /// Half the height that is shown.
 const HALF_MM: f32 = 118.0;
+/// How much larger muscles grow far from the joint, mm: until they meet.
+const SWELL_MM: f32 = 9.0;
 
 /// See the module.
 pub(super) struct Knee {
@@ -56,11 +58,11 @@ fn skin() -> Field {
         0.0,
         capsule([-2.0, -6.0, 210.0], [0.0, -4.0, -40.0], 77.0, 44.0),
     );
-    f.join(24.0, ellipsoid([0.0, -1.0, 4.0], [53.0, 55.0, 58.0]));
-    f.join(30.0, ellipsoid([1.0, -15.0, -84.0], [53.0, 51.0, 74.0]));
+    f.join(34.0, ellipsoid([0.0, 0.0, 6.0], [50.0, 51.0, 76.0]));
+    f.join(34.0, ellipsoid([1.0, -13.0, -88.0], [51.0, 48.0, 96.0]));
     f.join(
-        30.0,
-        capsule([2.0, -12.0, -60.0], [0.0, -6.0, -230.0], 47.0, 40.0),
+        34.0,
+        capsule([2.0, -10.0, -60.0], [0.0, -4.0, -230.0], 46.0, 40.0),
     );
     // Kneecap, its tendon, the bump of the shin.
     f.raise(5.0, ellipsoid([0.0, 56.0, 18.0], [32.0, 30.0, 33.0]));
@@ -254,9 +256,9 @@ impl Knee {
             &mut menisci,
             &[
                 ([-7.0, 13.0, -5.0], 3.4),
-                ([-25.0, 14.0, -4.0], 4.6),
-                ([-35.0, -3.0, -3.5], 5.4),
-                ([-27.0, -23.0, -3.0], 6.4),
+                ([-24.0, 12.5, -4.0], 4.4),
+                ([-33.0, -4.0, -3.5], 5.0),
+                ([-25.0, -21.0, -3.0], 6.0),
                 ([-8.0, -19.0, -5.0], 4.2),
             ],
         );
@@ -264,9 +266,9 @@ impl Knee {
             &mut menisci,
             &[
                 ([7.0, 10.0, -5.0], 4.0),
-                ([24.0, 14.0, -3.5], 5.2),
-                ([34.0, -4.0, -3.0], 5.4),
-                ([25.0, -21.0, -3.0], 5.6),
+                ([23.0, 12.0, -3.5], 4.8),
+                ([32.5, -4.0, -3.0], 5.0),
+                ([24.0, -20.0, -3.0], 5.4),
                 ([8.0, -13.0, -5.0], 4.4),
             ],
         );
@@ -346,17 +348,6 @@ impl Knee {
         tendons.join(
             0.0,
             strap(
-                [0.0, 47.5, 36.0],
-                [0.0, 48.5, 4.0],
-                17.0,
-                13.0,
-                [0.0, 1.0, 0.0],
-                0.16,
-            ),
-        );
-        tendons.join(
-            0.0,
-            strap(
                 [0.0, 46.0, 4.0],
                 [1.5, 31.0, -42.0],
                 13.0,
@@ -382,14 +373,21 @@ impl Knee {
                 ([38.0, -20.0, -20.0], 3.6),
             ],
         );
-        tube(
-            &mut tendons,
-            &[
-                ([50.0, 8.0, 118.0], 4.0),
-                ([42.0, 10.0, 40.0], 3.6),
-                ([32.0, 16.0, -18.0], 3.0),
-            ],
-        );
+        // The band of the outer thigh.
+        let band = [[55.0, 4.0, 124.0], [46.0, 5.0, 40.0], [33.0, 15.0, -19.0]];
+        for (pair, radius) in band.windows(2).zip([10.0, 9.0]) {
+            tendons.join(
+                2.0,
+                strap(
+                    pair[0],
+                    pair[1],
+                    radius,
+                    radius - 2.0,
+                    [1.0, 0.2, 0.0],
+                    0.22,
+                ),
+            );
+        }
         let mut bag = Field::default();
         bag.join(0.0, ellipsoid([0.0, -2.0, 6.0], [39.0, 31.0, 14.0]));
         bag.join(
@@ -536,7 +534,7 @@ impl Model for Knee {
         if skin.is_empty() {
             return;
         }
-        let muscles = near(&self.muscles, block, 7.0);
+        let muscles = near(&self.muscles, block, 7.0 + SWELL_MM);
         let bones = [
             (near(&self.femur, block, 6.0), 4),
             (near(&self.tibia, block, 6.0), 5),
@@ -547,11 +545,12 @@ impl Model for Knee {
         let menisci = near(&self.menisci, block, 1.0);
         let bag = Cord::new(&self.capsule, block, 12.0, 12, 5.0);
         let cords = [
-            Cord::new(&self.ligaments, block, 95.0, 10, 4.0),
-            Cord::new(&self.tendons, block, 90.0, 11, 3.0),
             Cord::new(&self.veins, block, 160.0, 14, 3.0),
             Cord::new(&self.arteries, block, 230.0, 13, 3.0),
             Cord::new(&self.nerves, block, 32.0, 15, 3.0),
+            // The small arteries about the joint pass under its ligaments.
+            Cord::new(&self.ligaments, block, 95.0, 10, 4.0),
+            Cord::new(&self.tendons, block, 90.0, 11, 3.0),
         ];
         let (width, soft) = (border_width(block.spacing), inner_width(block));
         let flat = Lanes::splat;
@@ -563,7 +562,9 @@ impl Model for Knee {
             }
             lay_skin(out, row, block, s, 2.2, [1, 2]);
             if !muscles.is_empty() {
-                let d = parted(muscles.two_nearest(&p), 2.5, 1.2);
+                // Away from the joint they swell until a thin layer of fat is left between them.
+                let swell = ((p.plain.z.abs() - 40.0) * (1.0 / 40.0)).clamp(0.0, 1.0);
+                let d = parted(muscles.two_nearest(&p), 2.5 + SWELL_MM * swell[0], 1.2);
                 out.lay(row, d.max(s + 6.5), soft, flat(55.0), 3);
             }
             bag.lay(out, row, block, &p, s);
