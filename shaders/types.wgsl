@@ -107,6 +107,16 @@ struct Grid {
     cells: vec4u,
 }
 
+/// The baked map: a texture over the deformed space.
+struct Baked {
+    /// xyz: lowest corner, subject space; w: offset for finite differences of the map, subject units.
+    origin_min: vec4f,
+    /// xyz: one over the sides of the whole box, subject units.
+    per_unit: vec4f,
+    /// xyz: texels along each axis; w: the first slab of those that are being made.
+    texels: vec4u,
+}
+
 /// From the accumulated picture to the one that is shown.
 struct Resolve {
     /// xy: scale from pixel of the output to texture coordinate of the source; zw: largest texture coordinate in use.

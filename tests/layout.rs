@@ -48,6 +48,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         }
         Look { lut, modes, edges }
         Grid { origin_min, cell_size, cells }
+        Baked { origin_min, per_unit, texels }
         Resolve { scale, background, flags }
         Slice {
             subject_from_pixel_row0, subject_from_pixel_row1, subject_from_pixel_row2,

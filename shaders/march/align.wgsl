@@ -34,6 +34,11 @@
 /// True where both sides of the surface of kept tissue are lit by it.
 const KEEPS_TISSUE: bool = true;
 
+/// Offset of finite differences of the map, subject units: small against every bend, large against the rounding of f32.
+fn map_step() -> f32 {
+    return 0.0005;
+}
+
 /// 0: nothing is kept; 1: one set, or one depth, kept by the first templates of the list; 2: any. A pipeline constant.
 override align_mode: u32 = 2u;
 /// 1 if a displacement gives way to kept tissue.

@@ -5,6 +5,11 @@
 /// True where both sides of the surface of kept tissue are lit by it.
 const KEEPS_TISSUE: bool = false;
 
+/// Offset of finite differences of the map, subject units: small against every bend, large against the rounding of f32.
+fn map_step() -> f32 {
+    return 0.0005;
+}
+
 /// What the object has at a point of subject space: where it was at rest; a continuity below 0 where there is nothing.
 fn object_from_subject(pos: vec3f, mask: u32) -> Mapped {
     return rest_from_subject(pos, mask);

@@ -9,7 +9,7 @@
 //
 // Written for devices that run both sides of every branch (software rasterisers): work is put behind loops that end early,
 // not behind `if`; what is needed once per ray (occlusion, shadow) comes after the loop.
-// needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/grid.wgsl march/ray.wgsl march/value.wgsl march/shade.wgsl displace/compose.wgsl march/plain.wgsl|march/align.wgsl
+// needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/grid.wgsl march/ray.wgsl march/value.wgsl march/shade.wgsl displace/compose.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
 /// 1 if the subject has labels; without them the look-ups are compiled away.
 override has_labels: u32 = 1u;
@@ -39,8 +39,6 @@ const TINT_DEPTH: f32 = 1.9;
 /// scan's noise lies below the first.
 const EDGE_NONE: f32 = 0.006;
 const EDGE_FULL: f32 = 0.09;
-/// Offset of finite differences of the map, subject units: small against every bend, large against the rounding of f32.
-const MAP_STEP: f32 = 0.0005;
 /// Columns of the Jacobian longer than this come from a jump of the map, not from tissue.
 const MAX_STRETCH: f32 = 12.0;
 /// A continuity steeper than this jumps at a rest face (from 0.25 to 1 at a hole's, say), which is no cut. Cuts have slopes of one over the
@@ -388,7 +386,7 @@ fn march(pixel: vec2f) -> Marched {
             path = path_of(pos, either);
             var turn = select(4u, 0u, path != 0u);
             while turn < 4u {
-                let along = select(vec3f(0.0), forward * MAP_STEP, vec3u(1u, 2u, 3u) == vec3u(turn));
+                let along = select(vec3f(0.0), forward * map_step(), vec3u(1u, 2u, 3u) == vec3u(turn));
                 let moved = map_along(pos + along, path);
                 if turn == 0u {
                     base = moved;

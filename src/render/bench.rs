@@ -46,13 +46,17 @@ impl std::fmt::Display for BenchRow {
     }
 }
 
+/// The eight templates read from the baked map, as while the camera moves.
+const BAKED: &str = "eight, baked";
+
 /// The documents that are measured: nothing, one peel, eight templates of eight kinds.
-const CASES: [(&str, usize); 5] = [
+const CASES: [(&str, usize); 6] = [
     ("undeformed", 0),
     ("one peel", 1),
     ("eight templates", 8),
     ("peel, surface", 1),
     ("peel, segment", 1),
+    (BAKED, 8),
 ];
 
 /// Times frames (one sample per pixel at rest quality, read back) of a subject: undeformed, one peel, eight templates, a peel
@@ -89,12 +93,20 @@ pub async fn bench(
                 };
             }
             // Compiles, and fills caches.
-            studio.render_image(&illustration, size_px, 1).await?;
+            let is_baked = name == BAKED;
+            if is_baked {
+                studio.render_baked(&illustration, size_px, 1, None).await?;
+            } else {
+                studio.render_image(&illustration, size_px, 1).await?;
+            }
             let mut times = Vec::with_capacity(repeats.max(1));
             let mut making_times = Vec::with_capacity(repeats.max(1));
             for _ in 0..repeats.max(1) {
                 let start = clock();
-                let shot = Shot::new(&studio, &illustration, size_px)?;
+                let mut shot = Shot::new(&studio, &illustration, size_px)?;
+                if is_baked {
+                    shot.bake(None);
+                }
                 WorkDone::start(gpu).await?;
                 let ready = clock();
                 shot.develop(1).await?;

@@ -337,6 +337,18 @@ pub struct Grid {
     pub cells: [u32; 4],
 }
 
+/// The baked map: a texture over the deformed space.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Baked {
+    /// Lowest corner, subject space; offset for finite differences of the map, subject units.
+    pub origin_min: [f32; 4],
+    /// One over the sides of the whole box, subject units.
+    pub per_unit: [f32; 4],
+    /// Texels along each axis; the first slab of those that are being made.
+    pub texels: [u32; 4],
+}
+
 /// From the accumulated picture to the one that is shown.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -1,5 +1,6 @@
 //! Layer 4: everything GPU. Opens devices, assembles shader programs, uploads volumes and draws the picture.
 
+mod baked;
 #[cfg(any(test, target_arch = "wasm32"))]
 mod bare;
 mod bench;
@@ -25,6 +26,7 @@ mod slice;
 mod subject;
 mod view;
 
+pub use baked::BakedMap;
 pub use bench::{BenchRow, bench};
 pub use error::RenderError;
 pub use feature::KeptTissue;

@@ -1,3 +1,4 @@
+use super::baked::BakePasses;
 use super::feature::{DistancePasses, FeatureTextures};
 use super::gpu_types::{Grid, Look, TABLE_FORMAT, Templates};
 use super::grid::GridPasses;
@@ -32,6 +33,8 @@ pub(super) struct RaycastKey {
     pub has_constraints: bool,
     /// Opacity follows the gradient.
     pub has_edges: bool,
+    /// The map is read from its baked texture.
+    pub is_baked: bool,
     /// For picking instead of drawing.
     pub is_pick: bool,
 }
@@ -60,12 +63,16 @@ pub(super) struct Passes {
     pub resolve_layout: wgpu::BindGroupLayout,
     pub linear_sampler: wgpu::Sampler,
     pub grid: GridPasses,
+    pub bake: BakePasses,
     distance: OnceLock<Arc<DistancePasses>>,
     resolve_pipeline: wgpu::RenderPipeline,
     raycast_module: wgpu::ShaderModule,
     /// For documents that keep tissue; compiled when the first one comes.
     aligned_module: OnceLock<wgpu::ShaderModule>,
+    /// For pictures of the baked map; compiled when the first one comes.
+    baked_module: OnceLock<wgpu::ShaderModule>,
     raycast_layout: wgpu::PipelineLayout,
+    baked_layout: wgpu::PipelineLayout,
     raycast_pipelines: Mutex<HashMap<RaycastKey, Arc<wgpu::RenderPipeline>>>,
 }
 
@@ -119,15 +126,22 @@ impl Passes {
             ],
         );
         let empty = layout("empty", &[]);
-        let raycast_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("raycast"),
-            bind_group_layouts: &[
-                Some(&frame_layout),
-                Some(&subject_layout),
-                Some(&scene_layout),
-            ],
-            immediate_size: 0,
-        });
+        let bake = BakePasses::new(gpu)?;
+        let raycast_groups = [
+            Some(&frame_layout),
+            Some(&subject_layout),
+            Some(&scene_layout),
+            Some(&bake.layout),
+        ];
+        let raycast_layout = |groups| {
+            device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("raycast"),
+                bind_group_layouts: groups,
+                immediate_size: 0,
+            })
+        };
+        let baked_layout = raycast_layout(&raycast_groups);
+        let raycast_layout = raycast_layout(&raycast_groups[..3]);
         let resolve_pipeline_layout =
             device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some("resolve"),
@@ -154,9 +168,11 @@ impl Passes {
         );
         Ok(Self {
             grid: GridPasses::new(gpu)?,
+            bake,
             distance: OnceLock::new(),
             raycast_module: module(gpu, "raycast")?,
             aligned_module: OnceLock::new(),
+            baked_module: OnceLock::new(),
             linear_sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("linear"),
                 mag_filter: wgpu::FilterMode::Linear,
@@ -169,6 +185,7 @@ impl Passes {
             resolve_layout,
             resolve_pipeline,
             raycast_layout,
+            baked_layout,
             raycast_pipelines: Mutex::new(HashMap::new()),
         })
     }
@@ -187,20 +204,26 @@ impl Passes {
                 ("has_grid", number(key.has_grid)),
                 ("has_edges", number(key.has_edges)),
             ];
-            let aligned = if key.keeps_tissue() {
-                self.aligned(gpu)
+            let other = if key.is_baked {
+                other_module(&self.baked_module, gpu, "raycast_baked")
+            } else if key.keeps_tissue() {
+                other_module(&self.aligned_module, gpu, "raycast_aligned")
             } else {
                 None
             };
-            if aligned.is_some() {
+            if other.is_some() && !key.is_baked {
                 constants.extend(key.align_constants());
             }
             Arc::new(render_pipeline(
                 gpu,
                 &PipelineParts {
                     label: "raycast",
-                    layout: &self.raycast_layout,
-                    module: aligned.unwrap_or(&self.raycast_module),
+                    layout: if key.is_baked {
+                        &self.baked_layout
+                    } else {
+                        &self.raycast_layout
+                    },
+                    module: other.unwrap_or(&self.raycast_module),
                     entry: if key.is_pick { "pick" } else { "draw" },
                     constants: &constants,
                     format: if key.is_pick {
@@ -216,15 +239,6 @@ impl Passes {
         Arc::clone(pipeline)
     }
 
-    fn aligned(&self, gpu: &Gpu) -> Option<&wgpu::ShaderModule> {
-        if self.aligned_module.get().is_none()
-            && let Ok(module) = module(gpu, "raycast_aligned")
-        {
-            let _set_already = self.aligned_module.set(module);
-        }
-        self.aligned_module.get()
-    }
-
     /// The programs that make distances; compiled when first asked for. `None` if the table lacks them.
     pub(super) fn distance(&self, gpu: &Gpu) -> Option<Arc<DistancePasses>> {
         if self.distance.get().is_none()
@@ -238,6 +252,20 @@ impl Passes {
     pub(super) fn resolve(&self) -> &wgpu::RenderPipeline {
         &self.resolve_pipeline
     }
+}
+
+/// A module that not every document needs; compiled when first asked for.
+fn other_module<'a>(
+    slot: &'a OnceLock<wgpu::ShaderModule>,
+    gpu: &Gpu,
+    program: &str,
+) -> Option<&'a wgpu::ShaderModule> {
+    if slot.get().is_none()
+        && let Ok(module) = module(gpu, program)
+    {
+        let _set_already = slot.set(module);
+    }
+    slot.get()
 }
 
 const FILTERED: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: true };

@@ -1,3 +1,4 @@
+use super::baked::BakedMap;
 use super::gpu_types::{Frame, Resolve};
 use super::grid::GridCells;
 use super::object::object_samples;
@@ -113,6 +114,44 @@ impl Studio {
     ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
         let shot = Shot::new(self, illustration, size_px);
         async move { shot?.develop(samples.max(1)).await }
+    }
+
+    /// Draws one picture from the baked map, with so many texels along its longest side: what is shown while the camera moves, where
+    /// that is faster. Alignment and constraints are not in it. The future owns what it needs.
+    ///
+    /// # Errors
+    /// As [`Studio::render_image`].
+    pub fn render_baked(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        samples: u32,
+        texels_along: Option<u32>,
+    ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        let shot = Shot::new(self, illustration, size_px);
+        async move {
+            let mut shot = shot?;
+            shot.bake(texels_along);
+            shot.develop(samples.max(1)).await
+        }
+    }
+
+    /// The map of an illustration baked with so many texels along its longest side, read back.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn bake(
+        &self,
+        illustration: &Illustration,
+        texels_along: Option<u32>,
+    ) -> Result<BakedMap, RenderError> {
+        let mut prepared = Prepared::new(&self.gpu, &self.passes, &self.subject, false);
+        prepared.update(&self.gpu, &self.passes, &self.subject, illustration);
+        prepared.bake(&self.gpu, &self.passes, texels_along, u32::MAX);
+        match prepared.baked() {
+            Some(baked) => baked.read(&self.gpu).await,
+            None => Err(RenderError::NoSubject),
+        }
     }
 
     /// The grid over the deformed space of an illustration, as the ray march will read it; `None` for a studio without one.
@@ -297,11 +336,22 @@ impl Shot {
         })
     }
 
+    /// From now on drawn from the baked map.
+    pub(super) fn bake(&mut self, texels_along: Option<u32>) {
+        self.prepared
+            .bake(&self.gpu, &self.passes, texels_along, u32::MAX);
+    }
+
     /// Draws it, from the start each time.
     pub(super) async fn develop(&self, samples: u32) -> Result<Image, RenderError> {
         let linear = Target::new(&self.gpu, "linear", self.size, LINEAR_FORMAT);
         let output = Target::new(&self.gpu, "image", self.size, OUTPUT_FORMAT);
-        let pipeline = self.passes.raycast(&self.gpu, self.prepared.key(false));
+        let baked = self.prepared.baked();
+        let key = match baked {
+            Some(_) => self.prepared.baked_key(),
+            None => self.prepared.key(false),
+        };
+        let pipeline = self.passes.raycast(&self.gpu, key);
         let tiles = tiles_of(self.size);
         for index in 0..samples {
             let frame = frame_of(
@@ -322,6 +372,7 @@ impl Shot {
                         frame: &frame_group,
                         subject: &self.subject.bind_group,
                         scene: &self.prepared.scene.bind_group,
+                        baked: baked.map(|baked| &baked.group),
                         viewport: self.size,
                         tiles: batch,
                         weight: 1.0 / (index + 1) as f32,
@@ -479,6 +530,8 @@ pub(super) struct March<'a> {
     pub frame: &'a wgpu::BindGroup,
     pub subject: &'a wgpu::BindGroup,
     pub scene: &'a wgpu::BindGroup,
+    /// For pipelines that draw from the baked map.
+    pub baked: Option<&'a wgpu::BindGroup>,
     /// Pixels of the target in use, from its top left.
     pub viewport: [u32; 2],
     pub tiles: &'a [[u32; 4]],
@@ -493,6 +546,9 @@ pub(super) fn encode_march(encoder: &mut wgpu::CommandEncoder, march: &March<'_>
     pass.set_bind_group(0, march.frame, &[]);
     pass.set_bind_group(1, march.subject, &[]);
     pass.set_bind_group(2, march.scene, &[]);
+    if let Some(baked) = march.baked {
+        pass.set_bind_group(3, baked, &[]);
+    }
     let weight = f64::from(march.weight);
     pass.set_blend_constant(wgpu::Color {
         r: weight,
@@ -650,6 +706,7 @@ pub(super) fn encode_pick(
             frame: &frame_group(gpu, passes, &frame),
             subject: &subject.bind_group,
             scene: &prepared.scene.bind_group,
+            baked: None,
             viewport: [4, 1],
             tiles: &[[0, 0, 4, 1]],
             weight: 1.0,

@@ -29,6 +29,9 @@ const CALM_SECONDS: f64 = 0.12;
 const FIRST_COST_SOFTWARE: f64 = 2.5e-6;
 const FIRST_COST_HARDWARE: f64 = 3.0e-8;
 
+/// A pixel of the baked map is taken to cost so much of one of the formulas until it was measured.
+const BAKED_HOPE: f64 = 0.5;
+
 /// What [`Renderer::draw`] left behind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawState {
@@ -61,6 +64,8 @@ pub struct Renderer {
     stage: Stage,
     changed_at: f64,
     pace: Pace,
+    /// The quick picture by the formulas could not hold the full resolution.
+    is_coarse: bool,
     under_way: Option<UnderWay>,
     generation: u64,
     slice_passes: Option<SlicePasses>,
@@ -87,19 +92,28 @@ enum Stage {
     Done,
 }
 
-/// Seconds per pixel, measured.
-#[derive(Clone, Copy, Debug)]
-struct Pace {
-    moving: f64,
-    rest: f64,
+/// What a submission is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Work {
+    /// The quick picture, by the formulas.
+    Quick,
+    /// The quick picture, from the baked map.
+    QuickBaked,
+    /// Tiles of the full picture.
+    Refine,
+    /// Texels of the baked map.
+    Bake,
 }
+
+/// Seconds per pixel or texel, measured, by [`Work`].
+type Pace = [f64; 4];
 
 #[derive(Debug)]
 struct UnderWay {
     done: WorkDone,
     started: f64,
     pixels: u32,
-    is_moving: bool,
+    work: Work,
     checks: u32,
 }
 
@@ -124,10 +138,8 @@ impl Renderer {
             targets: None,
             stage: Stage::Stale,
             changed_at: f64::NEG_INFINITY,
-            pace: Pace {
-                moving: cost,
-                rest: 1.5 * cost,
-            },
+            pace: [cost, BAKED_HOPE * cost, 1.5 * cost, 0.05 * cost],
+            is_coarse: false,
             under_way: None,
             generation: 0,
             slice_passes: None,
@@ -245,7 +257,9 @@ impl Renderer {
                 match self.stage {
                     Stage::Stale => self.draw_quick(budget),
                     Stage::Refining { sample, tile } if !is_moving || self.is_calm() => {
-                        self.refine(sample, tile, budget);
+                        if !self.bake(budget) {
+                            self.refine(sample, tile, budget);
+                        }
                     }
                     Stage::Refining { .. } | Stage::Done => {}
                 }
@@ -262,6 +276,11 @@ impl Renderer {
     /// [`Renderer::output_generation`].
     pub fn output_view(&self) -> Option<&wgpu::TextureView> {
         self.targets.as_ref().map(|t| &t.output.view)
+    }
+
+    /// True if the next movement is drawn from the baked map, as far as that is faster.
+    pub fn has_baked(&self) -> bool {
+        self.prepared.as_ref().is_some_and(|p| p.baked().is_some())
     }
 
     /// Counts the textures that [`Renderer::output_view`] has had.
@@ -501,11 +520,7 @@ impl Renderer {
         if !work.done.is_done() {
             return;
         }
-        let cost = if work.is_moving {
-            &mut self.pace.moving
-        } else {
-            &mut self.pace.rest
-        };
+        let cost = &mut self.pace[work.work as usize];
         let measured = ((self.clock)() - work.started) / f64::from(work.pixels.max(1));
         // Done by the next frame: it may have taken less than could be seen, so more is tried.
         *cost = if work.checks == 1 {
@@ -584,7 +599,14 @@ impl Renderer {
             return;
         };
         let [width, height] = targets.size.map(|side| side as f32);
-        let affordable = budget / self.pace.moving;
+        // The baked map if it is there and faster on this device, as far as was seen.
+        let [exact_cost, baked_cost, ..] = self.pace;
+        let baked = prepared.baked().filter(|_| baked_cost < exact_cost);
+        let (work, cost, key) = match baked {
+            Some(_) => (Work::QuickBaked, baked_cost, prepared.baked_key()),
+            None => (Work::Quick, exact_cost, prepared.key(false)),
+        };
+        let affordable = budget / cost;
         // In sixteenths, so that the resolution does not flicker from frame to frame.
         let scale = (affordable as f32 / (width * height))
             .sqrt()
@@ -600,10 +622,11 @@ impl Renderer {
             &mut encoder,
             &March {
                 target: &targets.linear.view,
-                pipeline: &studio.passes.raycast(&self.gpu, prepared.key(false)),
+                pipeline: &studio.passes.raycast(&self.gpu, key),
                 frame: &frame_group(&self.gpu, &studio.passes, &frame),
                 subject: &studio.subject.bind_group,
                 scene: &prepared.scene.bind_group,
+                baked: baked.map(|baked| &baked.group),
                 viewport: small,
                 tiles: &[[0, 0, small[0], small[1]]],
                 weight: 1.0,
@@ -632,7 +655,8 @@ impl Renderer {
         self.gpu.queue.submit([encoder.finish()]);
         prepared.drawn_generation = self.generation;
         self.stage = Stage::Refining { sample: 0, tile: 0 };
-        self.follow(small[0] * small[1], true);
+        self.is_coarse = exact_cost * f64::from(width * height) > budget;
+        self.follow(small[0] * small[1], work);
     }
 
     /// The next tiles of the full picture, as many as fit the budget.
@@ -645,7 +669,7 @@ impl Renderer {
         ) else {
             return;
         };
-        let affordable = budget / self.pace.rest;
+        let affordable = budget / self.pace[Work::Refine as usize];
         let mut pixels = 0;
         let mut end = first;
         while let Some(&[_, _, w, h]) = targets.tiles.get(end) {
@@ -667,6 +691,7 @@ impl Renderer {
                 frame: &frame_group(&self.gpu, &studio.passes, &frame),
                 subject: &studio.subject.bind_group,
                 scene: &prepared.scene.bind_group,
+                baked: None,
                 viewport: targets.size,
                 tiles,
                 weight: 1.0 / (sample + 1) as f32,
@@ -698,15 +723,35 @@ impl Renderer {
         } else {
             Stage::Done
         };
-        self.follow(pixels, false);
+        self.follow(pixels, Work::Refine);
     }
 
-    fn follow(&mut self, pixels: u32, is_moving: bool) {
+    /// Bakes on where the next movement would gain by it: the formulas are too slow for the full resolution. True if it had
+    /// anything to do.
+    fn bake(&mut self, budget: f64) -> bool {
+        let (Some(studio), Some(prepared)) = (&self.studio, &mut self.prepared) else {
+            return false;
+        };
+        if !self.is_coarse || !prepared.may_bake() || prepared.baked().is_some() {
+            return false;
+        }
+        let affordable = (budget / self.pace[Work::Bake as usize]).min(f64::from(u32::MAX));
+        let texels = prepared.bake(&self.gpu, &studio.passes, None, affordable as u32);
+        if prepared.baked().is_some() {
+            // Compiled now, while nobody waits for it.
+            studio.passes.raycast(&self.gpu, prepared.baked_key());
+            self.pace[Work::QuickBaked as usize] = BAKED_HOPE * self.pace[Work::Quick as usize];
+        }
+        self.follow(texels, Work::Bake);
+        true
+    }
+
+    fn follow(&mut self, pixels: u32, work: Work) {
         self.under_way = Some(UnderWay {
             done: WorkDone::start(&self.gpu),
             started: (self.clock)(),
             pixels,
-            is_moving,
+            work,
             checks: 0,
         });
     }

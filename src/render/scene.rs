@@ -1,3 +1,4 @@
+use super::baked::BakedTexture;
 use super::feature::{FeatureTextures, KeptTissue};
 use super::field::FieldTexture;
 use super::gpu_types::{Frame, Templates, affine_rows};
@@ -15,6 +16,9 @@ const STEP_AT_REST: f32 = 0.75;
 /// Step while anything moves.
 const STEP_MOVING: f32 = 1.25;
 
+/// One formula or two are as fast as a texture.
+const LEAST_BAKED_KINDS: u32 = 3;
+
 /// An illustration on the GPU, for one subject. Brought up to date per document edit; says what changed.
 #[derive(Debug)]
 pub(super) struct Prepared {
@@ -31,6 +35,7 @@ pub(super) struct Prepared {
     grid: Option<SkipGrid>,
     features: FeatureTextures,
     fields: FieldTexture,
+    baked: Option<BakedTexture>,
     /// Names that were said to be unknown.
     unknown: Vec<String>,
     notices: Vec<String>,
@@ -60,6 +65,7 @@ impl Prepared {
             has_labels: false,
             grid,
             features,
+            baked: None,
             unknown: Vec::new(),
             notices: Vec::new(),
         }
@@ -92,6 +98,7 @@ impl Prepared {
         if templates != self.templates || self.table.is_none() {
             self.scene.set_templates(gpu, &templates);
             self.templates = templates;
+            self.baked = None;
             self.bounds = deformed_bounds(&illustration.templates, subject.bounds);
             is_changed = true;
             is_grid_stale = true;
@@ -163,6 +170,7 @@ impl Prepared {
             drawn_kinds: self.templates.drawn_kinds(),
             has_labels: self.has_labels,
             has_grid: self.grid.is_some(),
+            is_baked: false,
             align_mode: self.features.kept().map_or(0, KeptTissue::walk_mode),
             has_constraints: self.features.kept().is_some_and(|k| k.has_constraints),
             has_edges: self.table.as_ref().is_some_and(|(t, _)| t.gradient > 0.0),
@@ -173,6 +181,52 @@ impl Prepared {
     /// Sampled displacements.
     pub(super) fn fields(&self) -> &wgpu::TextureView {
         &self.fields.view
+    }
+
+    /// True where drawing the map from a texture may be faster: it holds several formulas, and no tissue is kept, which the
+    /// texture knows nothing of.
+    pub(super) fn may_bake(&self) -> bool {
+        self.templates.drawn_kinds().count_ones() >= LEAST_BAKED_KINDS
+            && !self.key(false).keeps_tissue()
+    }
+
+    /// Bakes about so many texels more of the map, from the start (with so many texels along the longest side, or as many as suit
+    /// the device) if there are none of these templates yet. Says how many it handed to the GPU: 0 once all are.
+    pub(super) fn bake(
+        &mut self,
+        gpu: &Gpu,
+        passes: &Passes,
+        texels_along: Option<u32>,
+        most_texels: u32,
+    ) -> u32 {
+        let baked = self
+            .baked
+            .get_or_insert_with(|| BakedTexture::new(gpu, &passes.bake, self.bounds, texels_along));
+        let drawn_kinds = self.templates.drawn_kinds();
+        baked.advance(
+            gpu,
+            &passes.bake,
+            [
+                self.scene.templates.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&self.fields.view),
+            ],
+            drawn_kinds,
+            most_texels,
+        )
+    }
+
+    /// The baked map of these templates, if it is whole.
+    pub(super) fn baked(&self) -> Option<&BakedTexture> {
+        self.baked.as_ref().filter(|baked| baked.is_whole())
+    }
+
+    /// The pipeline that draws from the baked map: one for every list of templates.
+    pub(super) fn baked_key(&self) -> RaycastKey {
+        RaycastKey {
+            drawn_kinds: u32::MAX,
+            is_baked: true,
+            ..self.key(false)
+        }
     }
 
     /// What templates leave alone.
