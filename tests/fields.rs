@@ -4,14 +4,18 @@
 mod reference;
 mod scatter;
 
+use fabrica::data::Grid;
 use fabrica::document::{
-    ControlPoint, ControlPoints, Document, ParamValue, PlacedTemplate, TemplateData, TemplateKind,
+    ControlPoint, ControlPoints, Document, FieldRef, FieldSamples, ParamValue, PlacedTemplate,
+    TemplateData, TemplateKind,
 };
+use fabrica::load::{FieldFile, FieldUse, MemoryFiles, read_field};
 use fabrica::math::Placement;
 use fabrica::render::{Gpu, GpuOptions, Probe, Sample};
-use glam::{DVec3, Quat, Vec2, Vec3};
+use glam::{DAffine3, DQuat, DVec3, Quat, UVec3, Vec2, Vec3};
 use reference::Rbf;
 use scatter::{Random, placed};
+use std::sync::Arc;
 
 fn probe() -> Probe {
     let options = GpuOptions {
@@ -242,4 +246,361 @@ fn hard_systems_of_points_stay_tame() {
             }
         }
     }
+}
+
+// ------------------------------------------------------------------------------------------------ files
+
+/// A grid of 100 mm, 50 voxels along each side, in the middle of the world.
+fn subject() -> Grid {
+    Grid {
+        dims: UVec3::splat(50),
+        world_from_voxel: DAffine3::from_scale_rotation_translation(
+            DVec3::splat(2.0),
+            DQuat::IDENTITY,
+            DVec3::splat(-49.0),
+        ),
+    }
+}
+
+fn used(subject: &Grid) -> FieldUse<'_> {
+    FieldUse {
+        is_subject_units: false,
+        is_lps: None,
+        subject,
+    }
+}
+
+/// An NRRD of 8 x 10 x 12 samples of 10 mm, left posterior superior, with these numbers per sample.
+fn nrrd(components: usize, value: impl Fn(usize, [usize; 3]) -> f32) -> Vec<u8> {
+    let mut bytes = format!(
+        "NRRD0004\ntype: float\ndimension: 4\nspace: left-posterior-superior\nsizes: {components} 8 10 12\n\
+         space directions: none (-10,0,0) (0,-10,0) (0,0,10)\nkinds: vector domain domain domain\n\
+         endian: little\nencoding: raw\nspace origin: (35,45,-55)\n\n"
+    )
+    .into_bytes();
+    for z in 0..12 {
+        for y in 0..10 {
+            for x in 0..8 {
+                for c in 0..components {
+                    bytes.extend(value(c, [x, y, z]).to_le_bytes());
+                }
+            }
+        }
+    }
+    bytes
+}
+
+/// A NIfTI with five dimensions and an intent: 4 x 5 x 6 samples of 10 mm about 0, a constant vector.
+fn nifti(intent: i16, vector: [f32; 3]) -> Vec<u8> {
+    let mut bytes = vec![0; 352];
+    let mut put = |at: usize, part: &[u8]| bytes[at..at + part.len()].copy_from_slice(part);
+    put(0, &348i32.to_le_bytes());
+    for (i, n) in [5i16, 4, 5, 6, 1, 3].into_iter().enumerate() {
+        put(40 + 2 * i, &n.to_le_bytes());
+    }
+    put(68, &intent.to_le_bytes());
+    put(70, &16i16.to_le_bytes());
+    put(72, &32i16.to_le_bytes());
+    for i in 0..6 {
+        put(
+            76 + 4 * i,
+            &(if i == 0 { 1f32 } else { 10.0 }).to_le_bytes(),
+        );
+    }
+    put(108, &352f32.to_le_bytes());
+    put(123, &[2]);
+    put(254, &1i16.to_le_bytes());
+    for (row, origin) in [-15f32, -20.0, -25.0].into_iter().enumerate() {
+        put(280 + 16 * row + 4 * row, &10f32.to_le_bytes());
+        put(280 + 16 * row + 12, &origin.to_le_bytes());
+    }
+    put(344, b"n+1\0");
+    for component in vector {
+        for _ in 0..4 * 5 * 6 {
+            bytes.extend(component.to_le_bytes());
+        }
+    }
+    bytes
+}
+
+fn field(name: &str, bytes: Vec<u8>) -> Result<FieldFile, String> {
+    read_field(&mut MemoryFiles::new([(name, bytes)]), name).map_err(|error| error.to_string())
+}
+
+/// The template that a file makes where it says itself.
+fn laid(file: &FieldFile, given: &FieldUse<'_>) -> (PlacedTemplate, Vec<String>) {
+    let (samples, notices) = file.fit(given).expect("it fits");
+    let params = scatter::defaults(TemplateKind::Field);
+    let mut template = placed(TemplateKind::Field, samples.placement, params);
+    template.data = TemplateData::Field(FieldRef {
+        samples: Some(FieldSamples(Arc::new(samples))),
+        ..FieldRef::default()
+    });
+    (template, notices)
+}
+
+#[test]
+fn fields_move_as_their_files_say() {
+    let probe = probe();
+    let grid = subject();
+    let at = [
+        Vec3::new(0.1, 0.05, -0.2),
+        Vec3::new(-0.15, 0.1, 0.15),
+        Vec3::splat(0.49),
+    ];
+    // 10 mm to the left and 5 mm up, growing with z: linear, so that it is drawn exactly.
+    let file = field(
+        "warp.nrrd",
+        nrrd(3, |c, [_, _, z]| [10.0, 0.0, 0.5 * z as f32][c]),
+    )
+    .expect("read");
+    let (template, notices) = laid(&file, &used(&grid));
+    assert_eq!(notices, Vec::<String>::new());
+    for (pos, got) in at.iter().zip(ask(&probe, &[template], &at)) {
+        // The third lies beyond the field's faces.
+        let is_inside = pos.x < 0.4;
+        let slice = ((pos.z * 100.0 + 55.0) / 10.0).clamp(0.0, 11.0);
+        let expected = match is_inside {
+            true => *pos + Vec3::new(-0.1, 0.0, 0.005 * slice),
+            false => *pos,
+        };
+        let off = got.pos_in_rest.distance(expected);
+        assert!(
+            off < 2e-4,
+            "{pos}: {} instead of {expected}",
+            got.pos_in_rest
+        );
+    }
+    // NIfTI vectors are left posterior superior as ITK writes them, but right anterior superior by intent 1006, and as the document says.
+    for (intent, is_lps, sign) in [
+        (1007, None, -1.0),
+        (1006, None, 1.0),
+        (1007, Some(false), 1.0),
+        (1006, Some(true), -1.0),
+    ] {
+        let file = field("warp.nii", nifti(intent, [5.0, 10.0, 2.0])).expect("read");
+        let (template, _) = laid(
+            &file,
+            &FieldUse {
+                is_lps,
+                ..used(&grid)
+            },
+        );
+        let got = ask(&probe, &[template], &[Vec3::new(0.01, 0.02, 0.03)])[0].pos_in_rest;
+        let expected = Vec3::new(0.01 + sign * 0.05, 0.02 + sign * 0.1, 0.05);
+        assert!(got.distance(expected) < 2e-4, "{intent} {is_lps:?}: {got}");
+    }
+    // The fourth number is the continuity.
+    let file = field(
+        "a.nrrd",
+        nrrd(4, |c, [x, ..]| if c == 3 { x as f32 - 3.5 } else { 0.0 }),
+    )
+    .expect("read");
+    let (template, _) = laid(&file, &used(&grid));
+    let got = ask(
+        &probe,
+        &[template],
+        &[Vec3::new(-0.05, 0.0, 0.0), Vec3::new(0.05, 0.0, 0.0)],
+    );
+    assert!(
+        (got[0].continuity + 0.5).abs() < 1e-3 && (got[1].continuity - 0.5).abs() < 1e-3,
+        "{got:?}"
+    );
+}
+
+#[test]
+fn what_is_wrong_with_a_field_is_said() {
+    let grid = subject();
+    let plain = |c: usize, _: [usize; 3]| [10.0, 0.0, 0.0][c];
+    for (name, bytes, part) in [
+        ("two.nrrd", nrrd(2, plain), "it has 2 numbers per sample"),
+        (
+            "five.nrrd",
+            nrrd(5, |_, _| 0.0),
+            "it has 5 numbers per sample",
+        ),
+        (
+            "nan.nrrd",
+            nrrd(3, |c, at| {
+                if at == [1, 2, 3] {
+                    f32::NAN
+                } else {
+                    plain(c, at)
+                }
+            }),
+            "1 of its samples are no numbers",
+        ),
+        (
+            "short.nrrd",
+            nrrd(3, plain)[..4000].to_vec(),
+            "ends too early",
+        ),
+        ("empty.nrrd", Vec::new(), "empty"),
+        ("no.nrrd", b"hello".to_vec(), "not a volume file"),
+        (
+            "few.csv",
+            b"x,y,z,dx,dy,dz\n1,2,3,0,0,0\n".to_vec(),
+            "1 nodes make no field",
+        ),
+        (
+            "odd.csv",
+            b"1,2,3,0,0,0\n1,2,3,4\n".to_vec(),
+            "line 2 should be",
+        ),
+        ("nan.csv", b"1,2,3,0,0,nan\n".to_vec(), "line 1 holds"),
+        (
+            "one.csv",
+            "5 5 5 0 0 0\n".repeat(9).into_bytes(),
+            "at one place",
+        ),
+        ("text.csv", vec![b'x'; 1 << 16], "line"),
+        ("bytes.csv", vec![0; 100], "0 nodes"),
+    ] {
+        let said = field(name, bytes).expect_err(name);
+        assert!(said.contains(part) && said.contains(name), "{name}: {said}");
+    }
+    let refused = |bytes: Vec<u8>, part: &str| {
+        let file = field("f.nrrd", bytes).expect("read");
+        let said = file.fit(&used(&grid)).expect_err(part);
+        assert!(said.contains(part), "{said}");
+    };
+    let text = |from: &str, to: &str| {
+        let bytes = nrrd(3, plain);
+        let at = bytes
+            .windows(from.len())
+            .position(|part| part == from.as_bytes())
+            .expect(from);
+        [&bytes[..at], to.as_bytes(), &bytes[at + from.len()..]].concat()
+    };
+    refused(
+        text("(35,45,-55)", "(35,45,900)"),
+        "lies beside the subject",
+    );
+    refused(text("(0,-10,0)", "(3,-10,0)"), "skewed");
+    refused(nrrd(3, |_, _| 1e9), "the unit is another one");
+    // Folding: neighbours change places.
+    let file = field(
+        "f.nrrd",
+        nrrd(3, |c, [x, ..]| if c == 0 && x == 4 { 25.0 } else { 0.0 }),
+    )
+    .expect("read");
+    let (_, notices) = laid(&file, &used(&grid));
+    assert!(
+        notices
+            .iter()
+            .any(|line| line.contains("folds space over itself")),
+        "{notices:?}"
+    );
+}
+
+#[test]
+fn nodes_of_a_simulation_are_regularised() {
+    // A bar pulled to twice its length along x and shifted: forwards x' = 2x + 10 mm, so back x = (x' - 10)/2.
+    let mut table = String::from("# a bar\nx; y; z; ux; uy; uz\n");
+    for i in 0..10 * 10 * 10 {
+        let at = [i % 10, i / 10 % 10, i / 100].map(|k| k as f64 * 3.0 - 13.5);
+        table.push_str(&format!(
+            "{}; {}; {}; {}; 0; 0\n",
+            at[0],
+            at[1],
+            at[2],
+            at[0] + 10.0
+        ));
+    }
+    let grid = subject();
+    let file = field("bar.csv", table.into_bytes()).expect("a table");
+    let (template, notices) = laid(&file, &used(&grid));
+    assert!(notices[0].starts_with("1000 nodes"), "{notices:?}");
+    let mut random = Random(5);
+    let at: Vec<Vec3> = (0..200)
+        .map(|_| {
+            Vec3::new(
+                random.between(-0.15, 0.35),
+                random.between(-0.13, 0.13),
+                random.between(-0.13, 0.13),
+            )
+        })
+        .collect();
+    let (mut worst, mut mean) = (0.0_f32, 0.0);
+    for (pos, got) in at.iter().zip(ask(&probe(), &[template], &at)) {
+        let expected = Vec3::new((pos.x - 0.1) / 2.0, pos.y, pos.z);
+        let off = got.pos_in_rest.distance(expected);
+        worst = worst.max(off);
+        mean += off / at.len() as f32;
+    }
+    println!("nodes: off by {worst} at most, {mean} in the mean");
+    // Shepard's interpolation is off by a part of the way between nodes (6 mm), most between two layers.
+    assert!(worst < 0.02 && mean < 0.006, "{worst} {mean}");
+}
+
+#[test]
+fn an_exported_map_is_the_same_map_when_it_comes_back() {
+    let folder = std::env::temp_dir().join(format!("fabrica-fields-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let run = |args: &[&str], input: &str| {
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_fabrica"))
+            .args(args)
+            .current_dir(&folder)
+            .stdin(std::process::Stdio::piped())
+            .stdout(std::process::Stdio::piped())
+            .spawn()
+            .expect("the program");
+        std::io::Write::write_all(&mut child.stdin.take().expect("open"), input.as_bytes())
+            .expect("taken");
+        let out = child.wait_with_output().expect("it ends");
+        assert!(out.status.success(), "{args:?}");
+        String::from_utf8(out.stdout).expect("text")
+    };
+    let numbers = |text: &str| -> Vec<Vec<f64>> {
+        text.lines()
+            .map(|line| {
+                line.split(',')
+                    .map(|x| x.parse().expect("a number"))
+                    .collect()
+            })
+            .collect()
+    };
+    // Smooth templates, and one that opens a gap.
+    let document = r#"{"fabrica":1,"subject":{"builtin":"bar"},"templates":[
+        {"kind":"twist","rotate":[0.7071,0,0,0.7071],"size":[0.6,0.6,1],"params":{"angle":0.8}},
+        {"kind":"pull","size":[0.6,0.9,0.6],"params":{"offset":[0,0,0.2]}},
+        {"kind":"split","size":[0.5,0.8,0.5],"params":{"amount":0.1,"lens":1}}]}"#;
+    std::fs::write(folder.join("doc.json"), document).expect("written");
+    run(
+        &["export-field", "doc.json", "-o", "map.nrrd", "--size", "96"],
+        "",
+    );
+    std::fs::write(
+        folder.join("back.json"),
+        r#"{"fabrica":1,"subject":{"builtin":"bar"},"templates":[{"kind":"field","params":{"src":"map.nrrd"}}]}"#,
+    )
+    .expect("written");
+    let mut random = Random(11);
+    let points: String = (0..3000)
+        .map(|_| {
+            let p = random.vector(-0.2, 0.2) * Vec3::new(1.0, 2.2, 1.0);
+            format!("{},{},{}\n", p.x, p.y, p.z)
+        })
+        .collect();
+    let was = numbers(&run(&["probe", "doc.json"], &points));
+    let is = numbers(&run(&["probe", "back.json"], &points));
+    let (mut smooth, mut other_side, mut count, mut gaps) = (0.0_f64, 0, 0, 0);
+    for (was, is) in was.iter().zip(&is) {
+        gaps += usize::from(was[6] < 0.0);
+        // A gap is found to within a sample; its edges are where the map bends.
+        other_side += usize::from((was[6] < 0.0) != (is[6] < 0.0));
+        if was[6] > 0.05 {
+            let off = (3..6).map(|i| (was[i] - is[i]).powi(2)).sum::<f64>().sqrt();
+            smooth = smooth.max(off);
+            count += 1;
+        }
+    }
+    println!(
+        "exported: off by {smooth:.1e} at {count} points; {gaps} in gaps, {other_side} on the other side"
+    );
+    assert!(count > 1500 && gaps > 20);
+    // A hundredth of a side per sample: half the second derivative times its square, and steps where templates end.
+    assert!(smooth < 6e-3, "{smooth}");
+    assert!(other_side * 5 < gaps, "{other_side} of {gaps}");
+    let _left = std::fs::remove_dir_all(&folder);
 }

@@ -140,6 +140,14 @@ pub enum LoadError {
     /// The user stopped it, or the receiver gave up.
     #[error("stopped before the file was read")]
     Cancelled,
+    /// A file that is no displacement field.
+    #[error("not a displacement field: {what} ({name})")]
+    NotField {
+        /// The file.
+        name: String,
+        /// What is wrong with it.
+        what: String,
+    },
     /// A label volume holds something that is no label.
     #[error("not a label volume: {what} ({name})")]
     NotLabels {

@@ -183,6 +183,7 @@ pub(crate) fn read_header(
     report.stored_type = stored_type;
     report.dims = dims;
     report.frame_count = count;
+    report.vector_signs = [-1, -1, 1];
     let is_ascii = fields.get("binarydata").is_some() && !fields.is_true("binarydata");
     let encoding = match (fields.is_true("compresseddata"), is_ascii) {
         (true, _) => Encoding::Zlib,

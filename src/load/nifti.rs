@@ -17,6 +17,7 @@ const SIZE_2: usize = 540;
 /// Header extensions up to this are looked at for label names; larger ones are passed over.
 const MAX_EXTENSION_BYTES: u64 = 4 * 1024 * 1024;
 const INTENT_LABEL: i64 = 1002;
+const INTENT_DISPLACEMENT: i64 = 1006;
 
 /// True if the bytes begin as a NIfTI or Analyze header does.
 pub(crate) fn is_header(start: &[u8]) -> bool {
@@ -261,6 +262,14 @@ fn understand(
     report.dims = dims;
     report.frame_count = frame_count;
     report.is_labels = format != Format::Analyze && fields.whole(68, (504, 32)) == INTENT_LABEL;
+    let intent = fields.whole(68, (504, 32));
+    report.is_vectors =
+        intent == INTENT_DISPLACEMENT || (fields.dim(4) <= 1 && fields.dim(5) == 3 && rank >= 5);
+    // ITK turns vectors of this intent alone.
+    report.vector_signs = match intent {
+        INTENT_DISPLACEMENT => [1, 1, 1],
+        _ => [-1, -1, 1],
+    };
     if options.frame >= frame_count {
         return Err(LoadError::NoSuchFrame {
             name: name.to_owned(),

@@ -211,6 +211,11 @@ pub(crate) fn read_header(
         component: (options.frame % u64::from(frame_components)) as u32,
         is_color,
     };
+    report.is_vectors = (3..=4).contains(&components)
+        && fields.get("kinds").is_some_and(|kinds| {
+            let kind = kinds.split_whitespace().next().unwrap_or_default();
+            kind.to_lowercase().ends_with("vector")
+        });
     report.stored_type = stored_type;
     report.dims = dims;
     report.frame_count = count;
@@ -418,6 +423,7 @@ impl Axes {
             Some("3d-left-handed") => (DVec3::new(-1.0, 1.0, 1.0), false),
             _ => (DVec3::ONE, false),
         };
+        report.vector_signs = sign.to_array().map(|x| x as i8);
         let mm = unit_mm(fields);
         if let Some(directions) = &self.directions {
             let mut columns = directions.clone();

@@ -240,6 +240,10 @@ pub struct LoadReport {
     pub segments: Vec<Segment>,
     /// True if the header says that the voxels are labels.
     pub is_labels: bool,
+    /// The header says that its components are a vector.
+    pub is_vectors: bool,
+    /// What takes the file's vectors to RAS+, if it holds vectors (see [`super::read_field`]).
+    pub vector_signs: [i8; 3],
     /// SHA-256 over the bytes of the file as they lie on disk; of several files, one after the other in the order
     /// opened, the header first; of several DICOM files, over the sorted hashes of each. `None` until all was read.
     pub sha256: Option<[u8; 32]>,

@@ -11,6 +11,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use serde_json::{Value, json};
 
+use super::fields::attach_fields;
 use super::probing::probe;
 use super::reading::{ReadingFlags, hint};
 use super::subject::{MissingSubject, SubjectSource, load_subject};
@@ -38,7 +39,10 @@ struct Args {
 pub(super) struct Common {
     /// A scan that takes the place of the document's subject.
     #[arg(long, global = true, value_name = "FILE")]
-    subject: Option<PathBuf>,
+    pub(super) subject: Option<PathBuf>,
+    /// A displacement field that the document names by its hash; may be given several times.
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(super) field: Vec<PathBuf>,
     /// A label volume beside the scan; may be given several times.
     #[arg(long, global = true, value_name = "FILE")]
     segments: Vec<PathBuf>,
@@ -85,6 +89,19 @@ enum Command {
         /// Looks into the subject as well: adds value,segment, empty where there is nothing.
         #[arg(long)]
         object: bool,
+        #[command(flatten)]
+        moment: Moment,
+    },
+    /// Writes the composed map of a document as a displacement field: NRRD, millimetres from output to input, and continuity.
+    ExportField {
+        /// What to export.
+        doc: String,
+        /// The NRRD file to write.
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+        /// Samples along the longest side.
+        #[arg(long, value_name = "N", default_value_t = 128, value_parser = clap::value_parser!(u32).range(2..=512))]
+        size: u32,
         #[command(flatten)]
         moment: Moment,
     },
@@ -169,6 +186,8 @@ pub(super) enum CliError {
     NeitherFileNorLink { path: String, source: LinkError },
     #[error(transparent)]
     Step(DocumentError),
+    #[error("{0}")]
+    Field(String),
     #[error("subject: {0}")]
     Subject(#[from] MissingSubject),
     #[error("{0} [{1}]")]
@@ -283,6 +302,15 @@ fn execute(args: Args) -> Result<(), CliError> {
             }
             probe(common, &open(&doc)?, points.as_deref(), object, moment)
         }
+        Command::ExportField {
+            doc,
+            output,
+            size,
+            moment,
+        } => {
+            let bytes = super::fields::export_field(common, &open(&doc)?, moment, size)?;
+            write_whole(&output, &bytes)
+        }
         Command::Link { doc, page } => {
             let opened = open(&doc)?;
             opened.say_notices();
@@ -335,7 +363,19 @@ impl Opened {
     }
 
     /// What the document says at a moment, its notices said.
-    pub(super) fn illustration(&self, moment: Moment) -> Result<Illustration, CliError> {
+    pub(super) fn illustration(
+        &self,
+        moment: Moment,
+        common: &Common,
+    ) -> Result<Illustration, CliError> {
+        let mut illustration = self.at_moment(moment)?;
+        attach_fields(&mut illustration, common, &self.folder, &mut |line| {
+            notice(line);
+        })?;
+        Ok(illustration)
+    }
+
+    fn at_moment(&self, moment: Moment) -> Result<Illustration, CliError> {
         self.say_notices();
         let last = self.document.step_count();
         let step = moment.step.unwrap_or_else(|| {
@@ -507,7 +547,7 @@ fn render(
     moment: Moment,
     paper: Paper,
 ) -> Result<(), CliError> {
-    let illustration = opened.illustration(moment)?;
+    let illustration = opened.illustration(moment, common)?;
     // Found out before minutes of drawing, not after.
     let folder = output
         .parent()

@@ -17,7 +17,7 @@ pub(super) fn probe(
     with_object: bool,
     moment: Moment,
 ) -> Result<(), CliError> {
-    let illustration = opened.illustration(moment)?;
+    let illustration = opened.illustration(moment, common)?;
     let points = match points {
         Some(path) => {
             let shown = path.display().to_string();
