@@ -36,6 +36,7 @@ impl App {
                         self.take_load_event(event);
                     }
                 }
+                Message::Field { key, outcome } => self.take_field(key, *outcome),
                 Message::Pasted(text) => self.state.take_pasted(text, self.services.as_mut()),
                 Message::Copied(Ok(())) if self.state.making.on_clipboard != OnClipboard::Link => {
                     if let OnClipboard::Templates(number) = self.state.making.on_clipboard {
@@ -160,6 +161,7 @@ impl App {
                 let histogram = self.statistics.histogram(volume.slope, volume.intercept);
                 self.transfer.set_histogram(histogram);
                 self.state.view.set_subject(&volume);
+                self.fields.set_subject(volume.grid);
                 let volume = Arc::new(volume);
                 let shown = self
                     .picture

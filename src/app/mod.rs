@@ -19,6 +19,7 @@ mod camera;
 mod catalogue;
 mod command;
 mod control;
+mod fields;
 mod frames;
 mod gizmo;
 mod hint;
@@ -116,6 +117,7 @@ pub struct App {
     is_narrow: bool,
     /// The volume that is arriving.
     incoming: Option<VolumeBuilder>,
+    fields: fields::Fields,
     /// Its values, counted as they arrive.
     statistics: Statistics,
     /// The plot of the transfer function.
@@ -189,6 +191,7 @@ impl App {
             is_lettering: false,
             is_narrow: false,
             incoming: None,
+            fields: fields::Fields::default(),
             statistics: Statistics::new(),
             transfer: transfer::Editor::default(),
             slices: slices::Slices::default(),
@@ -240,6 +243,7 @@ impl App {
     fn frame(&mut self, ui: &mut Ui) {
         let now = ui.input(|i| i.time);
         self.take_messages();
+        self.follow_fields();
         if self.state.advance(now, self.services.as_mut()) {
             ui.ctx().request_repaint();
         }

@@ -1,6 +1,7 @@
 //! The picture in the middle: the renderer, the texture that egui shows, and what is asked of the GPU meanwhile. The one
 //! file of this room that touches wgpu.
 
+use super::fields::{self, Laid};
 use std::future::Future;
 use std::pin::Pin;
 use std::sync::Arc;
@@ -62,6 +63,7 @@ pub(crate) struct Picture {
     clock: Clock,
     picks: Vec<(PickFor, PendingPick)>,
     file: Option<Pending<Result<Image, RenderError>>>,
+    fields: Laid,
     /// As of the last frame.
     pub(crate) state: DrawState,
 }
@@ -83,6 +85,7 @@ impl Picture {
             generation: 0,
             slices: Vec::new(),
             ghost: None,
+            fields: Laid::new(),
             ghost_texture: None,
             clock,
             picks: Vec::new(),
@@ -128,10 +131,18 @@ impl Picture {
         self.renderer.segments()
     }
 
+    /// Takes the displacement fields that documents may show.
+    pub(super) fn set_fields(&mut self, fields: &Laid) {
+        if self.fields != *fields {
+            self.fields.clone_from(fields);
+        }
+    }
+
     /// Takes another illustration or camera to be drawn.
     pub(crate) fn set(&mut self, illustration: &Illustration, camera: &Camera) {
         let mut seen = illustration.clone();
         seen.camera = *camera;
+        fields::attach(&mut seen, &self.fields);
         self.renderer.set_illustration(&seen);
     }
 
@@ -264,9 +275,9 @@ impl Picture {
 
     /// Starts drawing the picture once more for a file.
     pub(crate) fn start_file(&mut self, illustration: &Illustration, size_px: [u32; 2]) {
-        let future = self
-            .renderer
-            .render_image(illustration, size_px, FILE_SAMPLES);
+        let mut seen = illustration.clone();
+        fields::attach(&mut seen, &self.fields);
+        let future = self.renderer.render_image(&seen, size_px, FILE_SAMPLES);
         self.file = Some(Box::pin(future));
     }
 

@@ -2,7 +2,8 @@
 //! tests have a false one. Nothing here blocks and nothing here knows a file, a thread or an address bar.
 
 use crate::data::{Volume, Voxels};
-use crate::document::{RawVoxels, SubjectRef};
+use crate::document::{FieldRef, RawVoxels, SubjectRef};
+use crate::load::FieldFile;
 
 /// Names one load, so that what still arrives from an earlier one is dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -42,6 +43,10 @@ pub trait Services {
     fn allow_host(&mut self, ticket: Ticket);
     /// How the voxels lie in the file that [`LoadEvent::AskRaw`] asked about; its load goes on under the same ticket.
     fn answer_raw(&mut self, ticket: Ticket, raw: &RawVoxels);
+    /// Reads a displacement field; [`Message::Field`] follows.
+    fn load_field(&mut self, field: &FieldRef) {
+        _ = field;
+    }
     /// Stops a load; [`LoadEvent::Cancelled`] follows.
     fn cancel_load(&mut self, ticket: Ticket);
     /// Gives bytes to the user as a file; [`Message::Saved`] follows.
@@ -86,6 +91,13 @@ pub enum Message {
     FileStarted {
         /// Its load.
         ticket: Ticket,
+    },
+    /// A displacement field was read, or why not.
+    Field {
+        /// [`FieldRef::key`] of the one that was asked for; `None` if the user opened it.
+        key: Option<String>,
+        /// The field, or why there is none, in plain words.
+        outcome: Box<Result<FieldFile, String>>,
     },
     /// Progress of a load.
     Load {

@@ -8,7 +8,9 @@
 use glam::{DAffine3, DMat3, DQuat, DVec3, UVec3};
 use half::f16;
 
-use super::{FileSet, LoadError, LoadReport, ReadOptions, Warning, nodes, read_volume};
+use super::{
+    FileSet, LoadError, LoadReport, ReadOptions, Warning, nodes, read_header, read_volume,
+};
 use crate::data::{Grid, Reducer, VolumeBuilder, VolumeLimits};
 use crate::document::SampledField;
 use crate::math::Placement;
@@ -48,6 +50,13 @@ pub struct FieldUse<'a> {
     pub is_lps: Option<bool>,
     /// Grid of the subject.
     pub subject: &'a Grid,
+}
+
+/// True if a file says that it holds vectors, or is a table of nodes: a displacement field rather than a scan.
+pub fn is_field(files: &mut dyn FileSet, name: &str) -> bool {
+    nodes::has_ending(name)
+        || read_header(files, name, &ReadOptions::default())
+            .is_ok_and(|(_, report)| report.is_vectors)
 }
 
 /// Reads a displacement field.

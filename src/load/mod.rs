@@ -51,7 +51,7 @@ use sha2::{Digest as _, Sha256};
 pub use describe::{Description, describe, describe_raw};
 pub use dicom::main_name;
 pub use error::LoadError;
-pub use field::{FieldFile, FieldUse, read_field};
+pub use field::{FieldFile, FieldUse, is_field, read_field};
 pub use files::{FileHandle, FileSet, MemoryFiles, OneFile};
 pub use geometry::orientation_code;
 pub use labels::{LabelSource, read_header, read_labels, read_subject};

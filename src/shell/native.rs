@@ -13,7 +13,8 @@ use super::loading::{make_subject, read_file};
 use super::reading::ReadingFlags;
 use crate::app::{App, LinkChange, LoadEvent, Message, SaveFile, Services, Start, Ticket};
 use crate::data::VolumeLimits;
-use crate::document::{Document, RawVoxels, Reading, SubjectRef};
+use crate::document::{Document, FieldRef, RawVoxels, Reading, SubjectRef};
+use crate::load::{is_field, read_field};
 use crate::render::Gpu;
 use crate::subjects::{Generator, Slab};
 
@@ -274,6 +275,22 @@ impl NativeServices {
         ticket
     }
 
+    /// Reads a displacement field in a thread.
+    fn read_field(&self, key: Option<String>, path: PathBuf) {
+        let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
+        let known = Arc::clone(&self.known);
+        std::thread::spawn(move || {
+            let (mut folder, name) = Folder::of(&path);
+            let outcome = read_field(&mut folder, &name).map_err(|error| error.to_string());
+            if let Ok(field) = &outcome {
+                let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+                known.insert(field.sha256.clone(), path);
+            }
+            let outcome = Box::new(outcome);
+            send(&sender, &ctx, Message::Field { key, outcome });
+        });
+    }
+
     /// A file that the user picked or dropped: a document if it reads like one, else a scan.
     fn open_path(&mut self, path: PathBuf) {
         match document_text(&path) {
@@ -283,11 +300,17 @@ impl NativeServices {
                 }
                 self.say(Message::OpenText { text });
             }
+            None if path.is_file() && is_field_file(&path) => self.read_field(None, path),
             None => {
                 self.start_file(path, None, false, Reading::default());
             }
         }
     }
+}
+
+fn is_field_file(path: &Path) -> bool {
+    let (mut folder, name) = Folder::of(path);
+    is_field(&mut folder, &name)
 }
 
 fn send(sender: &Sender<Message>, ctx: &egui::Context, message: Message) {
@@ -457,6 +480,24 @@ impl Services for NativeServices {
                     }
                     None => self.fail(super::wanted_file(name)),
                 }
+            }
+        }
+    }
+
+    fn load_field(&mut self, field: &FieldRef) {
+        let key = field.key().map(str::to_owned);
+        let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let by_hash = field
+            .sha256
+            .as_ref()
+            .and_then(|hash| known.get(hash).cloned());
+        drop(known);
+        let local = field.src.as_ref().filter(|src| !src.contains("://"));
+        match by_hash.or_else(|| local.map(|src| self.folder.join(src))) {
+            Some(path) => self.read_field(key, path),
+            None => {
+                let outcome = Box::new(Err(super::wanted_file(&field.name)));
+                self.say(Message::Field { key, outcome });
             }
         }
     }

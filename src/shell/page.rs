@@ -11,7 +11,8 @@ use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storag
 use super::worker::{Task, WorkerLoad, start, text_of};
 use crate::app::{LinkChange, LoadEvent, Message, STORED_DOCUMENT, SaveFile, Services, Ticket};
 use crate::data::VolumeLimits;
-use crate::document::{RawVoxels, Reading, SubjectRef};
+use crate::document::{FieldRef, RawVoxels, Reading, SubjectRef};
+use crate::load::{MemoryFiles, is_field, read_field};
 
 /// A larger file is no document (the contract's limit is 1 MiB), and is opened as a scan.
 const MAX_DOCUMENT_BYTES: f64 = 2e6;
@@ -136,6 +137,23 @@ impl PageServices {
         ticket
     }
 
+    /// Reads a displacement field: on the page itself, as fields are small beside scans.
+    async fn read_field(&self, key: Option<String>, name: String, blob: Blob) {
+        let outcome = match bytes_of(&blob).await {
+            Some(bytes) => {
+                let mut files = MemoryFiles::new([(name.as_str(), bytes)]);
+                read_field(&mut files, &name).map_err(|error| error.to_string())
+            }
+            None => Err(format!("{name} could not be read, or has more than 256 MB")),
+        };
+        let mut page = self.0.borrow_mut();
+        if let Ok(field) = &outcome {
+            page.known.insert(field.sha256.clone(), vec![(name, blob)]);
+        }
+        let outcome = Box::new(outcome);
+        page.say(Message::Field { key, outcome });
+    }
+
     /// Files that the reader picked or dropped together: a document if it reads like one, else a scan.
     pub(super) fn open_files(&self, files: Vec<(String, Blob)>) {
         let services = self.clone();
@@ -145,6 +163,12 @@ impl PageServices {
                 && let Some(text) = document_text(blob).await
             {
                 services.0.borrow_mut().say(Message::OpenText { text });
+                return;
+            }
+            if let [(name, blob)] = files.as_slice()
+                && is_field_file(name, blob).await
+            {
+                services.read_field(None, name.clone(), blob.clone()).await;
                 return;
             }
             let files = in_order(files);
@@ -170,6 +194,46 @@ fn in_order(mut files: Vec<(String, Blob)>) -> Vec<(String, Blob)> {
     };
     files.sort_by_key(|(name, _)| is_voxels(name));
     files
+}
+
+/// A larger displacement field is not read on the page.
+const MAX_FIELD_BYTES: f64 = 256e6;
+
+/// The bytes of a file that is not too large.
+async fn bytes_of(blob: &Blob) -> Option<Vec<u8>> {
+    if blob.size() > MAX_FIELD_BYTES {
+        return None;
+    }
+    let buffer = JsFuture::from(blob.array_buffer()).await.ok()?;
+    Some(js_sys::Uint8Array::new(&buffer).to_vec())
+}
+
+/// True if the head of a file says that it is a displacement field.
+async fn is_field_file(name: &str, blob: &Blob) -> bool {
+    let head = blob.slice_with_f64_and_f64(0.0, 65_536.0);
+    let Some(bytes) = (match head {
+        Ok(head) => bytes_of(&head).await,
+        Err(_) => None,
+    }) else {
+        return false;
+    };
+    is_field(&mut MemoryFiles::new([(name, bytes)]), name)
+}
+
+/// Fetches from the page's own host.
+async fn fetched(address: &str) -> Option<Blob> {
+    let response = JsFuture::from(window()?.fetch_with_str(address))
+        .await
+        .ok()?;
+    let response: web_sys::Response = response.dyn_into().ok()?;
+    if !response.ok() {
+        return None;
+    }
+    JsFuture::from(response.blob().ok()?)
+        .await
+        .ok()?
+        .dyn_into()
+        .ok()
 }
 
 /// The text of a file that begins as a document does.
@@ -322,6 +386,37 @@ impl Services for PageServices {
                 }
             }
         }
+    }
+
+    fn load_field(&mut self, field: &FieldRef) {
+        let services = self.clone();
+        let key = field.key().map(str::to_owned);
+        let hash = field.sha256.as_ref();
+        let known = hash.and_then(|hash| self.0.borrow().known.get(hash).cloned());
+        if let Some([(name, blob)]) = known.as_deref() {
+            let (name, blob) = (name.clone(), blob.clone());
+            spawn_local(async move { services.read_field(key, name, blob).await });
+            return;
+        }
+        let base = self.0.borrow().place.base.clone();
+        let address = field.src.as_ref().and_then(|src| {
+            let url = Url::new_with_base(src, &base).ok()?;
+            Some((src.clone(), url.href()))
+        });
+        let missing = super::wanted_file(&field.name);
+        spawn_local(async move {
+            if let Some((src, address)) = address {
+                // What lies elsewhere is not fetched unasked: the reader opens the file.
+                if foreign_host(&address).is_none()
+                    && let Some(blob) = fetched(&address).await
+                {
+                    let name = src.rsplit('/').next().unwrap_or(&src).to_owned();
+                    return services.read_field(key, name, blob).await;
+                }
+            }
+            let outcome = Box::new(Err(missing));
+            services.0.borrow_mut().say(Message::Field { key, outcome });
+        });
     }
 
     fn allow_host(&mut self, ticket: Ticket) {

@@ -227,3 +227,42 @@ fn the_catalogue_is_searched() {
         "all are back"
     );
 }
+
+#[test]
+fn a_displacement_field_that_is_opened_becomes_a_template() {
+    use fabrica::load::{MemoryFiles, read_field};
+    let mut window = Window::open(DESK, CUBE);
+    let table = "0 0 0 2 0 0\n10 0 0 2 0 0\n0 10 0 2 0 0\n0 0 10 2 0 0\n10 10 10 2 0 0\n";
+    let mut files = MemoryFiles::new([("nodes.csv", table.as_bytes().to_vec())]);
+    let field = read_field(&mut files, "nodes.csv").expect("a table");
+    let hash = field.sha256.clone();
+    let send = |window: &mut Window, outcome| {
+        let outcome = Box::new(outcome);
+        let mut log = window.log.0.borrow_mut();
+        log.queue.push(Message::Field { key: None, outcome });
+        drop(log);
+        window.settle();
+    };
+    send(&mut window, Ok(field.clone()));
+    let document = window.document();
+    let template = &document.illustration().templates[0];
+    assert_eq!(template.kind.spec().name, "field");
+    let size = document.get("/templates/0/size");
+    assert!(size.is_some(), "it lies where the file says: {document:?}");
+    let found = document.get("/templates/0/params/sha256");
+    assert_eq!(found.and_then(|v| v.as_str()), Some(hash.as_str()));
+    // The same again fills the template that is there; what is none is refused in words.
+    send(&mut window, Ok(field));
+    send(&mut window, Err("it has 2 numbers per sample".to_owned()));
+    assert_eq!(window.document().illustration().templates.len(), 1);
+    let said = "The displacement field cannot be used";
+    assert!(
+        window.harness.query_by_label_contains(said).is_some(),
+        "{said}"
+    );
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert!(
+        window.document().illustration().templates.is_empty(),
+        "undone"
+    );
+}

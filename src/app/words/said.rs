@@ -23,6 +23,7 @@ words! {
         nothing_to_click: "There is nothing to click on yet", "Es gibt noch nichts anzuklicken", "Todavía no hay nada en que hacer clic", "还没有可点击的内容";
         point_not_found: "The point could not be found", "Der Punkt wurde nicht gefunden", "No se encontró el punto", "找不到该点";
         nothing_here: "There is nothing at this place: click on the object", "Hier ist nichts: bitte auf das Objekt klicken", "Aquí no hay nada: haga clic en el objeto", "此处没有内容：请点击对象";
+        field_refused: "The displacement field cannot be used", "Das Verschiebungsfeld ist nicht brauchbar", "El campo de desplazamiento no se puede usar", "无法使用该位移场";
         less: "Less", "Weniger", "Menos", "收起";
         details: "Details", "Einzelheiten", "Detalles", "详情";
         dismiss: "Dismiss", "Ausblenden", "Descartar", "关闭";
