@@ -159,7 +159,7 @@ const GOLDEN: &[(&str, &str)] = &[
     ),
     (
         "hand",
-        "7992125f0638f698ba3709319e42aa37849e3a74a584b871b103c2a5e3287651",
+        "d48b6b05c35fc40af6a043fa03f63dc53f98fd3691d284da2834446e9f57635c",
     ),
     (
         "knee",

@@ -155,7 +155,7 @@ fn illustration(
     Ok(())
 }
 
-/// One subject: plain, peeled and sliced from four sides, and drawn apart.
+/// One subject from four sides: plain, peeled, laid bare and sliced.
 fn sheet(page: &mut String, name: &str, fabrica: &Path, folder: &Path, wish: &Wish) -> Outcome {
     let header = Generator::new(name, subjects::MIN_RESOLUTION)
         .map_err(|error| error.to_string())?
@@ -166,9 +166,20 @@ fn sheet(page: &mut String, name: &str, fabrica: &Path, folder: &Path, wish: &Wi
         page,
         name,
         name,
-        "Plain, peeled and sliced, from four sides.",
+        "Plain, peeled, laid bare and sliced, from four sides.",
     );
-    for (how, is_from_above) in [("plain", false), ("peeled", true), ("sliced", false)] {
+    let segments: Vec<String> = header
+        .labels
+        .iter()
+        .flat_map(|labels| &labels.segments)
+        .map(|segment| segment.name.clone())
+        .collect();
+    for (how, is_from_above) in [
+        ("plain", false),
+        ("peeled", true),
+        ("bared", true),
+        ("sliced", false),
+    ] {
         for (side, angle_deg) in SIDES {
             let (width, depth) = if angle_deg % 180.0 == 0.0 {
                 (half.x, half.y)
@@ -176,7 +187,19 @@ fn sheet(page: &mut String, name: &str, fabrica: &Path, folder: &Path, wish: &Wi
                 (half.y, half.x)
             };
             let templates = match how {
-                "peeled" => json!([peel(name, angle_deg, width, half.z, depth)]),
+                "peeled" => {
+                    let kept: Vec<&str> = segments
+                        .iter()
+                        .map(String::as_str)
+                        .filter(|segment| !wrapping(name).contains(segment))
+                        .collect();
+                    json!([peel(name, angle_deg, width, half.z, depth, &kept)])
+                }
+                // A cut that takes everything, but for what it is told to keep.
+                "bared" => {
+                    let keep = json!({ "to": "segment", "keep": core(name) });
+                    json!([{ "kind": "cut", "size": [3, 3, 3], "align": keep }])
+                }
                 "sliced" => {
                     json!([{ "kind": "cut", "at": middle(name), "rotate": facing(angle_deg), "params": { "shape": "halfspace" } }])
                 }
@@ -198,35 +221,72 @@ fn sheet(page: &mut String, name: &str, fabrica: &Path, folder: &Path, wish: &Wi
     Ok(())
 }
 
-/// A layer of the middle of one side, rolled back over three quarters.
-fn peel(name: &str, angle_deg: f32, width: f32, height: f32, depth: f32) -> Value {
-    // How much of the way to the middle comes off: far enough for what lies under the skin.
-    let layer = match name {
-        "tomato" => 0.16,
-        "piggybank" => 0.2,
-        "torso" => 0.42,
-        // Ears and nose stand out of what is peeled.
-        "head" => 0.45,
-        // The fingers come forward before the palm.
-        "hand" if angle_deg == 0.0 => 1.0,
-        "hand" => 0.6,
-        _ => 0.3,
-    } * depth;
-    let box_depth = layer * 1.6;
-    let out = depth - box_depth / 2.0;
-    // Of the head, the part that holds the brain.
-    let (up, height) = if name == "head" {
-        (0.18, height * 0.6)
+/// What is peeled off a subject.
+fn wrapping(name: &str) -> &'static [&'static str] {
+    match name {
+        "bar" => &["shell"],
+        "cube" => &["top", "middle"],
+        "tomato" => &["skin", "flesh"],
+        "piggybank" => &["wall", "eyes", "plug"],
+        "head" => &["skin", "fat", "hair", "lips", "csf"],
+        "hand" => &["skin", "fat", "nails"],
+        "knee" => &["skin", "fat", "joint fluid"],
+        _ => &["skin", "fat"],
+    }
+}
+
+/// What is left when a subject is laid bare.
+fn core(name: &str) -> &'static [&'static str] {
+    match name {
+        "bar" => &["core"],
+        "cube" => &["ball", "bottom"],
+        "tomato" => &["seeds", "core", "calyx"],
+        "piggybank" => &["coins"],
+        "head" => &["bone", "teeth", "cartilage"],
+        "hand" => &[
+            "bone",
+            "cartilage",
+            "tendons",
+            "arteries",
+            "veins",
+            "nerves",
+        ],
+        "knee" => &[
+            "femur",
+            "tibia",
+            "fibula",
+            "patella",
+            "cartilage",
+            "menisci",
+            "ligaments",
+            "tendons",
+        ],
+        _ => &[
+            "heart", "arteries", "veins", "bronchi", "liver", "stomach", "spleen", "pancreas",
+            "kidneys", "ureters", "spine", "discs", "pelvis",
+        ],
+    }
+}
+
+/// One side rolled back over most of its width, with `kept` left standing.
+fn peel(name: &str, angle_deg: f32, width: f32, height: f32, depth: f32, kept: &[&str]) -> Value {
+    // Nearly down to the middle: what is peeled ends where something is kept.
+    let layer = depth * 0.9;
+    let out = depth * 1.04 - layer / 2.0;
+    // Of the hand, what lies before its fingers bend forward.
+    let out = if name == "hand" && angle_deg == 0.0 {
+        out - 0.1
     } else {
-        (0.0, height)
+        out
     };
     let angle = angle_deg.to_radians();
     json!({
         "kind": "peel",
-        "at": rounded([-angle.sin() * out, angle.cos() * out, up]),
+        "at": rounded([-angle.sin() * out, angle.cos() * out, 0.0]),
         "rotate": facing(angle_deg),
-        "size": rounded([width * 1.3, height * 1.1, box_depth]),
-        "params": { "progress": 0.7, "depth": 0.625, "radius": 0.16 },
+        "size": rounded([width * 1.8, height * 1.5, layer]),
+        "params": { "progress": 0.64, "depth": 1.0, "radius": 0.1 },
+        "align": { "to": "segment", "keep": kept },
     })
 }
 
