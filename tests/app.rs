@@ -9,6 +9,8 @@ mod comfort;
 mod looking;
 #[path = "app/making.rs"]
 mod making;
+#[path = "app/tissue.rs"]
+mod tissue;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;

@@ -141,6 +141,35 @@ impl App {
         }
     }
 
+    /// Goes on with the segments that are being made, and shows them when they are there.
+    pub(super) fn advance_tissue(&mut self, ui: &egui::Ui) {
+        let is_dragging = ui.input(|i| i.pointer.any_down());
+        let wanted = &self.state.shown().features;
+        let made = self.tissue.advance(wanted, is_dragging);
+        if self.tissue.is_behind(wanted) {
+            ui.ctx().request_repaint();
+        }
+        self.state.tissues.progress = self.tissue.progress();
+        let Some(made) = made else {
+            return;
+        };
+        self.state.tissues.counts.clone_from(&self.tissue.counts);
+        for notice in made.notices {
+            self.state.say(Gravity::Warning, notice, "");
+        }
+        let segments = made.labels.as_ref().map_or(&[][..], |l| &l.segments);
+        self.state.view.set_segments(segments);
+        self.state.revision += 1;
+        let shown = self
+            .picture
+            .as_mut()
+            .map(|picture| picture.set_labels(made.labels));
+        if let Some(Err(error)) = shown {
+            let text = words::said::w().does_not_fit;
+            self.state.say(Gravity::Error, text, error.to_string());
+        }
+    }
+
     /// There will be no volume of this load.
     fn refuse(&mut self, message: &str, details: String) {
         self.incoming = None;
@@ -163,6 +192,9 @@ impl App {
                 self.state.view.set_subject(&volume);
                 self.fields.set_subject(volume.grid);
                 let volume = Arc::new(volume);
+                let spacing = volume.grid.spacing_mm();
+                self.state.tissues.voxel_cm3 = spacing.element_product() / 1000.0;
+                self.tissue.set_volume(Arc::clone(&volume));
                 let shown = self
                     .picture
                     .as_mut()

@@ -3,6 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::camera::StandardView;
+use super::tissue::TissueCommand;
 use super::view::See;
 use super::words::Lang;
 use super::words::keys::w;
@@ -113,6 +114,8 @@ pub enum Command {
     TogglePanels,
     /// Changes how one looks: slices, ghost, distances.
     See(See),
+    /// Edits or shows tissues.
+    Tissue(TissueCommand),
 }
 
 /// What the handles in the picture do.

@@ -6,6 +6,7 @@ use super::command::Command;
 use super::control::{self, NumberRow};
 use super::templates::command;
 use super::theme::{CONTROL_HEIGHT, Palette};
+use super::tissue;
 use super::words::keep::{segment, w};
 use crate::data::Segment;
 use crate::document::{Align, Constrain, ConstrainBy, Edit, PlacedTemplate, keep_sets};
@@ -235,7 +236,7 @@ fn segments_ui(
     }
     let mut changed = None;
     let mut list = |ui: &mut Ui| {
-        for entry in segments {
+        for entry in tissue::listed(segments) {
             let mut is_on = keep.iter().any(|name| means(name, entry));
             let title = segment(&entry.name);
             control::row(ui, |ui| {

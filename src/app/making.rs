@@ -77,7 +77,7 @@ impl State {
 
     /// Turns to the next panel, or the one before, and gives it the keyboard.
     pub(crate) fn next_panel(&mut self, forward: bool, are_drawers: bool) {
-        const PANELS: [Tab; 4] = [Tab::Add, Tab::Templates, Tab::Look, Tab::Text];
+        const PANELS: [Tab; 5] = [Tab::Add, Tab::Templates, Tab::Tissues, Tab::Look, Tab::Text];
         // The catalogue has a place of its own where there is room.
         let panels = if are_drawers {
             &PANELS[..]

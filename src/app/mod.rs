@@ -10,6 +10,7 @@
 //! | `picture`, `icons` | the renderer, its texture, questions to it; the catalogue's pictures |
 //! | `topbar`, `catalogue`, `templates`, `look` with `transfer` and `transfer_plot`, `text`, `notice`, `keys` | one panel each |
 //! | `words/` | every text of the interface in every language, a table per panel |
+//! | `tissue`, `tissue_work` | segments listed, features made here |
 //! | `theme`, `control`, `icon` | colours and type, the common controls, drawn icons |
 //!
 //! Nothing here knows where it runs. The picture is drawn when something changed; at rest nothing repaints.
@@ -45,6 +46,8 @@ mod steps;
 mod templates;
 mod text;
 mod theme;
+mod tissue;
+mod tissue_work;
 mod topbar;
 mod transfer;
 mod transfer_plot;
@@ -72,6 +75,7 @@ pub use self::command::{Command, GizmoMode};
 pub use self::lettering::letter;
 pub use self::services::{LinkChange, LoadEvent, Message, RawQuestion, SaveFile, Services, Ticket};
 pub use self::state::STORED_DOCUMENT;
+pub use self::tissue::TissueCommand;
 pub use self::view::{Pane, See};
 pub use self::words::Lang;
 
@@ -124,6 +128,8 @@ pub struct App {
     transfer: transfer::Editor,
     /// The slices beside the picture.
     slices: slices::Slices,
+    /// The segments of the subject in the making.
+    tissue: tissue_work::TissueWork,
 }
 
 /// What has been said aloud so far.
@@ -195,6 +201,7 @@ impl App {
             statistics: Statistics::new(),
             transfer: transfer::Editor::default(),
             slices: slices::Slices::default(),
+            tissue: tissue_work::TissueWork::new(start.clock),
         }
     }
 
@@ -217,6 +224,7 @@ impl App {
     pub fn is_at_rest(&self) -> bool {
         let is_picture_done = |picture: &Picture| picture.state.is_done && !picture.is_waiting();
         self.state.load.is_none()
+            && !self.tissue.is_behind(&self.state.shown().features)
             && !self.state.wants_place_in_middle
             && self.picture.as_ref().is_none_or(is_picture_done)
     }
@@ -244,6 +252,7 @@ impl App {
         let now = ui.input(|i| i.time);
         self.take_messages();
         self.follow_fields();
+        self.advance_tissue(ui);
         if self.state.advance(now, self.services.as_mut()) {
             ui.ctx().request_repaint();
         }
@@ -385,7 +394,11 @@ impl App {
         }
         if let Some(picture) = &mut self.picture {
             for notice in picture.take_notices() {
-                self.state.say(Gravity::Warning, notice, "");
+                // What is not there yet may be on its way.
+                let is_early = self.tissue.is_behind(&self.state.shown().features);
+                if !(is_early && notice.starts_with("keep: ")) {
+                    self.state.say(Gravity::Warning, notice, "");
+                }
             }
             if std::mem::take(&mut self.state.wants_picture_file) {
                 let size = self.viewport.size_px(ui.pixels_per_point());
@@ -518,6 +531,7 @@ impl App {
                         let w = words::bar::w();
                         let tabs = [
                             (Tab::Templates, w.templates),
+                            (Tab::Tissues, w.tissues),
                             (Tab::Look, w.look),
                             (Tab::Text, w.text),
                         ];
@@ -534,6 +548,9 @@ impl App {
                     let tab = self.state.side_tab;
                     scroll(ui, |ui| self.tab_ui(ui, tab, commands));
                 });
+        }
+        if self.state.side_tab != Tab::Tissues {
+            self.state.end_tissues();
         }
         self.picture_ui(ui, commands);
     }
@@ -579,6 +596,9 @@ impl App {
                     });
             }
         }
+        if self.state.tab.is_some_and(|tab| tab != Tab::Tissues) {
+            self.state.end_tissues();
+        }
         self.picture_ui(ui, commands);
     }
 
@@ -587,6 +607,11 @@ impl App {
             Tab::Add | Tab::Templates => {
                 let segments = self.picture.as_ref().map_or(&[][..], Picture::segments);
                 templates::ui(ui, &self.state, segments, commands);
+            }
+            Tab::Tissues => {
+                let segments = self.picture.as_ref().map_or(&[][..], Picture::segments);
+                let info = self.picture.as_ref().and_then(Picture::subject_info);
+                tissue::ui(ui, &self.state, segments, info.as_ref(), commands);
             }
             Tab::Look => {
                 let info = self.picture.as_ref().and_then(Picture::subject_info);
@@ -603,6 +628,7 @@ impl App {
         let tabs = [
             (Tab::Add, Icon::Plus, w.add),
             (Tab::Templates, Icon::Layers, w.templates),
+            (Tab::Tissues, Icon::Tissue, w.tissues),
             (Tab::Look, Icon::Look, w.look),
             (Tab::Text, Icon::Text, w.text),
         ];

@@ -20,6 +20,9 @@ impl State {
         self.glide = None;
         self.selected = None;
         self.placing = None;
+        self.tissues.open = None;
+        self.tissues.is_seeding = false;
+        self.tissues.alone = None;
         self.link_stale_since = None;
         self.payload = make_payload(&document, &document.illustration().camera);
         self.walk = Walk::at(&document, step);

@@ -11,7 +11,7 @@ use eframe::egui_wgpu::RenderState;
 
 use glam::Vec2;
 
-use crate::data::{Segment, Volume};
+use crate::data::{LabelVolume, Segment, Volume};
 use crate::document::{Background, Camera, Illustration};
 use crate::render::{
     Clock, DrawState, Gpu, Image, PendingPick, PendingSlice, Pick, RenderError, Renderer,
@@ -45,6 +45,8 @@ pub(crate) enum PickFor {
     Target,
     /// To measure from or to it.
     Measure,
+    /// To let a tissue grow from it.
+    Seed,
     /// To lay the template of that index on the surface.
     Surface(usize),
 }
@@ -114,6 +116,15 @@ impl Picture {
     pub(crate) fn set_subject(&mut self, volume: Arc<Volume>) -> Result<(), RenderError> {
         self.state.is_done = false;
         self.renderer.set_subject(volume)
+    }
+
+    /// Shows the same volume with other segments.
+    pub(crate) fn set_labels(
+        &mut self,
+        labels: Option<Arc<LabelVolume>>,
+    ) -> Result<(), RenderError> {
+        self.state.is_done = false;
+        self.renderer.set_labels(labels)
     }
 
     /// What there is to say about the volume shown, once.

@@ -554,6 +554,11 @@ impl Slices {
                 match reading.poll_now() {
                     Some(Ok(texels)) => {
                         self.read = texels.first().map(|texel| (*asked, *texel));
+                        if asked.0 == state.view.cross {
+                            let there = texels.first().filter(|texel| texel.is_there);
+                            let read = there.map(|texel| (texel.pos_in_rest, texel.value));
+                            state.view.cross_read.set(read);
+                        }
                         self.reading = None;
                     }
                     Some(Err(_)) => self.reading = None,

@@ -9,6 +9,7 @@ use super::frames::FileChoice;
 use super::making::{Making, OnClipboard, placement_on_surface};
 use super::services::{LinkChange, SaveFile, Services, Ticket};
 use super::steps::Walk;
+use super::tissue::Tissues;
 use super::view::ViewState;
 use super::words;
 use crate::document::{
@@ -92,6 +93,8 @@ pub(crate) enum Tab {
     Add,
     /// The list and the selected template.
     Templates,
+    /// Segments, and what is made here.
+    Tissues,
     /// Colours and background.
     Look,
     /// Title, caption, credit.
@@ -155,6 +158,8 @@ pub(crate) struct State {
     pub revision: u64,
     /// How one looks besides the camera.
     pub view: ViewState,
+    /// What of the tissues is edited or shown.
+    pub tissues: Tissues,
 }
 
 impl State {
@@ -197,6 +202,7 @@ impl State {
             now: 0.0,
             revision: 0,
             view: ViewState::default(),
+            tissues: Tissues::default(),
         }
     }
 
@@ -440,6 +446,7 @@ impl State {
                 }
             }
             Command::StartPlacing(kind) => {
+                self.end_tissues();
                 self.leave_steps();
                 self.view.measures.is_on = false;
                 self.placing = if self.placing == Some(kind) {
@@ -549,6 +556,10 @@ impl State {
                 }
             }
             Command::See(see) => self.view.run(see),
+            Command::Tissue(command) => {
+                self.tissues.run(command);
+                self.revision += 1;
+            }
             Command::ToggleKeys => self.is_keys_sheet_open = !self.is_keys_sheet_open,
             Command::ToggleFrames => self.files.is_open = !self.files.is_open,
             Command::ToggleMessages => self.is_messages_open = !self.is_messages_open,
@@ -571,6 +582,14 @@ impl State {
                 self.are_panels_hidden = !self.are_panels_hidden;
                 self.tab = None;
             }
+        }
+    }
+
+    /// Other things are being done than with tissues: everything is shown, and clicks are for others.
+    pub(crate) fn end_tissues(&mut self) {
+        self.tissues.is_seeding = false;
+        if self.tissues.alone.take().is_some() {
+            self.revision += 1;
         }
     }
 
@@ -637,6 +656,8 @@ impl State {
             self.is_messages_open = false;
         } else if self.placing.is_some() {
             self.placing = None;
+        } else if self.tissues.is_seeding {
+            self.tissues.is_seeding = false;
         } else if self.view.escape() {
             // It dropped what was being measured, or went back to all views.
         } else if !self.making.search.is_empty() {

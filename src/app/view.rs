@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use glam::{DVec3, Vec3};
 
 use super::measure::Measures;
-use crate::data::Volume;
+use crate::data::{Segment, Volume};
 use crate::math::Aabb;
 
 /// A part of the window in which the object is seen.
@@ -65,15 +65,13 @@ impl SubjectFacts {
     fn new(volume: &Volume) -> Self {
         let (min, max) = volume.grid.world_bounds();
         let mm_per_unit = volume.grid.mm_per_unit();
-        let segments = volume.labels.iter().flat_map(|labels| &labels.segments);
+        let segments = volume.labels.as_ref();
         Self {
             mm_per_unit: mm_per_unit as f32,
             middle_mm: 0.5 * (min + max),
             bounds: volume.grid.subject_bounds(),
             voxel: (volume.grid.spacing_mm().min_element() / mm_per_unit) as f32,
-            segments: segments
-                .map(|segment| (segment.label, segment.name.clone()))
-                .collect(),
+            segments: segments.map_or_else(BTreeMap::new, |labels| names_of(&labels.segments)),
         }
     }
 
@@ -81,6 +79,19 @@ impl SubjectFacts {
     pub(crate) fn world_from_subject(&self, pos: Vec3) -> Vec3 {
         (self.middle_mm + pos.as_dvec3() * f64::from(self.mm_per_unit)).as_vec3()
     }
+}
+
+/// What a label means; where segments overlap, all of them.
+fn names_of(segments: &[Segment]) -> BTreeMap<u16, String> {
+    let mut names: BTreeMap<u16, String> = BTreeMap::new();
+    for segment in segments {
+        let name = names.entry(segment.label).or_default();
+        if !name.is_empty() {
+            name.push_str(" + ");
+        }
+        name.push_str(&segment.name);
+    }
+    names
 }
 
 /// All of it.
@@ -96,6 +107,8 @@ pub(crate) struct ViewState {
     pub cross: Vec3,
     /// The volume that is shown.
     pub subject: Option<SubjectFacts>,
+    /// What the crosshair lies on: where that was at rest, and its value.
+    pub cross_read: std::cell::Cell<Option<(Vec3, f32)>>,
     /// The untouched object is seen over the deformed one.
     pub has_ghost: bool,
     /// Distances in the picture.
@@ -117,6 +130,15 @@ impl ViewState {
             self.measures.clear();
         }
         self.subject = Some(facts);
+        self.subject_revision += 1;
+    }
+
+    /// The volume has other segments now.
+    pub(crate) fn set_segments(&mut self, segments: &[Segment]) {
+        let Some(facts) = &mut self.subject else {
+            return;
+        };
+        facts.segments = names_of(segments);
         self.subject_revision += 1;
     }
 

@@ -18,6 +18,7 @@ use super::picture::{PickFor, Picture};
 use super::slice_plot;
 use super::state::{Gravity, State};
 use super::theme::{self, Palette};
+use super::tissue;
 use super::view_bar;
 use super::words::picture::w;
 use super::words::{self, fill, in_sentence, said};
@@ -263,7 +264,7 @@ impl Viewport {
             self.last_camera = Some(state.camera);
             self.last_revision = state.revision;
             self.moving_until = now + REST_SECONDS;
-            picture.set(state.shown(), &state.camera);
+            set_seen(picture, state);
         }
         let is_moving = now < self.moving_until;
         let size = size_px(rect, ui.pixels_per_point());
@@ -351,6 +352,12 @@ impl Viewport {
                     // A preview is no reason for a message.
                     _ = picture.ask(PickFor::Hover, pixel(pos), size);
                 }
+            } else if state.tissues.is_seeding {
+                if response.clicked()
+                    && let Some(pos) = pointer
+                {
+                    asked = picture.ask(PickFor::Seed, pixel(pos), size);
+                }
             } else if state.view.measures.is_on {
                 if response.clicked()
                     && let Some(pos) = pointer
@@ -374,7 +381,7 @@ impl Viewport {
             picture.set(&seen, &camera);
             let middle = [0.5 * SURFACE_VIEW as f32; 2];
             asked = picture.ask(PickFor::Surface(template), middle, [SURFACE_VIEW; 2]);
-            picture.set(state.shown(), &state.camera);
+            set_seen(picture, state);
             self.moving_until = state.now + REST_SECONDS;
         }
         if let Err(error) = asked {
@@ -423,6 +430,13 @@ impl Viewport {
             }
             (PickFor::Target, Some(pick)) => state.look_at(pick.pos_in_subject),
             (PickFor::Target, None) => {}
+            (PickFor::Seed, Some(pick)) => {
+                let command = tissue::add_seed(state, pick.pos_in_rest, pick.value);
+                if let Some(Command::Apply(edit)) = command {
+                    state.apply(&edit, false);
+                }
+            }
+            (PickFor::Seed, None) => state.say(Gravity::Info, said::w().nothing_here, ""),
             (PickFor::Measure, Some(pick)) => state.view.measures.add(pick.pos_in_subject),
             (PickFor::Measure, None) => state.say(Gravity::Info, said::w().nothing_here, ""),
         }
@@ -740,6 +754,14 @@ fn tools_ui(
     }
     let more = control::icon_button(ui, Icon::More, words::making::w().actions, true);
     egui::Popup::menu(&more).show(|ui| making::menu_ui(ui, state, commands));
+}
+
+/// Hands over what is to be seen: the illustration, or one tissue of it alone.
+fn set_seen(picture: &mut Picture, state: &State) {
+    match state.tissues.alone_in(state.shown()) {
+        Some(alone) => picture.set(&alone, &state.camera),
+        None => picture.set(state.shown(), &state.camera),
+    }
 }
 
 /// What a kind of handle is called.

@@ -8,7 +8,7 @@ use super::scene::{Prepared, frame_of};
 use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
 use super::subject::{Upload, reduced_to_fit};
 use super::{Gpu, RenderError, SubjectInfo, View, WorkDone};
-use crate::data::{Segment, Volume};
+use crate::data::{LabelVolume, Segment, Volume};
 use crate::document::{Camera, Illustration};
 use glam::Vec2;
 use std::sync::Arc;
@@ -57,6 +57,10 @@ pub struct Renderer {
     studio: Option<Studio>,
     volume: Option<Arc<Volume>>,
     upload: Option<(Upload, Arc<Volume>)>,
+    /// Shown in place of the segments that the volume came with.
+    labels: Option<Option<Arc<LabelVolume>>>,
+    /// What the device has, made smaller where it was too large.
+    fitting: Option<Arc<Volume>>,
     notices: Vec<String>,
     illustration: Option<Illustration>,
     prepared: Option<Prepared>,
@@ -132,6 +136,8 @@ impl Renderer {
             studio: None,
             volume: None,
             upload: None,
+            labels: None,
+            fitting: None,
             notices: Vec::new(),
             illustration: None,
             prepared: None,
@@ -168,6 +174,36 @@ impl Renderer {
         };
         self.upload = Some((Upload::new(&self.gpu, &fitting)?, fitting));
         self.volume = Some(volume);
+        self.labels = None;
+        Ok(())
+    }
+
+    /// Shows the volume with other segments than it came with, from when it is on the GPU on; for [`Renderer::set_subject`]'s last volume.
+    ///
+    /// # Errors
+    /// [`RenderError::TooLarge`] if the device does not take them.
+    pub fn set_labels(&mut self, labels: Option<Arc<LabelVolume>>) -> Result<(), RenderError> {
+        self.labels = Some(labels);
+        match self.upload {
+            Some(_) => Ok(()),
+            None => self.take_labels(),
+        }
+    }
+
+    fn take_labels(&mut self) -> Result<(), RenderError> {
+        let passes = self.passes()?;
+        if let (Some(labels), Some(studio), Some(volume)) =
+            (&self.labels, &mut self.studio, &self.fitting)
+        {
+            let labels = labels.as_deref();
+            let subject = studio
+                .subject
+                .with_labels(&self.gpu, &passes, volume, labels)?;
+            studio.subject = Arc::new(subject);
+            self.prepared = None;
+            self.slices.forget();
+            self.touch();
+        }
         Ok(())
     }
 
@@ -440,6 +476,7 @@ impl Renderer {
     /// [`RenderError::TooLarge`] if the new device takes less.
     pub fn recover(&mut self, gpu: Gpu) -> Result<(), RenderError> {
         let volume = self.volume.take();
+        let labels = self.labels.take();
         let illustration = self.illustration.take();
         let generation = self.generation;
         *self = Self {
@@ -448,7 +485,11 @@ impl Renderer {
             ..Self::new(gpu, self.clock)
         };
         match volume {
-            Some(volume) => self.set_subject(volume),
+            Some(volume) => {
+                self.set_subject(volume)?;
+                self.labels = labels;
+                Ok(())
+            }
             None => Ok(()),
         }
     }
@@ -469,10 +510,11 @@ impl Renderer {
                     subject: Arc::new(subject),
                     wants_grid: true,
                 });
+                self.fitting = Some(volume);
                 self.prepared = None;
                 self.slices.forget();
                 self.touch();
-                return Ok(());
+                return self.take_labels();
             }
             if (self.clock)() - start > budget {
                 // Hands over what has piled up.

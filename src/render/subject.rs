@@ -1,7 +1,7 @@
 use super::gpu_types::{Subject, affine_rows};
 use super::passes::Passes;
 use super::{Gpu, RenderError, uniform_buffer};
-use crate::data::{Histogram, Reducer, Segment, Volume, VolumeBuilder, Voxels};
+use crate::data::{Histogram, LabelVolume, Reducer, Segment, Volume, VolumeBuilder, Voxels};
 use crate::math::Aabb;
 use glam::{Affine3A, DAffine3, DVec3, UVec3, Vec3};
 use half::f16;
@@ -221,22 +221,14 @@ impl Upload {
             Some(labels) if labels.labels.len() == labels.grid.voxel_count() => labels.grid.dims,
             _ => UVec3::ONE,
         };
-        let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
-        let texture = |label, dims: UVec3, format| {
-            gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: extent(dims),
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D3,
-                format,
-                usage,
-                view_formats: &[],
-            })
-        };
         Ok(Self {
-            volume_texture: texture("volume", volume.grid.dims, wgpu::TextureFormat::R16Float),
-            label_texture: texture("labels", label_dims, wgpu::TextureFormat::R8Uint),
+            volume_texture: volume_texture(
+                gpu,
+                "volume",
+                volume.grid.dims,
+                wgpu::TextureFormat::R16Float,
+            ),
+            label_texture: label_texture(gpu, label_dims),
             next_slice: 0,
             next_label_slice: 0,
             scale: Normalise::of(volume),
@@ -301,101 +293,174 @@ impl Upload {
 
     /// The subject, once [`Upload::advance`] said that all is handed over.
     pub(super) fn finish(self, gpu: &Gpu, passes: &Passes, volume: &Volume) -> SubjectTextures {
-        let grid = &volume.grid;
-        let dims = grid.dims.as_vec3();
         let labels = volume
             .labels
             .as_ref()
             .filter(|l| l.labels.len() == l.grid.voxel_count());
-        let label_grid = labels.map_or(grid, |l| &l.grid);
-        // Labels may lie on another grid; both go through world space.
-        let subject_from_world = grid.subject_from_voxel() * grid.world_from_voxel.inverse();
-        let label_texture_from_voxel = DAffine3::from_scale(label_grid.dims.as_dvec3().recip())
-            * DAffine3::from_translation(glam::DVec3::splat(0.5));
-        let label_from_rest =
-            label_texture_from_voxel * (subject_from_world * label_grid.world_from_voxel).inverse();
-        let to = affine_rows(&affine32(&grid.texture_from_subject()));
-        let label = affine_rows(&affine32(&label_from_rest));
-        let spacing = (grid.spacing_mm().min_element() / grid.mm_per_unit()) as f32;
-        let uniform = Subject {
-            texture_from_rest_row0: to[0],
-            texture_from_rest_row1: to[1],
-            texture_from_rest_row2: to[2],
-            label_from_rest_row0: label[0],
-            label_from_rest_row1: label[1],
-            label_from_rest_row2: label[2],
-            dims: [dims.x, dims.y, dims.z, spacing],
-            label_dims: {
-                let d = if labels.is_some() {
-                    label_grid.dims.as_vec3()
-                } else {
-                    glam::Vec3::ONE
-                };
-                [d.x, d.y, d.z, f32::from(u8::from(labels.is_some()))]
-            },
-            texture_end: [1.0, 1.0, 1.0, 0.0],
-            value: [volume.value_range[0], span(volume.value_range), 0.0, 0.0],
-        };
-        let mut colors = [[0u8; 4]; 256];
-        let mut has_segments = false;
-        for segment in labels.into_iter().flat_map(|l| &l.segments) {
-            if let (Some(slot), Some([r, g, b])) = (
-                colors.get_mut(usize::from(segment.label)),
-                segment.color_srgb,
-            ) {
-                *slot = [r, g, b, 255];
-                has_segments = true;
+        let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
+        let views = [view(&self.volume_texture), view(&self.label_texture)];
+        let info = info(volume, false);
+        assemble(gpu, passes, volume, labels, views, self.bricks.bricks, info)
+    }
+}
+
+impl SubjectTextures {
+    /// The same volume with other segments. `volume` is the one that was uploaded.
+    ///
+    /// # Errors
+    /// [`RenderError::TooLarge`] if the device does not take so many labels along an axis, or they are not whole.
+    pub(super) fn with_labels(
+        &self,
+        gpu: &Gpu,
+        passes: &Passes,
+        volume: &Volume,
+        labels: Option<&LabelVolume>,
+    ) -> Result<Self, RenderError> {
+        let dims = labels.map_or(UVec3::ONE, |labels| labels.grid.dims);
+        let most = gpu.device.limits().max_texture_dimension_3d;
+        if dims.max_element() > most
+            || labels.is_some_and(|l| l.labels.len() != l.grid.voxel_count())
+        {
+            return Err(RenderError::TooLarge(format!(
+                "{} × {} × {} labels do not fit on this device",
+                dims.x, dims.y, dims.z
+            )));
+        }
+        let texture = label_texture(gpu, dims);
+        if let Some(labels) = labels {
+            let slice = dims.x as usize * dims.y as usize;
+            let at_once = (SLAB_BYTES / slice.max(1)).max(1);
+            for (i, part) in labels.labels.chunks(at_once * slice).enumerate() {
+                let slices = (part.len() / slice) as u32;
+                write_slices(gpu, &texture, (i * at_once) as u32, slices, 1, part);
             }
         }
-        let palette = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("palette"),
-            size: extent(UVec3::new(256, 1, 1)),
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba8UnormSrgb,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
-        write_slices(gpu, &palette, 0, 1, 4, bytemuck::cast_slice(&colors));
-        let buffer = uniform_buffer(gpu, "subject", &uniform);
-        let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
-        let (volume_view, label_view, palette_view) = (
-            view(&self.volume_texture),
-            view(&self.label_texture),
-            view(&palette),
-        );
-        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("subject"),
-            layout: &passes.subject_layout,
-            entries: &[
-                entry(0, buffer.as_entire_binding()),
-                entry(1, wgpu::BindingResource::TextureView(&volume_view)),
-                entry(2, wgpu::BindingResource::Sampler(&passes.linear_sampler)),
-                entry(3, wgpu::BindingResource::TextureView(&label_view)),
-                entry(4, wgpu::BindingResource::TextureView(&palette_view)),
-            ],
-        });
-        let up = subject_from_world.inverse().matrix3 * grid.subject_from_voxel().matrix3;
-        let rises = [up.x_axis, up.y_axis, up.z_axis].map(|axis| (axis.z / axis.length()).abs());
-        let foot_axis = (0..3).fold(0, |best, i| if rises[i] > rises[best] { i } else { best });
-        SubjectTextures {
-            buffer,
-            volume_view,
-            label_view,
-            sampler: passes.linear_sampler.clone(),
-            frame: VoxelFrame::new(grid.dims, grid.subject_from_voxel()),
-            label_frame: labels.map(|l| {
-                VoxelFrame::new(l.grid.dims, subject_from_world * l.grid.world_from_voxel)
-            }),
-            foot_axis: foot_axis as u32,
-            segments: labels.map(|l| l.segments.clone()).unwrap_or_default(),
-            bind_group,
-            bricks: self.bricks.bricks,
-            info: info(volume, has_segments),
-            bounds: grid.subject_bounds(),
-            uniform,
+        let views = [
+            self.volume_view.clone(),
+            texture.create_view(&Default::default()),
+        ];
+        let (bricks, info) = (self.bricks.clone(), self.info);
+        Ok(assemble(gpu, passes, volume, labels, views, bricks, info))
+    }
+}
+
+fn label_texture(gpu: &Gpu, dims: UVec3) -> wgpu::Texture {
+    volume_texture(gpu, "labels", dims, wgpu::TextureFormat::R8Uint)
+}
+
+fn volume_texture(
+    gpu: &Gpu,
+    label: &str,
+    dims: UVec3,
+    format: wgpu::TextureFormat,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: extent(dims),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D3,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
+/// Everything that the passes want, around textures that are filled. `info` is complete but for the segments.
+fn assemble(
+    gpu: &Gpu,
+    passes: &Passes,
+    volume: &Volume,
+    labels: Option<&LabelVolume>,
+    [volume_view, label_view]: [wgpu::TextureView; 2],
+    bricks: Bricks,
+    mut info: SubjectInfo,
+) -> SubjectTextures {
+    let grid = &volume.grid;
+    let dims = grid.dims.as_vec3();
+    let label_grid = labels.map_or(grid, |l| &l.grid);
+    // Labels may lie on another grid; both go through world space.
+    let subject_from_world = grid.subject_from_voxel() * grid.world_from_voxel.inverse();
+    let label_texture_from_voxel = DAffine3::from_scale(label_grid.dims.as_dvec3().recip())
+        * DAffine3::from_translation(glam::DVec3::splat(0.5));
+    let label_from_rest =
+        label_texture_from_voxel * (subject_from_world * label_grid.world_from_voxel).inverse();
+    let to = affine_rows(&affine32(&grid.texture_from_subject()));
+    let label = affine_rows(&affine32(&label_from_rest));
+    let spacing = (grid.spacing_mm().min_element() / grid.mm_per_unit()) as f32;
+    let uniform = Subject {
+        texture_from_rest_row0: to[0],
+        texture_from_rest_row1: to[1],
+        texture_from_rest_row2: to[2],
+        label_from_rest_row0: label[0],
+        label_from_rest_row1: label[1],
+        label_from_rest_row2: label[2],
+        dims: [dims.x, dims.y, dims.z, spacing],
+        label_dims: {
+            let d = if labels.is_some() {
+                label_grid.dims.as_vec3()
+            } else {
+                glam::Vec3::ONE
+            };
+            [d.x, d.y, d.z, f32::from(u8::from(labels.is_some()))]
+        },
+        texture_end: [1.0, 1.0, 1.0, 0.0],
+        value: [volume.value_range[0], span(volume.value_range), 0.0, 0.0],
+    };
+    let mut colors = [[0u8; 4]; 256];
+    let mut has_segments = false;
+    for segment in labels.into_iter().flat_map(|l| &l.segments) {
+        if let (Some(slot), Some([r, g, b])) = (
+            colors.get_mut(usize::from(segment.label)),
+            segment.color_srgb,
+        ) {
+            *slot = [r, g, b, 255];
+            has_segments = true;
         }
+    }
+    let palette = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("palette"),
+        size: extent(UVec3::new(256, 1, 1)),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8UnormSrgb,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    write_slices(gpu, &palette, 0, 1, 4, bytemuck::cast_slice(&colors));
+    let buffer = uniform_buffer(gpu, "subject", &uniform);
+    let palette_view = palette.create_view(&Default::default());
+    let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("subject"),
+        layout: &passes.subject_layout,
+        entries: &[
+            entry(0, buffer.as_entire_binding()),
+            entry(1, wgpu::BindingResource::TextureView(&volume_view)),
+            entry(2, wgpu::BindingResource::Sampler(&passes.linear_sampler)),
+            entry(3, wgpu::BindingResource::TextureView(&label_view)),
+            entry(4, wgpu::BindingResource::TextureView(&palette_view)),
+        ],
+    });
+    info.has_segments = has_segments;
+    let up = subject_from_world.inverse().matrix3 * grid.subject_from_voxel().matrix3;
+    let rises = [up.x_axis, up.y_axis, up.z_axis].map(|axis| (axis.z / axis.length()).abs());
+    let foot_axis = (0..3).fold(0, |best, i| if rises[i] > rises[best] { i } else { best });
+    SubjectTextures {
+        buffer,
+        volume_view,
+        label_view,
+        sampler: passes.linear_sampler.clone(),
+        frame: VoxelFrame::new(grid.dims, grid.subject_from_voxel()),
+        label_frame: labels
+            .map(|l| VoxelFrame::new(l.grid.dims, subject_from_world * l.grid.world_from_voxel)),
+        foot_axis: foot_axis as u32,
+        segments: labels.map(|l| l.segments.clone()).unwrap_or_default(),
+        bind_group,
+        bricks,
+        info,
+        bounds: grid.subject_bounds(),
+        uniform,
     }
 }
 

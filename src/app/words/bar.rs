@@ -39,6 +39,7 @@ words! {
         panel: "Panel", "Bereich", "Panel", "面板";
         add: "Add", "Hinzufügen", "Añadir", "添加";
         templates: "Templates", "Vorlagen", "Plantillas", "模板";
+        tissues: "Tissues", "Gewebe", "Tejidos", "组织";
         look: "Look", "Aussehen", "Aspecto", "外观";
         text: "Text", "Text", "Texto", "文字";
     }

@@ -18,7 +18,7 @@ words! {
         yields_hint: "What is never moved nor passed through: the displacement fades towards it", "Was nie bewegt und nie durchdrungen wird: Zu ihm hin lässt die Verschiebung nach", "Lo que nunca se mueve ni se atraviesa: el desplazamiento se desvanece hacia ello", "既不移动也不被穿过的组织：位移在其附近逐渐减小";
         shorter: "Moves less far", "Kürzere Wege", "Menos recorrido", "移动更短";
         weaker: "Acts less", "Schwächer", "Menos efecto", "作用更弱";
-        no_segments: "This subject has no segments.", "Dieses Objekt hat keine Segmente.", "Este objeto no tiene segmentos.", "此对象没有分割标签。";
+        no_segments: "There are no tissues yet: make one in the panel “Tissues”.", "Es gibt noch keine Gewebe: im Bereich „Gewebe“ eines anlegen.", "Todavía no hay tejidos: cree uno en el panel «Tejidos».", "尚无组织：请在“组织”面板中创建。";
         constraint: "constraint", "Rücksicht", "la restricción", "约束";
     }
 }

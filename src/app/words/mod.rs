@@ -44,6 +44,7 @@ pub(crate) mod said;
 pub(crate) mod slices;
 pub(crate) mod templates;
 pub(crate) mod text;
+pub(crate) mod tissue;
 pub(crate) mod transfer;
 
 /// A language of the interface.
@@ -246,6 +247,7 @@ mod tests {
             slices::LINES,
             templates::LINES,
             text::LINES,
+            tissue::LINES,
             transfer::LINES,
         ];
         let mut count = 0;

@@ -1,0 +1,626 @@
+//! Tissues: the segments that the subject came with and those made here, by a range of values or by growing from points, then cleaned up.
+//! Each can be shown alone; those made here are edited in place, and what comes out is seen as it is found.
+
+use egui::{Color32, Label, RichText, Sense, Stroke, TextEdit, Ui, vec2};
+use serde_json::Value;
+
+use super::command::Command;
+use super::control::{self, Change, NumberRow};
+use super::icon::Icon;
+use super::state::State;
+use super::templates::command;
+use super::theme::{CONTROL_HEIGHT, Palette};
+use super::words::keep::segment;
+use super::words::tissue::w;
+use super::words::{fill, in_sentence};
+use crate::data::{FEATURE_COLORS_SRGB, Segment};
+use crate::document::{
+    Align, CleanStep, Constrain, Edit, FeatureRecipe, FeatureSource, Illustration, MAX_FEATURES,
+    MAX_SEEDS, MAX_SMOOTH_MM, ParamValue, PlacedTemplate, TemplateKind, TemplateMode,
+};
+use crate::math::Placement;
+use crate::render::SubjectInfo;
+use glam::{Quat, Vec3};
+
+/// Rows before the list scrolls.
+const LISTED: usize = 9;
+/// The largest lengths that sliders offer, mm; a document may say more.
+const MOST_CLOSE_MM: f64 = 10.0;
+const MOST_GROW_MM: f64 = 10.0;
+/// Where dense bone begins in Hounsfield units; its spongy parts are closed in by it.
+const BONE_FROM: f32 = 180.0;
+
+/// What of the tissues is being edited or shown.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Tissues {
+    /// Index in the document's features of the one that is edited.
+    pub open: Option<usize>,
+    /// Clicks on the object add points to it.
+    pub is_seeding: bool,
+    /// Name of the one that is shown alone.
+    pub alone: Option<String>,
+    /// Voxels of each feature, as last counted.
+    pub counts: Vec<u64>,
+    /// How far the work under way is.
+    pub progress: Option<f32>,
+    /// Cubic centimetres of a voxel of the scan.
+    pub voxel_cm3: f64,
+}
+
+/// Something done with tissues that is no change of the document.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TissueCommand {
+    /// Opens a feature for editing, or closes the one that is open.
+    Open(Option<usize>),
+    /// Shows one alone, or all again.
+    Alone(Option<String>),
+    /// Clicks add points, or do what they did before.
+    Seed(bool),
+}
+
+impl Tissues {
+    pub(crate) fn run(&mut self, command: TissueCommand) {
+        match command {
+            TissueCommand::Open(index) => {
+                self.open = index;
+                self.is_seeding = false;
+            }
+            TissueCommand::Alone(name) => self.alone = name,
+            TissueCommand::Seed(is_on) => self.is_seeding = is_on,
+        }
+    }
+
+    /// The illustration as it is seen while a tissue is shown alone: everything else is cut away.
+    pub(crate) fn alone_in(&self, shown: &Illustration) -> Option<Illustration> {
+        let name = self.alone.clone()?;
+        Some(Illustration {
+            templates: vec![PlacedTemplate {
+                index: 0,
+                kind: TemplateKind::Cut,
+                name: String::new(),
+                placement: Placement {
+                    at: Vec3::ZERO,
+                    rotate: Quat::IDENTITY,
+                    size: Vec3::splat(2.5),
+                },
+                params: vec![ParamValue::Choice(0)],
+                amount: 1.0,
+                enabled: true,
+                mode: TemplateMode::Compose,
+                align: Align::Segment {
+                    keep: vec![name],
+                    thickness: 0.01,
+                },
+                constrain: None,
+            }],
+            ..shown.clone()
+        })
+    }
+}
+
+/// Each segment once: labels that stand for an overlap are left out.
+pub(crate) fn listed(segments: &[Segment]) -> Vec<&Segment> {
+    let is_single = |label: u16| segments.iter().filter(|other| other.label == label).count() == 1;
+    segments.iter().filter(|s| is_single(s.label)).collect()
+}
+
+/// The panel. `segments` are those shown at this moment.
+pub(crate) fn ui(
+    ui: &mut Ui,
+    state: &State,
+    segments: &[Segment],
+    info: Option<&SubjectInfo>,
+    commands: &mut Vec<Command>,
+) {
+    let recipes = &state.illustration().features;
+    let can_add = info.is_some() && recipes.len() < MAX_FEATURES;
+    control::heading(ui, w().heading, |ui| {
+        if state.tissues.alone.is_some()
+            && control::icon_button(ui, Icon::Reset, w().all, true).clicked()
+        {
+            commands.push(Command::Tissue(TissueCommand::Alone(None)));
+        }
+    });
+    let listed = listed(segments);
+    let weak = Palette::get(ui).weak;
+    if listed.is_empty() && recipes.is_empty() {
+        ui.add(Label::new(RichText::new(w().none).color(weak)).wrap());
+    }
+    let mut rows = |ui: &mut Ui| {
+        // A feature that is being found has a row already.
+        for recipe in recipes {
+            let color = FEATURE_COLORS_SRGB[recipe.index % FEATURE_COLORS_SRGB.len()];
+            let color = recipe.color_srgb.unwrap_or(color);
+            row_ui(ui, state, &recipe.name, color, Some(recipe), commands);
+        }
+        let is_recipe = |s: &&&Segment| recipes.iter().all(|recipe| recipe.name != s.name);
+        for entry in listed.iter().filter(is_recipe) {
+            let color = entry.color_srgb.unwrap_or([160; 3]);
+            row_ui(ui, state, &entry.name, color, None, commands);
+        }
+    };
+    if listed.len().max(recipes.len()) <= LISTED {
+        rows(ui);
+    } else {
+        egui::ScrollArea::vertical()
+            .id_salt("tissues")
+            .max_height(LISTED as f32 * (CONTROL_HEIGHT + 4.0))
+            .auto_shrink([false, true])
+            .show(ui, rows);
+    }
+    let open = state.tissues.open;
+    if let Some(recipe) = recipes.iter().find(|recipe| open == Some(recipe.index)) {
+        control::divider(ui);
+        ui.push_id(("tissue", recipe.index), |ui| {
+            recipe_ui(ui, state, recipe, info, commands);
+        });
+    }
+    ui.add_space(4.0);
+    let add = control::labelled_button(ui, Icon::Plus, w().add, false, can_add);
+    if add.on_hover_text(w().add_hint).clicked()
+        && let Some(info) = info
+    {
+        add_feature(state, info, commands);
+    }
+    if let Some(fraction) = state.tissues.progress {
+        let bar = egui::ProgressBar::new(fraction).desired_height(4.0);
+        ui.add(bar).on_hover_text(w().working);
+    }
+}
+
+fn add_feature(state: &State, info: &SubjectInfo, commands: &mut Vec<Command>) {
+    let recipes = &state.illustration().features;
+    let has = |name: &str| recipes.iter().any(|recipe| recipe.name == name);
+    let (mut name, range) = if info.is_ct {
+        let low = info.hounsfield_offset + BONE_FROM;
+        ("bone".to_owned(), [low, f32::MAX])
+    } else {
+        let [low, high] = info.window_auto;
+        (String::new(), [0.5 * (low + high), f32::MAX])
+    };
+    let mut number = recipes.len() + 1;
+    while name.is_empty() || has(&name) {
+        name = fill(w().tissue_n, &[&number]);
+        number += 1;
+    }
+    let recipe = FeatureRecipe {
+        index: recipes.len(),
+        name: name.clone(),
+        color_srgb: None,
+        from: FeatureSource::Threshold { range },
+        clean: vec![
+            CleanStep::Close(2.0),
+            CleanStep::Largest(1),
+            CleanStep::Fill,
+        ],
+    };
+    let mut list = features_of(state);
+    let index = list.len();
+    list.push(recipe.to_value());
+    commands.push(Command::Apply(Edit::Set {
+        pointer: "/subject/features".to_owned(),
+        value: Value::from(list),
+        name: format!("Make {name}"),
+    }));
+    commands.push(Command::Tissue(TissueCommand::Open(Some(index))));
+    commands.push(Command::Tissue(TissueCommand::Alone(Some(name))));
+}
+
+/// The recipes as the document has them, unknown ones too.
+fn features_of(state: &State) -> Vec<Value> {
+    let list = state.document().get("/subject/features");
+    list.and_then(Value::as_array).cloned().unwrap_or_default()
+}
+
+fn row_ui(
+    ui: &mut Ui,
+    state: &State,
+    name: &str,
+    [r, g, b]: [u8; 3],
+    recipe: Option<&FeatureRecipe>,
+    commands: &mut Vec<Command>,
+) {
+    let title = segment(name);
+    let in_text = in_sentence(&title);
+    let is_alone = state.tissues.alone.as_deref() == Some(name);
+    let is_open = recipe.is_some_and(|recipe| state.tissues.open == Some(recipe.index));
+    control::row(ui, |ui| {
+        let (swatch, _) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
+        let line = Stroke::new(1.0, Palette::get(ui).line);
+        let color = Color32::from_rgb(r, g, b);
+        ui.painter()
+            .rect(swatch, 3.0, color, line, egui::StrokeKind::Inside);
+        ui.with_layout(control::against(), |ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            if let Some(recipe) = recipe {
+                let text = fill(w().remove, &[&in_text]);
+                if control::icon_button(ui, Icon::Trash, &text, true).clicked() {
+                    let mut list = features_of(state);
+                    if recipe.index < list.len() {
+                        list.remove(recipe.index);
+                    }
+                    commands.push(Command::Tissue(TissueCommand::Open(None)));
+                    if is_alone {
+                        commands.push(Command::Tissue(TissueCommand::Alone(None)));
+                    }
+                    commands.push(Command::Apply(Edit::Set {
+                        pointer: "/subject/features".to_owned(),
+                        value: Value::from(list),
+                        name: format!("Remove {name}"),
+                    }));
+                }
+            }
+            let (text, alone) = match is_alone {
+                true => (w().all.to_owned(), None),
+                false => (fill(w().alone, &[&in_text]), Some(name.to_owned())),
+            };
+            let side = CONTROL_HEIGHT;
+            if control::icon_button_sized(ui, Icon::Eye, &text, true, is_alone, side).clicked() {
+                commands.push(Command::Tissue(TissueCommand::Alone(alone)));
+            }
+            if let Some(recipe) = recipe {
+                let text = fill(w().edit, &[&in_text]);
+                if control::icon_button_sized(ui, Icon::More, &text, true, is_open, side).clicked()
+                {
+                    let open = (!is_open).then_some(recipe.index);
+                    commands.push(Command::Tissue(TissueCommand::Open(open)));
+                }
+            }
+            ui.with_layout(control::along(), |ui| {
+                let mut text = RichText::new(&title);
+                if is_open {
+                    text = text.color(Palette::get(ui).accent);
+                }
+                ui.add(Label::new(text).truncate());
+            });
+        });
+    });
+}
+
+/// A change of the recipe, as one step of undo or a part of a drag.
+fn set(recipe: &FeatureRecipe, change: Change<FeatureRecipe>, commands: &mut Vec<Command>) {
+    let edit = change.map(|new| Edit::Set {
+        pointer: format!("/subject/features/{}", recipe.index),
+        value: new.to_value(),
+        name: format!("Change {}", recipe.name),
+    });
+    commands.push(command(edit));
+}
+
+fn recipe_ui(
+    ui: &mut Ui,
+    state: &State,
+    recipe: &FeatureRecipe,
+    info: Option<&SubjectInfo>,
+    commands: &mut Vec<Command>,
+) {
+    name_ui(ui, state, recipe, commands);
+    let is_grown = matches!(recipe.from, FeatureSource::Grow { .. });
+    let options = [(false, w().values), (true, w().points)];
+    if let Some(grows) = control::segmented(ui, w().from, &options, is_grown) {
+        let range = recipe.from.range();
+        let seeds = Vec::new();
+        let from = match grows {
+            true => FeatureSource::Grow { seeds, range },
+            false => FeatureSource::Threshold { range },
+        };
+        let new = FeatureRecipe {
+            from,
+            ..recipe.clone()
+        };
+        set(recipe, Change::Set(new), commands);
+        commands.push(Command::Tissue(TissueCommand::Seed(grows)));
+    }
+    range_ui(ui, recipe, info, commands);
+    if let FeatureSource::Grow { seeds, .. } = &recipe.from {
+        seeds_ui(ui, state, recipe, seeds, commands);
+    }
+    clean_ui(ui, recipe, commands);
+    if let Some(&count) = state.tissues.counts.get(position(state, recipe)) {
+        let text = if count == 0 {
+            w().nothing.to_owned()
+        } else {
+            let volume = count as f64 * state.tissues.voxel_cm3;
+            let decimals = if volume < 10.0 { 2 } else { 0 };
+            fill(w().volume, &[&control::plain(volume, decimals)])
+        };
+        let weak = Palette::get(ui).weak;
+        ui.label(RichText::new(text).small().color(weak));
+    }
+}
+
+/// Place of a recipe among those that are known.
+fn position(state: &State, recipe: &FeatureRecipe) -> usize {
+    let all = &state.illustration().features;
+    all.iter().take_while(|r| r.index < recipe.index).count()
+}
+
+fn name_ui(ui: &mut Ui, state: &State, recipe: &FeatureRecipe, commands: &mut Vec<Command>) {
+    control::row(ui, |ui| {
+        let label = control::row_label(ui, w().name, "");
+        let mut name = recipe.name.clone();
+        let field = TextEdit::singleline(&mut name).desired_width(f32::INFINITY);
+        let field = ui.add(field).labelled_by(label.id);
+        if field.changed() && !name.trim().is_empty() {
+            let new = FeatureRecipe {
+                name: name.clone(),
+                ..recipe.clone()
+            };
+            let mut edits = vec![Edit::Set {
+                pointer: format!("/subject/features/{}", recipe.index),
+                value: new.to_value(),
+                name: String::new(),
+            }];
+            // What keeps it goes on keeping it.
+            edits.extend(renamed(
+                &state.illustration().templates,
+                &recipe.name,
+                &name,
+            ));
+            commands.push(Command::Drag(Edit::All {
+                name: format!("Rename {}", recipe.name),
+                edits,
+            }));
+            if state.tissues.alone.as_ref() == Some(&recipe.name) {
+                commands.push(Command::Tissue(TissueCommand::Alone(Some(name))));
+            }
+        }
+    });
+}
+
+/// Edits that let templates mean a tissue by its new name.
+fn renamed(templates: &[PlacedTemplate], from: &str, to: &str) -> Vec<Edit> {
+    let change = |keep: &[String]| -> Option<Vec<String>> {
+        let has = keep.iter().any(|name| name == from);
+        let new = |name: &String| if name == from { to } else { name }.to_owned();
+        has.then(|| keep.iter().map(new).collect())
+    };
+    let mut edits = Vec::new();
+    for template in templates {
+        let index = template.index;
+        if let Align::Segment { keep, thickness } = &template.align
+            && let Some(keep) = change(keep)
+        {
+            edits.push(Edit::SetAlign {
+                template: index,
+                align: Align::Segment {
+                    keep,
+                    thickness: *thickness,
+                },
+            });
+        }
+        if let Some(Constrain { by, keep }) = &template.constrain
+            && let Some(keep) = change(keep)
+        {
+            edits.push(Edit::SetConstrain {
+                template: index,
+                constrain: Some(Constrain { by: *by, keep }),
+            });
+        }
+    }
+    edits
+}
+
+fn with_range(recipe: &FeatureRecipe, range: [f32; 2]) -> FeatureRecipe {
+    let mut new = recipe.clone();
+    match &mut new.from {
+        FeatureSource::Threshold { range: old } | FeatureSource::Grow { range: old, .. } => {
+            *old = range;
+        }
+    }
+    new
+}
+
+fn range_ui(
+    ui: &mut Ui,
+    recipe: &FeatureRecipe,
+    info: Option<&SubjectInfo>,
+    commands: &mut Vec<Command>,
+) {
+    let [low, high] = recipe.from.range();
+    let [min, max] = info.map_or([low, high], |info| info.value_range);
+    let shown_high = high.min(max);
+    let decimals = if max - min > 50.0 { 0 } else { 3 };
+    let row = |name: &'static str, summary: &'static str, value: f32| NumberRow {
+        name,
+        summary,
+        value: f64::from(value),
+        default: None,
+        range: [f64::from(min.min(low)), f64::from(max)],
+        unit: "",
+        decimals,
+    };
+    if let Some(change) = row(w().lowest, w().lowest_hint, low.min(max)).ui(ui) {
+        let change = change.map(|v| with_range(recipe, [v as f32, high.max(v as f32)]));
+        set(recipe, change, commands);
+    }
+    if let Some(change) = row(w().highest, w().highest_hint, shown_high).ui(ui) {
+        // At the end of the scale there is no end.
+        let end = |v: f64| if v as f32 >= max { f32::MAX } else { v as f32 };
+        let change = change.map(|v| with_range(recipe, [low.min(v as f32), end(v)]));
+        set(recipe, change, commands);
+    }
+}
+
+fn with_seeds(recipe: &FeatureRecipe, seeds: Vec<Vec3>) -> FeatureRecipe {
+    FeatureRecipe {
+        from: FeatureSource::Grow {
+            seeds,
+            range: recipe.from.range(),
+        },
+        ..recipe.clone()
+    }
+}
+
+/// The command that adds a point to the feature that is open, if there is room for it. The first point takes the range along, if its own
+/// value is not in it.
+pub(crate) fn add_seed(state: &State, pos_in_rest: Vec3, value: f32) -> Option<Command> {
+    let open = state.tissues.open?;
+    let recipes = &state.illustration().features;
+    let recipe = recipes.iter().find(|recipe| recipe.index == open)?;
+    let FeatureSource::Grow { seeds, range } = &recipe.from else {
+        return None;
+    };
+    if seeds.len() >= MAX_SEEDS || !pos_in_rest.is_finite() {
+        return None;
+    }
+    let mut all = seeds.clone();
+    all.push(pos_in_rest);
+    let mut new = with_seeds(recipe, all);
+    if !(range[0]..=range[1]).contains(&value) {
+        let range = [range[0].min(value), range[1].max(value)];
+        new = with_range(&new, range);
+    }
+    Some(Command::Apply(Edit::Set {
+        pointer: format!("/subject/features/{open}"),
+        value: new.to_value(),
+        name: format!("Grow {}", recipe.name),
+    }))
+}
+
+fn seeds_ui(
+    ui: &mut Ui,
+    state: &State,
+    recipe: &FeatureRecipe,
+    seeds: &[Vec3],
+    commands: &mut Vec<Command>,
+) {
+    let is_on = state.tissues.is_seeding;
+    control::row(ui, |ui| {
+        let mut is_checked = is_on;
+        let check = ui.checkbox(&mut is_checked, w().click);
+        if check.on_hover_text(w().click_hint).changed() {
+            commands.push(Command::Tissue(TissueCommand::Seed(is_checked)));
+        }
+    });
+    control::row(ui, |ui| {
+        let read = state.view.cross_read.get();
+        let button = ui.add_enabled(read.is_some(), egui::Button::new(w().from_cross));
+        if button.clicked()
+            && let Some((pos, value)) = read
+        {
+            commands.extend(add_seed(state, pos, value));
+        }
+        ui.label(fill(w().seeds, &[&seeds.len()]));
+        if !seeds.is_empty() && control::icon_button(ui, Icon::Trash, w().clear, true).clicked() {
+            set(
+                recipe,
+                Change::Set(with_seeds(recipe, Vec::new())),
+                commands,
+            );
+        }
+    });
+}
+
+/// The clean-up that the panel knows, in its order; `None` where the author's steps are others.
+fn as_panel(clean: &[CleanStep]) -> Option<(f32, u32, bool, f32, f32)> {
+    let mut panel = (0.0, 0, false, 0.0, 0.0);
+    let mut last = 0;
+    for step in clean {
+        let place = match *step {
+            CleanStep::Close(mm) => {
+                panel.0 = mm;
+                1
+            }
+            CleanStep::Largest(count) => {
+                panel.1 = count;
+                2
+            }
+            CleanStep::Fill => {
+                panel.2 = true;
+                3
+            }
+            CleanStep::Smooth(mm) => {
+                panel.3 = mm;
+                4
+            }
+            CleanStep::Grow(mm) => {
+                panel.4 = mm;
+                5
+            }
+            CleanStep::Shrink(mm) => {
+                panel.4 = -mm;
+                5
+            }
+        };
+        if place <= last {
+            return None;
+        }
+        last = place;
+    }
+    Some(panel)
+}
+
+fn from_panel((close, largest, fills, smooth, grow): (f32, u32, bool, f32, f32)) -> Vec<CleanStep> {
+    let steps = [
+        (close > 0.0).then_some(CleanStep::Close(close)),
+        (largest > 0).then_some(CleanStep::Largest(largest)),
+        fills.then_some(CleanStep::Fill),
+        (smooth > 0.0).then_some(CleanStep::Smooth(smooth)),
+        (grow > 0.0).then_some(CleanStep::Grow(grow)),
+        (grow < 0.0).then_some(CleanStep::Shrink(-grow)),
+    ];
+    steps.into_iter().flatten().collect()
+}
+
+fn clean_ui(ui: &mut Ui, recipe: &FeatureRecipe, commands: &mut Vec<Command>) {
+    let with = |panel| FeatureRecipe {
+        clean: from_panel(panel),
+        ..recipe.clone()
+    };
+    ui.add_space(4.0);
+    ui.label(w().clean);
+    let Some(panel) = as_panel(&recipe.clean) else {
+        let text = fill(w().own_steps, &[&recipe.clean.len()]);
+        ui.add(Label::new(RichText::new(text).color(Palette::get(ui).weak)).wrap());
+        if control::labelled_button(ui, Icon::Reset, w().reset, false, true).clicked() {
+            let new = with((0.0, 0, false, 0.0, 0.0));
+            set(recipe, Change::Set(new), commands);
+        }
+        return;
+    };
+    let (close, largest, fills, smooth, grow) = panel;
+    let row = |name: &'static str, summary: &'static str, value: f32, range: [f64; 2]| NumberRow {
+        name,
+        summary,
+        value: f64::from(value),
+        default: Some(0.0),
+        range: [
+            range[0].min(f64::from(value)),
+            range[1].max(f64::from(value)),
+        ],
+        unit: " mm",
+        decimals: 1,
+    };
+    let mut change = row(w().close, w().close_hint, close, [0.0, MOST_CLOSE_MM])
+        .ui(ui)
+        .map(|c| c.map(|mm| (mm as f32, largest, fills, smooth, grow)));
+    let parts = NumberRow {
+        unit: "",
+        decimals: 0,
+        ..row(w().largest, w().largest_hint, largest as f32, [0.0, 10.0])
+    };
+    change = change.or(parts
+        .ui(ui)
+        .map(|c| c.map(|n| (close, n as u32, fills, smooth, grow))));
+    let mut is_filled = fills;
+    if ui.checkbox(&mut is_filled, w().fill).changed() {
+        change = Some(Change::Set((close, largest, is_filled, smooth, grow)));
+    }
+    change = change.or(row(
+        w().smooth,
+        w().smooth_hint,
+        smooth,
+        [0.0, f64::from(MAX_SMOOTH_MM).min(5.0)],
+    )
+    .ui(ui)
+    .map(|c| c.map(|mm| (close, largest, fills, mm as f32, grow))));
+    change = change.or(
+        row(w().grow, w().grow_hint, grow, [-MOST_GROW_MM, MOST_GROW_MM])
+            .ui(ui)
+            .map(|c| c.map(|mm| (close, largest, fills, smooth, mm as f32))),
+    );
+    if let Some(change) = change {
+        set(recipe, change.map(with), commands);
+    }
+}

@@ -1,0 +1,46 @@
+//! Tissues: the segments of the subject, and those made here.
+
+words! {
+    /// See the module.
+    Tissue {
+        heading: "Tissues", "Gewebe", "Tejidos", "组织";
+        add: "Make a tissue", "Gewebe anlegen", "Crear un tejido", "创建组织";
+        add_hint: "Finds a tissue by its values in the scan, so that templates can leave it alone", "Findet ein Gewebe an seinen Werten im Scan, damit Vorlagen es unberührt lassen können", "Encuentra un tejido por sus valores en la imagen, para que las plantillas lo dejen intacto", "按扫描数值找出组织，使模板可以不触及它";
+        none: "The scan brings no tissues of its own.", "Der Scan bringt keine Gewebe mit.", "La imagen no trae tejidos propios.", "该扫描自身不含组织标签。";
+        alone: "Show {0} alone", "Nur {0} zeigen", "Mostrar solo {0}", "仅显示{0}";
+        all: "Show everything again", "Wieder alles zeigen", "Mostrar todo de nuevo", "重新显示全部";
+        edit: "Edit {0}", "{0} bearbeiten", "Editar {0}", "编辑{0}";
+        remove: "Remove {0}", "{0} entfernen", "Quitar {0}", "移除{0}";
+        name: "Name", "Name", "Nombre", "名称";
+        tissue_n: "tissue {0}", "Gewebe {0}", "tejido {0}", "组织 {0}";
+        from: "Found by", "Gefunden durch", "Hallado por", "查找方式";
+        values: "Values", "Werte", "Valores", "数值";
+        points: "Growing", "Wachsen", "Crecimiento", "区域生长";
+        lowest: "Lowest", "Ab", "Desde", "最低值";
+        lowest_hint: "The lowest value in the scan that belongs to the tissue", "Der kleinste Wert im Scan, der zum Gewebe gehört", "El valor más bajo de la imagen que pertenece al tejido", "属于该组织的最低扫描数值";
+        highest: "Highest", "Bis", "Hasta", "最高值";
+        highest_hint: "The highest value in the scan that belongs to the tissue", "Der größte Wert im Scan, der zum Gewebe gehört", "El valor más alto de la imagen que pertenece al tejido", "属于该组织的最高扫描数值";
+        click: "Click where it is", "Anklicken, wo es ist", "Haga clic donde está", "点击其所在处";
+        click_hint: "Each click on the object adds a point that the tissue grows from", "Jeder Klick auf das Objekt fügt einen Punkt hinzu, von dem das Gewebe wächst", "Cada clic en el objeto añade un punto desde el que crece el tejido", "每次点击对象都会添加一个生长起点";
+        from_cross: "Point at the crosshair", "Punkt am Fadenkreuz", "Punto en la cruz", "取十字线处的点";
+        seeds: "Points: {0}", "Punkte: {0}", "Puntos: {0}", "起点：{0}";
+        clear: "Remove all points", "Alle Punkte entfernen", "Quitar todos los puntos", "移除所有起点";
+        clean: "Clean up", "Bereinigen", "Limpiar", "清理";
+        close: "Close gaps", "Lücken zu", "Unir huecos", "闭合缝隙";
+        close_hint: "Closes gaps up to twice as wide, in millimetres", "Schließt Lücken bis zur doppelten Breite, in Millimetern", "Cierra huecos de hasta el doble de ancho, en milímetros", "闭合宽度不超过两倍此值的缝隙（毫米）";
+        largest: "Parts", "Teile", "Partes", "部分数";
+        largest_hint: "Keeps so many of the largest parts; 0 keeps all", "Behält so viele der größten Teile; 0 behält alle", "Conserva tantas de las partes mayores; 0 las conserva todas", "保留最大的若干部分；0 表示全部";
+        fill: "Fill what is closed in", "Eingeschlossenes füllen", "Rellenar lo encerrado", "填充封闭空腔";
+        smooth: "Smooth", "Glätten", "Suavizar", "平滑";
+        smooth_hint: "Smooths the outline, in millimetres", "Glättet den Umriss, in Millimetern", "Suaviza el contorno, en milímetros", "平滑轮廓（毫米）";
+        grow: "Grow by", "Zugabe", "Ampliar", "扩大";
+        grow_hint: "Adds so many millimetres all around; less than 0 takes away", "Fügt ringsum so viele Millimeter an; unter 0 nimmt weg", "Añade tantos milímetros alrededor; menos de 0 los quita", "四周扩大的毫米数；小于 0 则缩小";
+        own_steps: "This tissue is cleaned up in {0} steps of its own.", "Dieses Gewebe wird in {0} eigenen Schritten bereinigt.", "Este tejido se limpia con {0} pasos propios.", "该组织使用自定义的 {0} 个清理步骤。";
+        reset: "Start over", "Neu beginnen", "Empezar de nuevo", "重新设置";
+        working: "Finding tissues …", "Gewebe werden gesucht …", "Buscando tejidos …", "正在查找组织……";
+        volume: "{0} cm³", "{0} cm³", "{0} cm³", "{0} 立方厘米";
+        nothing: "nothing found", "nichts gefunden", "nada encontrado", "未找到";
+        labels_taken: "Taken as tissues of the scan: {0}", "Als Gewebe des Scans übernommen: {0}", "Tomado como tejidos de la imagen: {0}", "已作为扫描的组织：{0}";
+        labels_wanted: "The illustration needs a label file of the scan: drop it on the picture", "Die Illustration braucht eine Datei mit Segmenten des Scans: auf das Bild ziehen", "La ilustración necesita un archivo de etiquetas de la imagen: suéltelo sobre ella", "该图解需要扫描的标签文件：请将其拖到图像上";
+    }
+}
