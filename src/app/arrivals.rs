@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use super::App;
 use super::making::OnClipboard;
-use super::services::{LoadEvent, Message};
+use super::services::{LabelsExpected, LoadEvent, Message};
 use super::state::{self, Gravity};
 use super::words::{self, fill};
 use crate::data::{Statistics, VolumeBuilder, VolumeSink as _};
+use crate::document::{SegmentsRef, SubjectRef};
 
 impl App {
     pub(super) fn take_messages(&mut self) {
@@ -126,9 +127,14 @@ impl App {
                 }
             }
             LoadEvent::AskRaw(question) => self.state.ask_raw(question, self.services.as_mut()),
+            LoadEvent::LabelFile { sha256, labels } => {
+                self.incoming_labels.push((sha256, *labels));
+            }
             LoadEvent::Done { sha256 } => {
                 self.show_incoming();
+                let is_file = self.state.load.as_ref().is_some_and(|load| load.is_file);
                 self.state.load_done(sha256, self.services.as_mut());
+                self.take_labels(is_file);
             }
             LoadEvent::Notice(text) => self.state.say(Gravity::Warning, text, ""),
             LoadEvent::Failed { message, details } => self.refuse(&message, details),
@@ -144,9 +150,9 @@ impl App {
     /// Goes on with the segments that are being made, and shows them when they are there.
     pub(super) fn advance_tissue(&mut self, ui: &egui::Ui) {
         let is_dragging = ui.input(|i| i.pointer.any_down());
-        let wanted = &self.state.shown().features;
-        let made = self.tissue.advance(wanted, is_dragging);
-        if self.tissue.is_behind(wanted) {
+        self.look_after_labels();
+        let made = self.tissue.advance(self.state.shown(), is_dragging);
+        if self.tissue.is_behind(self.state.shown()) {
             ui.ctx().request_repaint();
         }
         self.state.tissues.progress = self.tissue.progress();
@@ -170,14 +176,57 @@ impl App {
         }
     }
 
+    /// Tells the shell which label volumes the document names, and the reader which of them nobody has opened.
+    fn look_after_labels(&mut self) {
+        let illustration = self.state.illustration();
+        let named = &illustration.segments;
+        let is_file = !matches!(illustration.subject, SubjectRef::Builtin { .. });
+        let expected = LabelsExpected {
+            sha256: named.iter().filter_map(|s| s.sha256.clone()).collect(),
+            has_scan: is_file && self.state.view.subject.is_some(),
+        };
+        if expected != self.labels_expected {
+            self.services.expect_labels(&expected);
+            self.labels_expected = expected;
+        }
+        let is_here = self.state.load.is_none() && self.state.view.subject.is_some();
+        if is_here && self.has_said_labels != *named {
+            self.has_said_labels.clone_from(named);
+            let text = words::tissue::w().labels_wanted;
+            if is_file && self.tissue.lacks_files(self.state.illustration()) {
+                self.state.say(Gravity::Warning, text, "");
+            } else {
+                self.state.unsay(text);
+            }
+        }
+    }
+
+    /// Label volumes that came with the load that is done: the document names them from now on.
+    fn take_labels(&mut self, is_file: bool) {
+        for (sha256, labels) in std::mem::take(&mut self.incoming_labels) {
+            let names: Vec<&str> = labels.segments.iter().map(|s| s.name.as_str()).collect();
+            let names = names.join(", ");
+            self.tissue.add_file(sha256.clone(), labels);
+            let is_new = |named: &SegmentsRef| named.sha256.as_ref() != Some(&sha256);
+            if is_file && self.state.illustration().segments.iter().all(is_new) {
+                self.state.add_label_file(&sha256);
+                let text = fill(words::tissue::w().labels_taken, &[&names]);
+                self.state.say(Gravity::Success, text, "");
+            }
+        }
+        self.has_said_labels.clear();
+    }
+
     /// There will be no volume of this load.
     fn refuse(&mut self, message: &str, details: String) {
         self.incoming = None;
+        self.incoming_labels.clear();
         if let Some(load) = &self.state.load {
             self.services.cancel_load(load.ticket);
         }
         self.state.load_ended();
         self.state.say(Gravity::Error, message, details);
+        self.state.load_failure = self.state.said.last().map(|said| said.id);
     }
 
     /// What has come is whole: it is shown.

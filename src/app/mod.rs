@@ -67,13 +67,15 @@ use self::state::{Gravity, State, Tab};
 use self::theme::Palette;
 use self::viewport::Viewport;
 use crate::data::{Statistics, VolumeBuilder};
-use crate::document::Document;
+use crate::document::{Document, SegmentsRef};
 use crate::render::{Clock, encode_png};
 
 pub use self::camera::StandardView;
 pub use self::command::{Command, GizmoMode};
 pub use self::lettering::letter;
-pub use self::services::{LinkChange, LoadEvent, Message, RawQuestion, SaveFile, Services, Ticket};
+pub use self::services::{
+    LabelsExpected, LinkChange, LoadEvent, Message, RawQuestion, SaveFile, Services, Ticket,
+};
 pub use self::state::STORED_DOCUMENT;
 pub use self::tissue::TissueCommand;
 pub use self::view::{Pane, See};
@@ -130,6 +132,12 @@ pub struct App {
     slices: slices::Slices,
     /// The segments of the subject in the making.
     tissue: tissue_work::TissueWork,
+    /// Label volumes of the load under way, with the hash of their files.
+    incoming_labels: Vec<(String, crate::data::LabelVolume)>,
+    /// What the shell was told last of label volumes.
+    labels_expected: LabelsExpected,
+    /// That a label volume is missing has been said of this document.
+    has_said_labels: Vec<SegmentsRef>,
 }
 
 /// What has been said aloud so far.
@@ -202,6 +210,9 @@ impl App {
             transfer: transfer::Editor::default(),
             slices: slices::Slices::default(),
             tissue: tissue_work::TissueWork::new(start.clock),
+            incoming_labels: Vec::new(),
+            labels_expected: LabelsExpected::default(),
+            has_said_labels: Vec::new(),
         }
     }
 
@@ -224,7 +235,7 @@ impl App {
     pub fn is_at_rest(&self) -> bool {
         let is_picture_done = |picture: &Picture| picture.state.is_done && !picture.is_waiting();
         self.state.load.is_none()
-            && !self.tissue.is_behind(&self.state.shown().features)
+            && !self.tissue.is_behind(self.state.shown())
             && !self.state.wants_place_in_middle
             && self.picture.as_ref().is_none_or(is_picture_done)
     }
@@ -395,7 +406,7 @@ impl App {
         if let Some(picture) = &mut self.picture {
             for notice in picture.take_notices() {
                 // What is not there yet may be on its way.
-                let is_early = self.tissue.is_behind(&self.state.shown().features);
+                let is_early = self.tissue.is_behind(self.state.shown());
                 if !(is_early && notice.starts_with("keep: ")) {
                     self.state.say(Gravity::Warning, notice, "");
                 }

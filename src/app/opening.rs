@@ -7,6 +7,7 @@ use super::words::fill;
 use super::words::said::w;
 use crate::document::{Document, Edit, Reading, SubjectRef};
 use crate::link;
+use serde_json::{Value, json};
 
 impl State {
     /// Takes another document in place of the present one, at one of its steps, and says what of it is not as written.
@@ -107,6 +108,11 @@ impl State {
         let Some(load) = self.load.take() else {
             return;
         };
+        // What was said to be missing is there.
+        let failure = self.load_failure.take();
+        if let Some(said) = self.said.iter_mut().find(|said| Some(said.id) == failure) {
+            said.is_shown = false;
+        }
         self.files.loaded(load.frame_count, load.is_file);
         let Some(sha256) = sha256.filter(|_| load.is_file) else {
             return;
@@ -136,6 +142,28 @@ impl State {
         };
         self.requested = Some(subject.clone());
         self.apply(&Edit::SetSubject(subject), false);
+    }
+
+    /// The document names a label volume beside its scan, behind those that it names already.
+    pub(crate) fn add_label_file(&mut self, sha256: &str) {
+        let at = "/subject/segments";
+        let mut list = match self.document().get(at) {
+            None => Vec::new(),
+            Some(Value::Array(list)) => list.clone(),
+            Some(one) => vec![one.clone()],
+        };
+        list.push(json!({ "sha256": sha256 }));
+        // A document may hold one by itself, as the first versions wrote it.
+        let value = match list.len() {
+            1 => list.remove(0),
+            _ => Value::from(list),
+        };
+        let edit = Edit::Set {
+            pointer: at.to_owned(),
+            value,
+            name: "Add segments".to_owned(),
+        };
+        self.apply(&edit, false);
     }
 
     /// The load came to nothing; the document keeps its subject.

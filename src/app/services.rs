@@ -1,7 +1,7 @@
 //! What the app asks of its surroundings, and what comes back. The shell implements [`Services`] natively and on the page;
 //! tests have a false one. Nothing here blocks and nothing here knows a file, a thread or an address bar.
 
-use crate::data::{Volume, Voxels};
+use crate::data::{LabelVolume, Volume, Voxels};
 use crate::document::{FieldRef, RawVoxels, SubjectRef};
 use crate::load::FieldFile;
 
@@ -39,6 +39,11 @@ pub trait Services {
     fn drop_file(&mut self, file: egui::DroppedFileHandle);
     /// Starts loading a subject and ends any load before it.
     fn load_subject(&mut self, subject: &SubjectRef) -> Ticket;
+    /// Which label volumes the document names, by the hash of their files, and whether the scan that they would go with is shown: then
+    /// files that are opened are taken as segments of it where they are labels.
+    fn expect_labels(&mut self, expected: &LabelsExpected) {
+        _ = expected;
+    }
     /// The reader agreed to fetch from the host that [`Message::AskHost`] named.
     fn allow_host(&mut self, ticket: Ticket);
     /// How the voxels lie in the file that [`LoadEvent::AskRaw`] asked about; its load goes on under the same ticket.
@@ -131,6 +136,15 @@ pub enum Message {
     },
 }
 
+/// See [`Services::expect_labels`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LabelsExpected {
+    /// SHA-256 of files, lower-case hex.
+    pub sha256: Vec<String>,
+    /// A scan from a file is shown.
+    pub has_scan: bool,
+}
+
 /// What happens to a load, in this order; `Begin` to `Coarse` may repeat, each time finer.
 #[derive(Debug)]
 pub enum LoadEvent {
@@ -149,6 +163,13 @@ pub enum LoadEvent {
     },
     /// What has come makes a whole coarse volume: show it. A finer `Begin` follows.
     Coarse,
+    /// A label volume that was opened beside the scan, or for the one that is shown. Told before the scan's `Begin`.
+    LabelFile {
+        /// Of its bytes, lower-case hex.
+        sha256: String,
+        /// All of it.
+        labels: Box<LabelVolume>,
+    },
     /// The file holds several volumes, of which the wanted one comes. Told before `Done`.
     Frames {
         /// How many.

@@ -119,6 +119,8 @@ pub(crate) struct State {
     pub said: Vec<Said>,
     next_said: u64,
     pub load: Option<Load>,
+    /// What was said of the last load that failed, until one is done.
+    pub(super) load_failure: Option<u64>,
     /// What the subject's file leaves to choose.
     pub files: FileChoice,
     /// What the document shows was loaded (or is on its way).
@@ -179,6 +181,7 @@ impl State {
             said: Vec::new(),
             next_said: 0,
             load: None,
+            load_failure: None,
             files: FileChoice::default(),
             requested: None,
             tab: None,
@@ -287,6 +290,13 @@ impl State {
         self.next_said += 1;
         if self.said.len() > 200 {
             self.said.remove(0);
+        }
+    }
+
+    /// Puts a line away that is true no more.
+    pub(crate) fn unsay(&mut self, message: &str) {
+        for said in self.said.iter_mut().filter(|said| said.message == message) {
+            said.is_shown = false;
         }
     }
 

@@ -55,8 +55,17 @@ pub async fn segment(
     }
     let grid = grid_of_labels(&volume, &files);
     let mut join = Join::new(grid);
+    // Own labels first, so that they depend on what is listed and not on what overlaps.
+    let mut sources = Vec::new();
     for labels in own.into_iter().chain(files.iter().map(Arc::as_ref)) {
-        join.add_file(labels, &mut notices, &turns).await;
+        sources.push((labels, join.list_file(labels, &mut notices, &turns).await));
+    }
+    let listed: Vec<Option<Segment>> = recipes
+        .iter()
+        .map(|recipe| join.list_feature(recipe, &mut notices))
+        .collect();
+    for (labels, becomes) in sources {
+        join.add_file(labels, &becomes, &mut notices, &turns).await;
     }
     let mut counts = Vec::with_capacity(recipes.len());
     let steps: usize = recipes.iter().map(|recipe| recipe.clean.len() + 2).sum();
@@ -65,7 +74,7 @@ pub async fn segment(
         done += n;
         turns.set_progress(done as f32 / steps.max(1) as f32);
     };
-    for recipe in &recipes {
+    for (recipe, listed) in recipes.iter().zip(listed) {
         let mut mask = draft(&volume, recipe, &mut notices, &turns).await;
         has_done(1);
         let spacing = volume.grid.spacing_mm().as_vec3().to_array();
@@ -91,8 +100,11 @@ pub async fn segment(
             ));
         }
         counts.push(count);
-        join.add_feature(&volume.grid, &mask, recipe, &mut notices, &turns)
-            .await;
+        if let Some(segment) = listed {
+            let at = format!("/subject/features/{}", recipe.index);
+            join.add_feature(&volume.grid, &mask, &segment, &at, &mut notices, &turns)
+                .await;
+        }
         has_done(1);
     }
     Segmented {
@@ -217,8 +229,13 @@ impl Join {
         Some(label as u8)
     }
 
-    /// Adds the segments of a label volume. A number that is in use becomes another one.
-    async fn add_file(&mut self, file: &LabelVolume, notices: &mut Vec<String>, turns: &Turns) {
+    /// Lists the segments of a label volume, by their numbers in it. A number that is in use becomes another one.
+    async fn list_file(
+        &mut self,
+        file: &LabelVolume,
+        notices: &mut Vec<String>,
+        turns: &Turns,
+    ) -> Vec<Option<Segment>> {
         let mut occurs = [false; 256];
         for part in file.labels.chunks(1 << 18) {
             for &label in part {
@@ -226,7 +243,7 @@ impl Join {
             }
             turns.pass().await;
         }
-        let mut becomes: [Option<Segment>; 256] = [const { None }; 256];
+        let mut becomes: Vec<Option<Segment>> = vec![None; 256];
         for number in 1..256usize {
             let named = file
                 .segments
@@ -265,6 +282,16 @@ impl Join {
             self.labels.segments.push(segment.clone());
             becomes[number] = Some(segment);
         }
+        becomes
+    }
+
+    async fn add_file(
+        &mut self,
+        file: &LabelVolume,
+        becomes: &[Option<Segment>],
+        notices: &mut Vec<String>,
+        turns: &Turns,
+    ) {
         let from = Nearest::new(&self.labels.grid, &file.grid);
         let mut table = OverlapTable::default();
         let mut lost = 0u64;
@@ -291,21 +318,17 @@ impl Join {
         self.say_lost(lost, "a label volume", notices);
     }
 
-    async fn add_feature(
+    fn list_feature(
         &mut self,
-        scan: &Grid,
-        mask: &Mask,
         recipe: &FeatureRecipe,
         notices: &mut Vec<String>,
-        turns: &Turns,
-    ) {
-        let at = format!("/subject/features/{}", recipe.index);
+    ) -> Option<Segment> {
         let Some(label) = self.free() else {
             notices.push(format!(
-                "{at}: there are 255 segments already; “{}” is left out",
-                recipe.name
+                "/subject/features/{}: there are 255 segments already; “{}” is left out",
+                recipe.index, recipe.name
             ));
-            return;
+            return None;
         };
         let color = FEATURE_COLORS_SRGB[recipe.index % FEATURE_COLORS_SRGB.len()];
         let segment = Segment {
@@ -315,6 +338,18 @@ impl Join {
         };
         self.stands_for[usize::from(label)] = vec![segment.clone()];
         self.labels.segments.push(segment.clone());
+        Some(segment)
+    }
+
+    async fn add_feature(
+        &mut self,
+        scan: &Grid,
+        mask: &Mask,
+        segment: &Segment,
+        at: &str,
+        notices: &mut Vec<String>,
+        turns: &Turns,
+    ) {
         let mut table = OverlapTable::default();
         let mut lost = 0;
         // Finer by a whole number, or the same.
@@ -328,14 +363,14 @@ impl Join {
                 for x in 0..dims.x {
                     if mask.bits[row + (x / factor.x) as usize] == 1 {
                         let old = self.labels.labels[out];
-                        self.labels.labels[out] = self.with(old, &segment, &mut table, &mut lost);
+                        self.labels.labels[out] = self.with(old, segment, &mut table, &mut lost);
                     }
                     out += 1;
                 }
             }
             turns.pass().await;
         }
-        self.say_lost(lost, &at, notices);
+        self.say_lost(lost, at, notices);
     }
 
     fn say_lost(&self, lost: u64, what: &str, notices: &mut Vec<String>) {

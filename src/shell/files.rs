@@ -99,6 +99,27 @@ impl FileSet for Folder {
     }
 }
 
+/// Files picked together, wherever each lies, by their names.
+#[derive(Clone, Debug)]
+pub(super) struct Picked(pub Vec<(String, PathBuf)>);
+
+impl FileSet for Picked {
+    fn names(&mut self) -> Vec<String> {
+        self.0.iter().map(|(name, _)| name.clone()).collect()
+    }
+
+    fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>> {
+        let found = self.0.iter().find(|(known, _)| known == name);
+        let (_, path) = found.ok_or(io::ErrorKind::NotFound)?;
+        let (mut folder, name) = Folder::of(path);
+        let byte_len = folder.open(&name)?.byte_len;
+        Ok(FileHandle {
+            read: Box::new(File::open(path)?),
+            byte_len,
+        })
+    }
+}
+
 /// Reads the volume at a path: [`read_volume`] in the file's folder.
 ///
 /// # Errors

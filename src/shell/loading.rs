@@ -1,12 +1,17 @@
 //! One load, from its description to the events that the app waits for. The same natively (in a thread) and on the page
 //! (in a worker); where it runs and how events travel is the caller's affair.
 
-use crate::app::{LoadEvent, RawQuestion};
+use std::collections::BTreeMap;
+use std::io::Read as _;
+
+use sha2::{Digest as _, Sha256};
+
+use crate::app::{LabelsExpected, LoadEvent, RawQuestion};
 use crate::data::{Reducer, Volume, VolumeLimits, VolumeSink, Voxels};
 use crate::document::Reading;
 use crate::load::{
-    FileSet, LabelSource, LoadError, LoadReport, RawLayout, ReadOptions, Warning, read_raw,
-    read_subject,
+    FileSet, LabelSource, LoadError, LoadReport, RawLayout, ReadOptions, Warning, read_header,
+    read_labels, read_raw, read_subject,
 };
 use crate::subjects::{COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab};
 
@@ -101,6 +106,88 @@ pub(super) fn slabs_in_turn(
 
 /// Endings of files that may hold bare voxels.
 const RAW_ENDINGS: [&str; 7] = [".raw", ".bin", ".dat", ".vol", ".img", ".data", ".zraw"];
+
+/// Words in the names of files that hold labels, where their headers do not say so.
+const LABEL_WORDS: [&str; 4] = ["label", "seg", "mask", "atlas"];
+/// More files than this are a series of slices, not a scan with its label volumes.
+const MOST_WITH_LABELS: usize = 12;
+/// Larger files are not read in advance to know them by their hash.
+const MOST_HASHED_BYTES: u64 = 64 << 20;
+
+/// Takes the label volumes out of files that were opened together, and posts them. What is left is the scan; nothing may be left if one is
+/// shown already, or if the document names them.
+pub(super) fn take_labels(
+    files: &mut dyn FileSet,
+    names: Vec<String>,
+    expected: &LabelsExpected,
+    post: &mut dyn Post,
+) -> Vec<String> {
+    if names.len() > MOST_WITH_LABELS {
+        return names;
+    }
+    let is_alone = names.len() == 1;
+    let (mut labels, mut rest) = (Vec::new(), Vec::new());
+    for name in names {
+        let is_named = !expected.sha256.is_empty()
+            && hash_of(files, &name).is_some_and(|hash| expected.sha256.contains(&hash));
+        let may_be = !is_alone || expected.has_scan;
+        if is_named || (may_be && looks_like_labels(files, &name)) {
+            labels.push((name, is_named));
+        } else {
+            rest.push(name);
+        }
+    }
+    if rest.is_empty() && !expected.has_scan && labels.iter().all(|(_, is_named)| !is_named) {
+        // Labels of nothing are looked at as a scan.
+        return labels.into_iter().map(|(name, _)| name).collect();
+    }
+    for (name, _) in labels {
+        let mut report = LoadReport::default();
+        let options = ReadOptions::default();
+        match read_labels(files, &name, &BTreeMap::new(), &options, &mut report) {
+            Ok(labels) => {
+                let sha256 = report.sha256_hex().unwrap_or_default();
+                let labels = Box::new(labels);
+                if !post.post(LoadEvent::LabelFile { sha256, labels }) {
+                    return Vec::new();
+                }
+            }
+            // It only seemed to be one.
+            Err(LoadError::NotLabels { .. }) => rest.push(name),
+            Err(error) => {
+                post.post(LoadEvent::Notice(error.to_string()));
+            }
+        }
+    }
+    rest
+}
+
+fn looks_like_labels(files: &mut dyn FileSet, name: &str) -> bool {
+    let lower = name.to_lowercase();
+    if may_be_raw(&lower) && !lower.ends_with(".img") {
+        return false;
+    }
+    let Ok((_, report)) = read_header(files, name, &ReadOptions::default()) else {
+        return false;
+    };
+    report.is_labels || LABEL_WORDS.iter().any(|word| lower.contains(word))
+}
+
+/// The hash of a file's bytes, if it is not large.
+fn hash_of(files: &mut dyn FileSet, name: &str) -> Option<String> {
+    let mut file = files.open(name).ok()?;
+    file.byte_len
+        .filter(|&length| length <= MOST_HASHED_BYTES)?;
+    let mut hash = Sha256::new();
+    let mut block = vec![0; 1 << 16];
+    loop {
+        match file.read.read(&mut block).ok()? {
+            0 => break,
+            n => hash.update(block.get(..n)?),
+        }
+    }
+    Some(hash.finalize().iter().map(|b| format!("{b:02x}")).collect())
+}
 
 /// Reads a file. `expected` is the hash that the document gives, lower-case hex.
 pub(super) fn read_file(
@@ -324,6 +411,67 @@ mod tests {
         assert!(
             matches!(&last, Some(LoadEvent::Failed { message, .. }) if message.contains("x.nii")),
             "{last:?}"
+        );
+    }
+
+    #[test]
+    fn label_volumes_are_told_from_the_scan() {
+        let file = |values: [u8; 8]| {
+            let mut file =
+                b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n\n".to_vec();
+            file.extend(values);
+            file
+        };
+        let mut files = MemoryFiles::new([
+            ("scan.nrrd", file([0, 9, 18, 27, 36, 45, 54, 63])),
+            ("skull_label.nrrd", file([0, 0, 0, 1, 1, 1, 2, 2])),
+            ("other.nrrd", file([0, 0, 5, 5, 0, 0, 0, 0])),
+        ]);
+        let mut take = |names: &[&str], expected: &LabelsExpected| {
+            let mut found = Vec::new();
+            let mut post = |event: LoadEvent| {
+                if let LoadEvent::LabelFile { sha256, labels } = event {
+                    found.push((sha256, labels.segments.len()));
+                }
+                true
+            };
+            let names = names.iter().map(|&name| name.to_owned()).collect();
+            let rest = take_labels(&mut files, names, expected, &mut post);
+            (rest, found)
+        };
+        let nothing = LabelsExpected::default();
+        let (rest, found) = take(&["scan.nrrd", "skull_label.nrrd"], &nothing);
+        assert_eq!((rest, found[0].1), (vec!["scan.nrrd".to_owned()], 2));
+        let (rest, found) = take(&["skull_label.nrrd"], &nothing);
+        assert_eq!(
+            (rest.len(), found.len()),
+            (1, 0),
+            "labels of nothing are a scan"
+        );
+        let has_scan = LabelsExpected {
+            has_scan: true,
+            ..LabelsExpected::default()
+        };
+        let (rest, found) = take(&["skull_label.nrrd"], &has_scan);
+        assert_eq!(
+            (rest.len(), found.len()),
+            (0, 1),
+            "of the scan that is shown"
+        );
+        let (rest, found) = take(&["scan.nrrd"], &has_scan);
+        assert_eq!((rest.len(), found.len()), (1, 0), "another scan");
+        let mut hash = Sha256::new();
+        hash.update(file([0, 0, 5, 5, 0, 0, 0, 0]));
+        let hash: String = hash.finalize().iter().map(|b| format!("{b:02x}")).collect();
+        let named = LabelsExpected {
+            sha256: vec![hash.clone()],
+            has_scan: false,
+        };
+        let (rest, found) = take(&["other.nrrd", "scan.nrrd"], &named);
+        assert_eq!(
+            (rest.len(), found),
+            (1, vec![(hash, 1)]),
+            "the document names it"
         );
     }
 

@@ -8,10 +8,12 @@ use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-use super::files::Folder;
-use super::loading::{make_subject, read_file};
+use super::files::{Folder, Picked};
+use super::loading::{make_subject, read_file, take_labels};
 use super::reading::ReadingFlags;
-use crate::app::{App, LinkChange, LoadEvent, Message, SaveFile, Services, Start, Ticket};
+use crate::app::{
+    App, LabelsExpected, LinkChange, LoadEvent, Message, SaveFile, Services, Start, Ticket,
+};
 use crate::data::VolumeLimits;
 use crate::document::{Document, FieldRef, RawVoxels, Reading, SubjectRef};
 use crate::load::{is_field, read_field};
@@ -162,6 +164,10 @@ struct NativeServices {
     next_ticket: u64,
     /// Files that were opened here, by the hash of their bytes.
     known: Arc<Mutex<BTreeMap<String, PathBuf>>>,
+    /// Files dropped since the last frame: those dropped together are opened together.
+    dropped: Vec<PathBuf>,
+    /// Label volumes that the document names.
+    labels: LabelsExpected,
 }
 
 impl NativeServices {
@@ -180,6 +186,8 @@ impl NativeServices {
             opened: None,
             next_ticket: 1,
             known: Arc::default(),
+            dropped: Vec::new(),
+            labels: LabelsExpected::default(),
         }
     }
 
@@ -291,20 +299,65 @@ impl NativeServices {
         });
     }
 
-    /// A file that the user picked or dropped: a document if it reads like one, else a scan.
-    fn open_path(&mut self, path: PathBuf) {
-        match document_text(&path) {
-            Some(text) => {
+    /// Files that the user picked or dropped together: a document if one reads like one, else a scan and its label volumes.
+    fn open_paths(&mut self, mut paths: Vec<PathBuf>) {
+        if let [path] = paths.as_slice() {
+            if let Some(text) = document_text(path) {
                 if let Some(folder) = path.parent() {
                     self.folder = folder.to_path_buf();
                 }
                 self.say(Message::OpenText { text });
+                return;
             }
-            None if path.is_file() && is_field_file(&path) => self.read_field(None, path),
-            None => {
-                self.start_file(path, None, false, Reading::default());
+            if path.is_file() && is_field_file(path) {
+                self.read_field(None, paths.remove(0));
+                return;
+            }
+            if path.is_dir() {
+                self.start_file(paths.remove(0), None, false, Reading::default());
+                return;
             }
         }
+        self.start_files(paths, Reading::default());
+    }
+
+    /// Reads a scan, and as segments what of the files holds labels.
+    fn start_files(&mut self, paths: Vec<PathBuf>, reading: Reading) -> Ticket {
+        let (ticket, is_wanted) = self.new_ticket();
+        self.say(Message::FileStarted { ticket });
+        self.opened = paths.first().map(|path| (ticket, path.clone()));
+        let (sender, ctx, limits) = (self.sender.clone(), self.ctx.clone(), self.limits);
+        let (known, labels) = (Arc::clone(&self.known), self.labels.clone());
+        std::thread::spawn(move || {
+            let mut scan = None;
+            let mut post =
+                |event: LoadEvent| post_while_wanted(&sender, &ctx, ticket, &is_wanted, event);
+            // Names are for finding them again here, and go nowhere.
+            let named = paths.iter().map(|path| {
+                let name = path.file_name().unwrap_or_default();
+                (name.to_string_lossy().into_owned(), path.clone())
+            });
+            let mut picked = Picked(named.collect());
+            let names = picked.0.iter().map(|(name, _)| name.clone()).collect();
+            let rest = take_labels(&mut picked, names, &labels, &mut post);
+            if let Some(first) = rest.first() {
+                scan = picked.0.into_iter().find(|(name, _)| name == first);
+            }
+            let Some((_, path)) = scan else {
+                post(LoadEvent::Done { sha256: None });
+                return;
+            };
+            let mut post = |event: LoadEvent| {
+                if let LoadEvent::Done { sha256: Some(hash) } = &event {
+                    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+                    known.insert(hash.clone(), path.clone());
+                }
+                post_while_wanted(&sender, &ctx, ticket, &is_wanted, event)
+            };
+            let (mut folder, name) = Folder::of(&path);
+            read_file(&mut folder, &name, None, limits, &reading, &mut post);
+        });
+        ticket
     }
 }
 
@@ -421,7 +474,11 @@ fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
 impl Services for NativeServices {
     fn poll(&mut self) -> Vec<Message> {
         while let Ok(path) = self.picked.try_recv() {
-            self.open_path(path);
+            self.dropped.push(path);
+        }
+        let dropped = std::mem::take(&mut self.dropped);
+        if !dropped.is_empty() {
+            self.open_paths(dropped);
         }
         self.receiver.try_iter().collect()
     }
@@ -435,19 +492,20 @@ impl Services for NativeServices {
                 ],
             )
             .add_filter("All files", &["*"])
-            .pick_file();
+            .pick_files();
         let (picks, ctx) = (self.picks.clone(), self.ctx.clone());
         std::thread::spawn(move || {
-            if let Some(file) = pollster::block_on(dialog) {
+            for file in pollster::block_on(dialog).into_iter().flatten() {
                 // The receiver is gone only when the window is.
                 let _closed = picks.send(file.path().to_path_buf());
-                ctx.request_repaint();
             }
+            ctx.request_repaint();
         });
     }
 
     fn drop_file(&mut self, file: egui::DroppedFileHandle) {
-        self.open_path(file.path().to_path_buf());
+        self.dropped.push(file.path().to_path_buf());
+        self.ctx.request_repaint();
     }
 
     fn load_subject(&mut self, subject: &SubjectRef) -> Ticket {
@@ -500,6 +558,10 @@ impl Services for NativeServices {
                 self.say(Message::Field { key, outcome });
             }
         }
+    }
+
+    fn expect_labels(&mut self, expected: &LabelsExpected) {
+        self.labels.clone_from(expected);
     }
 
     fn allow_host(&mut self, _ticket: Ticket) {}

@@ -9,7 +9,9 @@ use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storage, Url, Window};
 
 use super::worker::{Task, WorkerLoad, start, text_of};
-use crate::app::{LinkChange, LoadEvent, Message, STORED_DOCUMENT, SaveFile, Services, Ticket};
+use crate::app::{
+    LabelsExpected, LinkChange, LoadEvent, Message, STORED_DOCUMENT, SaveFile, Services, Ticket,
+};
 use crate::data::VolumeLimits;
 use crate::document::{FieldRef, RawVoxels, Reading, SubjectRef};
 use crate::load::{MemoryFiles, is_field, read_field};
@@ -45,6 +47,8 @@ pub(super) struct Page {
     opened: Option<(Ticket, Vec<(String, Blob)>)>,
     /// Files dropped since the last frame: those dropped together are opened together.
     dropped: Vec<(String, Blob)>,
+    /// Label volumes that the document names.
+    labels: LabelsExpected,
     /// The payload that the app last gave.
     pub payload: String,
     /// A picture that a script asked for goes here instead of into a file.
@@ -70,6 +74,7 @@ impl Page {
             known: BTreeMap::new(),
             opened: None,
             dropped: Vec::new(),
+            labels: LabelsExpected::default(),
             payload: String::new(),
             picture_wanted: None,
             on_copy_refused: None,
@@ -179,7 +184,9 @@ impl PageServices {
                 page.say(Message::FileStarted { ticket });
                 ticket
             };
-            services.start(ticket, &Task::Files(files, None, Reading::default()));
+            let labels = services.0.borrow().labels.clone();
+            let task = Task::Files(files, None, Reading::default(), labels);
+            services.start(ticket, &task);
         });
     }
 }
@@ -378,7 +385,9 @@ impl Services for PageServices {
                 match known {
                     Some(files) => {
                         let ticket = self.0.borrow_mut().new_ticket();
-                        let task = Task::Files(files, Some(sha256.clone()), reading.clone());
+                        let labels = self.0.borrow().labels.clone();
+                        let task =
+                            Task::Files(files, Some(sha256.clone()), reading.clone(), labels);
                         self.start(ticket, &task);
                         ticket
                     }
@@ -419,6 +428,10 @@ impl Services for PageServices {
         });
     }
 
+    fn expect_labels(&mut self, expected: &LabelsExpected) {
+        self.0.borrow_mut().labels.clone_from(expected);
+    }
+
     fn allow_host(&mut self, ticket: Ticket) {
         let asked = self.0.borrow_mut().asking.remove(&ticket);
         if let Some((address, expected, reading)) = asked {
@@ -440,7 +453,8 @@ impl Services for PageServices {
                 frame: 0,
                 raw: Some(raw.clone()),
             };
-            self.start(ticket, &Task::Files(files, None, reading));
+            let labels = self.0.borrow().labels.clone();
+            self.start(ticket, &Task::Files(files, None, reading, labels));
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! A message to the page is an array: `["begin", header as JSON]`, `["scalars", typed array]`, `["labels", Uint8Array]`,
 //! `["progress", fraction, what]`, `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`,
-//! `["frames", count]`, `["raw", bytes or undefined, is packed, guess or undefined]`, `["failed", message, details]`,
+//! `["label-file", sha256, header as JSON, Uint8Array]`, `["frames", count]`, `["raw", bytes or undefined, is packed, guess or undefined]`, `["failed", message, details]`,
 //! `["cancelled"]`. Arrays travel without being copied again. One worker does one load; to
 //! cancel it is to end it.
 
@@ -19,8 +19,8 @@ use web_sys::{
     WorkerType,
 };
 
-use super::loading::{make_subject, read_file, slabs_in_turn};
-use crate::app::{LoadEvent, RawQuestion};
+use super::loading::{make_subject, read_file, slabs_in_turn, take_labels};
+use crate::app::{LabelsExpected, LoadEvent, RawQuestion};
 use crate::data::{Grid, LabelVolume, Segment, Volume, VolumeLimits, Voxels};
 use crate::document::{Document, Edit, Reading, SubjectRef};
 use crate::load::{FileHandle, FileSet, main_name};
@@ -33,7 +33,7 @@ pub(super) enum Task {
     /// A built-in subject.
     Builtin(String),
     /// A file that the reader gave, first, and those beside it.
-    Files(Vec<(String, Blob)>, Option<String>, Reading),
+    Files(Vec<(String, Blob)>, Option<String>, Reading, LabelsExpected),
     /// An address that may be fetched, and the expected hash.
     Address(String, Option<String>, Reading),
 }
@@ -86,12 +86,15 @@ pub(super) fn start(
         Task::Builtin(name) => {
             set("builtin", &name.into())?;
         }
-        Task::Files(files, expected, reading) => {
+        Task::Files(files, expected, reading, labels) => {
             let list = Array::new();
             for (name, blob) in files {
                 list.push(&Array::of2(&name.into(), blob));
             }
             set("files", &list)?;
+            set("has_scan", &labels.has_scan.into())?;
+            let hashes: Array = labels.sha256.iter().map(JsValue::from).collect();
+            set("labels", &hashes)?;
             set("expected", &expected.clone().into())?;
             set("reading", &text_of_reading(reading).into())?;
         }
@@ -183,7 +186,20 @@ pub async fn worker_task(message: JsValue) -> Result<(), JsValue> {
                 *name = format!("{index}/{name}");
             }
         }
+        let names = files.iter().map(|(name, _)| name.clone()).collect();
         let mut files = BlobFiles(files);
+        let hashes: Array = get("labels")?.unchecked_into();
+        let labels = LabelsExpected {
+            sha256: hashes.iter().filter_map(|hash| hash.as_string()).collect(),
+            has_scan: get("has_scan")?.is_truthy(),
+        };
+        let rest = take_labels(&mut files, names, &labels, &mut post);
+        let Some(first) = rest.first().cloned() else {
+            post(LoadEvent::Done { sha256: None });
+            return Ok(());
+        };
+        files.0.retain(|(name, _)| rest.contains(name));
+        let name = if rest.contains(&name) { name } else { first };
         let name = main_name(&mut files, &name);
         let expected = expected.as_deref();
         read_file(&mut files, &name, expected, limits, &reading, &mut post);
@@ -326,6 +342,14 @@ fn post_event(scope: &DedicatedWorkerGlobalScope, event: LoadEvent) -> Result<()
             moved = Some(array.buffer());
             push(&array);
         }
+        LoadEvent::LabelFile { sha256, labels } => {
+            push(&"label-file".into());
+            push(&sha256.into());
+            push(&json_of_labels(&labels).to_string().into());
+            let array = Uint8Array::from(labels.labels.as_slice());
+            moved = Some(array.buffer());
+            push(&array);
+        }
         LoadEvent::Progress { fraction, what } => {
             push(&"progress".into());
             push(&fraction.into());
@@ -389,6 +413,15 @@ fn event_of(message: &JsValue) -> Option<LoadEvent> {
         },
         "scalars" => LoadEvent::Scalars(voxels_of(&message.get(1))?),
         "labels" => LoadEvent::Labels(message.get(1).dyn_ref::<Uint8Array>()?.to_vec()),
+        "label-file" => {
+            let header: Value = serde_json::from_str(&text(2)).ok()?;
+            let mut labels = labels_of(&header)?;
+            labels.labels = message.get(3).dyn_ref::<Uint8Array>()?.to_vec();
+            LoadEvent::LabelFile {
+                sha256: text(1),
+                labels: Box::new(labels),
+            }
+        }
         "progress" => LoadEvent::Progress {
             fraction: message.get(1).as_f64()? as f32,
             what: text(2),
@@ -453,6 +486,29 @@ fn grid_of(value: &Value) -> Option<Grid> {
     })
 }
 
+/// All but the labels themselves.
+fn json_of_labels(labels: &LabelVolume) -> Value {
+    let segments: Vec<Value> = labels
+        .segments
+        .iter()
+        .map(|s| json!([s.label, s.name, s.color_srgb]))
+        .collect();
+    json!({ "grid": json_of_grid(&labels.grid), "segments": segments })
+}
+
+fn labels_of(value: &Value) -> Option<LabelVolume> {
+    Some(LabelVolume {
+        grid: grid_of(value.get("grid")?)?,
+        labels: Vec::new(),
+        segments: value
+            .get("segments")?
+            .as_array()?
+            .iter()
+            .filter_map(segment_of)
+            .collect(),
+    })
+}
+
 fn json_of(header: &Volume) -> Value {
     let kind = match &header.voxels {
         Voxels::U8(_) => "u8",
@@ -460,14 +516,7 @@ fn json_of(header: &Volume) -> Value {
         Voxels::U16(_) => "u16",
         Voxels::F32(_) => "f32",
     };
-    let labels = header.labels.as_ref().map(|labels| {
-        let segments: Vec<Value> = labels
-            .segments
-            .iter()
-            .map(|s| json!([s.label, s.name, s.color_srgb]))
-            .collect();
-        json!({ "grid": json_of_grid(&labels.grid), "segments": segments })
-    });
+    let labels = header.labels.as_ref().map(json_of_labels);
     json!({
         "grid": json_of_grid(&header.grid), "kind": kind, "slope": header.slope, "intercept": header.intercept,
         "value_range": header.value_range, "labels": labels,
@@ -478,16 +527,7 @@ fn volume_of(value: &Value) -> Option<Volume> {
     let number = |value: &Value| value.as_f64().map(|x| x as f32);
     let range = value.get("value_range")?.as_array()?;
     let labels = match value.get("labels") {
-        Some(labels) if !labels.is_null() => Some(LabelVolume {
-            grid: grid_of(labels.get("grid")?)?,
-            labels: Vec::new(),
-            segments: labels
-                .get("segments")?
-                .as_array()?
-                .iter()
-                .filter_map(segment_of)
-                .collect(),
-        }),
+        Some(labels) if !labels.is_null() => Some(labels_of(labels)?),
         _ => None,
     };
     Some(Volume {

@@ -125,3 +125,79 @@ fn bone_of_a_scan_to_look_at() {
         window.look(&format!("{name}_peeled"));
     }
 }
+
+/// Label volumes come with the scan or after it; the document names them, and a link to it asks for them.
+#[test]
+fn label_files_become_tissues_of_the_scan() {
+    let mut window = Window::open(DESK, CUBE);
+    let dropped = |window: &mut Window, has_scan: bool, labels: &[(&str, u8)]| {
+        let log = &mut *window.log.0.borrow_mut();
+        log.next_ticket += 1;
+        let ticket = Ticket(log.next_ticket);
+        log.queue.push(Message::FileStarted { ticket });
+        for (hash, from) in labels {
+            let grid = fabrica::subjects::Generator::new("cube", RESOLUTION)
+                .expect("the cube")
+                .header()
+                .grid;
+            let slice = (grid.dims.x * grid.dims.y) as usize;
+            let labels = fabrica::data::LabelVolume {
+                grid,
+                labels: (0..grid.voxel_count())
+                    .map(|i| u8::from(i / slice > usize::from(*from)))
+                    .collect(),
+                segments: vec![fabrica::data::Segment {
+                    label: 1,
+                    name: "segment 1".to_owned(),
+                    color_srgb: None,
+                }],
+            };
+            let (sha256, labels) = (hash.repeat(32), Box::new(labels));
+            let event = LoadEvent::LabelFile { sha256, labels };
+            log.queue.push(Message::Load { ticket, event });
+        }
+        let mut sha256 = None;
+        if has_scan {
+            fabrica::subjects::generate("cube", RESOLUTION, &mut Queue(log, ticket))
+                .expect("the cube");
+            sha256 = Some("5c".repeat(32));
+        }
+        let event = LoadEvent::Done { sha256 };
+        log.queue.push(Message::Load { ticket, event });
+    };
+    dropped(&mut window, true, &[("aa", 10)]);
+    window.settle();
+    let named = |window: &Window| -> Vec<String> {
+        let document = window.document();
+        let segments = document.illustration().segments.iter();
+        segments.filter_map(|s| s.sha256.clone()).collect()
+    };
+    assert_eq!(named(&window), ["aa".repeat(32)]);
+    // A second one, for the scan that is shown.
+    dropped(&mut window, false, &[("bb", 30)]);
+    window.settle();
+    assert_eq!(named(&window), ["aa".repeat(32), "bb".repeat(32)]);
+    window.click("Panel: Tissues");
+    for name in ["top", "segment 5", "segment 6"] {
+        window.harness.get_by_label(&format!("Show {name} alone"));
+    }
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    window.settle();
+    assert_eq!(named(&window).len(), 1, "one step of undo");
+    // Who opens the document is asked for what it names, until it is there.
+    let json = window.document().to_json();
+    let mut window = Window::open(DESK, &json);
+    dropped(&mut window, true, &[]);
+    window.settle();
+    let asks = |window: &Window| {
+        let all = window
+            .harness
+            .query_all_by_label_contains("needs a label file");
+        all.count() > 0
+    };
+    assert!(asks(&window), "it is asked for");
+    dropped(&mut window, false, &[("aa", 10)]);
+    window.settle();
+    assert!(!asks(&window), "it is there");
+    assert_eq!(window.document().to_json(), json, "as it was");
+}
