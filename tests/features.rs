@@ -416,7 +416,10 @@ fn finer_labels_stay_fine_and_one_file_stays_as_it_is() {
     };
     let files = [labels];
     let alone = segmented(&volume, &files, "[]", Turns::endless());
-    assert_eq!(alone.labels.as_deref(), Some(&files[0]), "on its own grid");
+    let alone = alone.labels.expect("labels");
+    assert_eq!(alone.labels, files[0].labels, "on its own grid");
+    assert_eq!(alone.segments[0].name, "fifth");
+    assert!(alone.segments[0].color_srgb.is_some(), "a color of ours");
     let features = r#"[{"name":"all","from":{"threshold":[-9999]}}]"#;
     let made = segmented(&volume, &files, features, Turns::endless());
     let joined = made.labels.expect("labels");

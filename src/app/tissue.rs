@@ -16,7 +16,7 @@ use super::words::{fill, in_sentence};
 use crate::data::{FEATURE_COLORS_SRGB, Segment};
 use crate::document::{
     Align, CleanStep, Constrain, Edit, FeatureRecipe, FeatureSource, Illustration, MAX_FEATURES,
-    MAX_SEEDS, MAX_SMOOTH_MM, ParamValue, PlacedTemplate, TemplateKind, TemplateMode,
+    MAX_SEEDS, MAX_SMOOTH_MM, ParamValue, PlacedTemplate, TemplateData, TemplateKind, TemplateMode,
 };
 use crate::math::Placement;
 use crate::render::SubjectInfo;
@@ -92,6 +92,7 @@ impl Tissues {
                     thickness: 0.01,
                 },
                 constrain: None,
+                data: TemplateData::None,
             }],
             ..shown.clone()
         })

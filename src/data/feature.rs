@@ -20,6 +20,27 @@ pub const FEATURE_COLORS_SRGB: [[u8; 3]; 8] = [
     [0, 114, 178],
 ];
 
+/// Colours of segments whose file gives none, by what their names hold, sRGB.
+const NATURAL_COLORS_SRGB: [(&str, [u8; 3]); 6] = [
+    ("skull", [234, 223, 196]),
+    ("bone", [234, 223, 196]),
+    ("brain", [219, 178, 168]),
+    ("skin", [224, 172, 140]),
+    ("muscle", [172, 66, 56]),
+    ("fat", [236, 208, 120]),
+];
+
+fn natural_color(name: &str, label: u8) -> [u8; 3] {
+    let lower = name.to_lowercase();
+    let known = NATURAL_COLORS_SRGB
+        .iter()
+        .find(|(part, _)| lower.contains(part));
+    known.map_or(
+        FEATURE_COLORS_SRGB[usize::from(label) % FEATURE_COLORS_SRGB.len()],
+        |(_, color)| *color,
+    )
+}
+
 /// Voxels of the labels at most where label volumes are finer than the scan.
 const MOST_LABELS: u64 = 1 << 28;
 
@@ -273,10 +294,13 @@ impl Join {
             } else {
                 name
             };
+            let color = named
+                .and_then(|s| s.color_srgb)
+                .unwrap_or_else(|| natural_color(&name, label));
             let segment = Segment {
                 label: u16::from(label),
                 name,
-                color_srgb: named.and_then(|s| s.color_srgb),
+                color_srgb: Some(color),
             };
             self.stands_for[usize::from(label)] = vec![segment.clone()];
             self.labels.segments.push(segment.clone());
