@@ -178,7 +178,7 @@ fn label_files_become_tissues_of_the_scan() {
     window.settle();
     assert_eq!(named(&window), ["aa".repeat(32), "bb".repeat(32)]);
     window.click("Panel: Tissues");
-    for name in ["top", "segment 5", "segment 6"] {
+    for name in ["top", "segment 1", "segment 6"] {
         window.harness.get_by_label(&format!("Show {name} alone"));
     }
     window.press_with(Modifiers::COMMAND, Key::Z);
