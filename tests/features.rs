@@ -473,3 +473,38 @@ fn nothing_and_everything_are_features_too() {
         16
     );
 }
+
+/// Recipes and the names of labels travel in the link, and old documents with one label volume mean what they meant.
+#[test]
+fn recipes_and_label_names_survive_the_link() {
+    let one = r#"{"sha256":"HASH","names":{"1":"skull","7":"Großhirn · 大脑"}}"#
+        .replace("HASH", &"0f".repeat(32));
+    let two = format!("[{one},{{\"src\":\"brain.nrrd\"}}]");
+    for segments in [one, two] {
+        let text = format!(
+            r#"{{"fabrica":1,"subject":{{"sha256":"{}","segments":{segments},"features":{RECIPES}}},"templates":[{{"kind":"peel","align":{{"to":"segment","keep":["bone","skull"]}}}}]}}"#,
+            "ab".repeat(32)
+        );
+        let document = Document::from_json(&text).expect("a document");
+        assert_eq!(document.notices(), &[], "all of it is known");
+        let there = document.illustration();
+        assert_eq!(
+            there.segments[0].names[1],
+            (7, "Großhirn · 大脑".to_owned())
+        );
+        assert_eq!(there.features.len(), 3);
+        let payload = fabrica::link::encode(&document);
+        let back = fabrica::link::decode(&payload).expect("a link").document;
+        assert_eq!(back.to_json(), document.to_json());
+        assert_eq!(back.illustration(), there);
+    }
+    let many = vec!["{}"; 9].join(",");
+    let text = format!(r#"{{"fabrica":1,"subject":{{"segments":[{many}]}}}}"#);
+    let error = Document::from_json(&text)
+        .expect_err("too many")
+        .to_string();
+    assert!(
+        error.starts_with("/subject/segments: 9 label volumes"),
+        "{error}"
+    );
+}

@@ -136,7 +136,8 @@ pub struct LabelVolume {
     /// One label per voxel, x fastest.
     pub labels: Vec<u8>,
     /// Named segments, those of files in label order. A name may stand under several labels: where segments overlap, a label of its own
-    /// stands for the overlap, and is listed once for each of them.
+    /// stands for the overlap, and is listed once for each of them, in
+    /// their order; the first gives the color.
     pub segments: Vec<Segment>,
 }
 

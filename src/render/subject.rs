@@ -414,7 +414,10 @@ fn assemble(
             colors.get_mut(usize::from(segment.label)),
             segment.color_srgb,
         ) {
-            *slot = [r, g, b, 255];
+            // Of segments that overlap, the first that is listed gives its color.
+            if *slot == [0; 4] {
+                *slot = [r, g, b, 255];
+            }
             has_segments = true;
         }
     }
