@@ -194,7 +194,8 @@ impl App {
             self.has_said_labels.clone_from(named);
             let text = words::tissue::w().labels_wanted;
             if is_file && self.tissue.lacks_files(self.state.illustration()) {
-                self.state.say(Gravity::Warning, text, "");
+                // It stays until it is not true any more.
+                self.state.say(Gravity::Error, text, "");
             } else {
                 self.state.unsay(text);
             }

@@ -129,7 +129,9 @@ fn bone_of_a_scan_to_look_at() {
 /// Label volumes come with the scan or after it; the document names them, and a link to it asks for them.
 #[test]
 fn label_files_become_tissues_of_the_scan() {
-    let mut window = Window::open(DESK, CUBE);
+    // Little is drawn: what is looked at are the panels.
+    const SMALL: Vec2 = Vec2::new(780.0, 360.0);
+    let mut window = Window::open(SMALL, CUBE);
     let dropped = |window: &mut Window, has_scan: bool, labels: &[(&str, u8)]| {
         let log = &mut *window.log.0.borrow_mut();
         log.next_ticket += 1;
@@ -186,7 +188,7 @@ fn label_files_become_tissues_of_the_scan() {
     assert_eq!(named(&window).len(), 1, "one step of undo");
     // Who opens the document is asked for what it names, until it is there.
     let json = window.document().to_json();
-    let mut window = Window::open(DESK, &json);
+    let mut window = Window::open(SMALL, &json);
     dropped(&mut window, true, &[]);
     window.settle();
     let asks = |window: &Window| {
