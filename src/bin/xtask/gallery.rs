@@ -207,9 +207,25 @@ fn sheet(page: &mut String, name: &str, fabrica: &Path, folder: &Path, wish: &Wi
             };
             // A little from the side and from above, so that the picture has depth.
             let camera = json!({
-                "rotate": eye(angle_deg + 14.0, if is_from_above { 18.0 } else { 10.0 }),
+                "rotate": eye(
+                    // Past the open door.
+                    angle_deg + if how == "peeled" { -8.0 } else { 14.0 },
+                    if is_from_above { 18.0 } else { 10.0 },
+                ),
                 // The cube fills its box; the others leave its corners free.
-                "distance": if name == "cube" { 3.2 } else { 2.35 },
+                "distance": match (name, how) {
+                    ("cube", _) => 3.4,
+                    (_, "peeled") => 3.1,
+                    _ => 2.35,
+                },
+                // Between the subject and its open door.
+                "target": match how {
+                    "peeled" => {
+                        let angle = angle_deg.to_radians();
+                        rounded([-angle.cos() * 0.2, -angle.sin() * 0.2, 0.0])
+                    }
+                    _ => rounded([0.0; 3]),
+                },
             });
             let document = made(name, &templates, &camera)?;
             let file = format!("{name}-{how}-{side}.png");
@@ -268,10 +284,10 @@ fn core(name: &str) -> &'static [&'static str] {
     }
 }
 
-/// One side rolled back over most of its width, with `kept` left standing.
+/// One side opened as a door over most of its width, with `kept` left standing.
 fn peel(name: &str, angle_deg: f32, width: f32, height: f32, depth: f32, kept: &[&str]) -> Value {
-    // Nearly down to the middle: what is peeled ends where something is kept.
-    let layer = depth * 0.9;
+    // Far towards the middle: what comes off ends where something is kept. A door, for so thick a layer rolls badly.
+    let layer = depth * if name == "hand" { 0.9 } else { 0.62 };
     let out = depth * 1.04 - layer / 2.0;
     // Of the hand, what lies before its fingers bend forward.
     let out = if name == "hand" && angle_deg == 0.0 {
@@ -281,11 +297,11 @@ fn peel(name: &str, angle_deg: f32, width: f32, height: f32, depth: f32, kept: &
     };
     let angle = angle_deg.to_radians();
     json!({
-        "kind": "peel",
+        "kind": "flap",
         "at": rounded([-angle.sin() * out, angle.cos() * out, 0.0]),
         "rotate": facing(angle_deg),
         "size": rounded([width * 1.8, height * 1.5, layer]),
-        "params": { "progress": 0.64, "depth": 1.0, "radius": 0.1 },
+        "params": { "depth": 1.0, "angle": 2.4 },
         "align": { "to": "segment", "keep": kept },
     })
 }
