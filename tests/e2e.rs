@@ -9,8 +9,6 @@ mod author;
 mod compare;
 #[path = "e2e/harness.rs"]
 mod harness;
-#[path = "e2e/tissue.rs"]
-mod tissue;
 
 use compare::{difference, drawn_pixels, object_part};
 use fabrica::document::{Document, TemplateKind};
