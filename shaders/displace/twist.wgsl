@@ -3,7 +3,7 @@
 //
 //     y                z carries upwards, the other ends rest
 //   1 +---.--.---+
-//     | /  ->  \ |     the disc turns by `angle`; from (1 - falloff)/2 of the shorter side to ½ the turn fades
+//     | /  ->  \ |     the turn grows with z from none to `angle`; from (1 - falloff)/2 of the shorter side to ½ it fades
 //     ||   +    ||     falloff 0 turns the whole box and tears at its sides, as meant
 //     | \  <-  / |
 //   0 +---'--'---+  x
@@ -17,7 +17,8 @@ fn displace_twist(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     }
     let from_axis = (q.xy - 0.5) * size.xy;
     let r = length(from_axis) / min(size.x, size.y);
-    let sc = sin_cos(p0.x * falloff_weight(r, p0.y));
+    // Above the cube all turns as the top does.
+    let sc = sin_cos(p0.x * min(q.z, 1.0) * falloff_weight(r, p0.y));
     // As a difference, so that no turn is exactly no displacement.
     let moved = vec2f(
         from_axis.x * (sc.y - 1.0) + from_axis.y * sc.x,

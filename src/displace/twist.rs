@@ -30,10 +30,10 @@ pub(super) const FACTS: Facts = Facts {
             shift,
         )
         .with_detail(if given.p[1] > 0.0 {
-            // The turn changes by 3/falloff of the angle per unit at most.
-            (given.p[1] / 6.0).min(0.25 * given.p[1] / given.p[0].abs())
+            // The turn changes by 3/falloff of the angle per unit across at most, and by the angle per unit along.
+            (given.p[1] / 6.0).min(0.25 * given.p[1].min(1.0) / given.p[0].abs())
         } else {
-            0.5
+            (0.25 / given.p[0].abs()).min(0.5)
         })
         .torn()
     },

@@ -133,8 +133,7 @@ pub(crate) fn source(kind: &str, q: DVec3, size: DVec3, p: &[f64]) -> (DVec3, f6
             } else {
                 1.0 - smoothstep((1.0 - falloff) / 2.0, 0.5, r)
             };
-            // z does not enter: the clamped point has the same x and y.
-            let theta = angle * w;
+            let theta = angle * c.z * w;
             let source_x = mx * theta.cos() + my * theta.sin();
             let source_y = -mx * theta.sin() + my * theta.cos();
             (DVec3::new(source_x / sx + 0.5, source_y / sy + 0.5, z), 1.0)
