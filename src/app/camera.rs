@@ -171,6 +171,11 @@ impl Projection {
         }
     }
 
+    /// Towards the eye.
+    pub(crate) fn back(&self) -> Vec3 {
+        self.back
+    }
+
     /// Where a point is seen. `None` behind the eye or all but in it.
     pub(crate) fn ui_from_subject(&self, pos: Vec3) -> Option<Pos2> {
         let to = pos - self.eye;

@@ -37,6 +37,7 @@ mod opening;
 mod orientation;
 mod panes;
 mod picture;
+mod points;
 mod raw;
 mod services;
 mod slice_plot;

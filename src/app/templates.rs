@@ -254,6 +254,7 @@ fn template_ui(
     for (i, value) in template.params.iter().enumerate() {
         ui.push_id((index, i), |ui| param_ui(ui, template, i, *value, commands));
     }
+    super::points::panel_ui(ui, template, commands);
     ui.add_space(2.0);
     control::row(ui, |ui| {
         let label = control::row_label(ui, w().name, w().name_hint);

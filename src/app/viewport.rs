@@ -15,6 +15,7 @@ use super::icon::Icon;
 use super::making::{self, placement_on_surface};
 use super::orientation;
 use super::picture::{PickFor, Picture};
+use super::points;
 use super::slice_plot;
 use super::state::{Gravity, State};
 use super::theme::{self, Palette};
@@ -22,7 +23,7 @@ use super::tissue;
 use super::view_bar;
 use super::words::picture::w;
 use super::words::{self, fill, in_sentence, said};
-use crate::document::{Background, Camera, PlacedTemplate};
+use crate::document::{Background, Camera, PlacedTemplate, TemplateKind};
 use crate::math::Placement;
 use crate::render::Pick;
 
@@ -130,7 +131,11 @@ impl Viewport {
         } else {
             self.markers_ui(ui, &view, state, commands);
             if let Some(template) = state.selected_template().cloned() {
-                if let Some(edit) = self.gizmo.ui(ui, &response, &view, &template, state) {
+                let asked = ui.input(|i| i.pointer.latest_pos());
+                let asked = asked.filter(|_| response.double_clicked());
+                if points::ui(ui, &view, &template, asked, commands) {
+                    self.gizmo.release();
+                } else if let Some(edit) = self.gizmo.ui(ui, &response, &view, &template, state) {
                     commands.push(Command::Drag(edit));
                 }
                 tools_ui(ui, rect, state, &template, commands);
@@ -365,6 +370,9 @@ impl Viewport {
                     asked = picture.ask(PickFor::Measure, pixel(pos), size);
                 }
             } else if response.double_clicked()
+                && !state
+                    .selected_template()
+                    .is_some_and(|t| t.kind == TemplateKind::Rbf)
                 && !self.gizmo.is_hot()
                 && let Some(pos) = pointer
             {

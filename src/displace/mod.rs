@@ -56,6 +56,17 @@ pub fn solved_points(template: &PlacedTemplate) -> Vec<[f32; 4]> {
     rbf::Interpolant::of(&Given::new(template)).pack()
 }
 
+/// Lines of a lattice on the tissue of an `rbf`'s middle plane (z = ½), as they lie when it is bent, subject space.
+pub fn bent_lattice(template: &PlacedTemplate) -> Vec<Vec<glam::Vec3>> {
+    let template = template.acting();
+    let interpolant = rbf::Interpolant::of(&Given::new(&template));
+    let place = |q: glam::Vec3| template.placement.subject_from_template(q);
+    let lines = interpolant.bent_lattice().into_iter();
+    lines
+        .map(|line| line.into_iter().map(place).collect())
+        .collect()
+}
+
 /// Everything known about a kind.
 fn facts_of(kind: TemplateKind) -> &'static Facts {
     match kind {

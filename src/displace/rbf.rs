@@ -102,6 +102,63 @@ impl Interpolant {
         out
     }
 
+    /// Lines along x and along y in the middle plane, bent with the tissue; parted where the cut runs. Template space.
+    pub(super) fn bent_lattice(&self) -> Vec<Vec<Vec3>> {
+        const LINES: usize = 9;
+        const PLACES: usize = 24;
+        let mut lines = Vec::new();
+        for axis in 0..2 {
+            for line in 0..LINES {
+                let mut piece: Vec<Vec3> = Vec::new();
+                let mut last_side = None;
+                for place in 0..=PLACES {
+                    let (along, across) = (
+                        place as f64 / PLACES as f64,
+                        line as f64 / (LINES - 1) as f64,
+                    );
+                    let tissue = match axis {
+                        0 => DVec3::new(along, across, 0.5),
+                        _ => DVec3::new(across, along, 0.5),
+                    };
+                    let side = usize::from(self.is_right(tissue));
+                    // Where this tissue is now: from there it comes.
+                    let mut now = tissue;
+                    for _ in 0..6 {
+                        now = tissue - self.displacement(side, now);
+                    }
+                    if last_side.is_some_and(|last| last != side) {
+                        lines.push(std::mem::take(&mut piece));
+                    }
+                    last_side = Some(side);
+                    piece.push(now.as_vec3());
+                }
+                lines.push(piece);
+            }
+        }
+        lines.retain(|line| line.len() > 1);
+        lines
+    }
+
+    fn is_right(&self, q: DVec3) -> bool {
+        !self.cut.is_empty() && distance_to_cut(&self.cut, q.truncate()) < 0.0
+    }
+
+    /// As the shader has it, for one side.
+    fn displacement(&self, side: usize, q: DVec3) -> DVec3 {
+        let q = q.clamp(DVec3::ZERO, DVec3::ONE);
+        let edge = self.p[5];
+        let mut weight = self.p[0];
+        if edge > 0.0 {
+            for x in q.to_array() {
+                let t = (x.min(1.0 - x) / edge).clamp(0.0, 1.0);
+                weight *= t * t * (3.0 - 2.0 * t);
+            }
+        }
+        self.sides.get(side).map_or(DVec3::ZERO, |s| {
+            s.at(flattened(q, &self.p), &self.p) * weight
+        })
+    }
+
     /// Bounds of the displacement in the box: looked at on a grid, widened by what may lie between.
     fn shift(&self) -> [Vec3; 2] {
         const N: usize = 6;

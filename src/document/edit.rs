@@ -5,6 +5,7 @@ use super::illustration::{
     SubjectRef, TemplateMode, Transfer, TransferPoint, Window,
 };
 use super::pointer::{self, join};
+use super::resolve_data::{fresh_points, points_listed};
 use super::tree::Document;
 use super::{MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
 use crate::math::Placement;
@@ -208,7 +209,7 @@ pub enum Edit {
 }
 
 /// Four decimals, which for a subject of 25 cm is 0.025 mm.
-fn rounded(value: f32) -> Value {
+pub(super) fn rounded(value: f32) -> Value {
     json!((f64::from(value) * 1e4).round() / 1e4)
 }
 
@@ -227,7 +228,7 @@ fn rounded_value(value: f32) -> Value {
     }
 }
 
-fn vector(v: Vec3) -> Value {
+pub(super) fn vector(v: Vec3) -> Value {
     Value::from(v.to_array().map(rounded).to_vec())
 }
 
@@ -281,16 +282,7 @@ impl Edit {
                     "size": placement.size.to_array().map(rounded_size),
                 });
                 if *kind == TemplateKind::Rbf {
-                    // Something to take hold of: the middle drawn up between four points that stay.
-                    let point = |x: f32, y: f32| json!({ "at": vector(Vec3::new(x, y, 0.5)) });
-                    let mut points = vec![
-                        point(0.25, 0.25),
-                        point(0.75, 0.25),
-                        point(0.25, 0.75),
-                        point(0.75, 0.75),
-                    ];
-                    points.insert(0, json!({ "at": [0.5, 0.5, 0.6], "move": [0, 0, -0.15] }));
-                    value["params"] = json!({ "points": points, "edge": 0.25 });
+                    value["params"] = fresh_points();
                 }
                 insert(root, "templates", MAX_TEMPLATES, *index, value)
             }
@@ -334,20 +326,10 @@ impl Edit {
                 template: i,
                 points,
             } => {
-                let listed = points.points.iter().map(|point| {
-                    let mut value = json!({ "at": vector(point.at) });
-                    if point.shift != Vec3::ZERO {
-                        value["move"] = vector(point.shift);
-                    }
-                    value
-                });
-                let cut = points
-                    .cut
-                    .iter()
-                    .map(|p| json!([rounded(p.x), rounded(p.y)]));
+                let [listed, cut] = points_listed(points);
                 let at = join(&template(i), "params");
-                pointer::set(root, &join(&at, "points"), listed.collect())?;
-                pointer::set(root, &join(&at, "cut"), cut.collect())
+                pointer::set(root, &join(&at, "points"), listed)?;
+                pointer::set(root, &join(&at, "cut"), cut)
             }
             Self::SetPlacement {
                 template: i,

@@ -1,6 +1,7 @@
 //! What templates hold besides parameters: control points, a cut, the name of a file.
 
 use super::catalogue::TemplateKind;
+use super::edit::{rounded, vector};
 use super::error::DocumentError;
 use super::illustration::{ControlPoint, ControlPoints, FieldRef, TemplateData};
 use super::notice::NoticeKind;
@@ -10,7 +11,7 @@ use super::resolve::Reader;
 use super::resolve_subject::hash;
 use super::{MAX_CUT, MAX_POINTS};
 use glam::{DVec2, DVec3, Vec3};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Control points lie in the box or not far from it, template units.
 const POINT_RANGE: [f64; 2] = [-10.0, 10.0];
@@ -90,4 +91,29 @@ impl Reader {
         }
         Ok(items.get(..limit).unwrap_or(items))
     }
+}
+
+/// Parameters of a new `rbf`, something to take hold of: the middle drawn up between four points that stay.
+pub(super) fn fresh_points() -> Value {
+    let point = |x: f32, y: f32| json!({ "at": vector(Vec3::new(x, y, 0.5)) });
+    json!({ "edge": 0.25, "points": [
+        { "at": [0.5, 0.5, 0.6], "move": [0, 0, -0.15] },
+        point(0.25, 0.25), point(0.75, 0.25), point(0.25, 0.75), point(0.75, 0.75),
+    ] })
+}
+
+/// Points and cut as a document lists them.
+pub(super) fn points_listed(points: &ControlPoints) -> [Value; 2] {
+    let listed = points.points.iter().map(|point| {
+        let mut value = json!({ "at": vector(point.at) });
+        if point.shift != Vec3::ZERO {
+            value["move"] = vector(point.shift);
+        }
+        value
+    });
+    let cut = points
+        .cut
+        .iter()
+        .map(|p| json!([rounded(p.x), rounded(p.y)]));
+    [listed.collect(), cut.collect()]
 }

@@ -266,3 +266,50 @@ fn a_displacement_field_that_is_opened_becomes_a_template() {
         "undone"
     );
 }
+
+#[test]
+fn control_points_are_dragged_added_and_cut_apart() {
+    let mut window = Window::open(
+        DESK,
+        r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [ { "kind": "rbf", "size": [0.8, 0.8, 0.8], "params": { "points": [
+            { "at": [0.7, 0.9, 0.7], "move": [0, 0, -0.2] }, { "at": [0.2, 0.5, 0.2] } ] } } ] }"#,
+    );
+    let points = |window: &Window| {
+        let document = window.document();
+        let value = document.get("/templates/0/params/points").cloned();
+        value.unwrap_or_default()
+    };
+    window.click("1. Points");
+    window.settle();
+    let before = points(&window);
+    let dot = window
+        .harness
+        .get_by_label("Control point 1")
+        .rect()
+        .center();
+    window.drag(dot, vec2(30.0, 20.0));
+    let after = points(&window);
+    assert_ne!(before, after, "the dot was dragged");
+    assert_eq!(before[1], after[1], "and no other");
+    // The tissue went along: where it came from stayed.
+    for axis in 0..3 {
+        let source = |v: &serde_json::Value| {
+            let number = |key: &str| v[0][key][axis].as_f64().unwrap_or(0.0);
+            number("at") + number("move")
+        };
+        assert!(
+            (source(&before) - source(&after)).abs() < 2e-3,
+            "{before} {after}"
+        );
+    }
+    window.click("Add a control point");
+    window.click("Lengthen the cut");
+    assert_eq!(points(&window).as_array().map(Vec::len), Some(3));
+    assert!(window.document().get("/templates/0/params/cut").is_some());
+    assert!(window.harness.query_by_label("Cut, place 2").is_some());
+    window.look("control_points");
+    for _ in 0..3 {
+        window.press_with(Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(points(&window), before, "each was one step of undo");
+}

@@ -451,12 +451,7 @@ fn kind_words(kind: TemplateKind) -> Kind {
             ],
         },
         K::Rbf => Kind {
-            title: [
-                "Control points",
-                "Kontrollpunkte",
-                "Puntos de control",
-                "控制点",
-            ],
+            title: ["Points", "Punkte", "Puntos", "控制点"],
             summary: [
                 "Verschiebungen an Kontrollpunkten, dazwischen interpoliert",
                 "Desplazamientos en puntos de control, interpolados",

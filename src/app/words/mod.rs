@@ -40,6 +40,7 @@ pub(crate) mod look;
 pub(crate) mod making;
 pub(crate) mod names;
 pub(crate) mod picture;
+pub(crate) mod points;
 pub(crate) mod said;
 pub(crate) mod slices;
 pub(crate) mod templates;
@@ -243,6 +244,7 @@ mod tests {
             making::LINES,
             names::LINES,
             picture::LINES,
+            points::LINES,
             said::LINES,
             slices::LINES,
             templates::LINES,

@@ -1,0 +1,269 @@
+//! Control points of an `rbf` over the picture and in the panel: dragged, added, removed; the cut that parts them; lines that bend along.
+//!
+//! A point is a ring where the tissue was and a dot where it goes. Dragging the dot takes the tissue along, the ring stays.
+
+use egui::{Key, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo};
+use glam::{Vec2 as Flat, Vec3};
+
+use super::camera::Projection;
+use super::command::Command;
+use super::control;
+use super::icon::Icon;
+use super::theme::{self, over_picture as ink};
+use super::words::fill;
+use super::words::points::w;
+use crate::displace;
+use crate::document::{
+    ControlPoint, ControlPoints, Edit, MAX_CUT, MAX_POINTS, PlacedTemplate, TemplateData,
+    TemplateKind,
+};
+
+/// Points around a dot within which it is taken.
+const REACH: f32 = 11.0;
+/// Points of a step by the arrow keys.
+const KEY_STEP: f32 = 4.0;
+/// How far from the middle control points are kept, template units.
+const FARTHEST: f32 = 4.0;
+
+fn points_of(template: &PlacedTemplate) -> Option<&ControlPoints> {
+    match &template.data {
+        TemplateData::Points(points) => Some(points),
+        _ => None,
+    }
+}
+
+fn set(template: &PlacedTemplate, points: ControlPoints) -> Edit {
+    Edit::SetControlPoints {
+        template: template.index,
+        points,
+    }
+}
+
+fn within(q: Vec3) -> Vec3 {
+    q.clamp(Vec3::splat(0.5 - FARTHEST), Vec3::splat(0.5 + FARTHEST))
+}
+
+/// The handles of a selected `rbf`. True if one of them is under the pointer or held.
+pub(super) fn ui(
+    ui: &mut Ui,
+    view: &Projection,
+    template: &PlacedTemplate,
+    double_click: Option<egui::Pos2>,
+    commands: &mut Vec<Command>,
+) -> bool {
+    let (TemplateKind::Rbf, Some(points)) = (template.kind, points_of(template)) else {
+        return false;
+    };
+    let placement = template.placement;
+    let to_ui = |q: Vec3| view.ui_from_subject(placement.subject_from_template(q));
+    let painter = ui.painter_at(view.rect);
+    for line in displace::bent_lattice(template) {
+        let line: Option<Vec<_>> = line
+            .into_iter()
+            .map(|pos| view.ui_from_subject(pos))
+            .collect();
+        if let Some(line) = line {
+            painter.add(Shape::line(
+                line.clone(),
+                Stroke::new(2.4, ink::HALO_DARK.gamma_multiply(0.35)),
+            ));
+            painter.add(Shape::line(line, Stroke::new(1.0, ink::HALO_LIGHT)));
+        }
+    }
+    let cut: Vec<_> = points
+        .cut
+        .iter()
+        .filter_map(|p| to_ui(p.extend(0.5)))
+        .collect();
+    painter.add(Shape::line(cut.clone(), Stroke::new(4.0, ink::HALO_DARK)));
+    painter.add(Shape::line(cut, Stroke::new(2.0, ink::HANDLE)));
+    let mut is_hot = false;
+    let mut changed: Option<ControlPoints> = None;
+    for (i, place) in points.cut.iter().enumerate() {
+        let q = place.extend(0.5);
+        let name = fill(w().cut_place, &[&(i + 1)]);
+        let Some(spot) = to_ui(q) else { continue };
+        let (hot, moved) = handle(
+            ui,
+            view,
+            spot,
+            placement.subject_from_template(q),
+            &name,
+            ink::HANDLE,
+        );
+        is_hot |= hot;
+        if let Some(Moved::To(pos)) = moved {
+            let to = within(placement.template_from_subject(pos));
+            let mut new = points.clone();
+            new.cut[i] = Flat::new(to.x, to.y);
+            changed = Some(new);
+        } else if let Some(Moved::Removed) = moved {
+            let mut new = points.clone();
+            new.cut.remove(i);
+            changed = Some(new);
+        }
+    }
+    for (i, point) in points.points.iter().enumerate() {
+        let source = point.at + point.shift;
+        let (Some(to), Some(from)) = (to_ui(point.at), to_ui(source)) else {
+            continue;
+        };
+        if point.shift != Vec3::ZERO {
+            painter.line_segment([from, to], Stroke::new(3.6, ink::HALO_DARK));
+            painter.line_segment([from, to], Stroke::new(1.6, ink::HALO_LIGHT));
+            painter.circle_stroke(from, 4.5, Stroke::new(3.4, ink::HALO_DARK));
+            painter.circle_stroke(from, 4.5, Stroke::new(1.6, ink::HALO_LIGHT));
+        }
+        let name = fill(w().point, &[&(i + 1)]);
+        let (hot, moved) = handle(
+            ui,
+            view,
+            to,
+            placement.subject_from_template(point.at),
+            &name,
+            ink::X,
+        );
+        is_hot |= hot;
+        let mut new = points.clone();
+        match moved {
+            Some(Moved::To(pos)) => {
+                let at = within(placement.template_from_subject(pos));
+                new.points[i] = ControlPoint {
+                    at,
+                    shift: source - at,
+                };
+                changed = Some(new);
+            }
+            Some(Moved::Removed) => {
+                new.points.remove(i);
+                changed = Some(new);
+            }
+            None => {}
+        }
+    }
+    if !is_hot
+        && let Some(pos) = double_click
+        && points.points.len() < MAX_POINTS
+        && let Some(pos) = view.on_plane(pos, placement.at, view.back())
+    {
+        let mut new = points.clone();
+        new.points.push(ControlPoint {
+            at: within(placement.template_from_subject(pos)),
+            shift: Vec3::ZERO,
+        });
+        commands.push(Command::Apply(set(template, new)));
+    }
+    if let Some(new) = changed {
+        commands.push(Command::Drag(set(template, new)));
+    }
+    is_hot
+}
+
+enum Moved {
+    /// Subject space.
+    To(Vec3),
+    Removed,
+}
+
+/// One dot: dragged in the plane of the picture, moved by the arrow keys, taken away by Delete.
+fn handle(
+    ui: &Ui,
+    view: &Projection,
+    spot: egui::Pos2,
+    pos: Vec3,
+    name: &str,
+    color: egui::Color32,
+) -> (bool, Option<Moved>) {
+    let id = ui.scope_id().with(("rbf", name));
+    let response = ui.interact(
+        Rect::from_center_size(spot, Vec2::splat(2.0 * REACH)),
+        id,
+        Sense::click_and_drag(),
+    );
+    response.widget_info(|| WidgetInfo::labeled(Role::GraphicsObject, true, name));
+    if response.clicked() || response.drag_started() {
+        response.request_focus();
+    }
+    let is_hot = response.hovered() || response.dragged();
+    let painter = ui.painter_at(view.rect);
+    let fill = if is_hot || response.has_focus() {
+        ink::HOT
+    } else {
+        color
+    };
+    painter.circle(spot, 6.0, fill, Stroke::new(2.0, ink::HALO_LIGHT));
+    painter.circle_stroke(spot, 7.2, Stroke::new(1.0, ink::HALO_DARK));
+    let mut by = response.drag_delta();
+    if response.has_focus() {
+        ui.memory_mut(|memory| {
+            let filter = egui::EventFilter {
+                horizontal_arrows: true,
+                vertical_arrows: true,
+                ..Default::default()
+            };
+            memory.set_focus_lock_filter(id, filter);
+        });
+        let pressed = |key| ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, key));
+        for (key, step) in [
+            (Key::ArrowLeft, Vec2::new(-1.0, 0.0)),
+            (Key::ArrowRight, Vec2::new(1.0, 0.0)),
+            (Key::ArrowUp, Vec2::new(0.0, -1.0)),
+            (Key::ArrowDown, Vec2::new(0.0, 1.0)),
+        ] {
+            if pressed(key) {
+                by += step * KEY_STEP;
+            }
+        }
+        if pressed(Key::Delete) || pressed(Key::Backspace) {
+            return (is_hot, Some(Moved::Removed));
+        }
+    }
+    let moved = (by != Vec2::ZERO)
+        .then(|| view.on_plane(spot + by, pos, view.back()))
+        .flatten();
+    (is_hot, moved.map(Moved::To))
+}
+
+/// In the panel: how many points, one more, and the cut.
+pub(super) fn panel_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>) {
+    let Some(points) = points_of(template) else {
+        return;
+    };
+    control::row(ui, |ui| {
+        let text = fill(w().count, &[&points.points.len()]);
+        control::row_label(ui, &text, w().how);
+        if control::icon_button(ui, Icon::Plus, w().add, points.points.len() < MAX_POINTS).clicked()
+        {
+            let mut new = points.clone();
+            // Beside the ones before it, so that it can be taken hold of.
+            let turn = new.points.len() as f32 * 2.4;
+            let at = Vec3::new(0.5 + 0.2 * turn.cos(), 0.5 + 0.2 * turn.sin(), 0.5);
+            new.points.push(ControlPoint {
+                at,
+                shift: Vec3::ZERO,
+            });
+            commands.push(Command::Apply(set(template, new)));
+        }
+    });
+    control::row(ui, |ui| {
+        control::row_label(ui, w().cut, w().cut_how);
+        if control::icon_button(ui, Icon::Plus, w().cut_add, points.cut.len() < MAX_CUT).clicked() {
+            let mut new = points.clone();
+            match new.cut.as_slice() {
+                [.., before, last] => {
+                    let next = *last + (*last - *before) * 0.5;
+                    new.cut.push(next);
+                }
+                _ => new.cut = vec![Flat::new(0.5, 0.2), Flat::new(0.5, 0.8)],
+            }
+            commands.push(Command::Apply(set(template, new)));
+        }
+        if control::icon_button(ui, Icon::Close, w().cut_remove, !points.cut.is_empty()).clicked() {
+            let mut new = points.clone();
+            new.cut.clear();
+            commands.push(Command::Apply(set(template, new)));
+        }
+    });
+    let weak = theme::Palette::get(ui).weak;
+    ui.label(egui::RichText::new(w().how).size(11.5).color(weak));
+}
