@@ -49,6 +49,14 @@ struct Log {
 #[derive(Clone, Default)]
 struct Fake(Rc<RefCell<Log>>);
 
+impl Fake {
+    /// As if it had been kept from the last time.
+    fn store_value(&self, key: &str, value: &str) {
+        let mut log = self.0.borrow_mut();
+        log.stored.insert(key.to_owned(), value.to_owned());
+    }
+}
+
 /// Voxels along the subject: small, since lavapipe draws it.
 const RESOLUTION: u32 = 48;
 /// The same for the head when somebody looks.
@@ -1088,7 +1096,49 @@ fn a_phone_has_drawers() {
             screen.expand(0.5).contains_rect(rect),
             "{name} is on the screen: {rect}"
         );
+        assert!(
+            rect.width().min(rect.height()) >= 40.0,
+            "{name} is large enough for a thumb: {rect}"
+        );
     }
+}
+
+/// What a thumb or a small window meets, in every language, to be looked at.
+#[test]
+fn small_screens_to_look_at() {
+    if std::env::var_os("FABRICA_LOOK_AT").is_none() {
+        println!("FABRICA_LOOK_AT is not set: nobody looks, nothing is drawn");
+        return;
+    }
+    let json = r#"{ "fabrica": 1, "title": "Cube", "subject": { "builtin": "cube" },
+        "templates": [ { "kind": "peel", "at": [0,0,0.2], "size": [0.8,0.8,0.6], "params": { "progress": 0.6 } },
+        { "kind": "retractor", "at": [0,0.4,0], "rotate": [-0.7,0,0,0.7], "size": [0.4,0.4,0.3] } ] }"#;
+    for (lang, theme) in [("de", egui::Theme::Light), ("es", egui::Theme::Dark)] {
+        let log = Fake::default();
+        log.store_value("language", lang);
+        let mut window = Window::open_with(vec2(360.0, 640.0), theme, log, Some(json));
+        window.press(Key::N);
+        window.look(&format!("small_{lang}"));
+        window.press(Key::V);
+        window.settle();
+        window.look(&format!("small_{lang}_slices"));
+        window.press(Key::V);
+        for i in 0..4 {
+            window.press(Key::E);
+            window.steps(8);
+            window.look(&format!("small_{lang}_panel{i}"));
+        }
+    }
+    let log = Fake::default();
+    log.store_value("contrast", "high");
+    log.store_value("language", "de");
+    let size = vec2(780.0, 480.0);
+    let mut window = Window::open_with(size, egui::Theme::Dark, log, Some(json));
+    window.press(Key::N);
+    window.look("tight_contrast");
+    window.press(Key::V);
+    window.settle();
+    window.look("tight_contrast_slices");
 }
 
 #[test]

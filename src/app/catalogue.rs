@@ -114,7 +114,8 @@ fn search_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         let edit = egui::TextEdit::singleline(&mut text)
             .hint_text(making::w().search_hint)
             .desired_width(width)
-            .min_size(vec2(0.0, theme::CONTROL_HEIGHT))
+            .min_size(vec2(0.0, theme::control_height()))
+            .align(egui::Align2::LEFT_CENTER)
             .char_limit(40)
             .id(id);
         let response = ui.add(edit).accessible_name(making::w().search);
@@ -197,11 +198,13 @@ fn cell_ui(
             }
             None => outline(ui, picture.shrink(8.0), palette.line),
         }
-        let font = if is_placing {
+        let mut font = if is_placing {
             theme::strong_font(11.0)
         } else {
             FontId::proportional(11.0)
         };
+        let wide = control::text_width(ui, title, font.clone());
+        font.size *= ((width - 5.0) / wide).min(1.0);
         let color = if is_placing {
             palette.accent
         } else {

@@ -8,7 +8,7 @@ use egui::{
 };
 
 use super::icon::Icon;
-use super::theme::{self, CONTROL_HEIGHT, Palette};
+use super::theme::{self, Palette, control_height};
 use super::words::templates::w;
 use super::words::{self, fill, in_sentence, localized};
 
@@ -55,7 +55,7 @@ pub(crate) fn change<T>(response: &Response, value: T) -> Option<Change<T>> {
 
 /// A square button with an icon, named for screen readers and by its tooltip.
 pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, enabled: bool) -> Response {
-    icon_button_sized(ui, icon, name, enabled, false, CONTROL_HEIGHT)
+    icon_button_sized(ui, icon, name, enabled, false, control_height())
 }
 
 /// The same with a state and a side in points.
@@ -142,7 +142,7 @@ pub(crate) fn labelled_button(
     let padding = vec2(10.0, 0.0);
     let size = vec2(
         galley.size().x + 18.0 + 6.0 + 2.0 * padding.x,
-        CONTROL_HEIGHT,
+        control_height(),
     );
     let sense = if enabled {
         Sense::click()
@@ -250,7 +250,7 @@ pub(crate) fn line_text(
 /// A heading within a panel, with room for buttons at its right end.
 pub(crate) fn heading(ui: &mut Ui, text: &str, trailing: impl FnOnce(&mut Ui)) {
     ui.horizontal(|ui| {
-        ui.set_min_height(CONTROL_HEIGHT);
+        ui.set_min_height(control_height());
         let color = Palette::get(ui).text;
         let label = ui.add(egui::Label::new(
             theme::strong(text).size(13.5).color(color),
@@ -295,6 +295,13 @@ pub(crate) fn spoken(ui: &Ui) -> Option<String> {
     Some(parts.join(": ")).filter(|text| !text.is_empty())
 }
 
+/// Points that a line of text takes.
+pub(crate) fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
+    let painter = ui.painter();
+    let galley = painter.layout_no_wrap(text.to_owned(), font, egui::Color32::BLACK);
+    galley.size().x
+}
+
 /// A choice of a few, side by side. Returns what was chosen.
 pub(crate) fn segmented<T: Copy + PartialEq>(
     ui: &mut Ui,
@@ -303,18 +310,31 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     current: T,
 ) -> Option<T> {
     let palette = Palette::get(ui);
-    let size = vec2(ui.available_width(), CONTROL_HEIGHT);
+    let size = vec2(ui.available_width(), control_height());
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     ui.painter()
         .rect_filled(rect, CornerRadius::same(7), palette.sunken);
     let mut chosen = None;
     let wants_focus = egui::Id::unique(("focus the chosen", name));
+    // All alike where every word fits, else each as its word needs; the letters shrink where that is too much.
     let step = rect.width() / options.len().max(1) as f32;
+    let mut widths: Vec<f32> = options
+        .iter()
+        .map(|(_, text)| text_width(ui, text, theme::strong_font(12.5)) + 10.0)
+        .collect();
+    let all: f32 = widths.iter().sum();
+    let is_tight = widths.iter().any(|width| *width > step);
+    let fit = (rect.width() / all).min(1.0);
+    let spare = (rect.width() - all * fit) / options.len().max(1) as f32;
+    for width in &mut widths {
+        *width = if is_tight { *width * fit + spare } else { step };
+    }
+    let letters = 12.5 * fit;
+    let mut left = rect.left();
     for (i, &(value, text)) in options.iter().enumerate() {
-        let cell = Rect::from_min_size(
-            rect.min + vec2(step * i as f32, 0.0),
-            vec2(step, rect.height()),
-        );
+        let cell =
+            Rect::from_min_size(egui::pos2(left, rect.top()), vec2(widths[i], rect.height()));
+        left = cell.right();
         let cell = sided(rect, cell);
         let selected = value == current;
         let response = ui.interact(cell, ui.scope_id().with((name, i)), Sense::click());
@@ -354,9 +374,9 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
             palette.weak
         };
         let font = if selected {
-            theme::strong_font(12.5)
+            theme::strong_font(letters)
         } else {
-            FontId::proportional(12.5)
+            FontId::proportional(letters)
         };
         ui.painter().with_clip_rect(inner).text(
             inner.center(),
@@ -397,7 +417,8 @@ impl NumberRow<'_> {
         row(ui, |ui| {
             let [low, high] = self.range;
             let label = row_label(ui, self.name, self.summary);
-            let tail = FIELD_WIDTH + 20.0 + 2.0 * ui.spacing().item_spacing.x;
+            let reset = if theme::is_touch() { 36.0 } else { 20.0 };
+            let tail = FIELD_WIDTH + reset + 2.0 * ui.spacing().item_spacing.x;
             let width = (ui.available_width() - tail).max(40.0);
             let mut value = self.value;
             let step = if self.decimals == 0 { 1.0 } else { 0.0 };
@@ -416,7 +437,7 @@ impl NumberRow<'_> {
                 .custom_parser(words::parse_number)
                 .suffix(self.unit)
                 .update_while_editing(false);
-            let field = ui.add_sized(vec2(FIELD_WIDTH, CONTROL_HEIGHT), field);
+            let field = ui.add_sized(vec2(FIELD_WIDTH, control_height()), field);
             let field = field.labelled_by(label.id).on_hover_text(fill(
                 w().range,
                 &[
@@ -434,7 +455,7 @@ impl NumberRow<'_> {
                 .filter(|change| (change.value() - self.value).abs() > tolerance);
             if let Some(default) = self.default.filter(|d| (d - self.value).abs() > tolerance) {
                 let name = fill(w().reset, &[&in_sentence(self.name)]);
-                if icon_button_sized(ui, Icon::Reset, &name, true, false, 20.0).clicked() {
+                if icon_button_sized(ui, Icon::Reset, &name, true, false, reset).clicked() {
                     result = Some(Change::Set(default));
                 }
             }
@@ -445,10 +466,10 @@ impl NumberRow<'_> {
 
 /// A row of controls of one height, so that none of them stands lower than the one before.
 pub(crate) fn row<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
-    let size = vec2(ui.available_width(), CONTROL_HEIGHT);
+    let size = vec2(ui.available_width(), control_height());
     let layout = along();
     ui.allocate_ui_with_layout(size, layout, |ui| {
-        ui.set_min_height(CONTROL_HEIGHT);
+        ui.set_min_height(control_height());
         ui.spacing_mut().item_spacing.x = 6.0;
         contents(ui)
     })
@@ -458,12 +479,12 @@ pub(crate) fn row<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
 /// Sliders with a thin rail, filled in the accent colour, and a small handle.
 pub(crate) fn slim<R>(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui) -> R) -> R {
     let palette = Palette::get(ui);
-    let size = vec2(width, CONTROL_HEIGHT);
+    let size = vec2(width, control_height());
     ui.allocate_ui_with_layout(size, along(), |ui| {
         ui.set_min_size(size);
         let style = ui.style_mut();
         style.spacing.slider_width = width;
-        style.spacing.interact_size.y = 17.0;
+        style.spacing.interact_size.y = if theme::is_touch() { 26.0 } else { 17.0 };
         style.spacing.slider_rail_height = 4.0;
         for font in style.text_styles.values_mut() {
             font.size = 8.0;
@@ -504,7 +525,7 @@ pub(crate) const LABEL_WIDTH: f32 = 78.0;
 pub(crate) fn row_label(ui: &mut Ui, name: &str, summary: &str) -> Response {
     let weak = Palette::get(ui).weak;
     let label = egui::Label::new(egui::RichText::new(name).color(weak)).truncate();
-    let size = vec2(LABEL_WIDTH, CONTROL_HEIGHT);
+    let size = vec2(LABEL_WIDTH, control_height());
     let layout = along();
     let response = ui
         .allocate_ui_with_layout(size, layout, |ui| {
@@ -544,7 +565,7 @@ pub(crate) fn vector_row(
                 .custom_parser(words::parse_number)
                 .suffix(unit)
                 .update_while_editing(false);
-            let field = ui.add_sized(vec2(width, CONTROL_HEIGHT), field);
+            let field = ui.add_sized(vec2(width, control_height()), field);
             let field = field
                 .accessible_name(format!("{name} {axis}"))
                 .on_hover_text(format!("{name} {axis}"));

@@ -13,9 +13,6 @@ use super::words::making::w;
 /// Under which it is kept that the hint was seen.
 pub(crate) const STORED: &str = "hint";
 
-/// Points that the bar of the template being placed or held takes at the head of the picture.
-const BAR: f32 = 56.0;
-
 /// The card: beside the ball of axes, or where there is no room at the head of the picture. Nothing while something else
 /// wants the place.
 pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<Command>) {
@@ -48,7 +45,12 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<C
     }
     let corner = if is_narrow {
         let has_bar = state.placing.is_some() || state.selected_template().is_some();
-        let top = picture.top() + if has_bar { BAR } else { 8.0 };
+        let top = picture.top()
+            + if has_bar {
+                theme::control_height() + 28.0
+            } else {
+                8.0
+            };
         pos2(picture.center().x + 0.5 * width, top + height)
     } else {
         picture.right_bottom() - vec2(14.0, 14.0)

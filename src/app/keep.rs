@@ -5,7 +5,7 @@ use egui::{Color32, Label, Sense, Stroke, Ui, vec2};
 use super::command::Command;
 use super::control::{self, NumberRow};
 use super::templates::command;
-use super::theme::{CONTROL_HEIGHT, Palette};
+use super::theme::{Palette, control_height};
 use super::tissue;
 use super::words::keep::{segment, w};
 use crate::data::Segment;
@@ -275,7 +275,7 @@ fn segments_ui(
     } else {
         egui::ScrollArea::vertical()
             .id_salt("segments")
-            .max_height(LISTED as f32 * (CONTROL_HEIGHT + 4.0))
+            .max_height(LISTED as f32 * (control_height() + 4.0))
             .auto_shrink([false, true])
             .show(ui, list);
     }

@@ -7,7 +7,7 @@ use super::control::{self, Change, NumberRow};
 use super::icon::Icon;
 use super::state::State;
 use super::templates::command;
-use super::theme::{CONTROL_HEIGHT, Palette};
+use super::theme::{Palette, control_height};
 use super::transfer::{self, Editor};
 use super::words::look::{Look as Words, w};
 use super::words::transfer::w as transfer_words;
@@ -150,7 +150,7 @@ fn window_ui(
                 .custom_formatter(|value, _| control::plain(value, decimals))
                 .update_while_editing(false);
             let field = ui
-                .add_sized(vec2(66.0, CONTROL_HEIGHT), field)
+                .add_sized(vec2(66.0, control_height()), field)
                 .accessible_name(name)
                 .on_hover_text(name);
             if let Some(change) = control::change(&field, edited) {
@@ -274,7 +274,8 @@ fn background_ui(ui: &mut Ui, background: Background, commands: &mut Vec<Command
 /// A round choice. True if it was taken.
 fn swatch(ui: &mut Ui, name: &str, is_selected: bool, paint: impl FnOnce(&Ui, egui::Rect)) -> bool {
     let palette = Palette::get(ui);
-    let (rect, response) = ui.allocate_exact_size(egui::Vec2::splat(28.0), egui::Sense::click());
+    let (rect, response) =
+        ui.allocate_exact_size(egui::Vec2::splat(control_height()), egui::Sense::click());
     let full_name = fill(w().background_is, &[&name]);
     response.widget_info(|| {
         egui::WidgetInfo::selected(

@@ -448,6 +448,13 @@ pub(crate) fn menu_entries(state: &State) -> Vec<MenuEntry> {
     }
     add(Icon::Paste, w.paste, Command::Paste);
     if let Some(selected) = state.selected {
+        let words = super::words::picture::w();
+        let is_on = state.selected_template().is_some_and(|t| t.enabled);
+        let (eye, text) = match is_on {
+            true => (Icon::EyeOff, words.hide),
+            false => (Icon::Eye, words.show),
+        };
+        add(eye, text, Command::ToggleSelected);
         add(Icon::Plus, w.duplicate, Command::DuplicateSelected);
         add(
             Icon::Mirror,
@@ -476,6 +483,7 @@ pub(crate) fn menu_entries(state: &State) -> Vec<MenuEntry> {
         if !group_of(state.document(), selected).is_empty() {
             add(Icon::Close, w.leave_group, Command::LeaveGroup);
         }
+        add(Icon::Trash, words.delete, Command::DeleteSelected);
     }
     let snap = if state.making.is_snapping {
         w.snap_off
@@ -499,6 +507,7 @@ pub(crate) struct MenuEntry {
 /// The menu of the selected template, wherever it is opened from: a button, the right mouse button, a long press.
 pub(crate) fn menu_ui(ui: &mut egui::Ui, state: &State, commands: &mut Vec<Command>) {
     ui.set_min_width(236.0);
+    ui.spacing_mut().item_spacing.y = 0.0;
     for entry in menu_entries(state) {
         if super::topbar::menu_item(ui, entry.icon, entry.text) {
             commands.push(entry.command);

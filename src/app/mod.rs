@@ -122,6 +122,8 @@ pub struct App {
     is_lettering: bool,
     /// Panels are drawers.
     is_narrow: bool,
+    /// Fingers point first, so that controls are large in a wide window too.
+    has_fingers: bool,
     /// The volume that is arriving.
     incoming: Option<VolumeBuilder>,
     fields: fields::Fields,
@@ -156,6 +158,7 @@ impl App {
         start: Start,
     ) -> Self {
         theme::install(&cc.egui_ctx);
+        let has_fingers = services.has_fingers();
         let contrast = services.stored(STORED_CONTRAST);
         let is_wanted = contrast.map_or_else(|| services.wants_contrast(), |text| text == "high");
         theme::set_contrast(&cc.egui_ctx, is_wanted);
@@ -197,6 +200,7 @@ impl App {
         Self {
             state,
             services,
+            has_fingers,
             picture,
             icons: RenderedIcons::default(),
             viewport: Viewport::default(),
@@ -281,6 +285,7 @@ impl App {
         self.transfer.has_keyboard = false;
 
         self.is_narrow = ui.available_width() < NARROW;
+        theme::set_touch(ui.ctx(), self.is_narrow || self.has_fingers);
         if self.is_narrow {
             self.narrow_ui(ui, &mut commands);
         } else {

@@ -70,6 +70,10 @@ pub trait Services {
     fn languages(&self) -> Vec<String> {
         Vec::new()
     }
+    /// True if fingers are what points first, whatever the window's width.
+    fn has_fingers(&self) -> bool {
+        false
+    }
     /// True if the reader has asked for high contrast everywhere.
     fn wants_contrast(&self) -> bool {
         false

@@ -23,7 +23,7 @@ use crate::document::{
 use crate::math::Placement;
 
 /// Height of a row of the list, points.
-const ROW: f32 = 36.0;
+const ROW: f32 = 40.0;
 
 /// The author's name for a template, else its kind's.
 pub(crate) fn template_title(template: &PlacedTemplate) -> String {
@@ -198,7 +198,10 @@ fn row_ui(ui: &mut Ui, state: &State, index: usize, commands: &mut Vec<Command>)
         } else {
             (Icon::EyeOff, w().show)
         };
-        let right = Rect::from_center_size(rect.right_center() - vec2(20.0, 0.0), vec2(28.0, 28.0));
+        let right = Rect::from_center_size(
+            rect.right_center() - vec2(20.0, 0.0),
+            egui::Vec2::splat(theme::control_height()),
+        );
         let mut inner = ui.new_child(
             egui::UiBuilder::new()
                 .id_salt(("row", index))
@@ -262,7 +265,8 @@ fn template_ui(
         let edit = TextEdit::singleline(&mut name)
             .hint_text(kind_title(template.kind))
             .desired_width(f32::INFINITY)
-            .min_size(vec2(0.0, theme::CONTROL_HEIGHT))
+            .min_size(vec2(0.0, theme::control_height()))
+            .align(egui::Align2::LEFT_CENTER)
             .char_limit(80)
             .id(Id::unique(("template name", index)));
         if ui.add(edit).labelled_by(label.id).changed() {

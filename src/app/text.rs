@@ -23,7 +23,7 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             let label = ui.label(egui::RichText::new(name).color(weak));
             let mut text = text.to_owned();
             let widget = if rows == 1 {
-                TextEdit::singleline(&mut text)
+                TextEdit::singleline(&mut text).align(egui::Align2::LEFT_CENTER)
             } else {
                 TextEdit::multiline(&mut text)
             };
@@ -78,6 +78,7 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         let label = ui.label(egui::RichText::new(w().scan_name).color(weak));
         let mut text = name.clone();
         let widget = TextEdit::singleline(&mut text)
+            .align(egui::Align2::LEFT_CENTER)
             .hint_text(w().scan_name_example)
             .desired_width(f32::INFINITY);
         if ui.add(widget).labelled_by(label.id).changed() {

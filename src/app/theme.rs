@@ -11,8 +11,10 @@ use egui::{
 /// The family of headings and of names that carry weight (Inter SemiBold).
 pub(crate) const STRONG: &str = "strong";
 
-/// Points of an ordinary control's height.
-pub(crate) const CONTROL_HEIGHT: f32 = 28.0;
+/// Points of an ordinary control's height: for a mouse, or for a thumb, which with the space between controls has 44.
+pub(crate) fn control_height() -> f32 {
+    if is_touch() { 40.0 } else { 28.0 }
+}
 
 /// The colours that egui's own style has no place for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -124,6 +126,20 @@ const DARK_CONTRAST: Palette = Palette {
 thread_local! {
     /// As with the language: one reader looks at all viewers on this thread.
     static HAS_CONTRAST: Cell<bool> = const { Cell::new(false) };
+    static IS_TOUCH: Cell<bool> = const { Cell::new(false) };
+}
+
+/// True while controls are made for fingers.
+pub(crate) fn is_touch() -> bool {
+    IS_TOUCH.get()
+}
+
+/// Makes controls for fingers, or for a mouse. Seen from the next frame on.
+pub(crate) fn set_touch(ctx: &egui::Context, is_touch: bool) {
+    if IS_TOUCH.replace(is_touch) != is_touch {
+        set_contrast(ctx, has_contrast());
+        ctx.request_repaint();
+    }
 }
 
 /// True while the contrast is high.
@@ -249,15 +265,17 @@ fn apply(style: &mut egui::Style, palette: &Palette) {
     .into();
     style.animation_time = 0.12;
     style.interaction.tooltip_delay = 0.4;
+    style.interaction.interact_radius = if is_touch() { 9.0 } else { 5.0 };
     style.interaction.selectable_labels = false;
 
     let spacing = &mut style.spacing;
-    spacing.item_spacing = Vec2::new(8.0, 6.0);
+    let is_touch = is_touch();
+    spacing.item_spacing = Vec2::new(8.0, if is_touch { 4.0 } else { 6.0 });
     spacing.button_padding = Vec2::new(10.0, 5.0);
-    spacing.interact_size = Vec2::new(36.0, CONTROL_HEIGHT);
+    spacing.interact_size = Vec2::new(36.0, control_height());
     spacing.slider_rail_height = 4.0;
-    spacing.icon_width = 16.0;
-    spacing.icon_width_inner = 9.0;
+    spacing.icon_width = if is_touch { 22.0 } else { 16.0 };
+    spacing.icon_width_inner = if is_touch { 12.0 } else { 9.0 };
     spacing.combo_width = 96.0;
     spacing.menu_margin = Margin::same(6);
     spacing.window_margin = Margin::same(16);

@@ -9,7 +9,7 @@ use super::control::{self, Change, NumberRow};
 use super::icon::Icon;
 use super::state::State;
 use super::templates::command;
-use super::theme::{CONTROL_HEIGHT, Palette};
+use super::theme::{Palette, control_height};
 use super::words::keep::segment;
 use super::words::tissue::w;
 use super::words::{fill, in_sentence};
@@ -145,7 +145,7 @@ pub(crate) fn ui(
     } else {
         egui::ScrollArea::vertical()
             .id_salt("tissues")
-            .max_height(LISTED as f32 * (CONTROL_HEIGHT + 4.0))
+            .max_height(LISTED as f32 * (control_height() + 4.0))
             .auto_shrink([false, true])
             .show(ui, rows);
     }
@@ -255,7 +255,7 @@ fn row_ui(
                 true => (w().all.to_owned(), None),
                 false => (fill(w().alone, &[&in_text]), Some(name.to_owned())),
             };
-            let side = CONTROL_HEIGHT;
+            let side = control_height();
             if control::icon_button_sized(ui, Icon::Eye, &text, true, is_alone, side).clicked() {
                 commands.push(Command::Tissue(TissueCommand::Alone(alone)));
             }

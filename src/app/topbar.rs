@@ -209,7 +209,7 @@ fn more_menu(ui: &mut Ui, state: &State, is_narrow: bool, commands: &mut Vec<Com
 /// A row of a menu with an icon. True if it was taken.
 pub(crate) fn menu_item(ui: &mut Ui, icon: Icon, text: &str) -> bool {
     let palette = Palette::get(ui);
-    let size = egui::vec2(ui.available_width(), 30.0);
+    let size = egui::vec2(ui.available_width(), theme::control_height().max(30.0));
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), text));
     if response.hovered() {

@@ -21,7 +21,7 @@ use super::command::Command;
 use super::control;
 use super::icon::Icon;
 use super::state::State;
-use super::theme::{self, CONTROL_HEIGHT, Palette};
+use super::theme::{self, Palette, control_height};
 use super::transfer_plot::{
     Axis, paint_fill, paint_histogram, paint_levels, paint_point, paint_strip, paint_ticks,
     paint_window,
@@ -553,13 +553,13 @@ impl Editor {
             let color = color
                 .accessible_name(fill(look::w().colour_n, &[&(i + 1)]))
                 .on_hover_text(w().colour);
-            let width = ((ui.available_width() - CONTROL_HEIGHT - 14.0) / 2.0).clamp(60.0, 120.0);
+            let width = ((ui.available_width() - control_height() - 14.0) / 2.0).clamp(60.0, 120.0);
             let field = DragValue::new(&mut edited.value)
                 .speed(span / 800.0)
                 .max_decimals(decimals)
                 .custom_formatter(|value, _| control::plain(value, decimals))
                 .update_while_editing(false);
-            let value = ui.add_sized(vec2(width, CONTROL_HEIGHT), field);
+            let value = ui.add_sized(vec2(width, control_height()), field);
             let value = value
                 .accessible_name(fill(look::w().value_n, &[&(i + 1)]))
                 .on_hover_text(look::w().value);
@@ -571,7 +571,7 @@ impl Editor {
                 .custom_formatter(|value, _| control::plain(value, 2))
                 .suffix(" %")
                 .update_while_editing(false);
-            let opacity = ui.add_sized(vec2(width, CONTROL_HEIGHT), field);
+            let opacity = ui.add_sized(vec2(width, control_height()), field);
             let opacity = opacity
                 .accessible_name(fill(look::w().opacity_n, &[&(i + 1)]))
                 .on_hover_text(look::w().opacity_hint);

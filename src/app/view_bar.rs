@@ -8,13 +8,19 @@ use super::control;
 use super::icon::Icon;
 use super::orientation;
 use super::state::State;
+use super::theme;
 use super::topbar::menu_item;
 use super::view::See;
 use super::viewport::float_frame;
 use super::words::{picture, slices};
 
+/// Points of a picture's height below which its buttons lie in a row along its foot.
+pub(super) const LOW: f32 = 330.0;
+
 /// Side of a button with its frame, points.
-const BUTTON: f32 = 34.0;
+fn button() -> f32 {
+    theme::control_height().max(34.0)
+}
 
 /// All of it, in the corners of a rectangle.
 pub(crate) fn corner_ui(
@@ -24,22 +30,35 @@ pub(crate) fn corner_ui(
     state: &State,
     commands: &mut Vec<Command>,
 ) {
-    if rect.height() < 220.0 {
+    if rect.height() < 140.0 {
         return;
     }
+    // Over an open drawer there is room for a row of buttons only.
+    let is_low = rect.height() < LOW;
     let center = rect.left_bottom() + vec2(62.0, -62.0);
-    commands.extend(orientation::ball_ui(ui, view, center));
-    let home = Rect::from_center_size(center + vec2(62.0, 32.0), Vec2::splat(BUTTON));
+    let home = if is_low {
+        rect.left_bottom() + vec2(12.0, -12.0) + 0.5 * button() * vec2(1.0, -1.0)
+    } else {
+        commands.extend(orientation::ball_ui(ui, view, center));
+        center + vec2(64.0, 47.0 - 0.5 * button())
+    };
+    let home = Rect::from_center_size(home, Vec2::splat(button()));
     if button_ui(ui, home, Icon::Home, picture::w().back_to_first, false).clicked() {
         commands.push(Command::ResetView);
     }
 
     let w = slices::w();
     let seen = &state.view;
-    let corner = rect.right_bottom() - vec2(12.0 + 0.5 * BUTTON, 12.0 + 0.5 * BUTTON);
+    let corner = rect.right_bottom() - vec2(12.0 + 0.5 * button(), 12.0 + 0.5 * button());
     let spot = |i: f32| {
-        let center = corner - vec2(0.0, i * (BUTTON + 4.0));
-        Rect::from_center_size(center, Vec2::splat(BUTTON))
+        let step = i * (button() + 4.0);
+        let center = corner
+            - if is_low {
+                vec2(step, 0.0)
+            } else {
+                vec2(0.0, step)
+            };
+        Rect::from_center_size(center, Vec2::splat(button()))
     };
     let (text, is_on) = match seen.is_split {
         true => (w.hide, true),
@@ -86,5 +105,5 @@ pub(crate) fn corner_ui(
 fn button_ui(ui: &mut Ui, rect: Rect, icon: Icon, name: &str, is_on: bool) -> egui::Response {
     float_frame(ui, rect);
     let mut inner = ui.new_child(UiBuilder::new().id_salt(name).max_rect(rect.shrink(2.0)));
-    control::icon_button_sized(&mut inner, icon, name, true, is_on, BUTTON - 4.0)
+    control::icon_button_sized(&mut inner, icon, name, true, is_on, button() - 4.0)
 }

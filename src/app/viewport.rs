@@ -113,9 +113,14 @@ impl Viewport {
         };
         let has_bar = state.placing.is_some() || state.selected_template().is_some();
         let free = if has_bar {
-            rect.with_min_y(rect.top() + 52.0)
+            rect.with_min_y(bar_rect(rect, 0.0).bottom() + 2.0)
         } else {
             rect
+        };
+        let free = if rect.height() < view_bar::LOW {
+            free.with_max_y(rect.bottom() - theme::control_height() - 18.0)
+        } else {
+            free
         };
         orientation::edges_ui(&painter, &view, letters, free);
 
@@ -476,9 +481,8 @@ impl Viewport {
             .painter()
             .layout_no_wrap(text, theme::strong_font(13.5), palette.text);
         let middle_width = if is_narrow { 76.0 } else { 118.0 };
-        let width = (galley.size().x + middle_width + 28.0 + 40.0).min(rect.width() - 16.0);
-        let bar =
-            Rect::from_center_size(pos2(rect.center().x, rect.top() + 30.0), vec2(width, 40.0));
+        let width = galley.size().x + middle_width + 40.0 + theme::control_height();
+        let bar = bar_rect(rect, width);
         float_frame(ui, bar);
         let at = bar.left_center() + vec2(14.0, -0.5 * galley.size().y);
         let spot = control::sided(bar, Rect::from_min_size(at, galley.size()));
@@ -524,7 +528,10 @@ impl Viewport {
             else {
                 continue;
             };
-            let hit = Rect::from_center_size(at, Vec2::splat(26.0));
+            let hit = Rect::from_center_size(
+                at,
+                Vec2::splat(if theme::is_touch() { 40.0 } else { 26.0 }),
+            );
             let response = ui.interact(
                 hit,
                 ui.scope_id().with(("marker", template.index)),
@@ -718,6 +725,13 @@ fn paint_preview(ui: &Ui, rect: Rect, view: &Projection, placement: &Placement) 
     }
 }
 
+/// The bar at the head of the picture, of a width where there is room for it.
+fn bar_rect(rect: Rect, width: f32) -> Rect {
+    let height = theme::control_height() + 12.0;
+    let center = pos2(rect.center().x, rect.top() + 10.0 + 0.5 * height);
+    Rect::from_center_size(center, vec2(width.min(rect.width() - 12.0), height))
+}
+
 /// Floating over the picture: what the handles do, and the commonest commands of the selected template.
 fn tools_ui(
     ui: &mut Ui,
@@ -726,8 +740,8 @@ fn tools_ui(
     template: &PlacedTemplate,
     commands: &mut Vec<Command>,
 ) {
-    let width = 372.0_f32.min(rect.width() - 12.0);
-    let bar = Rect::from_center_size(pos2(rect.center().x, rect.top() + 30.0), vec2(width, 40.0));
+    let bar = bar_rect(rect, 372.0);
+    let width = bar.width();
     float_frame(ui, bar);
     let mut inner = ui.new_child(
         UiBuilder::new()
@@ -737,9 +751,13 @@ fn tools_ui(
     );
     let ui = &mut inner;
     ui.spacing_mut().item_spacing.x = 2.0;
-    let choice = (width - 12.0 - 5.0 * 30.0 - 8.0).max(120.0);
+    let side = theme::control_height();
+    // Where a thumb needs room the menu has the rest.
+    let is_short = width < 340.0 || theme::is_touch();
+    let buttons = if is_short { 3.0 } else { 5.0 };
+    let choice = (width - 12.0 - buttons * (side + 2.0) - 8.0).max(60.0);
     let handles = GizmoMode::ALL.map(|mode| (mode, gizmo_name(mode)));
-    ui.allocate_ui(vec2(choice, 28.0), |ui| {
+    ui.allocate_ui(vec2(choice, side), |ui| {
         if let Some(mode) = control::segmented(ui, w().handles, &handles, state.gizmo) {
             commands.push(Command::SetGizmo(mode));
         }
@@ -750,12 +768,13 @@ fn tools_ui(
     } else {
         (Icon::EyeOff, w().show)
     };
-    for (icon, name, command) in [
+    let all = [
         (eye, eye_name, Command::ToggleSelected),
         (Icon::Copy, w().duplicate, Command::DuplicateSelected),
         (Icon::Trash, w().delete, Command::DeleteSelected),
         (Icon::Close, w().deselect, Command::Select(None)),
-    ] {
+    ];
+    for (icon, name, command) in all.into_iter().skip(if is_short { 2 } else { 0 }) {
         if control::icon_button(ui, icon, name, true).clicked() {
             commands.push(command);
         }

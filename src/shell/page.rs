@@ -97,6 +97,11 @@ impl Page {
     }
 }
 
+fn matches_media(query: &str) -> bool {
+    let found = window().and_then(|w| w.match_media(query).ok().flatten());
+    found.is_some_and(|query| query.matches())
+}
+
 /// The page as the app sees it.
 #[derive(Clone)]
 pub(super) struct PageServices(pub Rc<RefCell<Page>>);
@@ -589,10 +594,12 @@ impl Services for PageServices {
         wanted.filter_map(|tag| tag.as_string()).collect()
     }
 
+    fn has_fingers(&self) -> bool {
+        matches_media("(pointer: coarse)")
+    }
+
     fn wants_contrast(&self) -> bool {
-        let query = "(prefers-contrast: more)";
-        let found = window().and_then(|w| w.match_media(query).ok().flatten());
-        found.is_some_and(|query| query.matches())
+        matches_media("(prefers-contrast: more)")
     }
 
     fn stored(&self, key: &str) -> Option<String> {
