@@ -43,6 +43,9 @@ fn map_step() -> f32 {
 override align_mode: u32 = 2u;
 /// 1 if a displacement gives way to kept tissue.
 override has_constraints: u32 = 1u;
+/// What says that tissue is kept. Bit 0: its segment, bit 1: its depth. A pipeline constant, so that a picture asks one texture where
+/// one is enough.
+override kept_by: u32 = 3u;
 
 /// Open questions at most; a template that would open one more is taken as if it kept nothing. So many alignments that all reach one
 /// point and all differ from the one before do not occur.
@@ -78,19 +81,23 @@ fn depth_at(rest: vec3f) -> f32 {
 
 /// True if a rest point lies in tissue that this set of sets holds. Exact by the nearest label. Nothing lies deep where the scan ends.
 fn is_kept(rest: vec3f, keeps: u32, depth: f32) -> bool {
-    if (keeps & KEEPS_DEEP) != 0u && depth_at(rest) >= depth {
-        let at = vec4f(rest, 1.0);
-        let uvw = vec3f(
-            dot(subject.texture_from_rest_row0, at),
-            dot(subject.texture_from_rest_row1, at),
-            dot(subject.texture_from_rest_row2, at),
-        );
-        return all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
+    let r = vec4f(rest, 1.0);
+    if (kept_by & 2u) != 0u {
+        if (keeps & KEEPS_DEEP) != 0u && depth_at(rest) >= depth {
+            let uvw = vec3f(
+                dot(subject.texture_from_rest_row0, r),
+                dot(subject.texture_from_rest_row1, r),
+                dot(subject.texture_from_rest_row2, r),
+            );
+            return all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
+        }
+    }
+    if (kept_by & 1u) == 0u {
+        return false;
     }
     if (keeps & 15u) == 0u || subject.label_dims.w < 0.5 {
         return false;
     }
-    let r = vec4f(rest, 1.0);
     let voxel = floor(vec3f(
         dot(subject.label_from_rest_row0, r),
         dot(subject.label_from_rest_row1, r),
@@ -108,14 +115,18 @@ fn is_kept(rest: vec3f, keeps: u32, depth: f32) -> bool {
 /// `slab` 0 is smooth.
 fn distance_to_kept(rest: vec3f, keeps: u32, depth: f32, slab: u32) -> f32 {
     var least = NO_END;
-    if (keeps & KEEPS_DEEP) != 0u {
-        least = depth - depth_at(rest);
+    if (kept_by & 2u) != 0u {
+        if (keeps & KEEPS_DEEP) != 0u {
+            least = depth - depth_at(rest);
+        }
     }
-    if (keeps & 15u) != 0u {
-        let d = textureSampleLevel(distances, linear_sampler, distance_uvw(rest, slab), 0.0);
-        let held = (vec4u(keeps) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
-        let each = select(vec4f(NO_END), d, held);
-        least = min(least, min(min(each.x, each.y), min(each.z, each.w)));
+    if (kept_by & 1u) != 0u {
+        if (keeps & 15u) != 0u {
+            let d = textureSampleLevel(distances, linear_sampler, distance_uvw(rest, slab), 0.0);
+            let held = (vec4u(keeps) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
+            let each = select(vec4f(NO_END), d, held);
+            least = min(least, min(min(each.x, each.y), min(each.z, each.w)));
+        }
     }
     return least;
 }
@@ -198,30 +209,33 @@ fn below(mask: u32, level: u32) -> u32 {
 fn chained(pos: vec3f, mask: u32) -> Material {
     var left = mask;
     var at = Material(pos, NO_END, 0u);
-    var is_tested = false;
+    var head = templates.items[firstLeadingBit(max(left, 1u))].group;
+    var item = features.items[head];
+    if left != 0u && item.keeps.x != 0u && is_kept(pos, item.keeps.x, item.lengths.x) {
+        at.continuity = 1.0;
+        return at;
+    }
     while left != 0u {
-        let head = templates.items[firstLeadingBit(left)].group;
         let bits = left & (0xffffffffu << head);
-        let item = features.items[head];
-        if item.keeps.x != 0u && !is_tested {
-            if is_kept(at.pos, item.keeps.x, item.lengths.x) {
-                at.continuity = select(at.continuity, 1.0, at.path == 0u);
-                return at;
-            }
-            is_tested = true;
-        }
         let moved = group_map(at.pos, head, bits);
         left &= ~bits;
         let is_same = all(moved.pos == at.pos);
         at.pos = moved.pos;
         at.continuity = min(at.continuity, moved.continuity);
         at.path |= bits;
+        // One question serves both: does what moved come from where tissue stands still, and does the next template leave it alone.
+        let keeps_too = item.keeps.x != 0u;
+        head = templates.items[firstLeadingBit(max(left, 1u))].group;
+        let next = features.items[head];
+        let asks = select(left != 0u && next.keeps.x != 0u, !is_same, keeps_too);
+        if !keeps_too {
+            item = next;
+        }
         if at.continuity < 0.0 {
             break;
         }
-        if item.keeps.x != 0u && !is_same && is_kept(at.pos, item.keeps.x, item.lengths.x) {
-            // It stands still where it was.
-            at.continuity = -1.0;
+        if asks && is_kept(at.pos, item.keeps.x, item.lengths.x) {
+            at.continuity = select(at.continuity, -1.0, keeps_too);
             break;
         }
     }
@@ -322,12 +336,7 @@ fn object_from_subject(pos: vec3f, mask: u32) -> Mapped {
     return Mapped(found.pos, found.continuity);
 }
 
-/// Templates that led to what is at a point. Along the path the map is smooth; what stayed where it was has not been mapped at all.
-fn path_of(pos: vec3f, mask: u32) -> u32 {
-    return material_at(pos, mask).path;
-}
-
-/// The map along a path that was found: smooth wherever material follows that path.
+/// The map along a path that was found: smooth wherever material follows that path. What stayed where it was has none.
 fn map_along(pos: vec3f, path: u32) -> Mapped {
     if has_constraints == 0u {
         return rest_from_subject(pos, path);

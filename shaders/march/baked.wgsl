@@ -12,6 +12,16 @@ fn map_step() -> f32 {
     return baked.origin_min.w;
 }
 
+/// What the object has at a point.
+struct Material {
+    /// Rest space.
+    pos: vec3f,
+    /// As composed; below 0: nothing is here.
+    continuity: f32,
+    /// Templates that may have led here.
+    path: u32,
+}
+
 /// What the object has at a point of subject space. Cells that no template reaches are exact.
 fn object_from_subject(pos: vec3f, mask: u32) -> Mapped {
     let found = textureSampleLevel(baked_map, linear_sampler, (pos - baked.origin_min.xyz) * baked.per_unit.xyz, 0.0);
@@ -19,9 +29,10 @@ fn object_from_subject(pos: vec3f, mask: u32) -> Mapped {
     return Mapped(pos + moved.xyz, moved.w);
 }
 
-/// Templates that led to what is at a point.
-fn path_of(_pos: vec3f, mask: u32) -> u32 {
-    return mask;
+/// The same with the path.
+fn material_at(pos: vec3f, mask: u32) -> Material {
+    let mapped = object_from_subject(pos, mask);
+    return Material(mapped.pos, mapped.continuity, mask);
 }
 
 /// The map along a path.

@@ -10,14 +10,25 @@ fn map_step() -> f32 {
     return 0.0005;
 }
 
+/// What the object has at a point.
+struct Material {
+    /// Rest space.
+    pos: vec3f,
+    /// As composed; below 0: nothing is here.
+    continuity: f32,
+    /// Templates that may have led here.
+    path: u32,
+}
+
 /// What the object has at a point of subject space: where it was at rest; a continuity below 0 where there is nothing.
 fn object_from_subject(pos: vec3f, mask: u32) -> Mapped {
     return rest_from_subject(pos, mask);
 }
 
-/// Templates that led to what is at a point.
-fn path_of(_pos: vec3f, mask: u32) -> u32 {
-    return mask;
+/// The same with the path.
+fn material_at(pos: vec3f, mask: u32) -> Material {
+    let mapped = object_from_subject(pos, mask);
+    return Material(mapped.pos, mapped.continuity, mask);
 }
 
 /// The map along a path: smooth wherever material follows that path.

@@ -59,6 +59,8 @@ struct Sample {
     opacity: f32,
     /// As composed.
     continuity: f32,
+    /// Templates that led here.
+    path: u32,
 }
 
 /// What a ray found.
@@ -73,11 +75,11 @@ struct Marched {
     surface_rest: vec3f,
 }
 
-fn map_point(pos: vec3f, mask: u32) -> Mapped {
+fn map_point(pos: vec3f, mask: u32) -> Material {
     if drawn_kinds == 0u {
-        return Mapped(pos, 1.0);
+        return Material(pos, 1.0, 0u);
     }
-    return object_from_subject(pos, mask);
+    return material_at(pos, mask);
 }
 
 /// Linear RGB and opacity of a normalised value.
@@ -85,7 +87,7 @@ fn transfer(texel: f32) -> vec4f {
     return textureSampleLevel(lut, linear_sampler, vec2f(texel * look.lut.x + look.lut.y, 0.5), 0.0);
 }
 
-fn sample_mapped(mapped: Mapped) -> Sample {
+fn sample_mapped(mapped: Material) -> Sample {
     let uvw = texture_from_rest(mapped.pos);
     let is_inside = all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
     let texel = texel_at(uvw);
@@ -95,6 +97,7 @@ fn sample_mapped(mapped: Mapped) -> Sample {
         texel,
         select(0.0, opacity, is_inside && mapped.continuity >= 0.0),
         mapped.continuity,
+        mapped.path,
     );
 }
 
@@ -183,6 +186,13 @@ fn pixel_noise(pixel: vec2f) -> f32 {
     return fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
 }
 
+/// xyz: direction from a surface to tap k of occlusion, along its two tangents and its normal; w: how far, subject units.
+fn occlusion_way(k: u32, noise: f32) -> vec4f {
+    // Near taps find creases, far ones the hollow under a flap.
+    let reach = mix(0.010, 0.045, f32((k * 5u) % occlusion_taps) / f32(occlusion_taps)) + subject.dims.w;
+    return vec4f(spread(k, occlusion_taps, frame.jitter.w + noise * 6.2831853), reach);
+}
+
 /// How open the surroundings of a surface are, 0 to 1: taps of the opacity in the deformed space.
 fn openness(pos: vec3f, normal: vec3f, noise: f32) -> f32 {
     let up = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.y) < 0.9);
@@ -190,15 +200,25 @@ fn openness(pos: vec3f, normal: vec3f, noise: f32) -> f32 {
     let bitangent = cross(normal, tangent);
     var closed = 0.0;
     var weights = 0.0001;
+    // Taps that no template reaches are sampled plainly, the others in a loop of their own: where there are none, it ends at once.
+    var mapped = 0u;
     for (var k = 0u; k < occlusion_taps; k++) {
-        let d = spread(k, occlusion_taps, frame.jitter.w + noise * 6.2831853);
-        // Near taps find creases, far ones the hollow under a flap.
-        let reach = mix(0.010, 0.045, f32((k * 5u) % occlusion_taps) / f32(occlusion_taps)) + subject.dims.w;
-        let at = pos + (tangent * d.x + bitangent * d.y + normal * d.z) * reach;
-        let found = sample_mapped(map_point(at, cell_at(at).x));
-        let weight = d.z;
-        closed += weight * smoothstep(0.02, 0.5, shading_opacity(found));
-        weights += weight;
+        let way = occlusion_way(k, noise);
+        let at = pos + (tangent * way.x + bitangent * way.y + normal * way.z) * way.w;
+        weights += way.z;
+        let is_mapped = cell_at(at).x != 0u && drawn_kinds != 0u;
+        mapped |= select(0u, 1u << k, is_mapped);
+        let found = sample_mapped(Material(at, 1.0, 0u));
+        closed += select(way.z * smoothstep(0.02, 0.5, shading_opacity(found)), 0.0, is_mapped);
+    }
+    if drawn_kinds != 0u {
+        while mapped != 0u {
+            let way = occlusion_way(firstTrailingBit(mapped), noise);
+            mapped &= mapped - 1u;
+            let at = pos + (tangent * way.x + bitangent * way.y + normal * way.z) * way.w;
+            let found = sample_mapped(map_point(at, cell_at(at).x));
+            closed += way.z * smoothstep(0.02, 0.5, shading_opacity(found));
+        }
     }
     return 1.0 - closed / weights;
 }
@@ -208,13 +228,27 @@ fn key_light_at(pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> f32 {
     var open = 1.0;
     let start = pos + normal * (1.5 * subject.dims.w);
     let n = f32(shadow_taps);
+    // As above in two loops.
+    var mapped = 0u;
     for (var k = 0u; k < shadow_taps; k++) {
         // Closer together near the surface, where a shadow has its edge.
         let part = (f32(k) + 0.3 + 0.7 * fract(frame.jitter.z + noise)) / n;
         let at = start + key_dir * (0.006 + 0.30 * part * part);
-        let found = sample_mapped(map_point(at, cell_at(at).x));
+        let is_mapped = cell_at(at).x != 0u && drawn_kinds != 0u;
+        mapped |= select(0u, 1u << k, is_mapped);
+        let found = sample_mapped(Material(at, 1.0, 0u));
         // Farther occluders dim less: a large soft lamp.
-        open *= 1.0 - smoothstep(0.02, 0.6, shading_opacity(found)) * mix(0.62, 0.30, part);
+        let dimmed = smoothstep(0.02, 0.6, shading_opacity(found)) * mix(0.62, 0.30, part);
+        open *= 1.0 - select(dimmed, 0.0, is_mapped);
+    }
+    if drawn_kinds != 0u {
+        while mapped != 0u {
+            let part = (f32(firstTrailingBit(mapped)) + 0.3 + 0.7 * fract(frame.jitter.z + noise)) / n;
+            mapped &= mapped - 1u;
+            let at = start + key_dir * (0.006 + 0.30 * part * part);
+            let found = sample_mapped(map_point(at, cell_at(at).x));
+            open *= 1.0 - smoothstep(0.02, 0.6, shading_opacity(found)) * mix(0.62, 0.30, part);
+        }
     }
     return open;
 }
@@ -242,7 +276,7 @@ fn march(pixel: vec2f) -> Marched {
 
     var t = max(span.x, 0.0) + step * frame.jitter.z;
     var t_before = max(span.x, 0.0);
-    var before = Sample(vec3f(0.0), 0.0, 0.0, 1.0);
+    var before = Sample(vec3f(0.0), 0.0, 0.0, 1.0, 0u);
     // Share of its opacity that the sample before keeps.
     var gain_before = 1.0;
     var stretch = 1.0;
@@ -262,46 +296,54 @@ fn march(pixel: vec2f) -> Marched {
         var is_event = false;
         // Seek the next sample with something in it, or the first behind it.
         loop {
-            // Leap from cell to cell until something may be seen. Not while inside tissue: its end must be found first.
+            var t_stop = t_end;
+            // Through empty cells and those that no template reaches.
             loop {
-                if t >= t_end {
+                // Leap from cell to cell until something may be seen. Not while inside tissue: its end must be found first.
+                loop {
+                    if t >= t_end {
+                        break;
+                    }
+                    if has_grid == 0u || grid.cells.w == 0u {
+                        mask = 0xffffffffu;
+                        t_cell = t_end;
+                        break;
+                    }
+                    let local = floor((origin + dir * t - grid.origin_min.xyz) / grid.cell_size.xyz);
+                    let cell = clamp(local, vec3f(0.0), vec3f(grid.cells.xyz) - 1.0);
+                    let content = textureLoad(grid_cells, vec3i(cell), 0).xy;
+                    let reach = max(f32(content.y), 1.0);
+                    let plane = select(cell + 1.0 - reach, cell + reach, dir > vec3f(0.0));
+                    let exits = (grid.origin_min.xyz + plane * grid.cell_size.xyz - origin) * inverse_dir;
+                    t_cell = min(exits.x, min(exits.y, exits.z)) + step * 0.01;
+                    mask = content.x;
+                    if content.y == 0u || before.opacity > VISIBLE {
+                        break;
+                    }
+                    t = max(t_cell, t + step * 0.01);
+                    t_before = t;
+                    mask_before = 0u;
+                    stretch = 1.0;
+                }
+                // Cells that no template reaches are sampled plainly.
+                t_stop = min(t_cell, t_end);
+                let is_mapped = mask != 0u && drawn_kinds != 0u;
+                loop {
+                    if is_mapped || t >= t_stop || is_event {
+                        break;
+                    }
+                    here = sample_mapped(Material(origin + dir * t, 1.0, 0u));
+                    is_event = here.opacity > VISIBLE || before.opacity > VISIBLE;
+                    if is_event {
+                        break;
+                    }
+                    t_before = t;
+                    mask_before = mask;
+                    t += step;
+                }
+                if is_mapped || is_event || t >= t_end {
                     break;
                 }
-                if has_grid == 0u || grid.cells.w == 0u {
-                    mask = 0xffffffffu;
-                    t_cell = t_end;
-                    break;
-                }
-                let local = floor((origin + dir * t - grid.origin_min.xyz) / grid.cell_size.xyz);
-                let cell = clamp(local, vec3f(0.0), vec3f(grid.cells.xyz) - 1.0);
-                let content = textureLoad(grid_cells, vec3i(cell), 0).xy;
-                let reach = max(f32(content.y), 1.0);
-                let plane = select(cell + 1.0 - reach, cell + reach, dir > vec3f(0.0));
-                let exits = (grid.origin_min.xyz + plane * grid.cell_size.xyz - origin) * inverse_dir;
-                t_cell = min(exits.x, min(exits.y, exits.z)) + step * 0.01;
-                mask = content.x;
-                if content.y == 0u || before.opacity > VISIBLE {
-                    break;
-                }
-                t = max(t_cell, t + step * 0.01);
-                t_before = t;
-                mask_before = 0u;
-                stretch = 1.0;
-            }
-            // Cells that no template reaches are sampled plainly.
-            let t_stop = min(t_cell, t_end);
-            loop {
-                if (mask != 0u && drawn_kinds != 0u) || t >= t_stop || is_event {
-                    break;
-                }
-                here = sample_mapped(Mapped(origin + dir * t, 1.0));
-                is_event = here.opacity > VISIBLE || before.opacity > VISIBLE;
-                if is_event {
-                    break;
-                }
-                t_before = t;
-                mask_before = mask;
-                t += step;
             }
             if drawn_kinds != 0u {
                 loop {
@@ -340,19 +382,36 @@ fn march(pixel: vec2f) -> Marched {
             edge = here;
         }
         let either = mask | mask_before;
-        var halvings = select(0u, BISECTIONS, is_jump);
+        // Two loops again: where no template reaches, a halving costs no map.
+        let is_mapped = either != 0u && drawn_kinds != 0u;
+        var halvings = select(0u, BISECTIONS, is_jump && !is_mapped);
         while halvings > 0u {
             halvings--;
             let middle = 0.5 * (low + high);
-            let found = sample_mapped(map_point(origin + dir * middle, either));
-            if (found.opacity > level) == is_rising {
+            let found = sample_mapped(Material(origin + dir * middle, 1.0, 0u));
+            let is_in = found.opacity > level;
+            if is_in == is_rising {
                 high = middle;
-                if is_rising {
-                    edge = found;
-                }
             } else {
                 low = middle;
-                if !is_rising {
+            }
+            if is_in {
+                edge = found;
+            }
+        }
+        if drawn_kinds != 0u {
+            halvings = select(0u, BISECTIONS, is_jump && is_mapped);
+            while halvings > 0u {
+                halvings--;
+                let middle = 0.5 * (low + high);
+                let found = sample_mapped(map_point(origin + dir * middle, either));
+                let is_in = found.opacity > level;
+                if is_in == is_rising {
+                    high = middle;
+                } else {
+                    low = middle;
+                }
+                if is_in {
                     edge = found;
                 }
             }
@@ -383,8 +442,11 @@ fn march(pixel: vec2f) -> Marched {
         if drawn_kinds != 0u {
             // First the point itself: the edge may have been sampled in a cell of another mask, and continuities of different masks
             // have no difference.
-            path = path_of(pos, either);
-            var turn = select(4u, 0u, path != 0u);
+            path = either;
+            if KEEPS_TISSUE {
+                path = edge.path;
+            }
+            var turn = select(4u, select(0u, 1u, KEEPS_TISSUE), path != 0u);
             while turn < 4u {
                 let along = select(vec3f(0.0), forward * map_step(), vec3u(1u, 2u, 3u) == vec3u(turn));
                 let moved = map_along(pos + along, path);

@@ -218,6 +218,11 @@ impl KeptTissue {
         }
     }
 
+    /// What the pipeline constant `kept_by` has to be: bit 0 for segments, bit 1 for the depth.
+    pub fn kept_by(&self) -> u32 {
+        u32::from(self.set_count > 0) | u32::from(self.keeps_deep) << 1
+    }
+
     fn needs_distances(&self) -> bool {
         !self.is_nothing()
     }

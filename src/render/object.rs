@@ -16,11 +16,12 @@ pub(super) async fn object_samples(
 ) -> Result<Vec<Sample>, RenderError> {
     let key = prepared.key(false);
     let (name, module) = compile(gpu, "object").await?;
-    let [mode, constraints] = key.align_constants();
+    let [mode, constraints, kept_by] = key.align_constants();
     let constants = [
         ("drawn_kinds", f64::from(key.drawn_kinds)),
         mode,
         constraints,
+        kept_by,
     ];
     let pipeline = gpu
         .device

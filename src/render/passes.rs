@@ -31,6 +31,8 @@ pub(super) struct RaycastKey {
     pub align_mode: u32,
     /// Some displacement gives way to kept tissue.
     pub has_constraints: bool,
+    /// What says that tissue is kept: bit 0 its segment, bit 1 its depth.
+    pub kept_by: u32,
     /// Opacity follows the gradient.
     pub has_edges: bool,
     /// The map is read from its baked texture.
@@ -46,10 +48,11 @@ impl RaycastKey {
     }
 
     /// The pipeline constants of march/align.wgsl.
-    pub(super) fn align_constants(&self) -> [(&'static str, f64); 2] {
+    pub(super) fn align_constants(&self) -> [(&'static str, f64); 3] {
         [
             ("align_mode", f64::from(self.align_mode)),
             ("has_constraints", f64::from(u8::from(self.has_constraints))),
+            ("kept_by", f64::from(self.kept_by)),
         ]
     }
 }

@@ -173,6 +173,7 @@ impl Prepared {
             is_baked: false,
             align_mode: self.features.kept().map_or(0, KeptTissue::walk_mode),
             has_constraints: self.features.kept().is_some_and(|k| k.has_constraints),
+            kept_by: self.features.kept().map_or(0, KeptTissue::kept_by),
             has_edges: self.table.as_ref().is_some_and(|(t, _)| t.gradient > 0.0),
             is_pick,
         }
