@@ -13,6 +13,7 @@ mod grid;
 mod kernel;
 mod look;
 mod object;
+mod pace;
 mod passes;
 mod picture;
 mod probe;

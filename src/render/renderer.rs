@@ -1,4 +1,5 @@
 use super::gpu_types::Resolve;
+use super::pace::{Pace, Work};
 use super::passes::{LINEAR_FORMAT, OUTPUT_FORMAT, Passes};
 use super::picture::{
     Image, March, PendingPick, Studio, Target, encode_march, encode_pick, encode_resolve, encoder,
@@ -96,22 +97,6 @@ enum Stage {
     Done,
 }
 
-/// What a submission is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Work {
-    /// The quick picture, by the formulas.
-    Quick,
-    /// The quick picture, from the baked map.
-    QuickBaked,
-    /// Tiles of the full picture.
-    Refine,
-    /// Texels of the baked map.
-    Bake,
-}
-
-/// Seconds per pixel or texel, measured, by [`Work`].
-type Pace = [f64; 4];
-
 #[derive(Debug)]
 struct UnderWay {
     done: WorkDone,
@@ -144,7 +129,7 @@ impl Renderer {
             targets: None,
             stage: Stage::Stale,
             changed_at: f64::NEG_INFINITY,
-            pace: [cost, BAKED_HOPE * cost, 1.5 * cost, 0.05 * cost],
+            pace: Pace::new([cost, BAKED_HOPE * cost, 1.5 * cost, 0.05 * cost]),
             is_coarse: false,
             under_way: None,
             generation: 0,
@@ -562,14 +547,9 @@ impl Renderer {
         if !work.done.is_done() {
             return;
         }
-        let cost = &mut self.pace[work.work as usize];
-        let measured = ((self.clock)() - work.started) / f64::from(work.pixels.max(1));
-        // Done by the next frame: it may have taken less than could be seen, so more is tried.
-        *cost = if work.checks == 1 {
-            (*cost * 0.6).min(measured.max(*cost * 0.3))
-        } else {
-            0.5 * (*cost + measured)
-        };
+        let elapsed = (self.clock)() - work.started;
+        self.pace
+            .learn(elapsed, work.pixels, work.checks, work.work);
         self.under_way = None;
     }
 
@@ -642,13 +622,13 @@ impl Renderer {
         };
         let [width, height] = targets.size.map(|side| side as f32);
         // The baked map if it is there and faster on this device, as far as was seen.
-        let [exact_cost, baked_cost, ..] = self.pace;
-        let baked = prepared.baked().filter(|_| baked_cost < exact_cost);
-        let (work, cost, key) = match baked {
-            Some(_) => (Work::QuickBaked, baked_cost, prepared.baked_key()),
-            None => (Work::Quick, exact_cost, prepared.key(false)),
+        let is_faster = self.pace.cost(Work::QuickBaked) < self.pace.cost(Work::Quick);
+        let baked = prepared.baked().filter(|_| is_faster);
+        let (work, key) = match baked {
+            Some(_) => (Work::QuickBaked, prepared.baked_key()),
+            None => (Work::Quick, prepared.key(false)),
         };
-        let affordable = budget / cost;
+        let affordable = self.pace.affordable(budget, work);
         // In sixteenths, so that the resolution does not flicker from frame to frame.
         let scale = (affordable as f32 / (width * height))
             .sqrt()
@@ -697,7 +677,7 @@ impl Renderer {
         self.gpu.queue.submit([encoder.finish()]);
         prepared.drawn_generation = self.generation;
         self.stage = Stage::Refining { sample: 0, tile: 0 };
-        self.is_coarse = exact_cost * f64::from(width * height) > budget;
+        self.is_coarse = self.pace.affordable(budget, Work::Quick) < f64::from(width * height);
         self.follow(small[0] * small[1], work);
     }
 
@@ -711,11 +691,11 @@ impl Renderer {
         ) else {
             return;
         };
-        let affordable = budget / self.pace[Work::Refine as usize];
+        let affordable = self.pace.affordable(budget, Work::Refine);
         let mut pixels = 0;
         let mut end = first;
         while let Some(&[_, _, w, h]) = targets.tiles.get(end) {
-            if end > first && f64::from(pixels + w * h) > affordable {
+            if end > first && f64::from(pixels) >= affordable {
                 break;
             }
             pixels += w * h;
@@ -777,12 +757,15 @@ impl Renderer {
         if !self.is_coarse || !prepared.may_bake() || prepared.baked().is_some() {
             return false;
         }
-        let affordable = (budget / self.pace[Work::Bake as usize]).min(f64::from(u32::MAX));
+        let affordable = self
+            .pace
+            .affordable(budget, Work::Bake)
+            .min(f64::from(u32::MAX));
         let texels = prepared.bake(&self.gpu, &studio.passes, None, affordable as u32);
         if prepared.baked().is_some() {
             // Compiled now, while nobody waits for it.
             studio.passes.raycast(&self.gpu, prepared.baked_key());
-            self.pace[Work::QuickBaked as usize] = BAKED_HOPE * self.pace[Work::Quick as usize];
+            self.pace.hope_for_baked(BAKED_HOPE);
         }
         self.follow(texels, Work::Bake);
         true
