@@ -15,6 +15,14 @@
 //! | `app` | 5 | the viewer's panels and commands |
 //! | `shell` | 6 | windows, files, command line, page |
 
+#![cfg_attr(
+    target_arch = "wasm32",
+    allow(
+        clippy::arc_with_non_send_sync,
+        reason = "what threads share natively has one thread in the page"
+    )
+)]
+
 pub mod math;
 
 pub mod document;

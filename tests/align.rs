@@ -701,7 +701,7 @@ fn nothing_is_drawn_through_bone() {
         let points: Vec<Vec3> = (0..600).map(|_| random.vector(-0.4, 0.4)).collect();
         let passed_bone = |template: &PlacedTemplate| {
             let (mut passed, mut moved) = (0, 0);
-            for (sample, point) in probe(&studio, &[template.clone()], &points)
+            for (sample, point) in probe(&studio, std::slice::from_ref(template), &points)
                 .iter()
                 .zip(&points)
             {

@@ -498,7 +498,7 @@ fn recipes_and_label_names_survive_the_link() {
         assert_eq!(back.to_json(), document.to_json());
         assert_eq!(back.illustration(), there);
     }
-    let many = vec!["{}"; 9].join(",");
+    let many = ["{}"; 9].join(",");
     let text = format!(r#"{{"fabrica":1,"subject":{{"segments":[{many}]}}}}"#);
     let error = Document::from_json(&text)
         .expect_err("too many")

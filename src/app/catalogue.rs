@@ -20,8 +20,11 @@ pub(crate) trait Icons {
     fn texture(&self, kind: TemplateKind) -> Option<egui::TextureId>;
 }
 
-/// Groups in which the catalogue is shown: what one wants to do.
-const GROUPS: [(fn(&Catalogue) -> &'static str, &[TemplateKind]); 4] = {
+/// What one wants to do, in the reader's language, and what does it.
+type Group = (fn(&Catalogue) -> &'static str, &'static [TemplateKind]);
+
+/// Groups in which the catalogue is shown.
+const GROUPS: [Group; 4] = {
     use TemplateKind as K;
     [
         (

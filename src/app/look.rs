@@ -17,8 +17,11 @@ use crate::document::{
 };
 use crate::render::{SubjectInfo, auto_preset, window_of};
 
+/// A colour (sRGB, 0 to 255) and its name in the reader's language.
+type Named = ([u8; 3], fn(&Words) -> &'static str);
+
 /// Backgrounds at a click: paper, warm paper, grey, slate, black.
-const BACKGROUNDS: [([u8; 3], fn(&Words) -> &'static str); 5] = [
+const BACKGROUNDS: [Named; 5] = [
     ([255, 255, 255], |w| w.white),
     ([246, 241, 231], |w| w.paper),
     ([200, 204, 208], |w| w.grey),

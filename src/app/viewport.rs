@@ -375,9 +375,9 @@ impl Viewport {
                     asked = picture.ask(PickFor::Measure, pixel(pos), size);
                 }
             } else if response.double_clicked()
-                && !state
+                && state
                     .selected_template()
-                    .is_some_and(|t| t.kind == TemplateKind::Rbf)
+                    .is_none_or(|t| t.kind != TemplateKind::Rbf)
                 && !self.gizmo.is_hot()
                 && let Some(pos) = pointer
             {

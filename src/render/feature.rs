@@ -578,7 +578,11 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// One dispatch. `bindings` of group 3 besides the job; `reads` those of group 1.
+    /// One dispatch. `bindings` of group 3 besides the job; `reads_subject` binds group 1.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all that a dispatch is told, each once"
+    )]
     fn run(
         &self,
         encoder: &mut wgpu::CommandEncoder,

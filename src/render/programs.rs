@@ -332,10 +332,10 @@ impl Assembled {
             let file = file(path).ok_or_else(|| RenderError::NoSuchProgram((*path).to_owned()))?;
             starts.push((line, file.path));
             #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
-            let text = super::reload::text_of(file);
+            let text = &super::reload::text_of(file);
             #[cfg(not(all(debug_assertions, not(target_arch = "wasm32"))))]
             let text = file.source;
-            source.push_str(&text);
+            source.push_str(text);
             source.push('\n');
             line += text.matches('\n').count() + 1;
         }

@@ -570,7 +570,7 @@ fn render(
     if paper.lettering {
         let missing = crate::app::letter(&mut image, &illustration);
         if !missing.is_empty() {
-            notice(&format!("no font here has the characters {missing}"));
+            notice(format!("no font here has the characters {missing}"));
         }
     }
     let bytes = encode_png(&image)?;

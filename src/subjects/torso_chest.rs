@@ -259,7 +259,7 @@ impl Tree<'_> {
         let across = way.cross(helper);
         let across = across / across.length();
         let other = way.cross(across);
-        let (a, b) = if depth % 2 == 0 {
+        let (a, b) = if depth.is_multiple_of(2) {
             (across, other)
         } else {
             (other, across)

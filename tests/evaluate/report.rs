@@ -136,7 +136,7 @@ fn jacobians(page: &mut Page) {
         .map(|name| (name.to_owned(), Vec::new()))
         .to_vec();
     for (kind, param, strengths) in [
-        ("twist", "angle", [1.57, 3.14, 6.28, 12.56]),
+        ("twist", "angle", [1.5, 3.0, 6.0, 12.0]),
         ("squeeze", "strength", [0.5, 1.0, 1.5, 2.0]),
         ("dilate", "strength", [0.2, 0.4, 0.6, 0.9]),
         ("twist of a squeeze", "strength", [0.5, 1.0, 1.5, 2.0]),

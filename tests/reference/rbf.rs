@@ -103,10 +103,10 @@ impl Rbf {
                 pivot[column].abs() > 1e-12,
                 "the points determine the polynomial"
             );
-            for row in 0..n + m {
-                if row != column {
-                    let factor = rows[row][column] / pivot[column];
-                    for (value, above) in rows[row].iter_mut().zip(&pivot) {
+            for (i, row) in rows.iter_mut().enumerate() {
+                if i != column {
+                    let factor = row[column] / pivot[column];
+                    for (value, above) in row.iter_mut().zip(&pivot) {
                         *value -= factor * above;
                     }
                 }
