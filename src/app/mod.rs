@@ -1,4 +1,4 @@
-//! Layer 5: the viewer. Panels read the [`state`], commands change it, and the surroundings are reached by [`Services`].
+//! Layer 5: the viewer. Panels read the state, commands change it, and the surroundings are reached by [`Services`].
 //!
 //! | file | holds |
 //! |---|---|

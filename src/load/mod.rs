@@ -1,5 +1,5 @@
 //! Layer 3: files in, volumes out. Bytes come through a [`FileSet`], voxels leave through a
-//! [`VolumeSink`](crate::data::VolumeSink) slab by slab, so nothing is held twice; what had to be decided or repaired
+//! [`VolumeSink`] slab by slab, so nothing is held twice; what had to be decided or repaired
 //! stands in a [`LoadReport`].
 //!
 //! Nothing here knows paths, threads or browsers: the native program opens files, a browser's worker reads slices of a

@@ -478,7 +478,7 @@ fn sform(fields: &Fields<'_>) -> DAffine3 {
     )
 }
 
-/// Method 2: a rotation as three quaternion components, voxel sizes, and the handedness in pixdim[0].
+/// Method 2: a rotation as three quaternion components, voxel sizes, and the handedness in `pixdim[0]`.
 fn qform(fields: &Fields<'_>, spacing_mm: DVec3) -> DAffine3 {
     let at = |i: usize| fields.float(256 + 4 * i, 352 + 8 * i);
     let (mut b, mut c, mut d) = (at(0), at(1), at(2));

@@ -31,7 +31,7 @@ fn ear(p: [f32; 3]) -> [f32; 3] {
     (EAR + ear_frame() * Vec3::from_array(p)).to_array()
 }
 
-/// The whole outer surface without the openings of the lids (see [`lids`]).
+/// The whole outer surface without the openings of the lids (see [`palpebral_fissure`]).
 pub(super) fn skin() -> Field {
     let mut f = Field::default();
     braincase(&mut f);
