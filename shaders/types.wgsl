@@ -183,7 +183,7 @@ struct FeatureItem {
     /// first template of the run of groups that keep the same; z: sets that the displacement gives way to; w: CONSTRAIN_ mode.
     keeps: vec4u,
     /// x: depth under the outer surface from where on tissue is kept; y: width of the blend of normals; z: the longest displacement of
-    /// the group. Subject units.
+    /// the group; w: how far around a segment that moves as a whole other tissue goes with it. Subject units.
     lengths: vec4f,
 }
 
@@ -193,6 +193,7 @@ const KEEPS_DEEP: u32 = 16u;
 const CONSTRAIN_NOTHING: u32 = 0u;
 const CONSTRAIN_DISPLACEMENT: u32 = 1u;
 const CONSTRAIN_COORDINATE: u32 = 2u;
+const CONSTRAIN_RIGID: u32 = 3u;
 
 /// Kept tissue of a document.
 struct Features {
@@ -209,6 +210,9 @@ struct Features {
     label_sets: array<vec4u, 8>,
     /// As in `Templates`, in the same order; only heads of groups count.
     items: array<FeatureItem, 32>,
+    /// Rows of the rigid motions of segments that move as a whole (rest space from subject space), three per template; only heads of groups
+    /// count.
+    motions: array<vec4f, 96>,
 }
 
 /// One pass of the making of distances.

@@ -729,3 +729,136 @@ fn nothing_is_drawn_through_bone() {
         assert!(unconstrained > 5, "{kind:?} reaches bone: {unconstrained}");
     }
 }
+
+/// A segment that moves as a whole: it is all there once, as rigid as it was, has moved, and nothing else is drawn from it.
+#[test]
+fn rigid_segments_move_as_a_whole() {
+    let volume = builtin("knee", 64);
+    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let labels = Labels::new(&volume);
+    let keep = vec!["tibia".to_owned(), "fibula".to_owned()];
+    let bones: Vec<u8> = keep.iter().map(|name| labels.number(name)).collect();
+    let mut random = Random(0x0b01_e5eb);
+    let knee = Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2);
+    for (kind, rotate) in [
+        (TemplateKind::Bend, knee),
+        (
+            TemplateKind::Twist,
+            Quat::from_rotation_x(std::f32::consts::PI),
+        ),
+        (TemplateKind::Pull, Quat::IDENTITY),
+    ] {
+        let placement = Placement {
+            at: Vec3::ZERO,
+            rotate,
+            size: Vec3::new(0.9, 0.9, 0.9),
+        };
+        let free = placed(kind, placement, defaults(kind));
+        let mut rigid = free.clone();
+        rigid.constrain = Some(Constrain {
+            by: ConstrainBy::Rigid,
+            keep: keep.clone(),
+        });
+        let points: Vec<Vec3> = (0..60_000).map(|_| random.vector(-0.6, 0.6)).collect();
+        let bone = |template: &PlacedTemplate| -> Vec<(DVec3, DVec3)> {
+            probe(&studio, std::slice::from_ref(template), &points)
+                .iter()
+                .zip(&points)
+                .filter(|(s, _)| s.continuity >= 0.0)
+                .map(|(s, p)| (p.as_dvec3(), s.pos_in_rest.as_dvec3()))
+                .filter(|(_, rest)| bones.contains(&labels.at(*rest)))
+                .collect()
+        };
+        // Lengths between places and between where they come from, and how much of the bone there is against the bone at rest.
+        let strain = |pairs: &[(DVec3, DVec3)]| {
+            let ways = pairs.iter().zip(pairs.iter().skip(pairs.len() / 2));
+            ways.map(|(a, b)| (a.0.distance(b.0) - a.1.distance(b.1)).abs())
+                .fold(0.0, f64::max)
+        };
+        let (one, other) = (bone(&rigid), bone(&free));
+        let way = one.iter().map(|(p, r)| p.distance(*r)).fold(0.0, f64::max);
+        let (own, unconstrained) = (strain(&one), strain(&other));
+        println!(
+            "{kind:?}: {} places of bone, moved up to {way:.3}, strained {own:.1e}, else {unconstrained:.1e}",
+            one.len()
+        );
+        assert!(one.len() > 300, "{kind:?}: bone is there");
+        assert!(way > 0.03, "{kind:?}: it moves");
+        assert!(own < 1e-4, "{kind:?}: bone is strained by {own}");
+        assert!(
+            unconstrained > 1e-2,
+            "{kind:?}: negative control, {unconstrained}"
+        );
+    }
+}
+
+/// The grid leaps over nothing that a segment's own motion brings or takes: pictures with and without it agree.
+#[test]
+fn the_grid_follows_rigid_segments() {
+    const SIZE: [u32; 2] = [80, 80];
+    let volume = builtin("knee", 64);
+    let studio = Studio::new(gpu(), &volume, true).expect("fits");
+    let plain = studio.with_grid(false);
+    let placement = Placement {
+        at: Vec3::ZERO,
+        rotate: Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2),
+        size: Vec3::splat(0.9),
+    };
+    let mut template = placed(TemplateKind::Bend, placement, defaults(TemplateKind::Bend));
+    template.constrain = Some(Constrain {
+        by: ConstrainBy::Rigid,
+        keep: vec!["tibia".to_owned(), "fibula".to_owned()],
+    });
+    let draw = |studio: &Studio| {
+        let picture = studio.render_image(&illustration(vec![template.clone()]), SIZE, 1);
+        pollster::block_on(picture).expect("a picture").rgba
+    };
+    let (with, without) = (draw(&studio), draw(&plain));
+    let lost = |from: &[u8], by: &[u8]| {
+        let pairs = from.chunks_exact(4).zip(by.chunks_exact(4));
+        pairs
+            .filter(|(a, b)| a.iter().any(|c| *c < 223) && b.iter().all(|c| *c == 255))
+            .count()
+    };
+    let drawn = with.chunks_exact(4).filter(|p| p.iter().any(|c| *c < 223));
+    assert!(drawn.count() > 400, "there is a knee");
+    let (by_grid, by_none) = (lost(&without, &with), lost(&with, &without));
+    println!("{by_grid} pixels are lost by the grid, {by_none} without it");
+    assert!(
+        by_grid <= 6 + 2 * by_none,
+        "the grid hides {by_grid} pixels"
+    );
+}
+
+/// Figure 5.11: a bar that twists from an anchor on, and one whose end turns as a whole.
+#[test]
+fn a_twist_has_an_anchor_and_a_rigid_end() {
+    let text = include_str!("../web/gallery/anchored-twist.json");
+    let document = fabrica::document::Document::from_json(text).expect("a document");
+    let volume = builtin("bar", 32);
+    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let mut random = Random(0x51_1511);
+    let points: Vec<Vec3> = (0..4000)
+        .map(|_| random.vector(-0.48, 0.48) * Vec3::new(0.3, 1.0, 0.3))
+        .collect();
+    let full = std::f32::consts::PI;
+    for (step, turned) in [
+        (2, &(|y: f32| full * (y + 0.5)) as &dyn Fn(f32) -> f32),
+        (3, &|y: f32| full * (2.0 * (y + 0.5)).min(1.0)),
+    ] {
+        let shown = document.at_step(step).expect("a step");
+        let samples = pollster::block_on(studio.probe_object(shown.illustration(), &points));
+        let mut farthest = 0.0_f32;
+        for (sample, pos) in samples.expect("samples").iter().zip(&points) {
+            let source = sample.pos_in_rest;
+            let around = |p: Vec3| glam::Vec2::new(p.x, p.z);
+            // Which way it turns is the template's business; how far, and that it stays in its slice, is asked here.
+            let way = 2.0 * around(*pos).length() * (0.5 * turned(pos.y)).sin();
+            farthest = farthest
+                .max((pos.distance(source) - way.abs()).abs())
+                .max((pos.y - source.y).abs());
+        }
+        println!("step {step}: wrong by {farthest:.1e} at most");
+        assert!(farthest < 1e-4, "step {step}: wrong by {farthest}");
+    }
+}

@@ -58,6 +58,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Features {
             distance_from_rest_row0, distance_from_rest_row1, distance_from_rest_row2,
             distance_dims, slabs, label_sets, items,
+            motions,
         }
         DistanceJob {
             volume_from_voxel_row0, volume_from_voxel_row1, volume_from_voxel_row2,
@@ -158,6 +159,7 @@ fn constants_agree() {
         ("CONSTRAIN_NOTHING", gpu_types::CONSTRAIN_NOTHING),
         ("CONSTRAIN_DISPLACEMENT", gpu_types::CONSTRAIN_DISPLACEMENT),
         ("CONSTRAIN_COORDINATE", gpu_types::CONSTRAIN_COORDINATE),
+        ("CONSTRAIN_RIGID", gpu_types::CONSTRAIN_RIGID),
     ]);
     let mut found = BTreeMap::new();
     for (_, constant) in module.constants.iter() {

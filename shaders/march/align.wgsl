@@ -28,7 +28,7 @@
 // Constraints (section 5.7): with C(x) = min(1, distance of x to the kept set / the group's longest displacement), a displacement
 // becomes C(x) D(x), so that it is never longer than the way to the set (eq. 5.15); by coordinate, the main parameter of each member is
 // taken C(x) times (eq. 5.19: our templates are even along their coordinate, and what a twist does nearer to its anchor is a
-// smaller twist). Kept tissue itself stays.
+// smaller twist). Kept tissue itself stays. Or it moves as a whole, by a rigid motion that pass/rigid.wgsl finds.
 // needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/feature.wgsl displace/frame.wgsl displace/compose.wgsl
 
 /// True where both sides of the surface of kept tissue are lit by it.
@@ -41,8 +41,8 @@ fn map_step() -> f32 {
 
 /// 0: nothing is kept; 1: one set, or one depth, kept by the first templates of the list; 2: any. A pipeline constant.
 override align_mode: u32 = 2u;
-/// 1 if a displacement gives way to kept tissue.
-override has_constraints: u32 = 1u;
+/// How displacements give way to kept tissue, a bit for each CONSTRAIN_ mode that occurs; 0: none does. A pipeline constant.
+override has_constraints: u32 = 14u;
 /// What says that tissue is kept. Bit 0: its segment, bit 1: its depth. A pipeline constant, so that a picture asks one texture where
 /// one is enough.
 override kept_by: u32 = 3u;
@@ -178,10 +178,56 @@ fn group_done_partly(pos: vec3f, bits: u32, part: f32) -> Mapped {
     return Mapped(pos + sum, continuity);
 }
 
+/// Where tissue moves as a whole: the segment by its own rigid motion, what is around it more and more by the template (`whole`). What the
+/// template alone would draw through the segment is taken from beside it.
+fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
+    let sets = features.items[head].keeps.z;
+    let at1 = vec4f(pos, 1.0);
+    let rigid = vec3f(
+        dot(features.motions[3u * head], at1),
+        dot(features.motions[3u * head + 1u], at1),
+        dot(features.motions[3u * head + 2u], at1),
+    );
+    if is_kept(rigid, sets, 0.0) {
+        return Mapped(rigid, 1.0);
+    }
+    let exact = features.slabs.y;
+    let away = max(distance_to_kept(rigid, sets, 0.0, exact), 0.0);
+    let part = 1.0 - smoothstep(0.0, features.items[head].lengths.w, away);
+    var source = mix(whole.pos, rigid, part);
+    let voxel = features.distance_dims.w;
+    for (var turn = 0u; turn < 2u; turn++) {
+        let here = distance_to_kept(source, sets, 0.0, exact);
+        if here >= 0.5 * voxel {
+            break;
+        }
+        var slope = vec3f(0.0);
+        for (var axis = 0u; axis < 3u; axis++) {
+            let along = select(vec3f(0.0), vec3f(voxel), vec3u(0u, 1u, 2u) == vec3u(axis));
+            slope += along * (distance_to_kept(source + along, sets, 0.0, exact) - here);
+        }
+        source += slope / max(length(slope), 1e-9) * (0.5 * voxel - here);
+    }
+    return Mapped(source, select(whole.continuity, -1.0, is_kept(source, sets, 0.0)));
+}
+
 /// The map of one group, with its constraint.
 fn group_map(pos: vec3f, head: u32, bits: u32) -> Mapped {
-    if has_constraints == 0u || features.items[head].keeps.w == CONSTRAIN_NOTHING {
-        return rest_from_subject(pos, bits);
+    let whole = rest_from_subject(pos, bits);
+    if has_constraints == 0u {
+        return whole;
+    }
+    let mode = features.items[head].keeps.w;
+    if (has_constraints & (1u << CONSTRAIN_RIGID)) != 0u {
+        if mode == CONSTRAIN_RIGID {
+            return moved_as_a_whole(pos, head, whole);
+        }
+    }
+    if (has_constraints & ((1u << CONSTRAIN_DISPLACEMENT) | (1u << CONSTRAIN_COORDINATE))) == 0u {
+        return whole;
+    }
+    if mode == CONSTRAIN_NOTHING {
+        return whole;
     }
     let sets = features.items[head].keeps.z;
     if is_kept(pos, sets, 0.0) {
@@ -190,13 +236,14 @@ fn group_map(pos: vec3f, head: u32, bits: u32) -> Mapped {
     // Between its voxels a distance is wrong by less than half of one.
     let away = max(distance_to_kept(pos, sets, 0.0, features.slabs.y) - 0.5 * features.distance_dims.w, 0.0);
     let part = min(away / max(features.items[head].lengths.z, 1e-6), 1.0);
-    if features.items[head].keeps.w == CONSTRAIN_COORDINATE {
-        // Half of a turn is more than half of its chord: no farther than the way there is.
-        let partly = group_done_partly(pos, bits, part);
-        let way = partly.pos - pos;
-        return Mapped(pos + way * min(away / max(length(way), 1e-9), 1.0), partly.continuity);
+    if (has_constraints & (1u << CONSTRAIN_COORDINATE)) != 0u {
+        if mode == CONSTRAIN_COORDINATE {
+            // Half of a turn is more than half of its chord: no farther than the way there is.
+            let partly = group_done_partly(pos, bits, part);
+            let way = partly.pos - pos;
+            return Mapped(pos + way * min(away / max(length(way), 1e-9), 1.0), partly.continuity);
+        }
     }
-    let whole = rest_from_subject(pos, bits);
     return Mapped(pos + part * (whole.pos - pos), whole.continuity);
 }
 

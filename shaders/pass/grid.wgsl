@@ -65,6 +65,8 @@ struct Walk {
     left: u32,
     /// Head of the group that is being summed.
     group: u32,
+    /// True if that group has a segment that moves as a whole, and its motion reaches the box.
+    is_rigid: bool,
 }
 
 /// One reading of a template at a point.
@@ -154,6 +156,10 @@ fn rest_continuity(i: u32, q: vec3f, half: vec3f) -> f32 {
     return select(-NO_END, 1.0, is_torn && pokes_out);
 }
 
+fn constraint_of(i: u32) -> u32 {
+    return features.items[templates.items[i].group].keeps.w;
+}
+
 /// True if tissue in the box may stay where it is, as template i leaves it alone.
 fn may_stay(i: u32, center: vec3f, half: vec3f) -> bool {
     if has_kept == 0u {
@@ -192,11 +198,53 @@ fn may_stay(i: u32, center: vec3f, half: vec3f) -> bool {
     return least <= reach;
 }
 
+/// Where the motion of a group's segment takes a box from, as centre and half extent.
+fn moved_whole(head: u32, center: vec3f, half: vec3f) -> array<vec3f, 2> {
+    let row0 = features.motions[3u * head];
+    let row1 = features.motions[3u * head + 1u];
+    let row2 = features.motions[3u * head + 2u];
+    let at1 = vec4f(center, 1.0);
+    return array<vec3f, 2>(
+        vec3f(dot(row0, at1), dot(row1, at1), dot(row2, at1)),
+        vec3f(dot(abs(row0.xyz), half), dot(abs(row1.xyz), half), dot(abs(row2.xyz), half)),
+    );
+}
+
+/// True if a segment that moves as a whole, or what goes with it, may be in the box.
+fn is_reached_by_rigid(head: u32, center: vec3f, half: vec3f) -> bool {
+    if has_kept == 0u || features.items[head].keeps.w != CONSTRAIN_RIGID {
+        return false;
+    }
+    let box = moved_whole(head, center, half);
+    let r = vec4f(box[0], 1.0);
+    let uvw = vec3f(
+        dot(features.distance_from_rest_row0, r),
+        dot(features.distance_from_rest_row1, r),
+        dot(features.distance_from_rest_row2, r),
+    );
+    let last = vec3i(features.distance_dims.xyz) - 1;
+    let voxel = min(vec3i(clamp(uvw, vec3f(0.0), vec3f(1.0)) * features.distance_dims.xyz), last);
+    let near = textureLoad(distances, voxel, 0);
+    let held = (vec4u(features.items[head].keeps.z) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
+    let each = select(vec4f(NO_END), near, held);
+    let least = min(min(each.x, each.y), min(each.z, each.w));
+    return least <= length(half) + features.items[head].lengths.w + 3.0 * features.distance_dims.w;
+}
+
 /// The box after the group that was being summed.
 fn group_done(walk: Walk) -> Walk {
     var next = walk;
     next.at = walk.at + walk.sum;
     next.half = abs(walk.side0) + abs(walk.side1) + abs(walk.side2) + walk.spread;
+    if has_kept != 0u && walk.is_rigid {
+        // From anywhere between where the templates and where the motion take it from, and pushed out of the segment.
+        let box = moved_whole(walk.group, walk.at, walk.half);
+        let low = min(next.at - next.half, box[0] - box[1]);
+        let high = max(next.at + next.half, box[0] + box[1]);
+        next.at = 0.5 * (low + high);
+        next.half = 0.5 * (high - low) + 2.0 * features.distance_dims.w;
+    }
+    next.is_rigid = false;
     next.sum = vec3f(0.0);
     next.side0 = vec3f(next.half.x, 0.0, 0.0);
     next.side1 = vec3f(0.0, next.half.y, 0.0);
@@ -269,6 +317,7 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
             if templates.items[i].group != walk.group {
                 walk = group_done(walk);
                 walk.group = templates.items[i].group;
+                walk.is_rigid = is_reached_by_rigid(walk.group, walk.at, walk.half);
             }
             let q = to_template(i, walk.at);
             let across = vec3f(
@@ -278,6 +327,8 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
             );
             let meets0 = all(q + across >= job.items[i].reach0_min.xyz) && all(q - across <= job.items[i].reach0_max.xyz);
             let meets1 = all(q + across >= job.items[i].reach1_min.xyz) && all(q - across <= job.items[i].reach1_max.xyz);
+            // A segment that moves as a whole takes what is around with it, past the template's box.
+            mask |= select(0u, 1u << i, walk.is_rigid);
             if !meets0 && !meets1 {
                 continue;
             }
@@ -290,7 +341,7 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
             let rest = rest_continuity(i, q, across);
             let has_rest = rest + margin >= 0.0 || (is_coarse && is_within) || may_stay(i, walk.at, walk.half);
             // Near kept tissue a constrained template does anything between nothing and all of what it is set to.
-            let is_partial = has_kept != 0u && features.items[templates.items[i].group].keeps.w != CONSTRAIN_NOTHING;
+            let is_partial = has_kept != 0u && constraint_of(i) != CONSTRAIN_NOTHING && constraint_of(i) != CONSTRAIN_RIGID;
 
             var next = walk;
             var has_moved = true;
@@ -340,6 +391,7 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
                 }
             }
             var takes_rest = has_rest;
+            has_moved = has_moved || walk.is_rigid;
             if has_moved && has_rest {
                 takes_rest = ((choices >> offered) & 1u) == 1u;
                 offered++;

@@ -34,6 +34,7 @@ enum Yields {
     Nothing,
     Shorter,
     Weaker,
+    Whole,
 }
 
 /// Both parts; `all` are the templates of the document, whose sets are offered first.
@@ -161,6 +162,7 @@ fn constrain_ui(
         None => Yields::Nothing,
         Some(ConstrainBy::Displacement) => Yields::Shorter,
         Some(ConstrainBy::Coordinate) => Yields::Weaker,
+        Some(ConstrainBy::Rigid) => Yields::Whole,
     };
     ui.add_space(4.0);
     ui.label(w().yields).on_hover_text(w().yields_hint);
@@ -168,6 +170,7 @@ fn constrain_ui(
         (Yields::Nothing, w().nothing),
         (Yields::Shorter, w().shorter),
         (Yields::Weaker, w().weaker),
+        (Yields::Whole, w().whole),
     ];
     if let Some(yields) = control::segmented(ui, w().yields, &options, current) {
         let keep = match &template.constrain {
@@ -178,6 +181,7 @@ fn constrain_ui(
             Yields::Nothing => None,
             Yields::Shorter => Some(ConstrainBy::Displacement),
             Yields::Weaker => Some(ConstrainBy::Coordinate),
+            Yields::Whole => Some(ConstrainBy::Rigid),
         };
         commands.push(set(by.map(|by| Constrain { by, keep })));
     }

@@ -395,6 +395,7 @@ impl Edit {
                 let by = match by {
                     ConstrainBy::Displacement => "displacement",
                     ConstrainBy::Coordinate => "coordinate",
+                    ConstrainBy::Rigid => "rigid",
                 };
                 pointer::set(root, &format!("{at}/by"), json!(by))?;
                 pointer::set(root, &format!("{at}/keep"), json!(keep))

@@ -273,6 +273,9 @@ pub enum ConstrainBy {
     Displacement,
     /// The template's own coordinate, which for ours is its main parameter: a twist turns less (section 5.7.2).
     Coordinate,
+    /// Nothing of its own: the tissue moves as a whole, by the rigid motion nearest to the displacement, and what is around goes over into that
+    /// (section 5.7.2, second part).
+    Rigid,
 }
 
 /// What a template leaves alone (dissertation, section 5.4).

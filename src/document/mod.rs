@@ -19,6 +19,21 @@
 //! assert!(history.document().illustration().templates.is_empty());
 //! # Ok::<(), fabrica::document::DocumentError>(())
 //! ```
+//!
+//! # Additions to the contract
+//!
+//! Keys that the contract does not name. Each has a default that leaves the picture as the contract says, and is left out of documents and
+//! links where it stands at it.
+//!
+//! | key | values | meaning |
+//! |---|---|---|
+//! | `/templates/i/amount` | 0 … 1, default 1 | how much the template does, of what its parameters say |
+//! | `/templates/i/group` | text | templates of one name are selected and moved together; the picture does not ask for it |
+//! | `/templates/i/constrain/by` | `rigid` | the segments in `keep` move as a whole, by the rigid motion that comes nearest (least squares) to what the template would do to them; other tissue goes over into that motion close to them, and none is drawn through them (dissertation, section 5.7.2) |
+//! | `/look/gradient` | 0 … 1, default 0 | how far opacity follows the steepness of the value, with its correction at cuts (section 6.2.5): at 1 even tissue is clear and borders stay |
+//! | `/look/tint` | 0 … 1, default the preset's own, 0 with listed points | how far segments keep their own colours over the transfer function |
+//! | `/subject/features` | list | tissues made here, as the recipes that make them |
+//! | `/subject/frame`, `/subject/raw` | whole number; object | which picture of a file with several; how a file without a header is laid out |
 
 mod authoring;
 mod canonical;

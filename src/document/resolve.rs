@@ -332,6 +332,7 @@ impl Reader {
             let by = match object.text("by")? {
                 None | Some("displacement") => Some(ConstrainBy::Displacement),
                 Some("coordinate") => Some(ConstrainBy::Coordinate),
+                Some("rigid") => Some(ConstrainBy::Rigid),
                 Some(other) => {
                     self.unknown_value(object.at("by"), other, "nothing");
                     None

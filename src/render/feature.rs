@@ -1,8 +1,8 @@
 //! Kept tissue: which labels a document's templates leave alone, and how far every place is from them.
 
 use super::gpu_types::{
-    CONSTRAIN_COORDINATE, CONSTRAIN_DISPLACEMENT, DistanceJob, FeatureItem, Features, KEEPS_DEEP,
-    MAX_TEMPLATES, affine_rows,
+    CONSTRAIN_COORDINATE, CONSTRAIN_DISPLACEMENT, CONSTRAIN_RIGID, DistanceJob, FeatureItem,
+    Features, KEEPS_DEEP, MAX_TEMPLATES, affine_rows,
 };
 use super::passes::Passes;
 use super::programs::module;
@@ -27,6 +27,8 @@ const SWEEP_ROUNDS: usize = 6;
 const CHANNEL_OUTSIDE: u32 = 4;
 /// Below this (Hounsfield units) there is air: half of it lies between air and soft tissue.
 const AIR_BELOW: f32 = -500.0;
+/// How far around a segment that moves as a whole other tissue goes with it, as a share of the longest displacement: less folds it.
+const RIGID_REACH: f32 = 0.3;
 /// Where values have no unit: part of the window, from its low end, up to which there is nothing.
 const DARK_PART: f32 = 0.12;
 
@@ -47,6 +49,8 @@ pub struct KeptTissue {
     pub align_mode: u32,
     /// Some displacement gives way to kept tissue.
     pub has_constraints: bool,
+    /// How displacements give way, a bit for each `CONSTRAIN_` mode that occurs.
+    pub constraints: u32,
 }
 
 /// The label that a name or number in `keep` means.
@@ -94,6 +98,7 @@ impl KeptTissue {
             unknown: Vec::new(),
             align_mode: 0,
             has_constraints: false,
+            constraints: 0,
         };
         let acting: Vec<PlacedTemplate> = templates
             .iter()
@@ -156,9 +161,20 @@ impl KeptTissue {
                 item.keeps[3] = match constrain.by {
                     ConstrainBy::Displacement => CONSTRAIN_DISPLACEMENT,
                     ConstrainBy::Coordinate => CONSTRAIN_COORDINATE,
+                    ConstrainBy::Rigid => CONSTRAIN_RIGID,
                 };
+                kept.constraints |= 1 << item.keeps[3];
                 kept.has_constraints = true;
             }
+        }
+        for item in kept
+            .items
+            .iter_mut()
+            .filter(|i| i.keeps[3] == CONSTRAIN_RIGID)
+        {
+            item.lengths[3] = (RIGID_REACH * item.lengths[2]).clamp(0.02, 0.06);
+            // The motion nearest to a displacement goes farther than it in places.
+            item.lengths[2] = 1.5 * item.lengths[2] + 0.02;
         }
         kept.find_runs(&enabled);
         kept
@@ -216,6 +232,11 @@ impl KeptTissue {
         } else {
             self.align_mode
         }
+    }
+
+    /// True if some segment moves as a whole.
+    pub fn has_rigid(&self) -> bool {
+        self.constraints & (1 << CONSTRAIN_RIGID) != 0
     }
 
     /// What the pipeline constant `kept_by` has to be: bit 0 for segments, bit 1 for the depth.
@@ -381,6 +402,7 @@ impl FeatureTextures {
             slabs: self.plan.map_or([1, 0, 0, 0], |plan| plan.slabs),
             label_sets: kept.label_sets,
             items: kept.items,
+            motions: Default::default(),
         };
         gpu.queue
             .write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));

@@ -205,6 +205,8 @@ pub const CONSTRAIN_NOTHING: u32 = 0;
 pub const CONSTRAIN_DISPLACEMENT: u32 = 1;
 /// By the template's main parameter.
 pub const CONSTRAIN_COORDINATE: u32 = 2;
+/// `FeatureItem::keeps[3]`: moves as a whole.
+pub const CONSTRAIN_RIGID: u32 = 3;
 
 /// What one template leaves alone.
 #[repr(C)]
@@ -234,6 +236,8 @@ pub struct Features {
     pub label_sets: [[u32; 4]; 8],
     /// As in [`Templates`].
     pub items: [FeatureItem; MAX_TEMPLATES],
+    /// Rows of the rigid motions of segments that move as a whole, three per template; only heads of groups count. Written on the GPU.
+    pub motions: [[[f32; 4]; 3]; MAX_TEMPLATES],
 }
 
 /// One pass of the making of distances.

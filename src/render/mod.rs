@@ -22,6 +22,7 @@ mod readback;
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 mod reload;
 mod renderer;
+mod rigid;
 mod scene;
 mod slice;
 mod subject;

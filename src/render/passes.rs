@@ -4,6 +4,7 @@ use super::gpu_types::{Grid, Look, TABLE_FORMAT, Templates};
 use super::grid::GridPasses;
 use super::look::{TABLE_SIZE, TransferTable};
 use super::programs::module;
+use super::rigid::RigidPasses;
 use super::subject::entry;
 use super::{Gpu, RenderError, SubjectInfo, uniform_buffer};
 use crate::document::OpacityMode;
@@ -29,8 +30,8 @@ pub(super) struct RaycastKey {
     pub has_grid: bool,
     /// How kept tissue is found: 0 nothing is kept, 1 by a chain, 2 by asking back.
     pub align_mode: u32,
-    /// Some displacement gives way to kept tissue.
-    pub has_constraints: bool,
+    /// How displacements give way to kept tissue, a bit for each `CONSTRAIN_` mode that occurs.
+    pub constraints: u32,
     /// What says that tissue is kept: bit 0 its segment, bit 1 its depth.
     pub kept_by: u32,
     /// Opacity follows the gradient.
@@ -44,14 +45,14 @@ pub(super) struct RaycastKey {
 impl RaycastKey {
     /// True if templates leave tissue alone or give way to it: a longer program.
     pub(super) fn keeps_tissue(&self) -> bool {
-        self.align_mode != 0 || self.has_constraints
+        self.align_mode != 0 || self.constraints != 0
     }
 
     /// The pipeline constants of march/align.wgsl.
     pub(super) fn align_constants(&self) -> [(&'static str, f64); 3] {
         [
             ("align_mode", f64::from(self.align_mode)),
-            ("has_constraints", f64::from(u8::from(self.has_constraints))),
+            ("has_constraints", f64::from(self.constraints)),
             ("kept_by", f64::from(self.kept_by)),
         ]
     }
@@ -68,6 +69,8 @@ pub(super) struct Passes {
     pub grid: GridPasses,
     pub bake: BakePasses,
     distance: OnceLock<Arc<DistancePasses>>,
+    /// For documents in which a segment moves as a whole.
+    pub rigid: RigidPasses,
     resolve_pipeline: wgpu::RenderPipeline,
     raycast_module: wgpu::ShaderModule,
     /// For documents that keep tissue; compiled when the first one comes.
@@ -173,6 +176,7 @@ impl Passes {
             grid: GridPasses::new(gpu)?,
             bake,
             distance: OnceLock::new(),
+            rigid: RigidPasses::default(),
             raycast_module: module(gpu, "raycast")?,
             aligned_module: OnceLock::new(),
             baked_module: OnceLock::new(),

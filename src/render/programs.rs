@@ -114,6 +114,7 @@ shader_files![
     "pass/probe.wgsl",
     "pass/raycast.wgsl",
     "pass/resolve.wgsl",
+    "pass/rigid.wgsl",
     "pass/slice.wgsl",
 ];
 
@@ -167,6 +168,16 @@ pub const PROGRAMS: &[Program] = &[
             "pass/object.wgsl",
         ],
         entries: &[("probe_object", Stage::Compute)],
+    },
+    Program {
+        name: "rigid",
+        files: with_displacement![
+            "bind/subject.wgsl",
+            "bind/feature.wgsl",
+            "march/align.wgsl",
+            "pass/rigid.wgsl",
+        ],
+        entries: &[("fit", Stage::Compute)],
     },
     Program {
         name: "distance",

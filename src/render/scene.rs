@@ -119,6 +119,22 @@ impl Prepared {
             let fields = &self.fields.view;
             self.scene.set_features(gpu, passes, &self.features, fields);
         }
+        if let Some(kept) = self.features.kept().filter(|kept| kept.has_rigid())
+            && is_grid_stale
+        {
+            let farthest = kept.items.iter().map(|i| i.lengths[2]).fold(0.0, f32::max);
+            let around = Aabb {
+                min: subject.bounds.min - farthest,
+                max: subject.bounds.max + farthest,
+            };
+            self.bounds = self.bounds.union(around);
+            let kinds = self.templates.drawn_kinds();
+            let (templates, fields) = (&self.scene.templates, &self.fields.view);
+            let made = (passes.rigid).make(gpu, kinds, subject, templates, &self.features, fields);
+            if let Err(error) = made {
+                self.notices.push(error.to_string());
+            }
+        }
         let table = TransferTable::new(&illustration.look, &illustration.subject, &subject.info);
         let mode = illustration.look.opacity;
         if self
@@ -172,7 +188,7 @@ impl Prepared {
             has_grid: self.grid.is_some(),
             is_baked: false,
             align_mode: self.features.kept().map_or(0, KeptTissue::walk_mode),
-            has_constraints: self.features.kept().is_some_and(|k| k.has_constraints),
+            constraints: self.features.kept().map_or(0, |kept| kept.constraints),
             kept_by: self.features.kept().map_or(0, KeptTissue::kept_by),
             has_edges: self.table.as_ref().is_some_and(|(t, _)| t.gradient > 0.0),
             is_pick,

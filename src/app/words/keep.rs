@@ -19,6 +19,7 @@ words! {
         shorter: "Moves less far", "Kürzere Wege", "Menos recorrido", "移动更短";
         weaker: "Acts less", "Schwächer", "Menos efecto", "作用更弱";
         no_segments: "There are no tissues yet: make one in the panel “Tissues”.", "Es gibt noch keine Gewebe: im Bereich „Gewebe“ eines anlegen.", "Todavía no hay tejidos: cree uno en el panel «Tejidos».", "尚无组织：请在“组织”面板中创建。";
+        whole: "As a whole", "Als Ganzes", "Como un todo", "整体移动";
         constraint: "constraint", "Rücksicht", "la restricción", "约束";
     }
 }
