@@ -7,6 +7,7 @@ use super::control;
 use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette};
+use super::view_bar;
 use super::viewport;
 use super::words::making::w;
 
@@ -22,7 +23,7 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<C
     }
     let palette = Palette::get(ui);
     let width = (picture.width() - 16.0).min(330.0);
-    let is_narrow = picture.width() < 500.0;
+    let is_narrow = picture.width() < 560.0;
     let has_one = state.template_count() > 0;
     let lines = [
         (w().hint_choose, state.placing.is_some() || has_one),
@@ -53,7 +54,7 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<C
             };
         pos2(picture.center().x + 0.5 * width, top + height)
     } else {
-        picture.right_bottom() - vec2(14.0, 14.0)
+        picture.right_bottom() - vec2(view_bar::column_width(picture), 14.0)
     };
     let card = Rect::from_min_max(corner - vec2(width, height), corner);
     viewport::float_frame(ui, card);

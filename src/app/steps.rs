@@ -8,6 +8,7 @@ use super::control;
 use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette};
+use super::view_bar;
 use super::viewport;
 use super::words::keys::w;
 use crate::document::{Camera, Document, Illustration};
@@ -180,6 +181,7 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<C
     } else {
         picture.with_max_y(picture.bottom() - ABOVE_THE_BALL)
     };
+    let free = free.with_max_x(free.right() - view_bar::column_width(picture));
     let width = (free.width() - 16.0).min(560.0);
     let text_width = width - 28.0;
     let caption = (!caption.is_empty()).then(|| {

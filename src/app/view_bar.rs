@@ -22,6 +22,15 @@ fn button() -> f32 {
     theme::control_height().max(34.0)
 }
 
+/// Width at the right edge of a picture that the buttons take, points; nothing where they lie along its foot.
+pub(super) fn column_width(picture: Rect) -> f32 {
+    if picture.height() < LOW {
+        0.0
+    } else {
+        button() + 20.0
+    }
+}
+
 /// All of it, in the corners of a rectangle.
 pub(crate) fn corner_ui(
     ui: &mut Ui,
