@@ -6,7 +6,7 @@ use egui::{
 };
 
 use super::command::Command;
-use super::control;
+use super::control::{self, Named as _};
 use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette};
@@ -121,7 +121,7 @@ fn search_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             .align(egui::Align2::LEFT_CENTER)
             .char_limit(40)
             .id(id);
-        let response = ui.add(edit).accessible_name(making::w().search);
+        let response = ui.add(edit).named(making::w().search);
         if state.making.wants_search {
             response.request_focus();
         }

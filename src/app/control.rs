@@ -278,6 +278,31 @@ pub(crate) fn focus_chosen(ui: &Ui, name: &str) {
     ui.data_mut(|data| data.insert_temp(id, true));
 }
 
+/// Names for controls that show something else: said and found by the name, with what they show as their value.
+pub(crate) trait Named {
+    /// The same control by this name.
+    fn named(self, name: impl Into<String>) -> Self;
+}
+
+impl Named for Response {
+    fn named(self, name: impl Into<String>) -> Self {
+        let name = name.into();
+        if self.gained_focus() || self.changed() {
+            self.ctx.output_mut(|output| {
+                if let Some(OutputEvent::FocusGained(info) | OutputEvent::ValueChanged(info)) =
+                    output.events.last_mut()
+                {
+                    let shown = info.label.replace(name.clone());
+                    let value = info.current_text_value.take().or(shown);
+                    info.current_text_value =
+                        value.filter(|text| *text != name && !text.is_empty());
+                }
+            });
+        }
+        self.accessible_name(name)
+    }
+}
+
 /// What a screen reader is to say of the control that the keyboard has come to or changed, if it has.
 pub(crate) fn spoken(ui: &Ui) -> Option<String> {
     if ui.input(|i| i.pointer.any_down() || i.pointer.any_released()) {
@@ -426,7 +451,7 @@ impl NumberRow<'_> {
                 let slider = Slider::new(&mut value, low..=high).show_value(false);
                 ui.add(slider.step_by(step).max_decimals(self.decimals))
             });
-            let slider = slider.accessible_name(fill(w().slider, &[&self.name]));
+            let slider = slider.named(fill(w().slider, &[&self.name]));
             result = change(&slider, value);
             let mut typed = self.value;
             let field = DragValue::new(&mut typed)
@@ -567,7 +592,7 @@ pub(crate) fn vector_row(
                 .update_while_editing(false);
             let field = ui.add_sized(vec2(width, control_height()), field);
             let field = field
-                .accessible_name(format!("{name} {axis}"))
+                .named(format!("{name} {axis}"))
                 .on_hover_text(format!("{name} {axis}"));
             let tolerance = 0.5 * 0.1_f64.powi(decimals as i32);
             let change =

@@ -3,7 +3,7 @@
 use egui::{Color32, Label, Sense, Stroke, Ui, vec2};
 
 use super::command::Command;
-use super::control::{self, NumberRow};
+use super::control::{self, Named as _, NumberRow};
 use super::templates::command;
 use super::theme::{Palette, control_height};
 use super::tissue;
@@ -245,7 +245,7 @@ fn segments_ui(
             let title = segment(&entry.name);
             control::row(ui, |ui| {
                 let name = format!("{what}: {title}");
-                let response = ui.checkbox(&mut is_on, "").accessible_name(name);
+                let response = ui.checkbox(&mut is_on, "").named(name);
                 let (swatch, _) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
                 let [r, g, b] = entry.color_srgb.unwrap_or([160; 3]);
                 let line = Stroke::new(1.0, Palette::get(ui).line);

@@ -3,7 +3,7 @@
 use egui::{DragValue, Ui, vec2};
 
 use super::command::Command;
-use super::control::{self, Change, NumberRow};
+use super::control::{self, Change, Named as _, NumberRow};
 use super::icon::Icon;
 use super::state::State;
 use super::templates::command;
@@ -126,7 +126,7 @@ fn transfer_ui(
                 }
             }
         });
-        shown.response.accessible_name(w().colours);
+        shown.response.named(w().colours);
     });
 }
 
@@ -154,7 +154,7 @@ fn window_ui(
                 .update_while_editing(false);
             let field = ui
                 .add_sized(vec2(66.0, control_height()), field)
-                .accessible_name(name)
+                .named(name)
                 .on_hover_text(name);
             if let Some(change) = control::change(&field, edited) {
                 result = Some(change);
@@ -266,7 +266,7 @@ fn background_ui(ui: &mut Ui, background: Background, commands: &mut Vec<Command
         };
         let response = ui
             .color_edit_button_srgb(&mut color)
-            .accessible_name(w().background_colour)
+            .named(w().background_colour)
             .on_hover_text(w().any_colour);
         if response.changed() {
             commands.push(Command::Drag(Edit::SetBackground(Background::Color(color))));

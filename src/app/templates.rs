@@ -7,7 +7,7 @@ use glam::{EulerRot, Quat, Vec3};
 
 use super::catalogue::kind_title;
 use super::command::Command;
-use super::control::{self, Change, NumberRow};
+use super::control::{self, Change, Named as _, NumberRow};
 use super::icon::Icon;
 use super::keep;
 use super::making;
@@ -356,7 +356,7 @@ fn group_ui(ui: &mut Ui, state: &State, template: usize, commands: &mut Vec<Comm
             }
         });
         let response = shown.response.on_hover_text(w.group_hint);
-        response.accessible_name(w.group.to_owned());
+        response.named(w.group.to_owned());
     });
 }
 
@@ -435,7 +435,7 @@ fn param_ui(
                 let mut on = value;
                 let response = ui
                     .checkbox(&mut on, "")
-                    .accessible_name(name.clone())
+                    .named(name.clone())
                     .on_hover_text(summary);
                 if response.changed() {
                     send(Change::Set(ParamValue::Flag(on)), commands);
@@ -455,7 +455,7 @@ fn param_ui(
                         }
                     }
                 });
-                shown.response.accessible_name(name.clone());
+                shown.response.named(name.clone());
             });
         }
         (ParamKind::Vector { min, max, .. }, ParamValue::Vector(v)) => {

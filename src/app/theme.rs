@@ -277,6 +277,7 @@ fn apply(style: &mut egui::Style, palette: &Palette) {
     spacing.icon_width = if is_touch { 22.0 } else { 16.0 };
     spacing.icon_width_inner = if is_touch { 12.0 } else { 9.0 };
     spacing.combo_width = 96.0;
+    spacing.combo_height = if is_touch { 420.0 } else { 300.0 };
     spacing.menu_margin = Margin::same(6);
     spacing.window_margin = Margin::same(16);
     spacing.scroll.floating = true;

@@ -3,7 +3,7 @@
 use egui::{CornerRadius, Ui};
 
 use super::command::Command;
-use super::control;
+use super::control::{self, Named as _};
 use super::icon::Icon;
 use super::state::{LONG_LINK, State};
 use super::theme::{self, Palette};
@@ -139,7 +139,7 @@ fn subject_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     });
     shown
         .response
-        .accessible_name(w().subject)
+        .named(w().subject)
         .on_hover_text(w().subject_hint);
 }
 

@@ -18,7 +18,7 @@ use egui::{
 };
 
 use super::command::Command;
-use super::control;
+use super::control::{self, Named as _};
 use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette, control_height};
@@ -551,7 +551,7 @@ impl Editor {
             let mut edited = point;
             let color = ui.color_edit_button_srgb(&mut edited.color_srgb);
             let color = color
-                .accessible_name(fill(look::w().colour_n, &[&(i + 1)]))
+                .named(fill(look::w().colour_n, &[&(i + 1)]))
                 .on_hover_text(w().colour);
             let width = ((ui.available_width() - control_height() - 14.0) / 2.0).clamp(60.0, 120.0);
             let field = DragValue::new(&mut edited.value)
@@ -561,7 +561,7 @@ impl Editor {
                 .update_while_editing(false);
             let value = ui.add_sized(vec2(width, control_height()), field);
             let value = value
-                .accessible_name(fill(look::w().value_n, &[&(i + 1)]))
+                .named(fill(look::w().value_n, &[&(i + 1)]))
                 .on_hover_text(look::w().value);
             let mut opacity_percent = edited.opacity * 100.0;
             let field = DragValue::new(&mut opacity_percent)
@@ -573,7 +573,7 @@ impl Editor {
                 .update_while_editing(false);
             let opacity = ui.add_sized(vec2(width, control_height()), field);
             let opacity = opacity
-                .accessible_name(fill(look::w().opacity_n, &[&(i + 1)]))
+                .named(fill(look::w().opacity_n, &[&(i + 1)]))
                 .on_hover_text(look::w().opacity_hint);
             if opacity.changed() {
                 edited.opacity = opacity_percent / 100.0;

@@ -673,7 +673,8 @@ pub(crate) fn float_frame(ui: &Ui, rect: Rect) {
         rect,
         ui.scope_id()
             .with(("float", rect.min.x as i32, rect.min.y as i32)),
-        Sense::click_and_drag(),
+        // Keeps clicks from the picture below; no place for the keyboard to stop.
+        Sense::CLICK | Sense::DRAG,
     );
     let shadow = egui::Shadow {
         offset: [0, 2],
