@@ -92,6 +92,18 @@ struct Look {
     edges: vec4f,
 }
 
+/// Segments drawn as bodies of their own.
+struct Bodies {
+    /// Of each label: linear RGB, and the opacity (see BODY_LAYER); w below 0: it is no body, its values say how it looks.
+    items: array<vec4f, 256>,
+}
+
+/// A layer so thick is as opaque as a body's opacity says, subject units.
+const BODY_LAYER: f32 = 0.05;
+/// Opacities from which a body is solid, and below which it is hidden.
+const BODY_SOLID: f32 = 0.995;
+const BODY_HIDDEN: f32 = 0.005;
+
 /// How opacity follows the deformation.
 const OPACITY_CONSTANCY: u32 = 0u;
 const OPACITY_MASS: u32 = 1u;

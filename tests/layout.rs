@@ -64,6 +64,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
             volume_from_voxel_row0, volume_from_voxel_row1, volume_from_voxel_row2,
             fine, coarse, spacing, part, label_sets,
         }
+        Bodies { items }
         GridTemplate { reach0_min, reach0_max, reach1_min, reach1_max, shift_min, shift_max }
         GridJob {
             origin_min, cell_size, cells, brick_from_rest_row0, brick_from_rest_row1,
@@ -161,7 +162,12 @@ fn constants_agree() {
         ("CONSTRAIN_COORDINATE", gpu_types::CONSTRAIN_COORDINATE),
         ("CONSTRAIN_RIGID", gpu_types::CONSTRAIN_RIGID),
     ]);
-    let mut found = BTreeMap::new();
+    let bodies = BTreeMap::from([
+        ("BODY_LAYER", gpu_types::BODY_LAYER),
+        ("BODY_SOLID", gpu_types::BODY_SOLID),
+        ("BODY_HIDDEN", gpu_types::BODY_HIDDEN),
+    ]);
+    let (mut found, mut numbers) = (BTreeMap::new(), BTreeMap::new());
     for (_, constant) in module.constants.iter() {
         let value = &module.global_expressions[constant.init];
         if let (Some(name), naga::Expression::Literal(naga::Literal::U32(value))) =
@@ -169,6 +175,12 @@ fn constants_agree() {
         {
             found.insert(name, *value);
         }
+        if let (Some(name), naga::Expression::Literal(naga::Literal::F32(value))) =
+            (constant.name.as_deref(), value)
+        {
+            numbers.insert(name, *value);
+        }
     }
     assert_eq!(found, expected);
+    assert_eq!(numbers, bodies);
 }

@@ -9,7 +9,7 @@
 //
 // Written for devices that run both sides of every branch (software rasterisers): work is put behind loops that end early,
 // not behind `if`; what is needed once per ray (occlusion, shadow) comes after the loop.
-// needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/grid.wgsl march/ray.wgsl march/value.wgsl march/shade.wgsl displace/compose.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
+// needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/bodies.wgsl bind/grid.wgsl march/ray.wgsl march/value.wgsl march/shade.wgsl displace/compose.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
 /// 1 if the subject has labels; without them the look-ups are compiled away.
 override has_labels: u32 = 1u;
@@ -17,6 +17,8 @@ override has_labels: u32 = 1u;
 override has_grid: u32 = 1u;
 /// 1 if opacity follows the gradient.
 override has_edges: u32 = 0u;
+/// 1 if segments are drawn as bodies of their own.
+override has_bodies: u32 = 0u;
 /// Taps of ambient occlusion, once per ray. More are smoother and cost a map and two texture reads each.
 override occlusion_taps: u32 = 8u;
 /// Taps towards the key light, once per ray.
@@ -39,6 +41,10 @@ const TINT_DEPTH: f32 = 1.9;
 /// scan's noise lies below the first.
 const EDGE_NONE: f32 = 0.006;
 const EDGE_FULL: f32 = 0.09;
+/// Reaches of the central differences that the normal of a body is the mean of, voxels. Labels are yes or no, so they are wider than the
+/// scan's; a layer thinner than the far one loses some of its relief.
+const BODY_NEAR: f32 = 1.3;
+const BODY_FAR: f32 = 3.4;
 /// Columns of the Jacobian longer than this come from a jump of the map, not from tissue.
 const MAX_STRETCH: f32 = 12.0;
 /// A continuity steeper than this jumps at a rest face (from 0.25 to 1 at a hole's, say), which is no cut. Cuts have slopes of one over the
@@ -87,11 +93,62 @@ fn transfer(texel: f32) -> vec4f {
     return textureSampleLevel(lut, linear_sampler, vec2f(texel * look.lut.x + look.lut.y, 0.5), 0.0);
 }
 
+/// Shares of bodies at a point of rest space (see `body_shares`).
+fn body_at(pos: vec3f) -> vec4f {
+    let uvw = apply_affine(
+        subject.label_from_rest_row0,
+        subject.label_from_rest_row1,
+        subject.label_from_rest_row2,
+        pos,
+    );
+    let is_inside = all(uvw >= vec3f(0.0)) && all(uvw <= vec3f(1.0));
+    return select(vec4f(0.0), textureSampleLevel(body_shares, linear_sampler, uvw, 0.0), is_inside);
+}
+
+/// Opacity of 0.01 units where bodies take the place of what the values say. The voxels around a body that it fills less than half of
+/// belong to no segment and would stay as a film of its values around it: they go too.
+fn with_bodies(opacity: f32, shares: vec4f) -> f32 {
+    let clear = max(shares.x - shares.z, 0.0);
+    let seen = clamp((shares.y - shares.z) / max(clear, 1e-3), 0.0, 1.0);
+    let through = 1.0 - pow(1.0 - seen, OPACITY_LENGTH / BODY_LAYER);
+    let own = mix(through, 1.0, smoothstep(0.35, 0.65, shares.z / max(shares.x, 1e-3)));
+    let film = smoothstep(0.05, 0.35, shares.x);
+    return mix(opacity * (1.0 - film), own, smoothstep(0.25, 0.55, shares.x));
+}
+
+/// Direction from outside bodies to their inside in rest space, about 1 per voxel at their surface, 0 elsewhere; out of hidden ones.
+fn body_gradient_at(pos: vec3f) -> vec3f {
+    var sum = vec3f(0.0);
+    for (var i = 0u; i < 3u; i++) {
+        let axis = select(vec3f(0.0), vec3f(1.0), vec3u(0u, 1u, 2u) == vec3u(i));
+        // Two reaches: the near one for what is thin, the far one against the stairs of labels.
+        let near = axis * BODY_NEAR * subject.dims.w;
+        let far = axis * BODY_FAR * subject.dims.w;
+        let slope = 0.3 * (body_at(pos + near) - body_at(pos - near)) + 0.7 * (body_at(pos + far) - body_at(pos - far));
+        sum += axis * dot(slope, vec4f(1.0, 0.0, 1.0, -2.0));
+    }
+    return sum * 0.5;
+}
+
+/// Linear RGB of the visible bodies around a point, blended over the 27 label voxels, premultiplied by how much of it is theirs.
+fn body_color_at(pos: vec3f) -> vec4f {
+    let around = around_at(pos);
+    var sum = vec4f(0.0);
+    for (var i = 0; i < 27; i++) {
+        let item = bodies.items[label_around(around, i) & 255u];
+        sum += select(vec4f(0.0), vec4f(item.rgb, 1.0) * weight_around(around, i), item.w >= BODY_HIDDEN);
+    }
+    return sum;
+}
+
 fn sample_mapped(mapped: Material) -> Sample {
     let uvw = texture_from_rest(mapped.pos);
     let is_inside = all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
     let texel = texel_at(uvw);
-    let opacity = transfer(texel).a;
+    var opacity = transfer(texel).a;
+    if has_bodies != 0u {
+        opacity = with_bodies(opacity, body_at(mapped.pos));
+    }
     return Sample(
         mapped.pos,
         texel,
@@ -104,6 +161,11 @@ fn sample_mapped(mapped: Material) -> Sample {
 /// How much of its opacity a place keeps if opacity follows the gradient (equation 6.2), 0 to 1.
 fn edge_gain(steepness: f32) -> f32 {
     return mix(1.0, smoothstep(EDGE_NONE, EDGE_FULL, steepness), look.edges.x);
+}
+
+/// How much of what is seen somewhere is a body's, 0 to 1.
+fn body_weight(shares: vec4f) -> f32 {
+    return smoothstep(0.1, 0.35, shares.x - shares.w);
 }
 
 /// Where a value lies in the transfer table, 0 to 1: how dense the tissue counts as (equation 6.3).
@@ -121,12 +183,22 @@ fn shading_opacity(found: Sample) -> f32 {
     while left > 0u {
         left--;
         gain = edge_gain(length(gradient_at(texture_from_rest(found.pos))) * look.lut.x);
+        if has_bodies != 0u {
+            gain = mix(gain, 1.0, body_weight(body_at(found.pos)));
+        }
     }
     return found.opacity * gain;
 }
 
-/// Colour of the segments around a point, blended over the 27 label voxels, premultiplied by how much of it is known.
-fn tint_at(pos: vec3f) -> vec4f {
+/// The 27 label voxels around a point.
+struct Around {
+    /// The middle one.
+    middle: vec3i,
+    /// Columns: weights per axis of the one before it, of itself, of the one after it.
+    weights: mat3x3f,
+}
+
+fn around_at(pos: vec3f) -> Around {
     let uvw = apply_affine(
         subject.label_from_rest_row0,
         subject.label_from_rest_row1,
@@ -142,15 +214,26 @@ fn tint_at(pos: vec3f) -> vec4f {
         0.75 - part * part,
         0.5 * (0.5 + part) * (0.5 + part),
     );
+    return Around(vec3i(middle), weights);
+}
+
+fn label_around(around: Around, i: i32) -> u32 {
     let last = vec3i(subject.label_dims.xyz) - 1;
+    let voxel = clamp(around.middle + vec3i(i % 3, (i / 3) % 3, i / 9) - 1, vec3i(0), last);
+    return textureLoad(labels, voxel, 0).x;
+}
+
+fn weight_around(around: Around, i: i32) -> f32 {
+    return around.weights[i % 3].x * around.weights[(i / 3) % 3].y * around.weights[i / 9].z;
+}
+
+/// Colour of the segments around a point, blended over the 27 label voxels, premultiplied by how much of it is known.
+fn tint_at(pos: vec3f) -> vec4f {
+    let around = around_at(pos);
     var sum = vec4f(0.0);
     for (var i = 0; i < 27; i++) {
-        let corner = vec3i(i % 3, (i / 3) % 3, i / 9);
-        let voxel = clamp(vec3i(middle) + corner - 1, vec3i(0), last);
-        let weight = weights[corner.x].x * weights[corner.y].y * weights[corner.z].z;
-        let label = textureLoad(labels, voxel, 0).x;
-        let color = textureLoad(palette, vec2i(i32(label), 0), 0);
-        sum += vec4f(color.rgb * color.a, color.a) * weight;
+        let color = textureLoad(palette, vec2i(i32(label_around(around, i)), 0), 0);
+        sum += vec4f(color.rgb * color.a, color.a) * weight_around(around, i);
     }
     return sum;
 }
@@ -476,7 +559,14 @@ fn march(pixel: vec2f) -> Marched {
 
         // Normal: gradient of the value carried over by the transposed Jacobian (equation 4.10) ...
         let uvw = texture_from_rest(edge.pos);
-        let grad = gradient_at(uvw);
+        var grad = gradient_at(uvw);
+        var body_share = 0.0;
+        if has_bodies != 0u {
+            // The surface of a body is that of its segment, whatever the values do there.
+            let own = body_gradient_at(edge.pos);
+            grad = mix(grad, own / look.lut.x, smoothstep(0.03, 0.15, length(own)));
+            body_share = body_weight(body_at(edge.pos));
+        }
         let carried = vec3f(dot(col0, grad), dot(col1, grad), dot(col2, grad));
         let steepness = length(grad) * look.lut.x;
         let to_eye = -dir;
@@ -527,7 +617,7 @@ fn march(pixel: vec2f) -> Marched {
         var gain = 1.0;
         var gain_here = 1.0;
         if has_edges != 0u {
-            gain = edge_gain(mix(length(carried) * look.lut.x, density_of(edge), edge_weight));
+            gain = mix(edge_gain(mix(length(carried) * look.lut.x, density_of(edge), edge_weight)), 1.0, body_share);
             gain_here = gain;
             // Behind a surface the layer of its steepness ends within a step: the share is the mean of both ends of the way.
             var turns = select(0u, 1u, is_jump && is_rising);
@@ -541,6 +631,9 @@ fn march(pixel: vec2f) -> Marched {
                 let from_cut = select(1.0, here.continuity / max(slope_a, 1e-6) / subject.dims.w, is_cut);
                 let face = 1.0 - smoothstep(0.25, 1.0, min(away, from_cut));
                 gain_here = edge_gain(mix(length(carried_here) * look.lut.x, density_of(here), face));
+                if has_bodies != 0u {
+                    gain_here = mix(gain_here, 1.0, body_weight(body_at(here.pos)));
+                }
                 gain = 0.5 * (gain + gain_here);
             }
             gain_before = select(gain_before, 0.5 * (gain_before + gain), is_jump && !is_rising);
@@ -569,6 +662,10 @@ fn march(pixel: vec2f) -> Marched {
             }
             let how_much = look.lut.z * smoothstep(0.0, 0.02, tint.a);
             albedo = mix(albedo, albedo * tint.rgb / max(tint.a, 1e-4), how_much);
+        }
+        if has_bodies != 0u {
+            let body = body_color_at(tint_pos);
+            albedo = mix(albedo, body.rgb / max(body.a, 1e-4), smoothstep(0.02, 0.3, body.a));
         }
         let normal_in_view = vec3f(
             dot(normal, vec3f(frame.subject_from_view_row0.x, frame.subject_from_view_row1.x, frame.subject_from_view_row2.x)),

@@ -3,7 +3,7 @@
 //
 //   pixel --> subject space --> object_from_subject --> value, label --> grey by the window, or colours of the look
 //
-// needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl march/ray.wgsl displace/compose.wgsl
+// needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/bodies.wgsl march/ray.wgsl displace/compose.wgsl
 
 /// The plane and how it is shown.
 @group(3) @binding(0) var<uniform> slice: Slice;
@@ -78,8 +78,13 @@ fn color_at(pixel: vec2f) -> vec3f {
     }
     let known = textureSampleLevel(lut, linear_sampler, vec2f(here.texel * look.lut.x + look.lut.y, 0.5), 0.0);
     let tint = textureLoad(palette, vec2i(i32(here.label), 0), 0);
-    let albedo = mix(known.rgb, known.rgb * mix(vec3f(1.0), tint.rgb, tint.a), look.lut.z);
-    let clear = pow(max(1.0 - known.a, 0.0), SLICE_THICKNESS / SLICE_OPACITY_LENGTH);
+    var albedo = mix(known.rgb, known.rgb * mix(vec3f(1.0), tint.rgb, tint.a), look.lut.z);
+    var clear = pow(max(1.0 - known.a, 0.0), SLICE_THICKNESS / SLICE_OPACITY_LENGTH);
+    let body = bodies.items[here.label & 255u];
+    if body.w >= 0.0 {
+        albedo = body.rgb;
+        clear = pow(max(1.0 - body.w, 0.0), SLICE_THICKNESS / BODY_LAYER);
+    }
     return mix(albedo, slice.background.rgb, clear);
 }
 

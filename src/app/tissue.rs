@@ -16,7 +16,8 @@ use super::words::{fill, in_sentence};
 use crate::data::{FEATURE_COLORS_SRGB, Segment};
 use crate::document::{
     Align, CleanStep, Constrain, Edit, FeatureRecipe, FeatureSource, Illustration, MAX_FEATURES,
-    MAX_SEEDS, MAX_SMOOTH_MM, ParamValue, PlacedTemplate, TemplateData, TemplateKind, TemplateMode,
+    MAX_SEEDS, MAX_SMOOTH_MM, ParamValue, PlacedTemplate, SegmentLook, TemplateData, TemplateKind,
+    TemplateMode, pointer,
 };
 use crate::math::Placement;
 use crate::render::SubjectInfo;
@@ -39,6 +40,8 @@ pub(crate) struct Tissues {
     pub is_seeding: bool,
     /// Name of the one that is shown alone.
     pub alone: Option<String>,
+    /// Name of the one whose look is edited.
+    pub look: Option<String>,
     /// Voxels of each feature, as last counted.
     pub counts: Vec<u64>,
     /// How far the work under way is.
@@ -54,6 +57,8 @@ pub enum TissueCommand {
     Open(Option<usize>),
     /// Shows one alone, or all again.
     Alone(Option<String>),
+    /// Opens the look of one for editing, or closes it.
+    Look(Option<String>),
     /// Clicks add points, or do what they did before.
     Seed(bool),
 }
@@ -66,6 +71,7 @@ impl Tissues {
                 self.is_seeding = false;
             }
             TissueCommand::Alone(name) => self.alone = name,
+            TissueCommand::Look(name) => self.look = name,
             TissueCommand::Seed(is_on) => self.is_seeding = is_on,
         }
     }
@@ -225,12 +231,14 @@ fn row_ui(
     let in_text = in_sentence(&title);
     let is_alone = state.tissues.alone.as_deref() == Some(name);
     let is_open = recipe.is_some_and(|recipe| state.tissues.open == Some(recipe.index));
+    let look = look_of(state, name);
+    let own = Color32::from_rgb(r, g, b);
     control::row(ui, |ui| {
-        let (swatch, _) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
-        let line = Stroke::new(1.0, Palette::get(ui).line);
-        let color = Color32::from_rgb(r, g, b);
-        ui.painter()
-            .rect(swatch, 3.0, color, line, egui::StrokeKind::Inside);
+        let is_edited = state.tissues.look.as_deref() == Some(name);
+        if swatch_ui(ui, own, look, is_edited, &fill(w().look, &[&in_text])).clicked() {
+            let look = (!is_edited).then(|| name.to_owned());
+            commands.push(Command::Tissue(TissueCommand::Look(look)));
+        }
         ui.with_layout(control::against(), |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
             if let Some(recipe) = recipe {
@@ -244,10 +252,17 @@ fn row_ui(
                     if is_alone {
                         commands.push(Command::Tissue(TissueCommand::Alone(None)));
                     }
-                    commands.push(Command::Apply(Edit::Set {
+                    let mut edits = vec![Edit::Set {
                         pointer: "/subject/features".to_owned(),
                         value: Value::from(list),
+                        name: String::new(),
+                    }];
+                    if look.is_some() {
+                        edits.push(set_look(name, None));
+                    }
+                    commands.push(Command::Apply(Edit::All {
                         name: format!("Remove {name}"),
+                        edits,
                     }));
                 }
             }
@@ -275,6 +290,153 @@ fn row_ui(
                 ui.add(Label::new(text).truncate());
             });
         });
+    });
+    if state.tissues.look.as_deref() == Some(name) {
+        ui.push_id(("look", name), |ui| {
+            look_ui(ui, name, [r, g, b], look, commands)
+        });
+    }
+}
+
+fn look_of<'a>(state: &'a State, name: &str) -> Option<&'a SegmentLook> {
+    let mut looks = state.illustration().look.segments.iter();
+    looks.find(|look| look.name == name)
+}
+
+/// The edit that draws a tissue this way, or (`None`) as its values say.
+fn set_look(tissue: &str, look: Option<(f32, Option<[u8; 3]>)>) -> Edit {
+    let pointer = pointer::join("/look/segments", tissue);
+    let name = format!("Draw {tissue}");
+    match look {
+        None => Edit::Reset { pointer, name },
+        Some((opacity, color)) => {
+            let opacity = Value::from((f64::from(opacity) * 100.0).round() / 100.0);
+            let value = match color {
+                None => opacity,
+                Some([r, g, b]) => {
+                    let color = format!("#{r:02x}{g:02x}{b:02x}");
+                    serde_json::json!({ "opacity": opacity, "color": color })
+                }
+            };
+            Edit::Set {
+                pointer,
+                value,
+                name,
+            }
+        }
+    }
+}
+
+/// The color of a tissue, as a button: filled where it is drawn in it, struck out where it is hidden.
+fn swatch_ui(
+    ui: &mut Ui,
+    own: Color32,
+    look: Option<&SegmentLook>,
+    is_edited: bool,
+    name: &str,
+) -> egui::Response {
+    let palette = Palette::get(ui);
+    let size = egui::Vec2::splat(control_height());
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| {
+        egui::WidgetInfo::selected(egui::Role::Button, ui.is_enabled(), is_edited, name)
+    });
+    let swatch = egui::Rect::from_center_size(rect.center(), vec2(16.0, 16.0));
+    let [color, line] = match look {
+        Some(look) if look.opacity <= 0.0 => [Color32::TRANSPARENT, palette.weak],
+        Some(look) => {
+            let color = look
+                .color_srgb
+                .map_or(own, |[r, g, b]| Color32::from_rgb(r, g, b));
+            [
+                color.gamma_multiply(0.35 + 0.65 * look.opacity),
+                palette.text,
+            ]
+        }
+        None => [own, palette.line],
+    };
+    let width = if is_edited || response.hovered() {
+        2.0
+    } else {
+        1.0
+    };
+    let line = if is_edited { palette.accent } else { line };
+    let line = Stroke::new(width, line);
+    ui.painter()
+        .rect(swatch, 3.0, color, line, egui::StrokeKind::Inside);
+    if look.is_some_and(|look| look.opacity <= 0.0) {
+        ui.painter()
+            .line_segment([swatch.left_bottom(), swatch.right_top()], line);
+    }
+    control::focus_ring(ui, &response, rect);
+    response.on_hover_text(name)
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Drawn {
+    Scan,
+    Body,
+    Hidden,
+}
+
+/// How one tissue is drawn: as its values say, as a body in its own color, or not at all.
+fn look_ui(
+    ui: &mut Ui,
+    name: &str,
+    own: [u8; 3],
+    look: Option<&SegmentLook>,
+    commands: &mut Vec<Command>,
+) {
+    let current = match look {
+        None => Drawn::Scan,
+        Some(look) if look.opacity <= 0.0 => Drawn::Hidden,
+        Some(_) => Drawn::Body,
+    };
+    let color = look.and_then(|look| look.color_srgb);
+    let options = [
+        (Drawn::Scan, w().as_scan),
+        (Drawn::Body, w().body),
+        (Drawn::Hidden, w().hidden),
+    ];
+    if let Some(drawn) = control::segmented(ui, w().drawn, &options, current) {
+        let look = match drawn {
+            Drawn::Scan => None,
+            Drawn::Body => Some((1.0, color)),
+            Drawn::Hidden => Some((0.0, color)),
+        };
+        commands.push(Command::Apply(set_look(name, look)));
+    }
+    let Some(look) = look.filter(|_| current == Drawn::Body) else {
+        return;
+    };
+    let row = NumberRow {
+        name: w().opacity,
+        summary: w().opacity_hint,
+        value: f64::from(look.opacity) * 100.0,
+        default: Some(100.0),
+        range: [1.0, 100.0],
+        unit: " %",
+        decimals: 0,
+    };
+    if let Some(change) = row.ui(ui) {
+        let edit = change.map(|percent| set_look(name, Some((percent as f32 / 100.0, color))));
+        commands.push(command(edit));
+    }
+    control::row(ui, |ui| {
+        control::row_label(ui, w().color, "");
+        let mut shown = color.unwrap_or(own);
+        let button = ui
+            .color_edit_button_srgb(&mut shown)
+            .accessible_name(w().color);
+        if button.changed() {
+            let edit = set_look(name, Some((look.opacity, Some(shown))));
+            commands.push(Command::Drag(edit));
+        }
+        let reset = control::icon_button(ui, Icon::Reset, w().own_color, color.is_some());
+        if reset.clicked() {
+            let edit = set_look(name, Some((look.opacity, None)));
+            commands.push(Command::Apply(edit));
+        }
     });
 }
 
@@ -358,6 +520,10 @@ fn name_ui(ui: &mut Ui, state: &State, recipe: &FeatureRecipe, commands: &mut Ve
                 &recipe.name,
                 &name,
             ));
+            if let Some(look) = look_of(state, &recipe.name) {
+                edits.push(set_look(&recipe.name, None));
+                edits.push(set_look(&name, Some((look.opacity, look.color_srgb))));
+            }
             commands.push(Command::Drag(Edit::All {
                 name: format!("Rename {}", recipe.name),
                 edits,

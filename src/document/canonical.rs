@@ -40,6 +40,7 @@ pub(super) fn strip(root: &mut Map<String, Value>) {
         drop_if(look, "window", is_text("auto"));
         drop_if(look, "opacity", is_text("constancy"));
         drop_if(look, "gradient", is_number(0.0));
+        drop_if(look, "segments", is_empty);
         drop_if(look, "background", is_text("#ffffff"));
     }
     if let Some(Value::Object(camera)) = root.get_mut("camera") {

@@ -56,6 +56,7 @@ impl Illustration {
                 tint: None,
                 opacity: OpacityMode::Constancy,
                 gradient: 0.0,
+                segments: Vec::new(),
                 background: Background::Color([255; 3]),
             },
             camera: Camera::DOCUMENT_DEFAULT,
@@ -312,8 +313,26 @@ pub struct Look {
     pub opacity: OpacityMode,
     /// How much opacity follows the steepness of the value (dissertation, section 6.2.5): 0 not at all, 1 only edges and cut faces show.
     pub gradient: f32,
+    /// Segments that are drawn in another way than their values say, by name.
+    pub segments: Vec<SegmentLook>,
     /// Behind the object.
     pub background: Background,
+}
+
+/// How one segment is drawn: as a body of its own, whatever its values are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentLook {
+    /// Its name, or its label number written as text.
+    pub name: String,
+    /// 1: solid, 0: hidden. Between them as opaque as a layer of [`SegmentLook::LAYER`] is then.
+    pub opacity: f32,
+    /// sRGB bytes; none: the color that the segment has.
+    pub color_srgb: Option<[u8; 3]>,
+}
+
+impl SegmentLook {
+    /// How thick a layer is that is as opaque as [`SegmentLook::opacity`] says, subject units.
+    pub const LAYER: f32 = 0.05;
 }
 
 /// Where opacity and colour come from.

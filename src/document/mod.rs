@@ -34,6 +34,8 @@
 //! | `/look/tint` | 0 … 1, default the preset's own, 0 with listed points | how far segments keep their own colours over the transfer function |
 //! | `/subject/features` | list | tissues made here, as the recipes that make them |
 //! | `/subject/frame`, `/subject/raw` | whole number; object | which picture of a file with several; how a file without a header is laid out |
+//! | `/subject/segments` | also a list | several label volumes beside one scan |
+//! | `/look/segments` | object, by name of segment | segments drawn as bodies of their own: `{ "brain": 1, "skull": { "opacity": 0.3, "color": "#eadfc4" } }`. A number is an opacity: 1 solid, 0 hidden, between them as opaque as a layer of 0.05 units is then. Where segments overlap, the one that the subject lists first decides. Opacities and colours ease from step to step ([`SegmentLook`]) |
 
 mod authoring;
 mod canonical;
@@ -73,7 +75,7 @@ pub use history::History;
 pub use illustration::{
     Align, Background, Camera, Constrain, ConstrainBy, ControlPoint, ControlPoints, FieldRef,
     FieldSamples, Illustration, Label, Look, OpacityMode, PlacedTemplate, RawVoxels, Reading,
-    SampledField, SegmentsRef, Step, SubjectRef, TemplateData, TemplateMode, Transfer,
+    SampledField, SegmentLook, SegmentsRef, Step, SubjectRef, TemplateData, TemplateMode, Transfer,
     TransferPoint, Window,
 };
 pub use json::MAX_DEPTH;

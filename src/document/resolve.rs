@@ -4,7 +4,7 @@ use super::catalogue::{ParamKind, ParamSpec, ParamValue, TemplateKind};
 use super::error::DocumentError;
 use super::illustration::{
     Align, Background, Camera, Constrain, ConstrainBy, Illustration, Label, Look, OpacityMode,
-    PlacedTemplate, Step, TemplateMode, Transfer, TransferPoint, Window,
+    PlacedTemplate, SegmentLook, Step, TemplateMode, Transfer, TransferPoint, Window,
 };
 use super::json::{ROOT_KEYS, number_text, shortened};
 use super::notice::{Notice, NoticeKind};
@@ -480,6 +480,7 @@ impl Reader {
                 "tint",
                 "opacity",
                 "gradient",
+                "segments",
                 "background",
             ],
         );
@@ -539,6 +540,7 @@ impl Reader {
             }
         };
         let gradient = self.scalar(object, "gradient", 0.0, [0.0, 1.0])?;
+        let segments = self.segment_looks(&object.child("segments")?)?;
         let background = match object.text("background")? {
             None => Background::Color([255; 3]),
             Some("none") => Background::None,
@@ -553,8 +555,38 @@ impl Reader {
             tint,
             opacity,
             gradient,
+            segments,
             background,
         })
+    }
+
+    /// `{ "brain": 1, "skull": { "opacity": 0.3, "color": "#eadfc4" } }`: a number is an opacity.
+    fn segment_looks(&mut self, object: &Object<'_>) -> Result<Vec<SegmentLook>, DocumentError> {
+        let mut looks = Vec::new();
+        for (name, value) in object.map {
+            let (opacity, color_srgb) = match value {
+                Value::Number(_) => (self.scalar(object, name, 1.0, [0.0, 1.0])?, None),
+                _ => {
+                    let look = Object::new(object.at(name), value)?;
+                    self.unknown_keys(&look, &["opacity", "color"]);
+                    let color_srgb = look.text("color")?.and_then(|text| {
+                        let found = color(text);
+                        if found.is_none() {
+                            self.unknown_value(look.at("color"), text, "#ffffff");
+                        }
+                        found
+                    });
+                    let opacity = self.scalar(&look, "opacity", 1.0, [0.0, 1.0])?;
+                    (opacity, color_srgb)
+                }
+            };
+            looks.push(SegmentLook {
+                name: name.clone(),
+                opacity,
+                color_srgb,
+            });
+        }
+        Ok(looks)
     }
 
     fn points(&mut self, pointer: &str, items: &[Value]) -> Result<Transfer, DocumentError> {

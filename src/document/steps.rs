@@ -128,6 +128,15 @@ pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illu
         out.look.window = Window::Range([mix(a[0], b[0]), mix(a[1], b[1])]);
     }
     out.look.gradient = mix(start.look.gradient, end.look.gradient);
+    for segment in &mut out.look.segments {
+        let mut before = start.look.segments.iter();
+        if let Some(before) = before.find(|before| before.name == segment.name) {
+            segment.opacity = mix(before.opacity, segment.opacity);
+            if let (Some(a), Some(b)) = (before.color_srgb, segment.color_srgb) {
+                segment.color_srgb = Some(mix_srgb(a, b, part));
+            }
+        }
+    }
     if let (Some(a), Some(b)) = (start.look.tint, end.look.tint) {
         out.look.tint = Some(mix(a, b));
     }

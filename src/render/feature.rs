@@ -54,7 +54,7 @@ pub struct KeptTissue {
 }
 
 /// The label that a name or number in `keep` means.
-fn labels_of(name: &str, segments: &[Segment]) -> Vec<u8> {
+pub(super) fn labels_of(name: &str, segments: &[Segment]) -> Vec<u8> {
     let named: Vec<u8> = segments
         .iter()
         .filter(|s| s.name == name)

@@ -322,6 +322,28 @@ pub struct Look {
     pub edges: [f32; 4],
 }
 
+/// Segments drawn as bodies of their own.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Bodies {
+    /// Of each label: linear RGB and opacity; w below 0: no body.
+    pub items: [[f32; 4]; 256],
+}
+
+impl Bodies {
+    /// No segment is.
+    pub const NONE: Self = Self {
+        items: [[0.0, 0.0, 0.0, -1.0]; 256],
+    };
+}
+
+/// A layer so thick is as opaque as a body's opacity says, subject units.
+pub const BODY_LAYER: f32 = crate::document::SegmentLook::LAYER;
+/// Opacity from which a body is solid.
+pub const BODY_SOLID: f32 = 0.995;
+/// Opacity below which a body is hidden.
+pub const BODY_HIDDEN: f32 = 0.005;
+
 /// `Look::modes[0]`: a surface keeps its opacity.
 pub const OPACITY_CONSTANCY: u32 = 0;
 /// `Look::modes[0]`: particles are conserved.

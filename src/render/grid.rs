@@ -1,5 +1,6 @@
 //! The grid over the deformed space: which templates reach a cell, and whether anything visible may map into it.
 
+use super::bodies::LabelSet;
 use super::feature::FeatureTextures;
 use super::gpu_types::{Grid, GridJob, GridTemplate, MAX_TEMPLATES, Templates};
 use super::look::TransferTable;
@@ -163,14 +164,20 @@ impl SkipGrid {
     }
 
     /// Says which bricks can be seen; before the first [`SkipGrid::make`] and when the transfer function changes.
-    pub(super) fn set_look(&mut self, gpu: &Gpu, subject: &SubjectTextures, table: &TransferTable) {
+    /// `bodies` are the labels that are seen whatever their values are.
+    pub(super) fn set_look(
+        &mut self,
+        gpu: &Gpu,
+        subject: &SubjectTextures,
+        table: &TransferTable,
+        bodies: &LabelSet,
+    ) {
         let visible = VisibleValues::new(table, &subject.info);
+        let has_body = bricks_of_bodies(subject, bodies);
         let sums = summed(subject.bricks.dims, |i| {
-            subject
-                .bricks
-                .ranges
-                .get(i)
-                .is_some_and(|range| visible.any_in(*range))
+            let ranges = &subject.bricks.ranges;
+            has_body.get(i).is_some_and(|&has| has)
+                || ranges.get(i).is_some_and(|range| visible.any_in(*range))
         });
         let buffer = gpu
             .device
@@ -460,6 +467,29 @@ impl VisibleValues {
             _ => true,
         }
     }
+}
+
+/// Bricks that hold any of these labels, or border on one that does (a body's smooth border reaches out of its voxels). All, where it is
+/// not known; none is empty.
+fn bricks_of_bodies(subject: &SubjectTextures, wanted: &LabelSet) -> Vec<bool> {
+    if *wanted == [0; 8] {
+        return Vec::new();
+    }
+    let dims = subject.bricks.dims.as_usizevec3();
+    let Some(sets) = &subject.label_bricks else {
+        return vec![true; dims.element_product()];
+    };
+    let is_any = |set: &LabelSet| set.iter().zip(wanted).any(|(a, b)| a & b != 0);
+    let mut has: Vec<bool> = sets.iter().map(is_any).collect();
+    for (stride, side) in [(1, dims.x), (dims.x, dims.y), (dims.x * dims.y, dims.z)] {
+        let before = has.clone();
+        for (i, has) in has.iter_mut().enumerate() {
+            let place = i / stride % side;
+            *has |= (place > 0 && before[i - stride])
+                || (place + 1 < side && before.get(i + stride).is_some_and(|&b| b));
+        }
+    }
+    has
 }
 
 /// Summed table: entry (x, y, z) counts the bricks below x, y, z that are visible; one more entry than bricks on each axis.

@@ -4,6 +4,7 @@ mod baked;
 #[cfg(any(test, target_arch = "wasm32"))]
 mod bare;
 mod bench;
+mod bodies;
 mod error;
 mod feature;
 mod field;

@@ -1,4 +1,5 @@
 use super::baked::BakePasses;
+use super::bodies::{BodyPass, BodyTextures};
 use super::feature::{DistancePasses, FeatureTextures};
 use super::gpu_types::{Grid, Look, TABLE_FORMAT, Templates};
 use super::grid::GridPasses;
@@ -36,6 +37,8 @@ pub(super) struct RaycastKey {
     pub kept_by: u32,
     /// Opacity follows the gradient.
     pub has_edges: bool,
+    /// Segments are drawn as bodies of their own.
+    pub has_bodies: bool,
     /// The map is read from its baked texture.
     pub is_baked: bool,
     /// For picking instead of drawing.
@@ -71,6 +74,7 @@ pub(super) struct Passes {
     distance: OnceLock<Arc<DistancePasses>>,
     /// For documents in which a segment moves as a whole.
     pub rigid: RigidPasses,
+    bodies: OnceLock<Arc<BodyPass>>,
     resolve_pipeline: wgpu::RenderPipeline,
     raycast_module: wgpu::ShaderModule,
     /// For documents that keep tissue; compiled when the first one comes.
@@ -121,6 +125,8 @@ impl Passes {
                 uniform(5),
                 texture(6, wgpu::TextureViewDimension::D3, FILTERED),
                 texture(7, wgpu::TextureViewDimension::D3, FILTERED),
+                uniform(8),
+                texture(9, wgpu::TextureViewDimension::D3, FILTERED),
             ],
         );
         let resolve_layout = layout(
@@ -177,6 +183,7 @@ impl Passes {
             bake,
             distance: OnceLock::new(),
             rigid: RigidPasses::default(),
+            bodies: OnceLock::new(),
             raycast_module: module(gpu, "raycast")?,
             aligned_module: OnceLock::new(),
             baked_module: OnceLock::new(),
@@ -210,6 +217,7 @@ impl Passes {
                 ("has_labels", number(key.has_labels)),
                 ("has_grid", number(key.has_grid)),
                 ("has_edges", number(key.has_edges)),
+                ("has_bodies", number(key.has_bodies)),
             ];
             let other = if key.is_baked {
                 other_module(&self.baked_module, gpu, "raycast_baked")
@@ -254,6 +262,16 @@ impl Passes {
             let _set_already = self.distance.set(Arc::new(passes));
         }
         self.distance.get().cloned()
+    }
+
+    /// The program that shares places out to bodies; compiled when first asked for. `None` if the table lacks it.
+    pub(super) fn bodies(&self, gpu: &Gpu) -> Option<Arc<BodyPass>> {
+        if self.bodies.get().is_none()
+            && let Ok(pass) = BodyPass::new(gpu)
+        {
+            let _set_already = self.bodies.set(Arc::new(pass));
+        }
+        self.bodies.get().cloned()
     }
 
     pub(super) fn resolve(&self) -> &wgpu::RenderPipeline {
@@ -379,8 +397,7 @@ fn scene_group(
     [templates, look]: [&wgpu::Buffer; 2],
     table: &wgpu::Texture,
     grid: &(wgpu::Buffer, wgpu::TextureView),
-    features: &FeatureTextures,
-    fields: &wgpu::TextureView,
+    (features, fields, bodies): (&FeatureTextures, &wgpu::TextureView, &BodyTextures),
 ) -> wgpu::BindGroup {
     let table_view = table.create_view(&Default::default());
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -395,6 +412,8 @@ fn scene_group(
             entry(5, features.uniform.as_entire_binding()),
             entry(6, wgpu::BindingResource::TextureView(&features.view)),
             entry(7, wgpu::BindingResource::TextureView(fields)),
+            entry(8, bodies.uniform.as_entire_binding()),
+            entry(9, wgpu::BindingResource::TextureView(&bodies.view)),
         ],
     })
 }
@@ -418,6 +437,7 @@ impl Scene {
         grid: Option<(&wgpu::Buffer, &wgpu::TextureView)>,
         features: &FeatureTextures,
         fields: &wgpu::TextureView,
+        bodies: &BodyTextures,
     ) -> Self {
         let templates = uniform_buffer(gpu, "templates", &Templates::NONE);
         let look = uniform_buffer(gpu, "look", &Look::default());
@@ -461,8 +481,7 @@ impl Scene {
             [&templates, &look],
             &table,
             &grid,
-            features,
-            fields,
+            (features, fields, bodies),
         );
         Self {
             templates,
@@ -473,13 +492,14 @@ impl Scene {
         }
     }
 
-    /// Takes over another texture of distances, or of fields.
+    /// Takes over another texture of distances, of fields or of bodies.
     pub(super) fn set_features(
         &mut self,
         gpu: &Gpu,
         passes: &Passes,
         features: &FeatureTextures,
         fields: &wgpu::TextureView,
+        bodies: &BodyTextures,
     ) {
         let uniforms = [&self.templates, &self.look];
         self.bind_group = scene_group(
@@ -488,8 +508,7 @@ impl Scene {
             uniforms,
             &self.table,
             &self.grid,
-            features,
-            fields,
+            (features, fields, bodies),
         );
     }
 

@@ -98,6 +98,7 @@ shader_files![
     "bind/frame.wgsl",
     "bind/subject.wgsl",
     "bind/look.wgsl",
+    "bind/bodies.wgsl",
     "bind/grid.wgsl",
     "bind/baked.wgsl",
     "bind/feature.wgsl",
@@ -108,6 +109,7 @@ shader_files![
     "march/shade.wgsl",
     "march/value.wgsl",
     "pass/bake.wgsl",
+    "pass/bodies.wgsl",
     "pass/distance.wgsl",
     "pass/grid.wgsl",
     "pass/object.wgsl",
@@ -194,6 +196,11 @@ pub const PROGRAMS: &[Program] = &[
         ],
     },
     Program {
+        name: "bodies",
+        files: &["types.wgsl", "bind/subject.wgsl", "pass/bodies.wgsl"],
+        entries: &[("share_bodies", Stage::Compute)],
+    },
+    Program {
         name: "grid",
         files: with_displacement!["bind/feature.wgsl", "pass/grid.wgsl"],
         entries: &[
@@ -209,6 +216,7 @@ pub const PROGRAMS: &[Program] = &[
             "bind/frame.wgsl",
             "bind/subject.wgsl",
             "bind/look.wgsl",
+            "bind/bodies.wgsl",
             "bind/grid.wgsl",
             "march/plain.wgsl",
             "march/ray.wgsl",
@@ -233,6 +241,7 @@ pub const PROGRAMS: &[Program] = &[
             "bind/frame.wgsl",
             "bind/subject.wgsl",
             "bind/look.wgsl",
+            "bind/bodies.wgsl",
             "bind/grid.wgsl",
             "bind/baked.wgsl",
             "march/baked.wgsl",
@@ -253,6 +262,7 @@ pub const PROGRAMS: &[Program] = &[
             "bind/frame.wgsl",
             "bind/subject.wgsl",
             "bind/look.wgsl",
+            "bind/bodies.wgsl",
             "bind/grid.wgsl",
             "bind/feature.wgsl",
             "march/align.wgsl",
@@ -272,6 +282,7 @@ pub const PROGRAMS: &[Program] = &[
         files: with_displacement![
             "bind/subject.wgsl",
             "bind/look.wgsl",
+            "bind/bodies.wgsl",
             "march/plain.wgsl",
             "march/ray.wgsl",
             "pass/slice.wgsl",
@@ -287,6 +298,7 @@ pub const PROGRAMS: &[Program] = &[
         files: with_displacement![
             "bind/subject.wgsl",
             "bind/look.wgsl",
+            "bind/bodies.wgsl",
             "bind/feature.wgsl",
             "march/align.wgsl",
             "march/ray.wgsl",

@@ -1,4 +1,5 @@
 use super::baked::BakedTexture;
+use super::bodies::BodyTextures;
 use super::feature::{FeatureTextures, KeptTissue};
 use super::field::FieldTexture;
 use super::gpu_types::{Frame, Templates, affine_rows};
@@ -35,6 +36,7 @@ pub(super) struct Prepared {
     grid: Option<SkipGrid>,
     features: FeatureTextures,
     fields: FieldTexture,
+    bodies: BodyTextures,
     baked: Option<BakedTexture>,
     /// Names that were said to be unknown.
     unknown: Vec<String>,
@@ -52,10 +54,12 @@ impl Prepared {
         let grid = wants_grid.then(|| SkipGrid::new(gpu));
         let features = FeatureTextures::new(gpu);
         let fields = FieldTexture::new(gpu);
+        let bodies = BodyTextures::new(gpu);
         let cells = grid.as_ref().map(SkipGrid::binding);
         Self {
-            scene: Scene::new(gpu, passes, cells, &features, &fields.view),
+            scene: Scene::new(gpu, passes, cells, &features, &fields.view, &bodies),
             fields,
+            bodies,
             bounds: subject.bounds,
             background: [0.0; 4],
             drawn_generation: 0,
@@ -115,9 +119,22 @@ impl Prepared {
             is_changed = true;
             is_grid_stale = true;
         }
-        if is_bound_anew {
+        let mut unknown = Vec::new();
+        let looks = &illustration.look.segments;
+        let bodies = self
+            .bodies
+            .update(gpu, passes, subject, looks, &mut unknown);
+        for name in unknown {
+            if !self.unknown.contains(&name) {
+                self.notices.push(segment_notice(&name));
+                self.unknown.push(name);
+            }
+        }
+        is_changed |= bodies.picture;
+        if is_bound_anew || bodies.view {
             let fields = &self.fields.view;
-            self.scene.set_features(gpu, passes, &self.features, fields);
+            self.scene
+                .set_features(gpu, passes, &self.features, fields, &self.bodies);
         }
         if let Some(kept) = self.features.kept().filter(|kept| kept.has_rigid())
             && is_grid_stale
@@ -141,10 +158,11 @@ impl Prepared {
             .table
             .as_ref()
             .is_none_or(|(t, m)| *t != table || *m != mode)
+            || bodies.picture
         {
             self.scene.set_look(gpu, &table, mode, &subject.info);
             if let Some(grid) = &mut self.grid {
-                grid.set_look(gpu, subject, &table);
+                grid.set_look(gpu, subject, &table, &self.bodies.visible());
                 is_grid_stale = true;
             }
             self.has_labels = subject.info.has_segments && table.tint > 0.0;
@@ -190,6 +208,7 @@ impl Prepared {
             align_mode: self.features.kept().map_or(0, KeptTissue::walk_mode),
             constraints: self.features.kept().map_or(0, |kept| kept.constraints),
             kept_by: self.features.kept().map_or(0, KeptTissue::kept_by),
+            has_bodies: self.bodies.is_used(),
             has_edges: self.table.as_ref().is_some_and(|(t, _)| t.gradient > 0.0),
             is_pick,
         }
@@ -297,6 +316,11 @@ pub(super) fn frame_of(
         bounds_max: [max.x, max.y, max.z, 0.0],
         pick: [0.0; 4],
     }
+}
+
+/// Says that a name in `look.segments` means nothing here.
+fn segment_notice(name: &str) -> String {
+    format!("look: the subject has no segment “{name}”")
 }
 
 /// Says that a name in `keep` means nothing here.

@@ -1,3 +1,4 @@
+use super::bodies::{LabelSet, labels_in_bricks};
 use super::gpu_types::{Subject, affine_rows};
 use super::passes::Passes;
 use super::{Gpu, RenderError, uniform_buffer};
@@ -47,6 +48,8 @@ pub(super) struct SubjectTextures {
     pub bricks: Bricks,
     /// What it is.
     pub info: SubjectInfo,
+    /// Labels by brick, where they lie on the grid of the values.
+    pub label_bricks: Option<Vec<LabelSet>>,
     /// Of the untouched subject.
     pub bounds: Aabb,
     /// The uniform, as uploaded.
@@ -461,6 +464,9 @@ fn assemble(
         segments: labels.map(|l| l.segments.clone()).unwrap_or_default(),
         bind_group,
         bricks,
+        label_bricks: labels
+            .filter(|labels| labels.grid == *grid)
+            .map(|labels| labels_in_bricks(labels, BRICK)),
         info,
         bounds: grid.subject_bounds(),
         uniform,

@@ -9,6 +9,15 @@ words! {
         none: "The scan brings no tissues of its own.", "Der Scan bringt keine Gewebe mit.", "La imagen no trae tejidos propios.", "该扫描自身不含组织标签。";
         alone: "Show {0} alone", "Nur {0} zeigen", "Mostrar solo {0}", "仅显示{0}";
         all: "Show everything again", "Wieder alles zeigen", "Mostrar todo de nuevo", "重新显示全部";
+        look: "How {0} is drawn", "Wie {0} gezeichnet wird", "Cómo se dibuja {0}", "{0}的绘制方式";
+        drawn: "Drawn", "Gezeichnet", "Dibujo", "绘制";
+        as_scan: "As scanned", "Wie im Scan", "Como en la imagen", "按扫描";
+        body: "As a body", "Als Körper", "Como cuerpo", "实体";
+        hidden: "Hidden", "Verborgen", "Oculto", "隐藏";
+        opacity: "Opacity", "Deckkraft", "Opacidad", "不透明度";
+        opacity_hint: "Less lets what lies behind shine through", "Weniger lässt durchscheinen, was dahinter liegt", "Menos deja ver lo que hay detrás", "数值越低，越能透出后方结构";
+        color: "Colour", "Farbe", "Color", "颜色";
+        own_color: "Back to its own colour", "Zurück zur eigenen Farbe", "Volver a su propio color", "恢复原有颜色";
         edit: "Edit {0}", "{0} bearbeiten", "Editar {0}", "编辑{0}";
         remove: "Remove {0}", "{0} entfernen", "Quitar {0}", "移除{0}";
         name: "Name", "Name", "Nombre", "名称";
