@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use egui::{Key, Modifiers, Pos2, Role, Vec2, vec2};
+use egui::{Key, Modifiers, Pos2, Role, Vec2, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, wgpu::WgpuTestRenderer};
 use fabrica::app::{
@@ -1298,4 +1298,40 @@ fn tissue_is_left_alone_by_check_boxes() {
     assert_eq!(get(&window, "constrain/by"), Some("coordinate".into()));
     window.press_with(Modifiers::COMMAND, Key::Z);
     assert_eq!(get(&window, "constrain"), None);
+}
+
+#[test]
+fn a_drawer_is_scrolled_by_a_finger() {
+    let mut window = Window::open(vec2(360.0, 640.0), CUBE);
+    // From the first touch on, drags scroll what they do not hold.
+    for phase in [egui::TouchPhase::Start, egui::TouchPhase::End] {
+        window.harness.event(egui::Event::Touch {
+            device_id: egui::TouchDeviceId(1),
+            id: egui::TouchId(1),
+            phase,
+            pos: pos2(5.0, 200.0),
+            force: None,
+        });
+        window.steps(2);
+    }
+    window.click("Look");
+    window.steps(10);
+    let height = |window: &Window| {
+        let button = window.harness.get_by_label("Background: Paper");
+        button.rect().center().y
+    };
+    let look = window.document().illustration().look.clone();
+    // On a name, and on the plot between its points.
+    for from in [pos2(30.0, 378.0), pos2(230.0, 480.0)] {
+        let before = height(&window);
+        window.drag(from, vec2(0.0, -120.0));
+        let moved = before - height(&window);
+        assert!(moved > 60.0, "from {from}: {moved}");
+        window.drag(pos2(from.x, 330.0), vec2(0.0, 240.0));
+    }
+    assert_eq!(
+        window.document().illustration().look,
+        look,
+        "and nothing else"
+    );
 }

@@ -395,6 +395,11 @@ impl Editor {
                     push_window(held.window.map(|v| v + by), 1, axis, shown, commands);
                 }
                 Grip::Axis => {
+                    // A finger that finds nothing to hold scrolls the panel, which is mostly plot on a phone.
+                    if ui.input(egui::InputState::has_touch_screen) {
+                        let by = vec2(0.0, ui.input(|i| i.pointer.delta().y));
+                        ui.scroll_with_delta_animation(by, egui::style::ScrollAnimation::none());
+                    }
                     if self.zoomed.is_some() {
                         let width = held.shown[1] - held.shown[0];
                         let by = (held.from.x - pos.x) * axis.per_point();
