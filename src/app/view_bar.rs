@@ -19,7 +19,7 @@ pub(super) const LOW: f32 = 330.0;
 
 /// Side of a button with its frame, points.
 fn button() -> f32 {
-    theme::control_height().max(34.0)
+    (theme::control_height() + 4.0).max(34.0)
 }
 
 /// Width at the right edge of a picture that the buttons take, points; nothing where they lie along its foot.
