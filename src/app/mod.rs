@@ -379,9 +379,10 @@ impl App {
             if key == egui::Key::Enter && self.state.placing.is_none() {
                 continue;
             }
-            if ui.input_mut(|i| i.consume_shortcut(&shortcut.keys)) {
-                commands.push(shortcut.command);
-            }
+            // A slow frame may hold a key that was pressed several times.
+            let modifiers = shortcut.keys.modifiers;
+            let times = ui.input_mut(|i| i.count_and_consume_key(modifiers, key));
+            commands.extend(std::iter::repeat_n(shortcut.command, times));
         }
     }
 
