@@ -7,6 +7,8 @@
 mod author;
 #[path = "e2e/compare.rs"]
 mod compare;
+#[path = "e2e/hand.rs"]
+mod hand;
 #[path = "e2e/harness.rs"]
 mod harness;
 

@@ -186,6 +186,22 @@ impl Viewer {
         Some(shown.0.document().to_json_compact())
     }
 
+    /// The controls that are seen, a line each: role, name, value, and where it lies in the canvas (left, top, width and
+    /// height, CSS pixels), parted by tabs. Empty at the first call; the next frame makes it.
+    pub fn controls(&self) -> String {
+        let page = self.page.borrow();
+        let Some(ctx) = &page.ctx else {
+            return String::new();
+        };
+        let controls = ctx.plugin_or_default::<Controls>();
+        let text = controls.lock().text.clone();
+        if text.is_empty() {
+            ctx.enable_accesskit();
+            ctx.request_repaint();
+        }
+        text
+    }
+
     /// True when the picture is complete and nothing is being loaded.
     pub fn is_at_rest(&self) -> bool {
         let shown = self.runner.app_mut::<Shown>();
@@ -236,6 +252,40 @@ impl Viewer {
             (file.name(), file.into())
         });
         PageServices(Rc::clone(&self.page)).open_files(files.collect());
+    }
+}
+
+/// The controls of the last frame as text, once somebody has asked for them.
+#[derive(Default)]
+struct Controls {
+    text: String,
+}
+
+impl egui::Plugin for Controls {
+    fn debug_name(&self) -> &'static str {
+        "controls"
+    }
+
+    fn output_hook(&mut self, ctx: &egui::Context, output: &mut egui::FullOutput) {
+        use std::fmt::Write as _;
+        let Some(tree) = output.platform_output.accesskit_update.take() else {
+            return;
+        };
+        let factor = f64::from(ctx.zoom_factor());
+        self.text.clear();
+        for (_, node) in &tree.nodes {
+            let (Some(name), Some(place)) = (node.label(), node.bounds()) else {
+                continue;
+            };
+            let value = node.value().unwrap_or_default();
+            let [x, y, w, h] =
+                [place.x0, place.y0, place.width(), place.height()].map(|v| v * factor);
+            let role = node.role();
+            let _infallible = writeln!(
+                self.text,
+                "{role:?}\t{name}\t{value}\t{x:.0}\t{y:.0}\t{w:.0}\t{h:.0}"
+            );
+        }
     }
 }
 

@@ -1,37 +1,24 @@
-//! What an author does in a real browser: templates go from tab to tab, tabs keep their own documents, a page sleeps.
+//! What an author does in a real browser: by touch alone on a phone, in two tabs; and a page that sleeps.
 
+use super::hand::{
+    CTRL, Touch, changed, controls, document, find, focus, mark, pause, press, press_with,
+};
 use super::harness::{Tab, with_browser};
 use super::*;
-use chromiumoxide::cdp::browser_protocol::emulation::SetFocusEmulationEnabledParams;
-use chromiumoxide::cdp::browser_protocol::input::{DispatchKeyEventParams, DispatchKeyEventType};
 use serde_json::Value;
 
+/// A phone, CSS pixels.
+const PHONE: (u32, u32) = (360, 640);
 /// A cube with nothing placed: quick to draw.
 const PLAIN: &str = r#"{"fabrica":1,"subject":{"builtin":"cube"}}"#;
+/// What is there before the author chooses.
+const OTHER: &str = r#"{"fabrica":1,"subject":{"builtin":"bar"}}"#;
+
+const IS_CUBE: &str =
+    "JSON.parse(window.fabrica.viewer.get_document()).subject?.builtin === 'cube'";
 
 const TEMPLATES: &str =
     "(JSON.parse(window.fabrica.viewer.get_document() || '{}').templates ?? [])";
-
-/// Gives the picture the keyboard, as a browser's window does that is in front.
-async fn focus(tab: &Tab) {
-    let emulation = SetFocusEmulationEnabledParams::new(true);
-    tab.page
-        .execute(emulation)
-        .await
-        .expect("a window in front");
-    tab.eval::<bool>("(document.getElementById('fabrica').focus(), true)")
-        .await;
-    pause(300).await;
-}
-
-fn pause(milliseconds: u64) -> impl Future<Output = ()> {
-    tokio::time::sleep(Duration::from_millis(milliseconds))
-}
-
-async fn document(tab: &Tab) -> Value {
-    let text: String = tab.eval("window.fabrica.viewer.get_document()").await;
-    serde_json::from_str(&text).expect("the viewer's document is JSON")
-}
 
 /// The text on the clipboard once it has come.
 async fn clipboard(tab: &Tab, start: &str) -> String {
@@ -42,40 +29,124 @@ async fn clipboard(tab: &Tab, start: &str) -> String {
     tab.eval(read).await
 }
 
-// ---------------------------------------------------------------------------------------------------- keys
+// ---------------------------------------------------------------------------------------------------- the path
 
-/// Ctrl as the protocol counts it.
-const CTRL: i64 = 2;
+/// Choose, place, open, adjust the look, copy the link: with fingers on a phone.
+#[test]
+fn the_path_by_touch_alone() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.allow_clipboard().await;
+        let tab = session
+            .viewer_sized(&format!("#{}", payload(OTHER)), PHONE)
+            .await;
+        let hand = Touch::new(&tab).await;
+        hand.scenery().await;
+        hand.tap("Subject").await;
+        tab.picture("touch_0_subjects").await;
+        hand.tap("Cube").await;
+        tab.wait_until(IS_CUBE, 20).await;
+        hand.scenery().await;
+        tab.picture("touch_1_start").await;
 
-/// A key with others held; `command` is what the browser's own editing would do with it.
-async fn press_with(tab: &Tab, modifiers: i64, key: &str, command: Option<&str>) {
-    for kind in [DispatchKeyEventType::KeyDown, DispatchKeyEventType::KeyUp] {
-        let mut params = DispatchKeyEventParams::new(kind.clone());
-        params.modifiers = Some(modifiers);
-        params.key = Some(key.to_owned());
-        let is_letter = key.len() == 1;
-        params.code = Some(match key.chars().next() {
-            Some(c) if is_letter && c.is_ascii_alphabetic() => {
-                format!("Key{}", c.to_ascii_uppercase())
-            }
-            Some('/') => "Slash".to_owned(),
-            Some(']') => "BracketRight".to_owned(),
-            Some(' ') => "Space".to_owned(),
-            _ => key.to_owned(),
-        });
-        if kind == DispatchKeyEventType::KeyDown {
-            if is_letter && modifiers & CTRL == 0 {
-                params.text = Some(key.to_owned());
-            }
-            params.commands = command.map(|command| vec![command.to_owned()]);
-        }
-        tab.page.execute(params).await.expect("a key");
-    }
-    pause(250).await;
-}
+        // One finger turns, two zoom and move.
+        let camera = document(&tab).await["camera"].clone();
+        let middle = find(&tab, "Picture").await.middle();
+        let beside = |x: f64, y: f64| (middle.0 + x, middle.1 + y);
+        mark(&tab, "camera").await;
+        hand.swipe(&[[beside(-120.0, -60.0), beside(-70.0, -60.0)]])
+            .await;
+        let turned = changed(&tab, "camera").await;
+        assert_ne!(turned["rotate"], camera["rotate"], "one finger turns");
+        assert_eq!(turned["target"], camera["target"], "and moves nothing");
+        mark(&tab, "camera").await;
+        let pinch = [
+            [beside(-30.0, 0.0), beside(-70.0, 20.0)],
+            [beside(30.0, 0.0), beside(90.0, 40.0)],
+        ];
+        hand.swipe(&pinch).await;
+        let pinched = changed(&tab, "camera").await;
+        let distance = |camera: &Value| camera["distance"].as_f64().unwrap_or(2.5);
+        assert!(
+            distance(&pinched) < 0.9 * distance(&turned),
+            "two fingers come closer: {turned} {pinched}"
+        );
+        assert_ne!(pinched["target"], turned["target"], "and move");
+        assert_eq!(pinched["rotate"], turned["rotate"], "and turn nothing");
+        mark(&tab, "camera").await;
+        hand.tap("Back to the first view").await;
+        changed(&tab, "camera").await;
 
-async fn press(tab: &Tab, key: &str) {
-    press_with(tab, 0, key, None).await;
+        // Choose and place.
+        hand.tap("Add").await;
+        tab.picture("touch_2_catalogue").await;
+        hand.tap("Place peel").await;
+        let middle = find(&tab, "Picture").await.middle();
+        hand.tap_at(middle).await;
+        tab.wait_until(&format!("{TEMPLATES}.length === 1"), 60)
+            .await;
+        tab.picture("touch_3_placed").await;
+        let placed = document(&tab).await;
+        assert_eq!(placed["templates"][0]["kind"], "peel", "{placed}");
+
+        // Open it where it acts: its handle is drawn out.
+        let handle = find(&tab, "Drag progress").await;
+        mark(&tab, "templates").await;
+        let from = handle.middle();
+        hand.swipe(&[[from, (from.0 + 60.0, from.1)]]).await;
+        let opened = changed(&tab, "templates").await;
+        tab.picture("touch_4_opened").await;
+        let progress = |t: &Value| t[0]["params"]["progress"].as_f64().unwrap_or(0.5);
+        assert!(
+            (progress(&opened) - progress(&placed["templates"])).abs() > 0.05,
+            "its handle opens it: {opened}"
+        );
+
+        // A long press is the right button: the template's menu. A tap above it puts it away.
+        let beside = find(&tab, "Picture").await.corner(0.9, 0.3);
+        hand.hold_at(beside).await;
+        let first = find(&tab, "Copy").await;
+        tab.picture("touch_5_menu").await;
+        hand.tap_at((20.0, first.at.1 - 20.0)).await;
+        let open: Vec<String> = controls(&tab).await.into_iter().map(|c| c.name).collect();
+        assert!(
+            !open.contains(&"Duplicate".to_owned()),
+            "the menu is away: {open:?}"
+        );
+
+        // The look: a tap on a background, which is far down in the drawer.
+        hand.tap("Look").await;
+        mark(&tab, "look").await;
+        hand.scroll_to("Background: Paper").await;
+        tab.picture("touch_6_look").await;
+        hand.tap("Background: Paper").await;
+        let look = changed(&tab, "look").await;
+        assert!(look["background"].is_string(), "{look}");
+        hand.tap("Look").await;
+        rest(&tab).await;
+        tab.picture("touch_7_done").await;
+
+        // Everything that a thumb has to meet is large enough for one; the marks of the ball of axes stand in the menu of views too.
+        let small: Vec<String> = controls(&tab)
+            .await
+            .into_iter()
+            .filter(|c| c.role == "Button" && !c.name.starts_with("View: "))
+            .filter(|c| c.size.0.min(c.size.1) < 40.0)
+            .map(|c| format!("{} {:?}", c.name, c.size))
+            .collect();
+        assert!(small.is_empty(), "too small for a finger: {small:?}");
+
+        // The link.
+        hand.tap("Copy link").await;
+        let link = clipboard(&tab, &session.server.address()).await;
+        let sent = document(&tab).await;
+        let other = session.viewer_at(&link, PHONE).await;
+        other
+            .wait_until("window.fabrica.viewer.get_document() !== ''", 60)
+            .await;
+        assert_eq!(document(&other).await, sent, "the link is what was made");
+        other.assert_no_complaints().await;
+        tab.assert_no_complaints().await;
+    });
 }
 
 // ---------------------------------------------------------------------------------------------------- tabs
