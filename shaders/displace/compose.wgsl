@@ -24,6 +24,16 @@ struct Mapped {
     continuity: f32,
 }
 
+/// What the object has at a point.
+struct Material {
+    /// Rest space.
+    pos: vec3f,
+    /// As composed; below 0: nothing is here.
+    continuity: f32,
+    /// Templates that led here, or may have where no tissue is kept; 0 if it stayed where it was.
+    path: u32,
+}
+
 /// One template's inverse displacement in its own space. `kind` as in the catalogue; an unknown one is the identity.
 fn displace(kind: u32, q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     var d = at_rest(q);

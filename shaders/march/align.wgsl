@@ -51,16 +51,6 @@ override kept_by: u32 = 3u;
 /// point and all differ from the one before do not occur.
 const MAX_OPEN: u32 = 12u;
 
-/// What the object has at a point.
-struct Material {
-    /// Rest space.
-    pos: vec3f,
-    /// As composed along the path; below 0: nothing is here.
-    continuity: f32,
-    /// Templates on the path that led here; 0 if it stayed where it was.
-    path: u32,
-}
-
 /// Where a point lies in the texture of distances.
 fn distance_uvw(rest: vec3f, slab: u32) -> vec3f {
     let r = vec4f(rest, 1.0);

@@ -12,16 +12,6 @@ fn map_step() -> f32 {
     return baked.origin_min.w;
 }
 
-/// What the object has at a point.
-struct Material {
-    /// Rest space.
-    pos: vec3f,
-    /// As composed; below 0: nothing is here.
-    continuity: f32,
-    /// Templates that may have led here.
-    path: u32,
-}
-
 /// What the object has at a point of subject space. Cells that no template reaches are exact.
 fn object_from_subject(pos: vec3f, mask: u32) -> Mapped {
     let found = textureSampleLevel(baked_map, linear_sampler, (pos - baked.origin_min.xyz) * baked.per_unit.xyz, 0.0);

@@ -10,16 +10,6 @@ fn map_step() -> f32 {
     return 0.0005;
 }
 
-/// What the object has at a point.
-struct Material {
-    /// Rest space.
-    pos: vec3f,
-    /// As composed; below 0: nothing is here.
-    continuity: f32,
-    /// Templates that may have led here.
-    path: u32,
-}
-
 /// What the object has at a point of subject space: where it was at rest; a continuity below 0 where there is nothing.
 fn object_from_subject(pos: vec3f, mask: u32) -> Mapped {
     return rest_from_subject(pos, mask);

@@ -160,6 +160,27 @@ fn constraint_of(i: u32) -> u32 {
     return features.items[templates.items[i].group].keeps.w;
 }
 
+/// The voxel of the smooth distances that is nearest to a place at rest. Beyond them the distance is that at their edge and more; how
+/// much more is left out.
+fn distance_voxel(rest: vec3f) -> vec3i {
+    let r = vec4f(rest, 1.0);
+    let uvw = vec3f(
+        dot(features.distance_from_rest_row0, r),
+        dot(features.distance_from_rest_row1, r),
+        dot(features.distance_from_rest_row2, r),
+    );
+    let last = vec3i(features.distance_dims.xyz) - 1;
+    return min(vec3i(clamp(uvw, vec3f(0.0), vec3f(1.0)) * features.distance_dims.xyz), last);
+}
+
+/// Distance of a voxel to the nearest of some sets of segments.
+fn distance_to_sets(voxel: vec3i, sets: u32) -> f32 {
+    let near = textureLoad(distances, voxel, 0);
+    let held = (vec4u(sets) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
+    let each = select(vec4f(NO_END), near, held);
+    return min(min(each.x, each.y), min(each.z, each.w));
+}
+
 /// True if tissue in the box may stay where it is, as template i leaves it alone.
 fn may_stay(i: u32, center: vec3f, half: vec3f) -> bool {
     if has_kept == 0u {
@@ -175,26 +196,13 @@ fn may_stay(i: u32, center: vec3f, half: vec3f) -> bool {
     }
     // Nothing acts before: what stays is where it was at rest. Distances change by no more than the way; they are read at the
     // nearest voxel and smoothed, three voxels in all.
-    let r = vec4f(center, 1.0);
-    let uvw = vec3f(
-        dot(features.distance_from_rest_row0, r),
-        dot(features.distance_from_rest_row1, r),
-        dot(features.distance_from_rest_row2, r),
-    );
-    let inside = clamp(uvw, vec3f(0.0), vec3f(1.0));
-    // Beyond the grid the distance is that at its edge and more; how much more is left out.
-    let last = vec3i(features.distance_dims.xyz) - 1;
-    let voxel = min(vec3i(inside * features.distance_dims.xyz), last);
     let reach = length(half) + 3.0 * features.distance_dims.w;
-    var least = NO_END;
+    let voxel = distance_voxel(center);
+    var least = distance_to_sets(voxel, item.keeps.x);
     if (item.keeps.x & KEEPS_DEEP) != 0u {
-        let behind = vec3i(0, 0, i32(features.slabs.z) * (last.z + 1));
-        least = item.lengths.x - textureLoad(distances, voxel + behind, 0).x;
+        let behind = vec3i(0, 0, i32(features.slabs.z * u32(features.distance_dims.z)));
+        least = min(least, item.lengths.x - textureLoad(distances, voxel + behind, 0).x);
     }
-    let near = textureLoad(distances, voxel, 0);
-    let held = (vec4u(item.keeps.x) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
-    let each = select(vec4f(NO_END), near, held);
-    least = min(least, min(min(each.x, each.y), min(each.z, each.w)));
     return least <= reach;
 }
 
@@ -216,18 +224,7 @@ fn is_reached_by_rigid(head: u32, center: vec3f, half: vec3f) -> bool {
         return false;
     }
     let box = moved_whole(head, center, half);
-    let r = vec4f(box[0], 1.0);
-    let uvw = vec3f(
-        dot(features.distance_from_rest_row0, r),
-        dot(features.distance_from_rest_row1, r),
-        dot(features.distance_from_rest_row2, r),
-    );
-    let last = vec3i(features.distance_dims.xyz) - 1;
-    let voxel = min(vec3i(clamp(uvw, vec3f(0.0), vec3f(1.0)) * features.distance_dims.xyz), last);
-    let near = textureLoad(distances, voxel, 0);
-    let held = (vec4u(features.items[head].keeps.z) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
-    let each = select(vec4f(NO_END), near, held);
-    let least = min(min(each.x, each.y), min(each.z, each.w));
+    let least = distance_to_sets(distance_voxel(box[0]), features.items[head].keeps.z);
     return least <= length(half) + features.items[head].lengths.w + 3.0 * features.distance_dims.w;
 }
 
