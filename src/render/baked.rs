@@ -1,7 +1,7 @@
 use super::gpu_types::Baked;
 use super::passes::uniform;
 use super::programs::module;
-use super::subject::entry;
+use super::subject::{entry, volume_texture};
 use super::{Gpu, Readback, RenderError, uniform_buffer};
 use crate::math::Aabb;
 use glam::{UVec3, Vec3};
@@ -116,22 +116,9 @@ impl BakedTexture {
             .ceil()
             .clamp(Vec3::splat(2.0), Vec3::splat(along));
         let [width, height, depth] = texels.as_uvec3().to_array();
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("baked map"),
-            size: wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: depth,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D3,
-            format: FORMAT,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::STORAGE_BINDING
-                | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let usage = wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let format = FORMAT;
+        let texture = volume_texture(gpu, "baked map", texels.as_uvec3(), format, usage);
         let place = Baked {
             origin_min: bounds.min.extend(DIFFERENCE_TEXELS * edge).to_array(),
             per_unit: size.recip().extend(0.0).to_array(),

@@ -5,7 +5,7 @@ use super::gpu_types::{BODY_HIDDEN, Bodies};
 use super::look::linear_color;
 use super::passes::Passes;
 use super::programs::module;
-use super::subject::{SubjectTextures, entry};
+use super::subject::{SubjectTextures, entry, volume_texture};
 use super::{Gpu, RenderError, uniform_buffer};
 use crate::data::{LabelVolume, Segment};
 use crate::document::SegmentLook;
@@ -212,22 +212,9 @@ impl BodyTextures {
 }
 
 fn texture_of(gpu: &Gpu, dims: UVec3) -> wgpu::TextureView {
-    gpu.device
-        .create_texture(&wgpu::TextureDescriptor {
-            label: Some("bodies"),
-            size: wgpu::Extent3d {
-                width: dims.x,
-                height: dims.y,
-                depth_or_array_layers: dims.z,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D3,
-            format: wgpu::TextureFormat::Rgba8Unorm,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::STORAGE_BINDING,
-            view_formats: &[],
-        })
-        .create_view(&Default::default())
+    let format = wgpu::TextureFormat::Rgba8Unorm;
+    let usage = wgpu::TextureUsages::STORAGE_BINDING;
+    volume_texture(gpu, "bodies", dims, format, usage).create_view(&Default::default())
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use super::gpu_types::{
 };
 use super::passes::Passes;
 use super::programs::module;
-use super::subject::{SubjectTextures, VoxelFrame, entry};
+use super::subject::{SubjectTextures, VoxelFrame, entry, volume_texture};
 use super::{Gpu, RenderError, uniform_buffer};
 use crate::data::Segment;
 use crate::displace::max_displacement;
@@ -47,8 +47,6 @@ pub struct KeptTissue {
     pub unknown: Vec<String>,
     /// 0: nothing is kept; 1: the first templates of the list keep the same; 2: any.
     pub align_mode: u32,
-    /// Some displacement gives way to kept tissue.
-    pub has_constraints: bool,
     /// How displacements give way, a bit for each `CONSTRAIN_` mode that occurs.
     pub constraints: u32,
 }
@@ -97,7 +95,6 @@ impl KeptTissue {
             items: [FeatureItem::default(); MAX_TEMPLATES],
             unknown: Vec::new(),
             align_mode: 0,
-            has_constraints: false,
             constraints: 0,
         };
         let acting: Vec<PlacedTemplate> = templates
@@ -164,7 +161,6 @@ impl KeptTissue {
                     ConstrainBy::Rigid => CONSTRAIN_RIGID,
                 };
                 kept.constraints |= 1 << item.keeps[3];
-                kept.has_constraints = true;
             }
         }
         for item in kept
@@ -222,16 +218,21 @@ impl KeptTissue {
 
     /// True if nothing is kept and nothing gives way.
     pub fn is_nothing(&self) -> bool {
-        self.align_mode == 0 && !self.has_constraints
+        self.align_mode == 0 && !self.has_constraints()
     }
 
     /// What the pipeline constant `align_mode` has to be: constraints need the walk by groups too.
     pub fn walk_mode(&self) -> u32 {
-        if self.has_constraints {
+        if self.has_constraints() {
             self.align_mode.max(1)
         } else {
             self.align_mode
         }
+    }
+
+    /// True if some displacement gives way to kept tissue.
+    pub fn has_constraints(&self) -> bool {
+        self.constraints != 0
     }
 
     /// True if some segment moves as a whole.
@@ -312,7 +313,7 @@ struct Plan {
 
 impl Plan {
     fn new(frame: &VoxelFrame, reads_labels: bool, kept: &KeptTissue) -> Self {
-        let exact = u32::from(kept.has_constraints);
+        let exact = u32::from(kept.has_constraints());
         let deep = if kept.keeps_deep { 1 + exact } else { 0 };
         let slabs = [1 + exact + u32::from(kept.keeps_deep), exact, deep, 0];
         let mut factor = 1;
@@ -372,7 +373,7 @@ impl FeatureTextures {
                 kept.label_sets,
                 kept.set_count,
                 kept.keeps_deep,
-                kept.has_constraints,
+                kept.has_constraints(),
             );
             if self.made_for != Some(made_for)
                 && let Some(passes) = passes.distance(gpu)
@@ -511,22 +512,9 @@ fn threshold(subject: &SubjectTextures) -> f32 {
 }
 
 fn texture_of(gpu: &Gpu, dims: UVec3) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("distances"),
-        size: wgpu::Extent3d {
-            width: dims.x,
-            height: dims.y,
-            depth_or_array_layers: dims.z,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D3,
-        format: wgpu::TextureFormat::Rgba16Float,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING
-            | wgpu::TextureUsages::STORAGE_BINDING
-            | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    })
+    let format = wgpu::TextureFormat::Rgba16Float;
+    let usage = wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC;
+    volume_texture(gpu, "distances", dims, format, usage)
 }
 
 /// The buffers of one making, dropped when it is handed in.

@@ -1,5 +1,7 @@
 use super::Gpu;
+use super::subject::volume_texture;
 use crate::document::{FieldSamples, MAX_FIELDS, PlacedTemplate, TemplateData};
+use glam::UVec3;
 
 /// Samples of the fields that act, in their order, as far as they are there: as many as are drawn.
 pub(super) fn acting_fields<'a>(
@@ -39,16 +41,11 @@ impl FieldTexture {
             size[1] = size[1].max(field.dims[1]);
             size[2] += field.dims[2];
         }
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("fields"),
-            size: extent(size),
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D3,
-            format: wgpu::TextureFormat::Rgba16Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
+        let format = wgpu::TextureFormat::Rgba16Float;
+        let usage = wgpu::TextureUsages::COPY_DST;
+        // Of no field, there is a texture all the same.
+        let size = UVec3::from(size).max(UVec3::ONE);
+        let texture = volume_texture(gpu, "fields", size, format, usage);
         let mut z = 0;
         for FieldSamples(field) in &samples {
             gpu.queue.write_texture(
@@ -62,7 +59,11 @@ impl FieldTexture {
                     bytes_per_row: Some(8 * field.dims[0]),
                     rows_per_image: Some(field.dims[1]),
                 },
-                extent(field.dims),
+                wgpu::Extent3d {
+                    width: field.dims[0],
+                    height: field.dims[1],
+                    depth_or_array_layers: field.dims[2],
+                },
             );
             z += field.dims[2];
         }
@@ -70,13 +71,5 @@ impl FieldTexture {
             view: texture.create_view(&Default::default()),
             samples,
         }
-    }
-}
-
-fn extent([width, height, depth]: [u32; 3]) -> wgpu::Extent3d {
-    wgpu::Extent3d {
-        width,
-        height,
-        depth_or_array_layers: depth.max(1),
     }
 }

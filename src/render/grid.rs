@@ -5,7 +5,7 @@ use super::feature::FeatureTextures;
 use super::gpu_types::{Grid, GridJob, GridTemplate, MAX_TEMPLATES, Templates};
 use super::look::TransferTable;
 use super::programs::module;
-use super::subject::{SubjectTextures, entry};
+use super::subject::{SubjectTextures, entry, volume_texture};
 use super::{Gpu, RenderError, SubjectInfo, uniform_buffer};
 use crate::displace::{Material, reach};
 use crate::document::{ParamValue, PlacedTemplate, TemplateKind};
@@ -122,22 +122,9 @@ pub(super) struct GridInput<'a> {
 impl SkipGrid {
     /// Holds nothing until [`SkipGrid::make`].
     pub(super) fn new(gpu: &Gpu) -> Self {
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("grid cells"),
-            size: wgpu::Extent3d {
-                width: CELLS,
-                height: CELLS,
-                depth_or_array_layers: CELLS,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D3,
-            format: wgpu::TextureFormat::Rg32Uint,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::STORAGE_BINDING
-                | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let usage = wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let format = wgpu::TextureFormat::Rg32Uint;
+        let texture = volume_texture(gpu, "grid cells", UVec3::splat(CELLS), format, usage);
         let per_cell = |label| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),

@@ -6,9 +6,10 @@ use super::grid::GridPasses;
 use super::look::{TABLE_SIZE, TransferTable};
 use super::programs::module;
 use super::rigid::RigidPasses;
-use super::subject::entry;
+use super::subject::{entry, volume_texture};
 use super::{Gpu, RenderError, SubjectInfo, uniform_buffer};
 use crate::document::OpacityMode;
+use glam::UVec3;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -456,22 +457,9 @@ impl Scene {
             view_formats: &[],
         });
         let no_grid = uniform_buffer(gpu, "no grid", &Grid::default());
-        let no_cells = gpu
-            .device
-            .create_texture(&wgpu::TextureDescriptor {
-                label: Some("no grid"),
-                size: wgpu::Extent3d {
-                    width: 1,
-                    height: 1,
-                    depth_or_array_layers: 1,
-                },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D3,
-                format: wgpu::TextureFormat::Rg32Uint,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING,
-                view_formats: &[],
-            })
+        let format = wgpu::TextureFormat::Rg32Uint;
+        let no_use = wgpu::TextureUsages::empty();
+        let no_cells = volume_texture(gpu, "no grid", UVec3::ONE, format, no_use)
             .create_view(&Default::default());
         let (grid_buffer, grid_view) = grid.unwrap_or((&no_grid, &no_cells));
         let grid = (grid_buffer.clone(), grid_view.clone());

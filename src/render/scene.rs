@@ -80,6 +80,16 @@ impl Prepared {
         std::mem::take(&mut self.notices)
     }
 
+    /// Says each name that means no segment once.
+    fn say_unknown(&mut self, names: &[String], notice: fn(&str) -> String) {
+        for name in names {
+            if !self.unknown.contains(name) {
+                self.notices.push(notice(name));
+                self.unknown.push(name.clone());
+            }
+        }
+    }
+
     /// Takes over what changed. True if the picture changes by it.
     pub(super) fn update(
         &mut self,
@@ -109,12 +119,7 @@ impl Prepared {
         }
         let kept = KeptTissue::of(&illustration.templates, &subject.segments, subject.bounds);
         if self.features.kept() != Some(&kept) {
-            for name in &kept.unknown {
-                if !self.unknown.contains(name) {
-                    self.notices.push(kept_notice(name));
-                    self.unknown.push(name.clone());
-                }
-            }
+            self.say_unknown(&kept.unknown, kept_notice);
             is_bound_anew |= self.features.update(gpu, passes, subject, kept);
             is_changed = true;
             is_grid_stale = true;
@@ -124,12 +129,7 @@ impl Prepared {
         let bodies = self
             .bodies
             .update(gpu, passes, subject, looks, &mut unknown);
-        for name in unknown {
-            if !self.unknown.contains(&name) {
-                self.notices.push(segment_notice(&name));
-                self.unknown.push(name);
-            }
-        }
+        self.say_unknown(&unknown, segment_notice);
         is_changed |= bodies.picture;
         if is_bound_anew || bodies.view {
             let fields = &self.fields.view;

@@ -230,6 +230,7 @@ impl Upload {
                 "volume",
                 volume.grid.dims,
                 wgpu::TextureFormat::R16Float,
+                wgpu::TextureUsages::COPY_DST,
             ),
             label_texture: label_texture(gpu, label_dims),
             next_slice: 0,
@@ -348,14 +349,17 @@ impl SubjectTextures {
 }
 
 fn label_texture(gpu: &Gpu, dims: UVec3) -> wgpu::Texture {
-    volume_texture(gpu, "labels", dims, wgpu::TextureFormat::R8Uint)
+    let format = wgpu::TextureFormat::R8Uint;
+    volume_texture(gpu, "labels", dims, format, wgpu::TextureUsages::COPY_DST)
 }
 
-fn volume_texture(
+/// A texture of three dimensions that programs read; `usage` is what else is done with it.
+pub(super) fn volume_texture(
     gpu: &Gpu,
     label: &str,
     dims: UVec3,
     format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
 ) -> wgpu::Texture {
     gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
@@ -364,7 +368,7 @@ fn volume_texture(
         sample_count: 1,
         dimension: wgpu::TextureDimension::D3,
         format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | usage,
         view_formats: &[],
     })
 }
