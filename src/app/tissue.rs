@@ -17,7 +17,7 @@ use crate::data::{FEATURE_COLORS_SRGB, Segment};
 use crate::document::{
     Align, CleanStep, Constrain, Edit, FeatureRecipe, FeatureSource, Illustration, MAX_FEATURES,
     MAX_SEEDS, MAX_SMOOTH_MM, ParamValue, PlacedTemplate, SegmentLook, TemplateData, TemplateKind,
-    TemplateMode, pointer,
+    TemplateMode, hex, pointer,
 };
 use crate::math::Placement;
 use crate::render::SubjectInfo;
@@ -313,10 +313,7 @@ fn set_look(tissue: &str, look: Option<(f32, Option<[u8; 3]>)>) -> Edit {
             let opacity = Value::from((f64::from(opacity) * 100.0).round() / 100.0);
             let value = match color {
                 None => opacity,
-                Some([r, g, b]) => {
-                    let color = format!("#{r:02x}{g:02x}{b:02x}");
-                    serde_json::json!({ "opacity": opacity, "color": color })
-                }
+                Some(color) => serde_json::json!({ "opacity": opacity, "color": hex(color) }),
             };
             Edit::Set {
                 pointer,

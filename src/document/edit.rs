@@ -238,7 +238,8 @@ fn rotation(q: Quat) -> Value {
     Value::from(q.to_array().map(rounded).to_vec())
 }
 
-fn hex(color_srgb: [u8; 3]) -> String {
+/// `#rrggbb`.
+pub(crate) fn hex(color_srgb: [u8; 3]) -> String {
     let [r, g, b] = color_srgb;
     format!("#{r:02x}{g:02x}{b:02x}")
 }

@@ -13,6 +13,7 @@
 
 use serde_json::{Map, Value, json};
 
+use super::edit::hex;
 use super::error::DocumentError;
 use super::json::shortened;
 use super::notice::NoticeKind;
@@ -122,8 +123,8 @@ impl FeatureRecipe {
         };
         let mut value = json!({ "name": self.name });
         let mut set = |key: &str, to: Value| value[key] = to;
-        if let Some([r, g, b]) = self.color_srgb {
-            set("color", json!(format!("#{r:02x}{g:02x}{b:02x}")));
+        if let Some(color_srgb) = self.color_srgb {
+            set("color", json!(hex(color_srgb)));
         }
         set(
             "from",

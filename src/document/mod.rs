@@ -66,6 +66,7 @@ pub use catalogue::{
     MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateKind, TemplateSpec,
 };
 pub use edit::Edit;
+pub(crate) use edit::hex;
 pub use error::DocumentError;
 pub use feature::{
     CleanStep, FeatureRecipe, FeatureSource, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_FEATURES,
