@@ -175,12 +175,17 @@ impl<'a> Touch<'a> {
         pause(300).await;
     }
 
-    /// A tap on a place.
-    pub(crate) async fn tap_at(&self, at: (f64, f64)) {
+    /// A finger on a place for so many milliseconds, and a pause.
+    async fn press_at(&self, at: (f64, f64), milliseconds: u64) {
         self.touch("touchStart", &[at]).await;
-        pause(90).await;
+        pause(milliseconds).await;
         self.touch("touchEnd", &[]).await;
         pause(400).await;
+    }
+
+    /// A tap on a place.
+    pub(crate) async fn tap_at(&self, at: (f64, f64)) {
+        self.press_at(at, 90).await;
     }
 
     /// A tap on the control of a name.
@@ -192,10 +197,7 @@ impl<'a> Touch<'a> {
 
     /// A finger rests on a place.
     pub(crate) async fn hold_at(&self, at: (f64, f64)) {
-        self.touch("touchStart", &[at]).await;
-        pause(1200).await;
-        self.touch("touchEnd", &[]).await;
-        pause(300).await;
+        self.press_at(at, 1200).await;
     }
 
     /// Swipes in the drawer until a control stands within it.
