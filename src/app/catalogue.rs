@@ -121,10 +121,11 @@ fn search_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             .align(egui::Align2::LEFT_CENTER)
             .char_limit(40)
             .id(id);
-        let response = ui.add(edit).named(making::w().search);
+        // Before the field is shown: it takes what is typed in this very frame, and says its name.
         if state.making.wants_search {
-            response.request_focus();
+            ui.memory_mut(|memory| memory.request_focus(id));
         }
+        let response = ui.add(edit).named(making::w().search);
         if response.changed() {
             commands.push(Command::Search(text.clone()));
         }

@@ -340,7 +340,7 @@ impl App {
     }
 
     fn keys(&self, ui: &Ui, commands: &mut Vec<Command>) {
-        let is_typing = ui.ctx().text_edit_focused();
+        let mut is_typing = ui.ctx().text_edit_focused() || self.state.making.wants_search;
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
         let is_sheet_open = self.state.is_keys_sheet_open
             || self.state.is_messages_open
@@ -353,6 +353,13 @@ impl App {
                     _ => None,
                 }));
             });
+            if let Some(typed) = ui.input(|i| typed_after_slash(&i.events)) {
+                is_typing = true;
+                commands.push(Command::StartSearch);
+                if !typed.is_empty() {
+                    commands.push(Command::Search(typed));
+                }
+            }
         }
         for shortcut in command::shortcuts() {
             if command::is_of_clipboard(&shortcut.command) {
@@ -718,4 +725,26 @@ impl eframe::App for App {
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
     }
+}
+
+/// What a slow frame holds of the words that follow the key of the search; `None` if that key was not pressed.
+fn typed_after_slash(events: &[egui::Event]) -> Option<String> {
+    let is_slash = |event: &egui::Event| match event {
+        egui::Event::Key {
+            key: egui::Key::Slash,
+            pressed,
+            modifiers,
+            ..
+        } => *pressed && !(modifiers.command || modifiers.ctrl || modifiers.alt),
+        _ => false,
+    };
+    let after = &events[events.iter().position(is_slash)? + 1..];
+    let typed: String = after
+        .iter()
+        .filter_map(|event| match event {
+            egui::Event::Text(text) => Some(text.as_str()),
+            _ => None,
+        })
+        .collect();
+    Some(typed.strip_prefix('/').unwrap_or(&typed).to_owned())
 }

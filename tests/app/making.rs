@@ -228,6 +228,37 @@ fn the_catalogue_is_searched() {
     );
 }
 
+/// In one frame as in many: none of the letters does what it does as a key.
+#[test]
+fn words_typed_at_once_are_searched_for() {
+    let mut window = Window::open(
+        DESK,
+        r#"{"fabrica":1,"subject":{"builtin":"cube"},"templates":[{"kind":"poke"}]}"#,
+    );
+    window.press(Key::N);
+    let keys = [Key::Slash, Key::H, Key::A, Key::R].into_iter();
+    for (key, letter) in keys.zip(["/", "h", "a", "r"]) {
+        let pressed = egui::Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        let text = egui::Event::Text(letter.to_owned());
+        // As one frame's events: the harness would give each a frame of its own.
+        window.harness.input_mut().events.extend([pressed, text]);
+    }
+    window.steps(3);
+    window.harness.event(egui::Event::Text("m".to_owned()));
+    window.steps(3);
+    let field = window
+        .harness
+        .get_by_role_and_label(Role::TextInput, "Search");
+    assert_eq!(field.value().as_deref(), Some("harm"));
+    assert!(window.document().illustration().templates[0].enabled);
+}
+
 #[test]
 fn a_displacement_field_that_is_opened_becomes_a_template() {
     use fabrica::load::{MemoryFiles, read_field};
