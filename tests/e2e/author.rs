@@ -1,8 +1,7 @@
-//! What an author does in a real browser: by touch alone on a phone, in two tabs; and a page that sleeps.
+//! What an author does in a real browser: by touch alone on a phone, by keyboard alone, in two tabs; and a page that sleeps.
 
-use super::hand::{
-    CTRL, Touch, changed, controls, document, find, focus, mark, pause, press, press_with,
-};
+use super::hand::{CTRL, SHIFT, document, mark, pause};
+use super::hand::{Touch, changed, controls, find, focus, hear, press, press_with, tab_to};
 use super::harness::{Tab, with_browser};
 use super::*;
 use serde_json::Value;
@@ -145,6 +144,76 @@ fn the_path_by_touch_alone() {
             .await;
         assert_eq!(document(&other).await, sent, "the link is what was made");
         other.assert_no_complaints().await;
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// The same path without mouse and finger, and without seeing more than what is said aloud.
+#[test]
+fn the_path_by_keys_alone() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.allow_clipboard().await;
+        let tab = session
+            .viewer_sized(&format!("#{}", payload(PLAIN)), PAGE)
+            .await;
+        rest(&tab).await;
+        focus(&tab).await;
+        mark(&tab, "camera").await;
+        press(&tab, "ArrowRight").await;
+        changed(&tab, "camera").await;
+        press(&tab, "0").await;
+
+        // Choose by search, place in the middle, open.
+        press(&tab, "/").await;
+        hear(&tab, "Search").await;
+        for letter in ["p", "e", "e", "l"] {
+            press(&tab, letter).await;
+        }
+        tab.picture("keys_1_search").await;
+        press(&tab, "Enter").await;
+        pause(1000).await;
+        press(&tab, "Enter").await;
+        tab.wait_until(&format!("{TEMPLATES}.length === 1"), 60)
+            .await;
+        tab.picture("keys_2_placed").await;
+        for _ in 0..4 {
+            press(&tab, "]").await;
+        }
+        // Opened by four times five hundredths.
+        tab.wait_until(
+            &format!("Math.abs({TEMPLATES}[0].params.progress - 0.7) < 0.01"),
+            20,
+        )
+        .await;
+
+        // The look: panel by panel, then control by control.
+        press(&tab, "e").await;
+        press(&tab, "e").await;
+        find(&tab, "Opacity: Mass").await;
+        tab_to(&tab, "Opacity: Mass").await;
+        press(&tab, "Enter").await;
+        tab.wait_until(
+            "JSON.parse(window.fabrica.viewer.get_document()).look?.opacity === 'mass'",
+            20,
+        )
+        .await;
+        rest(&tab).await;
+        tab.picture("keys_3_look").await;
+        let adjusted = document(&tab).await;
+        assert_eq!(adjusted["look"]["opacity"], "mass", "{adjusted}");
+
+        press_with(&tab, CTRL | SHIFT, "L", None).await;
+        let link = clipboard(&tab, &session.server.address()).await;
+        hear(&tab, "clipboard").await;
+        let other = session.viewer_at(&link, PAGE).await;
+        other
+            .wait_until("window.fabrica.viewer.get_document() !== ''", 60)
+            .await;
+        assert_eq!(
+            document(&other).await,
+            document(&tab).await,
+            "the link is what was made"
+        );
         tab.assert_no_complaints().await;
     });
 }

@@ -225,8 +225,9 @@ impl<'a> Touch<'a> {
 
 // ---------------------------------------------------------------------------------------------------- keys
 
-/// Ctrl as the protocol counts it.
+/// Ctrl and Shift as the protocol counts them.
 pub(crate) const CTRL: i64 = 2;
+pub(crate) const SHIFT: i64 = 8;
 
 /// Gives the picture the keyboard, as a browser's window does that is in front.
 pub(crate) async fn focus(tab: &Tab) {
@@ -281,4 +282,39 @@ pub(crate) async fn press_with(tab: &Tab, modifiers: i64, key: &str, command: Op
 
 pub(crate) async fn press(tab: &Tab, key: &str) {
     press_with(tab, 0, key, None).await;
+}
+
+/// Waits until the page says something aloud.
+pub(crate) async fn hear(tab: &Tab, wanted: &str) {
+    let said = "document.getElementById('said').textContent";
+    tab.wait_until(&format!("{said}.includes('{wanted}')"), 20)
+        .await;
+}
+
+/// What the page last said aloud.
+async fn spoken(tab: &Tab) -> String {
+    tab.eval("document.getElementById('said').textContent")
+        .await
+}
+
+/// Goes on with the tabulator until the page says that the keyboard has come to what is wanted.
+pub(crate) async fn tab_to(tab: &Tab, wanted: &str) {
+    let mut heard = Vec::new();
+    for _ in 0..60 {
+        let before = spoken(tab).await;
+        press(tab, "Tab").await;
+        let mut said = spoken(tab).await;
+        for _ in 0..20 {
+            if said != before {
+                break;
+            }
+            pause(100).await;
+            said = spoken(tab).await;
+        }
+        if said.contains(wanted) {
+            return;
+        }
+        heard.push(said);
+    }
+    panic!("the keyboard never came to {wanted}; it was at {heard:?}");
 }
