@@ -11,6 +11,8 @@ mod compare;
 mod hand;
 #[path = "e2e/harness.rs"]
 mod harness;
+#[path = "e2e/slices.rs"]
+mod slices;
 
 use compare::{difference, drawn_pixels, object_part};
 use fabrica::document::{Document, TemplateKind};
