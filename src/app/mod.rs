@@ -42,6 +42,7 @@ mod raw;
 mod services;
 mod slice_plot;
 mod slices;
+mod slow;
 mod state;
 mod steps;
 mod templates;
@@ -158,6 +159,7 @@ impl App {
         start: Start,
     ) -> Self {
         theme::install(&cc.egui_ctx);
+        cc.egui_ctx.add_plugin(slow::SlowClicks);
         let has_fingers = services.has_fingers();
         let contrast = services.stored(STORED_CONTRAST);
         let is_wanted = contrast.map_or_else(|| services.wants_contrast(), |text| text == "high");

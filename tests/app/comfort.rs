@@ -101,3 +101,44 @@ fn title_and_credit_are_written_into_a_saved_picture() {
         assert!(with > without + 200, "rows {rows:?}: {without} and {with}");
     }
 }
+
+/// A frame that takes a second lies between press and release of a short click; a finger that rests is still a finger that rests.
+#[test]
+fn clicks_count_on_slow_devices() {
+    let mut window = Window::open(DESK, CUBE);
+    let at = window
+        .harness
+        .get_by_label("Panel: Tissues")
+        .rect()
+        .center();
+    let now = |window: &Window| window.harness.ctx.input(|i| i.time);
+    let is_open = |window: &Window| window.harness.query_by_label("Make a tissue").is_some();
+    let button = |pressed| egui::Event::PointerButton {
+        pos: at,
+        button: egui::PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    let frame = |window: &mut Window, time: f64, events: &[egui::Event]| {
+        let input = window.harness.input_mut();
+        input.time = Some(time);
+        input.events.extend_from_slice(events);
+        window.harness.step();
+    };
+    window.harness.hover_at(at);
+    window.steps(2);
+    // Held for a second and more while frames are quick: not a click.
+    let mut time = now(&window);
+    frame(&mut window, time + 0.02, &[button(true)]);
+    for i in 1..60 {
+        frame(&mut window, time + 0.02 * f64::from(i + 1), &[]);
+    }
+    frame(&mut window, time + 1.22, &[button(false)]);
+    window.steps(2);
+    assert!(!is_open(&window), "it was held");
+    time = now(&window);
+    frame(&mut window, time + 0.02, &[button(true)]);
+    frame(&mut window, time + 1.5, &[button(false)]);
+    window.steps(2);
+    assert!(is_open(&window), "it was clicked");
+}
