@@ -13,6 +13,8 @@ mod hand;
 mod harness;
 #[path = "e2e/slices.rs"]
 mod slices;
+#[path = "e2e/tissue.rs"]
+mod tissue;
 
 use compare::{difference, drawn_pixels, object_part};
 use fabrica::document::{Document, TemplateKind};
