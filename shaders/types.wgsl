@@ -19,7 +19,7 @@ struct Template {
     subject_from_template_row0: vec4f,
     subject_from_template_row1: vec4f,
     subject_from_template_row2: vec4f,
-    /// xyz: side lengths, subject units.
+    /// xyz: side lengths, subject units, of the box that the template acts in; w: along x of the straight box where it lies along a curve.
     size: vec4f,
     /// Parameters in the order of the catalogue, flags 0 or 1, choices as index. The last is an index in the pool for kinds that use it.
     params0: vec4f,
@@ -28,7 +28,7 @@ struct Template {
     kind: u32,
     /// MODE_COMPOSE or MODE_ADD; the first of the list always composes.
     mode: u32,
-    /// Reserved, 0.
+    /// Index of its curve in the pool, 0 if it is straight.
     flags: u32,
     /// Index of the composing template that heads its `add` group (its own if it composes).
     group: u32,
@@ -39,8 +39,8 @@ struct Templates {
     items: array<Template, 32>,
     /// x: how many of them count.
     count: vec4u,
-    /// What templates hold besides parameters (displace/rbf.wgsl, displace/field.wgsl).
-    pool: array<vec4f, 512>,
+    /// What templates hold besides parameters (displace/rbf.wgsl, displace/field.wgsl, displace/curve.wgsl).
+    pool: array<vec4f, 640>,
 }
 
 /// One picture's camera and sampling.
@@ -157,14 +157,18 @@ struct Slice {
 const SLICE_GREY: u32 = 0u;
 const SLICE_COLORS: u32 = 1u;
 
-/// What a template reaches, for the making of the grid. Template space; a side without an end is at 1e30.
+/// What a template reaches, for the making of the grid. Template space, of the straight box; a side without an end is at 1e30.
 struct GridTemplate {
     /// First box; w of its lowest corner: half side of the largest box in which differences tell how the map changes.
     reach0_min: vec4f,
     reach0_max: vec4f,
-    /// Second box.
+    /// Second box. Where the template lies along a curve: w of its lowest corner is how much longer a step can be in its own space than
+    /// in the straight one, w of its highest the longest way of any material, subject units; else 1 and 0.
     reach1_min: vec4f,
     reach1_max: vec4f,
+    /// First box in the template's own space.
+    own_min: vec4f,
+    own_max: vec4f,
     /// Least shift of material; w: MATERIAL_ (0 shifted, 1 taken out of the cube, 2 bent, 3 rippled).
     shift_min: vec4f,
     /// Greatest shift, or how far the map departs from its differences (rippled); w: 1 if the map jumps at the faces of the first box.

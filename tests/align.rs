@@ -247,6 +247,9 @@ fn list(random: &mut Random, count: usize, choices: usize) -> Vec<PlacedTemplate
             let mut template = random.template(kind);
             template.placement.at *= 0.7;
             template.align = alignment(random, choices);
+            if random.unit() < 0.3 {
+                template.curve = Some(random.curve(template.placement.size));
+            }
             template
         })
         .collect();
@@ -455,9 +458,12 @@ fn kept_tissue_is_untouched() {
     }
     let (mut moved_without, mut count) = (0, 0);
     for kind in TemplateKind::FORMULAS {
-        for _ in 0..2 {
+        for round in 0..2 {
             let mut template = random.template(kind);
             template.placement.at *= 0.6;
+            if round == 1 {
+                template.curve = Some(random.curve(template.placement.size));
+            }
             moved_without += probe(&studio, &[template.clone()], &in_segment)
                 .iter()
                 .zip(&in_segment)

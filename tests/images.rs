@@ -281,6 +281,11 @@ const SNAPSHOTS: &[(&str, &str, &str)] = &[
         r#", "templates": [{ "kind": "peel", "size": [0.8, 0.6, 0.8], "at": [0, 0, 0.2] }]"#,
     ),
     (
+        "peel/along_a_curve",
+        "tomato",
+        r#", "templates": [{ "kind": "peel", "size": [0.9, 0.5, 0.4], "at": [0, 0, 0.24], "curve": { "points": [[0.02, 0], [0.12, 0.55], [0.3, 0.95], [0.7, 0.95], [0.88, 0.55], [0.98, 0]] }, "params": { "depth": 0.2, "progress": 0.6, "radius": 0.12 } }], "camera": { "rotate": [0.1564, 0, 0.1545, 0.9755], "distance": 2.4, "target": [0, 0, 0.3] }"#,
+    ),
+    (
         "split/wedge",
         "cube",
         r#", "templates": [{ "kind": "split", "size": [1, 1.4, 1.2], "at": [0, 0.1, 0.2] }]"#,
@@ -384,7 +389,7 @@ fn snapshots_match() {
     // Another version of the rasteriser rounds otherwise: silhouettes move by parts of a pixel.
     let is_recorded_adapter = recorded.trim() == adapter.trim();
     let mut failures = Vec::new();
-    let studios: Vec<(&str, Studio)> = [("cube", 64), ("bar", 64), ("head", 112)]
+    let studios: Vec<(&str, Studio)> = [("cube", 64), ("bar", 64), ("tomato", 64), ("head", 112)]
         .into_iter()
         .map(|(name, resolution)| {
             (

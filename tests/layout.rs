@@ -65,7 +65,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
             fine, coarse, spacing, part, label_sets,
         }
         Bodies { items }
-        GridTemplate { reach0_min, reach0_max, reach1_min, reach1_max, shift_min, shift_max }
+        GridTemplate { reach0_min, reach0_max, reach1_min, reach1_max, own_min, own_max, shift_min, shift_max }
         GridJob {
             origin_min, cell_size, cells, brick_from_rest_row0, brick_from_rest_row1,
             brick_from_rest_row2, bricks, items,

@@ -586,6 +586,8 @@ fn golden_links_open_for_ever() {
     wanted.push(json!({ "fabrica": 1, "subject": { "builtin": "bar" }, "templates": [{ "kind": "rbf", "params": { "points": [
         { "at": [0.2, 0.5, 0.5], "move": [0.1, 0, -0.05] }, { "at": [0.8, 0.5, 0.5] }], "cut": [[0.5, 0], [0.55, 1]], "extrude": true, "edge": 0.2 } }] }));
     wanted.push(json!({ "fabrica": 1, "templates": [{ "kind": "field", "params": { "sha256": "b".repeat(64), "name": "Warp", "units": "subject" } }] }));
+    wanted.push(json!({ "fabrica": 1, "templates": [{ "kind": "peel", "size": [0.5, 0.4, 0.2], "curve": { "points": [[0, 0.4], [0.5, 1], [1, 0.55]] } },
+        { "kind": "poke", "curve": { "points": [[0, 1], [0.5, 1.2], [1, 1]], "spline": false } }] }));
     wanted.push(lesson(&mut Random(2026)));
     wanted.push(Random(1543).document());
     wanted.push(json!({ "fabrica": 1, "title": "Дом 家 🧠", "x-unknown": { "deep": [null, true, 1e-7, -2.5e300, 18_446_744_073_709_551_615_u64] } }));

@@ -11,9 +11,9 @@
 //
 // `drawn_kinds` is what makes this fast on devices that run both sides of every branch (software rasterisers do): a pipeline made for
 // a document leaves out the kinds that it does not use. All ones, the default, serves every document.
-// needs: types.wgsl bind/templates.wgsl displace/frame.wgsl displace/angles.wgsl displace/poke.wgsl displace/twist.wgsl displace/wave.wgsl displace/bend.wgsl displace/squeeze.wgsl displace/dilate.wgsl displace/peel.wgsl displace/flap.wgsl displace/split.wgsl displace/slices.wgsl displace/retractor.wgsl displace/cutquad.wgsl displace/peeler.wgsl displace/pull.wgsl displace/cut.wgsl displace/hole.wgsl displace/lens.wgsl displace/move.wgsl displace/rbf.wgsl displace/field.wgsl
+// needs: types.wgsl bind/templates.wgsl displace/frame.wgsl displace/angles.wgsl displace/poke.wgsl displace/twist.wgsl displace/wave.wgsl displace/bend.wgsl displace/squeeze.wgsl displace/dilate.wgsl displace/peel.wgsl displace/flap.wgsl displace/split.wgsl displace/slices.wgsl displace/retractor.wgsl displace/cutquad.wgsl displace/peeler.wgsl displace/pull.wgsl displace/cut.wgsl displace/hole.wgsl displace/lens.wgsl displace/move.wgsl displace/rbf.wgsl displace/field.wgsl displace/curve.wgsl
 
-/// Bit k set: templates of kind k occur. A pipeline constant.
+/// Bit k set: templates of kind k occur; bit 0: some lie along a curve. A pipeline constant.
 override drawn_kinds: u32 = 0xffffffffu;
 
 /// Where a point of the deformed object came from.
@@ -143,6 +143,26 @@ fn displace(kind: u32, q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced
     return d;
 }
 
+/// What template i does at a point of its straight box: where that came from less where it is, and the continuity.
+fn shifted(i: u32, q: vec3f, p0: vec4f) -> Displaced {
+    let kind = templates.items[i].kind;
+    let size = templates.items[i].size;
+    let p1 = templates.items[i].params1;
+    if (drawn_kinds & 1u) != 0u {
+        let first = templates.items[i].flags;
+        if first != 0u {
+            let own = unbend(first, size, q);
+            let d = displace(kind, own.xyz, size.xyz, p0, p1);
+            // What stays where it is stays there exactly.
+            let is_moved = own.w > 0.5 && any(d.source != own.xyz);
+            let by = bend(first, size, d.source) - q;
+            return Displaced(select(vec3f(0.0), by, is_moved), select(1.0, d.continuity, own.w > 0.5));
+        }
+    }
+    let d = displace(kind, q, size.xyz, p0, p1);
+    return Displaced(d.source - q, d.continuity);
+}
+
 /// Rest space from subject space. Bit i of `mask`: template i may reach this point; the others are not evaluated (all ones without a
 /// grid). Bits past the last template are ignored.
 fn rest_from_subject(pos: vec3f, mask: u32) -> Mapped {
@@ -169,15 +189,9 @@ fn rest_from_subject(pos: vec3f, mask: u32) -> Mapped {
             dot(templates.items[i].template_from_subject_row1, at1),
             dot(templates.items[i].template_from_subject_row2, at1),
         );
-        let d = displace(
-            templates.items[i].kind,
-            q,
-            templates.items[i].size.xyz,
-            templates.items[i].params0,
-            templates.items[i].params1,
-        );
+        let d = shifted(i, q, templates.items[i].params0);
         // Going back by the difference keeps an identity exact, however the template is placed.
-        let moved = d.source - q;
+        let moved = d.source;
         sum += vec3f(
             dot(templates.items[i].subject_from_template_row0.xyz, moved),
             dot(templates.items[i].subject_from_template_row1.xyz, moved),

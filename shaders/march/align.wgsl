@@ -156,8 +156,8 @@ fn group_done_partly(pos: vec3f, bits: u32, part: f32) -> Mapped {
         );
         let kind = templates.items[i].kind;
         let p0 = templates.items[i].params0 * mix(vec4f(1.0), vec4f(part), main_parameters(kind));
-        let d = displace(kind, q, templates.items[i].size.xyz, p0, templates.items[i].params1);
-        let moved = d.source - q;
+        let d = shifted(i, q, p0);
+        let moved = d.source;
         sum += vec3f(
             dot(templates.items[i].subject_from_template_row0.xyz, moved),
             dot(templates.items[i].subject_from_template_row1.xyz, moved),

@@ -111,8 +111,46 @@ fn to_subject_extent(i: u32, half: vec3f) -> vec3f {
     );
 }
 
-/// The moved reading. Templates that tear at a face are read as if the point lay inside.
+/// True if template i lies along a curve.
+fn is_curved(i: u32) -> bool {
+    return (drawn_kinds & 1u) != 0u && templates.items[i].flags != 0u;
+}
+
+/// The moved reading.
 fn moved_reading(i: u32, q: vec3f) -> Reading {
+    if !is_curved(i) {
+        return own_reading(i, q);
+    }
+    let first = templates.items[i].flags;
+    let size = templates.items[i].size;
+    let own = unbend(first, size, q);
+    let reading = own_reading(i, own.xyz);
+    let moved = bend(first, size, own.xyz + reading.moved) - q;
+    return Reading(select(vec3f(0.0), moved, own.w > 0.5), select(1.0, reading.continuity, own.w > 0.5));
+}
+
+/// True if the space of template i may fold, end or jump from one line to another in a box of these half sides: two points of it then lie
+/// farther from each other in its own space than any steps between them are.
+fn is_folded(i: u32, q: vec3f, walk: Walk) -> bool {
+    let first = templates.items[i].flags;
+    let size = templates.items[i].size;
+    let middle = unbend(first, size, q);
+    var is_whole = middle.w > 0.5;
+    for (var corner = 0u; corner < 14u; corner++) {
+        // The eight corners, then the middles of the six sides.
+        let bits = select(vec3u(0u), vec3u(1u), (vec3u(corner) & vec3u(1u, 2u, 4u)) != vec3u(0u));
+        let side = corner - 8u;
+        let axis = select(vec3f(0.0), vec3f(select(-1.0, 1.0, side < 3u)), vec3u(side % 3u) == vec3u(0u, 1u, 2u));
+        let to = select(axis, 2.0 * vec3f(bits) - 1.0, corner < 8u) * walk.half;
+        let own = unbend(first, size, q + to_template_vector(i, to));
+        let way = length((own.xyz - middle.xyz) * size.xyz);
+        is_whole = is_whole && own.w > 0.5 && way <= 1.05 * job.items[i].reach1_min.w * length(to) + 1e-4;
+    }
+    return !is_whole;
+}
+
+/// The same in the template's own space. Templates that tear at a face are read as if the point lay inside.
+fn own_reading(i: u32, q: vec3f) -> Reading {
     let size = templates.items[i].size.xyz;
     let p0 = templates.items[i].params0;
     let p1 = templates.items[i].params1;
@@ -130,14 +168,22 @@ fn moved_reading(i: u32, q: vec3f) -> Reading {
         return Reading(source - q, inside_box(source, size));
     }
     let is_torn = job.items[i].shift_max.w > 0.5;
-    let inside = clamp(q, job.items[i].reach0_min.xyz, job.items[i].reach0_max.xyz);
+    let inside = clamp(q, job.items[i].own_min.xyz, job.items[i].own_max.xyz);
     let at = select(q, inside, is_torn);
     let d = displace(kind, at, size, p0, p1);
     return Reading(d.source - at, d.continuity);
 }
 
 /// A of the reading that the point never moved. For templates of one reading 1 where they are torn from what is around them, else -1.
-fn rest_continuity(i: u32, q: vec3f, half: vec3f) -> f32 {
+fn rest_continuity(i: u32, seen: vec3f, half: vec3f) -> f32 {
+    var q = seen;
+    if is_curved(i) {
+        let own = unbend(templates.items[i].flags, templates.items[i].size, seen);
+        if own.w < 0.5 || job.items[i].shift_max.w > 0.5 {
+            return 1.0;
+        }
+        q = own.xyz;
+    }
     let size = templates.items[i].size.xyz;
     let p0 = templates.items[i].params0;
     let kind = templates.items[i].kind;
@@ -332,11 +378,17 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
             mask |= 1u << i;
 
             // The continuity of peel, flap and move has slope 1 in subject units, so the box's half diagonal bounds its change.
-            let margin = length(walk.half);
+            let margin = length(walk.half) * job.items[i].reach1_min.w;
             let is_within = job.items[i].shift_min.w == MATERIAL_WITHIN;
-            let is_coarse = max(across.x, max(across.y, across.z)) > job.items[i].reach0_min.w;
+            let is_bent = is_curved(i);
+            var is_coarse = max(across.x, max(across.y, across.z)) > job.items[i].reach0_min.w;
+            var folds = false;
+            if is_bent {
+                folds = is_folded(i, q, walk);
+                is_coarse = is_coarse || folds;
+            }
             let rest = rest_continuity(i, q, across);
-            let has_rest = rest + margin >= 0.0 || (is_coarse && is_within) || may_stay(i, walk.at, walk.half);
+            let has_rest = folds || rest + margin >= 0.0 || (is_coarse && is_within) || may_stay(i, walk.at, walk.half);
             // Near kept tissue a constrained template does anything between nothing and all of what it is set to.
             let is_partial = has_kept != 0u && constraint_of(i) != CONSTRAIN_NOTHING && constraint_of(i) != CONSTRAIN_RIGID;
 
@@ -348,7 +400,9 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
                 let farthest = max(abs(low), abs(high)) * templates.items[i].size.xyz;
                 // Turned or bent material has no bound of its own; the group's longest displacement holds.
                 let longest = features.items[templates.items[i].group].lengths.z;
-                next.spread += vec3f(max(longest, length(farthest)));
+                next.spread += vec3f(max(max(longest, length(farthest)), job.items[i].reach1_max.w));
+            } else if is_coarse && is_bent && (folds || job.items[i].shift_min.w != MATERIAL_BENT) {
+                next.spread += vec3f(job.items[i].reach1_max.w);
             } else if is_coarse && job.items[i].shift_min.w < MATERIAL_BENT {
                 if is_within {
                     // From anywhere in the cube.

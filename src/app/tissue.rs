@@ -98,6 +98,7 @@ impl Tissues {
                     thickness: 0.01,
                 },
                 constrain: None,
+                curve: None,
                 data: TemplateData::None,
             }],
             ..shown.clone()

@@ -1,7 +1,7 @@
 use super::facts::Material;
 use super::reach;
 use crate::document::{PlacedTemplate, TemplateMode};
-use crate::math::Aabb;
+use crate::math::{Aabb, Bent};
 use glam::Vec3;
 
 /// Beyond this from the origin nothing is followed any more: a list of moves can throw a box a hundred subjects away, where nobody looks.
@@ -32,6 +32,9 @@ pub fn deformed_bounds(templates: &[PlacedTemplate], at_rest: Aabb) -> Aabb {
 /// An upper bound of how far a template moves any material of a box (subject space), subject units.
 pub fn max_displacement(template: &PlacedTemplate, object: Aabb) -> f32 {
     let template = template.acting();
+    if let Some(bent) = template.bent() {
+        return longest_bent(&template, &bent, object);
+    }
     let shift = shift(&template, object);
     if shift.is_empty() {
         return 0.0;
@@ -53,6 +56,13 @@ fn after(group: &[&PlacedTemplate], object: Aabb) -> Aabb {
                     max: Vec3::ZERO,
                 },
                 |sum, template| {
+                    if let Some(bent) = template.bent() {
+                        let any = Vec3::splat(longest_bent(template, &bent, object));
+                        return Aabb {
+                            min: sum.min - any,
+                            max: sum.max + any,
+                        };
+                    }
                     let shift = shift(template, object);
                     if shift.is_empty() {
                         return sum;
@@ -79,10 +89,35 @@ fn after(group: &[&PlacedTemplate], object: Aabb) -> Aabb {
     }
 }
 
-/// The object's box in template space.
+/// The object's box in template space: of a template along a curve, in its own.
 fn in_template(template: &PlacedTemplate, object: Aabb) -> Aabb {
     let corners = object.corners();
-    Aabb::from_points(corners.map(|pos| template.placement.template_from_subject(pos)))
+    let straight =
+        Aabb::from_points(corners.map(|pos| template.placement.template_from_subject(pos)));
+    template
+        .bent()
+        .map_or(straight, |bent| bent.unbent_box(straight))
+}
+
+/// As [`max_displacement`], of a template along a curve.
+fn longest_bent(template: &PlacedTemplate, bent: &Bent, object: Aabb) -> f32 {
+    let material = in_template(template, object);
+    let size = template.placement.size;
+    // From anywhere in one box to anywhere in another.
+    let between =
+        |a: Aabb, b: Aabb| (bent.bent_box(a).union(bent.bent_box(b)).size() * size).length();
+    match reach(template).material {
+        Material::Stays => 0.0,
+        Material::Shifted(shift) => {
+            let farthest = shift.min.abs().max(shift.max.abs());
+            let z = [material.min.z - farthest.z, material.max.z + farthest.z];
+            let by = farthest * bent.size();
+            let flat = by.with_y(0.0).length() * bent.widening(z);
+            by.y.hypot(flat)
+        }
+        Material::Within(to) => between(Aabb::UNIT, to),
+        Material::Bent(arc) => between(material, arc.bounds(&material)),
+    }
 }
 
 /// Box (subject space) of where a template puts what it moves.
@@ -108,8 +143,14 @@ fn moved(template: &PlacedTemplate, object: Aabb) -> Aabb {
     if to.is_empty() {
         return Aabb::EMPTY;
     }
-    let corners = to.corners();
-    Aabb::from_points(corners.map(|q| template.placement.subject_from_template(q)))
+    let Some(bent) = template.bent() else {
+        let corners = to.corners();
+        return Aabb::from_points(corners.map(|q| template.placement.subject_from_template(q)));
+    };
+    let corners = bent.bent_box(to).corners();
+    let seen = Aabb::from_points(corners.map(|q| template.placement.subject_from_template(q)));
+    // The box of a bent layer holds much that is not: nothing goes farther than the farthest.
+    seen.intersection(object.expanded(longest_bent(template, &bent, object)))
 }
 
 /// Least and greatest forward displacement of material of the box, template space; empty if nothing moves.

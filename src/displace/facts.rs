@@ -122,7 +122,9 @@ impl Given {
         template.params.iter().for_each(|v| v.pack(&mut floats));
         floats.resize(MAX_PARAM_FLOATS, 0.0);
         Self {
-            size: template.placement.size,
+            size: template
+                .bent()
+                .map_or(template.placement.size, |bent| bent.size()),
             p: std::array::from_fn(|i| floats[i]),
             data: template.data.clone(),
         }

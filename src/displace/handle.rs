@@ -70,7 +70,7 @@ pub fn handle(template: &PlacedTemplate) -> Option<Handle> {
             };
             return Some(Handle {
                 param,
-                at: template.placement.subject_from_template(offset + 0.5),
+                at: template.subject_from_template(offset + 0.5),
                 along: None,
             });
         }
@@ -131,7 +131,7 @@ fn nearest(
     let furthest = match &facts_of(template.kind).grip {
         Grip::None => return None,
         Grip::Vector => {
-            let offset = template.placement.template_from_subject(to) - 0.5;
+            let offset = template.template_from_subject(to) - 0.5;
             let ParamKind::Vector {
                 min,
                 max,
@@ -183,7 +183,7 @@ fn path_point(template: &PlacedTemplate, value: f32) -> Option<Vec3> {
     let mut given = Given::new(template);
     // Every main number so far has only numbers before it, one float each.
     *given.p.get_mut(template.kind.spec().main_param?)? = value;
-    Some(template.placement.subject_from_template(position(&given)))
+    Some(template.subject_from_template(position(&given)))
 }
 
 fn current(template: &PlacedTemplate, param: usize) -> Option<f32> {

@@ -35,6 +35,7 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
         amount: 1.0,
         align: Align::Axis,
         constrain: None,
+        curve: None,
         data: icon_data(kind),
     };
     let [yaw, pitch] = icon.yaw_pitch_deg.map(f32::to_radians);

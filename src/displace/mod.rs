@@ -60,7 +60,7 @@ pub fn solved_points(template: &PlacedTemplate) -> Vec<[f32; 4]> {
 pub fn bent_lattice(template: &PlacedTemplate) -> Vec<Vec<glam::Vec3>> {
     let template = template.acting();
     let interpolant = rbf::Interpolant::of(&Given::new(&template));
-    let place = |q: glam::Vec3| template.placement.subject_from_template(q);
+    let place = |q: glam::Vec3| template.subject_from_template(q);
     let lines = interpolant.bent_lattice().into_iter();
     lines
         .map(|line| line.into_iter().map(place).collect())

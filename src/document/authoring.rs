@@ -44,14 +44,10 @@ fn reversing(axis: usize) -> Mat3 {
     Mat3::from_diagonal(signs)
 }
 
-/// The template that does on the other side of a plane what this one does here: placement and parameters.
-///
-/// With M the reflection of the subject, the mirrored map is M T M. M R alone is no rotation, so one axis of the template's
-/// cube is reversed as well (F): the placement M R F is proper again, and the kind must do F D F in its cube. Most kinds
-/// are symmetric about one of their middle planes and do that unchanged; those that have a hand take the other one.
-pub fn mirrored(template: &PlacedTemplate, plane: Plane) -> (Placement, Vec<ParamValue>) {
+/// The axis of its cube that a template's mirror image has reversed.
+fn reversed_axis(kind: TemplateKind) -> usize {
     use TemplateKind as K;
-    let flipped = match template.kind {
+    match kind {
         // These begin at their x = 0 edge or go off along x; in y they are symmetric.
         K::Peel | K::Flap | K::Slices => 1,
         K::Poke
@@ -71,7 +67,17 @@ pub fn mirrored(template: &PlacedTemplate, plane: Plane) -> (Placement, Vec<Para
         | K::Move
         | K::Rbf
         | K::Field => 0,
-    };
+    }
+}
+
+/// The template that does on the other side of a plane what this one does here: placement and parameters.
+///
+/// With M the reflection of the subject, the mirrored map is M T M. M R alone is no rotation, so one axis of the template's
+/// cube is reversed as well (F): the placement M R F is proper again, and the kind must do F D F in its cube. Most kinds
+/// are symmetric about one of their middle planes and do that unchanged; those that have a hand take the other one.
+pub fn mirrored(template: &PlacedTemplate, plane: Plane) -> (Placement, Vec<ParamValue>) {
+    use TemplateKind as K;
+    let flipped = reversed_axis(template.kind);
     let params = template
         .params
         .iter()
@@ -122,6 +128,14 @@ pub fn mirror(template: &PlacedTemplate, plane: Plane, as_copy: bool) -> Vec<Edi
         template: index,
         placement,
     });
+    if let Some(curve) = &template.curve
+        && reversed_axis(template.kind) == 0
+    {
+        edits.push(Edit::SetCurve {
+            template: index,
+            curve: Some(curve.mirrored()),
+        });
+    }
     if let TemplateData::Points(points) = &template.data {
         let mut points = points.clone();
         for point in &mut points.points {

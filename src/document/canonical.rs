@@ -101,6 +101,7 @@ fn template(template: &mut Map<String, Value>) {
         }
     }
     drop_if(template, "params", is_empty);
+    super::curve::strip(template);
 }
 
 fn is_param_default(spec: &ParamSpec, value: &Value) -> bool {

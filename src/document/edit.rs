@@ -1,4 +1,5 @@
 use super::catalogue::{ParamKind, ParamValue, TemplateKind};
+use super::curve::Curve;
 use super::error::DocumentError;
 use super::illustration::{
     Align, Background, Camera, Constrain, ConstrainBy, ControlPoints, Label, OpacityMode, Reading,
@@ -82,6 +83,13 @@ pub enum Edit {
         template: usize,
         /// Where its cube lies then.
         placement: Placement,
+    },
+    /// Lays a template along a curve.
+    SetCurve {
+        /// Which.
+        template: usize,
+        /// Template space; none makes it straight.
+        curve: Option<Curve>,
     },
     /// Sets how much of a template is done.
     SetAmount {
@@ -342,6 +350,13 @@ impl Edit {
                 let size = placement.size.to_array().map(rounded_size);
                 pointer::set(root, &join(&at, "size"), json!(size))
             }
+            Self::SetCurve { template: i, curve } => {
+                let at = join(&template(i), "curve");
+                let Some(curve) = curve else {
+                    return pointer::remove(root, &at).map(|_| ());
+                };
+                pointer::set(root, &at, curve.value())
+            }
             Self::SetAmount {
                 template: i,
                 amount,
@@ -568,6 +583,11 @@ impl Edit {
                 };
                 format!("{verb} {}", name_of(template))
             }
+            Self::SetCurve {
+                template,
+                curve: None,
+            } => format!("Straighten {}", name_of(template)),
+            Self::SetCurve { template, .. } => format!("Bend {}", name_of(template)),
             Self::SetAmount { template, .. } => format!("Change amount of {}", name_of(template)),
             Self::SetEnabled { template, enabled } => {
                 format!(
@@ -616,6 +636,7 @@ impl Edit {
             } => format!("/templates/{template}/params/{param}"),
             Self::SetControlPoints { template, .. } => format!("/templates/{template}/points"),
             Self::SetPlacement { template, .. } => format!("/templates/{template}/placement"),
+            Self::SetCurve { template, .. } => format!("/templates/{template}/curve"),
             Self::SetAmount { template, .. } => format!("/templates/{template}/amount"),
             Self::SetEnabled { template, .. } => format!("/templates/{template}/enabled"),
             Self::SetMode { template, .. } => format!("/templates/{template}/mode"),

@@ -1,4 +1,5 @@
 use super::catalogue::{ParamValue, TemplateKind};
+use super::curve::Curve;
 use super::feature::FeatureRecipe;
 use crate::math::Placement;
 use glam::{Quat, Vec2, Vec3};
@@ -173,6 +174,8 @@ pub struct PlacedTemplate {
     pub name: String,
     /// Where its cube lies.
     pub placement: Placement,
+    /// What its top lies along, if that is not straight.
+    pub curve: Option<Curve>,
     /// One value per entry of `kind.spec().params`, same order.
     pub params: Vec<ParamValue>,
     /// How much of it is done, 0 (as if not there) to 1 (as the parameters say); see [`PlacedTemplate::acting`].
@@ -228,8 +231,14 @@ impl PlacedTemplate {
                 let part = part.max(1e-3);
                 if self.params.first() == Some(&ParamValue::Choice(SPHERE)) {
                     acting.placement.size = size * part;
+                    acting.curve = acting
+                        .curve
+                        .map(|curve| curve.in_part(Vec2::splat(part), Vec2::splat(0.5)));
                 } else {
                     acting.placement.size.z = size.z * part;
+                    acting.curve = acting
+                        .curve
+                        .map(|curve| curve.in_part(Vec2::new(1.0, part), Vec2::ONE));
                     let down = 0.5 * size.z * (1.0 - part);
                     acting.placement.at += self.placement.rotate * Vec3::new(0.0, 0.0, down);
                 }

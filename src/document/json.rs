@@ -389,6 +389,7 @@ const INNER_KEYS: &[&str] = &[
     "at",
     "rotate",
     "size",
+    "curve",
     "type",
     "order",
     "spacing",

@@ -28,6 +28,7 @@
 //! | key | values | meaning |
 //! |---|---|---|
 //! | `/templates/i/amount` | 0 … 1, default 1 | how much the template does, of what its parameters say |
+//! | `/templates/i/curve` | `{ "points": [[x, z], …], "spline": true }`, 2 to 9 points in template space | the top of the template lies along this line (dissertation, section 5.3), from x = 0 at its first point to x = 1 at its last, in proportion to its length: round through the points (Catmull-Rom, drawn as 16 pieces), or straight from each to the next if `spline` is false. Heights stand on its mitred normals, y stays straight, beyond its ends it goes straight on, and the template is as long as the line. Where it is bent more sharply than that, nothing is moved. `[[0, 1], [1, 1]]` is the straight box |
 //! | `/templates/i/group` | text | templates of one name are selected and moved together; the picture does not ask for it |
 //! | `/templates/i/constrain/by` | `rigid` | the segments in `keep` move as a whole, by the rigid motion that comes nearest (least squares) to what the template would do to them; other tissue goes over into that motion close to them, and none is drawn through them (dissertation, section 5.7.2) |
 //! | `/look/gradient` | 0 … 1, default 0 | how far opacity follows the steepness of the value, with its correction at cuts (section 6.2.5): at 1 even tissue is clear and borders stay |
@@ -40,6 +41,7 @@
 mod authoring;
 mod canonical;
 mod catalogue;
+mod curve;
 mod edit;
 mod error;
 mod feature;
@@ -65,6 +67,7 @@ pub use authoring::{
 pub use catalogue::{
     MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateKind, TemplateSpec,
 };
+pub use curve::{Curve, MAX_CURVE};
 pub use edit::Edit;
 pub(crate) use edit::hex;
 pub use error::DocumentError;

@@ -57,6 +57,11 @@ pub enum NoticeKind {
     },
     /// There are more, which are not listed.
     More,
+    /// A curve that is not, or not wholly, drawn as written.
+    Curve {
+        /// Why, and what is drawn, in plain words.
+        what: &'static str,
+    },
     /// Two sources are named; one of them is left aside.
     LeftAside {
         /// What is taken.
@@ -123,6 +128,7 @@ impl fmt::Display for Notice {
                 write!(f, "{pointer}: {target} is not there; left out")
             }
             NoticeKind::More => write!(f, "there is more that this version does not know"),
+            NoticeKind::Curve { what } => write!(f, "{pointer}: {what}"),
             NoticeKind::LeftAside { taken } => {
                 write!(f, "{pointer}: {taken} is shown; this is kept, left aside")
             }

@@ -126,7 +126,9 @@ fn default_at(keys: &[String], kind: Option<TemplateKind>) -> Option<Value> {
         ["camera", "target"] | ["templates" | "labels", _, "at"] => json!([0, 0, 0]),
         ["camera", "rotate"] | ["templates", _, "rotate"] => json!([0, 0, 0, 1]),
         ["templates", _, "size"] => json!([0.5, 0.5, 0.5]),
-        ["templates", _, "params" | "align" | "constrain"] | ["steps", _, "set"] => json!({}),
+        ["templates", _, "params" | "align" | "constrain" | "curve"] | ["steps", _, "set"] => {
+            json!({})
+        }
         ["templates", _, "params", name] => {
             let spec = kind?.spec().params.iter().find(|p| p.name == *name)?;
             match spec.kind {

@@ -298,6 +298,7 @@ impl Reader {
                 "mode",
                 "align",
                 "constrain",
+                "curve",
             ],
         );
         let placement = Placement {
@@ -373,12 +374,21 @@ impl Reader {
             .iter()
             .map(|param| self.param(&params, param))
             .collect();
+        let values = values?;
+        // A layer is all that is moved of the box.
+        let layer = spec.params.iter().position(|param| param.name == "depth");
+        let layer = match layer.and_then(|i| values.get(i)) {
+            Some(ParamValue::Number(depth)) => *depth,
+            _ => 1.0,
+        };
+        let curve = self.curve(object, placement.size, layer)?;
         Ok(Some(PlacedTemplate {
             index,
             kind,
             name,
             placement,
-            params: values?,
+            curve,
+            params: values,
             amount,
             enabled,
             mode,

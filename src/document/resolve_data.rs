@@ -73,7 +73,7 @@ impl Reader {
     }
 
     /// The first entries of a list; says so if there are more.
-    fn first<'a>(
+    pub(super) fn first<'a>(
         &mut self,
         params: &Object<'a>,
         key: &str,

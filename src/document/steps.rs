@@ -1,6 +1,7 @@
 //! Steps: what each sets, and the passage from one to the next.
 
 use super::catalogue::{ParamKind, ParamValue};
+use super::curve::Curve;
 use super::error::DocumentError;
 use super::illustration::{
     Align, Background, Illustration, PlacedTemplate, TemplateData, Transfer, TransferPoint, Window,
@@ -166,6 +167,7 @@ fn blend_template(start: &PlacedTemplate, out: &mut PlacedTemplate, part: f32) {
     out.placement.rotate = slerp(start.placement.rotate, out.placement.rotate, part);
     out.placement.size = start.placement.size.lerp(out.placement.size, part);
     out.amount = mix(start.amount, out.amount);
+    out.curve = Curve::blend(start.curve.as_ref(), out.curve.as_ref(), part);
     let specs = out.kind.spec().params;
     for ((value, before), spec) in out.params.iter_mut().zip(&start.params).zip(specs) {
         *value = match (*before, *value) {

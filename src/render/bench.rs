@@ -166,6 +166,7 @@ fn case(subject: &SubjectRef, count: usize) -> Illustration {
         amount: 1.0,
         align: Align::Axis,
         constrain: None,
+        curve: None,
         data: Default::default(),
     };
     let all = [

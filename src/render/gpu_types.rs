@@ -13,7 +13,7 @@ pub const TABLE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Templates of one document at most (spec/contract.md, "Limits").
 pub const MAX_TEMPLATES: usize = 32;
 /// Entries of [`Templates::pool`].
-pub const POOL: usize = 512;
+pub const POOL: usize = 640;
 /// `Template::mode`: acts on what the ones before left.
 pub const MODE_COMPOSE: u32 = 0;
 /// `Template::mode`: summed with the one before.
@@ -42,7 +42,7 @@ pub struct Template {
     pub subject_from_template_row1: [f32; 4],
     /// Third row.
     pub subject_from_template_row2: [f32; 4],
-    /// xyz: side lengths, subject units.
+    /// xyz: side lengths of the box that it acts in, subject units; w: along x of the straight box where it lies along a curve.
     pub size: [f32; 4],
     /// Parameters 0 to 3.
     pub params0: [f32; 4],
@@ -52,7 +52,7 @@ pub struct Template {
     pub kind: u32,
     /// [`MODE_COMPOSE`] or [`MODE_ADD`].
     pub mode: u32,
-    /// Reserved, 0.
+    /// Index of its curve in the pool, 0 if it is straight.
     pub flags: u32,
     /// Index of the composing template that heads its `add` group (its own if it composes).
     pub group: u32,
@@ -97,41 +97,54 @@ impl Templates {
     pub fn pack(placed: &[PlacedTemplate]) -> Self {
         let mut packed = Self::NONE;
         let acting = placed.iter().map(PlacedTemplate::acting);
-        let enabled = acting.filter(|t| t.enabled).take(MAX_TEMPLATES);
+        let enabled: Vec<_> = acting.filter(|t| t.enabled).take(MAX_TEMPLATES).collect();
         let (mut count, mut group) = (0, 0);
-        // The first entry stays 0: no points and no samples.
+        // The first entry stays 0: no points, no samples, no curve. Curves come first: there is room for one of every template.
         let (mut used, mut slice) = (1, 0);
         let mut fields = 0;
-        for (slot, template) in packed.items.iter_mut().zip(enabled) {
+        let mut hold = |rows: &[[f32; 4]]| {
+            let free = packed.pool.get_mut(used..used + rows.len())?;
+            free.copy_from_slice(rows);
+            used += rows.len();
+            (!rows.is_empty()).then_some(used - rows.len())
+        };
+        for (slot, template) in packed.items.iter_mut().zip(&enabled) {
             if count == 0 || template.mode == TemplateMode::Compose {
                 group = count;
             }
-            *slot = Template::pack(&template, group, count);
+            *slot = Template::pack(template, group, count);
+            if let Some(bent) = template.bent()
+                && let Some(first) = hold(&bent.rows())
+            {
+                slot.size = bent.size().extend(slot.size[0]).to_array();
+                slot.flags = first as u32;
+            }
+            count += 1;
+        }
+        for (slot, template) in packed.items.iter_mut().zip(&enabled) {
             let held = match &template.data {
-                TemplateData::Points(_) => solved_points(&template),
+                TemplateData::Points(_) => solved_points(template),
                 TemplateData::Field(field) if fields < MAX_FIELDS => {
                     fields += usize::from(field.samples.is_some());
                     field_place(field, &mut slice)
                 }
                 TemplateData::Field(_) | TemplateData::None => Vec::new(),
             };
-            if let Some(free) = packed.pool.get_mut(used..used + held.len())
-                && !held.is_empty()
-            {
-                free.copy_from_slice(&held);
-                slot.params1[3] = used as f32;
-                used += held.len();
+            if let Some(first) = hold(&held) {
+                slot.params1[3] = first as f32;
             }
-            count += 1;
         }
         packed.count[0] = count;
         packed
     }
 
-    /// Bit k: templates of kind k occur. Pipelines are made for this.
+    /// Bit k: templates of kind k occur; bit 0: some lie along a curve. Pipelines are made for this.
     pub fn drawn_kinds(&self) -> u32 {
         let used = self.items.iter().take(self.count[0] as usize);
-        used.fold(0, |bits, t| bits | 1u32.checked_shl(t.kind).unwrap_or(0))
+        used.fold(0, |bits, t| {
+            let kind = 1u32.checked_shl(t.kind).unwrap_or(0);
+            bits | kind | u32::from(t.flags != 0)
+        })
     }
 }
 
@@ -418,10 +431,14 @@ pub struct GridTemplate {
     pub reach0_min: [f32; 4],
     /// First box, highest corner.
     pub reach0_max: [f32; 4],
-    /// Second box, lowest corner.
+    /// Second box, lowest corner; w: how much longer a step can be along a curve.
     pub reach1_min: [f32; 4],
-    /// Second box, highest corner.
+    /// Second box, highest corner; w: the longest way along a curve, subject units.
     pub reach1_max: [f32; 4],
+    /// First box in the template's own space, lowest corner.
+    pub own_min: [f32; 4],
+    /// Highest corner.
+    pub own_max: [f32; 4],
     /// Least shift; w: how material moves.
     pub shift_min: [f32; 4],
     /// Greatest shift; w: 1 if torn.

@@ -7,7 +7,7 @@ use super::look::TransferTable;
 use super::programs::module;
 use super::subject::{SubjectTextures, entry, volume_texture};
 use super::{Gpu, RenderError, SubjectInfo, uniform_buffer};
-use crate::displace::{Material, reach};
+use crate::displace::{Material, max_displacement, reach};
 use crate::document::{ParamValue, PlacedTemplate, TemplateKind};
 use crate::math::Aabb;
 use glam::{UVec3, Vec3};
@@ -343,7 +343,7 @@ fn plan(input: &GridInput<'_>, along: u32) -> (Grid, GridJob) {
     let acting: Vec<PlacedTemplate> = input.placed.iter().map(PlacedTemplate::acting).collect();
     let enabled = acting.iter().filter(|t| t.enabled);
     for (slot, template) in items.iter_mut().zip(enabled) {
-        *slot = item(template);
+        *slot = item(template, bounds);
     }
     let subject = &input.subject.uniform;
     let bricks = &input.subject.bricks;
@@ -368,8 +368,20 @@ fn plan(input: &GridInput<'_>, along: u32) -> (Grid, GridJob) {
     (grid, job)
 }
 
-fn item(template: &PlacedTemplate) -> GridTemplate {
+fn item(template: &PlacedTemplate, bounds: Aabb) -> GridTemplate {
     let reach = reach(template);
+    let (mut boxes, mut detail, mut stretch, mut longest) = (reach.boxes, reach.detail, 1.0, 0.0);
+    if let Some(bent) = template.bent() {
+        // Where nothing is changed the curve does nothing either.
+        let reached = boxes.iter().filter(|part| !part.is_empty());
+        let heights = reached.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], part| {
+            [low.min(part.min.z), high.max(part.max.z)]
+        });
+        stretch = bent.stretch(heights);
+        longest = max_displacement(template, bounds.expanded(0.5));
+        boxes = boxes.map(|part| bent.bent_box(part));
+        detail *= (bent.size().x / template.placement.size.x).min(1.0) / stretch;
+    }
     let corner = |v: Vec3, w: f32| {
         v.clamp(Vec3::splat(-NO_END), Vec3::splat(NO_END))
             .extend(w)
@@ -403,10 +415,12 @@ fn item(template: &PlacedTemplate) -> GridTemplate {
         Material::Bent(_) => (2.0, Aabb::UNIT),
     };
     GridTemplate {
-        reach0_min: corner(reach.boxes[0].min, reach.detail.min(NO_END)),
-        reach0_max: corner(reach.boxes[0].max, 0.0),
-        reach1_min: corner(reach.boxes[1].min, 0.0),
-        reach1_max: corner(reach.boxes[1].max, 0.0),
+        reach0_min: corner(boxes[0].min, detail.min(NO_END)),
+        reach0_max: corner(boxes[0].max, 0.0),
+        reach1_min: corner(boxes[1].min, stretch),
+        reach1_max: corner(boxes[1].max, longest),
+        own_min: corner(reach.boxes[0].min, 0.0),
+        own_max: corner(reach.boxes[0].max, 0.0),
         shift_min: corner(shift.min, kind),
         shift_max: corner(shift.max, f32::from(u8::from(reach.is_torn))),
     }

@@ -94,6 +94,7 @@ shader_files![
     "displace/move.wgsl",
     "displace/rbf.wgsl",
     "displace/field.wgsl",
+    "displace/curve.wgsl",
     "displace/compose.wgsl",
     "bind/frame.wgsl",
     "bind/subject.wgsl",
@@ -148,6 +149,7 @@ macro_rules! with_displacement {
             "displace/move.wgsl",
             "displace/rbf.wgsl",
             "displace/field.wgsl",
+            "displace/curve.wgsl",
             "displace/compose.wgsl",
             $($path),*
         ]

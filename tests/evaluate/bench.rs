@@ -56,6 +56,7 @@ pub(crate) fn plain(list: &[PlacedTemplate]) -> Vec<Placed> {
                 size: t.placement.size.as_dvec3(),
                 params: floats.into_iter().map(f64::from).collect(),
                 is_added: t.mode == TemplateMode::Add,
+                curve: None,
             }
         })
         .collect()

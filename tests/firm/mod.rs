@@ -23,6 +23,10 @@ pub(crate) fn as_reference(list: &[PlacedTemplate]) -> Vec<Placed> {
                 size: t.placement.size.as_dvec3(),
                 params: floats.into_iter().map(f64::from).collect(),
                 is_added: t.mode == TemplateMode::Add,
+                curve: t.curve.as_ref().map(|curve| {
+                    let points = curve.points.iter();
+                    (points.map(|p| p.as_dvec2()).collect(), curve.is_spline)
+                }),
             }
         })
         .collect()
@@ -48,6 +52,11 @@ pub(crate) fn firm(list: &[Placed], pos: DVec3) -> Option<(DVec3, f64)> {
             if param.fract() != 0.0 {
                 *param *= 1.0 + by;
             }
+        }
+        // Corners of a line are rounded each for itself.
+        let points = list.iter_mut().flat_map(|t| &mut t.curve);
+        for (i, point) in points.flat_map(|(points, _)| points).enumerate() {
+            *point *= 1.0 + 0.5 * if i % 2 == 0 { by } else { -by };
         }
         list
     };

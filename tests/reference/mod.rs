@@ -1,7 +1,9 @@
 //! A plain f64 reading of spec/templates.md, for tests only. It was written from that page, line by line and in its words, and
 //! not from the shaders: what both get wrong has to be misread twice.
 
-use glam::{DQuat, DVec3};
+mod curve;
+
+use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::TAU;
 
 /// A template as the document has it: ranges already applied, parameters as numbers in catalogue order (a flag is 0 or 1, a choice
@@ -20,6 +22,8 @@ pub(crate) struct Placed {
     pub(crate) params: Vec<f64>,
     /// `"mode": "add"`.
     pub(crate) is_added: bool,
+    /// `"curve"`: its points and whether it is a spline.
+    pub(crate) curve: Option<(Vec<DVec2>, bool)>,
 }
 
 impl Placed {
@@ -60,7 +64,16 @@ pub(crate) fn map_with(
         let mut displacement = DVec3::ZERO;
         for template in group {
             let q = touch(template.template_from_subject(p), template.size);
-            let (source, a) = source(template.kind, q, template.size, &template.params);
+            let line = template
+                .curve
+                .as_ref()
+                .map(|(points, is_spline)| curve::Line::along(points, *is_spline, template.size));
+            let (source, a) = match line {
+                None => source(template.kind, q, template.size, &template.params),
+                Some(line) => line.source(q, |own, size| {
+                    source(template.kind, own, size, &template.params)
+                }),
+            };
             displacement += template.subject_from_template_vector(source - q);
             continuity = continuity.min(a);
         }

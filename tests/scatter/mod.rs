@@ -2,9 +2,11 @@
 
 #![allow(dead_code, reason = "each test uses a part of it")]
 
-use fabrica::document::{Align, ParamKind, ParamValue, PlacedTemplate, TemplateKind, TemplateMode};
+use fabrica::document::{
+    Align, Curve, ParamKind, ParamValue, PlacedTemplate, TemplateKind, TemplateMode,
+};
 use fabrica::math::Placement;
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec2, Vec3};
 
 /// A small generator, the same numbers everywhere (xorshift64*).
 pub(crate) struct Random(pub(crate) u64);
@@ -96,6 +98,30 @@ impl Random {
             params.map(|p| self.param(&p.kind)).collect(),
         )
     }
+    /// A line that a template of this size can be laid along: it goes on and turns, a little or much.
+    pub(crate) fn curve(&mut self, size: Vec3) -> Curve {
+        loop {
+            let count = 2 + self.index(8);
+            let most = [0.15, 0.5, 1.2][self.index(3)];
+            let step = size.x * self.between(0.6, 1.3) / (count - 1) as f32;
+            let mut heading = self.between(-0.8, 0.8);
+            let mut at = Vec2::new(0.0, size.z * self.between(0.7, 1.2));
+            let mut points = Vec::new();
+            for _ in 0..count {
+                points.push(at / Vec2::new(size.x, size.z));
+                at += Vec2::from_angle(heading) * step;
+                heading += self.between(-most, most);
+            }
+            let curve = Curve {
+                is_spline: self.unit() < 0.7,
+                ..Curve::spline(points)
+            };
+            let is_near = curve.points.iter().all(|p| p.abs().max_element() < 10.0);
+            if is_near && curve.bent(size).is_ok() {
+                return curve;
+            }
+        }
+    }
     /// In and about a template's box half of the time, in the object the other half.
     pub(crate) fn point(&mut self, list: &[PlacedTemplate]) -> Vec3 {
         if list.is_empty() || self.unit() < 0.4 {
@@ -108,7 +134,7 @@ impl Random {
             // On a grid of halves and ends every now and then: faces and middles are part of the contract.
             _ => self.vector(0.0, 1.0),
         };
-        list[at].placement.subject_from_template(q)
+        list[at].subject_from_template(q)
     }
 }
 
@@ -128,6 +154,7 @@ pub(crate) fn placed(
         amount: 1.0,
         align: Align::Axis,
         constrain: None,
+        curve: None,
         data: Default::default(),
     }
 }

@@ -1,0 +1,531 @@
+use super::Aabb;
+use glam::{DVec2, Vec2, Vec3};
+
+/// Segments that a spline is made of at most.
+const SPLINE_SEGMENTS: usize = 16;
+/// Places nearer to each other than this are one, template units.
+const SAME_PLACE: f64 = 1e-3;
+/// A corner sharper than this (cosine of its turn) has no mitre to speak of.
+const SHARPEST: f64 = -0.5;
+/// A line beside the curve that has less than this of its length is none: nothing is displaced there.
+const LEAST_ROOM: f32 = 0.05;
+/// How far past a mitre line a point still counts as inside, in parts of the segment: rounding must leave no gap between two.
+const PAST_MITRE: f32 = 1e-4;
+/// Stands for no end where infinity is not safe.
+const FAR: f32 = 1e3;
+
+/// Why there is no bent space along some places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotBent {
+    /// Fewer than two places.
+    TooShort,
+    /// It turns back on itself.
+    TurnsBack,
+}
+
+/// A corner of the line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Joint {
+    /// Subject units along x and z of the straight box, from its corner.
+    at: Vec2,
+    /// Where the point beside it goes that is one unit away from the line.
+    mitre: Vec2,
+}
+
+/// The space of a box bent along a line in its x-z plane (Correa, section 5.3), y straight: W(s, t) is bilinear between the mitred
+/// normals of the line, `s` along it and `t` away from it; before its first and behind its last place it goes straight on.
+///
+/// ```text
+///      m0      m1        m2        at x = 0 … 1 the line begins … ends, in proportion to its length;
+///      |  t    |  s → __/          at z = height lies the line itself.
+///      p0 ---- p1 ---p2
+/// ```
+///
+/// The same numbers go to the shader (displace/curve.wgsl).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bent {
+    joints: Vec<Joint>,
+    /// Sides of the straight box, subject units.
+    straight: Vec3,
+    /// Sides of the box laid along the line.
+    size: Vec3,
+    /// Where the line begins along the box and how far it lies from its bottom, subject units.
+    origin: Vec2,
+}
+
+/// Which part of a box lies on a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Laid {
+    /// z of what lies on the line, template units.
+    pub height: f32,
+    /// x of what lies at its first and last place, template units.
+    pub ends: [f32; 2],
+}
+
+impl Laid {
+    /// The top, from x = 0 to x = 1.
+    pub const TOP: Self = Self {
+        height: 1.0,
+        ends: [0.0, 1.0],
+    };
+}
+
+impl Bent {
+    /// Along these places (x and z of the straight box, template units), as a Catmull-Rom spline or straight from each to the next.
+    ///
+    /// # Errors
+    /// [`NotBent`].
+    pub fn new(
+        places: &[Vec2],
+        is_spline: bool,
+        straight: Vec3,
+        laid: Laid,
+    ) -> Result<Self, NotBent> {
+        // Mitres are differences of near directions, hence the long floats.
+        let mut line: Vec<DVec2> = Vec::with_capacity(SPLINE_SEGMENTS + 1);
+        let mut add = |place: DVec2| {
+            let is_new = line
+                .last()
+                .is_none_or(|last| last.distance(place) >= SAME_PLACE);
+            if is_new {
+                line.push(place);
+            }
+        };
+        let known = places.iter().filter(|place| place.is_finite());
+        let places: Vec<DVec2> = known.map(|place| place.as_dvec2()).collect();
+        let place = |i: usize| places.get(i).copied();
+        let spans = places.len().saturating_sub(1);
+        // A spline is cut into as many pieces as there may be, evenly: corners as blunt as they can be.
+        let pieces = if is_spline && spans > 1 {
+            SPLINE_SEGMENTS
+        } else {
+            spans
+        };
+        for piece in 0..=pieces {
+            let along = piece * spans;
+            let (i, part) = (along / pieces.max(1), along % pieces.max(1));
+            let (Some(from), Some(to)) = (place(i), place(i + 1)) else {
+                place(i).into_iter().for_each(&mut add);
+                break;
+            };
+            // Beyond its ends the line goes on as it began.
+            let before = i.checked_sub(1).and_then(place);
+            let before = before.unwrap_or(2.0 * from - to);
+            let after = place(i + 2).unwrap_or(2.0 * to - from);
+            let u = part as f64 / pieces as f64;
+            let (u2, u3) = (u * u, u * u * u);
+            let sum = 2.0 * from
+                + (to - before) * u
+                + (2.0 * before - 5.0 * from + 4.0 * to - after) * u2
+                + (3.0 * from - before - 3.0 * to + after) * u3;
+            add(0.5 * sum);
+        }
+        let flat = Vec2::new(straight.x, straight.z).as_dvec2();
+        let line: Vec<DVec2> = line.into_iter().map(|place| place * flat).collect();
+        let steps: Vec<DVec2> = line.windows(2).map(|two| two[1] - two[0]).collect();
+        let length: f64 = steps.iter().map(|step| step.length()).sum();
+        let ways: Vec<DVec2> = steps.iter().map(|step| step.normalize_or_zero()).collect();
+        let [Some(first), Some(last)] = [ways.first(), ways.last()] else {
+            return Err(NotBent::TooShort);
+        };
+        if ways.contains(&DVec2::ZERO) || !length.is_finite() {
+            return Err(NotBent::TooShort);
+        }
+        let mut joints = Vec::with_capacity(line.len());
+        for (i, &at) in line.iter().enumerate() {
+            let before = i.checked_sub(1).and_then(|i| ways.get(i)).unwrap_or(first);
+            let after = ways.get(i).unwrap_or(last);
+            let cos = before.dot(*after);
+            if cos < SHARPEST {
+                return Err(NotBent::TurnsBack);
+            }
+            let mitre = (before.perp() + after.perp()) / (1.0 + cos);
+            joints.push(Joint {
+                at: at.as_vec2(),
+                mitre: mitre.as_vec2(),
+            });
+        }
+        let [from, to] = laid.ends;
+        let per_unit = length as f32 / (to - from);
+        Ok(Self {
+            joints,
+            straight,
+            size: Vec3::new(per_unit, straight.y, straight.z),
+            origin: Vec2::new(from * per_unit, laid.height * straight.z),
+        })
+    }
+
+    /// Sides of the box laid along the line, subject units: the template acts in a box of this size.
+    pub fn size(&self) -> Vec3 {
+        self.size
+    }
+
+    /// As the shader takes it: x where the line begins along the box, y its height over the bottom, z the number of segments; then place and
+    /// mitre of every corner.
+    pub fn rows(&self) -> Vec<[f32; 4]> {
+        let segments = self.joints.len() - 1;
+        let head = [self.origin.x, self.origin.y, segments as f32, 0.0];
+        let corners = self.joints.iter();
+        let corners = corners.map(|j| [j.at.x, j.at.y, j.mitre.x, j.mitre.y]);
+        std::iter::once(head).chain(corners).collect()
+    }
+
+    fn segments(&self) -> impl Iterator<Item = (usize, &Joint, &Joint)> {
+        let ends = self.joints.iter().skip(1);
+        let pairs = self.joints.iter().zip(ends);
+        pairs.enumerate().map(|(i, (from, to))| (i, from, to))
+    }
+
+    fn last(&self) -> usize {
+        self.joints.len() - 2
+    }
+
+    /// Where a point of the template's own space is seen, in the space of the straight box.
+    pub fn bend(&self, q: Vec3) -> Vec3 {
+        let s = q.x * self.size.x - self.origin.x;
+        let t = q.z * self.size.z - self.origin.y;
+        let at = self.at(s, t);
+        Vec3::new(at.x / self.straight.x, q.y, at.y / self.straight.z)
+    }
+
+    /// W.
+    fn at(&self, s: f32, t: f32) -> Vec2 {
+        let mut start = 0.0;
+        let mut found = Vec2::ZERO;
+        for (i, from, to) in self.segments() {
+            let along = to.at - from.at;
+            let length = along.length();
+            if i == 0 || s > start {
+                let way = s - start;
+                let part = (way / length).clamp(0.0, 1.0);
+                let (low, high) = (from.at + t * from.mitre, to.at + t * to.mitre);
+                found = low.lerp(high, part) + along / length * (way - part * length);
+            }
+            start += length;
+        }
+        found
+    }
+
+    /// Where a point of the space of the straight box lies in the template's own; none where nothing of it is laid.
+    pub fn unbend(&self, q: Vec3) -> Option<Vec3> {
+        let at = Vec2::new(q.x * self.straight.x, q.z * self.straight.z);
+        let mut nearest: Option<(f32, f32)> = None;
+        let mut start = 0.0;
+        for (i, from, to) in self.segments() {
+            let along = to.at - from.at;
+            let length = along.length();
+            let way = along / length;
+            let (u, t) = ((at - from.at).dot(way), way.perp_dot(at - from.at));
+            let low = t * from.mitre.dot(way);
+            let room = length + t * (to.mitre - from.mitre).dot(way);
+            let part = (u - low) / room;
+            let is_beyond = (i == 0 && u < 0.0) || (i == self.last() && u > length);
+            let is_inside =
+                room > LEAST_ROOM * length && (-PAST_MITRE..=1.0 + PAST_MITRE).contains(&part);
+            if (is_beyond || is_inside) && nearest.is_none_or(|(_, best)| t.abs() < best.abs()) {
+                let s = if is_beyond {
+                    u
+                } else {
+                    part.clamp(0.0, 1.0) * length
+                };
+                nearest = Some((start + s, t));
+            }
+            start += length;
+        }
+        let (s, t) = nearest?;
+        Some(Vec3::new(
+            (s + self.origin.x) / self.size.x,
+            q.y,
+            (t + self.origin.y) / self.size.z,
+        ))
+    }
+
+    /// What is left of the length of the segment that loses most, this far from the line: 1 on it, below 0 where the space folds.
+    fn room(&self, t: f32) -> f32 {
+        let rooms = self.segments().map(|(_, from, to)| {
+            let along = to.at - from.at;
+            1.0 + t * (to.mitre - from.mitre).dot(along) / along.length_squared()
+        });
+        rooms.fold(1.0, f32::min)
+    }
+
+    /// True if a layer under the top of the box, so thick in parts of its height, is deeper than the line is bent: there it folds, and nothing
+    /// is displaced.
+    pub fn is_folded(&self, layer: f32) -> bool {
+        [1.0 - layer, 1.0]
+            .map(|z| self.room(z * self.size.z - self.origin.y))
+            .iter()
+            .any(|room| *room < LEAST_ROOM)
+    }
+
+    /// The height in the box that is nearest to this one and not beyond a fold, template units: how deep an outline can be drawn.
+    pub fn unfolded(&self, z: f32) -> f32 {
+        let t = z * self.size.z - self.origin.y;
+        let t = self.segments().fold(t, |t, (_, from, to)| {
+            let along = to.at - from.at;
+            let per_unit = (to.mitre - from.mitre).dot(along) / along.length_squared();
+            let farthest = (LEAST_ROOM - 1.0) / per_unit;
+            if per_unit > 0.0 {
+                t.max(farthest)
+            } else if per_unit < 0.0 {
+                t.min(farthest)
+            } else {
+                t
+            }
+        });
+        (t + self.origin.y) / self.size.z
+    }
+
+    /// From a range of z to one of t, without infinity.
+    fn across(&self, z: [f32; 2]) -> [f32; 2] {
+        z.map(|z| (z * self.size.z - self.origin.y).clamp(-FAR, FAR))
+    }
+
+    /// How much longer a step can be in the template's own space than in the straight one, both in subject units, between two heights.
+    pub fn stretch(&self, z: [f32; 2]) -> f32 {
+        let least = self.across(z).map(|t| self.room(t).max(LEAST_ROOM));
+        let slant = self.slant();
+        (1.0 + slant * slant).sqrt() / least[0].min(least[1])
+    }
+
+    /// The other way round.
+    pub fn widening(&self, z: [f32; 2]) -> f32 {
+        let most = self.across(z).map(|t| {
+            let rooms = self.segments().map(|(_, from, to)| {
+                let along = to.at - from.at;
+                (1.0 + t * (to.mitre - from.mitre).dot(along) / along.length_squared()).abs()
+            });
+            rooms.fold(1.0, f32::max)
+        });
+        let slant = self.slant();
+        // Along by the widest line, across by the longest mitre.
+        (most[0].max(most[1]).powi(2) + 1.0 + slant * slant).sqrt()
+    }
+
+    /// How far a mitre leans at most: tangent of half the sharpest turn.
+    fn slant(&self) -> f32 {
+        let leans = self.segments().flat_map(|(_, from, to)| {
+            let way = (to.at - from.at).normalize_or_zero();
+            [from.mitre.dot(way).abs(), to.mitre.dot(way).abs()]
+        });
+        leans.fold(0.0, f32::max)
+    }
+
+    /// Box (space of the straight box) of a box of the template's own space. Sides without an end end far away.
+    pub fn bent_box(&self, own: Aabb) -> Aabb {
+        if own.is_empty() {
+            return Aabb::EMPTY;
+        }
+        let along = [own.min.x, own.max.x].map(|x| {
+            let s = x * self.size.x - self.origin.x;
+            s.clamp(-FAR, FAR)
+        });
+        let across = self.across([own.min.z, own.max.z]);
+        // Between two corners of the line it is bilinear: the corners of the pieces are its extremes.
+        let mut cuts = along.to_vec();
+        let mut start = 0.0;
+        for (_, from, to) in self.segments() {
+            cuts.push(start);
+            start += from.at.distance(to.at);
+        }
+        cuts.push(start);
+        let cuts = cuts.iter().map(|s| s.clamp(along[0], along[1]));
+        let corners = cuts.flat_map(|s| across.map(|t| self.at(s, t)));
+        let flat = Vec2::new(self.straight.x, self.straight.z);
+        let corners = corners.map(|at| at / flat);
+        let bounds = Aabb::from_points(corners.map(|at| Vec3::new(at.x, 0.0, at.y)));
+        let mut bounds = bounds.expanded(1e-4);
+        (bounds.min.y, bounds.max.y) = (own.min.y, own.max.y);
+        bounds
+    }
+
+    /// Box of the template's own space that holds whatever of it is seen in a box of the straight one.
+    pub fn unbent_box(&self, straight: Aabb) -> Aabb {
+        if straight.is_empty() {
+            return Aabb::EMPTY;
+        }
+        let corners = straight.corners().map(|q| {
+            let at = Vec2::new(q.x * self.straight.x, q.z * self.straight.z);
+            at.clamp(Vec2::splat(-FAR), Vec2::splat(FAR))
+        });
+        let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+        let mut start = 0.0;
+        for (i, from, to) in self.segments() {
+            let along = to.at - from.at;
+            let length = along.length();
+            for at in corners {
+                let u = (at - from.at).dot(along) / length;
+                let t = along.perp_dot(at - from.at) / length;
+                // Past its ends the line goes on; between them s is no farther than they are.
+                let before = if i == 0 { u.min(0.0) } else { 0.0 };
+                let after = if i == self.last() {
+                    u.max(length)
+                } else {
+                    length
+                };
+                low = low.min(Vec2::new(start + before, t));
+                high = high.max(Vec2::new(start + after, t));
+            }
+            start += length;
+        }
+        let to_own = |st: Vec2| (st + self.origin) / Vec2::new(self.size.x, self.size.z);
+        let (low, high) = (to_own(low), to_own(high));
+        Aabb {
+            min: Vec3::new(low.x, straight.min.y, low.y),
+            max: Vec3::new(high.x, straight.max.y, high.y),
+        }
+    }
+
+    /// The line itself and the one this far from it, as places of the straight box, template units.
+    pub fn beside(&self, t: f32) -> Vec<Vec2> {
+        let flat = Vec2::new(self.straight.x, self.straight.z);
+        let corners = self.joints.iter();
+        corners.map(|j| (j.at + t * j.mitre) / flat).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: Vec3 = Vec3::new(0.8, 0.5, 0.3);
+
+    fn dome(is_spline: bool) -> Bent {
+        let places = [[0.0, 0.6], [0.3, 1.0], [0.7, 1.05], [1.0, 0.5]].map(Vec2::from_array);
+        Bent::new(&places, is_spline, SIZE, Laid::TOP).expect("it is bent")
+    }
+
+    #[test]
+    fn back_and_forth_is_nothing() {
+        for bent in [dome(true), dome(false)] {
+            for i in 0..2000_u16 {
+                let [a, b, c] =
+                    [0.618_034, 0.754_878, 0.569_84].map(|k| (f32::from(i) * k).fract());
+                let own = Vec3::new(3.0 * a - 1.0, b, 0.2 + 2.0 * c);
+                let back = bent.unbend(bent.bend(own)).expect("it is laid there");
+                assert!((back - own).length() < 2e-5, "{own} came back as {back}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_straight_line_bends_nothing() {
+        let places = [
+            Vec2::new(0.0, 1.0),
+            Vec2::new(0.4, 1.0),
+            Vec2::new(1.0, 1.0),
+        ];
+        for is_spline in [true, false] {
+            let bent = Bent::new(&places, is_spline, SIZE, Laid::TOP).expect("a line");
+            for q in [
+                Vec3::ZERO,
+                Vec3::new(-2.0, 0.1, 4.0),
+                Vec3::new(0.3, 0.9, 0.2),
+            ] {
+                assert!((bent.bend(q) - q).length() < 1e-5);
+                assert!((bent.unbend(q).expect("everywhere") - q).length() < 1e-5);
+            }
+            assert!(!bent.is_folded(1.0));
+            assert!((bent.size() - SIZE).length() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn lengths_on_the_line_are_kept() {
+        let bent = dome(true);
+        let mut way = 0.0;
+        for i in 0..100_u8 {
+            let [a, b] = [i, i + 1].map(|i| {
+                let at = bent.bend(Vec3::new(f32::from(i) / 100.0, 0.0, 1.0));
+                at * SIZE
+            });
+            way += a.distance(b);
+        }
+        // Chords cut the corners by a little.
+        assert!((way - bent.size().x).abs() < 2e-3, "{way}");
+    }
+
+    #[test]
+    fn boxes_hold_what_they_should() {
+        for bent in [dome(true), dome(false)] {
+            let own = Aabb {
+                min: Vec3::new(-0.2, 0.0, 0.5),
+                max: Vec3::new(0.8, 1.0, 1.6),
+            };
+            let seen = bent.bent_box(own);
+            let straight = Aabb {
+                min: Vec3::new(-0.4, 0.2, -0.3),
+                max: Vec3::new(0.9, 0.6, 1.2),
+            };
+            let held = bent.unbent_box(straight).expanded(1e-4);
+            for i in 0..3000_u16 {
+                let [a, b, c] =
+                    [0.618_034, 0.754_878, 0.569_84].map(|k| (f32::from(i) * k).fract());
+                let part = Vec3::new(a, b, c);
+                assert!(seen.contains(bent.bend(own.min + own.size() * part)));
+                let q = straight.min + straight.size() * part;
+                if let Some(own) = bent.unbend(q) {
+                    assert!(held.contains(own), "{q} comes from {own}, outside {held:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn steps_are_no_longer_than_said() {
+        let bent = dome(false);
+        let z = [0.3, 1.8];
+        let (stretch, widening) = (bent.stretch(z), bent.widening(z));
+        for i in 0..3000_u16 {
+            let [a, b, c] = [0.618_034, 0.754_878, 0.569_84].map(|k| (f32::from(i) * k).fract());
+            let own = Vec3::new(1.6 * a - 0.3, 0.5, 0.3 + 1.5 * b);
+            let turn = std::f32::consts::TAU * c;
+            let step = 1e-3 * Vec3::new(turn.cos(), 0.0, turn.sin()) / bent.size();
+            if (own + step).z < z[0] || (own + step).z > z[1] {
+                continue;
+            }
+            let seen = (bent.bend(own + step) - bent.bend(own)) * SIZE;
+            let ratio = seen.length() / 1e-3;
+            assert!(
+                ratio <= widening * 1.001,
+                "{ratio} is wider than {widening}"
+            );
+            assert!(
+                1.0 / ratio <= stretch * 1.02,
+                "{ratio} is less than 1 / {stretch}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_bent_says_so() {
+        let bent = |places: &[[f32; 2]], is_spline| {
+            let places: Vec<Vec2> = places.iter().map(|p| Vec2::from_array(*p)).collect();
+            Bent::new(&places, is_spline, SIZE, Laid::TOP)
+        };
+        for is_spline in [true, false] {
+            assert_eq!(bent(&[], is_spline), Err(NotBent::TooShort));
+            assert_eq!(bent(&[[0.5, 1.0]], is_spline), Err(NotBent::TooShort));
+            let same = [[0.5, 1.0]; 9];
+            assert_eq!(bent(&same, is_spline), Err(NotBent::TooShort));
+        }
+        let back = [[0.0, 1.0], [1.0, 1.0], [0.0, 1.0]];
+        assert_eq!(bent(&back, false), Err(NotBent::TurnsBack));
+        assert!(bent(&[[0.0, f32::NAN], [1.0, 1.0], [2.0, 1.0]], false).is_ok());
+        let sharp = [[0.0, 0.4], [0.5, 1.0], [1.0, 0.4]];
+        let sharp = bent(&sharp, true).expect("it is bent");
+        let doubled = [[0.0, 0.4], [0.0, 0.4], [0.5, 1.0], [0.5, 1.0], [1.0, 0.4]];
+        assert!(bent(&doubled, false).is_ok());
+        // Whatever the depth, there are numbers.
+        for z in [-50.0, -1.0, 0.0, 0.5, 3.0] {
+            assert!(sharp.bend(Vec3::new(0.5, 0.5, z)).is_finite());
+        }
+        let deep = Bent::new(
+            &[[0.0, 0.9], [0.5, 1.0], [1.0, 0.9]].map(Vec2::from_array),
+            true,
+            Vec3::new(0.1, 0.5, 2.0),
+            Laid::TOP,
+        );
+        assert!(deep.expect("it is bent").is_folded(1.0));
+    }
+}
