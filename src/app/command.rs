@@ -44,6 +44,8 @@ pub enum Command {
     Mirror(Plane, bool),
     /// Turns and moves the selected template so that it lies on the surface under it.
     LayOnSurface,
+    /// Bends the selected template along the surface under it.
+    FollowSurface,
     /// Puts the selected template into the group of the one before it.
     GroupWithPrevious,
     /// Takes the selected template out of its group.

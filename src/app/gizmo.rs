@@ -13,7 +13,7 @@ use super::words::picture::w;
 use super::words::{fill, in_sentence, kinds};
 use crate::displace;
 use crate::document::{Edit, ParamKind, ParamValue, PlacedTemplate};
-use crate::math::Placement;
+use crate::math::{Bent, Placement};
 
 /// Points from the centre to the tip of an arrow.
 const ARROW: f32 = 74.0;
@@ -326,6 +326,7 @@ fn ring(view: &Projection, placement: &Placement, axis: usize) -> Vec<RingPoint>
 struct Handles<'a> {
     view: &'a Projection,
     placement: &'a Placement,
+    bent: Option<Bent>,
     mode: GizmoMode,
     center: Option<Pos2>,
     /// Where the main parameter is held: the knob, a little aside from what it stands for if the centre is there too.
@@ -350,7 +351,7 @@ impl<'a> Handles<'a> {
         for (i, axis) in AXES.into_iter().enumerate() {
             for high in [false, true] {
                 let sign = if high { 0.5 } else { -0.5 };
-                let pos = placement.subject_from_template(Vec3::splat(0.5) + axis * sign);
+                let pos = template.subject_from_template(Vec3::splat(0.5) + axis * sign);
                 let outward = placement.rotate * axis * sign;
                 if let Some(seen) = view.ui_from_subject(pos) {
                     faces.push((i, high, seen, outward.dot(view.eye - pos) > 0.0));
@@ -363,6 +364,7 @@ impl<'a> Handles<'a> {
         Self {
             view,
             placement,
+            bent: template.bent(),
             mode,
             center,
             main: main_at.zip(center).map(|(at, center)| knob(at, center)),
@@ -475,9 +477,20 @@ impl<'a> Handles<'a> {
     fn paint_box(&self, painter: &Painter) {
         let corner = |bits: usize| {
             let pick = |bit: usize| if bits & bit == 0 { 0.0 } else { 1.0 };
-            let q = Vec3::new(pick(1), pick(2), pick(4));
+            Vec3::new(pick(1), pick(2), pick(4))
+        };
+        let seen = |q: Vec3| {
+            let q = self
+                .bent
+                .as_ref()
+                .map_or(q, |bent| bent.bend(q.with_z(bent.unfolded(q.z))));
             self.view
                 .ui_from_subject(self.placement.subject_from_template(q))
+        };
+        // Along a curve the long edges are round.
+        let pieces = |axis: usize| match (&self.bent, axis) {
+            (Some(_), 0) => 24_u8,
+            _ => 1,
         };
         // An edge lies behind if both its faces look away.
         let is_face_front = |axis: usize, high: bool| {
@@ -493,22 +506,18 @@ impl<'a> Handles<'a> {
                 let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
                 let is_front = is_face_front(a, bits & (1 << a) != 0)
                     || is_face_front(b, bits & (1 << b) != 0);
-                if let (Some(from), Some(to)) = (corner(bits), corner(bits | (1 << axis))) {
-                    if is_front {
-                        painter.line_segment(
-                            [from, to],
-                            Stroke::new(3.0, ink::HALO_LIGHT.gamma_multiply(0.55)),
-                        );
-                        painter.line_segment([from, to], Stroke::new(1.3, ink::BOX));
-                    } else {
-                        let color = ink::BOX.gamma_multiply(0.6);
-                        painter.extend(Shape::dashed_line(
-                            &[from, to],
-                            Stroke::new(1.0, color),
-                            4.0,
-                            4.0,
-                        ));
-                    }
+                let (from, to) = (corner(bits), corner(bits | (1 << axis)));
+                let count = pieces(axis);
+                let line = (0..=count).map(|i| f32::from(i) / f32::from(count));
+                let line: Option<Vec<Pos2>> = line.map(|part| seen(from.lerp(to, part))).collect();
+                let Some(line) = line else { continue };
+                if is_front {
+                    let halo = Stroke::new(3.0, ink::HALO_LIGHT.gamma_multiply(0.55));
+                    painter.add(Shape::line(line.clone(), halo));
+                    painter.add(Shape::line(line, Stroke::new(1.3, ink::BOX)));
+                } else {
+                    let stroke = Stroke::new(1.0, ink::BOX.gamma_multiply(0.6));
+                    painter.extend(Shape::dashed_line(&line, stroke, 4.0, 4.0));
                 }
             }
         }

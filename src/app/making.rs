@@ -39,6 +39,10 @@ pub(crate) struct Making {
     pub clip: Option<String>,
     /// The template that is to lie on the surface again.
     pub wants_surface: Option<usize>,
+    /// The template that is to follow the surface.
+    pub wants_curve: Option<usize>,
+    /// What has been found of that surface so far.
+    pub tracing: Option<super::curve::Tracing>,
     /// What is typed over the catalogue.
     pub search: String,
     /// The search wants the keyboard.
@@ -390,12 +394,12 @@ pub(crate) fn placement_on_surface(
 }
 
 /// Proportions of a new template: its box in parts of the sensible side, and how much of its height stands above the surface.
-struct Shape {
+pub(super) struct Shape {
     size: Vec3,
-    above: f32,
+    pub(super) above: f32,
 }
 
-fn shape_of(kind: TemplateKind) -> Shape {
+pub(super) fn shape_of(kind: TemplateKind) -> Shape {
     use TemplateKind as K;
     let (size, above) = match kind {
         // Layers: wide and flat, the top just over the skin, so that on a curved surface the layer still reaches it at
@@ -477,6 +481,8 @@ pub(crate) fn menu_entries(state: &State) -> Vec<MenuEntry> {
             Command::Mirror(Plane::Sagittal, false),
         );
         add(Icon::Down, w.lay, Command::LayOnSurface);
+        let follow = super::words::curve::w().follow;
+        add(Icon::Down, follow, Command::FollowSurface);
         if selected > 0 {
             add(Icon::Layers, w.group_previous, Command::GroupWithPrevious);
         }

@@ -20,6 +20,7 @@ mod camera;
 mod catalogue;
 mod command;
 mod control;
+mod curve;
 mod fields;
 mod frames;
 mod gizmo;

@@ -49,6 +49,8 @@ pub(crate) enum PickFor {
     Seed,
     /// To lay the template of that index on the surface.
     Surface(usize),
+    /// To let a template follow the surface: one place of those along it.
+    Along(usize),
 }
 
 /// The renderer with what the interface needs around it. Built once per window.

@@ -55,7 +55,7 @@ pub(super) fn ui(
         return false;
     };
     let placement = template.placement;
-    let to_ui = |q: Vec3| view.ui_from_subject(placement.subject_from_template(q));
+    let to_ui = |q: Vec3| view.ui_from_subject(template.subject_from_template(q));
     let painter = ui.painter_at(view.rect);
     for line in displace::bent_lattice(template) {
         let line: Option<Vec<_>> = line
@@ -87,13 +87,13 @@ pub(super) fn ui(
             ui,
             view,
             spot,
-            placement.subject_from_template(q),
+            (template.subject_from_template(q), view.back()),
             &name,
             ink::HANDLE,
         );
         is_hot |= hot;
         if let Some(Moved::To(pos)) = moved {
-            let to = within(placement.template_from_subject(pos));
+            let to = within(template.template_from_subject(pos));
             let mut new = points.clone();
             new.cut[i] = Flat::new(to.x, to.y);
             changed = Some(new);
@@ -119,7 +119,7 @@ pub(super) fn ui(
             ui,
             view,
             to,
-            placement.subject_from_template(point.at),
+            (template.subject_from_template(point.at), view.back()),
             &name,
             ink::X,
         );
@@ -127,7 +127,7 @@ pub(super) fn ui(
         let mut new = points.clone();
         match moved {
             Some(Moved::To(pos)) => {
-                let at = within(placement.template_from_subject(pos));
+                let at = within(template.template_from_subject(pos));
                 new.points[i] = ControlPoint {
                     at,
                     shift: source - at,
@@ -148,7 +148,7 @@ pub(super) fn ui(
     {
         let mut new = points.clone();
         new.points.push(ControlPoint {
-            at: within(placement.template_from_subject(pos)),
+            at: within(template.template_from_subject(pos)),
             shift: Vec3::ZERO,
         });
         commands.push(Command::Apply(set(template, new)));
@@ -159,18 +159,18 @@ pub(super) fn ui(
     is_hot
 }
 
-enum Moved {
+pub(super) enum Moved {
     /// Subject space.
     To(Vec3),
     Removed,
 }
 
-/// One dot: dragged in the plane of the picture, moved by the arrow keys, taken away by Delete.
-fn handle(
+/// One dot: dragged in a plane (a point of it and its normal), moved by the arrow keys, taken away by Delete.
+pub(super) fn handle(
     ui: &Ui,
     view: &Projection,
     spot: egui::Pos2,
-    pos: Vec3,
+    (pos, normal): (Vec3, Vec3),
     name: &str,
     color: egui::Color32,
 ) -> (bool, Option<Moved>) {
@@ -219,7 +219,7 @@ fn handle(
         }
     }
     let moved = (by != Vec2::ZERO)
-        .then(|| view.on_plane(spot + by, pos, view.back()))
+        .then(|| view.on_plane(spot + by, pos, normal))
         .flatten();
     (is_hot, moved.map(Moved::To))
 }

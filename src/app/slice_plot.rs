@@ -7,7 +7,8 @@ use super::camera::Projection;
 use super::orientation;
 use super::theme::{self, over_picture as ink};
 use super::view::{Pane, ViewState};
-use crate::math::Placement;
+use crate::document::PlacedTemplate;
+use crate::math::{Bent, Placement};
 
 /// Width of the strip at the side of a slice that scrolls through.
 pub(crate) const STRIP: f32 = 26.0;
@@ -104,19 +105,80 @@ pub(crate) fn section(map: &Map<'_>, placement: &Placement) -> Vec<Pos2> {
     points
 }
 
-/// Draws it. True if the slice cuts the box.
+/// Where a slice cuts the walls of a box that is bent along a curve: a line for every piece of a wall.
+fn bent_section(map: &Map<'_>, placement: &Placement, bent: &Bent) -> Vec<Vec<Pos2>> {
+    const PIECES: u8 = 24;
+    let place = |x: f32, y: f32, z: f32| {
+        placement.subject_from_template(bent.bend(Vec3::new(x, y, bent.unfolded(z))))
+    };
+    let mut lines = Vec::new();
+    let mut cut = |wall: [Vec3; 4]| {
+        let ends = (0..4).filter_map(|i| {
+            let (a, b) = (wall[i], wall[(i + 1) % 4]);
+            let (high, low) = (map.height(a), map.height(b));
+            ((high > 0.0) != (low > 0.0)).then(|| map.ui(a.lerp(b, high / (high - low))))
+        });
+        let ends: Vec<Pos2> = ends.collect();
+        lines.extend(ends.chunks_exact(2).map(<[Pos2]>::to_vec));
+    };
+    for x in [0.0, 1.0] {
+        cut([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(y, z)| place(x, y, z)));
+    }
+    for piece in 0..PIECES {
+        let [a, b] = [piece, piece + 1].map(|i| f32::from(i) / f32::from(PIECES));
+        for end in [0.0, 1.0] {
+            cut([(a, 0.0), (b, 0.0), (b, 1.0), (a, 1.0)].map(|(x, y)| place(x, y, end)));
+            cut([(a, 0.0), (b, 0.0), (b, 1.0), (a, 1.0)].map(|(x, z)| place(x, end, z)));
+        }
+    }
+    lines
+}
+
+/// The lines in which a slice cuts a template's box; none if it misses it.
+pub(crate) fn sections(map: &Map<'_>, template: &PlacedTemplate) -> Vec<Vec<Pos2>> {
+    if let Some(bent) = template.bent() {
+        return bent_section(map, &template.placement, &bent);
+    }
+    let mut line = section(map, &template.placement);
+    match line.first().copied() {
+        Some(first) if line.len() > 2 => {
+            line.push(first);
+            vec![line]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Draws the section of a template. True if the slice cuts its box.
+pub(crate) fn paint_template(
+    painter: &Painter,
+    map: &Map<'_>,
+    template: &PlacedTemplate,
+    stroke: Stroke,
+) -> bool {
+    let lines = sections(map, template);
+    let is_cut = !lines.is_empty();
+    for line in lines {
+        paint_line(painter, line, stroke, !template.enabled);
+    }
+    is_cut
+}
+
+/// Draws the section of a box that is about to be placed.
 pub(crate) fn paint_section(
     painter: &Painter,
     map: &Map<'_>,
     placement: &Placement,
     stroke: Stroke,
-    is_dashed: bool,
-) -> bool {
+) {
     let mut line = section(map, placement);
-    if line.len() < 3 {
-        return false;
+    if let Some(first) = line.first().copied() {
+        line.push(first);
+        paint_line(painter, line, stroke, true);
     }
-    line.push(line[0]);
+}
+
+fn paint_line(painter: &Painter, line: Vec<Pos2>, stroke: Stroke, is_dashed: bool) {
     painter.add(Shape::line(
         line.clone(),
         Stroke::new(stroke.width + 2.0, ink::HALO_DARK),
@@ -126,7 +188,6 @@ pub(crate) fn paint_section(
     } else {
         painter.add(Shape::line(line, stroke));
     }
-    true
 }
 
 /// The sides of the patient at the edges.

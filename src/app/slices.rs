@@ -16,7 +16,9 @@ use super::icon::Icon;
 use super::making::placement_on_surface;
 use super::panes::{ONE_PANE, Places, pane_name};
 use super::picture::Picture;
-use super::slice_plot::{Axes, Map, SLICES, STRIP, edges, paint_crosshair, paint_section, section};
+use super::slice_plot::{
+    Axes, Map, SLICES, STRIP, edges, paint_crosshair, paint_section, paint_template, sections,
+};
 use super::state::{Gravity, State};
 use super::theme::{self, over_picture as ink};
 use super::view::{See, SubjectFacts, ViewState};
@@ -161,7 +163,7 @@ impl Slices {
             let pos = map.subject(pos);
             let normal = outwards(pos, facts.bounds.center(), axes);
             let placement = placement_on_surface(kind, pos, normal, &state.camera);
-            paint_section(&painter, &map, &placement, Stroke::new(1.5, ink::HOT), true);
+            paint_section(&painter, &map, &placement, Stroke::new(1.5, ink::HOT));
         }
         self.controls_ui(ui, (axes, rect), bounds, state, facts, letters, commands);
         if response.has_focus() {
@@ -388,8 +390,7 @@ impl Slices {
             let width = if is_selected { 2.2 } else { 1.4 };
             let color = if is_selected { ink::HANDLE } else { ink::HOT };
             let stroke = Stroke::new(width, color.gamma_multiply(fade));
-            let is_cut =
-                paint_section(painter, map, &template.placement, stroke, !template.enabled);
+            let is_cut = paint_template(painter, map, template, stroke);
             if !is_cut && !is_selected {
                 continue;
             }
@@ -672,7 +673,7 @@ fn template_at<'a>(at: Pos2, map: &Map<'_>, state: &'a State) -> Option<&'a Plac
     let near = templates.iter().filter(|t| {
         let is_selected = state.selected == Some(t.index);
         map.ui(t.placement.at).distance(at) <= REACH
-            && (is_selected || section(map, &t.placement).len() > 2)
+            && (is_selected || !sections(map, t).is_empty())
     });
     near.max_by_key(|t| state.selected == Some(t.index))
 }

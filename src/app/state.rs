@@ -500,6 +500,7 @@ impl State {
             Command::Paste => services.paste_text(),
             Command::Mirror(plane, as_copy) => self.mirror_selected(plane, as_copy),
             Command::LayOnSurface => self.making.wants_surface = self.selected,
+            Command::FollowSurface => self.making.wants_curve = self.selected,
             Command::GroupWithPrevious => self.group_with_previous(),
             Command::LeaveGroup => self.leave_group(),
             Command::ToggleSnap => self.making.is_snapping = !self.making.is_snapping,

@@ -258,6 +258,7 @@ fn template_ui(
         ui.push_id((index, i), |ui| param_ui(ui, template, i, *value, commands));
     }
     super::points::panel_ui(ui, template, commands);
+    super::curve::panel_ui(ui, template, commands);
     ui.add_space(2.0);
     control::row(ui, |ui| {
         let label = control::row_label(ui, w().name, w().name_hint);

@@ -10,6 +10,7 @@ use glam::Vec3;
 use super::camera::{self, Projection};
 use super::command::{Command, GizmoMode};
 use super::control;
+use super::curve;
 use super::gizmo::Gizmo;
 use super::icon::Icon;
 use super::making::{self, placement_on_surface};
@@ -40,7 +41,7 @@ const BUDGET_REST: f32 = 0.05;
 /// How much of the untouched object is seen, of 255.
 const GHOST_ALPHA: u8 = 84;
 /// Pixels of the view in which a template's surface is looked for.
-const SURFACE_VIEW: u32 = 256;
+pub(super) const SURFACE_VIEW: u32 = 256;
 /// Pixels of the picture at most. On a 4K screen it is drawn at about seven tenths of the screen's own resolution and
 /// scaled up: nobody sees the difference in tissue, and it takes half as long.
 pub(crate) const MAX_PICTURE_PIXELS: f32 = 4_200_000.0;
@@ -138,7 +139,8 @@ impl Viewport {
             if let Some(template) = state.selected_template().cloned() {
                 let asked = ui.input(|i| i.pointer.latest_pos());
                 let asked = asked.filter(|_| response.double_clicked());
-                if points::ui(ui, &view, &template, asked, commands) {
+                let is_point = points::ui(ui, &view, &template, asked, commands);
+                if curve::ui(ui, &view, &template, commands) || is_point {
                     self.gizmo.release();
                 } else if let Some(edit) = self.gizmo.ui(ui, &response, &view, &template, state) {
                     commands.push(Command::Drag(edit));
@@ -397,6 +399,11 @@ impl Viewport {
             set_seen(picture, state);
             self.moving_until = state.now + REST_SECONDS;
         }
+        if let Some(answer) = curve::ask(state, picture) {
+            asked = answer;
+            set_seen(picture, state);
+            self.moving_until = state.now + REST_SECONDS;
+        }
         if let Err(error) = asked {
             state.say(Gravity::Info, said::w().nothing_to_click, error.to_string());
         }
@@ -441,6 +448,7 @@ impl Viewport {
             (PickFor::Surface(_), None) => {
                 state.say(Gravity::Info, words::making::w().no_surface, "");
             }
+            (PickFor::Along(i), pick) => state.trace(i, pick.map(|pick| pick.pos_in_subject)),
             (PickFor::Target, Some(pick)) => state.look_at(pick.pos_in_subject),
             (PickFor::Target, None) => {}
             (PickFor::Seed, Some(pick)) => {

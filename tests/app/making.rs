@@ -344,3 +344,54 @@ fn control_points_are_dragged_added_and_cut_apart() {
     }
     assert_eq!(points(&window), before, "each was one step of undo");
 }
+
+#[test]
+fn a_template_follows_the_surface_and_is_straight_again() {
+    let json = r#"{ "fabrica": 1, "subject": { "builtin": "tomato" }, "templates": [
+        { "kind": "peel", "at": [0, 0, 0.3], "size": [0.6, 0.4, 0.3] } ] }"#;
+    let mut window = Window::open(DESK, json);
+    window.click("1. Peel");
+    window.settle();
+    assert!(window.harness.query_by_label("Curve point 1").is_none());
+    window.click("Follow the surface");
+    window.settle();
+    let document = window.document();
+    let template = document.illustration().templates[0].clone();
+    let curve = template.curve.clone().expect("it lies along a curve");
+    assert_eq!(curve.points.len(), 7, "{curve:?}");
+    // A tomato is round: the middle is the highest, and its top stands a little over the skin everywhere.
+    let heights: Vec<f32> = curve.points.iter().map(|p| p.y).collect();
+    assert!(
+        heights[3] > heights[0] + 0.1 && heights[3] > heights[6] + 0.1,
+        "{heights:?}"
+    );
+    assert!(
+        template.bent().expect("bent").size().x > 0.6,
+        "as long as the line"
+    );
+    assert!(document.notices().is_empty(), "{:?}", document.notices());
+    window.look("along_a_curve");
+    // Its points are dragged; in this view out of the surface.
+    let dot = window.harness.get_by_label("Curve point 4").rect().center();
+    window.drag(dot, vec2(0.0, -30.0));
+    let dragged = window.document().illustration().templates[0].curve.clone();
+    let dragged = dragged.expect("still a curve");
+    assert!(dragged.points[3].y > heights[3] + 0.02, "{dragged:?}");
+    assert_eq!(dragged.points[1], curve.points[1], "and no other");
+    let round = window
+        .harness
+        .get_by_role_and_label(egui::accesskit::Role::CheckBox, "Round");
+    round.click();
+    window.steps(3);
+    let is_spline = window.document().get("/templates/0/curve/spline").cloned();
+    assert_eq!(is_spline, Some(false.into()));
+    window.click("Make it straight");
+    assert_eq!(window.document().get("/templates/0/curve"), None);
+    for _ in 0..3 {
+        window.press_with(Modifiers::COMMAND, Key::Z);
+    }
+    let back = window.document().illustration().templates[0].curve.clone();
+    assert_eq!(back, Some(curve), "each was one step of undo");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.document().get("/templates/0/curve"), None);
+}

@@ -32,6 +32,7 @@ macro_rules! words {
 
 pub(crate) mod bar;
 pub(crate) mod catalogue;
+pub(crate) mod curve;
 pub(crate) mod files;
 pub(crate) mod keep;
 pub(crate) mod keys;
@@ -244,6 +245,7 @@ mod tests {
             making::LINES,
             names::LINES,
             picture::LINES,
+            curve::LINES,
             points::LINES,
             said::LINES,
             slices::LINES,
