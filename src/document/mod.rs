@@ -69,6 +69,7 @@ pub use catalogue::{
 };
 pub use curve::{Curve, MAX_CURVE};
 pub use edit::Edit;
+#[cfg(feature = "app")]
 pub(crate) use edit::hex;
 pub use error::DocumentError;
 pub use feature::{
