@@ -5,6 +5,8 @@
 
 #[path = "app/comfort.rs"]
 mod comfort;
+#[path = "app/labels.rs"]
+mod labels;
 #[path = "app/looking.rs"]
 mod looking;
 #[path = "app/making.rs"]

@@ -24,6 +24,8 @@ pub enum Command {
     StartPlacing(TemplateKind),
     /// Puts the template being placed on what the middle of the picture shows.
     PlaceInMiddle,
+    /// Starts or ends setting a label.
+    ToggleLabelling,
     /// Drops what is being done: placing, the selection, a sheet.
     Escape,
     /// Selects a template by its index in the document.
@@ -224,6 +226,12 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         ),
         entry(NONE, Key::L, Command::LayOnSurface, w.lay),
         entry(NONE, Key::K, Command::ToggleSnap, w.snap),
+        entry(
+            NONE,
+            Key::A,
+            Command::ToggleLabelling,
+            super::words::labels::w().add,
+        ),
         entry(NONE, Key::Slash, Command::StartSearch, w.search),
         entry(NONE, Key::Delete, Command::DeleteSelected, w.delete),
         entry(NONE, Key::Backspace, Command::DeleteSelected, ""),

@@ -1,16 +1,22 @@
-//! Title and credit written into a picture that leaves the program: the title at its upper left, the credit at its lower left,
-//! in ink or white as the background wants, with a halo of the other so that they read over tissue.
+//! Title, credit and labels written into a picture that leaves the program: the title at its upper left, the credit at its lower left,
+//! labels at its sides, in ink or white as the background wants, with a halo of the other so that they read over tissue.
 
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Align, Color32, Context, FontId, RawInput, TextFormat};
+use egui::{Align, Color32, Context, FontId, Galley, Pos2, RawInput, Rect, TextFormat, Vec2, vec2};
+use glam::Vec3;
+use std::sync::Arc;
 
+use super::labels;
 use super::theme;
 use crate::document::{Background, Illustration};
-use crate::render::Image;
+use crate::render::{Image, View};
 
 /// Height of the title's letters, of the picture's shorter side, and of the credit's.
 const TITLE: f32 = 0.045;
 const CREDIT: f32 = 0.024;
+/// The same of a label's letters; and the part of the picture's width that a label is wide at most.
+const LABEL: f32 = 0.03;
+const LABEL_WIDTH: f32 = 0.24;
 /// Pixels of letters at least: below nobody reads them.
 const LEAST: f32 = 9.0;
 /// Distance from the edges, of the shorter side.
@@ -24,19 +30,28 @@ struct Mask {
     coverage: Vec<u8>,
 }
 
-/// Writes an illustration's title and credit into its picture. Returns the characters that no font at hand has.
-pub fn letter(image: &mut Image, illustration: &Illustration) -> String {
+/// A label's place in the object: subject space, and whether something lies before it.
+pub type LabelPlace = Option<(Vec3, bool)>;
+
+/// Writes an illustration's title, credit and labels into its picture. `labels` says where each label is, as far as it is anywhere.
+/// Returns the characters that no font at hand has.
+pub fn letter(image: &mut Image, illustration: &Illustration, labels: &[LabelPlace]) -> String {
     let ctx = Context::default();
     theme::install(&ctx);
     // Fonts are there from the first pass on.
     ctx.run_ui(RawInput::default(), |_| {})
         .textures_delta
         .clear();
-    letter_with(&ctx, image, illustration)
+    letter_with(&ctx, image, illustration, labels)
 }
 
 /// The same with the fonts of a window, which has more of them.
-pub(crate) fn letter_with(ctx: &Context, image: &mut Image, illustration: &Illustration) -> String {
+pub(crate) fn letter_with(
+    ctx: &Context,
+    image: &mut Image,
+    illustration: &Illustration,
+    labels: &[LabelPlace],
+) -> String {
     let [width, height] = image.size.map(|side| side as f32);
     let short = width.min(height);
     let margin = MARGIN * short;
@@ -50,6 +65,7 @@ pub(crate) fn letter_with(ctx: &Context, image: &mut Image, illustration: &Illus
         ([0x1f, 0x24, 0x26], [255; 3])
     };
     let mut missing = String::new();
+    let mut free = Rect::from_min_size(Pos2::ZERO, vec2(width, height)).shrink(margin);
     let texts = [
         (&illustration.title, TITLE, theme::STRONG, false),
         (&illustration.credit, CREDIT, "", true),
@@ -59,65 +75,116 @@ pub(crate) fn letter_with(ctx: &Context, image: &mut Image, illustration: &Illus
             continue;
         }
         let letters = (part * short).max(LEAST);
-        let mut mask = Mask {
-            size: image.size.map(|side| side as usize),
-            coverage: vec![0; image.size[0] as usize * image.size[1] as usize],
+        let rows = 0.4 * height / (1.25 * letters);
+        let room = width - 2.0 * margin;
+        let (galley, size, lacking) = laid_out(ctx, text, family, letters, room, rows as usize);
+        missing += &lacking;
+        let mut at = free.left_top();
+        if is_at_foot {
+            at.y = free.bottom() - size.y;
+            free.max.y = at.y - margin;
+        } else {
+            free.min.y = at.y + size.y + margin;
+        }
+        let mut mask = Mask::new(image.size);
+        mask.write(ctx, &galley, at);
+        mask.lay(image, letters, ink, halo);
+    }
+    let view = View::new(&illustration.camera, image.size);
+    let letters = (LABEL * short).max(LEAST);
+    let mut mask = Mask::new(image.size);
+    let (mut points, mut texts) = (Vec::new(), Vec::new());
+    for (label, place) in illustration.labels.iter().zip(labels) {
+        let seen = place.and_then(|(pos, hidden)| Some((view.pixel_from_subject(pos)?, hidden)));
+        let Some((at, is_hidden)) = seen.filter(|_| !label.text.trim().is_empty()) else {
+            continue;
         };
-        let room = [width - 2.0 * margin, 0.4 * height];
-        missing += &mask.write(ctx, text, family, letters, margin, room, is_at_foot);
-        let wide = mask.widened((HALO * letters).max(1.0));
-        blend(image, &wide, halo, 0.8);
-        blend(image, &mask, ink, 1.0);
+        let at = Pos2::new(at.x, at.y);
+        if !Rect::from_min_size(Pos2::ZERO, vec2(width, height)).contains(at) {
+            continue;
+        }
+        let room = LABEL_WIDTH * width;
+        let (galley, size, lacking) = laid_out(ctx, &label.text, "", letters, room, labels::ROWS);
+        missing += &lacking;
+        points.push(at);
+        texts.push((galley, size, is_hidden));
+    }
+    let sizes: Vec<Vec2> = texts.iter().map(|(_, size, _)| *size).collect();
+    let places = labels::arranged(&points, &sizes, 0.3 * letters, free);
+    for (((galley, _, is_hidden), at), rect) in texts.iter().zip(&points).zip(places) {
+        mask.write(ctx, galley, rect.min);
+        mask.line(
+            labels::line_start(rect, *at, 0.3 * letters),
+            *at,
+            0.1 * letters,
+        );
+        mask.line(*at, *at, if *is_hidden { 0.12 } else { 0.26 } * letters);
+    }
+    if !texts.is_empty() {
+        mask.lay(image, letters, ink, halo);
     }
     missing
 }
 
+/// A text of a height in pixels, wrapped: as it is laid out, its size in pixels, and the characters that its font lacks.
+fn laid_out(
+    ctx: &Context,
+    text: &str,
+    family: &str,
+    letters_px: f32,
+    room_px: f32,
+    rows: usize,
+) -> (Arc<Galley>, Vec2, String) {
+    let ppp = ctx.pixels_per_point();
+    let font = match family {
+        "" => FontId::proportional(letters_px / ppp),
+        _ => theme::strong_font(letters_px / ppp),
+    };
+    let mut job = LayoutJob::single_section(
+        text.trim().to_owned(),
+        TextFormat::simple(font.clone(), Color32::WHITE),
+    );
+    job.wrap = TextWrapping {
+        max_width: room_px / ppp,
+        max_rows: rows.max(1),
+        ..TextWrapping::default()
+    };
+    job.halign = Align::LEFT;
+    ctx.fonts_mut(|fonts| {
+        let missing: String = text
+            .chars()
+            .filter(|c| !c.is_whitespace() && !fonts.has_glyph(&font, *c))
+            .collect();
+        let galley = fonts.layout_job(job);
+        let size = galley.size() * ppp;
+        (galley, size, missing)
+    })
+}
+
 impl Mask {
-    /// Writes a text of a height in pixels from the left margin on, at the top or the foot.
-    #[expect(clippy::too_many_arguments, reason = "one call, each named at it")]
-    fn write(
-        &mut self,
-        ctx: &Context,
-        text: &str,
-        family: &str,
-        letters_px: f32,
-        margin_px: f32,
-        room_px: [f32; 2],
-        is_at_foot: bool,
-    ) -> String {
+    fn new(size: [u32; 2]) -> Self {
+        Self {
+            size: size.map(|side| side as usize),
+            coverage: vec![0; size[0] as usize * size[1] as usize],
+        }
+    }
+
+    /// Lays what is covered over the picture, with a halo around it.
+    fn lay(&self, image: &mut Image, letters_px: f32, ink: [u8; 3], halo: [u8; 3]) {
+        let wide = self.widened((HALO * letters_px).max(1.0));
+        blend(image, &wide, halo, 0.8);
+        blend(image, self, ink, 1.0);
+    }
+
+    /// Writes a text with its upper left corner at a pixel.
+    fn write(&mut self, ctx: &Context, galley: &Galley, corner: Pos2) {
         let ppp = ctx.pixels_per_point();
-        let font = match family {
-            "" => FontId::proportional(letters_px / ppp),
-            _ => theme::strong_font(letters_px / ppp),
-        };
-        let mut job = LayoutJob::single_section(
-            text.trim().to_owned(),
-            TextFormat::simple(font.clone(), Color32::WHITE),
-        );
-        job.wrap = TextWrapping {
-            max_width: room_px[0] / ppp,
-            max_rows: ((room_px[1] / (1.25 * letters_px)) as usize).max(1),
-            ..TextWrapping::default()
-        };
-        job.halign = Align::LEFT;
-        let (galley, atlas, missing) = ctx.fonts_mut(|fonts| {
-            let missing: String = text
-                .chars()
-                .filter(|c| !c.is_whitespace() && !fonts.has_glyph(&font, *c))
-                .collect();
-            let galley = fonts.layout_job(job);
-            (galley, fonts.image(), missing)
-        });
-        let top = if is_at_foot {
-            self.size[1] as f32 - margin_px - galley.size().y * ppp
-        } else {
-            margin_px
-        };
+        let atlas = ctx.fonts(|fonts| fonts.image());
         for row in &galley.rows {
             for glyph in row.glyphs.iter().filter(|g| !g.uv_rect.is_nothing()) {
                 let at = (row.pos.to_vec2() + glyph.pos.to_vec2() + glyph.uv_rect.offset) * ppp;
-                let left = (margin_px + at.x).round() as i64;
-                let top = (top + at.y).round() as i64;
+                let left = (corner.x + at.x).round() as i64;
+                let top = (corner.y + at.y).round() as i64;
                 let [from, to] = [glyph.uv_rect.min, glyph.uv_rect.max];
                 for v in from[1]..to[1] {
                     for u in from[0]..to[0] {
@@ -131,7 +198,28 @@ impl Mask {
                 }
             }
         }
-        missing
+    }
+
+    /// Draws a line with round ends; from a place to itself, a dot.
+    fn line(&mut self, from: Pos2, to: Pos2, radius_px: f32) {
+        let radius = radius_px.max(0.6);
+        let area = Rect::from_two_pos(from, to).expand(radius + 1.0);
+        let area = area.intersect(Rect::from_min_max(
+            Pos2::ZERO,
+            Pos2::new(self.size[0] as f32, self.size[1] as f32),
+        ));
+        if !area.is_positive() {
+            return;
+        }
+        let way = to - from;
+        for y in area.top() as i64..area.bottom().ceil() as i64 {
+            for x in area.left() as i64..area.right().ceil() as i64 {
+                let at = Pos2::new(x as f32 + 0.5, y as f32 + 0.5);
+                let t = (at - from).dot(way) / way.length_sq().max(1e-6);
+                let away = (from + way * t.clamp(0.0, 1.0) - at).length();
+                self.cover(x, y, ((radius + 0.5 - away).clamp(0.0, 1.0) * 255.0) as u8);
+            }
+        }
     }
 
     fn cover(&mut self, x: i64, y: i64, coverage: u8) {
@@ -202,7 +290,7 @@ mod tests {
             size,
             rgba: pixel.repeat(count),
         };
-        let missing = letter(&mut image, document.illustration());
+        let missing = letter(&mut image, document.illustration(), &[]);
         (image, missing)
     }
 

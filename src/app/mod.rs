@@ -29,6 +29,7 @@ mod icon;
 mod icons;
 mod keep;
 mod keys;
+mod labels;
 mod lettering;
 mod look;
 mod making;
@@ -75,7 +76,8 @@ use crate::render::{Clock, encode_png};
 
 pub use self::camera::StandardView;
 pub use self::command::{Command, GizmoMode};
-pub use self::lettering::letter;
+pub use self::labels::label_places;
+pub use self::lettering::{LabelPlace, letter};
 pub use self::services::{
     LabelsExpected, LinkChange, LoadEvent, Message, RawQuestion, SaveFile, Services, Ticket,
 };
@@ -386,7 +388,8 @@ impl App {
             if is_sheet_open && !matches!(shortcut.command, Command::ToggleKeys | Command::Escape) {
                 continue;
             }
-            if key == egui::Key::Enter && self.state.placing.is_none() {
+            let is_placing = self.state.placing.is_some() || self.state.labelling.is_placing;
+            if key == egui::Key::Enter && !is_placing {
                 continue;
             }
             // A slow frame may hold a key that was pressed several times.
@@ -439,7 +442,8 @@ impl App {
             let file = picture.poll_file().map(|image| {
                 let mut image = image?;
                 if self.is_lettering {
-                    lettering::letter_with(ctx, &mut image, self.state.shown());
+                    let places = self.viewport.label_places();
+                    lettering::letter_with(ctx, &mut image, &self.state.shown_as_seen(), &places);
                 }
                 encode_png(&image)
             });
@@ -645,7 +649,7 @@ impl App {
                 let info = self.picture.as_ref().and_then(Picture::subject_info);
                 look::ui(ui, &self.state, info.as_ref(), &mut self.transfer, commands);
             }
-            Tab::Text => text::ui(ui, &self.state, commands),
+            Tab::Text => text::ui(ui, &mut self.state, commands),
         }
     }
 

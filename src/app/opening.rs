@@ -23,6 +23,7 @@ impl State {
         self.placing = None;
         self.tissues.open = None;
         self.tissues.is_seeding = false;
+        self.labelling = Default::default();
         self.tissues.alone = None;
         self.link_stale_since = None;
         self.payload = make_payload(&document, &document.illustration().camera);

@@ -9,13 +9,13 @@ use std::task::{Context, Poll, Waker};
 
 use eframe::egui_wgpu::RenderState;
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 use crate::data::{LabelVolume, Segment, Volume};
 use crate::document::{Background, Camera, Illustration};
 use crate::render::{
-    Clock, DrawState, Gpu, Image, PendingPick, PendingSlice, Pick, RenderError, Renderer,
-    SlicePlane, SliceView, SubjectInfo,
+    Clock, DrawState, Gpu, Image, PendingPick, PendingPlaces, PendingSlice, Pick, RenderError,
+    Renderer, SlicePlane, SliceView, SubjectInfo,
 };
 
 /// Work on the GPU that is looked after once per frame.
@@ -51,6 +51,10 @@ pub(crate) enum PickFor {
     Surface(usize),
     /// To let a template follow the surface: one place of those along it.
     Along(usize),
+    /// To fasten a label to it.
+    Label,
+    /// Whether something lies before the label of that index.
+    Sight(usize),
 }
 
 /// The renderer with what the interface needs around it. Built once per window.
@@ -265,6 +269,11 @@ impl Picture {
         let pending = self.renderer.pick(Vec2::from_array(pos_px), size_px)?;
         self.picks.push((why, pending));
         Ok(())
+    }
+
+    /// Asks where points of the rest are in the object that is shown.
+    pub(crate) fn follow_points(&mut self, points: &[Vec3]) -> Result<PendingPlaces, RenderError> {
+        self.renderer.follow_points(points)
     }
 
     /// True while a question of this kind is open.

@@ -6,6 +6,7 @@ use glam::Vec3;
 use super::camera;
 use super::command::{Command, GizmoMode};
 use super::frames::FileChoice;
+use super::labels::Labelling;
 use super::making::{Making, OnClipboard, placement_on_surface};
 use super::services::{LinkChange, SaveFile, Services, Ticket};
 use super::steps::Walk;
@@ -152,6 +153,8 @@ pub(crate) struct State {
     /// Title and credit are written into saved pictures.
     pub is_lettering: bool,
     pub scale_change: Option<f32>,
+    /// Labels that are being set.
+    pub labelling: Labelling,
     /// Copying, grouping, snapping, searching.
     pub making: Making,
     /// Seconds on the clock of the interface.
@@ -195,6 +198,7 @@ impl State {
             copied_at: None,
             wants_picture_file: false,
             wants_place_in_middle: false,
+            labelling: Labelling::default(),
             theme_toggle: false,
             contrast_toggle: false,
             wants_panel_focus: false,
@@ -468,7 +472,10 @@ impl State {
                     self.tab = None;
                 }
             }
-            Command::PlaceInMiddle => self.wants_place_in_middle = self.placing.is_some(),
+            Command::PlaceInMiddle => {
+                self.wants_place_in_middle = self.placing.is_some() || self.labelling.is_placing;
+            }
+            Command::ToggleLabelling => self.toggle_labelling(),
             Command::Escape => self.escape(),
             Command::Select(index) => {
                 self.selected = index;
@@ -667,6 +674,8 @@ impl State {
             self.is_messages_open = false;
         } else if self.placing.is_some() {
             self.placing = None;
+        } else if self.labelling.is_placing {
+            self.labelling.is_placing = false;
         } else if self.tissues.is_seeding {
             self.tissues.is_seeding = false;
         } else if self.view.escape() {

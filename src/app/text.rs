@@ -6,6 +6,7 @@ use super::command::Command;
 use super::control;
 use super::frames;
 use super::icon::Icon;
+use super::labels;
 use super::state::State;
 use super::theme::{self, Palette};
 use super::viewport;
@@ -14,8 +15,8 @@ use super::words::text::w;
 use crate::document::{Edit, SubjectRef};
 
 /// The panel.
-pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let illustration = state.illustration();
+pub(crate) fn ui(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
+    let illustration = state.illustration().clone();
     control::heading(ui, w().heading, |_| {});
     let mut field =
         |ui: &mut Ui, name: &str, hint: &str, text: &str, rows: usize, edit: fn(String) -> Edit| {
@@ -92,6 +93,7 @@ pub(crate) fn ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         let hint = w().scan_stays;
         ui.add(Label::new(egui::RichText::new(hint).small().color(weak)).wrap());
     }
+    labels::panel_ui(ui, state, commands);
     if frames::row_ui(ui, state) {
         commands.push(Command::ToggleFrames);
     }

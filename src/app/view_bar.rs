@@ -31,6 +31,19 @@ pub(super) fn column_width(picture: Rect) -> f32 {
     }
 }
 
+/// The part of a picture that texts over it may fill: beside the buttons and above the ball of axes.
+pub(super) fn beside(picture: Rect) -> Rect {
+    let foot = if picture.height() < LOW {
+        button() + 24.0
+    } else {
+        128.0
+    };
+    let mut area = picture.shrink2(vec2(14.0, 12.0));
+    area.max.x -= column_width(picture);
+    area.max.y -= foot;
+    area
+}
+
 /// All of it, in the corners of a rectangle.
 pub(crate) fn corner_ui(
     ui: &mut Ui,

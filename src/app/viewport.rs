@@ -13,6 +13,8 @@ use super::control;
 use super::curve;
 use super::gizmo::Gizmo;
 use super::icon::Icon;
+use super::labels::Followed;
+use super::lettering::LabelPlace;
 use super::making::{self, placement_on_surface};
 use super::orientation;
 use super::picture::{PickFor, Picture};
@@ -64,6 +66,7 @@ pub(crate) struct Viewport {
     id: Option<egui::Id>,
     /// The picture could not be drawn; said once.
     has_failed: bool,
+    labels: Followed,
 }
 
 impl Viewport {
@@ -71,6 +74,11 @@ impl Viewport {
     pub(crate) fn size_px(&self, pixels_per_point: f32) -> [u32; 2] {
         self.rect
             .map_or([1024, 768], |rect| size_px(rect, pixels_per_point))
+    }
+
+    /// Where each label of the document is.
+    pub(crate) fn label_places(&self) -> Vec<LabelPlace> {
+        self.labels.places()
     }
 
     /// Identity of the picture as a widget, once it has been shown.
@@ -124,16 +132,21 @@ impl Viewport {
             free
         };
         orientation::edges_ui(&painter, &view, letters, free);
+        self.labels.ui(ui, &view, view_bar::beside(free), state);
 
         if let Some(kind) = state.placing {
             self.placing_ui(
                 ui,
                 rect,
                 &view,
-                state,
                 &in_sentence(super::catalogue::kind_title(kind)),
                 commands,
             );
+        } else if state.labelling.is_placing {
+            self.gizmo.release();
+            let words = words::labels::w();
+            let texts = [words.tap_where, words.click_where];
+            asking_ui(ui, rect, texts, words.cancel, commands);
         } else {
             self.markers_ui(ui, &view, state, commands);
             if let Some(template) = state.selected_template().cloned() {
@@ -152,6 +165,7 @@ impl Viewport {
         }
         if response.clicked()
             && state.placing.is_none()
+            && !state.labelling.is_placing
             && !state.view.measures.is_on
             && !self.gizmo.is_hot()
             && state.selected.is_some()
@@ -313,6 +327,8 @@ impl Viewport {
         }
         _ = commands;
         self.questions(ui, rect, state, picture);
+        let view = Projection::new(&state.camera, rect);
+        self.labels.update(ui.ctx(), state, picture, &view, size);
     }
 
     /// The untouched object faintly over the picture: where nothing moved, it changes nothing.
@@ -364,6 +380,12 @@ impl Viewport {
                     // A preview is no reason for a message.
                     _ = picture.ask(PickFor::Hover, pixel(pos), size);
                 }
+            } else if state.labelling.is_placing {
+                if response.clicked()
+                    && let Some(pos) = pointer
+                {
+                    asked = picture.ask(PickFor::Label, pixel(pos), size);
+                }
             } else if state.tissues.is_seeding {
                 if response.clicked()
                     && let Some(pos) = pointer
@@ -387,7 +409,12 @@ impl Viewport {
             }
         }
         if std::mem::take(&mut state.wants_place_in_middle) {
-            asked = picture.ask(PickFor::PlaceInMiddle, pixel(rect.center()), size);
+            let why = if state.labelling.is_placing {
+                PickFor::Label
+            } else {
+                PickFor::PlaceInMiddle
+            };
+            asked = picture.ask(why, pixel(rect.center()), size);
         }
         if let Some(template) = state.making.wants_surface.take()
             && let Some((seen, camera)) = state.surface_view(template)
@@ -457,6 +484,12 @@ impl Viewport {
                     state.apply(&edit, false);
                 }
             }
+            (PickFor::Label, Some(pick)) => state.add_label(pick.pos_in_rest),
+            (PickFor::Label, None) => state.say(Gravity::Info, said::w().nothing_here, ""),
+            (PickFor::Sight(label), pick) => {
+                let eye = camera.target + camera::axes(camera.rotate)[2] * camera.distance;
+                self.labels.seen(label, pick.map(|pick| pick.depth), eye);
+            }
             (PickFor::Seed, None) => state.say(Gravity::Info, said::w().nothing_here, ""),
             (PickFor::Measure, Some(pick)) => state.view.measures.add(pick.pos_in_subject),
             (PickFor::Measure, None) => state.say(Gravity::Info, said::w().nothing_here, ""),
@@ -469,49 +502,21 @@ impl Viewport {
         ui: &mut Ui,
         rect: Rect,
         view: &Projection,
-        state: &State,
         name: &str,
         commands: &mut Vec<Command>,
     ) {
         self.gizmo.release();
-        ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
         if let Some(preview) = &self.preview {
             paint_preview(ui, rect, view, preview);
         }
-        let palette = Palette::get(ui);
-        let is_narrow = rect.width() < 420.0;
-        let text = if is_narrow {
-            fill(w().tap_where, &[&name])
-        } else {
-            fill(w().click_where, &[&name])
-        };
-        let galley = ui
-            .painter()
-            .layout_no_wrap(text, theme::strong_font(13.5), palette.text);
-        let middle_width = if is_narrow { 76.0 } else { 118.0 };
-        let width = galley.size().x + middle_width + 40.0 + theme::control_height();
-        let bar = bar_rect(rect, width);
-        float_frame(ui, bar);
-        let at = bar.left_center() + vec2(14.0, -0.5 * galley.size().y);
-        let spot = control::sided(bar, Rect::from_min_size(at, galley.size()));
-        ui.painter().galley(spot.min, galley, palette.text);
-        let mut inner = ui.new_child(
-            UiBuilder::new()
-                .max_rect(bar.shrink2(vec2(6.0, 6.0)))
-                .layout(control::against()),
+        let texts = [w().tap_where, w().click_where].map(|text| fill(text, &[&name]));
+        asking_ui(
+            ui,
+            rect,
+            [&texts[0], &texts[1]],
+            w().cancel_placing,
+            commands,
         );
-        if control::icon_button(&mut inner, Icon::Close, w().cancel_placing, true).clicked() {
-            commands.push(Command::Escape);
-        }
-        let text = if is_narrow {
-            w().middle
-        } else {
-            w().in_the_middle
-        };
-        if inner.button(text).on_hover_text(w().enter).clicked() {
-            commands.push(Command::PlaceInMiddle);
-        }
-        _ = state;
     }
 
     /// A dot for each template that is not selected; a click selects it.
@@ -790,6 +795,47 @@ fn tools_ui(
     }
     let more = control::icon_button(ui, Icon::More, words::making::w().actions, true);
     egui::Popup::menu(&more).show(|ui| making::menu_ui(ui, state, commands));
+}
+
+/// What the next click is for, over the picture, with a button for its middle and one to leave it. Of the texts the first is for little room.
+fn asking_ui(
+    ui: &mut Ui,
+    rect: Rect,
+    [short, long]: [&str; 2],
+    cancel: &str,
+    commands: &mut Vec<Command>,
+) {
+    ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
+    let palette = Palette::get(ui);
+    let is_narrow = rect.width() < 420.0;
+    let text = if is_narrow { short } else { long };
+    let middle = if is_narrow {
+        w().middle
+    } else {
+        w().in_the_middle
+    };
+    let middle_width = if is_narrow { 76.0 } else { 118.0 };
+    let buttons = middle_width + theme::control_height();
+    // Letters shrink where a language needs more room than there is.
+    let room = bar_rect(rect, f32::INFINITY).width() - buttons - 40.0;
+    let font = theme::strong_font(13.5);
+    let wanted = control::text_width(ui, text, font.clone());
+    let font = theme::strong_font((13.5 * room / wanted.max(1.0)).clamp(9.0, 13.5));
+    let width = control::text_width(ui, text, font.clone());
+    let bar = bar_rect(rect, width + buttons + 40.0);
+    float_frame(ui, bar);
+    control::line_text(ui.painter(), bar, 14.0, text, font, palette.text);
+    let mut inner = ui.new_child(
+        UiBuilder::new()
+            .max_rect(bar.shrink2(vec2(6.0, 6.0)))
+            .layout(control::against()),
+    );
+    if control::icon_button(&mut inner, Icon::Close, cancel, true).clicked() {
+        commands.push(Command::Escape);
+    }
+    if inner.button(middle).on_hover_text(w().enter).clicked() {
+        commands.push(Command::PlaceInMiddle);
+    }
 }
 
 /// Hands over what is to be seen: the illustration, or one tissue of it alone.

@@ -249,9 +249,6 @@ impl Reader {
                 text: object.string("text")?,
             });
         }
-        if !labels.is_empty() {
-            self.note("/labels", NoticeKind::NotDrawn { what: "labels are" });
-        }
         let mut steps = Vec::new();
         for (index, value) in root
             .limited_list("steps", "steps", MAX_STEPS)?

@@ -1,4 +1,5 @@
 use super::baked::BakedMap;
+use super::follow::Follower;
 use super::gpu_types::{Frame, Resolve};
 use super::grid::GridCells;
 use super::object::object_samples;
@@ -188,6 +189,26 @@ impl Studio {
         let mut prepared = Prepared::new(&self.gpu, &self.passes, &self.subject, false);
         prepared.update(&self.gpu, &self.passes, &self.subject, illustration);
         object_samples(&self.gpu, &self.subject, &prepared, points).await
+    }
+
+    /// Where points of the rest (rest space) are in the deformed object, subject space; `None` where their tissue is cut away.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn follow_points(
+        &self,
+        illustration: &Illustration,
+        points_in_rest: &[Vec3],
+    ) -> Result<Vec<Option<Vec3>>, RenderError> {
+        if points_in_rest.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut prepared = Prepared::new(&self.gpu, &self.passes, &self.subject, false);
+        prepared.update(&self.gpu, &self.passes, &self.subject, illustration);
+        let mut follower = Follower::default();
+        follower
+            .find(&self.gpu, &self.subject, &prepared, points_in_rest)?
+            .await
     }
 
     /// Distances as made for an illustration, read back: voxels along each axis, all slabs counted, and per voxel the four sets' signed

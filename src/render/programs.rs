@@ -112,6 +112,7 @@ shader_files![
     "pass/bake.wgsl",
     "pass/bodies.wgsl",
     "pass/distance.wgsl",
+    "pass/follow.wgsl",
     "pass/grid.wgsl",
     "pass/object.wgsl",
     "pass/probe.wgsl",
@@ -172,6 +173,16 @@ pub const PROGRAMS: &[Program] = &[
             "pass/object.wgsl",
         ],
         entries: &[("probe_object", Stage::Compute)],
+    },
+    Program {
+        name: "follow",
+        files: with_displacement![
+            "bind/subject.wgsl",
+            "bind/feature.wgsl",
+            "march/align.wgsl",
+            "pass/follow.wgsl",
+        ],
+        entries: &[("search", Stage::Compute), ("settle", Stage::Compute)],
     },
     Program {
         name: "rigid",

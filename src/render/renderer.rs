@@ -1,3 +1,4 @@
+use super::follow::{Follower, PendingPlaces};
 use super::gpu_types::Resolve;
 use super::pace::{Pace, Work};
 use super::passes::{LINEAR_FORMAT, OUTPUT_FORMAT, Passes};
@@ -11,7 +12,7 @@ use super::subject::{Upload, reduced_to_fit};
 use super::{Gpu, RenderError, SubjectInfo, View, WorkDone};
 use crate::data::{LabelVolume, Segment, Volume};
 use crate::document::{Camera, Illustration};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use std::sync::Arc;
 
 /// Seconds since any fixed moment. Given by the shell, since a browser has its own clock.
@@ -75,6 +76,7 @@ pub struct Renderer {
     generation: u64,
     slice_passes: Option<SlicePasses>,
     slices: SliceBoard,
+    follower: Follower,
 }
 
 #[derive(Debug)]
@@ -134,6 +136,7 @@ impl Renderer {
             under_way: None,
             generation: 0,
             slice_passes: None,
+            follower: Follower::default(),
             slices: SliceBoard::default(),
         }
     }
@@ -365,6 +368,24 @@ impl Renderer {
                 pixel,
                 studio.subject.uniform.label_dims[3] > 0.5,
             )),
+            _ => Err(RenderError::NoSubject),
+        }
+    }
+
+    /// Where points of the rest are in the object as it is set now.
+    ///
+    /// # Errors
+    /// [`RenderError::NoSubject`], [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub fn follow_points(&mut self, points_in_rest: &[Vec3]) -> Result<PendingPlaces, RenderError> {
+        self.gpu.check()?;
+        if !self.prepare() {
+            return Err(RenderError::NoSubject);
+        }
+        match (&self.studio, &self.prepared) {
+            (Some(studio), Some(prepared)) => {
+                self.follower
+                    .find(&self.gpu, &studio.subject, prepared, points_in_rest)
+            }
             _ => Err(RenderError::NoSubject),
         }
     }

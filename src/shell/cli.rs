@@ -21,7 +21,7 @@ use crate::document::{
 };
 use crate::link::{self, LinkError};
 use crate::load::LoadError;
-use crate::render::{Gpu, GpuOptions, KeptTissue, RenderError, encode_png, render_image};
+use crate::render::{Gpu, GpuOptions, KeptTissue, RenderError, Studio, encode_png};
 
 /// Opens CT and MRI scans the way a medical illustrator would.
 ///
@@ -75,7 +75,7 @@ enum Command {
         /// Samples per pixel against jagged edges.
         #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=1024))]
         samples: u32,
-        /// Writes title and credit into the picture.
+        /// Writes title, credit and labels into the picture.
         #[arg(long)]
         lettering: bool,
     },
@@ -536,7 +536,7 @@ struct Paper {
     size: [u32; 2],
     /// Per pixel.
     samples: u32,
-    /// With title and credit.
+    /// With title, credit and labels.
     lettering: bool,
 }
 
@@ -565,10 +565,13 @@ fn render(
     let gpu = open_gpu(common)?;
     let volume = subject_of(&illustration, common, &opened.folder, gpu.volume_limits())?;
     say_kept(&illustration, &volume);
-    let drawing = render_image(&gpu, &illustration, &volume, paper.size, paper.samples);
+    let studio = Studio::new(&gpu, &volume, true)?;
+    let drawing = studio.render_image(&illustration, paper.size, paper.samples);
     let mut image = pollster::block_on(drawing)?;
     if paper.lettering {
-        let missing = crate::app::letter(&mut image, &illustration);
+        let places = crate::app::label_places(&studio, &illustration, paper.size);
+        let places = pollster::block_on(places)?;
+        let missing = crate::app::letter(&mut image, &illustration, &places);
         if !missing.is_empty() {
             notice(format!("no font here has the characters {missing}"));
         }

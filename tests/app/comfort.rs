@@ -68,7 +68,7 @@ fn title_and_credit_are_written_into_a_saved_picture() {
     let mut save = |is_lettered: bool| {
         if is_lettered {
             window.click("Panel: Text");
-            window.click("Write title and credit into saved pictures");
+            window.click("Write title, credit and labels into saved pictures");
             assert_eq!(stored(&window, "lettering").as_deref(), Some("yes"));
         }
         let before = window.log.0.borrow().saved.len();

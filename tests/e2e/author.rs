@@ -197,6 +197,18 @@ fn the_path_by_keys_alone() {
             20,
         )
         .await;
+        // A label in the middle, named at once.
+        press(&tab, "a").await;
+        rest(&tab).await;
+        press(&tab, "Enter").await;
+        let labels = "JSON.parse(window.fabrica.viewer.get_document()).labels";
+        tab.wait_until(&format!("{labels}?.length === 1"), 30).await;
+        hear(&tab, "Text of label 1").await;
+        for letter in ["b", "o", "x"] {
+            press(&tab, letter).await;
+        }
+        tab.wait_until(&format!("{labels}[0].text === 'box'"), 20)
+            .await;
         rest(&tab).await;
         tab.picture("keys_3_look").await;
         let adjusted = document(&tab).await;

@@ -37,6 +37,7 @@ pub(crate) mod files;
 pub(crate) mod keep;
 pub(crate) mod keys;
 pub(crate) mod kinds;
+pub(crate) mod labels;
 pub(crate) mod look;
 pub(crate) mod making;
 pub(crate) mod names;
@@ -241,6 +242,7 @@ mod tests {
             files::LINES,
             keep::LINES,
             keys::LINES,
+            labels::LINES,
             look::LINES,
             making::LINES,
             names::LINES,

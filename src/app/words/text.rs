@@ -10,7 +10,7 @@ words! {
         caption_hint: "What the picture shows", "Was das Bild zeigt", "Lo que muestra la imagen", "图像所示内容";
         credit: "Credit", "Nachweis", "Créditos", "署名";
         credit_hint: "Your name, where the scan is from", "Ihr Name, Herkunft des Scans", "Su nombre, procedencia del estudio", "您的姓名、扫描来源";
-        lettering: "Write title and credit into saved pictures", "Titel und Nachweis in gesicherte Bilder schreiben", "Escribir título y créditos en las imágenes guardadas", "在保存的图片中写入标题和署名";
+        lettering: "Write title, credit and labels into saved pictures", "Titel, Nachweis und Beschriftungen in gesicherte Bilder schreiben", "Escribir título, créditos y rótulos en las imágenes guardadas", "在保存的图片中写入标题、署名和标注";
         scan_name: "Name of the scan", "Name des Scans", "Nombre del estudio", "扫描名称";
         scan_name_example: "CT head", "CT Kopf", "TC de cabeza", "头部 CT";
         scan_stays: "The scan stays on this machine. Whoever opens the link is asked for the file; the name tells which.", "Der Scan bleibt auf diesem Gerät. Wer den Link öffnet, wird nach der Datei gefragt; der Name sagt, nach welcher.", "El estudio no sale de este equipo. A quien abra el enlace se le pedirá el archivo; el nombre dice cuál.", "扫描留在本机。打开链接的人会被要求提供该文件；名称说明是哪一个。";

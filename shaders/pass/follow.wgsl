@@ -1,0 +1,140 @@
+// Follow: where points of the rest are in the deformed object, for what is fastened to tissue (labels). The map leads the other way and
+// jumps at cuts. So the deformed object is looked through on a lattice first; from the nearest that is found in each part of it, Newton's
+// method goes along the map's own path, which is smooth, and the best of all ends counts.
+//
+//   search   one invocation per cell of the lattice: for each point and block of cells, the cell whose material lay nearest at rest
+//   settle   one workgroup per point: Newton from the best cell of each block
+// needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/feature.wgsl displace/compose.wgsl march/align.wgsl
+
+/// Of the cells.
+struct Lattice {
+    /// xyz: where it begins, subject space; w: side of a cell.
+    corner: vec4f,
+    /// xyz: cells; w: points that are followed.
+    cells: vec4u,
+}
+
+/// Blocks of cells along each axis.
+const BLOCKS: u32 = 6u;
+/// Bits of a candidate that are its cell.
+const CELL_BITS: u32 = 17u;
+/// Distances from cells are counted in such parts of a cell's side.
+const PARTS: f32 = 256.0;
+/// Cells that a start may be away at rest, in sides: of a thin layer not every cell has a part.
+const FARTHEST: f32 = 8.0;
+
+@group(3) @binding(0) var<uniform> lattice: Lattice;
+/// xyz: rest space.
+@group(3) @binding(1) var<storage, read> followed: array<vec4f>;
+/// Of each point in each block: distance at rest and cell, packed; all ones where the block has nothing.
+@group(3) @binding(2) var<storage, read_write> nearest: array<atomic<u32>>;
+/// xyz: subject space; w: how far from the point the material there lay at rest.
+@group(3) @binding(3) var<storage, read_write> places: array<vec4f>;
+
+var<workgroup> ends: array<vec4f, 64>;
+
+fn cell_center(cell: u32) -> vec3f {
+    let n = lattice.cells;
+    let at = vec3u(cell % n.x, (cell / n.x) % n.y, cell / (n.x * n.y));
+    return lattice.corner.xyz + (vec3f(at) + 0.5) * lattice.corner.w;
+}
+
+@compute @workgroup_size(64)
+fn search(@builtin(global_invocation_id) id: vec3u) {
+    let n = lattice.cells;
+    let cell = id.x;
+    if cell >= n.x * n.y * n.z {
+        return;
+    }
+    let found = material_at(cell_center(cell), 0xffffffffu);
+    if found.continuity < 0.0 {
+        return;
+    }
+    let at = vec3u(cell % n.x, (cell / n.x) % n.y, cell / (n.x * n.y));
+    let in_blocks = at * BLOCKS / n.xyz;
+    let block = in_blocks.x + BLOCKS * (in_blocks.y + BLOCKS * in_blocks.z);
+    for (var i = 0u; i < n.w; i++) {
+        let away = distance(found.pos, followed[i].xyz) / lattice.corner.w;
+        if away < FARTHEST {
+            atomicMin(&nearest[i * BLOCKS * BLOCKS * BLOCKS + block], (u32(away * PARTS) << CELL_BITS) | cell);
+        }
+    }
+}
+
+/// Newton's method from a start: where it ends, and how far that lay from the point at rest.
+fn settled(start: vec3f, wanted: vec3f) -> vec4f {
+    var pos = start;
+    var found = material_at(pos, 0xffffffffu);
+    var off = wanted - found.pos;
+    for (var turn = 0u; turn < 10u; turn++) {
+        if dot(off, off) < 1e-11 {
+            break;
+        }
+        // What stayed where it was has no path: there the map is the identity.
+        var columns = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+        let h = map_step();
+        let here = map_along(pos, found.path).pos;
+        for (var axis = 0u; axis < 3u; axis++) {
+            let along = select(vec3f(0.0), vec3f(h), vec3u(0u, 1u, 2u) == vec3u(axis));
+            columns[axis] = (map_along(pos + along, found.path).pos - here) / h;
+        }
+        let volume = determinant(columns);
+        var step = off;
+        if abs(volume) > 1e-4 {
+            step = vec3f(
+                dot(cross(columns[1], columns[2]), off),
+                dot(cross(columns[2], columns[0]), off),
+                dot(cross(columns[0], columns[1]), off),
+            ) / volume;
+        }
+        step *= min(1.0, 4.0 * lattice.corner.w / max(length(step), 1e-9));
+        // Only onto material, and only nearer.
+        var has_moved = false;
+        for (var half = 0u; half < 6u && !has_moved; half++) {
+            let next = material_at(pos + step, 0xffffffffu);
+            let rest = wanted - next.pos;
+            if next.continuity >= 0.0 && dot(rest, rest) < dot(off, off) {
+                pos += step;
+                found = next;
+                off = rest;
+                has_moved = true;
+            }
+            step *= 0.5;
+        }
+        if !has_moved {
+            break;
+        }
+    }
+    return vec4f(pos, select(NO_END, length(off), found.continuity >= 0.0));
+}
+
+@compute @workgroup_size(64)
+fn settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let point = group.x;
+    let wanted = followed[point].xyz;
+    var best = vec4f(wanted, NO_END);
+    // Most tissue stays where it was.
+    if lane == 0u {
+        best = settled(wanted, wanted);
+    }
+    for (var block = lane; block < BLOCKS * BLOCKS * BLOCKS; block += 64u) {
+        let candidate = atomicLoad(&nearest[point * BLOCKS * BLOCKS * BLOCKS + block]);
+        if candidate != 0xffffffffu {
+            let end = settled(cell_center(candidate & ((1u << CELL_BITS) - 1u)), wanted);
+            if end.w < best.w {
+                best = end;
+            }
+        }
+    }
+    ends[lane] = best;
+    workgroupBarrier();
+    if lane == 0u {
+        for (var i = 1u; i < 64u; i++) {
+            // Where several are as good, the first: what stayed.
+            if ends[i].w < best.w - 1e-5 {
+                best = ends[i];
+            }
+        }
+        places[point] = best;
+    }
+}

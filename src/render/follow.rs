@@ -1,0 +1,164 @@
+use super::passes::RaycastKey;
+use super::programs::module;
+use super::scene::Prepared;
+use super::subject::{SubjectTextures, entry};
+use super::{
+    Gpu, Readback, RenderError, result_buffer, storage_buffer, submit_and_read, uniform_buffer,
+};
+use glam::Vec3;
+
+/// Cells along the longest side of the lattice; with all three sides as long it is less than the 2^17 that the program can number.
+const CELLS: f32 = 48.0;
+/// Blocks of the lattice, as in pass/follow.wgsl.
+const BLOCKS: usize = 6 * 6 * 6;
+/// Farther from a point at rest than this (subject units), nothing is taken for it: its tissue is cut away.
+const FOUND: f32 = 0.008;
+
+/// As in pass/follow.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct Lattice {
+    corner: [f32; 4],
+    cells: [u32; 4],
+}
+
+/// Finds where points of the rest are in the deformed object. Compiles its programs when templates of other kinds come.
+#[derive(Debug, Default)]
+pub(super) struct Follower {
+    made: Option<(RaycastKey, [wgpu::ComputePipeline; 2])>,
+}
+
+/// Places on their way back. Await them, or ask once per frame.
+#[derive(Debug)]
+pub struct PendingPlaces(Readback);
+
+impl PendingPlaces {
+    /// The answer if it has come; does not wait. For each point where it is now, subject space; `None` where its tissue is
+    /// cut away.
+    pub fn poll_now(&mut self) -> Option<Result<Vec<Option<Vec3>>, RenderError>> {
+        self.0.poll_now().map(|bytes| bytes.map(|b| read(&b)))
+    }
+}
+
+impl Future for PendingPlaces {
+    type Output = Result<Vec<Option<Vec3>>, RenderError>;
+
+    fn poll(
+        mut self: std::pin::Pin<&mut Self>,
+        context: &mut std::task::Context<'_>,
+    ) -> std::task::Poll<Self::Output> {
+        std::pin::Pin::new(&mut self.0)
+            .poll(context)
+            .map(|bytes| bytes.map(|b| read(&b)))
+    }
+}
+
+fn read(bytes: &[u8]) -> Vec<Option<Vec3>> {
+    let places: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(bytes);
+    places
+        .into_iter()
+        .map(|[x, y, z, off]| (off <= FOUND).then_some(Vec3::new(x, y, z)))
+        .collect()
+}
+
+impl Follower {
+    /// Starts looking for points (rest space) in the object as it is prepared. There has to be one at least.
+    pub(super) fn find(
+        &mut self,
+        gpu: &Gpu,
+        subject: &SubjectTextures,
+        prepared: &Prepared,
+        points: &[Vec3],
+    ) -> Result<PendingPlaces, RenderError> {
+        let key = prepared.key(false);
+        if self.made.as_ref().is_none_or(|(made, _)| *made != key) {
+            self.made = Some((key, pipelines(gpu, &key)?));
+        }
+        let Some((_, [search, settle])) = &self.made else {
+            unreachable!("it was just made");
+        };
+        let bounds = prepared.bounds;
+        let side = bounds.size().max_element() / CELLS;
+        let cells = (bounds.size() / side).ceil().max(Vec3::ONE).as_uvec3();
+        let lattice = Lattice {
+            corner: bounds.min.extend(side).to_array(),
+            cells: cells.extend(points.len() as u32).to_array(),
+        };
+        let padded: Vec<[f32; 4]> = points.iter().map(|p| [p.x, p.y, p.z, 0.0]).collect();
+        let lattice_buffer = uniform_buffer(gpu, "lattice", &lattice);
+        let followed = storage_buffer(gpu, "followed points", &padded);
+        let nearest = storage_buffer(gpu, "nearest cells", &vec![u32::MAX; BLOCKS * points.len()]);
+        let places = result_buffer(gpu, "places", 16 * points.len() as u64);
+        let features = prepared.features();
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut encode = |pipeline: &wgpu::ComputePipeline, groups: u32, has_places: bool| {
+            let group = |index: u32, entries: &[wgpu::BindGroupEntry<'_>]| {
+                gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("follow"),
+                    layout: &pipeline.get_bind_group_layout(index),
+                    entries,
+                })
+            };
+            let subject_entries = [
+                entry(0, subject.buffer.as_entire_binding()),
+                entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
+                entry(3, wgpu::BindingResource::TextureView(&subject.label_view)),
+            ];
+            let scene_entries = [
+                entry(0, prepared.scene.templates.as_entire_binding()),
+                entry(5, features.uniform.as_entire_binding()),
+                entry(6, wgpu::BindingResource::TextureView(&features.view)),
+                entry(7, wgpu::BindingResource::TextureView(prepared.fields())),
+            ];
+            let point_entries = [
+                entry(0, lattice_buffer.as_entire_binding()),
+                entry(1, followed.as_entire_binding()),
+                entry(2, nearest.as_entire_binding()),
+                entry(3, places.as_entire_binding()),
+            ];
+            let point_entries = &point_entries[..if has_places { 4 } else { 3 }];
+            let groups_of = [
+                (1, group(1, &subject_entries)),
+                (2, group(2, &scene_entries)),
+                (3, group(3, point_entries)),
+            ];
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("follow"),
+                timestamp_writes: None,
+            });
+            pass.set_pipeline(pipeline);
+            for (index, bound) in &groups_of {
+                pass.set_bind_group(*index, bound, &[]);
+            }
+            pass.dispatch_workgroups(groups, 1, 1);
+        };
+        encode(search, cells.element_product().div_ceil(64), false);
+        encode(settle, points.len() as u32, true);
+        Ok(PendingPlaces(submit_and_read(gpu, encoder, &places)))
+    }
+}
+
+fn pipelines(gpu: &Gpu, key: &RaycastKey) -> Result<[wgpu::ComputePipeline; 2], RenderError> {
+    let module = module(gpu, "follow")?;
+    let [mode, constraints, kept_by] = key.align_constants();
+    let constants = [
+        ("drawn_kinds", f64::from(key.drawn_kinds)),
+        mode,
+        constraints,
+        kept_by,
+    ];
+    Ok(["search", "settle"].map(|name| {
+        gpu.device
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(name),
+                layout: None,
+                module: &module,
+                entry_point: Some(name),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &constants,
+                    ..Default::default()
+                },
+                cache: None,
+            })
+    }))
+}

@@ -1,0 +1,66 @@
+//! Labels: set on tissue, named, followed while the object is opened, written into saved pictures.
+
+use super::*;
+use fabrica::document::Label;
+
+impl Window {
+    fn labels(&self) -> Vec<Label> {
+        self.document().illustration().labels.clone()
+    }
+}
+
+#[test]
+fn a_label_is_set_named_and_follows_its_tissue() {
+    let mut window = Window::open(DESK, CUBE);
+    window.click("Panel: Text");
+    window.click("Add a label");
+    let at = window.picture_center() + vec2(40.0, -30.0);
+    window.click_at(at);
+    window.settle();
+    assert_eq!(window.labels().len(), 1);
+    assert_eq!(window.labels()[0].text, "Label 1");
+    // Its field has the keyboard, and what is typed replaces what stood there.
+    window
+        .harness
+        .event(egui::Event::Text("Os parietale".to_owned()));
+    window.steps(3);
+    assert_eq!(window.labels()[0].text, "Os parietale");
+    window.settle();
+    window.look("label");
+    let in_picture = |window: &Window| {
+        let texts = window
+            .harness
+            .query_all_by_role_and_label(Role::Label, "Os parietale");
+        texts.count()
+    };
+    assert_eq!(in_picture(&window), 1, "it stands in the picture");
+    // Its tissue is taken away, and with it the label; and both come back.
+    let cut = r#"[{"kind":"cut","size":[2,2,2]}]"#;
+    let mut json: serde_json::Value =
+        serde_json::from_str(&window.document().to_json()).expect("JSON");
+    json["templates"] = serde_json::from_str(cut).expect("JSON");
+    let mut without = Window::open(DESK, &json.to_string());
+    without.settle();
+    assert_eq!(in_picture(&without), 0, "nothing is left to name");
+    // By keyboard: in the middle, dropped, undone.
+    window.press(Key::Escape);
+    window.press(Key::Escape);
+    window.click("Panel: Templates");
+    window.press(Key::A);
+    window.press(Key::Escape);
+    window.press(Key::Enter);
+    window.settle();
+    assert_eq!(window.labels().len(), 1, "it was dropped");
+    window.press(Key::A);
+    window.press(Key::Enter);
+    window.settle();
+    assert_eq!(window.labels().len(), 2, "Enter sets it in the middle");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    window.settle();
+    assert_eq!(window.labels().len(), 1);
+    window.click("Panel: Text");
+    window.click("Remove the label Os parietale");
+    window.settle();
+    assert!(window.labels().is_empty());
+    assert_eq!(in_picture(&window), 0);
+}
