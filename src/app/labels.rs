@@ -88,16 +88,22 @@ pub(crate) fn panel_ui(ui: &mut Ui, state: &mut State, commands: &mut Vec<Comman
         ui.push_id(("label", index), |ui| {
             control::row(ui, |ui| {
                 let mut text = label.text.clone();
+                let id = egui::Id::unique(("text of label", index));
+                // Before the field is shown: it says its name.
+                let wants_focus = state.labelling.wants_focus == Some(index);
+                if wants_focus {
+                    state.labelling.wants_focus = None;
+                    ui.memory_mut(|memory| memory.request_focus(id));
+                    select_all(ui, id, &label.text);
+                }
                 let edit = TextEdit::singleline(&mut text)
+                    .id(id)
                     .align(Align2::LEFT_CENTER)
                     .min_size(vec2(0.0, theme::control_height()))
                     .desired_width(ui.available_width() - theme::control_height() - 8.0);
                 let response = ui.add(edit).named(&fill(w().text_n, &[&(index + 1)]));
-                if state.labelling.wants_focus == Some(index) {
-                    state.labelling.wants_focus = None;
-                    response.request_focus();
+                if wants_focus {
                     response.scroll_to_me(None);
-                    select_all(ui, response.id, &label.text);
                 }
                 if response.changed() {
                     let value = Label { at: label.at, text };

@@ -315,15 +315,16 @@ impl App {
         }
         self.state.making.wants_search = false;
         let has_commands = !commands.is_empty();
-        let was_placing = self.state.placing;
+        let was_placing = (self.state.placing, self.state.labelling.is_placing);
         for command in commands {
             if let Command::NextPanel(forward) = command {
                 self.state.next_panel(forward, self.is_narrow);
             }
             self.state.run(command, self.services.as_mut());
         }
-        if self.state.placing.is_some() && self.state.placing != was_placing {
-            // The next Enter places it; it does not press the catalogue's button again.
+        let is_placing = (self.state.placing, self.state.labelling.is_placing);
+        if is_placing != (None, false) && is_placing != was_placing {
+            // The next Enter places it; it does not press the button again that started it.
             let picture_id = self.picture_id(ui);
             ui.memory_mut(|memory| {
                 if memory.focused().is_some() {
