@@ -6,7 +6,7 @@
 //   settle   one workgroup per point: Newton from the best cell of each block
 // needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/feature.wgsl displace/compose.wgsl march/align.wgsl
 
-/// Of the cells.
+/// Of the cells that the deformed object is looked through in.
 struct Lattice {
     /// xyz: where it begins, subject space; w: side of a cell.
     corner: vec4f,
@@ -23,6 +23,7 @@ const PARTS: f32 = 256.0;
 /// Cells that a start may be away at rest, in sides: of a thin layer not every cell has a part.
 const FARTHEST: f32 = 8.0;
 
+/// Where is looked, and how many points are followed.
 @group(3) @binding(0) var<uniform> lattice: Lattice;
 /// xyz: rest space.
 @group(3) @binding(1) var<storage, read> followed: array<vec4f>;

@@ -101,7 +101,7 @@ pub(crate) fn panel_ui(ui: &mut Ui, state: &mut State, commands: &mut Vec<Comman
                     .align(Align2::LEFT_CENTER)
                     .min_size(vec2(0.0, theme::control_height()))
                     .desired_width(ui.available_width() - theme::control_height() - 8.0);
-                let response = ui.add(edit).named(&fill(w().text_n, &[&(index + 1)]));
+                let response = ui.add(edit).named(fill(w().text_n, &[&(index + 1)]));
                 if wants_focus {
                     response.scroll_to_me(None);
                 }
