@@ -4,11 +4,11 @@ use egui::{FontId, Rect, Role, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use super::command::Command;
 use super::control;
+use super::floating;
 use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette};
 use super::view_bar;
-use super::viewport;
 use super::words::making::w;
 
 /// Under which it is kept that the hint was seen.
@@ -57,7 +57,7 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<C
         picture.right_bottom() - vec2(view_bar::column_width(picture), 14.0)
     };
     let card = Rect::from_min_max(corner - vec2(width, height), corner);
-    viewport::float_frame(ui, card);
+    floating::float_frame(ui, card);
     let mut inner = ui.new_child(
         UiBuilder::new()
             .id_salt("hint")

@@ -9,10 +9,10 @@ use glam::Vec3;
 
 use super::command::Command;
 use super::control;
+use super::floating::float_frame;
 use super::icon::Icon;
 use super::theme::{self, Palette, over_picture as ink};
 use super::view::{See, ViewState};
-use super::viewport::float_frame;
 use super::words::{fill, slices::w};
 
 /// Distances at most: more cannot be told apart over a picture.

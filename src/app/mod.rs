@@ -22,6 +22,7 @@ mod command;
 mod control;
 mod curve;
 mod fields;
+mod floating;
 mod frames;
 mod gizmo;
 mod hint;

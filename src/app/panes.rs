@@ -8,10 +8,10 @@
 use egui::{Align2, CentralPanel, CornerRadius, Frame, Rect, Stroke, Ui, UiBuilder, Vec2, vec2};
 
 use super::command::Command;
+use super::floating::float_frame;
 use super::slice_plot::SLICES;
 use super::theme::Palette;
 use super::view::{Pane, See, ViewState};
-use super::viewport::float_frame;
 use super::words::slices::w;
 use super::{App, control, hint, notice, steps, text, theme, words};
 

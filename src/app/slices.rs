@@ -12,6 +12,7 @@ use glam::Vec3;
 
 use super::command::Command;
 use super::control;
+use super::floating::float_frame;
 use super::icon::Icon;
 use super::making::placement_on_surface;
 use super::panes::{ONE_PANE, Places, pane_name};
@@ -22,7 +23,6 @@ use super::slice_plot::{
 use super::state::{Gravity, State};
 use super::theme::{self, over_picture as ink};
 use super::view::{See, SubjectFacts, ViewState};
-use super::viewport::float_frame;
 use super::words::{fill, slices::w};
 use crate::displace::deformed_bounds;
 use crate::document::{Background, Edit, PlacedTemplate};

@@ -5,11 +5,11 @@ use egui::{FontId, Rect, Role, Ui, UiBuilder, WidgetInfo, vec2};
 use super::camera;
 use super::command::Command;
 use super::control;
+use super::floating;
 use super::icon::Icon;
 use super::state::State;
 use super::theme::{self, Palette};
 use super::view_bar;
-use super::viewport;
 use super::words::keys::w;
 use crate::document::{Camera, Document, Illustration};
 
@@ -198,7 +198,7 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, state: &State, commands: &mut Vec<C
         free.center_bottom() - vec2(0.5 * width, height + 14.0),
         vec2(width, height),
     );
-    viewport::float_frame(ui, bar);
+    floating::float_frame(ui, bar);
     let row = Rect::from_min_size(bar.min, vec2(width, 44.0)).shrink2(vec2(8.0, 6.0));
     let mut inner = ui.new_child(
         UiBuilder::new()

@@ -4,12 +4,12 @@ use egui::{FontId, Label, Rect, TextEdit, Ui, UiBuilder, Vec2, vec2};
 
 use super::command::Command;
 use super::control;
+use super::floating;
 use super::frames;
 use super::icon::Icon;
 use super::labels;
 use super::state::State;
 use super::theme::{self, Palette};
-use super::viewport;
 use super::words::picture;
 use super::words::text::w;
 use crate::document::{Edit, SubjectRef};
@@ -103,7 +103,7 @@ pub(crate) fn ui(ui: &mut Ui, state: &mut State, commands: &mut Vec<Command>) {
 pub(crate) fn over_picture_ui(ui: &mut Ui, rect: Rect, state: &State, commands: &mut Vec<Command>) {
     let button = Rect::from_min_size(rect.right_top() + vec2(-46.0, 12.0), Vec2::splat(34.0));
     let button = control::sided(rect, button);
-    viewport::float_frame(ui, button);
+    floating::float_frame(ui, button);
     let mut inner = ui.new_child(
         UiBuilder::new()
             .id_salt("panels")
@@ -135,7 +135,7 @@ pub(crate) fn over_picture_ui(ui: &mut Ui, rect: Rect, state: &State, commands: 
         .fold(0.0, f32::max);
     let mut at = rect.center_bottom() - vec2(0.5 * widest, height + 26.0);
     let frame = Rect::from_min_size(at, vec2(widest, height)).expand2(vec2(14.0, 8.0));
-    viewport::float_frame(ui, frame);
+    floating::float_frame(ui, frame);
     for galley in galleys {
         let step = galley.size().y + 4.0;
         ui.painter().galley(at, galley, palette.text);

@@ -5,13 +5,13 @@ use egui::{Rect, Ui, UiBuilder, Vec2, vec2};
 use super::camera::{Projection, StandardView};
 use super::command::Command;
 use super::control;
+use super::floating::float_frame;
 use super::icon::Icon;
 use super::orientation;
 use super::state::State;
 use super::theme;
 use super::topbar::menu_item;
 use super::view::See;
-use super::viewport::float_frame;
 use super::words::{picture, slices};
 
 /// Points of a picture's height below which its buttons lie in a row along its foot.
