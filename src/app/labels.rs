@@ -28,6 +28,8 @@ const MOST_SEEN: usize = 32;
 const SKIN: f32 = 0.02;
 /// Width of a text at most: part of the picture's, and points.
 const WIDEST: (f32, f32) = (0.27, 190.0);
+/// Half the width of the part of a picture that labels fill, of its height at most.
+const BROADEST: f32 = 0.85;
 /// Space between two texts, points.
 const GAP: f32 = 5.0;
 /// Rows that a text has at most.
@@ -376,6 +378,10 @@ pub(super) fn line_start(text: Rect, at: Pos2, gap: f32) -> Pos2 {
 /// Places for texts of these sizes: each in a column at the side of the area that is nearer to its point, as high as the point where there
 /// is room, none over another, and in the order of the points, so that no lines cross within a column.
 pub(super) fn arranged(points: &[Pos2], sizes: &[Vec2], gap: f32, area: Rect) -> Vec<Rect> {
+    // In a very wide picture the object fills the middle, and lines across all the rest would be long.
+    let half = (0.5 * area.width()).min(BROADEST * area.height());
+    let middle = area.center().x;
+    let area = area.with_min_x(middle - half).with_max_x(middle + half);
     let mut places = vec![Rect::NOTHING; points.len()];
     for is_left in [true, false] {
         let mut column: Vec<usize> = (0..points.len())
@@ -436,5 +442,13 @@ mod tests {
         let alone = arranged(&points[..1], &sizes[..1], GAP, area);
         assert!((alone[0].center().y - points[0].y).abs() < 1e-3);
         assert!(arranged(&[], &[], GAP, area).is_empty());
+        // In a wide picture they stay with the object.
+        let wide = Rect::from_min_size(Pos2::ZERO, vec2(4000.0, 300.0));
+        let points = [Pos2::new(1900.0, 100.0), Pos2::new(2100.0, 100.0)];
+        let places = arranged(&points, &sizes[..2], GAP, wide);
+        assert!(
+            places[0].left() > 1700.0 && places[1].right() < 2300.0,
+            "{places:?}"
+        );
     }
 }
