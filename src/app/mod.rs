@@ -163,7 +163,7 @@ impl App {
         start: Start,
     ) -> Self {
         theme::install(&cc.egui_ctx);
-        cc.egui_ctx.add_plugin(slow::SlowClicks);
+        cc.egui_ctx.add_plugin(slow::SlowClicks::default());
         let has_fingers = services.has_fingers();
         let contrast = services.stored(STORED_CONTRAST);
         let is_wanted = contrast.map_or_else(|| services.wants_contrast(), |text| text == "high");

@@ -4,11 +4,17 @@ use egui::{Context, Event, RawInput};
 
 /// Longest press that is a click, seconds; a finger that rests longer opens a menu.
 const CLICK: f64 = 0.8;
-/// Longest frame that is made up for, seconds.
+/// A frame that takes longer than this is slow, seconds.
+const QUICK: f64 = 0.25;
+/// Longest time that is made up for, seconds.
 const LONGEST: f64 = 10.0;
 
-/// Lets a release that comes with a frame end a click if it can have been one before that frame began.
-pub(crate) struct SlowClicks;
+/// Lets a release end a click although frames were slow since the press: when within a frame either came is not said.
+#[derive(Default)]
+pub(crate) struct SlowClicks {
+    /// What slow frames took beyond quick ones since the press, seconds.
+    lost: f64,
+}
 
 impl egui::Plugin for SlowClicks {
     fn debug_name(&self) -> &'static str {
@@ -16,14 +22,24 @@ impl egui::Plugin for SlowClicks {
     }
 
     fn input_hook(&mut self, ctx: &Context, input: &mut RawInput) {
+        let is_press = |event: &Event| matches!(event, Event::PointerButton { pressed: true, .. });
         let is_release =
             |event: &Event| matches!(event, Event::PointerButton { pressed: false, .. });
+        let before = ctx.input(|i| i.time);
+        let frame = input.time.map_or(0.0, |now| now - before);
+        self.lost = (self.lost + (frame - QUICK).max(0.0)).min(LONGEST);
         let mut longest = CLICK;
-        if input.events.iter().any(is_release) {
-            // When within the frame it came is not said.
-            let before = ctx.input(|i| i.time);
-            let frame = input.time.map_or(0.0, |now| now - before);
-            longest += frame.clamp(0.0, LONGEST);
+        // A finger that rests is waited for as long as ever: it opens a menu.
+        let is_finger = ctx.input(|i| i.any_touches())
+            || input
+                .events
+                .iter()
+                .any(|event| matches!(event, Event::Touch { .. }));
+        if !is_finger || input.events.iter().any(is_release) {
+            longest += self.lost;
+        }
+        if input.events.iter().any(is_press) {
+            self.lost = 0.0;
         }
         ctx.options_mut(|options| options.input_options.max_click_duration = longest);
     }

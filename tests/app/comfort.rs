@@ -138,7 +138,8 @@ fn clicks_count_on_slow_devices() {
     assert!(!is_open(&window), "it was held");
     time = now(&window);
     frame(&mut window, time + 0.02, &[button(true)]);
-    frame(&mut window, time + 1.5, &[button(false)]);
+    frame(&mut window, time + 1.1, &[]);
+    frame(&mut window, time + 2.2, &[button(false)]);
     window.steps(2);
     assert!(is_open(&window), "it was clicked");
 }

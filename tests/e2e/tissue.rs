@@ -1,6 +1,6 @@
 //! Scans and their tissues in a real browser: a bone that a link makes in a scan without labels, and label files beside a scan.
 
-use super::hand::{changed, document, find, focus, mark, press};
+use super::hand::{changed, document, find, focus, mark, pause, press};
 use super::harness::{Session, Tab, test_data, with_browser};
 use super::*;
 use sha2::{Digest as _, Sha256};
@@ -143,8 +143,15 @@ fn links_bring_their_tissues_when_the_files_are_dropped() {
 
 /// Clicks on the control of a name.
 async fn click(tab: &Tab, name: &str) {
+    use chromiumoxide::cdp::browser_protocol::input::DispatchMouseEventType as Kind;
     let (x, y) = find(tab, name).await.middle();
-    tab.click(x, y).await;
+    tab.mouse(Kind::MouseMoved, x, y, false).await;
+    pause(150).await;
+    // As a hand does: the release does not wait until the page has dealt with the press.
+    tokio::join!(
+        tab.mouse(Kind::MousePressed, x, y, true),
+        tab.mouse(Kind::MouseReleased, x, y, true)
+    );
 }
 
 /// An author drops a scan, has its bone found, and peels what lies over it; whoever has the link and the file sees the same.
