@@ -129,7 +129,10 @@ fn search_ui(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         if response.changed() {
             commands.push(Command::Search(text.clone()));
         }
-        if response.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter)) {
+        // In a slow frame the keyboard comes and goes again.
+        let has_left =
+            response.lost_focus() || (state.making.wants_search && !response.has_focus());
+        if has_left && ui.input(|i| i.key_pressed(egui::Key::Enter)) {
             let found = GROUPS.iter().find_map(|(title, kinds)| {
                 let mut kinds = kinds.iter().copied();
                 kinds.find(|kind| is_found(*kind, title(w()), text.trim()))

@@ -346,7 +346,7 @@ impl App {
             .unwrap_or_else(|| ui.scope_id().with("picture"))
     }
 
-    fn keys(&self, ui: &Ui, commands: &mut Vec<Command>) {
+    fn keys(&mut self, ui: &Ui, commands: &mut Vec<Command>) {
         let mut is_typing = ui.ctx().text_edit_focused() || self.state.making.wants_search;
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
         let is_sheet_open = self.state.is_keys_sheet_open
@@ -360,12 +360,10 @@ impl App {
                     _ => None,
                 }));
             });
-            if let Some(typed) = ui.input(|i| typed_after_slash(&i.events)) {
+            // A slow frame may hold the words too: the field is there to take them in this very frame.
+            if ui.input_mut(|i| take_slash(&mut i.events)) {
                 is_typing = true;
-                commands.push(Command::StartSearch);
-                if !typed.is_empty() {
-                    commands.push(Command::Search(typed));
-                }
+                self.run(Command::StartSearch);
             }
         }
         for shortcut in command::shortcuts() {
@@ -736,8 +734,9 @@ impl eframe::App for App {
     }
 }
 
-/// What a slow frame holds of the words that follow the key of the search; `None` if that key was not pressed.
-fn typed_after_slash(events: &[egui::Event]) -> Option<String> {
+/// Takes the key of the search and what lies before it out of a frame's events, and leaves what was typed after it; false if that key
+/// was not pressed.
+fn take_slash(events: &mut Vec<egui::Event>) -> bool {
     let is_slash = |event: &egui::Event| match event {
         egui::Event::Key {
             key: egui::Key::Slash,
@@ -747,13 +746,11 @@ fn typed_after_slash(events: &[egui::Event]) -> Option<String> {
         } => *pressed && !(modifiers.command || modifiers.ctrl || modifiers.alt),
         _ => false,
     };
-    let after = &events[events.iter().position(is_slash)? + 1..];
-    let typed: String = after
-        .iter()
-        .filter_map(|event| match event {
-            egui::Event::Text(text) => Some(text.as_str()),
-            _ => None,
-        })
-        .collect();
-    Some(typed.strip_prefix('/').unwrap_or(&typed).to_owned())
+    let Some(at) = events.iter().position(is_slash) else {
+        return false;
+    };
+    let is_its_text = |event: &egui::Event| matches!(event, egui::Event::Text(text) if text == "/");
+    let own = events[at..].iter().position(is_its_text);
+    events.drain(..=at + own.unwrap_or(0));
+    true
 }

@@ -228,6 +228,19 @@ fn the_catalogue_is_searched() {
     );
 }
 
+/// What pressing a key sends, and what it writes. As one frame's events: the harness would give each a frame of its own.
+fn typed(key: Key, letter: &str) -> impl Iterator<Item = egui::Event> {
+    let pressed = egui::Event::Key {
+        key,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    let text = (!letter.is_empty()).then(|| egui::Event::Text(letter.to_owned()));
+    std::iter::once(pressed).chain(text)
+}
+
 /// In one frame as in many: none of the letters does what it does as a key.
 #[test]
 fn words_typed_at_once_are_searched_for() {
@@ -238,16 +251,7 @@ fn words_typed_at_once_are_searched_for() {
     window.press(Key::N);
     let keys = [Key::Slash, Key::H, Key::A, Key::R].into_iter();
     for (key, letter) in keys.zip(["/", "h", "a", "r"]) {
-        let pressed = egui::Event::Key {
-            key,
-            physical_key: None,
-            pressed: true,
-            repeat: false,
-            modifiers: Modifiers::NONE,
-        };
-        let text = egui::Event::Text(letter.to_owned());
-        // As one frame's events: the harness would give each a frame of its own.
-        window.harness.input_mut().events.extend([pressed, text]);
+        window.harness.input_mut().events.extend(typed(key, letter));
     }
     window.steps(3);
     window.harness.event(egui::Event::Text("m".to_owned()));
@@ -257,6 +261,31 @@ fn words_typed_at_once_are_searched_for() {
         .get_by_role_and_label(Role::TextInput, "Search");
     assert_eq!(field.value().as_deref(), Some("harm"));
     assert!(window.document().illustration().templates[0].enabled);
+}
+
+/// The key of the search, a word and Enter: in one frame, or with a frame anywhere between them.
+#[test]
+fn a_word_and_enter_start_placing_however_slow_frames_are() {
+    let word = [
+        (Key::Slash, "/"),
+        (Key::T, "t"),
+        (Key::W, "w"),
+        (Key::I, "i"),
+        (Key::Enter, ""),
+    ];
+    for frame_after in 1..=word.len() {
+        let mut window = Window::open(DESK, CUBE);
+        for keys in [&word[..frame_after], &word[frame_after..]] {
+            let events = keys.iter().flat_map(|(key, letter)| typed(*key, letter));
+            window.harness.input_mut().events.extend(events);
+            window.steps(1);
+        }
+        window.steps(3);
+        assert!(
+            window.harness.query_by_label("Cancel placing").is_some(),
+            "{frame_after} keys in the first frame"
+        );
+    }
 }
 
 #[test]

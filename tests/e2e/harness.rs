@@ -450,11 +450,13 @@ impl Tab {
     pub(crate) async fn wait_until(&self, expression: &str, seconds: u64) {
         let start = Instant::now();
         while !self.eval::<bool>(expression).await {
-            assert!(
-                start.elapsed() < Duration::from_secs(seconds),
-                "not true after {seconds} s: {expression}\n{}",
-                self.messages().await
-            );
+            if start.elapsed() > Duration::from_secs(seconds) {
+                self.picture("waited_in_vain").await;
+                panic!(
+                    "not true after {seconds} s: {expression}\n{}",
+                    self.messages().await
+                );
+            }
             tokio::time::sleep(Duration::from_millis(100)).await;
         }
     }
