@@ -20,6 +20,7 @@ use compare::{difference, drawn_pixels, object_part};
 use fabrica::document::{Document, TemplateKind};
 use fabrica::link;
 use fabrica::render::{Gpu, GpuOptions, Studio, View};
+use hand::drop_files;
 use harness::{Gpu as BrowserGpu, Tab, from_base64, test_data, with_browser};
 use std::time::Duration;
 
@@ -261,17 +262,12 @@ fn dropped_scan_is_drawn() {
     with_browser(BrowserGpu::Software, |session| async move {
         for name in ["head_ct_headsq.nii.gz", "chest_ct_2mm.nii.gz"] {
             let scan = std::fs::read(data.join("ct").join(name)).expect("a scan");
-            session.server.add("scan.nii.gz", scan);
+            session.server.add(name, scan);
             let tab = session.viewer_sized("#", PAGE).await;
             tab.wait_until("window.fabrica.viewer.get_document() !== ''", 60)
                 .await;
             let before = object_part(&tab.picture(&format!("{name}_before")).await);
-            let dropped: bool = tab
-                .eval(&format!(
-                    "fetch('scan.nii.gz').then(r => r.blob()).then(b => {{ const d = new DataTransfer(); d.items.add(new File([b], '{name}')); document.getElementById('fabrica').dispatchEvent(new DragEvent('drop', {{dataTransfer: d, bubbles: true, cancelable: true}})); return true; }})"
-                ))
-                .await;
-            assert!(dropped, "the event was sent");
+            drop_files(&tab, &[name]).await;
             tab.wait_until(
                 "JSON.parse(window.fabrica.viewer.get_document()).subject?.sha256 !== undefined",
                 180,

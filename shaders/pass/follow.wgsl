@@ -34,10 +34,14 @@ const FARTHEST: f32 = 8.0;
 
 var<workgroup> ends: array<vec4f, 64>;
 
-fn cell_center(cell: u32) -> vec3f {
+/// Which of its row, column and layer a cell is.
+fn cell_at(cell: u32) -> vec3u {
     let n = lattice.cells;
-    let at = vec3u(cell % n.x, (cell / n.x) % n.y, cell / (n.x * n.y));
-    return lattice.corner.xyz + (vec3f(at) + 0.5) * lattice.corner.w;
+    return vec3u(cell % n.x, (cell / n.x) % n.y, cell / (n.x * n.y));
+}
+
+fn cell_center(cell: u32) -> vec3f {
+    return lattice.corner.xyz + (vec3f(cell_at(cell)) + 0.5) * lattice.corner.w;
 }
 
 @compute @workgroup_size(64)
@@ -51,8 +55,7 @@ fn search(@builtin(global_invocation_id) id: vec3u) {
     if found.continuity < 0.0 {
         return;
     }
-    let at = vec3u(cell % n.x, (cell / n.x) % n.y, cell / (n.x * n.y));
-    let in_blocks = at * BLOCKS / n.xyz;
+    let in_blocks = cell_at(cell) * BLOCKS / n.xyz;
     let block = in_blocks.x + BLOCKS * (in_blocks.y + BLOCKS * in_blocks.z);
     for (var i = 0u; i < n.w; i++) {
         let away = distance(found.pos, followed[i].xyz) / lattice.corner.w;

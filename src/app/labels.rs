@@ -12,7 +12,7 @@ use super::camera::Projection;
 use super::command::Command;
 use super::control::{self, Named as _};
 use super::icon::Icon;
-use super::lettering::LabelPlace;
+use super::lettering::{LabelPlace, is_dark};
 use super::picture::{PickFor, Picture};
 use super::state::{State, Tab};
 use super::theme::{self, Palette};
@@ -136,7 +136,7 @@ fn select_all(ui: &Ui, id: egui::Id, text: &str) {
 // ---------------------------------------------------------------------------------------------------- where they are
 
 /// What places of labels depend on.
-#[derive(Clone, PartialEq)]
+#[derive(Clone)]
 struct Cause {
     subject: SubjectRef,
     features: Vec<FeatureRecipe>,
@@ -144,6 +144,35 @@ struct Cause {
     templates: Vec<PlacedTemplate>,
     /// Rest space.
     points: Vec<Vec3>,
+}
+
+impl Cause {
+    fn of(shown: &Illustration, segments: usize) -> Self {
+        Self {
+            subject: shown.subject.clone(),
+            features: shown.features.clone(),
+            segments,
+            templates: shown.templates.clone(),
+            points: shown.labels.iter().map(|label| label.at).collect(),
+        }
+    }
+
+    /// True if it is what [`Cause::of`] would be; copies nothing, since it is asked every frame.
+    fn is_of(&self, shown: &Illustration, segments: usize) -> bool {
+        self.segments == segments
+            && self.subject == shown.subject
+            && self.features == shown.features
+            && self.templates == shown.templates
+            && self
+                .points
+                .iter()
+                .eq(shown.labels.iter().map(|label| &label.at))
+    }
+}
+
+/// True if what is seen so far from the eye lies before a label's place; nothing seen: nothing does.
+fn is_behind(place: Vec3, seen_depth: Option<f32>, eye: Vec3) -> bool {
+    seen_depth.is_some_and(|depth| depth + SKIN < place.distance(eye))
 }
 
 /// Where the labels' tissue is, asked of the GPU whenever that changes.
@@ -181,21 +210,16 @@ impl Followed {
             self.pending = None;
             ctx.request_repaint();
         }
-        let points: Vec<Vec3> = shown.labels.iter().map(|label| label.at).collect();
-        if points.is_empty() {
+        if shown.labels.is_empty() {
             *self = Self::default();
             return;
         }
-        let cause = Cause {
-            subject: shown.subject.clone(),
-            features: shown.features.clone(),
-            segments: picture.segments().len(),
-            templates: shown.templates.clone(),
-            points,
-        };
+        let segments = picture.segments().len();
+        let is_known = |cause: &Cause| cause.is_of(shown, segments);
         if self.pending.is_some() {
             ctx.request_repaint();
-        } else if self.known.as_ref() != Some(&cause) {
+        } else if !self.known.as_ref().is_some_and(is_known) {
+            let cause = Cause::of(shown, segments);
             if cause.templates.iter().all(|t| !t.acting().enabled) {
                 self.places = cause.points.iter().copied().map(Some).collect();
                 self.known = Some(cause);
@@ -227,7 +251,7 @@ impl Followed {
     pub(crate) fn seen(&mut self, index: usize, depth: Option<f32>, eye: Vec3) {
         let place = self.places.get(index).copied().flatten();
         if let (Some(place), Some(hidden)) = (place, self.hidden.get_mut(index)) {
-            *hidden = depth.is_some_and(|depth| depth + SKIN < place.distance(eye));
+            *hidden = is_behind(place, depth, eye);
         }
     }
 
@@ -329,22 +353,15 @@ pub async fn label_places(
             Some(pixel) => studio.pick(illustration, size_px, pixel).await?,
             None => None,
         };
-        let is_hidden = |place: Vec3| {
-            let before = pick.map(|pick| pick.depth + SKIN);
-            before.is_some_and(|depth| depth < place.distance(view.eye()))
-        };
-        labels.push(place.map(|place| (place, is_hidden(place))));
+        let depth = pick.map(|pick| pick.depth);
+        labels.push(place.map(|place| (place, is_behind(place, depth, view.eye()))));
     }
     Ok(labels)
 }
 
 /// Of letters and of what is behind them, as the background wants it.
 fn colors(background: &Background) -> (Color32, Color32) {
-    let is_dark = match background {
-        Background::Color([r, g, b]) => Color32::from_rgb(*r, *g, *b).intensity() < 0.45,
-        Background::None => false,
-    };
-    if is_dark {
+    if is_dark(*background) {
         (Color32::WHITE, Color32::from_black_alpha(190))
     } else {
         (

@@ -55,11 +55,7 @@ pub(crate) fn letter_with(
     let [width, height] = image.size.map(|side| side as f32);
     let short = width.min(height);
     let margin = MARGIN * short;
-    let is_dark = match illustration.look.background {
-        Background::Color([r, g, b]) => Color32::from_rgb(r, g, b).intensity() < 0.45,
-        Background::None => false,
-    };
-    let (ink, halo) = if is_dark {
+    let (ink, halo) = if is_dark(illustration.look.background) {
         ([255; 3], [0; 3])
     } else {
         ([0x1f, 0x24, 0x26], [255; 3])
@@ -124,6 +120,14 @@ pub(crate) fn letter_with(
         mask.lay(image, letters, ink, halo);
     }
     missing
+}
+
+/// True if letters on a background have to be light.
+pub(super) fn is_dark(background: Background) -> bool {
+    match background {
+        Background::Color([r, g, b]) => Color32::from_rgb(r, g, b).intensity() < 0.45,
+        Background::None => false,
+    }
 }
 
 /// A text of a height in pixels, wrapped: as it is laid out, its size in pixels, and the characters that its font lacks.

@@ -1,3 +1,4 @@
+use super::object::{object_groups, object_pipeline};
 use super::passes::RaycastKey;
 use super::programs::module;
 use super::scene::Prepared;
@@ -89,27 +90,9 @@ impl Follower {
         let followed = storage_buffer(gpu, "followed points", &padded);
         let nearest = storage_buffer(gpu, "nearest cells", &vec![u32::MAX; BLOCKS * points.len()]);
         let places = result_buffer(gpu, "places", 16 * points.len() as u64);
-        let features = prepared.features();
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut encode = |pipeline: &wgpu::ComputePipeline, groups: u32, has_places: bool| {
-            let group = |index: u32, entries: &[wgpu::BindGroupEntry<'_>]| {
-                gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                    label: Some("follow"),
-                    layout: &pipeline.get_bind_group_layout(index),
-                    entries,
-                })
-            };
-            let subject_entries = [
-                entry(0, subject.buffer.as_entire_binding()),
-                entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
-                entry(3, wgpu::BindingResource::TextureView(&subject.label_view)),
-            ];
-            let scene_entries = [
-                entry(0, prepared.scene.templates.as_entire_binding()),
-                entry(5, features.uniform.as_entire_binding()),
-                entry(6, wgpu::BindingResource::TextureView(&features.view)),
-                entry(7, wgpu::BindingResource::TextureView(prepared.fields())),
-            ];
+            let object = object_groups(gpu, pipeline, subject, prepared);
             let point_entries = [
                 entry(0, lattice_buffer.as_entire_binding()),
                 entry(1, followed.as_entire_binding()),
@@ -117,18 +100,18 @@ impl Follower {
                 entry(3, places.as_entire_binding()),
             ];
             let point_entries = &point_entries[..if has_places { 4 } else { 3 }];
-            let groups_of = [
-                (1, group(1, &subject_entries)),
-                (2, group(2, &scene_entries)),
-                (3, group(3, point_entries)),
-            ];
+            let points = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("followed points"),
+                layout: &pipeline.get_bind_group_layout(3),
+                entries: point_entries,
+            });
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                 label: Some("follow"),
                 timestamp_writes: None,
             });
             pass.set_pipeline(pipeline);
-            for (index, bound) in &groups_of {
-                pass.set_bind_group(*index, bound, &[]);
+            for (index, group) in (1..).zip(object.iter().chain([&points])) {
+                pass.set_bind_group(index, group, &[]);
             }
             pass.dispatch_workgroups(groups, 1, 1);
         };
@@ -140,25 +123,5 @@ impl Follower {
 
 fn pipelines(gpu: &Gpu, key: &RaycastKey) -> Result<[wgpu::ComputePipeline; 2], RenderError> {
     let module = module(gpu, "follow")?;
-    let [mode, constraints, kept_by] = key.align_constants();
-    let constants = [
-        ("drawn_kinds", f64::from(key.drawn_kinds)),
-        mode,
-        constraints,
-        kept_by,
-    ];
-    Ok(["search", "settle"].map(|name| {
-        gpu.device
-            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(name),
-                layout: None,
-                module: &module,
-                entry_point: Some(name),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &constants,
-                    ..Default::default()
-                },
-                cache: None,
-            })
-    }))
+    Ok(["search", "settle"].map(|name| object_pipeline(gpu, &module, name, key)))
 }

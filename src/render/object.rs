@@ -1,3 +1,4 @@
+use super::passes::RaycastKey;
 use super::programs::compile;
 use super::scene::Prepared;
 use super::subject::{SubjectTextures, entry};
@@ -16,63 +17,21 @@ pub(super) async fn object_samples(
 ) -> Result<Vec<Sample>, RenderError> {
     let key = prepared.key(false);
     let (name, module) = compile(gpu, "object").await?;
-    let [mode, constraints, kept_by] = key.align_constants();
-    let constants = [
-        ("drawn_kinds", f64::from(key.drawn_kinds)),
-        mode,
-        constraints,
-        kept_by,
-    ];
-    let pipeline = gpu
-        .device
-        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(name),
-            layout: None,
-            module: &module,
-            entry_point: Some("probe_object"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
-                ..Default::default()
-            },
-            cache: None,
-        });
-    let group = |index: u32, entries: &[wgpu::BindGroupEntry<'_>]| {
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(name),
-            layout: &pipeline.get_bind_group_layout(index),
-            entries,
-        })
-    };
-    let features = prepared.features();
-    let subject_group = group(
-        1,
-        &[
-            entry(0, subject.buffer.as_entire_binding()),
-            entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
-            entry(3, wgpu::BindingResource::TextureView(&subject.label_view)),
-        ],
-    );
-    let scene_group = group(
-        2,
-        &[
-            entry(0, prepared.scene.templates.as_entire_binding()),
-            entry(5, features.uniform.as_entire_binding()),
-            entry(6, wgpu::BindingResource::TextureView(&features.view)),
-            entry(7, wgpu::BindingResource::TextureView(prepared.fields())),
-        ],
-    );
+    let pipeline = object_pipeline(gpu, &module, "probe_object", &key);
+    let groups = object_groups(gpu, &pipeline, subject, prepared);
     let mut samples = Vec::with_capacity(points.len());
     for chunk in points.chunks(CHUNK) {
         let padded: Vec<[f32; 4]> = chunk.iter().map(|p| [p.x, p.y, p.z, 0.0]).collect();
         let input = storage_buffer(gpu, "probe points", &padded);
         let output = result_buffer(gpu, "probe results", 16 * chunk.len() as u64);
-        let points_group = group(
-            3,
-            &[
+        let points_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(name),
+            layout: &pipeline.get_bind_group_layout(3),
+            entries: &[
                 entry(0, input.as_entire_binding()),
                 entry(1, output.as_entire_binding()),
             ],
-        );
+        });
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
@@ -80,8 +39,9 @@ pub(super) async fn object_samples(
                 timestamp_writes: None,
             });
             pass.set_pipeline(&pipeline);
-            pass.set_bind_group(1, &subject_group, &[]);
-            pass.set_bind_group(2, &scene_group, &[]);
+            for (index, group) in (1..).zip(&groups) {
+                pass.set_bind_group(index, group, &[]);
+            }
             pass.set_bind_group(3, &points_group, &[]);
             pass.dispatch_workgroups(chunk.len().div_ceil(64) as u32, 1, 1);
         }
@@ -99,4 +59,68 @@ pub(super) async fn object_samples(
         });
     }
     Ok(samples)
+}
+
+/// A compute entry point that asks what the object has, made for what a document uses.
+pub(super) fn object_pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    name: &'static str,
+    key: &RaycastKey,
+) -> wgpu::ComputePipeline {
+    let [mode, constraints, kept_by] = key.align_constants();
+    let constants = [
+        ("drawn_kinds", f64::from(key.drawn_kinds)),
+        mode,
+        constraints,
+        kept_by,
+    ];
+    gpu.device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(name),
+            layout: None,
+            module,
+            entry_point: Some(name),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
+            cache: None,
+        })
+}
+
+/// Groups 1 and 2 of such a pipeline: the subject, and the templates with what they leave alone.
+pub(super) fn object_groups(
+    gpu: &Gpu,
+    pipeline: &wgpu::ComputePipeline,
+    subject: &SubjectTextures,
+    prepared: &Prepared,
+) -> [wgpu::BindGroup; 2] {
+    let group = |index: u32, entries: &[wgpu::BindGroupEntry<'_>]| {
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("object"),
+            layout: &pipeline.get_bind_group_layout(index),
+            entries,
+        })
+    };
+    let features = prepared.features();
+    [
+        group(
+            1,
+            &[
+                entry(0, subject.buffer.as_entire_binding()),
+                entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
+                entry(3, wgpu::BindingResource::TextureView(&subject.label_view)),
+            ],
+        ),
+        group(
+            2,
+            &[
+                entry(0, prepared.scene.templates.as_entire_binding()),
+                entry(5, features.uniform.as_entire_binding()),
+                entry(6, wgpu::BindingResource::TextureView(&features.view)),
+                entry(7, wgpu::BindingResource::TextureView(prepared.fields())),
+            ],
+        ),
+    ]
 }

@@ -48,6 +48,17 @@ pub(crate) async fn changed(tab: &Tab, part: &str) -> Value {
     document(tab).await[part].clone()
 }
 
+/// Drops files of the server's together.
+pub(crate) async fn drop_files(tab: &Tab, names: &[impl serde::Serialize]) {
+    let list = serde_json::to_string(names).expect("text");
+    let dropped: bool = tab
+        .eval(&format!(
+            "Promise.all({list}.map(n => fetch(n).then(r => r.blob()).then(b => new File([b], n)))).then(files => {{ const d = new DataTransfer(); files.forEach(f => d.items.add(f)); document.getElementById('fabrica').dispatchEvent(new DragEvent('drop', {{dataTransfer: d, bubbles: true, cancelable: true}})); return true; }})"
+        ))
+        .await;
+    assert!(dropped, "the event was sent");
+}
+
 // ---------------------------------------------------------------------------------------------------- what is seen
 
 /// A control that is on the screen.

@@ -1,6 +1,6 @@
 //! Slices beside the picture, and a series of slices as files.
 
-use super::hand::{controls, document, find, focus, pause, press};
+use super::hand::{controls, document, drop_files, find, focus, pause, press};
 use super::harness::with_browser;
 use super::*;
 
@@ -25,12 +25,7 @@ fn series_is_dropped_and_a_template_placed_on_a_slice() {
                 names.push(name.into_owned());
             }
             assert_eq!(names.len(), 17);
-            let dropped: bool = tab
-                .eval(&format!(
-                    "Promise.all({names:?}.map(n => fetch(n).then(r => r.blob()).then(b => new File([b], n)))).then(files => {{ const d = new DataTransfer(); files.forEach(f => d.items.add(f)); document.getElementById('fabrica').dispatchEvent(new DragEvent('drop', {{dataTransfer: d, bubbles: true, cancelable: true}})); return true; }})"
-                ))
-                .await;
-            assert!(dropped, "the event was sent");
+            drop_files(&tab, &names).await;
             tab.wait_until(
                 "JSON.parse(window.fabrica.viewer.get_document()).subject?.sha256 !== undefined",
                 60,

@@ -1,6 +1,6 @@
 //! Scans and their tissues in a real browser: a bone that a link makes in a scan without labels, and label files beside a scan.
 
-use super::hand::{changed, document, find, focus, mark, pause, press};
+use super::hand::{changed, document, drop_files, find, focus, mark, pause, press};
 use super::harness::{Session, Tab, test_data, with_browser};
 use super::*;
 use sha2::{Digest as _, Sha256};
@@ -11,17 +11,6 @@ const SMALL: (u32, u32) = (360, 420);
 
 /// The same where what stands in the panels has to be seen.
 const HIGH: (u32, u32) = (780, 560);
-
-/// Drops files of the server's together.
-async fn drop_files(tab: &Tab, names: &[&str]) {
-    let list = serde_json::to_string(names).expect("text");
-    let dropped: bool = tab
-        .eval(&format!(
-            "Promise.all({list}.map(n => fetch(n).then(r => r.blob()).then(b => new File([b], n)))).then(files => {{ const d = new DataTransfer(); files.forEach(f => d.items.add(f)); document.getElementById('fabrica').dispatchEvent(new DragEvent('drop', {{dataTransfer: d, bubbles: true, cancelable: true}})); return true; }})"
-        ))
-        .await;
-    assert!(dropped, "the event was sent");
-}
 
 /// Serves a file of the test data under a name; its hash.
 fn serve(session: &Session, path: &Path, name: &str) -> String {
