@@ -798,13 +798,36 @@ fn rigid_segments_move_as_a_whole() {
     }
 }
 
+/// Draws a template with and without the grid, and fails if the grid hides something.
+fn assert_nothing_is_hidden(volume: &Volume, template: &PlacedTemplate) {
+    const SIZE: [u32; 2] = [80, 80];
+    let studio = Studio::new(gpu(), volume, true).expect("fits");
+    let draw = |studio: &Studio| {
+        let picture = studio.render_image(&illustration(vec![template.clone()]), SIZE, 1);
+        pollster::block_on(picture).expect("a picture").rgba
+    };
+    let (with, without) = (draw(&studio), draw(&studio.with_grid(false)));
+    let lost = |from: &[u8], by: &[u8]| {
+        let pairs = from.chunks_exact(4).zip(by.chunks_exact(4));
+        pairs
+            .filter(|(a, b)| a.iter().any(|c| *c < 223) && b.iter().all(|c| *c == 255))
+            .count()
+    };
+    let drawn = without
+        .chunks_exact(4)
+        .filter(|p| p.iter().any(|c| *c < 223));
+    assert!(drawn.count() > 400, "there is something");
+    let (by_grid, by_none) = (lost(&without, &with), lost(&with, &without));
+    println!("{by_grid} pixels are lost by the grid, {by_none} without it");
+    assert!(
+        by_grid <= 6 + 2 * by_none,
+        "the grid hides {by_grid} pixels"
+    );
+}
+
 /// The grid leaps over nothing that a segment's own motion brings or takes: pictures with and without it agree.
 #[test]
 fn the_grid_follows_rigid_segments() {
-    const SIZE: [u32; 2] = [80, 80];
-    let volume = builtin("knee", 64);
-    let studio = Studio::new(gpu(), &volume, true).expect("fits");
-    let plain = studio.with_grid(false);
     let placement = Placement {
         at: Vec3::ZERO,
         rotate: Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2),
@@ -815,25 +838,47 @@ fn the_grid_follows_rigid_segments() {
         by: ConstrainBy::Rigid,
         keep: vec!["tibia".to_owned(), "fibula".to_owned()],
     });
-    let draw = |studio: &Studio| {
-        let picture = studio.render_image(&illustration(vec![template.clone()]), SIZE, 1);
-        pollster::block_on(picture).expect("a picture").rgba
+    assert_nothing_is_hidden(&builtin("knee", 64), &template);
+}
+
+/// Slices 24 times as thick as their voxels are wide, and kept tissue one slice thick, with all else cut away.
+#[test]
+fn the_grid_finds_kept_tissue_between_thick_slices() {
+    let dims = UVec3::new(120, 120, 5);
+    let plane = (dims.x * dims.y) as usize;
+    let is_kept = |i: usize| i / plane == 2;
+    let count = plane * dims.z as usize;
+    let grid = Grid {
+        dims,
+        world_from_voxel: DAffine3::from_scale(DVec3::new(1.0, 1.0, 24.0)),
     };
-    let (with, without) = (draw(&studio), draw(&plain));
-    let lost = |from: &[u8], by: &[u8]| {
-        let pairs = from.chunks_exact(4).zip(by.chunks_exact(4));
-        pairs
-            .filter(|(a, b)| a.iter().any(|c| *c < 223) && b.iter().all(|c| *c == 255))
-            .count()
+    let volume = Volume {
+        grid,
+        voxels: Voxels::U8(vec![200; count]),
+        slope: 1.0,
+        intercept: 0.0,
+        value_range: [0.0, 200.0],
+        labels: Some(LabelVolume {
+            grid,
+            labels: (0..count).map(|i| u8::from(is_kept(i))).collect(),
+            segments: vec![Segment {
+                label: 1,
+                name: "plate".to_owned(),
+                color_srgb: None,
+            }],
+        }),
     };
-    let drawn = with.chunks_exact(4).filter(|p| p.iter().any(|c| *c < 223));
-    assert!(drawn.count() > 400, "there is a knee");
-    let (by_grid, by_none) = (lost(&without, &with), lost(&with, &without));
-    println!("{by_grid} pixels are lost by the grid, {by_none} without it");
-    assert!(
-        by_grid <= 6 + 2 * by_none,
-        "the grid hides {by_grid} pixels"
-    );
+    let placement = Placement {
+        at: Vec3::ZERO,
+        rotate: Quat::IDENTITY,
+        size: Vec3::splat(1.2),
+    };
+    let mut template = placed(TemplateKind::Cut, placement, defaults(TemplateKind::Cut));
+    template.align = Align::Segment {
+        keep: vec!["plate".to_owned()],
+        thickness: 0.01,
+    };
+    assert_nothing_is_hidden(&volume, &template);
 }
 
 /// Figure 5.11: a bar that twists from an anchor on, and one whose end turns as a whole.

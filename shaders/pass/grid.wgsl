@@ -227,6 +227,17 @@ fn distance_to_sets(voxel: vec3i, sets: u32) -> f32 {
     return min(min(each.x, each.y), min(each.z, each.w));
 }
 
+/// Diagonal of a voxel of the distances, subject units. A place lies half of it from the voxel that is read at most, and smoothing mixes
+/// voxels that lie one of it apart in the mean.
+fn voxel_diagonal() -> f32 {
+    let per_unit = vec3f(
+        length(features.distance_from_rest_row0.xyz),
+        length(features.distance_from_rest_row1.xyz),
+        length(features.distance_from_rest_row2.xyz),
+    ) * features.distance_dims.xyz;
+    return length(1.0 / per_unit);
+}
+
 /// True if tissue in the box may stay where it is, as template i leaves it alone.
 fn may_stay(i: u32, center: vec3f, half: vec3f) -> bool {
     if has_kept == 0u {
@@ -240,16 +251,22 @@ fn may_stay(i: u32, center: vec3f, half: vec3f) -> bool {
         // What lies below may have moved it there; where it came from is not known here.
         return true;
     }
-    // Nothing acts before: what stays is where it was at rest. Distances change by no more than the way; they are read at the
-    // nearest voxel and smoothed, three voxels in all.
-    let reach = length(half) + 3.0 * features.distance_dims.w;
-    let voxel = distance_voxel(center);
-    var least = distance_to_sets(voxel, item.keeps.x);
-    if (item.keeps.x & KEEPS_DEEP) != 0u {
-        let behind = vec3i(0, 0, i32(features.slabs.z * u32(features.distance_dims.z)));
-        least = min(least, item.lengths.x - textureLoad(distances, voxel + behind, 0).x);
+    // Nothing acts before: what stays is where it was at rest. In eight parts: a distance says more of a small box.
+    let reach = 0.5 * length(half);
+    let slack = voxel_diagonal();
+    let behind = vec3i(0, 0, i32(features.slabs.z * u32(features.distance_dims.z)));
+    var stays = false;
+    for (var part = 0u; part < 8u; part++) {
+        let side = select(vec3f(-0.5), vec3f(0.5), (vec3u(part) & vec3u(1u, 2u, 4u)) != vec3u(0u));
+        let voxel = distance_voxel(center + side * half);
+        // Distances change by no more than the way. The sets' are smoothed, the depth is not.
+        stays = stays || distance_to_sets(voxel, item.keeps.x) <= reach + 1.5 * slack;
+        if (item.keeps.x & KEEPS_DEEP) != 0u {
+            let deeper = textureLoad(distances, voxel + behind, 0).x - item.lengths.x;
+            stays = stays || -deeper <= reach + 0.6 * slack;
+        }
     }
-    return least <= reach;
+    return stays;
 }
 
 /// Where the motion of a group's segment takes a box from, as centre and half extent.
