@@ -265,6 +265,11 @@ pub fn main_name(files: &mut dyn FileSet, first: &str) -> String {
     if is_dicom { super::ALL_FILES } else { first }.to_owned()
 }
 
+/// True if a file is a DICOM segmentation by its header.
+pub fn is_segmentation(files: &mut dyn FileSet, name: &str) -> bool {
+    one(files, name, 0).is_ok_and(|(source, _)| source.is_segmentation)
+}
+
 /// True if a file is called like a DICOM file.
 pub(crate) fn has_ending(name: &str) -> bool {
     let lower = name.to_lowercase();

@@ -23,7 +23,8 @@ pub fn read_header(
         fn scalars(&mut self, _next: Voxels) {}
         fn labels(&mut self, _next: Vec<u8>) {}
         fn progress(&mut self, _fraction: f32) -> bool {
-            false
+            // Until then: of a series every header is looked at first.
+            self.0.is_none()
         }
     }
     let mut stop = Stop(None);

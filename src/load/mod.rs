@@ -49,7 +49,7 @@ use std::rc::Rc;
 use sha2::{Digest as _, Sha256};
 
 pub use describe::{Description, describe, describe_raw};
-pub use dicom::main_name;
+pub use dicom::{is_segmentation, main_name};
 pub use error::LoadError;
 pub use field::{FieldFile, FieldUse, is_field, read_field};
 pub use files::{FileHandle, FileSet, MemoryFiles, OneFile};

@@ -10,8 +10,8 @@ use crate::app::{LabelsExpected, LoadEvent, RawQuestion};
 use crate::data::{Reducer, Volume, VolumeLimits, VolumeSink, Voxels};
 use crate::document::Reading;
 use crate::load::{
-    FileSet, LabelSource, LoadError, LoadReport, RawLayout, ReadOptions, Warning, read_header,
-    read_labels, read_raw, read_subject,
+    FileSet, LabelSource, LoadError, LoadReport, RawLayout, ReadOptions, Warning, is_segmentation,
+    read_header, read_labels, read_raw, read_subject,
 };
 use crate::subjects::{COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab};
 
@@ -109,7 +109,7 @@ const RAW_ENDINGS: [&str; 7] = [".raw", ".bin", ".dat", ".vol", ".img", ".data",
 
 /// Words in the names of files that hold labels, where their headers do not say so.
 const LABEL_WORDS: [&str; 4] = ["label", "seg", "mask", "atlas"];
-/// More files than this are a series of slices, not a scan with its label volumes.
+/// More files than this are a series of slices, with DICOM segmentations at most, not a scan with its label volumes.
 const MOST_WITH_LABELS: usize = 12;
 /// Larger files are not read in advance to know them by their hash.
 const MOST_HASHED_BYTES: u64 = 64 << 20;
@@ -122,12 +122,14 @@ pub(super) fn take_labels(
     expected: &LabelsExpected,
     post: &mut dyn Post,
 ) -> Vec<String> {
-    if names.len() > MOST_WITH_LABELS {
-        return names;
-    }
+    let is_series = names.len() > MOST_WITH_LABELS;
     let is_alone = names.len() == 1;
     let (mut labels, mut rest) = (Vec::new(), Vec::new());
     for name in names {
+        if is_series && !is_segmentation(files, &name) {
+            rest.push(name);
+            continue;
+        }
         let is_named = !expected.sha256.is_empty()
             && hash_of(files, &name).is_some_and(|hash| expected.sha256.contains(&hash));
         let may_be = !is_alone || expected.has_scan;
@@ -412,6 +414,43 @@ mod tests {
             matches!(&last, Some(LoadEvent::Failed { message, .. }) if message.contains("x.nii")),
             "{last:?}"
         );
+    }
+
+    /// A series of a few files or of many, and a segmentation among them.
+    #[test]
+    fn segmentations_are_told_from_their_series() {
+        let Some(data) = std::env::var_os("FABRICA_TEST_DATA") else {
+            println!("did not run: FABRICA_TEST_DATA names no folder of scans");
+            return;
+        };
+        let folder = std::path::Path::new(&data).join("dicom");
+        let read = |path: std::path::PathBuf| {
+            let name = path.file_name().expect("a name").to_string_lossy();
+            (
+                name.into_owned(),
+                std::fs::read(&path).expect("a file of the test data"),
+            )
+        };
+        let few = ["IMG0001.dcm", "IMG0002.dcm", "IMG0003.dcm"];
+        let few = few.map(|name| read(folder.join("seg_23x38x3").join(name)));
+        let many = std::fs::read_dir(folder.join("head_mr_17slices")).expect("the series");
+        let many = many.map(|entry| read(entry.expect("a file").path()));
+        for series in [few.to_vec(), many.collect()] {
+            let count = series.len();
+            let seg = read(folder.join("seg_23x38x3/segmentation.dcm"));
+            let all = || series.iter().cloned().chain([seg.clone()]);
+            let mut files = MemoryFiles::new(all());
+            let mut found = Vec::new();
+            let mut post = |event: LoadEvent| {
+                if let LoadEvent::LabelFile { labels, .. } = event {
+                    found.extend(labels.segments.into_iter().map(|segment| segment.name));
+                }
+                true
+            };
+            let names = all().map(|(name, _)| name).collect();
+            let rest = take_labels(&mut files, names, &LabelsExpected::default(), &mut post);
+            assert_eq!((rest.len(), found), (count, vec!["Liver".to_owned()]));
+        }
     }
 
     #[test]
