@@ -11,6 +11,8 @@ mod compare;
 mod hand;
 #[path = "e2e/harness.rs"]
 mod harness;
+#[path = "e2e/making.rs"]
+mod making;
 #[path = "e2e/slices.rs"]
 mod slices;
 #[path = "e2e/tissue.rs"]

@@ -4,7 +4,9 @@ use super::harness::Tab;
 use chromiumoxide::cdp::browser_protocol::emulation::{
     SetFocusEmulationEnabledParams, SetTouchEmulationEnabledParams,
 };
-use chromiumoxide::cdp::browser_protocol::input::{DispatchKeyEventParams, DispatchKeyEventType};
+use chromiumoxide::cdp::browser_protocol::input::{
+    DispatchKeyEventParams, DispatchKeyEventType, DispatchMouseEventType,
+};
 use serde_json::Value;
 use std::time::Duration;
 
@@ -57,6 +59,15 @@ pub(crate) async fn drop_files(tab: &Tab, names: &[impl serde::Serialize]) {
         ))
         .await;
     assert!(dropped, "the event was sent");
+}
+
+/// Waits until nothing is left to do, three times in a row: a file that was dropped is worked on a moment later.
+pub(crate) async fn settled(tab: &Tab) {
+    for _ in 0..3 {
+        pause(900).await;
+        tab.wait_until("window.fabrica.viewer.is_at_rest()", 200)
+            .await;
+    }
 }
 
 // ---------------------------------------------------------------------------------------------------- what is seen
@@ -116,6 +127,21 @@ pub(crate) async fn find(tab: &Tab, name: &str) -> Control {
     }
     let names: Vec<&str> = seen.iter().map(|c| c.name.as_str()).collect();
     panic!("{name} is not on the screen; there are {names:?}");
+}
+
+// ---------------------------------------------------------------------------------------------------- the mouse
+
+/// Clicks on the control of a name.
+pub(crate) async fn click(tab: &Tab, name: &str) {
+    let (x, y) = find(tab, name).await.middle();
+    tab.mouse(DispatchMouseEventType::MouseMoved, x, y, false)
+        .await;
+    pause(150).await;
+    // As a hand does: the release does not wait until the page has dealt with the press.
+    tokio::join!(
+        tab.mouse(DispatchMouseEventType::MousePressed, x, y, true),
+        tab.mouse(DispatchMouseEventType::MouseReleased, x, y, true)
+    );
 }
 
 // ---------------------------------------------------------------------------------------------------- fingers

@@ -1,6 +1,6 @@
 //! Scans and their tissues in a real browser: a bone that a link makes in a scan without labels, and label files beside a scan.
 
-use super::hand::{changed, document, drop_files, find, focus, mark, pause, press};
+use super::hand::{changed, click, document, drop_files, focus, mark, press, settled};
 use super::harness::{Session, Tab, test_data, with_browser};
 use super::*;
 use sha2::{Digest as _, Sha256};
@@ -18,14 +18,6 @@ fn serve(session: &Session, path: &Path, name: &str) -> String {
     let hash = Sha256::digest(&bytes);
     session.server.add(name, bytes);
     hash.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-/// Waits until nothing is left to do, three times in a row: a file that was dropped is worked on a moment later.
-async fn settled(tab: &Tab) {
-    for _ in 0..3 {
-        tokio::time::sleep(Duration::from_millis(900)).await;
-        tab.wait_until(AT_REST, 200).await;
-    }
 }
 
 /// The picture of a tab between its bars.
@@ -128,19 +120,6 @@ fn links_bring_their_tissues_when_the_files_are_dropped() {
         assert!(ivory[0] > 2000, "the skull is bare: {ivory:?}");
         assert!(pink[1] > pink[0] + 1000, "the brain is bare: {pink:?}");
     });
-}
-
-/// Clicks on the control of a name.
-async fn click(tab: &Tab, name: &str) {
-    use chromiumoxide::cdp::browser_protocol::input::DispatchMouseEventType as Kind;
-    let (x, y) = find(tab, name).await.middle();
-    tab.mouse(Kind::MouseMoved, x, y, false).await;
-    pause(150).await;
-    // As a hand does: the release does not wait until the page has dealt with the press.
-    tokio::join!(
-        tab.mouse(Kind::MousePressed, x, y, true),
-        tab.mouse(Kind::MouseReleased, x, y, true)
-    );
 }
 
 /// An author drops a scan, has its bone found, and peels what lies over it; whoever has the link and the file sees the same.
