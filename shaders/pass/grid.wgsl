@@ -251,22 +251,16 @@ fn may_stay(i: u32, center: vec3f, half: vec3f) -> bool {
         // What lies below may have moved it there; where it came from is not known here.
         return true;
     }
-    // Nothing acts before: what stays is where it was at rest. In eight parts: a distance says more of a small box.
-    let reach = 0.5 * length(half);
-    let slack = voxel_diagonal();
-    let behind = vec3i(0, 0, i32(features.slabs.z * u32(features.distance_dims.z)));
-    var stays = false;
-    for (var part = 0u; part < 8u; part++) {
-        let side = select(vec3f(-0.5), vec3f(0.5), (vec3u(part) & vec3u(1u, 2u, 4u)) != vec3u(0u));
-        let voxel = distance_voxel(center + side * half);
-        // Distances change by no more than the way. The sets' are smoothed, the depth is not.
-        stays = stays || distance_to_sets(voxel, item.keeps.x) <= reach + 1.5 * slack;
-        if (item.keeps.x & KEEPS_DEEP) != 0u {
-            let deeper = textureLoad(distances, voxel + behind, 0).x - item.lengths.x;
-            stays = stays || -deeper <= reach + 0.6 * slack;
-        }
+    // Nothing acts before: what stays is where it was at rest. Distances change by no more than the way; they are read at the
+    // nearest voxel and smoothed, three voxels in all, or more where voxels are far from cubes.
+    let reach = length(half) + max(3.0 * features.distance_dims.w, 1.5 * voxel_diagonal());
+    let voxel = distance_voxel(center);
+    var least = distance_to_sets(voxel, item.keeps.x);
+    if (item.keeps.x & KEEPS_DEEP) != 0u {
+        let behind = vec3i(0, 0, i32(features.slabs.z * u32(features.distance_dims.z)));
+        least = min(least, item.lengths.x - textureLoad(distances, voxel + behind, 0).x);
     }
-    return stays;
+    return least <= reach;
 }
 
 /// Where the motion of a group's segment takes a box from, as centre and half extent.
