@@ -133,7 +133,8 @@ pub(super) fn take_labels(
         let is_named = !expected.sha256.is_empty()
             && hash_of(files, &name).is_some_and(|hash| expected.sha256.contains(&hash));
         let may_be = !is_alone || expected.has_scan;
-        if is_named || (may_be && looks_like_labels(files, &name)) {
+        // A series is not looked through again: what its file is has been asked.
+        if is_named || is_series || (may_be && looks_like_labels(files, &name)) {
             labels.push((name, is_named));
         } else {
             rest.push(name);
