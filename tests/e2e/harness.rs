@@ -451,7 +451,7 @@ impl Tab {
         let start = Instant::now();
         while !self.eval::<bool>(expression).await {
             if start.elapsed() > Duration::from_secs(seconds) {
-                self.picture("waited_in_vain").await;
+                self.screenshot("waited_in_vain").await;
                 panic!(
                     "not true after {seconds} s: {expression}\n{}",
                     self.messages().await
@@ -484,6 +484,13 @@ impl Tab {
 
     /// The canvas as it is shown, in pixels. Fails if it is all one colour: a blank canvas is no picture.
     pub(crate) async fn picture(&self, name: &str) -> image::RgbaImage {
+        let picture = self.screenshot(name).await;
+        assert_not_blank(&picture, name);
+        picture
+    }
+
+    /// The page as it is, blank or not; left in target/e2e.
+    async fn screenshot(&self, name: &str) -> image::RgbaImage {
         let params = ScreenshotParams::builder()
             .format(CaptureScreenshotFormat::Png)
             .build();
@@ -491,9 +498,7 @@ impl Tab {
         let folder = root().join("target/e2e");
         std::fs::create_dir_all(&folder).expect("a folder for pictures");
         std::fs::write(folder.join(format!("{name}.png")), &png).expect("the picture is written");
-        let picture = image::load_from_memory(&png).expect("a PNG").to_rgba8();
-        assert_not_blank(&picture, name);
-        picture
+        image::load_from_memory(&png).expect("a PNG").to_rgba8()
     }
 
     /// Sets the size of the page in CSS pixels.

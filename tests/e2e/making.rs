@@ -38,7 +38,7 @@ async fn assert_link_holds(tab: &Tab) {
     assert_eq!(back["templates"], document(tab).await["templates"]);
 }
 
-/// A control point is dragged on the object; the tissue goes along, and the link holds it.
+/// A control point is dragged, and a point of a curve that follows the surface; the tissue goes along, and links hold both.
 #[test]
 fn a_control_point_and_a_curve_are_dragged() {
     with_browser(BrowserGpu::Software, |session| async move {
