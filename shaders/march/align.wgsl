@@ -15,8 +15,9 @@
 //
 //     x  kept? -> it stays      p = Tb(x)  kept? -> nothing     p = Tb-1(p)  kept? -> nothing    ...
 //
-// `align_mode` 1 is that chain (one set, below it nothing); 2 is the whole: a stack of open questions. A question is
-// open in its first case (what does Oa-1 have at x itself) or in its last (what does Oi-1 have at Ti(x)).
+// `align_mode` 1 is one group alone, two questions without a loop; 2 is that chain (one set, below it nothing); 3 is the whole: a stack
+// of open questions. A question is open in its first case (what does Oa-1 have at x itself) or in its last (what does Oi-1 have at
+// Ti(x)).
 // An `add` group is one template here, and keeps what any of its members keeps.
 //
 // Which templates moved what was found is told as well (`path`): the map along that path is smooth where the object is, so that
@@ -39,8 +40,9 @@ fn map_step() -> f32 {
     return 0.0005;
 }
 
-/// 0: nothing is kept; 1: one set, or one depth, kept by the first templates of the list; 2: any. A pipeline constant.
-override align_mode: u32 = 2u;
+/// 0: nothing is kept; 1: by the only group of the list; 2: one set, or one depth, by the first templates of the list; 3: any.
+/// A pipeline constant.
+override align_mode: u32 = 3u;
 /// How displacements give way to kept tissue, a bit for each CONSTRAIN_ mode that occurs; 0: none does. A pipeline constant.
 override has_constraints: u32 = 14u;
 /// What says that tissue is kept. Bit 0: its segment, bit 1: its depth. A pipeline constant, so that a picture asks one texture where
@@ -242,7 +244,18 @@ fn below(mask: u32, level: u32) -> u32 {
     return mask & ~(0xffffffffu << level);
 }
 
-/// Align mode 1: the first templates of the list keep the same, the others keep nothing.
+/// Align mode 1: the list is one group. Both questions are asked everywhere: devices that run both sides of every branch ask them anyhow,
+/// and have no loop to walk.
+fn grouped(pos: vec3f, mask: u32) -> Material {
+    let item = features.items[0];
+    let moved = group_map(pos, 0u, mask);
+    let stays = mask == 0u || is_kept(pos, item.keeps.x, item.lengths.x);
+    let stands_elsewhere = is_kept(moved.pos, item.keeps.x, item.lengths.x);
+    let continuity = select(moved.continuity, -1.0, stands_elsewhere);
+    return Material(select(moved.pos, pos, stays), select(continuity, 1.0, stays), select(mask, 0u, stays));
+}
+
+/// Align mode 2: the first templates of the list keep the same, the others keep nothing.
 fn chained(pos: vec3f, mask: u32) -> Material {
     var left = mask;
     var at = Material(pos, NO_END, 0u);
@@ -280,7 +293,7 @@ fn chained(pos: vec3f, mask: u32) -> Material {
     return at;
 }
 
-/// Align mode 2.
+/// Align mode 3.
 fn asked(pos: vec3f, mask: u32) -> Material {
     // Open questions: where to go on, what was on the way so far.
     var open_pos: array<vec4f, 12>;
@@ -358,9 +371,12 @@ fn material_at(pos: vec3f, mask: u32) -> Material {
     let count = min(templates.count.x, 32u);
     let every = select(0u, 0xffffffffu >> ((32u - count) & 31u), count > 0u);
     if align_mode == 1u {
-        return chained(pos, mask & every);
+        return grouped(pos, mask & every);
     }
     if align_mode == 2u {
+        return chained(pos, mask & every);
+    }
+    if align_mode == 3u {
         return asked(pos, mask & every);
     }
     let mapped = rest_from_subject(pos, mask);
@@ -410,14 +426,15 @@ fn kept_surface(rest: vec3f, path: u32, jacobian: mat3x3f, to_eye: vec3f) -> Kep
     var is_kept_side = false;
     // Half a voxel either way is the same surface: labels are nearest, distances smooth.
     let slack = features.distance_dims.w;
-    let count = min(templates.count.x, 32u);
+    let count = select(min(templates.count.x, 32u), 1u, align_mode == 1u);
     for (var i = 0u; i < count; i++) {
         let item = features.items[i];
         if item.keeps.x == 0u {
             continue;
         }
+        let group = select(1u << i, 0xffffffffu, align_mode == 1u);
         let away = distance_to_kept(rest, item.keeps.x, item.lengths.x, 0u);
-        let has_moved = (path & (1u << i)) != 0u;
+        let has_moved = (path & group) != 0u;
         let is_on_side = select(away <= slack, away >= -slack, has_moved);
         // Within the stairs of the labels it is the surface itself.
         let near = 1.0 - max(abs(away) - slack, 0.0) / max(item.lengths.y, slack);

@@ -269,71 +269,69 @@ fn pixel_noise(pixel: vec2f) -> f32 {
     return fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
 }
 
-/// xyz: direction from a surface to tap k of occlusion, along its two tangents and its normal; w: how far, subject units.
-fn occlusion_way(k: u32, noise: f32) -> vec4f {
-    // Near taps find creases, far ones the hollow under a flap.
-    let reach = mix(0.010, 0.045, f32((k * 5u) % occlusion_taps) / f32(occlusion_taps)) + subject.dims.w;
-    return vec4f(spread(k, occlusion_taps, frame.jitter.w + noise * 6.2831853), reach);
+/// What stands in the light of a surface.
+struct Surroundings {
+    /// How open they are, 0 to 1.
+    openness: f32,
+    /// How much of the key light arrives, 0 to 1.
+    key_light: f32,
 }
 
-/// How open the surroundings of a surface are, 0 to 1: taps of the opacity in the deformed space.
-fn openness(pos: vec3f, normal: vec3f, noise: f32) -> f32 {
-    let up = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.y) < 0.9);
-    let tangent = normalize(cross(up, normal));
-    let bitangent = cross(normal, tangent);
+/// A tap of the surroundings.
+struct Tap {
+    pos: vec3f,
+    /// How much it counts for occlusion, 0 for a tap towards the key light.
+    weight: f32,
+    /// How much of the key light something opaque there takes, 0 for a tap of occlusion.
+    shade: f32,
+}
+
+/// Tap k: first those of occlusion, then those towards the key light.
+fn tap_at(k: u32, pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Tap {
+    let voxel = subject.dims.w;
+    if k < occlusion_taps {
+        let up = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.y) < 0.9);
+        let tangent = normalize(cross(up, normal));
+        let bitangent = cross(normal, tangent);
+        let way = spread(k, occlusion_taps, frame.jitter.w + noise * 6.2831853);
+        // Near taps find creases, far ones the hollow under a flap.
+        let reach = mix(0.010, 0.045, f32((k * 5u) % occlusion_taps) / f32(occlusion_taps)) + voxel;
+        let at = pos + normal * (0.5 * voxel) + (tangent * way.x + bitangent * way.y + normal * way.z) * reach;
+        return Tap(at, way.z, 0.0);
+    }
+    // Closer together near the surface, where a shadow has its edge.
+    let part = (f32(k - occlusion_taps) + 0.3 + 0.7 * fract(frame.jitter.z + noise)) / f32(shadow_taps);
+    let at = pos + normal * (1.5 * voxel) + key_dir * (0.006 + 0.30 * part * part);
+    // Farther occluders dim less: a large soft lamp.
+    return Tap(at, 0.0, mix(0.62, 0.30, part));
+}
+
+/// Taps of the opacity in the deformed space around a surface.
+fn surroundings_of(pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Surroundings {
     var closed = 0.0;
     var weights = 0.0001;
+    var open = 1.0;
     // Taps that no template reaches are sampled plainly, the others in a loop of their own: where there are none, it ends at once.
     var mapped = 0u;
-    for (var k = 0u; k < occlusion_taps; k++) {
-        let way = occlusion_way(k, noise);
-        let at = pos + (tangent * way.x + bitangent * way.y + normal * way.z) * way.w;
-        weights += way.z;
-        let is_mapped = cell_at(at).x != 0u && drawn_kinds != 0u;
+    for (var k = 0u; k < occlusion_taps + shadow_taps; k++) {
+        let tap = tap_at(k, pos, normal, key_dir, noise);
+        let is_mapped = cell_at(tap.pos).x != 0u && drawn_kinds != 0u;
         mapped |= select(0u, 1u << k, is_mapped);
-        let found = sample_mapped(Material(at, 1.0, 0u));
-        closed += select(way.z * smoothstep(0.02, 0.5, shading_opacity(found)), 0.0, is_mapped);
+        let opacity = select(shading_opacity(sample_mapped(Material(tap.pos, 1.0, 0u))), 0.0, is_mapped);
+        weights += tap.weight;
+        closed += tap.weight * smoothstep(0.02, 0.5, opacity);
+        open *= 1.0 - tap.shade * smoothstep(0.02, 0.6, opacity);
     }
     if drawn_kinds != 0u {
         while mapped != 0u {
-            let way = occlusion_way(firstTrailingBit(mapped), noise);
+            let tap = tap_at(firstTrailingBit(mapped), pos, normal, key_dir, noise);
             mapped &= mapped - 1u;
-            let at = pos + (tangent * way.x + bitangent * way.y + normal * way.z) * way.w;
-            let found = sample_mapped(map_point(at, cell_at(at).x));
-            closed += way.z * smoothstep(0.02, 0.5, shading_opacity(found));
+            let opacity = shading_opacity(sample_mapped(map_point(tap.pos, cell_at(tap.pos).x)));
+            closed += tap.weight * smoothstep(0.02, 0.5, opacity);
+            open *= 1.0 - tap.shade * smoothstep(0.02, 0.6, opacity);
         }
     }
-    return 1.0 - closed / weights;
-}
-
-/// How much of the key light arrives, 0 to 1.
-fn key_light_at(pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> f32 {
-    var open = 1.0;
-    let start = pos + normal * (1.5 * subject.dims.w);
-    let n = f32(shadow_taps);
-    // As above in two loops.
-    var mapped = 0u;
-    for (var k = 0u; k < shadow_taps; k++) {
-        // Closer together near the surface, where a shadow has its edge.
-        let part = (f32(k) + 0.3 + 0.7 * fract(frame.jitter.z + noise)) / n;
-        let at = start + key_dir * (0.006 + 0.30 * part * part);
-        let is_mapped = cell_at(at).x != 0u && drawn_kinds != 0u;
-        mapped |= select(0u, 1u << k, is_mapped);
-        let found = sample_mapped(Material(at, 1.0, 0u));
-        // Farther occluders dim less: a large soft lamp.
-        let dimmed = smoothstep(0.02, 0.6, shading_opacity(found)) * mix(0.62, 0.30, part);
-        open *= 1.0 - select(dimmed, 0.0, is_mapped);
-    }
-    if drawn_kinds != 0u {
-        while mapped != 0u {
-            let part = (f32(firstTrailingBit(mapped)) + 0.3 + 0.7 * fract(frame.jitter.z + noise)) / n;
-            mapped &= mapped - 1u;
-            let at = start + key_dir * (0.006 + 0.30 * part * part);
-            let found = sample_mapped(map_point(at, cell_at(at).x));
-            open *= 1.0 - smoothstep(0.02, 0.6, shading_opacity(found)) * mix(0.62, 0.30, part);
-        }
-    }
-    return open;
+    return Surroundings(1.0 - closed / weights, open);
 }
 
 /// Marches the ray through a point of the picture (pixels, origin top left).
@@ -465,52 +463,53 @@ fn march(pixel: vec2f) -> Marched {
             edge = here;
         }
         let either = mask | mask_before;
-        // Two loops again: where no template reaches, a halving costs no map.
+        // Behind a surface towards nothing the first stretch has always the same length, and so the same share of the colour: were it what is
+        // left of the step, the surface would fade wherever a sample happens to lie right behind it. What is there is asked for by one turn
+        // more than there are halvings.
+        let has_first_stretch = is_rising && before.opacity <= VISIBLE;
+        var behind = here;
+        // Two loops again: where no template reaches, a turn costs no map.
         let is_mapped = either != 0u && drawn_kinds != 0u;
-        var halvings = select(0u, BISECTIONS, is_jump && !is_mapped);
-        while halvings > 0u {
-            halvings--;
-            let middle = 0.5 * (low + high);
-            let found = sample_mapped(Material(origin + dir * middle, 1.0, 0u));
+        let turns = select(0u, BISECTIONS + select(0u, 1u, has_first_stretch), is_jump);
+        for (var turn = select(0u, turns, !is_mapped); turn > 0u; turn--) {
+            let is_last = has_first_stretch && turn == 1u;
+            let at = select(0.5 * (low + high), high + step, is_last);
+            let found = sample_mapped(Material(origin + dir * at, 1.0, 0u));
             let is_in = found.opacity > level;
-            if is_in == is_rising {
-                high = middle;
+            if is_last {
+                behind = found;
+            } else if is_in == is_rising {
+                high = at;
             } else {
-                low = middle;
+                low = at;
             }
-            if is_in {
+            if is_in && !is_last {
                 edge = found;
             }
         }
         if drawn_kinds != 0u {
-            halvings = select(0u, BISECTIONS, is_jump && is_mapped);
-            while halvings > 0u {
-                halvings--;
-                let middle = 0.5 * (low + high);
-                let found = sample_mapped(map_point(origin + dir * middle, either));
+            for (var turn = select(0u, turns, is_mapped); turn > 0u; turn--) {
+                let is_last = has_first_stretch && turn == 1u;
+                let at = select(0.5 * (low + high), high + step, is_last);
+                let found = sample_mapped(map_point(origin + dir * at, either));
                 let is_in = found.opacity > level;
-                if is_in == is_rising {
-                    high = middle;
+                if is_last {
+                    behind = found;
+                } else if is_in == is_rising {
+                    high = at;
                 } else {
-                    low = middle;
+                    low = at;
                 }
-                if is_in {
+                if is_in && !is_last {
                     edge = found;
                 }
             }
         }
         let t_edge = select(0.5 * (t_before + t), select(low, high, is_rising), is_jump);
-        // Behind a surface towards nothing the first stretch has always the same length, and so the same share of the colour: were it what is
-        // left of the step, the surface would fade wherever a sample happens to lie right behind it. Thin tissue keeps the sample
-        // that found it.
-        if is_rising && before.opacity <= VISIBLE {
-            let next = t_edge + step;
-            let at = origin + dir * next;
-            let found = sample_mapped(map_point(at, either | cell_at(at).x));
-            if found.opacity >= 0.5 * here.opacity && next > t {
-                here = found;
-                t = next;
-            }
+        // Thin tissue keeps the sample that found it.
+        if has_first_stretch && behind.opacity >= 0.5 * here.opacity && t_edge + step > t {
+            here = behind;
+            t = t_edge + step;
         }
         let t_shade = select(t, t_edge, is_jump);
         let pos = origin + dir * t_shade;
@@ -711,8 +710,9 @@ fn march(pixel: vec2f) -> Marched {
             frame.subject_from_view_row2,
             KEY_DIR,
         );
-        let open = openness(pos + result.surface_normal * (0.5 * subject.dims.w), result.surface_normal, noise);
-        let lit = key_light_at(pos, result.surface_normal, key_dir, noise);
+        let around = surroundings_of(pos, result.surface_normal, key_dir, noise);
+        let open = around.openness;
+        let lit = around.key_light;
         color -= surface_key * (1.0 - lit) + surface_ambient * (0.8 * (1.0 - open)) + surface_key * lit * (0.25 * (1.0 - open));
     }
     result.color = vec4f(max(color, vec3f(0.0)), 1.0 - clear);

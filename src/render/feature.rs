@@ -45,7 +45,8 @@ pub struct KeptTissue {
     pub items: [FeatureItem; MAX_TEMPLATES],
     /// Names in `keep` that the subject has no segment for.
     pub unknown: Vec<String>,
-    /// 0: nothing is kept; 1: the first templates of the list keep the same; 2: any.
+    /// What the pipeline constant `align_mode` has to be. 0: nothing is kept or gives way; 1: the list is one group; 2: the first
+    /// templates of the list keep the same; 3: any.
     pub align_mode: u32,
     /// How displacements give way, a bit for each `CONSTRAIN_` mode that occurs.
     pub constraints: u32,
@@ -199,12 +200,14 @@ impl KeptTissue {
             .copied()
             .filter(|&i| self.items[i].keeps[0] != 0)
             .collect();
-        self.align_mode = if keeping.is_empty() {
+        self.align_mode = if keeping.is_empty() && self.constraints == 0 {
             0
-        } else if keeping.iter().all(|&i| self.items[i].keeps[1] == 0) {
+        } else if heads.len() == 1 {
             1
-        } else {
+        } else if keeping.iter().all(|&i| self.items[i].keeps[1] == 0) {
             2
+        } else {
+            3
         };
     }
 
@@ -218,21 +221,7 @@ impl KeptTissue {
 
     /// True if nothing is kept and nothing gives way.
     pub fn is_nothing(&self) -> bool {
-        self.align_mode == 0 && !self.has_constraints()
-    }
-
-    /// What the pipeline constant `align_mode` has to be: constraints need the walk by groups too.
-    pub fn walk_mode(&self) -> u32 {
-        if self.has_constraints() {
-            self.align_mode.max(1)
-        } else {
-            self.align_mode
-        }
-    }
-
-    /// True if some displacement gives way to kept tissue.
-    pub fn has_constraints(&self) -> bool {
-        self.constraints != 0
+        self.align_mode == 0
     }
 
     /// True if some segment moves as a whole.
@@ -313,7 +302,7 @@ struct Plan {
 
 impl Plan {
     fn new(frame: &VoxelFrame, reads_labels: bool, kept: &KeptTissue) -> Self {
-        let exact = u32::from(kept.has_constraints());
+        let exact = u32::from(kept.constraints != 0);
         let deep = if kept.keeps_deep { 1 + exact } else { 0 };
         let slabs = [1 + exact + u32::from(kept.keeps_deep), exact, deep, 0];
         let mut factor = 1;
@@ -373,7 +362,7 @@ impl FeatureTextures {
                 kept.label_sets,
                 kept.set_count,
                 kept.keeps_deep,
-                kept.has_constraints(),
+                kept.constraints != 0,
             );
             if self.made_for != Some(made_for)
                 && let Some(passes) = passes.distance(gpu)

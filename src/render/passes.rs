@@ -30,7 +30,7 @@ pub(super) struct RaycastKey {
     pub has_labels: bool,
     /// There is a grid to leap with.
     pub has_grid: bool,
-    /// How kept tissue is found: 0 nothing is kept, 1 by a chain, 2 by asking back.
+    /// How kept tissue is found: 0 nothing is kept, 1 by one group, 2 by a chain, 3 by asking back.
     pub align_mode: u32,
     /// How displacements give way to kept tissue, a bit for each `CONSTRAIN_` mode that occurs.
     pub constraints: u32,
@@ -49,7 +49,7 @@ pub(super) struct RaycastKey {
 impl RaycastKey {
     /// True if templates leave tissue alone or give way to it: a longer program.
     pub(super) fn keeps_tissue(&self) -> bool {
-        self.align_mode != 0 || self.constraints != 0
+        self.align_mode != 0
     }
 
     /// The pipeline constants of march/align.wgsl.

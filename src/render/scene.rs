@@ -205,7 +205,7 @@ impl Prepared {
             has_labels: self.has_labels,
             has_grid: self.grid.is_some(),
             is_baked: false,
-            align_mode: self.features.kept().map_or(0, KeptTissue::walk_mode),
+            align_mode: self.features.kept().map_or(0, |kept| kept.align_mode),
             constraints: self.features.kept().map_or(0, |kept| kept.constraints),
             kept_by: self.features.kept().map_or(0, KeptTissue::kept_by),
             has_bodies: self.bodies.is_used(),

@@ -720,7 +720,7 @@ fn templates_text() -> String {
 /// Size of the measured picture, pixels: small enough for a software GPU to end within a minute or two.
 const BENCH_SIZE: [u32; 2] = [256, 256];
 /// Frames per case; the median counts.
-const BENCH_REPEATS: usize = 3;
+const BENCH_REPEATS: usize = 7;
 
 fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
     let gpu = open_gpu(common)?;
