@@ -1,100 +1,107 @@
-// Structs that Rust fills in, mirrored in order by src/render/gpu_types.rs (tests/layout.rs compares them).
-// No vec3 here: rows of four.
-// needs: -
+// Structs that Rust fills in, mirrored in order by src/render/pack/gpu_types.rs (tests/layout.rs compares them).
+// No vec3 here: three components take a row of four, whose last is not used. Single numbers have names of their own and
+// fill rows together. A struct of numbers alone is aligned to 4 bytes; where it is an element of an array in a uniform
+// buffer, its size has to be a multiple of 16.
+// needs: affine.wgsl
 
 /// Templates of one document at most (spec/contract.md, "Limits").
 const MAX_TEMPLATES: u32 = 32u;
 
-/// How a template joins the list.
-const MODE_COMPOSE: u32 = 0u;
-const MODE_ADD: u32 = 1u;
-
 /// One placed template, ready for the shaders: enabled, of a known kind.
 struct Template {
-    /// Rows of the affine that takes subject space to template space (the unit cube).
-    template_from_subject_row0: vec4f,
-    template_from_subject_row1: vec4f,
-    template_from_subject_row2: vec4f,
-    /// Rows of the affine that takes template space to subject space.
-    subject_from_template_row0: vec4f,
-    subject_from_template_row1: vec4f,
-    subject_from_template_row2: vec4f,
-    /// xyz: side lengths, subject units, of the box that the template acts in; w: along x of the straight box where it lies along a curve.
+    /// Subject space to template space (the unit cube).
+    template_from_subject: Affine,
+    /// Template space to subject space.
+    subject_from_template: Affine,
+    /// xyz: side lengths of the box that the template acts in, subject units. Along a curve: of the box laid along it.
     size: vec4f,
-    /// Parameters in the order of the catalogue, flags 0 or 1, choices as index. The last is an index in the pool for kinds that use it.
+    /// Parameters in the order of the catalogue, flags 0 or 1, choices as index.
     params0: vec4f,
     params1: vec4f,
-    /// Number of the kind (TemplateKind).
+    /// Number of the kind: one of KIND_, see kinds.wgsl.
     kind: u32,
-    /// MODE_COMPOSE or MODE_ADD; the first of the list always composes.
-    mode: u32,
-    /// Index of its curve in the pool, 0 if it is straight.
-    flags: u32,
     /// Index of the composing template that heads its `add` group (its own if it composes).
     group: u32,
+    /// Index in `Templates.pool` of the curve that the template lies along, 0 if it is straight.
+    curve: u32,
+    /// Index in `Templates.pool` of what the template holds besides parameters: the points of an rbf, the place of the
+    /// samples of a field. 0 for none.
+    held: u32,
 }
 
 /// All templates that act, in the order in which they act on the object.
 struct Templates {
     items: array<Template, 32>,
-    /// x: how many of them count.
-    count: vec4u,
-    /// What templates hold besides parameters (displace/rbf.wgsl, displace/field.wgsl, displace/curve.wgsl).
+    /// How many of them count.
+    count: u32,
+    /// What templates hold besides parameters, see displace/{curve,rbf,field}.wgsl. The first row is 0: nothing held.
     pool: array<vec4f, 640>,
 }
 
 /// One picture's camera and sampling.
 struct Frame {
-    /// Rows of the affine that takes view space to subject space.
-    subject_from_view_row0: vec4f,
-    subject_from_view_row1: vec4f,
-    subject_from_view_row2: vec4f,
-    /// xy: tangent of half the field of view across width and height; zw: width and height of the whole picture, pixels.
-    lens: vec4f,
-    /// xy: where in the pixel the ray goes through (0 to 1); z: offset of the first step, in steps (0 to 1); w: turn of the
-    /// ambient occlusion taps, radians.
-    jitter: vec4f,
-    /// Box of the deformed object, subject space; w: step, subject units.
+    /// View space to subject space.
+    subject_from_view: Affine,
+    /// Tangent of half the field of view across width and height.
+    lens: vec2f,
+    /// Width and height of the whole picture, pixels.
+    size_px: vec2f,
+    /// Where in the pixel the ray goes through, 0 to 1.
+    jitter: vec2f,
+    /// Offset of the first step, in steps, 0 to 1.
+    first_step: f32,
+    /// Turn of the taps of ambient occlusion, radians.
+    occlusion_turn: f32,
+    /// Box of the deformed object, subject space.
     bounds_min: vec4f,
-    /// w: reserved.
     bounds_max: vec4f,
-    /// Pick pass only: xy is the pixel asked for.
-    pick: vec4f,
+    /// Pick pass only: the pixel asked for.
+    pick: vec2f,
+    /// Length of a step, subject units.
+    step: f32,
 }
 
 /// The uploaded volume.
 struct Subject {
-    /// Rows of the affine that takes rest space to texture space of the volume.
-    texture_from_rest_row0: vec4f,
-    texture_from_rest_row1: vec4f,
-    texture_from_rest_row2: vec4f,
-    /// Rows of the affine that takes rest space to texture space of the label volume.
-    label_from_rest_row0: vec4f,
-    label_from_rest_row1: vec4f,
-    label_from_rest_row2: vec4f,
-    /// xyz: voxels along each axis; w: smallest voxel spacing, subject units.
+    /// Rest space to texture space of the volume.
+    texture_from_rest: Affine,
+    /// Rest space to texture space of the segmentation.
+    label_from_rest: Affine,
+    /// xyz: voxels along each axis.
     dims: vec4f,
-    /// xyz: label voxels along each axis; w: 1 if there are labels.
+    /// xyz: voxels of the segmentation along each axis.
     label_dims: vec4f,
     /// xyz: texture coordinate at which the volume ends (1 unless it was reduced and its last voxel is a part of one).
     texture_end: vec4f,
-    /// x: value where the texture holds 0; y: value range; the value is x + y * texel.
-    value: vec4f,
+    /// Value where the texture holds 0.
+    value_low: f32,
+    /// Values from 0 to 1 in the texture: the value is value_low + value_range * texel.
+    value_range: f32,
+    /// Smallest voxel spacing, subject units: the finest detail that the subject has.
+    detail: f32,
+    /// 1 if there is a segmentation, else 0.
+    has_labels: u32,
 }
 
 /// Transfer function, light and opacity.
 struct Look {
-    /// Position in the table = x * texel + y (clamped); z: how much segments tint (0 to 1); w: specular strength.
-    lut: vec4f,
-    /// x: OPACITY_ mode.
-    modes: vec4u,
-    /// x: how much opacity follows the steepness of the value, 0 to 1.
-    edges: vec4f,
+    /// Position in the table = table_scale * texel + table_offset, clamped.
+    table_scale: f32,
+    table_offset: f32,
+    /// How much segments tint, 0 to 1.
+    tint: f32,
+    /// Strength of the highlight, 0 to 1.
+    specular: f32,
+    /// One of OPACITY_.
+    opacity_mode: u32,
+    /// How much opacity follows the steepness of the value, 0 to 1.
+    edges: f32,
 }
 
 /// Segments drawn as bodies of their own.
 struct Bodies {
-    /// Of each label: linear RGB, and the opacity (see BODY_LAYER); w below 0: it is no body, its values say how it looks.
+    /// Of each label: linear RGB, and in alpha the opacity (see BODY_LAYER). Alpha below 0: the label is no body, its
+    /// values say how it looks.
     items: array<vec4f, 256>,
 }
 
@@ -109,101 +116,153 @@ const OPACITY_CONSTANCY: u32 = 0u;
 const OPACITY_MASS: u32 = 1u;
 const OPACITY_NONE: u32 = 2u;
 
-/// The grid over the deformed space.
+/// The skip grid: the grid over the deformed space.
 struct Grid {
     /// xyz: lowest corner, subject space.
     origin_min: vec4f,
     /// xyz: side lengths of a cell, subject units.
     cell_size: vec4f,
-    /// xyz: cells along each axis; w: 1 if in use, 0: every cell is visible and every template reaches it.
+    /// xyz: cells along each axis.
     cells: vec4u,
+    /// 1 if the grid is in use; 0: every cell is visible and every template reaches it.
+    is_used: u32,
 }
 
 /// The baked map: a texture over the deformed space.
 struct Baked {
-    /// xyz: lowest corner, subject space; w: offset for finite differences of the map, subject units.
+    /// xyz: lowest corner, subject space.
     origin_min: vec4f,
     /// xyz: one over the sides of the whole box, subject units.
     per_unit: vec4f,
-    /// xyz: texels along each axis; w: the first slab of those that are being made.
+    /// xyz: texels along each axis.
     texels: vec4u,
+    /// Offset for finite differences of the map, subject units.
+    map_step: f32,
+    /// The first slab of those that are being made.
+    first_slab: u32,
 }
 
 /// From the accumulated picture to the one that is shown.
 struct Resolve {
-    /// xy: scale from pixel of the output to texture coordinate of the source; zw: largest texture coordinate in use.
-    scale: vec4f,
-    /// Linear RGB of the background; w: 1 if there is one, 0 transparent.
+    /// From pixel of the output to texture coordinate of the source.
+    scale: vec2f,
+    /// Largest texture coordinate in use.
+    end: vec2f,
+    /// Linear RGB of the background; alpha 1 if there is one, 0 transparent.
     background: vec4f,
-    /// x: 1 to write straight alpha instead of premultiplied.
-    flags: vec4u,
+    /// 1 to write straight alpha instead of premultiplied.
+    is_straight: u32,
 }
 
 /// A flat cut through the deformed object.
 struct Slice {
-    /// Rows of the affine that takes pixels of the slice (origin top left, z is not used) to subject space.
-    subject_from_pixel_row0: vec4f,
-    subject_from_pixel_row1: vec4f,
-    subject_from_pixel_row2: vec4f,
-    /// Grey level = x * texel + y.
-    window: vec4f,
+    /// Pixels of the slice (origin top left, z is not used) to subject space.
+    subject_from_pixel: Affine,
     /// Linear RGB where nothing is.
     background: vec4f,
-    /// x: SLICE_ mode; y: samples per pixel along each side.
-    modes: vec4u,
+    /// Grey level = grey_scale * texel + grey_offset, clamped.
+    grey_scale: f32,
+    grey_offset: f32,
+    /// One of SLICE_.
+    mode: u32,
+    /// Samples per pixel along each side.
+    samples: u32,
 }
 
 /// How a slice is shown.
 const SLICE_GREY: u32 = 0u;
 const SLICE_COLORS: u32 = 1u;
 
-/// What a template reaches, for the making of the grid. Template space, of the straight box; a side without an end is at 1e30.
+/// The lattice on which points of tissue are looked for in the deformed object (pass/follow.wgsl).
+struct Lattice {
+    /// xyz: lowest corner, subject space.
+    corner: vec4f,
+    /// xyz: cells along each axis.
+    cells: vec4u,
+    /// Side of a cell, subject units.
+    side: f32,
+    /// Points that are followed.
+    count: u32,
+}
+
+/// What a template reaches, for the making of the grid. Template space, of the straight box; a side without an end is
+/// at 1e30.
 struct GridTemplate {
-    /// First box; w of its lowest corner: half side of the largest box in which differences tell how the map changes.
+    /// First box.
     reach0_min: vec4f,
     reach0_max: vec4f,
-    /// Second box. Where the template lies along a curve: w of its lowest corner is how much longer a step can be in its own space than
-    /// in the straight one, w of its highest the longest way of any material, subject units; else 1 and 0.
+    /// Second box.
     reach1_min: vec4f,
     reach1_max: vec4f,
     /// First box in the template's own space.
     own_min: vec4f,
     own_max: vec4f,
-    /// Least shift of material; w: MATERIAL_ (0 shifted, 1 taken out of the cube, 2 bent, 3 rippled).
+    /// Least shift of material.
     shift_min: vec4f,
-    /// Greatest shift, or how far the map departs from its differences (rippled); w: 1 if the map jumps at the faces of the first box.
+    /// Greatest shift, or how far the map departs from its differences (rippled).
     shift_max: vec4f,
+    /// Half side of the largest box in which differences tell how the map changes.
+    detail: f32,
+    /// How much longer a step can be in the template's own space than in the straight one; 1 without a curve.
+    stretch: f32,
+    /// The longest way of any material, subject units, where the template lies along a curve; else 0.
+    longest: f32,
+    /// One of MATERIAL_.
+    material: u32,
+    /// 1 if the map jumps at the faces of the first box.
+    is_torn: u32,
 }
+
+/// How a template moves material: by a bounded shift, out of the cube, rolled about an axis, by a bounded shift that
+/// may change faster than differences tell.
+const MATERIAL_SHIFTED: u32 = 0u;
+const MATERIAL_WITHIN: u32 = 1u;
+const MATERIAL_BENT: u32 = 2u;
+const MATERIAL_RIPPLED: u32 = 3u;
 
 /// One making of the grid.
 struct GridJob {
-    /// xyz: lowest corner, subject space; w: how far beyond its sides a cell is looked at, subject units.
+    /// xyz: lowest corner, subject space.
     origin_min: vec4f,
     /// xyz: side lengths of a cell, subject units.
     cell_size: vec4f,
-    /// xyz: cells along each axis; w: ways are not followed farther than this.
+    /// xyz: cells along each axis.
     cells: vec4u,
-    /// Rows of the affine that takes rest space to bricks.
-    brick_from_rest_row0: vec4f,
-    brick_from_rest_row1: vec4f,
-    brick_from_rest_row2: vec4f,
-    /// xyz: bricks along each axis; w: how many cells a mask spreads.
+    /// Rest space to bricks.
+    brick_from_rest: Affine,
+    /// xyz: bricks along each axis.
     bricks: vec4u,
+    /// How far beyond its sides a cell is looked at, subject units.
+    margin: f32,
+    /// Ways to the nearest visible cell are not followed farther than this, cells.
+    farthest: u32,
+    /// How many cells a mask spreads.
+    spread: u32,
     /// As in `Templates`, in the same order.
     items: array<GridTemplate, 32>,
 }
 
 /// What one template leaves alone. Stands at the head of its `add` group and holds for the whole group.
-struct FeatureItem {
-    /// x: sets of kept tissue, bit k for set k, KEEPS_DEEP for what lies deep under the outer surface, 0 keeps nothing; y: index of the
-    /// first template of the run of groups that keep the same; z: sets that the displacement gives way to; w: CONSTRAIN_ mode.
-    keeps: vec4u,
-    /// x: depth under the outer surface from where on tissue is kept; y: width of the blend of normals; z: the longest displacement of
-    /// the group; w: how far around a segment that moves as a whole other tissue goes with it. Subject units.
-    lengths: vec4f,
+struct KeptGroup {
+    /// Sets of kept tissue, bit k for set k, KEEPS_DEEP for what lies deep under the outer surface; 0 keeps nothing.
+    keeps: u32,
+    /// Index of the first template of the run of groups that keep the same.
+    run: u32,
+    /// Sets that the displacement gives way to.
+    gives_way_to: u32,
+    /// One of CONSTRAIN_.
+    constraint: u32,
+    /// Depth under the outer surface from where on tissue is kept, subject units.
+    depth: f32,
+    /// Width of the blend of normals, subject units.
+    blend: f32,
+    /// The longest displacement of the group, subject units.
+    longest: f32,
+    /// How far around a segment that moves as a whole other tissue goes with it, subject units.
+    fade: f32,
 }
 
-/// Bit of `keeps.x`: what lies deeper than `lengths.x` under the outer surface.
+/// Bit of `KeptGroup.keeps`: what lies deeper than `depth` under the outer surface.
 const KEEPS_DEEP: u32 = 16u;
 /// How a displacement gives way to kept tissue.
 const CONSTRAIN_NOTHING: u32 = 0u;
@@ -212,39 +271,54 @@ const CONSTRAIN_COORDINATE: u32 = 2u;
 const CONSTRAIN_RIGID: u32 = 3u;
 
 /// Kept tissue of a document.
-struct Features {
-    /// Rows of the affine that takes rest space to texture space of the distances.
-    distance_from_rest_row0: vec4f,
-    distance_from_rest_row1: vec4f,
-    distance_from_rest_row2: vec4f,
-    /// xyz: distance voxels along each axis; w: their smallest spacing, subject units.
+struct Kept {
+    /// Rest space to texture space of the distances.
+    distance_from_rest: Affine,
+    /// xyz: voxels of the distances along each axis.
     distance_dims: vec4f,
-    /// Slabs of the distances, one behind the other along z: the first has the sets' distances, smoothed. x: how many there are; y: which
-    /// one has the exact distances, 0 for none; z: which one has the depth under the outer surface in its x, 0 for none.
-    slabs: vec4u,
+    /// Smallest spacing of the distances, subject units.
+    spacing: f32,
+    /// Slabs in the texture of the distances, one behind the other along z. The first has the sets' distances,
+    /// smoothed.
+    slab_count: u32,
+    /// Which slab has the exact distances, 0 for none.
+    exact_slab: u32,
+    /// Which slab has the depth under the outer surface in its x, 0 for none.
+    depth_slab: u32,
     /// Sets of each label, four bits each, eight labels in a word.
     label_sets: array<vec4u, 8>,
     /// As in `Templates`, in the same order; only heads of groups count.
-    items: array<FeatureItem, 32>,
-    /// Rows of the rigid motions of segments that move as a whole (rest space from subject space), three per template; only heads of groups
-    /// count.
-    motions: array<vec4f, 96>,
+    items: array<KeptGroup, 32>,
+    /// Rigid motions (subject space to rest space) of segments that move as a whole; only heads of groups count.
+    motions: array<Affine, 32>,
 }
 
 /// One pass of the making of distances.
 struct DistanceJob {
-    /// Rows of the affine that takes voxels of the fine grid (the labels', else the volume's) to texture space of the volume.
-    volume_from_voxel_row0: vec4f,
-    volume_from_voxel_row1: vec4f,
-    volume_from_voxel_row2: vec4f,
-    /// xyz: fine voxels along each axis; w: fine voxels along each side of a coarse one.
+    /// Voxels of the fine grid (the segmentation's, else the volume's) to texture space of the volume.
+    volume_from_voxel: Affine,
+    /// xyz: fine voxels along each axis.
     fine: vec4u,
-    /// xyz: coarse voxels along each axis; w: channel, 0 to 3 for a set, 4 for the outside.
+    /// xyz: coarse voxels along each axis.
     coarse: vec4u,
-    /// xyz: spacing of fine voxels, subject units; w: normalised value from which on a voxel is something.
+    /// xyz: spacing of fine voxels, subject units.
     spacing: vec4f,
-    /// x: first fine slice of this part; y: slices in it; z: axis of a sweep or a smoothing; w: 1 to read the labels.
-    part: vec4u,
-    /// As in `Features`.
+    /// Fine voxels along each side of a coarse one.
+    factor: u32,
+    /// Channel that is worked on: 0 to 3 for a set, 4 for the outside.
+    channel: u32,
+    /// Normalised value from which on a voxel is something.
+    threshold: f32,
+    /// 1 to read the labels, else 0.
+    reads_labels: u32,
+    /// First fine slice of this part, and slices in it.
+    first_slice: u32,
+    slice_count: u32,
+    /// Axis of a sweep or a smoothing; of `open_blocks` the axis from foot to head, 3 for none.
+    axis: u32,
+    /// Slab that is written, and the number of sets in it: 0 for the depth.
+    slab: u32,
+    set_count: u32,
+    /// As in `Kept`.
     label_sets: array<vec4u, 8>,
 }

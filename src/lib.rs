@@ -5,16 +5,44 @@
 //! | room | layer | holds |
 //! |---|---|---|
 //! | [`math`] | 0 | spaces, placements, boxes, deterministic float functions |
-//! | [`document`] | 1 | the illustration: plain data, edits, validity, undo |
-//! | [`link`] | 2 | document to URL fragment and back |
-//! | [`data`] | 2 | volumes: voxels, spacing, orientation, statistics |
-//! | [`load`] | 3 | files in, volumes out |
-//! | [`subjects`] | 3 | the built-in subjects, generated |
-//! | [`displace`] | 3 | what a template reaches and where it is grabbed; the formulas are WGSL |
-//! | `render` | 4 | everything GPU |
-//! | `app` | 5 | the viewer's panels and commands |
-//! | `shell` | 6 | windows, files, command line, page |
-
+//! | [`displace`] | 1 | the kinds of templates and all that is known of each; the formulas are WGSL |
+//! | [`document`] | 2 | the illustration: plain data, edits, validity, undo |
+//! | [`link`] | 3 | document to URL fragment and back |
+//! | [`data`] | 3 | volumes: voxels, spacing, orientation, statistics |
+//! | [`load`] | 4 | files in, volumes out |
+//! | [`subjects`] | 4 | the built-in subjects, generated |
+//! | [`placed`] | 4 | what a placed template reaches, where it is grabbed, its icon |
+//! | [`assets`] | 5 | what a document needs from outside, and what has come of it |
+//! | `render` | 5 | everything GPU |
+//! | `app` | 6 | the viewer's panels and commands |
+//! | `shell` | 7 | windows, files, command line, page |
+//!
+//! # Glossary
+//!
+//! One word for one thing, in Rust, in WGSL and in comments. The keys of the document keep the names that old links
+//! use.
+//!
+//! | word | means |
+//! |---|---|
+//! | subject | what is illustrated: today a volume; a mesh, a clay or a figure when those come |
+//! | volume | scalars on an oriented grid of voxels; never a subject in general |
+//! | segmentation | a volume of label numbers, with the segments that they stand for |
+//! | label | a number in a segmentation |
+//! | segment | a named part of the subject |
+//! | recipe | how a segment is made from the values of the scan (`subject.features` in the document) |
+//! | kept | tissue that `align` or `constrain` leaves alone |
+//! | body | a segment that `look.segments` draws as solid, see-through or hidden |
+//! | caption | text fastened to a point of tissue (`labels` in the document) |
+//! | legend | the text under the picture (`caption` in the document and in a step) |
+//! | template | a displacement map of the catalogue, placed in the subject by its kind, box and parameters |
+//! | scene | everything that is ready to be drawn: GPU resources, bindings, revision |
+//! | skip grid | the grid over the deformed space that lets rays leap over what is empty |
+//! | embed | `<fabrica-viewer>` in somebody's page |
+//! | figure | a 2D subject, drawn as a sheet of triangles; never an embed |
+//!
+//! # Imports
+//!
+#![doc = include_str!("imports.md")]
 #![cfg_attr(
     target_arch = "wasm32",
     allow(
@@ -25,20 +53,24 @@
 
 pub mod math;
 
+pub mod displace;
+
 pub mod document;
 
 pub mod data;
 pub mod link;
 
-pub mod displace;
 pub mod load;
+pub mod placed;
 pub mod subjects;
+
+pub mod assets;
 
 #[cfg(feature = "render")]
 pub mod render;
 
-#[cfg(feature = "app")]
+#[cfg(feature = "session")]
 pub mod app;
 
-#[cfg(feature = "app")]
+#[cfg(any(feature = "app", feature = "part-subjects", feature = "part-scans"))]
 pub mod shell;

@@ -2,7 +2,7 @@
 
 #[cfg(not(target_arch = "wasm32"))]
 fn main() -> std::process::ExitCode {
-    fabrica::shell::cli::run()
+    fabrica::shell::command_line::run()
 }
 
 #[cfg(target_arch = "wasm32")]

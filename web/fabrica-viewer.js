@@ -5,8 +5,10 @@
 //
 // Attributes: src (a link, a payload or the address of a document), poster, alt, step, controls, loading="lazy".
 // Properties and methods: steps, step, next(), previous(), setParam(pointer, value), toDataURL() (a Promise).
-// Events: ready, stepchange, error. No inline script, no cookie, no request to a third party: fabrica.js,
-// fabrica_bg.wasm and worker.js are taken from beside this file. What it cannot draw it says in words.
+// Events: ready, stepchange, error. No inline script, no cookie, no request to a third party: parts.js, worker.js and the
+// programs (fabrica*.js, fabrica*_bg.wasm) are taken from beside this file. What it cannot draw it says in words.
+
+import { WORKER, startPart } from "./parts.js";
 
 const here = (name) => new URL(name, import.meta.url).href;
 
@@ -233,7 +235,10 @@ class FabricaViewer extends HTMLElement {
       const wanted = this.hasAttribute("step") ? Number(this.getAttribute("step")) : fabrica.step_of(text);
       this.#step = Math.min(Math.max(Math.round(wanted) || 0, 0), this.steps.length);
       this.#dress();
+      const part = navigator.gpu ? fabrica.first_part(JSON.stringify(this.#document), base) : null;
+      const early = part ? startPart(part) : null;
       const adapter = navigator.gpu ? await navigator.gpu.requestAdapter() : null;
+      if (isStale() || !adapter) early?.worker.terminate();
       if (isStale()) return;
       if (!adapter) {
         const words = fabrica.describe(JSON.stringify(this.#document));
@@ -241,7 +246,8 @@ class FabricaViewer extends HTMLElement {
         this.#fail(new Error("This browser has no WebGPU."));
         return;
       }
-      const viewer = new fabrica.Viewer(this.#parts.canvas, here("./worker.js"), false);
+      const viewer = new fabrica.Viewer(this.#parts.canvas, WORKER, false);
+      if (early) viewer.lend(early.part, early.worker);
       viewer.set_base(base);
       viewer.set_link(fabrica.at_step(JSON.stringify(this.#document), this.#step));
       await viewer.start();

@@ -1,6 +1,8 @@
 // Starts the viewer on the page's canvas, and says in plain words what is the matter where it cannot.
 // No logic lives here that is worth a unit test: decisions are made in src/shell/web.rs.
 
+import { WORKER, startPart } from "./parts.js";
+
 const element = (id) => document.getElementById(id);
 
 /** Shows one message in place of the picture: cause first, then what to do. */
@@ -53,9 +55,23 @@ function describe(fabrica) {
   }
 }
 
+/**
+ * True if the viewer is sure to show the built-in head: nothing in the address, nothing kept from an earlier visit. What a link
+ * holds only the viewer itself can read.
+ */
+function showsTheHead() {
+  if (location.hash.length > 1 || /[?&](s|doc)=/.test(location.search)) return false;
+  try {
+    return [sessionStorage, localStorage].every((kept) => kept.getItem("fabrica.document") === null);
+  } catch {
+    return true;
+  }
+}
+
 async function main() {
   let fabrica;
   let program;
+  let early = navigator.gpu && showsTheHead() ? startPart("subjects") : null;
   try {
     fabrica = await import("./fabrica.js");
     program = await fabrica.default({ module_or_path: new URL("./fabrica_bg.wasm", import.meta.url) });
@@ -68,6 +84,10 @@ async function main() {
     ]);
     return;
   }
+  if (!early && navigator.gpu) {
+    const part = fabrica.part_of_address();
+    early = part ? startPart(part) : null;
+  }
   const keep = "Nothing is lost: the illustration is in this page's address.";
   let adapter = null;
   try {
@@ -79,6 +99,7 @@ async function main() {
     const cause = navigator.gpu
       ? "This browser knows WebGPU, but has no graphics device for it."
       : "This browser has no WebGPU, which the picture is drawn with.";
+    early?.worker.terminate();
     show(cause, remedies(), keep);
     describe(fabrica);
     document.documentElement.dataset.state = "no-webgpu";
@@ -89,7 +110,8 @@ async function main() {
     show("The document was not fetched.", [], "The page's address still names it: load the page again to be asked once more.");
     return;
   }
-  const viewer = new fabrica.Viewer(element("fabrica"), new URL("./worker.js", import.meta.url).href, true);
+  const viewer = new fabrica.Viewer(element("fabrica"), WORKER, true);
+  if (early) viewer.lend(early.part, early.worker);
   viewer.on_copy_refused(offerText);
   // For whoever embeds or tests the page; the viewer itself never reads it.
   window.fabrica = { viewer, module: fabrica, memory: program.memory };

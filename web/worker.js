@@ -1,12 +1,37 @@
-// The viewer's own program in a background thread: it reads files and makes subjects off the frame loop.
-// Messages are described in src/shell/worker.rs.
+// A part of the viewer in a background thread: it makes subjects or reads scans off the frame loop. The first message names
+// the part, which is loaded then; tasks and answers are described in src/shell/worker.
 
-self.onmessage = async (event) => {
+let program;
+
+function load({ part, module }) {
+  program ??= import(`./fabrica_${part}.js`).then(async (bindings) => {
+    await bindings.default({ module_or_path: module ?? new URL(`./fabrica_${part}_bg.wasm`, import.meta.url) });
+    return bindings;
+  });
+  return program;
+}
+
+/** Tells the page that there will be no answer. The page ends this worker and goes on. */
+function fail(error) {
+  self.postMessage(["failed", "The background thread that loads scans stopped because of a fault", String(error)]);
+}
+
+self.onmessage = async ({ data }) => {
   try {
-    const fabrica = await import("./fabrica.js");
-    await fabrica.default({ module_or_path: event.data.module });
-    await fabrica.worker_task(event.data);
+    const bindings = await load(data);
+    if (data.task) await bindings.run(data);
   } catch (error) {
-    self.postMessage(["failed", "The background thread that loads scans stopped because of a fault", String(error)]);
+    // A part that was asked for early and could not be loaded fails its task, which is still to come.
+    if (data.task) fail(error);
   }
 };
+
+// A panic in a part reaches the page before this with its text (src/shell/worker/fault.rs).
+self.addEventListener("error", (event) => {
+  event.preventDefault();
+  fail(event.error ?? event.message);
+});
+self.addEventListener("unhandledrejection", (event) => {
+  event.preventDefault();
+  fail(event.reason);
+});

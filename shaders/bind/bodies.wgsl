@@ -3,6 +3,6 @@
 
 /// How each segment is drawn.
 @group(2) @binding(8) var<uniform> bodies: Bodies;
-/// How much of a place belongs to bodies (x), the same times their opacity (y), to solid ones (z), to hidden ones (w). Over the box of
-/// the labels, smoothed over a voxel.
+/// How much of a place belongs to bodies (x), the same times their opacity (y), to solid ones (z), to hidden ones (w).
+/// Over the box of the labels, smoothed over a voxel.
 @group(2) @binding(9) var body_shares: texture_3d<f32>;

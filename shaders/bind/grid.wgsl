@@ -3,6 +3,6 @@
 
 /// Where the grid lies.
 @group(2) @binding(3) var<uniform> grid: Grid;
-/// Per cell x: mask of the templates that may reach it; y: 0 if something visible may be there, else all cells nearer than
-/// y cells (Chebyshev) are empty.
+/// Per cell x: mask of the templates that may reach it; y: 0 if something visible may be there, else all cells nearer
+/// than y cells (Chebyshev) are empty.
 @group(2) @binding(4) var grid_cells: texture_3d<u32>;

@@ -1,9 +1,9 @@
 // Sine, cosine and arc tangent to a few units in the last place, and the unrolling of an arc.
 //
-// WGSL allows sin and cos an absolute error of 2^-11 and atan2 4096 ulp (WGSL, "Floating point accuracy"); a template turns material
-// as far as twice the longest side of a subject, so that bound alone would be 1e-3 of a subject unit. These do without the built-ins:
-// a reduction in two steps, then polynomials that interpolate at Chebyshev nodes. Errors over the reduced range: sine 1.1e-8,
-// cosine 1.1e-9, arc tangent 3.2e-8, all below the rounding of f32.
+// WGSL allows sin and cos an absolute error of 2^-11 and atan2 4096 ulp (WGSL, "Floating point accuracy"); a template
+// turns material as far as twice the longest side of a subject, so that bound alone would be 1e-3 of a subject unit.
+// These do without the built-ins: a reduction in two steps, then polynomials that interpolate at Chebyshev nodes.
+// Errors over the reduced range: sine 1.1e-8, cosine 1.1e-9, arc tangent 3.2e-8, all below the rounding of f32.
 //
 // needs: -
 
@@ -58,8 +58,8 @@ struct Unrolled {
     across: f32,
 }
 
-/// spec/templates.md, `unroll(u, v, phi)`: coordinates along an arc that starts at (0, v > 0) and runs for `turn` radians towards +u;
-/// beyond an end the straight line that continues it, whichever end is nearer around the circle.
+/// spec/templates.md, `unroll(u, v, phi)`: coordinates along an arc that starts at (0, v > 0) and runs for `turn`
+/// radians towards +u; beyond an end the straight line that continues it, whichever end is nearer around the circle.
 fn unroll(u: f32, v: f32, turn: f32) -> Unrolled {
     let around = turn_of(u, v);
     if around <= turn {

@@ -8,11 +8,11 @@
 //             '\ \ \      the far straight part is turned by `angle` as a whole
 //     0  start  \_\_\ y
 //
-// Differs from the source: a straight part follows the arc's tangent; where the straight parts meet on the far side of the centre of
-// curvature D jumps (a seam) and A stays 1.
+// Differs from the source: a straight part follows the arc's tangent; where the straight parts meet on the far side of
+// the centre of curvature D jumps (a seam) and A stays 1.
 //
-// Everything is scaled by the curvature kappa = phi/length instead of using the radius, which reaches 1e4 lengths at the smallest angle:
-// there the radius would cancel to a few digits.
+// Everything is scaled by the curvature kappa = phi/length instead of using the radius, which reaches 1e4 lengths at
+// the smallest angle: there the radius would cancel to a few digits.
 // needs: displace/frame.wgsl displace/angles.wgsl
 
 /// p0: angle (radians), start, end.

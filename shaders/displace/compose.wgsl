@@ -1,4 +1,5 @@
-// The whole inverse map of a document: the templates walked backwards, each in its own space (spec/templates.md, "Several templates").
+// The whole inverse map of a document: the templates walked backwards, each in its own space (spec/templates.md,
+// "Several templates").
 //
 //   rest  <-- T1 <-- T2 <-- T3 (add to T2) <-- T4  <-- subject (deformed, what the viewer shows)
 //             |      '------.------'           |
@@ -6,12 +7,16 @@
 //             |      same point, D summed      |
 //             '--- A = the smallest of all ----'
 //
-// Differs from the rule that library files read no globals: 32 templates cannot be passed by value, so the pass declares
-// `templates: Templates` (group 2, binding 0) and this file reads it.
+// Differs from the rule that library files read no globals: 32 templates cannot be passed by value, so the pass
+// declares `templates: Templates` (group 2, binding 0) and this file reads it.
 //
-// `drawn_kinds` is what makes this fast on devices that run both sides of every branch (software rasterisers do): a pipeline made for
-// a document leaves out the kinds that it does not use. All ones, the default, serves every document.
-// needs: types.wgsl bind/templates.wgsl displace/frame.wgsl displace/angles.wgsl displace/poke.wgsl displace/twist.wgsl displace/wave.wgsl displace/bend.wgsl displace/squeeze.wgsl displace/dilate.wgsl displace/peel.wgsl displace/flap.wgsl displace/split.wgsl displace/slices.wgsl displace/retractor.wgsl displace/cutquad.wgsl displace/peeler.wgsl displace/pull.wgsl displace/cut.wgsl displace/hole.wgsl displace/lens.wgsl displace/move.wgsl displace/rbf.wgsl displace/field.wgsl displace/curve.wgsl
+// `drawn_kinds` is what makes this fast on devices that run both sides of every branch (software rasterisers do): a
+// pipeline made for a document leaves out the kinds that it does not use. All ones, the default, serves every document.
+// needs: types.wgsl affine.wgsl kinds.wgsl bind/templates.wgsl displace/frame.wgsl displace/curve.wgsl
+//   displace/poke.wgsl displace/twist.wgsl displace/wave.wgsl displace/bend.wgsl displace/squeeze.wgsl
+//   displace/dilate.wgsl displace/peel.wgsl displace/flap.wgsl displace/split.wgsl displace/slices.wgsl
+//   displace/retractor.wgsl displace/cutquad.wgsl displace/peeler.wgsl displace/pull.wgsl displace/cut.wgsl
+//   displace/hole.wgsl displace/lens.wgsl displace/move.wgsl displace/rbf.wgsl displace/field.wgsl
 
 /// Bit k set: templates of kind k occur; bit 0: some lie along a curve. A pipeline constant.
 override drawn_kinds: u32 = 0xffffffffu;
@@ -35,107 +40,107 @@ struct Material {
 }
 
 /// One template's inverse displacement in its own space. `kind` as in the catalogue; an unknown one is the identity.
-fn displace(kind: u32, q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
+fn displace(kind: u32, q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Displaced {
     var d = at_rest(q);
     switch kind {
-        case 1u: {
-            if (drawn_kinds & 0x2u) != 0u {
+        case KIND_POKE: {
+            if (drawn_kinds & DRAWN_POKE) != 0u {
                 d = displace_poke(q, size, p0, p1);
             }
         }
-        case 2u: {
-            if (drawn_kinds & 0x4u) != 0u {
+        case KIND_TWIST: {
+            if (drawn_kinds & DRAWN_TWIST) != 0u {
                 d = displace_twist(q, size, p0, p1);
             }
         }
-        case 3u: {
-            if (drawn_kinds & 0x8u) != 0u {
+        case KIND_WAVE: {
+            if (drawn_kinds & DRAWN_WAVE) != 0u {
                 d = displace_wave(q, size, p0, p1);
             }
         }
-        case 4u: {
-            if (drawn_kinds & 0x10u) != 0u {
+        case KIND_BEND: {
+            if (drawn_kinds & DRAWN_BEND) != 0u {
                 d = displace_bend(q, size, p0, p1);
             }
         }
-        case 5u: {
-            if (drawn_kinds & 0x20u) != 0u {
+        case KIND_SQUEEZE: {
+            if (drawn_kinds & DRAWN_SQUEEZE) != 0u {
                 d = displace_squeeze(q, size, p0, p1);
             }
         }
-        case 6u: {
-            if (drawn_kinds & 0x40u) != 0u {
+        case KIND_DILATE: {
+            if (drawn_kinds & DRAWN_DILATE) != 0u {
                 d = displace_dilate(q, size, p0, p1);
             }
         }
-        case 7u: {
-            if (drawn_kinds & 0x80u) != 0u {
+        case KIND_PEEL: {
+            if (drawn_kinds & DRAWN_PEEL) != 0u {
                 d = displace_peel(q, size, p0, p1);
             }
         }
-        case 8u: {
-            if (drawn_kinds & 0x100u) != 0u {
+        case KIND_FLAP: {
+            if (drawn_kinds & DRAWN_FLAP) != 0u {
                 d = displace_flap(q, size, p0, p1);
             }
         }
-        case 9u: {
-            if (drawn_kinds & 0x200u) != 0u {
+        case KIND_SPLIT: {
+            if (drawn_kinds & DRAWN_SPLIT) != 0u {
                 d = displace_split(q, size, p0, p1);
             }
         }
-        case 10u: {
-            if (drawn_kinds & 0x400u) != 0u {
+        case KIND_SLICES: {
+            if (drawn_kinds & DRAWN_SLICES) != 0u {
                 d = displace_slices(q, size, p0, p1);
             }
         }
-        case 11u: {
-            if (drawn_kinds & 0x800u) != 0u {
+        case KIND_RETRACTOR: {
+            if (drawn_kinds & DRAWN_RETRACTOR) != 0u {
                 d = displace_retractor(q, size, p0, p1);
             }
         }
-        case 12u: {
-            if (drawn_kinds & 0x1000u) != 0u {
+        case KIND_CUTQUAD: {
+            if (drawn_kinds & DRAWN_CUTQUAD) != 0u {
                 d = displace_cutquad(q, size, p0, p1);
             }
         }
-        case 13u: {
-            if (drawn_kinds & 0x2000u) != 0u {
+        case KIND_PEELER: {
+            if (drawn_kinds & DRAWN_PEELER) != 0u {
                 d = displace_peeler(q, size, p0, p1);
             }
         }
-        case 14u: {
-            if (drawn_kinds & 0x4000u) != 0u {
+        case KIND_PULL: {
+            if (drawn_kinds & DRAWN_PULL) != 0u {
                 d = displace_pull(q, size, p0, p1);
             }
         }
-        case 15u: {
-            if (drawn_kinds & 0x8000u) != 0u {
+        case KIND_CUT: {
+            if (drawn_kinds & DRAWN_CUT) != 0u {
                 d = displace_cut(q, size, p0, p1);
             }
         }
-        case 16u: {
-            if (drawn_kinds & 0x10000u) != 0u {
+        case KIND_HOLE: {
+            if (drawn_kinds & DRAWN_HOLE) != 0u {
                 d = displace_hole(q, size, p0, p1);
             }
         }
-        case 17u: {
-            if (drawn_kinds & 0x20000u) != 0u {
+        case KIND_LENS: {
+            if (drawn_kinds & DRAWN_LENS) != 0u {
                 d = displace_lens(q, size, p0, p1);
             }
         }
-        case 18u: {
-            if (drawn_kinds & 0x40000u) != 0u {
+        case KIND_MOVE: {
+            if (drawn_kinds & DRAWN_MOVE) != 0u {
                 d = displace_move(q, size, p0, p1);
             }
         }
-        case 19u: {
-            if (drawn_kinds & 0x80000u) != 0u {
-                d = displace_rbf(q, size, p0, p1);
+        case KIND_RBF: {
+            if (drawn_kinds & DRAWN_RBF) != 0u {
+                d = displace_rbf(q, size, p0, p1, held);
             }
         }
-        case 20u: {
-            if (drawn_kinds & 0x100000u) != 0u {
-                d = displace_field(q, size, p0, p1);
+        case KIND_FIELD: {
+            if (drawn_kinds & DRAWN_FIELD) != 0u {
+                d = displace_field(q, size, p0, p1, held);
             }
         }
         default: {}
@@ -146,27 +151,28 @@ fn displace(kind: u32, q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced
 /// What template i does at a point of its straight box: where that came from less where it is, and the continuity.
 fn shifted(i: u32, q: vec3f, p0: vec4f) -> Displaced {
     let kind = templates.items[i].kind;
-    let size = templates.items[i].size;
+    let size = templates.items[i].size.xyz;
     let p1 = templates.items[i].params1;
-    if (drawn_kinds & 1u) != 0u {
-        let first = templates.items[i].flags;
+    let held = templates.items[i].held;
+    if (drawn_kinds & DRAWN_CURVES) != 0u {
+        let first = templates.items[i].curve;
         if first != 0u {
             let own = unbend(first, size, q);
-            let d = displace(kind, own.xyz, size.xyz, p0, p1);
+            let d = displace(kind, own.xyz, size, p0, p1, held);
             // What stays where it is stays there exactly.
             let is_moved = own.w > 0.5 && any(d.source != own.xyz);
             let by = bend(first, size, d.source) - q;
             return Displaced(select(vec3f(0.0), by, is_moved), select(1.0, d.continuity, own.w > 0.5));
         }
     }
-    let d = displace(kind, q, size.xyz, p0, p1);
+    let d = displace(kind, q, size, p0, p1, held);
     return Displaced(d.source - q, d.continuity);
 }
 
-/// Rest space from subject space. Bit i of `mask`: template i may reach this point; the others are not evaluated (all ones without a
-/// grid). Bits past the last template are ignored.
+/// Rest space from subject space. Bit i of `mask`: template i may reach this point; the others are not evaluated (all
+/// ones without a grid). Bits past the last template are ignored.
 fn rest_from_subject(pos: vec3f, mask: u32) -> Mapped {
-    let count = min(templates.count.x, 32u);
+    let count = min(templates.count, 32u);
     // A shift by 32 is not defined, hence the two steps.
     var left = select(0u, mask & (0xffffffffu >> ((32u - count) & 31u)), count > 0u);
     var at = pos;
@@ -183,20 +189,11 @@ fn rest_from_subject(pos: vec3f, mask: u32) -> Mapped {
             sum = vec3f(0.0);
             group = head;
         }
-        let at1 = vec4f(at, 1.0);
-        let q = vec3f(
-            dot(templates.items[i].template_from_subject_row0, at1),
-            dot(templates.items[i].template_from_subject_row1, at1),
-            dot(templates.items[i].template_from_subject_row2, at1),
-        );
+        let q = apply_affine(templates.items[i].template_from_subject, at);
         let d = shifted(i, q, templates.items[i].params0);
         // Going back by the difference keeps an identity exact, however the template is placed.
         let moved = d.source;
-        sum += vec3f(
-            dot(templates.items[i].subject_from_template_row0.xyz, moved),
-            dot(templates.items[i].subject_from_template_row1.xyz, moved),
-            dot(templates.items[i].subject_from_template_row2.xyz, moved),
-        );
+        sum += apply_linear(templates.items[i].subject_from_template, moved);
         continuity = min(continuity, d.continuity);
     }
     return Mapped(at + sum, select(continuity, 1.0, group == 0xffffffffu));

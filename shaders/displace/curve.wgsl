@@ -1,26 +1,29 @@
-// The space of a template that is laid along a curve: W and its inverse. From the space of the straight box to the template's own and back.
-// Source: Correa, section 5.3, eq. 5.1 and 5.3: W(s, t) bilinear along connected line segments, the third axis straight.
+// The space of a template that is laid along a curve: W and its inverse. From the space of the straight box to the
+// template's own and back.
+// Source: Correa, section 5.3, eq. 5.1 and 5.3: W(s, t) bilinear along connected line segments, the third axis
+// straight.
 //
 //      m0      m1        m2        W(s, t) = mix(p_i + t m_i, p_i+1 + t m_i+1, s) on segment i
 //      |  t    |  s → __/          u, t: along and across the segment's line; the line beside it begins at t m_i and is
 //      p0 ---- p1 ---p2            length + t (m_i+1 - m_i) · way long: s is where on that line the point lies
 //
-// Differs from the source: the corners' mitres in place of each segment's own normals, so that segments neither part nor overlap; the inverse in
-// closed form in place of rasterised slices. Where several segments hold a point the nearest line decides; where none has room for it nothing
-// is displaced. The first and the last segment go straight on.
-// The processor (src/math/bent.rs) leaves in `templates.pool`, from the index in `flags` on: where the line begins along the box, its height, the
-// number of segments; then per corner its place and its mitre. x and z in subject units from the corner of the straight box.
+// Differs from the source: the corners' mitres in place of each segment's own normals, so that segments neither part
+// nor overlap; the inverse in closed form in place of rasterised slices. Where several segments hold a point the
+// nearest line decides; where none has room for it nothing is displaced. The first and the last segment go straight on.
+// The processor (src/math/bent.rs) leaves in `templates.pool`, from the template's `curve` on: where the line begins
+// along the box, its height, the number of segments, the straight box's side along x; then per corner its place and its
+// mitre. x and z in subject units from the corner of the straight box.
 // needs: types.wgsl bind/templates.wgsl displace/frame.wgsl
 
 /// As in src/math/bent.rs.
 const LEAST_ROOM: f32 = 0.05;
 const PAST_MITRE: f32 = 1e-4;
 
-/// The template's own space; w is 0 where nothing of it is laid. `size` as packed: w is the straight box's side along x.
-fn unbend(first: u32, size: vec4f, q: vec3f) -> vec4f {
+/// The template's own space; w is 0 where nothing of it is laid. `size`: sides of the box laid along the curve.
+fn unbend(first: u32, size: vec3f, q: vec3f) -> vec4f {
     let head = templates.pool[first];
     let last = u32(head.z);
-    let at = vec2f(q.x * size.w, q.z * size.z);
+    let at = vec2f(q.x * head.w, q.z * size.z);
     var found = vec2f(0.0);
     var nearest = NO_END;
     var start = 0.0;
@@ -50,7 +53,7 @@ fn unbend(first: u32, size: vec4f, q: vec3f) -> vec4f {
 }
 
 /// Back again.
-fn bend(first: u32, size: vec4f, own: vec3f) -> vec3f {
+fn bend(first: u32, size: vec3f, own: vec3f) -> vec3f {
     let head = templates.pool[first];
     let last = u32(head.z);
     let s = own.x * size.x - head.x;
@@ -70,5 +73,5 @@ fn bend(first: u32, size: vec4f, own: vec3f) -> vec3f {
         start += segment;
         here = next;
     }
-    return vec3f(at.x / size.w, own.y, at.y / size.z);
+    return vec3f(at.x / head.w, own.y, at.y / size.z);
 }

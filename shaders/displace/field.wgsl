@@ -1,4 +1,5 @@
-// Field: a displacement that was sampled: read from a file. Template space; the samples fill the box from outer edge to outer edge.
+// Field: a displacement that was sampled: read from a file. Template space; the samples fill the box from outer edge to
+// outer edge.
 // Source: Correa, section 9.3 (regular grids) and 4.3 (displacement textures); spec/templates.md.
 //
 //   +---+---+---+---+
@@ -8,12 +9,13 @@
 //   +---+---+---+---+
 //
 // Linear interpolation is done here: the hardware's weights have eight bits, which would show as steps of the map.
-// In `templates.pool`, at index p1.w: samples along x, y and z, and the slice of the texture where they begin; no samples: at rest.
+// In `templates.pool`, at `held`: samples along x, y and z, and the slice of the texture where they begin; no samples:
+// at rest.
 // needs: types.wgsl bind/templates.wgsl displace/frame.wgsl displace/rbf.wgsl
 
-/// p0: strength, -, -, edge. p1: -, -, -, index in the pool.
-fn displace_field(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
-    let place = templates.pool[u32(p1.w)];
+/// p0: strength, -, -, edge. held: index in the pool.
+fn displace_field(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Displaced {
+    let place = templates.pool[held];
     if is_beyond(q, vec3f(0.0), vec3f(1.0)) || place.x < 1.0 || p0.x == 0.0 {
         return at_rest(q);
     }

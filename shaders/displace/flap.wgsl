@@ -13,7 +13,8 @@
 // A is in subject units: in the door the distance to its faces, at rest the distance to the walls of the bed.
 // needs: displace/frame.wgsl displace/angles.wgsl
 
-/// Both readings of a point of a flap: turned with the door, or where it always was. `displace_flap` decides; the grid looks at both.
+/// Both readings of a point of a flap: turned with the door, or where it always was. `displace_flap` decides; the grid
+/// looks at both.
 struct Opened {
     /// Where it came from if it is in the door, template space.
     source: vec3f,
@@ -31,8 +32,8 @@ fn opened(q: vec3f, size: vec3f, p0: vec4f) -> Opened {
     let thickness = p0.y * size.z;
     let side = min(q.y, 1.0 - q.y) * size.y;
 
-    // At a quarter turn the door's hinge face and the plane of the top are one: A ties all over the gap and the door is to win,
-    // whatever the rounding of the angle says.
+    // At a quarter turn the door's hinge face and the plane of the top are one: A ties all over the gap and the door is
+    // to win, whatever the rounding of the angle says.
     let turned = sin_cos(p0.x);
     let sc = select(turned, vec2f(0.0), abs(turned) < vec2f(1e-6));
     let source_x = x * sc.y + z * sc.x;

@@ -6,7 +6,8 @@
 struct Displaced {
     /// Where the material at the point was before, template space.
     source: vec3f,
-    /// At least 0: there is material. Below 0: the template opened a gap here. Zero set and sign are the contract, not the scale.
+    /// At least 0: there is material. Below 0: the template opened a gap here. Zero set and sign are the contract, not
+    /// the scale.
     continuity: f32,
 }
 
@@ -30,7 +31,8 @@ fn in_cube(q: vec3f) -> vec3f {
     return clamp(q, vec3f(0.0), vec3f(1.0));
 }
 
-/// Weight of twist and wave at distance `r` from the axis: 1 inside, down to 0 at one half; `falloff` 0 keeps 1 everywhere.
+/// Weight of twist and wave at distance `r` from the axis: 1 inside, down to 0 at one half; `falloff` 0 keeps 1
+/// everywhere.
 fn falloff_weight(r: f32, falloff: f32) -> f32 {
     if falloff <= 0.0 {
         return 1.0;

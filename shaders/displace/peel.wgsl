@@ -14,8 +14,8 @@
 // The hinge face is whole tissue: it chooses between flap and rest, but it is no cut.
 // needs: displace/frame.wgsl displace/angles.wgsl
 
-/// Both readings of a point of a peel: rolled up with the flap, or lying where it always lay. Which one holds is decided by
-/// `displace_peel`; the grid looks at both.
+/// Both readings of a point of a peel: rolled up with the flap, or lying where it always lay. Which one holds is
+/// decided by `displace_peel`; the grid looks at both.
 struct Peeled {
     /// Where it came from if it is in the flap, template space.
     source: vec3f,

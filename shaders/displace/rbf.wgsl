@@ -1,20 +1,25 @@
-// Rbf: displacements at control points, interpolated by multiquadrics and a linear part; a cut decouples its two sides. Template space.
+// Rbf: displacements at control points, interpolated by multiquadrics and a linear part; a cut decouples its two sides.
+// Template space.
 // Source: Correa, section 4.6.2, eq. 4.32 to 4.36; spec/templates.md.
 //
 //   1 +-----------+        D(p) = sum a_i (|p - p_i|²/r² + 1)^m + b_0 + B (p - ½)     (Hardy, scaled to 1 at the point)
 //     |  o→   /   |
 //     |     P/  o |        left of the cut (P) by the points that lie there, right of it (Q) by the others;
-//     | o   / Q   |        A: how far the source lies on the side of the point that is asked for, below 0 beyond the cut
+//     | o   / Q   |        A: how far the source lies on the side of the point that is asked for, below 0 beyond the
+//     cut
 //   0 +----/------+
 //     0     ½     1
 //
-// Differs from the source: A is a distance and not 0 or 1, so that the cut is found by bisection and has a normal; 1 where nothing is
-// displaced. Solved by the processor (src/displace/rbf.rs), which leaves in `templates.pool`, from index p1.w on:
-//   points of P, points of Q, pieces of the cut;  per side b_0, B x, B y, B z, then a place and a coefficient per point;  per piece a and b
+// Differs from the source: A is a distance and not 0 or 1, so that the cut is found by bisection and has a normal; 1
+// where nothing is displaced. Solved by the processor (src/displace/rbf.rs), which leaves in `templates.pool`, from
+// `held` on:
+//   points of P, points of Q, pieces of the cut;  per side b_0, B x, B y, B z, then a place and a coefficient per
+//   point;  per piece a and b
 // Beyond the faces at rest; `edge` brings the displacement to 0 there.
 // needs: types.wgsl bind/templates.wgsl displace/frame.wgsl
 
-/// Signed distance to the cut (`count` pieces from `first` on), whose first and last pieces go on straight: above 0 on its left.
+/// Signed distance to the cut (`count` pieces from `first` on), whose first and last pieces go on straight: above 0 on
+/// its left.
 fn distance_to_cut(p: vec2f, first: u32, count: u32) -> f32 {
     var nearest = NO_END;
     var across = 0.0;
@@ -49,9 +54,9 @@ fn inner_weight(q: vec3f, edge: f32) -> f32 {
     return s.x * s.y * s.z;
 }
 
-/// p0: strength, softness, exponent, extrude. p1: falloff, edge, -, index in the pool.
-fn displace_rbf(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
-    let first = u32(p1.w);
+/// p0: strength, softness, exponent, extrude. p1: falloff, edge. held: index in the pool.
+fn displace_rbf(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Displaced {
+    let first = held;
     let counts = vec3u(templates.pool[first].xyz);
     if is_beyond(q, vec3f(0.0), vec3f(1.0)) || counts.x + counts.y == 0u || p0.x == 0.0 {
         return at_rest(q);

@@ -3,7 +3,8 @@
 //
 //     y                z carries upwards, the other ends rest
 //   1 +---.--.---+
-//     | /  ->  \ |     the turn grows with z from none to `angle`; from (1 - falloff)/2 of the shorter side to ½ it fades
+//     | /  ->  \ |     the turn grows with z from none to `angle`; from (1 - falloff)/2 of the shorter side to ½ it
+//     fades
 //     ||   +    ||     falloff 0 turns the whole box and tears at its sides, as meant
 //     | \  <-  / |
 //   0 +---'--'---+  x

@@ -1,15 +1,15 @@
-// What the object has at a point, read from the baked map: one texture read, however many templates there are. Stands in for
-// march/plain.wgsl, function by function. Exact but for interpolation where the map is smooth; within a texel of a cut or of a rest end it
-// mixes both sides, so it is for pictures that move.
+// What the object has at a point, read from the baked map: one texture read, however many templates there are. Stands
+// in for march/plain.wgsl, function by function. Exact but for interpolation where the map is smooth; within a texel of
+// a cut or of a rest end it mixes both sides, so it is for pictures that move.
 // Source: Correa, section 4.3 (displacement textures) and 6.2 (their error).
-// needs: types.wgsl bind/subject.wgsl bind/baked.wgsl displace/compose.wgsl
+// needs: types.wgsl bind/subject.wgsl bind/baked.wgsl displace/compose.wgsl march/interface.wgsl
 
 /// True where both sides of the surface of kept tissue are lit by it.
 const KEEPS_TISSUE: bool = false;
 
 /// Offset of finite differences of the map, subject units: about a texel, for between texels it is a straight line.
 fn map_step() -> f32 {
-    return baked.origin_min.w;
+    return baked.map_step;
 }
 
 /// What the object has at a point of subject space. Cells that no template reaches are exact.
@@ -28,16 +28,6 @@ fn material_at(pos: vec3f, mask: u32) -> Material {
 /// The map along a path.
 fn map_along(pos: vec3f, path: u32) -> Mapped {
     return object_from_subject(pos, path);
-}
-
-/// How the surface of kept tissue shows in a piece of material next to it.
-struct KeptSurface {
-    /// Subject space, unit.
-    normal: vec3f,
-    /// 0 to 1.
-    weight: f32,
-    /// Rest space: from the place to where it is surely this side's tissue.
-    inwards: vec3f,
 }
 
 /// None here.

@@ -1,6 +1,6 @@
-// What the object has at a point where every template moves everything: the map alone. Stands in for march/align.wgsl, function by
-// function, in the programs of documents that keep no tissue, which so hold nothing of alignment.
-// needs: types.wgsl displace/compose.wgsl
+// What the object has at a point where every template moves everything: the map alone. Stands in for march/align.wgsl,
+// function by function, in the programs of documents that keep no tissue, which so hold nothing of alignment.
+// needs: types.wgsl displace/compose.wgsl march/interface.wgsl
 
 /// True where both sides of the surface of kept tissue are lit by it.
 const KEEPS_TISSUE: bool = false;
@@ -24,16 +24,6 @@ fn material_at(pos: vec3f, mask: u32) -> Material {
 /// The map along a path: smooth wherever material follows that path.
 fn map_along(pos: vec3f, path: u32) -> Mapped {
     return rest_from_subject(pos, path);
-}
-
-/// How the surface of kept tissue shows in a piece of material next to it.
-struct KeptSurface {
-    /// Subject space, unit.
-    normal: vec3f,
-    /// 0 to 1.
-    weight: f32,
-    /// Rest space: from the place to where it is surely this side's tissue.
-    inwards: vec3f,
 }
 
 /// None here.

@@ -1,5 +1,5 @@
-// Light: a warm key from the upper left, a cool fill from the right, a rim from behind, all fixed to the camera, as on an
-// illustrator's table. All vectors in view space (camera along -z).
+// Light: a warm key from the upper left, a cool fill from the right, a rim from behind, all fixed to the camera, as on
+// an illustrator's table. All vectors in view space (camera along -z).
 // needs: -
 
 /// Direction to the key light. Left and above, so that relief reads as relief (light from above is what eyes expect).
@@ -43,7 +43,8 @@ fn shade_surface(albedo: vec3f, normal: vec3f, to_eye: vec3f, specular: f32) -> 
     return lit;
 }
 
-/// Light from a sample with no surface in it (haze): what a matte sphere sends on average, so that it fits beside surfaces.
+/// Light from a sample with no surface in it (haze): what a matte sphere sends on average, so that it fits beside
+/// surfaces.
 fn shade_medium(albedo: vec3f) -> Lit {
     var lit: Lit;
     lit.key = albedo * KEY_COLOR * 0.55;

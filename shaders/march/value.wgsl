@@ -1,25 +1,22 @@
 // The scan at a point of rest space: its value and the gradient of it.
-// needs: types.wgsl bind/subject.wgsl march/ray.wgsl
+// needs: types.wgsl bind/subject.wgsl affine.wgsl
 
-/// Reaches of the two central differences that a gradient is the mean of, voxels. One of 1 alone shows the voxels as terraces.
+/// Reaches of the two central differences that a gradient is the mean of, voxels. One of 1 alone shows the voxels as
+/// terraces.
 const GRADIENT_NEAR: f32 = 1.0;
 const GRADIENT_FAR: f32 = 2.2;
 
 /// Texture space of the volume.
 fn texture_from_rest(pos: vec3f) -> vec3f {
-    return apply_affine(
-        subject.texture_from_rest_row0,
-        subject.texture_from_rest_row1,
-        subject.texture_from_rest_row2,
-        pos,
-    );
+    return apply_affine(subject.texture_from_rest, pos);
 }
 
 fn texel_at(uvw: vec3f) -> f32 {
     return textureSampleLevel(volume, linear_sampler, uvw, 0.0).x;
 }
 
-/// Gradient of the normalised value in rest space, per voxel spacing: central differences of two reaches along the voxel axes.
+/// Gradient of the normalised value in rest space, per voxel spacing: central differences of two reaches along the
+/// voxel axes.
 fn gradient_at(uvw: vec3f) -> vec3f {
     var difference = vec3f(0.0);
     for (var i = 0u; i < 3u; i++) {
@@ -31,10 +28,5 @@ fn gradient_at(uvw: vec3f) -> vec3f {
         difference += axis * 0.5 * slope;
     }
     difference *= subject.dims.xyz;
-    return apply_transposed(
-        subject.texture_from_rest_row0,
-        subject.texture_from_rest_row1,
-        subject.texture_from_rest_row2,
-        difference,
-    ) * subject.dims.w;
+    return apply_transposed(subject.texture_from_rest, difference) * subject.detail;
 }

@@ -9,7 +9,7 @@
 
 @compute @workgroup_size(4, 4, 4)
 fn bake(@builtin(global_invocation_id) id: vec3u) {
-    let texel = id + vec3u(0u, 0u, baked.texels.w);
+    let texel = id + vec3u(0u, 0u, baked.first_slab);
     if any(texel >= baked.texels.xyz) {
         return;
     }

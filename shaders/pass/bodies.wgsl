@@ -1,5 +1,5 @@
-// How much of each place belongs to segments that are drawn as bodies of their own, from the labels: done when the look of segments
-// changes, so that a sample of the picture costs one texture read more and borders come out smooth.
+// How much of each place belongs to segments that are drawn as bodies of their own, from the labels: done when the look
+// of segments changes, so that a sample of the picture costs one texture read more and borders come out smooth.
 // needs: types.wgsl bind/subject.wgsl
 
 /// How each segment is drawn.
@@ -22,7 +22,7 @@ fn share_bodies(@builtin(global_invocation_id) at: vec3u) {
     for (var i = 0; i < 27; i++) {
         let offset = vec3i(i % 3, (i / 3) % 3, i / 9) - 1;
         let label = textureLoad(labels, clamp(middle + offset, vec3i(0), last), 0).x;
-        let opacity = body_looks.items[label & 255u].w;
+        let opacity = body_looks.items[label & 255u].a;
         let weight = 1.0 / f32(8u << u32(dot(abs(offset), vec3i(1))));
         let share = vec4f(
             1.0,

@@ -1,5 +1,5 @@
-// Signed Euclidean distances to sets of kept tissue, and to what lies around the object. Compute only; made anew when a document names
-// other sets or another subject is shown.
+// Signed Euclidean distances to sets of kept tissue, and to what lies around the object. Compute only; made anew when a
+// document names other sets or another subject is shown.
 //
 //   fine voxels of one line          along x          along y            along z
 //   . . # # # . . . #        -->   two sweeps   -->  outward search -->  outward search   -->  smoothing, texture
@@ -7,21 +7,24 @@
 //                       samples    nearest . of a
 //                                  line, each s
 //
-// Exact: the squared distance is the smallest sum of squares along the three axes, taken axis by axis (Felzenszwalb and Huttenlocher
-// 2012, with a search that ends as soon as nothing nearer can come in place of the envelope of parabolas: near a surface, where
-// distances are used most, it is over after a few steps). It is taken to fine voxels, at coarse samples: what is coarser is only where
-// it is asked for. The signed distance is (way to the set - half a voxel) outside, less (way out of it - half a voxel) inside, so that
-// its zero lies on the faces of voxels. Anisotropic spacing counts; axes are taken as perpendicular (a sheared grid, from a tilted
-// gantry, is off by the cosine of its shear).
+// Exact: the squared distance is the smallest sum of squares along the three axes, taken axis by axis (Felzenszwalb and
+// Huttenlocher 2012, with a search that ends as soon as nothing nearer can come in place of the envelope of parabolas:
+// near a surface, where distances are used most, it is over after a few steps). It is taken to fine voxels, at coarse
+// samples: what is coarser is only where it is asked for. The signed distance is (way to the set - half a voxel)
+// outside, less (way out of it - half a voxel) inside, so that its zero lies on the faces of voxels. Anisotropic
+// spacing counts; axes are taken as perpendicular (a sheared grid, from a tilted gantry, is off by the cosine of its
+// shear).
 //
 // Source of the use: Correa, sections 5.4.2 and 5.7 (distance field after a background segmentation).
-// The outside of the object: what is less than a threshold, belongs to no segment, and is connected with a side face of the grid.
-// Not with the faces at the head and foot ends of a scan: a windpipe that ends there would let the outside into the lungs.
-// needs: types.wgsl bind/subject.wgsl
+// The outside of the object: what is less than a threshold, belongs to no segment, and is connected with a side face of
+// the grid. Not with the faces at the head and foot ends of a scan: a windpipe that ends there would let the outside
+// into the lungs.
+// needs: types.wgsl affine.wgsl bind/subject.wgsl
 
 /// What to do (see types.wgsl).
 @group(3) @binding(0) var<uniform> job: DistanceJob;
-/// Per coarse x, fine y, slice of the part: way to the nearest voxel of the set, and to the nearest outside it, along x.
+/// Per coarse x, fine y, slice of the part: way to the nearest voxel of the set, and to the nearest outside it, along
+/// x.
 @group(3) @binding(1) var<storage, read_write> line_ways: array<vec2f>;
 /// Per coarse x, coarse y, fine z: squares of the same, along x and y.
 @group(3) @binding(2) var<storage, read_write> plane_squares: array<vec2f>;
@@ -31,7 +34,7 @@
 @group(3) @binding(4) var<storage, read_write> smoothed: array<f32>;
 /// Per coarse voxel: FILLED, OPEN (nothing in it) or OUTSIDE (open and connected with a side of the grid).
 @group(3) @binding(5) var<storage, read_write> flood: array<u32>;
-/// The distances, four channels, in slabs (see `Features`).
+/// The distances, four channels, in slabs (see `Kept`).
 @group(3) @binding(6) var distance_out: texture_storage_3d<rgba16float, write>;
 
 /// Stands for "none on this line"; its square is still finite.
@@ -49,22 +52,17 @@ fn label_of(voxel: vec3i) -> u32 {
 
 /// Normalised value at a fine voxel; below every threshold beyond the volume.
 fn texel_of(voxel: vec3i) -> f32 {
-    let v = vec4f(vec3f(voxel), 1.0);
-    let uvw = vec3f(
-        dot(job.volume_from_voxel_row0, v),
-        dot(job.volume_from_voxel_row1, v),
-        dot(job.volume_from_voxel_row2, v),
-    );
+    let uvw = apply_affine(job.volume_from_voxel, vec3f(voxel));
     let is_inside = all(uvw >= vec3f(0.0)) && all(uvw <= vec3f(1.0));
     return select(-1.0, textureSampleLevel(volume, linear_sampler, uvw, 0.0).x, is_inside);
 }
 
 /// True if there is nothing in a fine voxel.
 fn is_open(voxel: vec3i) -> bool {
-    if job.part.w != 0u && label_of(voxel) != 0u {
+    if job.reads_labels != 0u && label_of(voxel) != 0u {
         return false;
     }
-    return texel_of(voxel) < job.spacing.w;
+    return texel_of(voxel) < job.threshold;
 }
 
 fn coarse_index(at: vec3u) -> u32 {
@@ -73,16 +71,16 @@ fn coarse_index(at: vec3u) -> u32 {
 
 /// True if a fine voxel belongs to what distances are taken to.
 fn is_member(voxel: vec3i) -> bool {
-    if job.coarse.w < CHANNEL_OUTSIDE {
+    if job.channel < CHANNEL_OUTSIDE {
         let label = label_of(voxel);
         let word = job.label_sets[label >> 5u][(label >> 3u) & 3u];
-        return ((word >> (4u * (label & 7u))) & (1u << job.coarse.w)) != 0u;
+        return ((word >> (4u * (label & 7u))) & (1u << job.channel)) != 0u;
     }
     if !is_open(voxel) {
         return false;
     }
     // Its coarse voxel may be filled in part; then the ones around tell.
-    let block = voxel / i32(job.fine.w);
+    let block = voxel / i32(job.factor);
     let last = vec3i(job.coarse.xyz) - 1;
     var found = false;
     for (var i = 0; i < 27; i++) {
@@ -95,18 +93,18 @@ fn is_member(voxel: vec3i) -> bool {
 
 /// Where a coarse sample lies among the fine voxels of an axis.
 fn fine_position(coarse: u32) -> f32 {
-    return (f32(coarse) + 0.5) * f32(job.fine.w) - 0.5;
+    return (f32(coarse) + 0.5) * f32(job.factor) - 0.5;
 }
 
-/// First: which coarse voxels hold nothing, and which of them lie at a side of the grid. The axis that runs from foot to head is
-/// part.z (3: none).
+/// First: which coarse voxels hold nothing, and which of them lie at a side of the grid. `job.axis` runs from
+/// foot to head (3: none).
 @compute @workgroup_size(4, 4, 4)
 fn open_blocks(@builtin(global_invocation_id) at: vec3u) {
     if any(at >= job.coarse.xyz) {
         return;
     }
-    let low = at * job.fine.w;
-    let high = min(low + job.fine.w, job.fine.xyz);
+    let low = at * job.factor;
+    let high = min(low + job.factor, job.fine.xyz);
     var open = true;
     for (var z = low.z; z < high.z && open; z++) {
         for (var y = low.y; y < high.y && open; y++) {
@@ -116,14 +114,14 @@ fn open_blocks(@builtin(global_invocation_id) at: vec3u) {
         }
     }
     let is_end = (at == vec3u(0u)) | (at + 1u == job.coarse.xyz);
-    let is_side = any(is_end & (vec3u(0u, 1u, 2u) != vec3u(job.part.z)));
+    let is_side = any(is_end & (vec3u(0u, 1u, 2u) != vec3u(job.axis)));
     flood[coarse_index(at)] = select(FILLED, select(OPEN, OUTSIDE, is_side), open);
 }
 
-/// Spreads the outside along one axis (part.z), both ways; one line for each invocation.
+/// Spreads the outside along one axis (`job.axis`), both ways; one line for each invocation.
 @compute @workgroup_size(8, 8, 1)
 fn sweep(@builtin(global_invocation_id) id: vec3u) {
-    let axis = job.part.z;
+    let axis = job.axis;
     let across = select(select(job.coarse.xy, job.coarse.xz, axis == 1u), job.coarse.yz, axis == 0u);
     if any(id.xy >= across) {
         return;
@@ -154,10 +152,10 @@ fn sweep(@builtin(global_invocation_id) id: vec3u) {
 /// Along x: one line of fine voxels for each invocation (y, slice of the part), swept there and back.
 @compute @workgroup_size(8, 8, 1)
 fn along_x(@builtin(global_invocation_id) id: vec3u) {
-    if id.x >= job.fine.y || id.y >= job.part.y {
+    if id.x >= job.fine.y || id.y >= job.slice_count {
         return;
     }
-    let z = job.part.x + id.y;
+    let z = job.first_slice + id.y;
     let row = job.coarse.x * (id.x + job.fine.y * id.y);
     let count = i32(job.fine.x);
     // Positions of the last member and the last other passed.
@@ -189,7 +187,7 @@ fn along_x(@builtin(global_invocation_id) id: vec3u) {
 /// Along y.
 @compute @workgroup_size(8, 8, 1)
 fn along_y(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= job.coarse.xy) || id.z >= job.part.y {
+    if any(id.xy >= job.coarse.xy) || id.z >= job.slice_count {
         return;
     }
     let at = fine_position(id.y);
@@ -216,7 +214,7 @@ fn along_y(@builtin(global_invocation_id) id: vec3u) {
             best = min(best, way * way + vec2f(off * off));
         }
     }
-    plane_squares[id.x + job.coarse.x * (id.y + job.coarse.y * (job.part.x + id.z))] = best;
+    plane_squares[id.x + job.coarse.x * (id.y + job.coarse.y * (job.first_slice + id.z))] = best;
 }
 
 /// Along z, and the sign. The depth under the outer surface is the distance to the outside, positive in the object.
@@ -252,13 +250,14 @@ fn along_z(@builtin(global_invocation_id) id: vec3u) {
     let volume_size = job.coarse.x * job.coarse.y * job.coarse.z;
     // Where there is nothing of the set at all, or nothing else, a distance that no subject has.
     let signed = clamp(ways.x - ways.y, -8.0, 8.0);
-    fields[job.coarse.w * volume_size + coarse_index(id)] = signed;
+    fields[job.channel * volume_size + coarse_index(id)] = signed;
 }
 
-/// What the smoothing reads: the field the first time, then what the pass before left. Binomial weights 1 4 6 4 1, a Gaussian of one
-/// coarse voxel: takes the stairs off a surface of voxels (section 5.4.3, a mask that is a smooth scalar field).
+/// What the smoothing reads: the field the first time, then what the pass before left. Binomial weights 1 4 6 4 1, a
+/// Gaussian of one coarse voxel: takes the stairs off a surface of voxels (section 5.4.3, a mask that is a smooth
+/// scalar field).
 fn weighed(at: vec3u, from_field: bool) -> f32 {
-    let unit = select(vec3i(0), vec3i(1), vec3u(0u, 1u, 2u) == vec3u(job.part.z));
+    let unit = select(vec3i(0), vec3i(1), vec3u(0u, 1u, 2u) == vec3u(job.axis));
     let last = vec3i(job.coarse.xyz) - 1;
     let volume_size = job.coarse.x * job.coarse.y * job.coarse.z;
     var sum = 0.0;
@@ -266,7 +265,7 @@ fn weighed(at: vec3u, from_field: bool) -> f32 {
         let index = coarse_index(vec3u(clamp(vec3i(at) + i * unit, vec3i(0), last)));
         let weight = select(select(0.375, 0.25, abs(i) == 1), 0.0625, abs(i) == 2);
         if from_field {
-            sum += weight * fields[job.coarse.w * volume_size + index];
+            sum += weight * fields[job.channel * volume_size + index];
         } else {
             sum += weight * smoothed[index];
         }
@@ -287,11 +286,11 @@ fn smooth_out(@builtin(global_invocation_id) at: vec3u) {
 fn smooth_back(@builtin(global_invocation_id) at: vec3u) {
     if all(at < job.coarse.xyz) {
         let volume_size = job.coarse.x * job.coarse.y * job.coarse.z;
-        fields[job.coarse.w * volume_size + coarse_index(at)] = weighed(at, false);
+        fields[job.channel * volume_size + coarse_index(at)] = weighed(at, false);
     }
 }
 
-/// Into the texture. part.x: slab; part.y: sets, 0 for the depth.
+/// Into a slab of the texture.
 @compute @workgroup_size(4, 4, 4)
 fn write_texture(@builtin(global_invocation_id) at: vec3u) {
     if any(at >= job.coarse.xyz) {
@@ -299,12 +298,12 @@ fn write_texture(@builtin(global_invocation_id) at: vec3u) {
     }
     let volume_size = job.coarse.x * job.coarse.y * job.coarse.z;
     var texel = vec4f(0.0);
-    if job.part.y != 0u {
-        for (var channel = 0u; channel < job.part.y; channel++) {
+    if job.set_count != 0u {
+        for (var channel = 0u; channel < job.set_count; channel++) {
             texel[channel] = fields[channel * volume_size + coarse_index(at)];
         }
     } else {
         texel.x = fields[CHANNEL_OUTSIDE * volume_size + coarse_index(at)];
     }
-    textureStore(distance_out, vec3u(at.xy, at.z + job.part.x * job.coarse.z), texel);
+    textureStore(distance_out, vec3u(at.xy, at.z + job.slab * job.coarse.z), texel);
 }

@@ -1,18 +1,12 @@
-// Follow: where points of the rest are in the deformed object, for what is fastened to tissue (labels). The map leads the other way and
-// jumps at cuts. So the deformed object is looked through on a lattice first; from the nearest that is found in each part of it, Newton's
-// method goes along the map's own path, which is smooth, and the best of all ends counts.
+// Follow: where points of the rest are in the deformed object, for what is fastened to tissue (labels). The map leads
+// the other way and jumps at cuts. So the deformed object is looked through on a lattice first; from the nearest that
+// is found in each part of it, Newton's method goes along the map's own path, which is smooth, and the best of all ends
+// counts.
 //
-//   search   one invocation per cell of the lattice: for each point and block of cells, the cell whose material lay nearest at rest
+//   search   one invocation per cell of the lattice: for each point and block of cells, the cell whose material lay
+//   nearest at rest
 //   settle   one workgroup per point: Newton from the best cell of each block
-// needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/feature.wgsl displace/compose.wgsl march/align.wgsl
-
-/// Of the cells that the deformed object is looked through in.
-struct Lattice {
-    /// xyz: where it begins, subject space; w: side of a cell.
-    corner: vec4f,
-    /// xyz: cells; w: points that are followed.
-    cells: vec4u,
-}
+// needs: types.wgsl displace/frame.wgsl displace/compose.wgsl march/align.wgsl
 
 /// Blocks of cells along each axis.
 const BLOCKS: u32 = 6u;
@@ -41,7 +35,7 @@ fn cell_at(cell: u32) -> vec3u {
 }
 
 fn cell_center(cell: u32) -> vec3f {
-    return lattice.corner.xyz + (vec3f(cell_at(cell)) + 0.5) * lattice.corner.w;
+    return lattice.corner.xyz + (vec3f(cell_at(cell)) + 0.5) * lattice.side;
 }
 
 @compute @workgroup_size(64)
@@ -57,8 +51,8 @@ fn search(@builtin(global_invocation_id) id: vec3u) {
     }
     let in_blocks = cell_at(cell) * BLOCKS / n.xyz;
     let block = in_blocks.x + BLOCKS * (in_blocks.y + BLOCKS * in_blocks.z);
-    for (var i = 0u; i < n.w; i++) {
-        let away = distance(found.pos, followed[i].xyz) / lattice.corner.w;
+    for (var i = 0u; i < lattice.count; i++) {
+        let away = distance(found.pos, followed[i].xyz) / lattice.side;
         if away < FARTHEST {
             atomicMin(&nearest[i * BLOCKS * BLOCKS * BLOCKS + block], (u32(away * PARTS) << CELL_BITS) | cell);
         }
@@ -91,7 +85,7 @@ fn settled(start: vec3f, wanted: vec3f) -> vec4f {
                 dot(cross(columns[0], columns[1]), off),
             ) / volume;
         }
-        step *= min(1.0, 4.0 * lattice.corner.w / max(length(step), 1e-9));
+        step *= min(1.0, 4.0 * lattice.side / max(length(step), 1e-9));
         // Only onto material, and only nearer.
         var has_moved = false;
         for (var half = 0u; half < 6u && !has_moved; half++) {

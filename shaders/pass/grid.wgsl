@@ -1,17 +1,19 @@
-// Grid over the deformed space: per cell, which templates may reach it and whether anything visible may map into it. Compute only;
-// made anew when a template, the transfer function or the subject changes.
+// Grid over the deformed space: per cell, which templates may reach it and whether anything visible may map into it.
+// Compute only; made anew when a template, the transfer function or the subject changes.
 //
 //   deformed space, one cell          template i                     rest space, bricks
 //   +---+                                                            +--+--+--+--+
-//   | · |  box: centre, half   -->   two readings at most   -->      |  |##|  |  |   the box of where the cell came from
+//   | · |  box: centre, half   -->   two readings at most   -->      |  |##|  |  |   the box of where the cell came
+//   from
 //   +---+                            (flap | rest), each a box       |  |##|##|  |   meets a visible brick, or does not
 //
-// A box is carried back through the list. Each template is evaluated at the box's centre and at the middles of its six sides: the
-// differences say how the box is turned and stretched there, the second differences how far from straight that is. Where a template is
-// small against the box that is not enough, and its bound of displacement is used. Where a template is two-valued (the flap lies over
-// what was there before) both readings are followed, each only if the box can hold material of it.
-// Conservative but for details finer than `fineness`, which tests/grid.rs looks for by probing.
-// needs: types.wgsl bind/templates.wgsl bind/feature.wgsl displace/compose.wgsl
+// A box is carried back through the list. Each template is evaluated at the box's centre and at the middles of its six
+// sides: the differences say how the box is turned and stretched there, the second differences how far from straight
+// that is. Where a template is small against the box that is not enough, and its bound of displacement is used. Where a
+// template is two-valued (the flap lies over what was there before) both readings are followed, each only if the box
+// can hold material of it. Conservative but for details finer than `fineness`, which tests/grid.rs looks for by
+// probing.
+// needs: types.wgsl affine.wgsl kinds.wgsl bind/templates.wgsl bind/kept.wgsl displace/compose.wgsl
 
 /// 1 if templates leave tissue alone or give way to it. A pipeline constant.
 override has_kept: u32 = 1u;
@@ -31,18 +33,8 @@ override has_kept: u32 = 1u;
 /// x: mask; y: way.
 @group(3) @binding(5) var grid_out: texture_storage_3d<rg32uint, write>;
 
-/// Numbers of kinds (TemplateKind) that have two readings.
-const KIND_PEEL: u32 = 7u;
-const KIND_FLAP: u32 = 8u;
-const KIND_MOVE: u32 = 18u;
-
-/// How a `GridTemplate` moves material; 0 is by a bounded shift.
-const MATERIAL_WITHIN: f32 = 1.0;
-const MATERIAL_BENT: f32 = 2.0;
-const MATERIAL_RIPPLED: f32 = 3.0;
-
-/// Ways through the list that are followed for one cell at most; where there are more (many cuts crossing in one cell), it counts as
-/// visible and reached by all.
+/// Ways through the list that are followed for one cell at most; where there are more (many cuts crossing in one cell),
+/// it counts as visible and reached by all.
 const MAX_WAYS: u32 = 24u;
 /// The continuity may change across the box by this much more than its differences say.
 const CONTINUITY_SAFETY: f32 = 1.5;
@@ -78,42 +70,25 @@ struct Reading {
 }
 
 fn to_template(i: u32, pos: vec3f) -> vec3f {
-    let at1 = vec4f(pos, 1.0);
-    return vec3f(
-        dot(templates.items[i].template_from_subject_row0, at1),
-        dot(templates.items[i].template_from_subject_row1, at1),
-        dot(templates.items[i].template_from_subject_row2, at1),
-    );
+    return apply_affine(templates.items[i].template_from_subject, pos);
 }
 
 fn to_template_vector(i: u32, v: vec3f) -> vec3f {
-    return vec3f(
-        dot(templates.items[i].template_from_subject_row0.xyz, v),
-        dot(templates.items[i].template_from_subject_row1.xyz, v),
-        dot(templates.items[i].template_from_subject_row2.xyz, v),
-    );
+    return apply_linear(templates.items[i].template_from_subject, v);
 }
 
 fn to_subject_vector(i: u32, v: vec3f) -> vec3f {
-    return vec3f(
-        dot(templates.items[i].subject_from_template_row0.xyz, v),
-        dot(templates.items[i].subject_from_template_row1.xyz, v),
-        dot(templates.items[i].subject_from_template_row2.xyz, v),
-    );
+    return apply_linear(templates.items[i].subject_from_template, v);
 }
 
 /// Half extent in subject space of a template-space box of half extent `half`.
 fn to_subject_extent(i: u32, half: vec3f) -> vec3f {
-    return vec3f(
-        dot(abs(templates.items[i].subject_from_template_row0.xyz), half),
-        dot(abs(templates.items[i].subject_from_template_row1.xyz), half),
-        dot(abs(templates.items[i].subject_from_template_row2.xyz), half),
-    );
+    return apply_to_extent(templates.items[i].subject_from_template, half);
 }
 
 /// True if template i lies along a curve.
 fn is_curved(i: u32) -> bool {
-    return (drawn_kinds & 1u) != 0u && templates.items[i].flags != 0u;
+    return (drawn_kinds & DRAWN_CURVES) != 0u && templates.items[i].curve != 0u;
 }
 
 /// The moved reading.
@@ -121,19 +96,19 @@ fn moved_reading(i: u32, q: vec3f) -> Reading {
     if !is_curved(i) {
         return own_reading(i, q);
     }
-    let first = templates.items[i].flags;
-    let size = templates.items[i].size;
+    let first = templates.items[i].curve;
+    let size = templates.items[i].size.xyz;
     let own = unbend(first, size, q);
     let reading = own_reading(i, own.xyz);
     let moved = bend(first, size, own.xyz + reading.moved) - q;
     return Reading(select(vec3f(0.0), moved, own.w > 0.5), select(1.0, reading.continuity, own.w > 0.5));
 }
 
-/// True if the space of template i may fold, end or jump from one line to another in a box of these half sides: two points of it then lie
-/// farther from each other in its own space than any steps between them are.
+/// True if the space of template i may fold, end or jump from one line to another in a box of these half sides: two
+/// points of it then lie farther from each other in its own space than any steps between them are.
 fn is_folded(i: u32, q: vec3f, walk: Walk) -> bool {
-    let first = templates.items[i].flags;
-    let size = templates.items[i].size;
+    let first = templates.items[i].curve;
+    let size = templates.items[i].size.xyz;
     let middle = unbend(first, size, q);
     var is_whole = middle.w > 0.5;
     for (var corner = 0u; corner < 14u; corner++) {
@@ -143,8 +118,8 @@ fn is_folded(i: u32, q: vec3f, walk: Walk) -> bool {
         let axis = select(vec3f(0.0), vec3f(select(-1.0, 1.0, side < 3u)), vec3u(side % 3u) == vec3u(0u, 1u, 2u));
         let to = select(axis, 2.0 * vec3f(bits) - 1.0, corner < 8u) * walk.half;
         let own = unbend(first, size, q + to_template_vector(i, to));
-        let way = length((own.xyz - middle.xyz) * size.xyz);
-        is_whole = is_whole && own.w > 0.5 && way <= 1.05 * job.items[i].reach1_min.w * length(to) + 1e-4;
+        let way = length((own.xyz - middle.xyz) * size);
+        is_whole = is_whole && own.w > 0.5 && way <= 1.05 * job.items[i].stretch * length(to) + 1e-4;
     }
     return !is_whole;
 }
@@ -155,31 +130,32 @@ fn own_reading(i: u32, q: vec3f) -> Reading {
     let p0 = templates.items[i].params0;
     let p1 = templates.items[i].params1;
     let kind = templates.items[i].kind;
-    if (drawn_kinds & 0x80u) != 0u && kind == KIND_PEEL {
+    if (drawn_kinds & DRAWN_PEEL) != 0u && kind == KIND_PEEL {
         let p = peeled(q, size, p0);
         return Reading(p.source - q, min(p.flap_continuity, p.along));
     }
-    if (drawn_kinds & 0x100u) != 0u && kind == KIND_FLAP {
+    if (drawn_kinds & DRAWN_FLAP) != 0u && kind == KIND_FLAP {
         let o = opened(q, size, p0);
         return Reading(o.source - q, o.door_continuity);
     }
-    if (drawn_kinds & 0x40000u) != 0u && kind == KIND_MOVE {
+    if (drawn_kinds & DRAWN_MOVE) != 0u && kind == KIND_MOVE {
         let source = moved_back(q, size, p0, p1);
         return Reading(source - q, inside_box(source, size));
     }
-    let is_torn = job.items[i].shift_max.w > 0.5;
+    let is_torn = job.items[i].is_torn != 0u;
     let inside = clamp(q, job.items[i].own_min.xyz, job.items[i].own_max.xyz);
     let at = select(q, inside, is_torn);
-    let d = displace(kind, at, size, p0, p1);
+    let d = displace(kind, at, size, p0, p1, templates.items[i].held);
     return Reading(d.source - at, d.continuity);
 }
 
-/// A of the reading that the point never moved. For templates of one reading 1 where they are torn from what is around them, else -1.
+/// A of the reading that the point never moved. For templates of one reading 1 where they are torn from what is around
+/// them, else -1.
 fn rest_continuity(i: u32, seen: vec3f, half: vec3f) -> f32 {
     var q = seen;
     if is_curved(i) {
-        let own = unbend(templates.items[i].flags, templates.items[i].size, seen);
-        if own.w < 0.5 || job.items[i].shift_max.w > 0.5 {
+        let own = unbend(templates.items[i].curve, templates.items[i].size.xyz, seen);
+        if own.w < 0.5 || job.items[i].is_torn != 0u {
             return 1.0;
         }
         q = own.xyz;
@@ -197,26 +173,21 @@ fn rest_continuity(i: u32, seen: vec3f, half: vec3f) -> f32 {
     if kind == KIND_MOVE {
         return -inside_box(q, size);
     }
-    let is_torn = job.items[i].shift_max.w > 0.5;
+    let is_torn = job.items[i].is_torn != 0u;
     let pokes_out = any(q - half < job.items[i].reach0_min.xyz) || any(q + half > job.items[i].reach0_max.xyz);
     return select(-NO_END, 1.0, is_torn && pokes_out);
 }
 
 fn constraint_of(i: u32) -> u32 {
-    return features.items[templates.items[i].group].keeps.w;
+    return kept.items[templates.items[i].group].constraint;
 }
 
-/// The voxel of the smooth distances that is nearest to a place at rest. Beyond them the distance is that at their edge and more; how
-/// much more is left out.
+/// The voxel of the smooth distances that is nearest to a place at rest. Beyond them the distance is that at their edge
+/// and more; how much more is left out.
 fn distance_voxel(rest: vec3f) -> vec3i {
-    let r = vec4f(rest, 1.0);
-    let uvw = vec3f(
-        dot(features.distance_from_rest_row0, r),
-        dot(features.distance_from_rest_row1, r),
-        dot(features.distance_from_rest_row2, r),
-    );
-    let last = vec3i(features.distance_dims.xyz) - 1;
-    return min(vec3i(clamp(uvw, vec3f(0.0), vec3f(1.0)) * features.distance_dims.xyz), last);
+    let uvw = apply_affine(kept.distance_from_rest, rest);
+    let last = vec3i(kept.distance_dims.xyz) - 1;
+    return min(vec3i(clamp(uvw, vec3f(0.0), vec3f(1.0)) * kept.distance_dims.xyz), last);
 }
 
 /// Distance of a voxel to the nearest of some sets of segments.
@@ -227,14 +198,14 @@ fn distance_to_sets(voxel: vec3i, sets: u32) -> f32 {
     return min(min(each.x, each.y), min(each.z, each.w));
 }
 
-/// Diagonal of a voxel of the distances, subject units. A place lies half of it from the voxel that is read at most, and smoothing mixes
-/// voxels that lie one of it apart in the mean.
+/// Diagonal of a voxel of the distances, subject units. A place lies half of it from the voxel that is read at most,
+/// and smoothing mixes voxels that lie one of it apart in the mean.
 fn voxel_diagonal() -> f32 {
     let per_unit = vec3f(
-        length(features.distance_from_rest_row0.xyz),
-        length(features.distance_from_rest_row1.xyz),
-        length(features.distance_from_rest_row2.xyz),
-    ) * features.distance_dims.xyz;
+        length(kept.distance_from_rest.row0.xyz),
+        length(kept.distance_from_rest.row1.xyz),
+        length(kept.distance_from_rest.row2.xyz),
+    ) * kept.distance_dims.xyz;
     return length(1.0 / per_unit);
 }
 
@@ -243,46 +214,40 @@ fn may_stay(i: u32, center: vec3f, half: vec3f) -> bool {
     if has_kept == 0u {
         return false;
     }
-    let item = features.items[templates.items[i].group];
-    if item.keeps.x == 0u {
+    let item = kept.items[templates.items[i].group];
+    if item.keeps == 0u {
         return false;
     }
-    if item.keeps.y != 0u {
+    if item.run != 0u {
         // What lies below may have moved it there; where it came from is not known here.
         return true;
     }
-    // Nothing acts before: what stays is where it was at rest. Distances change by no more than the way; they are read at the
-    // nearest voxel and smoothed, three voxels in all, or more where voxels are far from cubes.
-    let reach = length(half) + max(3.0 * features.distance_dims.w, 1.5 * voxel_diagonal());
+    // Nothing acts before: what stays is where it was at rest. Distances change by no more than the way; they are read
+    // at the nearest voxel and smoothed, three voxels in all, or more where voxels are far from cubes.
+    let reach = length(half) + max(3.0 * kept.spacing, 1.5 * voxel_diagonal());
     let voxel = distance_voxel(center);
-    var least = distance_to_sets(voxel, item.keeps.x);
-    if (item.keeps.x & KEEPS_DEEP) != 0u {
-        let behind = vec3i(0, 0, i32(features.slabs.z * u32(features.distance_dims.z)));
-        least = min(least, item.lengths.x - textureLoad(distances, voxel + behind, 0).x);
+    var least = distance_to_sets(voxel, item.keeps);
+    if (item.keeps & KEEPS_DEEP) != 0u {
+        let behind = vec3i(0, 0, i32(kept.depth_slab * u32(kept.distance_dims.z)));
+        least = min(least, item.depth - textureLoad(distances, voxel + behind, 0).x);
     }
     return least <= reach;
 }
 
 /// Where the motion of a group's segment takes a box from, as centre and half extent.
 fn moved_whole(head: u32, center: vec3f, half: vec3f) -> array<vec3f, 2> {
-    let row0 = features.motions[3u * head];
-    let row1 = features.motions[3u * head + 1u];
-    let row2 = features.motions[3u * head + 2u];
-    let at1 = vec4f(center, 1.0);
-    return array<vec3f, 2>(
-        vec3f(dot(row0, at1), dot(row1, at1), dot(row2, at1)),
-        vec3f(dot(abs(row0.xyz), half), dot(abs(row1.xyz), half), dot(abs(row2.xyz), half)),
-    );
+    let motion = kept.motions[head];
+    return array<vec3f, 2>(apply_affine(motion, center), apply_to_extent(motion, half));
 }
 
 /// True if a segment that moves as a whole, or what goes with it, may be in the box.
 fn is_reached_by_rigid(head: u32, center: vec3f, half: vec3f) -> bool {
-    if has_kept == 0u || features.items[head].keeps.w != CONSTRAIN_RIGID {
+    if has_kept == 0u || kept.items[head].constraint != CONSTRAIN_RIGID {
         return false;
     }
     let box = moved_whole(head, center, half);
-    let least = distance_to_sets(distance_voxel(box[0]), features.items[head].keeps.z);
-    return least <= length(half) + features.items[head].lengths.w + 3.0 * features.distance_dims.w;
+    let least = distance_to_sets(distance_voxel(box[0]), kept.items[head].gives_way_to);
+    return least <= length(half) + kept.items[head].fade + 3.0 * kept.spacing;
 }
 
 /// The box after the group that was being summed.
@@ -296,7 +261,7 @@ fn group_done(walk: Walk) -> Walk {
         let low = min(next.at - next.half, box[0] - box[1]);
         let high = max(next.at + next.half, box[0] + box[1]);
         next.at = 0.5 * (low + high);
-        next.half = 0.5 * (high - low) + 2.0 * features.distance_dims.w;
+        next.half = 0.5 * (high - low) + 2.0 * kept.spacing;
     }
     next.is_rigid = false;
     next.sum = vec3f(0.0);
@@ -317,17 +282,8 @@ fn meets_visible(at: vec3f, half: vec3f) -> bool {
     if !(all(abs(at) < vec3f(1e20)) && all(half < vec3f(1e20))) {
         return true;
     }
-    let at1 = vec4f(at, 1.0);
-    let center = vec3f(
-        dot(job.brick_from_rest_row0, at1),
-        dot(job.brick_from_rest_row1, at1),
-        dot(job.brick_from_rest_row2, at1),
-    );
-    let extent = vec3f(
-        dot(abs(job.brick_from_rest_row0.xyz), half),
-        dot(abs(job.brick_from_rest_row1.xyz), half),
-        dot(abs(job.brick_from_rest_row2.xyz), half),
-    );
+    let center = apply_affine(job.brick_from_rest, at);
+    let extent = apply_to_extent(job.brick_from_rest, half);
     let count = vec3f(job.bricks.xyz);
     if any(center + extent < vec3f(0.0)) || any(center - extent > count) {
         return false;
@@ -341,13 +297,13 @@ fn meets_visible(at: vec3f, half: vec3f) -> bool {
 
 /// x: mask of the templates that may reach the box; y: 0 if something visible may be in it, else 1.
 ///
-/// Where a template has two readings in the box both are followed: the list is walked again for every combination, and `choices` has
-/// a bit for each template on the way that offered a choice, set where the unmoved reading is taken.
+/// Where a template has two readings in the box both are followed: the list is walked again for every combination, and
+/// `choices` has a bit for each template on the way that offered a choice, set where the unmoved reading is taken.
 fn look_at(center: vec3f, half: vec3f) -> vec2u {
     if drawn_kinds == 0u {
         return vec2u(0u, select(1u, 0u, meets_visible(center, half)));
     }
-    let count = min(templates.count.x, 32u);
+    let count = min(templates.count, 32u);
     let every = select(0u, 0xffffffffu >> ((32u - count) & 31u), count > 0u);
     var mask = 0u;
     var is_visible = false;
@@ -374,11 +330,7 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
                 walk.is_rigid = is_reached_by_rigid(walk.group, walk.at, walk.half);
             }
             let q = to_template(i, walk.at);
-            let across = vec3f(
-                dot(abs(templates.items[i].template_from_subject_row0.xyz), walk.half),
-                dot(abs(templates.items[i].template_from_subject_row1.xyz), walk.half),
-                dot(abs(templates.items[i].template_from_subject_row2.xyz), walk.half),
-            );
+            let across = apply_to_extent(templates.items[i].template_from_subject, walk.half);
             let meets0 = all(q + across >= job.items[i].reach0_min.xyz) && all(q - across <= job.items[i].reach0_max.xyz);
             let meets1 = all(q + across >= job.items[i].reach1_min.xyz) && all(q - across <= job.items[i].reach1_max.xyz);
             // A segment that moves as a whole takes what is around with it, past the template's box.
@@ -388,11 +340,12 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
             }
             mask |= 1u << i;
 
-            // The continuity of peel, flap and move has slope 1 in subject units, so the box's half diagonal bounds its change.
-            let margin = length(walk.half) * job.items[i].reach1_min.w;
-            let is_within = job.items[i].shift_min.w == MATERIAL_WITHIN;
+            // The continuity of peel, flap and move has slope 1 in subject units, so the box's half diagonal bounds its
+            // change.
+            let margin = length(walk.half) * job.items[i].stretch;
+            let is_within = job.items[i].material == MATERIAL_WITHIN;
             let is_bent = is_curved(i);
-            var is_coarse = max(across.x, max(across.y, across.z)) > job.items[i].reach0_min.w;
+            var is_coarse = max(across.x, max(across.y, across.z)) > job.items[i].detail;
             var folds = false;
             if is_bent {
                 folds = is_folded(i, q, walk);
@@ -410,11 +363,11 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
                 let high = max(job.items[i].shift_max.xyz, vec3f(0.0));
                 let farthest = max(abs(low), abs(high)) * templates.items[i].size.xyz;
                 // Turned or bent material has no bound of its own; the group's longest displacement holds.
-                let longest = features.items[templates.items[i].group].lengths.z;
-                next.spread += vec3f(max(max(longest, length(farthest)), job.items[i].reach1_max.w));
-            } else if is_coarse && is_bent && (folds || job.items[i].shift_min.w != MATERIAL_BENT) {
-                next.spread += vec3f(job.items[i].reach1_max.w);
-            } else if is_coarse && job.items[i].shift_min.w < MATERIAL_BENT {
+                let longest = kept.items[templates.items[i].group].longest;
+                next.spread += vec3f(max(max(longest, length(farthest)), job.items[i].longest));
+            } else if is_coarse && is_bent && (folds || job.items[i].material != MATERIAL_BENT) {
+                next.spread += vec3f(job.items[i].longest);
+            } else if is_coarse && job.items[i].material < MATERIAL_BENT {
                 if is_within {
                     // From anywhere in the cube.
                     next.sum += to_subject_vector(i, vec3f(0.5) - q);
@@ -446,7 +399,7 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
                 }
                 let most = middle.continuity + max(CONTINUITY_SAFETY * change, select(0.0, margin, is_within));
                 has_moved = most >= 0.0;
-                if is_coarse && job.items[i].shift_min.w == MATERIAL_RIPPLED {
+                if is_coarse && job.items[i].material == MATERIAL_RIPPLED {
                     // Finer than the box, but never far from what is seen from afar.
                     next.spread += to_subject_extent(i, job.items[i].shift_max.xyz);
                     has_moved = true;
@@ -500,9 +453,9 @@ fn fill(@builtin(global_invocation_id) cell: vec3u) {
     }
     let half = 0.5 * job.cell_size.xyz;
     let center = job.origin_min.xyz + (vec3f(cell) + 0.5) * job.cell_size.xyz;
-    let seen = look_at(center, half + job.origin_min.w);
+    let seen = look_at(center, half + job.margin);
     cell_masks[index_of(cell)] = seen.x;
-    cell_ways[index_of(cell)] = select(0u, job.cells.w, seen.y == 1u);
+    cell_ways[index_of(cell)] = select(0u, job.farthest, seen.y == 1u);
 }
 
 /// The way of a cell if the cells along `axis` are taken into account as well.
@@ -519,13 +472,13 @@ fn way_along(cell: vec3u, axis: u32) -> u32 {
     return way;
 }
 
-/// The mask of a cell with those of the cells next to it along `axis`: a ray that stands in one cell looks for crossings and takes
-/// differences a little way into the next, by its own cell's mask.
+/// The mask of a cell with those of the cells next to it along `axis`: a ray that stands in one cell looks for
+/// crossings and takes differences a little way into the next, by its own cell's mask.
 fn mask_along(cell: vec3u, axis: u32) -> u32 {
     var mask = cell_masks_before[index_of(cell)];
     let last = vec3i(job.cells.xyz) - 1;
     let unit = select(vec3i(0), vec3i(1), vec3u(0u, 1u, 2u) == vec3u(axis));
-    for (var step = 1; step <= i32(job.bricks.w); step++) {
+    for (var step = 1; step <= i32(job.spread); step++) {
         mask |= cell_masks_before[index_of(vec3u(min(vec3i(cell) + step * unit, last)))];
         mask |= cell_masks_before[index_of(vec3u(max(vec3i(cell) - step * unit, vec3i(0))))];
     }

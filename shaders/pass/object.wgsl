@@ -1,5 +1,5 @@
 // Object probe: what the object has at given points when alignment counts, for the command line and tests.
-// needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/feature.wgsl displace/compose.wgsl march/align.wgsl
+// needs: displace/compose.wgsl march/align.wgsl
 
 /// Points of the deformed object, subject space (w is not used).
 @group(3) @binding(0) var<storage, read> probe_points: array<vec4f>;

@@ -1,4 +1,5 @@
-// Probe: the inverse map at given points, for tests, picking, labels and the command line. Subject space in, rest space out.
+// Probe: the inverse map at given points, for tests, picking, labels and the command line. Subject space in, rest space
+// out.
 // needs: types.wgsl bind/templates.wgsl displace/compose.wgsl
 
 /// Points of the deformed object, subject space (w is not used).

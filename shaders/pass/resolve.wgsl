@@ -1,5 +1,5 @@
-// From the accumulated picture (linear, premultiplied) to the one that is shown: background, sRGB. Also enlarges the quick
-// small picture that is shown while anything moves.
+// From the accumulated picture (linear, premultiplied) to the one that is shown: background, sRGB. Also enlarges the
+// quick small picture that is shown while anything moves.
 // needs: types.wgsl
 
 /// Where the source lies and what is behind it.
@@ -33,13 +33,13 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 /// sRGB, premultiplied after encoding (what egui blends) or straight (what PNG holds).
 @fragment
 fn encode(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    let uv = min(at.xy * resolve.scale.xy, resolve.scale.zw);
+    let uv = min(at.xy * resolve.scale, resolve.end);
     let found = textureSampleLevel(source, source_sampler, uv, 0.0);
     let alpha = clamp(found.a, 0.0, 1.0);
-    if resolve.background.w > 0.5 {
+    if resolve.background.a > 0.5 {
         let object = roll_off(found.rgb / max(alpha, 1e-4)) * alpha;
         return vec4f(srgb_from_linear(object + resolve.background.rgb * (1.0 - alpha)), 1.0);
     }
     let color = srgb_from_linear(roll_off(found.rgb / max(alpha, 1e-4)));
-    return vec4f(select(color * alpha, color, resolve.flags.x == 1u), alpha);
+    return vec4f(select(color * alpha, color, resolve.is_straight == 1u), alpha);
 }

@@ -1,15 +1,18 @@
-// Rigid segments: for each group whose constraint lets tissue move as a whole, the rigid motion that comes nearest to what the group would do to
-// that tissue (Correa, section 5.7.2, second part: "the displacement should be the same for all points in that region").
+// Rigid segments: for each group whose constraint lets tissue move as a whole, the rigid motion that comes nearest to
+// what the group would do to that tissue (Correa, section 5.7.2, second part: "the displacement should be the same for
+// all points in that region").
 //
-// One workgroup per group: even places of the deformed space are asked where their material comes from; where it is the segment's, place and
-// source are a pair. The rotation that best takes places to sources (least squares) is found by turning it towards the pairs' moments until
-// it stays (Müller, Bender, Chentanez, Macklin 2016, "A robust method to extract the rotational part of deformations").
+// One workgroup per group: even places of the deformed space are asked where their material comes from; where it is the
+// segment's, place and source are a pair. The rotation that best takes places to sources (least squares) is found by
+// turning it towards the pairs' moments until it stays (Müller, Bender, Chentanez, Macklin 2016, "A robust method to
+// extract the rotational part of deformations").
 //
-// Differs from the source: there a template's coordinate is held still over the region, kind by kind; this asks nothing of the kind.
-// needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/feature.wgsl displace/compose.wgsl march/align.wgsl
+// Differs from the source: there a template's coordinate is held still over the region, kind by kind; this asks nothing
+// of the kind.
+// needs: types.wgsl affine.wgsl bind/templates.wgsl bind/kept.wgsl displace/compose.wgsl march/kept.wgsl
 
-/// Rows of the motion of each group, rest space from subject space, at three times the index of its head.
-@group(3) @binding(0) var<storage, read_write> motions: array<vec4f, 96>;
+/// The motion of each group, subject space to rest space, at the index of its head.
+@group(3) @binding(0) var<storage, read_write> motions: array<Affine, 32>;
 
 /// Places along each side of the cube that is looked at, and its side: the subject has its longest side from −½ to ½.
 const SIDE: u32 = 44u;
@@ -54,13 +57,13 @@ fn nearest_rotation(a: mat3x3f) -> mat3x3f {
 @compute @workgroup_size(64)
 fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let head = group.x;
-    let item = features.items[head];
-    let count = min(templates.count.x, 32u);
+    let item = kept.items[head];
+    let count = min(templates.count, 32u);
     var bits = 0u;
     for (var i = 0u; i < count; i++) {
         bits |= select(0u, 1u << i, templates.items[i].group == head);
     }
-    let is_asked = item.keeps.w == CONSTRAIN_RIGID && head < count;
+    let is_asked = item.constraint == CONSTRAIN_RIGID && head < count;
     var n = 0.0;
     var place = vec3f(0.0);
     var source = vec3f(0.0);
@@ -71,7 +74,7 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
         let cell = vec3f(vec3u(k % SIDE, (k / SIDE) % SIDE, k / (SIDE * SIDE)));
         let pos = ((cell + 0.5) / f32(SIDE) - 0.5) * SPAN;
         let mapped = rest_from_subject(pos, bits);
-        if mapped.continuity >= 0.0 && is_kept(mapped.pos, item.keeps.z, 0.0) {
+        if mapped.continuity >= 0.0 && is_kept(mapped.pos, item.gives_way_to, 0.0) {
             n += 1.0;
             place += pos;
             source += mapped.pos;
@@ -112,7 +115,5 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
         shift = source - turn * place;
     }
     let rows = transpose(turn);
-    motions[3u * head] = vec4f(rows[0], shift.x);
-    motions[3u * head + 1u] = vec4f(rows[1], shift.y);
-    motions[3u * head + 2u] = vec4f(rows[2], shift.z);
+    motions[head] = Affine(vec4f(rows[0], shift.x), vec4f(rows[1], shift.y), vec4f(rows[2], shift.z));
 }

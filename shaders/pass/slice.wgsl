@@ -1,9 +1,11 @@
-// A flat cut through the deformed object: at each pixel of a plane the same question as in the picture, where does this come
-// from, and what is there. Nothing is marched, so a slice costs about as much as one step of the picture.
+// A flat cut through the deformed object: at each pixel of a plane the same question as in the picture, where does this
+// come from, and what is there. Nothing is marched, so a slice costs about as much as one step of the picture.
 //
 //   pixel --> subject space --> object_from_subject --> value, label --> grey by the window, or colours of the look
 //
-// needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/bodies.wgsl march/ray.wgsl displace/compose.wgsl
+// needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/bodies.wgsl affine.wgsl
+// displace/compose.wgsl
+//   march/plain.wgsl|march/align.wgsl
 
 /// The plane and how it is shown.
 @group(3) @binding(0) var<uniform> slice: Slice;
@@ -30,20 +32,10 @@ struct Here {
 /// What the deformed object has at a point of subject space.
 fn object_at(pos: vec3f) -> Here {
     let mapped = object_from_subject(pos, 0xffffffffu);
-    let uvw = apply_affine(
-        subject.texture_from_rest_row0,
-        subject.texture_from_rest_row1,
-        subject.texture_from_rest_row2,
-        mapped.pos,
-    );
+    let uvw = apply_affine(subject.texture_from_rest, mapped.pos);
     let is_inside = all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
-    let voxel = floor(apply_affine(
-        subject.label_from_rest_row0,
-        subject.label_from_rest_row1,
-        subject.label_from_rest_row2,
-        mapped.pos,
-    ) * subject.label_dims.xyz);
-    let has_label = subject.label_dims.w > 0.5 && all(voxel >= vec3f(0.0)) && all(voxel < subject.label_dims.xyz);
+    let voxel = floor(apply_affine(subject.label_from_rest, mapped.pos) * subject.label_dims.xyz);
+    let has_label = subject.has_labels != 0u && all(voxel >= vec3f(0.0)) && all(voxel < subject.label_dims.xyz);
     let last = vec3i(subject.label_dims.xyz) - 1;
     let label = textureLoad(labels, clamp(vec3i(voxel), vec3i(0), last), 0).x;
     return Here(
@@ -57,12 +49,7 @@ fn object_at(pos: vec3f) -> Here {
 
 /// Subject space from a place in the slice (pixels, origin top left).
 fn subject_from_pixel(pixel: vec2f) -> vec3f {
-    return apply_affine(
-        slice.subject_from_pixel_row0,
-        slice.subject_from_pixel_row1,
-        slice.subject_from_pixel_row2,
-        vec3f(pixel, 0.0),
-    );
+    return apply_affine(slice.subject_from_pixel, vec3f(pixel, 0.0));
 }
 
 /// Linear RGB of what is shown at a place.
@@ -71,19 +58,19 @@ fn color_at(pixel: vec2f) -> vec3f {
     if !here.is_there {
         return slice.background.rgb;
     }
-    if slice.modes.x == SLICE_GREY {
-        let level = clamp(here.texel * slice.window.x + slice.window.y, 0.0, 1.0);
+    if slice.mode == SLICE_GREY {
+        let level = clamp(here.texel * slice.grey_scale + slice.grey_offset, 0.0, 1.0);
         // The window is linear in what a screen is sent, as on every radiologist's workstation.
         return linear_from_srgb(vec3f(level));
     }
-    let known = textureSampleLevel(lut, linear_sampler, vec2f(here.texel * look.lut.x + look.lut.y, 0.5), 0.0);
+    let known = textureSampleLevel(lut, linear_sampler, vec2f(here.texel * look.table_scale + look.table_offset, 0.5), 0.0);
     let tint = textureLoad(palette, vec2i(i32(here.label), 0), 0);
-    var albedo = mix(known.rgb, known.rgb * mix(vec3f(1.0), tint.rgb, tint.a), look.lut.z);
+    var albedo = mix(known.rgb, known.rgb * mix(vec3f(1.0), tint.rgb, tint.a), look.tint);
     var clear = pow(max(1.0 - known.a, 0.0), SLICE_THICKNESS / SLICE_OPACITY_LENGTH);
     let body = bodies.items[here.label & 255u];
-    if body.w >= 0.0 {
+    if body.a >= 0.0 {
         albedo = body.rgb;
-        clear = pow(max(1.0 - body.w, 0.0), SLICE_THICKNESS / BODY_LAYER);
+        clear = pow(max(1.0 - body.a, 0.0), SLICE_THICKNESS / BODY_LAYER);
     }
     return mix(albedo, slice.background.rgb, clear);
 }
@@ -108,7 +95,7 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 /// The slice, sRGB: mean of a square of samples per pixel.
 @fragment
 fn draw(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    let side = max(slice.modes.y, 1u);
+    let side = max(slice.samples, 1u);
     var sum = vec3f(0.0);
     for (var k = 0u; k < side * side; k++) {
         let place = (vec2f(vec2u(k % side, k / side)) + 0.5) / f32(side);
@@ -117,7 +104,8 @@ fn draw(@builtin(position) at: vec4f) -> @location(0) vec4f {
     return vec4f(srgb_from_linear(sum / f32(side * side)), 1.0);
 }
 
-/// The numbers, two texels per pixel side by side: value, segment, continuity and whether anything is there; rest position.
+/// The numbers, two texels per pixel side by side: value, segment, continuity and whether anything is there; rest
+/// position.
 @fragment
 fn read(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let column = u32(at.x);
@@ -125,6 +113,6 @@ fn read(@builtin(position) at: vec4f) -> @location(0) vec4f {
     if column % 2u == 1u {
         return vec4f(here.pos, 0.0);
     }
-    let value = subject.value.x + subject.value.y * here.texel;
+    let value = subject.value_low + subject.value_range * here.texel;
     return vec4f(value, f32(here.label), here.continuity, select(0.0, 1.0, here.is_there));
 }

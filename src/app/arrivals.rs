@@ -2,23 +2,23 @@
 
 use std::sync::Arc;
 
-use super::App;
-use super::making::OnClipboard;
-use super::services::{LabelsExpected, LoadEvent, Message};
-use super::state::{self, Gravity};
-use super::words::{self, fill};
+use crate::app::services::Message;
+use crate::app::session::{Gravity, LoadOf};
+use crate::app::window::App;
+use crate::app::words::{self, fill};
+use crate::assets::{Data, LoadEvent, Role, SegmentationsExpected, Want};
 use crate::data::{Statistics, VolumeBuilder, VolumeSink as _};
 use crate::document::{SegmentsRef, SubjectRef};
 
 impl App {
-    pub(super) fn take_messages(&mut self) {
+    pub(crate) fn take_messages(&mut self) {
         for message in self.services.poll() {
             match message {
-                Message::OpenText { text } => self.state.open_text(&text, self.services.as_mut()),
-                Message::FileStarted { ticket } => self.state.file_started(ticket),
+                Message::OpenText { text } => self.session.open_text(&text),
+                Message::FileStarted { ticket } => self.session.file_started(ticket),
                 Message::AskHost { ticket, host } => {
                     if let Some(load) = self
-                        .state
+                        .session
                         .load
                         .as_mut()
                         .filter(|load| load.ticket == ticket)
@@ -29,7 +29,7 @@ impl App {
                 Message::Load { ticket, event } => {
                     // What still comes from an earlier load is dropped.
                     if self
-                        .state
+                        .session
                         .load
                         .as_ref()
                         .is_some_and(|load| load.ticket == ticket)
@@ -37,39 +37,21 @@ impl App {
                         self.take_load_event(event);
                     }
                 }
-                Message::Field { key, outcome } => self.take_field(key, *outcome),
-                Message::Pasted(text) => self.state.take_pasted(text, self.services.as_mut()),
-                Message::Copied(Ok(())) if self.state.making.on_clipboard != OnClipboard::Link => {
-                    if let OnClipboard::Templates(number) = self.state.making.on_clipboard {
-                        let text = fill(words::making::w().on_clipboard, &[&number]);
-                        self.state.say(Gravity::Success, text, "");
-                    }
-                }
-                Message::Copied(Ok(())) => {
-                    self.state.copied_at = Some(self.state.now);
-                    self.state
-                        .say(Gravity::Success, words::said::w().link_on_clipboard, "");
-                    let length = self.state.payload.len();
-                    if length > state::LONG_LINK {
-                        let text = fill(words::said::w().link_long, &[&length]);
-                        self.state.say(Gravity::Warning, text, "");
-                    }
-                }
-                Message::Copied(Err(error)) => {
-                    self.state
-                        .say(Gravity::Error, words::said::w().clipboard_refused, error);
-                }
-                Message::Saved(Ok(name)) => {
-                    self.state
-                        .say(Gravity::Success, fill(words::said::w().saved, &[&name]), "")
-                }
+                Message::Field { want, outcome } => self.take_field(want, *outcome),
+                Message::Pasted(text) => self.session.take_pasted(text),
+                Message::Copied(outcome) => self.session.copied(outcome),
+                Message::Saved(Ok(name)) => self.session.notify(
+                    Gravity::Success,
+                    fill(words::messages::w().saved, &[&name]),
+                    "",
+                ),
                 Message::Saved(Err(error)) if error.is_empty() => {}
                 Message::Saved(Err(error)) => {
-                    self.state
-                        .say(Gravity::Error, words::said::w().not_saved, error)
+                    self.session
+                        .notify(Gravity::Error, words::messages::w().not_saved, error)
                 }
                 Message::Notice { message, details } => {
-                    self.state.say(Gravity::Warning, message, details)
+                    self.session.notify(Gravity::Warning, message, details)
                 }
                 // For who writes shaders, and so in English, as the compiler's words are.
                 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
@@ -81,13 +63,21 @@ impl App {
                     {
                         Some(Err(error)) => {
                             let text = "A shader does not compile; the last good ones stay";
-                            self.state.say(Gravity::Error, text, error.to_string());
+                            self.session.notify(Gravity::Error, text, error.to_string());
                         }
-                        Some(Ok(())) => self.state.say(Gravity::Success, "Shaders reloaded", ""),
+                        Some(Ok(())) => {
+                            self.session
+                                .notify(Gravity::Success, "Shaders reloaded", "")
+                        }
                         None => {}
                     }
                 }
             }
+        }
+        if self.opened != self.session.opened {
+            self.opened = self.session.opened;
+            self.assets.forget_addresses();
+            self.fields_asked.clear();
         }
     }
 
@@ -100,7 +90,7 @@ impl App {
                         self.incoming = Some(builder);
                         self.statistics = Statistics::new();
                     }
-                    Err(why) => self.refuse(words::said::w().cannot_be_held, why),
+                    Err(why) => self.refuse(words::messages::w().cannot_be_held, why),
                 }
             }
             LoadEvent::Scalars(scalars) => {
@@ -109,125 +99,168 @@ impl App {
                     builder.scalars(scalars);
                 }
             }
-            LoadEvent::Labels(labels) => {
+            LoadEvent::SegmentLabels(labels) => {
                 if let Some(builder) = &mut self.incoming {
                     builder.labels(labels);
                 }
             }
             LoadEvent::Progress { fraction, what } => {
-                if let Some(load) = &mut self.state.load {
+                if let Some(load) = &mut self.session.load {
                     load.fraction = fraction;
                     load.what = what;
                 }
             }
             LoadEvent::Coarse => self.show_incoming(),
             LoadEvent::Frames { count } => {
-                if let Some(load) = &mut self.state.load {
+                if let Some(load) = &mut self.session.load {
                     load.frame_count = count;
                 }
             }
-            LoadEvent::AskRaw(question) => self.state.ask_raw(question, self.services.as_mut()),
-            LoadEvent::LabelFile { sha256, labels } => {
-                self.incoming_labels.push((sha256, *labels));
-            }
+            LoadEvent::AskRaw(question) => self.session.ask_raw(question),
+            LoadEvent::LabelFile(file) => self.incoming_labels.push(*file),
             LoadEvent::Done { sha256 } => {
+                let load = self.session.load.clone();
+                let other = load
+                    .as_ref()
+                    .zip(sha256.as_ref())
+                    .and_then(|(load, found)| self.session.other_file(load, found));
+                if let Some(other) = other {
+                    let text = words::messages::w();
+                    let hashes = [&other.wanted, &other.found];
+                    let details = fill(text.other_file_details, &[hashes[0], hashes[1]]);
+                    return self.refuse(text.wrong_file, details);
+                }
                 self.show_incoming();
-                let is_file = self.state.load.as_ref().is_some_and(|load| load.is_file);
-                self.state.load_done(sha256, self.services.as_mut());
-                self.take_labels(is_file);
+                self.session.load_done(sha256);
+                if let Some(load) = load {
+                    self.take_segmentations(&load.of);
+                }
             }
-            LoadEvent::Notice(text) => self.state.say(Gravity::Warning, text, ""),
+            LoadEvent::Notice(text) => self.session.notify(Gravity::Warning, text, ""),
             LoadEvent::Failed { message, details } => self.refuse(&message, details),
             LoadEvent::Cancelled => {
-                self.incoming = None;
-                self.state.load_ended();
-                self.state
-                    .say(Gravity::Info, words::said::w().loading_stopped, "");
+                self.drop_incoming();
+                self.session.load_ended();
+                self.session
+                    .notify(Gravity::Info, words::messages::w().loading_stopped, "");
             }
         }
     }
 
     /// Goes on with the segments that are being made, and shows them when they are there.
-    pub(super) fn advance_tissue(&mut self, ui: &egui::Ui) {
+    pub(crate) fn advance_tissue(&mut self, ui: &egui::Ui) {
         let is_dragging = ui.input(|i| i.pointer.any_down());
-        self.look_after_labels();
-        let made = self.tissue.advance(self.state.shown(), is_dragging);
-        if self.tissue.is_behind(self.state.shown()) {
+        self.look_after_segments();
+        let shown = self.session.shown();
+        let made = self.tissue.advance(&mut self.assets, shown, is_dragging);
+        if self.tissue.is_behind(&self.assets, self.session.shown()) {
             ui.ctx().request_repaint();
         }
-        self.state.tissues.progress = self.tissue.progress();
+        self.session.tissues.progress = self.tissue.progress();
         let Some(made) = made else {
             return;
         };
-        self.state.tissues.counts.clone_from(&self.tissue.counts);
+        self.session.tissues.counts.clone_from(&self.tissue.counts);
         for notice in made.notices {
-            self.state.say(Gravity::Warning, notice, "");
+            self.session.notify(Gravity::Warning, notice, "");
         }
-        let segments = made.labels.as_ref().map_or(&[][..], |l| &l.segments);
-        self.state.view.set_segments(segments);
-        self.state.revision += 1;
+        let segments = made.segmentation.as_ref().map_or(&[][..], |l| &l.segments);
+        self.session.view.set_segments(segments);
+        self.session.revision += 1;
         let shown = self
             .picture
             .as_mut()
-            .map(|picture| picture.set_labels(made.labels));
+            .map(|picture| picture.set_segmentation(made.segmentation));
         if let Some(Err(error)) = shown {
-            let text = words::said::w().does_not_fit;
-            self.state.say(Gravity::Error, text, error.to_string());
+            let text = words::messages::w().does_not_fit;
+            self.session.notify(Gravity::Error, text, error.to_string());
         }
     }
 
-    /// Tells the shell which label volumes the document names, and the reader which of them nobody has opened.
-    fn look_after_labels(&mut self) {
-        let illustration = self.state.illustration();
-        let named = &illustration.segments;
+    /// Asks for label volumes that the document names by an address, tells the shell which it names by a hash, and the
+    /// reader which of those nobody has opened.
+    fn look_after_segments(&mut self) {
+        let illustration = self.session.illustration();
+        let named = illustration.segments.clone();
         let is_file = !matches!(illustration.subject, SubjectRef::Builtin { .. });
-        let expected = LabelsExpected {
+        let expected = SegmentationsExpected {
             sha256: named.iter().filter_map(|s| s.sha256.clone()).collect(),
-            has_scan: is_file && self.state.view.subject.is_some(),
+            has_scan: is_file && self.session.view.subject.is_some(),
         };
         if expected != self.labels_expected {
-            self.services.expect_labels(&expected);
+            self.services.expect_segmentations(&expected);
             self.labels_expected = expected;
         }
-        let is_here = self.state.load.is_none() && self.state.view.subject.is_some();
-        if is_here && self.has_said_labels != *named {
-            self.has_said_labels.clone_from(named);
+        let is_here = self.session.load.is_none() && self.session.view.subject.is_some();
+        if !is_here {
+            return;
+        }
+        let mut missing = self.assets.missing(self.session.shown());
+        missing.retain(|want| want.role == Role::Segments);
+        if let Some(want) = missing.iter().find(|want| self.can_be_fetched(want)) {
+            let want = want.clone();
+            let ticket = self.services.load(&want);
+            self.session.segments_started(ticket, want);
+        } else if self.has_said_labels != named {
+            self.has_said_labels = named;
             let text = words::tissue::w().labels_wanted;
-            if is_file && self.tissue.lacks_files(self.state.illustration()) {
+            if is_file && missing.iter().any(|want| want.sha256().is_some()) {
                 // It stays until it is not true any more.
-                self.state.say(Gravity::Error, text, "");
+                self.session.notify(Gravity::Error, text, "");
             } else {
-                self.state.unsay(text);
+                self.session.notices.withdraw(text);
             }
         }
     }
 
-    /// Label volumes that came with the load that is done: the document names them from now on.
-    fn take_labels(&mut self, is_file: bool) {
-        for (sha256, labels) in std::mem::take(&mut self.incoming_labels) {
-            let names: Vec<&str> = labels.segments.iter().map(|s| s.name.as_str()).collect();
-            let names = names.join(", ");
-            self.tissue.add_file(sha256.clone(), labels);
+    fn can_be_fetched(&self, want: &Want) -> bool {
+        want.role == Role::Segments && want.src().is_some() && !self.assets.is_refused(want)
+    }
+
+    /// True while a label volume is still to be asked for.
+    pub(crate) fn wants_segments(&self) -> bool {
+        let missing = self.assets.missing(self.session.shown());
+        self.session.view.subject.is_some() && missing.iter().any(|want| self.can_be_fetched(want))
+    }
+
+    /// Takes the label volumes that came with the load that is done. The document names those that the reader opened
+    /// from now on.
+    fn take_segmentations(&mut self, of: &LoadOf) {
+        for file in std::mem::take(&mut self.incoming_labels) {
+            if let LoadOf::Segments(want) = of {
+                if let Err(other) = self.assets.take(want, Data::Segments(file)) {
+                    self.session.notify_other_file(&other);
+                }
+                continue;
+            }
+            let segments = file.segmentation.segments.iter();
+            let names: Vec<&str> = segments.map(|s| s.name.as_str()).collect();
+            let (names, sha256) = (names.join(", "), file.sha256.clone());
+            self.assets.give(Data::Segments(file));
             let is_new = |named: &SegmentsRef| named.sha256.as_ref() != Some(&sha256);
-            if is_file && self.state.illustration().segments.iter().all(is_new) {
-                self.state.add_label_file(&sha256);
+            let is_file = matches!(of, LoadOf::File | LoadOf::Instead);
+            if is_file && self.session.illustration().segments.iter().all(is_new) {
+                self.session.add_label_file(&sha256);
                 let text = fill(words::tissue::w().labels_taken, &[&names]);
-                self.state.say(Gravity::Success, text, "");
+                self.session.notify(Gravity::Success, text, "");
             }
         }
         self.has_said_labels.clear();
     }
 
-    /// There will be no volume of this load.
-    fn refuse(&mut self, message: &str, details: String) {
+    /// Throws away what has come of a load that ends. A label volume is not asked for again.
+    fn drop_incoming(&mut self) {
         self.incoming = None;
         self.incoming_labels.clear();
-        if let Some(load) = &self.state.load {
-            self.services.cancel_load(load.ticket);
+        if let Some(LoadOf::Segments(want)) = self.session.load.as_ref().map(|load| &load.of) {
+            self.assets.refuse(want);
         }
-        self.state.load_ended();
-        self.state.say(Gravity::Error, message, details);
-        self.state.load_failure = self.state.said.last().map(|said| said.id);
+    }
+
+    /// There will be no volume of this load.
+    fn refuse(&mut self, message: &str, details: String) {
+        self.drop_incoming();
+        self.session.refuse_load(message, details);
     }
 
     /// What has come is whole: it is shown.
@@ -239,21 +272,22 @@ impl App {
             Ok(volume) => {
                 let histogram = self.statistics.histogram(volume.slope, volume.intercept);
                 self.transfer.set_histogram(histogram);
-                self.state.view.set_subject(&volume);
-                self.fields.set_subject(volume.grid);
+                self.session.set_subject(&volume);
                 let volume = Arc::new(volume);
-                let spacing = volume.grid.spacing_mm();
-                self.state.tissues.voxel_cm3 = spacing.element_product() / 1000.0;
-                self.tissue.set_volume(Arc::clone(&volume));
+                self.assets.give(Data::Subject {
+                    volume: Arc::clone(&volume),
+                    sha256: None,
+                });
+                self.tissue.restart();
                 let shown = self
                     .picture
                     .as_mut()
                     .map(|picture| picture.set_subject(volume));
                 if let Some(Err(error)) = shown {
-                    self.refuse(words::said::w().does_not_fit, error.to_string());
+                    self.refuse(words::messages::w().does_not_fit, error.to_string());
                 }
             }
-            Err(error) => self.refuse(words::said::w().incomplete, error.to_string()),
+            Err(error) => self.refuse(words::messages::w().incomplete, error.to_string()),
         }
     }
 }

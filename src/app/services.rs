@@ -1,33 +1,10 @@
-//! What the app asks of its surroundings, and what comes back. The shell implements [`Services`] natively and on the page;
-//! tests have a false one. Nothing here blocks and nothing here knows a file, a thread or an address bar.
+//! What the app asks of its surroundings, and what comes back. The shell implements [`Services`] natively and on the
+//! page; tests have a false one. Nothing here blocks and nothing here knows a file, a thread or an address bar.
 
-use crate::data::{LabelVolume, Volume, Voxels};
-use crate::document::{FieldRef, RawVoxels, SubjectRef};
+use crate::app::session::{LinkChange, SaveFile, Ticket};
+use crate::assets::{LoadEvent, SegmentationsExpected, Want};
+use crate::document::RawVoxels;
 use crate::load::FieldFile;
-
-/// Names one load, so that what still arrives from an earlier one is dropped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Ticket(pub u64);
-
-/// Bytes on their way out.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SaveFile {
-    /// Proposed file name with its ending.
-    pub name: String,
-    /// Media type: `image/png`.
-    pub mime: &'static str,
-    /// What is in it.
-    pub bytes: Vec<u8>,
-}
-
-/// How the address bar takes a new link.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LinkChange {
-    /// In place: while something is dragged, and for the camera.
-    Replace,
-    /// As a new entry of the history.
-    Push,
-}
 
 /// Calls return at once; results come as [`Message`]s by [`Services::poll`].
 pub trait Services {
@@ -37,11 +14,12 @@ pub trait Services {
     fn open_file(&mut self);
     /// Opens what was dropped on the window: a scan or a document.
     fn drop_file(&mut self, file: egui::DroppedFileHandle);
-    /// Starts loading a subject and ends any load before it.
-    fn load_subject(&mut self, subject: &SubjectRef) -> Ticket;
-    /// Which label volumes the document names, by the hash of their files, and whether the scan that they would go with is shown: then
-    /// files that are opened are taken as segments of it where they are labels.
-    fn expect_labels(&mut self, expected: &LabelsExpected) {
+    /// Starts to load a subject or a label volume, and ends any load before it. What comes is not yet compared with the
+    /// hash that the document gives.
+    fn load(&mut self, want: &Want) -> Ticket;
+    /// Which label volumes the document names, by the hash of their files, and whether the scan that they would go with
+    /// is shown: then files that are opened are taken as segments of it where they are labels.
+    fn expect_segmentations(&mut self, expected: &SegmentationsExpected) {
         _ = expected;
     }
     /// The reader agreed to fetch from the host that [`Message::AskHost`] named.
@@ -49,8 +27,8 @@ pub trait Services {
     /// How the voxels lie in the file that [`LoadEvent::AskRaw`] asked about; its load goes on under the same ticket.
     fn answer_raw(&mut self, ticket: Ticket, raw: &RawVoxels);
     /// Reads a displacement field; [`Message::Field`] follows.
-    fn load_field(&mut self, field: &FieldRef) {
-        _ = field;
+    fn load_field(&mut self, want: &Want) {
+        _ = want;
     }
     /// Stops a load; [`LoadEvent::Cancelled`] follows.
     fn cancel_load(&mut self, ticket: Ticket);
@@ -81,8 +59,8 @@ pub trait Services {
     /// What was kept.
     fn stored(&self, key: &str) -> Option<String>;
 
-    /// Says a line to whoever cannot see the picture, where the surroundings have a way: a page has no accessibility tree
-    /// of the app's own.
+    /// Says a line to whoever cannot see the picture, where the surroundings have a way: a page has no accessibility
+    /// tree of the app's own.
     fn announce(&mut self, text: &str) {
         _ = text;
     }
@@ -103,19 +81,19 @@ pub enum Message {
     },
     /// A displacement field was read, or why not.
     Field {
-        /// [`FieldRef::key`] of the one that was asked for; `None` if the user opened it.
-        key: Option<String>,
+        /// What it was asked for; `None` if the user opened it.
+        want: Option<Want>,
         /// The field, or why there is none, in plain words.
         outcome: Box<Result<FieldFile, String>>,
     },
     /// Progress of a load.
     Load {
-        /// Which.
+        /// The load that goes on.
         ticket: Ticket,
         /// What happened.
         event: LoadEvent,
     },
-    /// A subject lies on another host than the page: fetch it?
+    /// A file lies on another host than the page: fetch it?
     AskHost {
         /// The load that waits.
         ticket: Ticket,
@@ -126,7 +104,8 @@ pub enum Message {
     Copied(Result<(), String>),
     /// What is on the clipboard; `None` where it may not be read.
     Pasted(Option<String>),
-    /// The name under which the file was saved, or why it was not; an empty reason means that the user thought better of it.
+    /// The name under which the file was saved, or why it was not; an empty reason means that the user thought better
+    /// of it.
     Saved(Result<String, String>),
     /// A shader file was changed; only debug builds ever say so.
     #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
@@ -138,74 +117,4 @@ pub enum Message {
         /// More, shown on demand; may be empty.
         details: String,
     },
-}
-
-/// See [`Services::expect_labels`].
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct LabelsExpected {
-    /// SHA-256 of files, lower-case hex.
-    pub sha256: Vec<String>,
-    /// A scan from a file is shown.
-    pub has_scan: bool,
-}
-
-/// What happens to a load, in this order; `Begin` to `Coarse` may repeat, each time finer.
-#[derive(Debug)]
-pub enum LoadEvent {
-    /// A volume without its voxels; see `VolumeSink::begin`.
-    Begin(Box<Volume>),
-    /// Scalars that follow the ones before.
-    Scalars(Voxels),
-    /// Labels that follow the ones before.
-    Labels(Vec<u8>),
-    /// How far it is.
-    Progress {
-        /// 0 to 1.
-        fraction: f32,
-        /// `Reading`, `Generating`.
-        what: String,
-    },
-    /// What has come makes a whole coarse volume: show it. A finer `Begin` follows.
-    Coarse,
-    /// A label volume that was opened beside the scan, or for the one that is shown. Told before the scan's `Begin`.
-    LabelFile {
-        /// Of its bytes, lower-case hex.
-        sha256: String,
-        /// All of it.
-        labels: Box<LabelVolume>,
-    },
-    /// The file holds several volumes, of which the wanted one comes. Told before `Done`.
-    Frames {
-        /// How many.
-        count: u64,
-    },
-    /// The file does not say how its voxels lie. The load waits for [`Services::answer_raw`].
-    AskRaw(RawQuestion),
-    /// The volume is whole.
-    Done {
-        /// Of the file's bytes, lower-case hex; `None` for a built-in subject.
-        sha256: Option<String>,
-    },
-    /// Something was not as expected but the volume is usable.
-    Notice(String),
-    /// There will be no volume.
-    Failed {
-        /// One line in plain words.
-        message: String,
-        /// More, shown on demand; may be empty.
-        details: String,
-    },
-    /// Stopped by the user.
-    Cancelled,
-}
-
-/// What is known of a file that may hold bare voxels.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RawQuestion {
-    /// Its length in bytes, if that is known.
-    pub byte_len: Option<u64>,
-    /// It is packed by gzip, so that its length says nothing.
-    pub is_packed: bool,
-    /// A guess from its name and length.
-    pub guess: Option<RawVoxels>,
 }

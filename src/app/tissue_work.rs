@@ -1,27 +1,25 @@
-//! The segments of the subject in the making: what its label volumes bring and what the document's recipes find in its voxels, computed
-//! between frames, so that nothing ever waits for it.
+//! The segments of the subject in the making: what its label volumes bring and what the document's recipes find in its
+//! voxels, computed between frames, so that nothing ever waits for it.
 //!
-//! On the processor and not on the GPU: parts that hang together are found in one pass over the voxels there, which a GPU needs hundreds of
-//! rounds for, and the result is the same bit for bit on every device. A thread would need the voxels a second time in the page.
+//! On the processor and not on the GPU: parts that hang together are found in one pass over the voxels there, which a
+//! GPU needs hundreds of rounds for, and the result is the same bit for bit on every device. A thread would need the
+//! voxels a second time in the page.
 
 use std::cell::Cell;
 use std::rc::Rc;
-use std::sync::Arc;
 
-use super::picture::{Pending, poll_once};
-use crate::data::{LabelVolume, Segmented, Turns, Volume, segment};
-use crate::document::{FeatureRecipe, Illustration, SegmentsRef};
+use crate::app::picture::pending::{Pending, poll_once};
+use crate::assets::Assets;
+use crate::data::{Segmented, Turns, segment};
+use crate::document::{Illustration, Recipe, SegmentsRef};
 use crate::render::Clock;
 
 /// Seconds of each frame that go into it.
 const SHARE: f64 = 0.008;
 
-/// See the module.
+/// The work under way, and what the last result was made of.
 pub(crate) struct TissueWork {
     clock: Clock,
-    volume: Option<Arc<Volume>>,
-    /// Label volumes that were opened, with the hash of their files. They stay, so that undo and redo have them.
-    known: Vec<(String, Arc<LabelVolume>)>,
     /// What the segments that are shown were made of.
     made_of: Option<Wanted>,
     job: Option<Job>,
@@ -33,11 +31,22 @@ pub(crate) struct TissueWork {
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Wanted {
     segments: Vec<SegmentsRef>,
-    recipes: Vec<FeatureRecipe>,
+    recipes: Vec<Recipe>,
+}
+
+impl Wanted {
+    fn of(assets: &Assets, illustration: &Illustration) -> Self {
+        Self {
+            segments: assets.segments_here(illustration),
+            recipes: illustration.recipes.clone(),
+        }
+    }
 }
 
 struct Job {
     wanted: Wanted,
+    /// Of the author's names.
+    notices: Vec<String>,
     until: Rc<Cell<f64>>,
     turns: Turns,
     work: Pending<Segmented>,
@@ -47,8 +56,6 @@ impl TissueWork {
     pub(crate) fn new(clock: Clock) -> Self {
         Self {
             clock,
-            volume: None,
-            known: Vec::new(),
             made_of: None,
             job: None,
             counts: Vec::new(),
@@ -56,47 +63,16 @@ impl TissueWork {
     }
 
     /// Another volume is shown, with the segments that it came with.
-    pub(crate) fn set_volume(&mut self, volume: Arc<Volume>) {
-        self.volume = Some(volume);
+    pub(crate) fn restart(&mut self) {
         self.job = None;
         self.made_of = Some(Wanted::default());
         self.counts.clear();
     }
 
-    /// Takes a label volume that was opened.
-    pub(crate) fn add_file(&mut self, sha256: String, labels: LabelVolume) {
-        if self.known.iter().all(|(hash, _)| *hash != sha256) {
-            self.known.push((sha256, Arc::new(labels)));
-        }
-    }
-
-    fn file(&self, named: &SegmentsRef) -> Option<&Arc<LabelVolume>> {
-        let wanted = named.sha256.as_ref()?;
-        let found = self.known.iter().find(|(hash, _)| hash == wanted);
-        found.map(|(_, labels)| labels)
-    }
-
-    /// True if the document names a label volume that nobody has opened.
-    pub(crate) fn lacks_files(&self, illustration: &Illustration) -> bool {
-        let is_file = |named: &&SegmentsRef| named.sha256.is_some() || named.src.is_some();
-        let mut named = illustration.segments.iter().filter(is_file);
-        named.any(|named| self.file(named).is_none())
-    }
-
-    fn wanted(&self, illustration: &Illustration) -> Wanted {
-        let is_here = |named: &&SegmentsRef| {
-            self.file(named).is_some() || (named.sha256.is_none() && named.src.is_none())
-        };
-        let segments = illustration.segments.iter().filter(is_here);
-        Wanted {
-            segments: segments.cloned().collect(),
-            recipes: illustration.features.clone(),
-        }
-    }
-
     /// True while the segments that are shown are not yet those that the document describes.
-    pub(crate) fn is_behind(&self, illustration: &Illustration) -> bool {
-        self.volume.is_some() && self.made_of.as_ref() != Some(&self.wanted(illustration))
+    pub(crate) fn is_behind(&self, assets: &Assets, illustration: &Illustration) -> bool {
+        assets.volume().is_some()
+            && self.made_of.as_ref() != Some(&Wanted::of(assets, illustration))
     }
 
     /// How far the work under way is, 0 to 1.
@@ -104,15 +80,16 @@ impl TissueWork {
         self.job.as_ref().map(|job| job.turns.progress())
     }
 
-    /// Goes on for its share of a frame. A result is to be shown. `is_dragging`: more changes are about to come; what has begun is then
-    /// ended first, so that something is seen on the way.
+    /// Goes on for its share of a frame. A result is to be shown. `is_dragging`: more changes are about to come; what
+    /// has begun is then ended first, so that something is seen on the way.
     pub(crate) fn advance(
         &mut self,
+        assets: &mut Assets,
         illustration: &Illustration,
         is_dragging: bool,
     ) -> Option<Segmented> {
-        let volume = Arc::clone(self.volume.as_ref()?);
-        let wanted = self.wanted(illustration);
+        assets.volume()?;
+        let wanted = Wanted::of(assets, illustration);
         if !is_dragging && self.job.as_ref().is_some_and(|job| job.wanted != wanted) {
             self.job = None;
         }
@@ -120,55 +97,45 @@ impl TissueWork {
             if self.made_of.as_ref() == Some(&wanted) {
                 return None;
             }
-            self.job = Some(self.start(volume, wanted));
+            self.job = self.start(assets, illustration, wanted);
         }
         let job = self.job.as_mut()?;
         job.until.set((self.clock)() + SHARE);
-        let made = poll_once(&mut job.work)?;
-        self.made_of = self.job.take().map(|job| job.wanted);
+        let mut made = poll_once(&mut job.work)?;
+        let job = self.job.take()?;
+        made.notices.splice(0..0, job.notices);
+        self.made_of = Some(job.wanted);
         self.counts.clone_from(&made.counts);
         Some(made)
     }
 
-    fn start(&self, mut volume: Arc<Volume>, wanted: Wanted) -> Job {
+    fn start(
+        &self,
+        assets: &mut Assets,
+        illustration: &Illustration,
+        wanted: Wanted,
+    ) -> Option<Job> {
         let (clock, until) = (self.clock, Rc::new(Cell::new(0.0)));
         let deadline = Rc::clone(&until);
         let turns = Turns::until(move || clock() > deadline.get());
-        let mut files = Vec::new();
-        for named in &wanted.segments {
-            match self.file(named) {
-                Some(labels) if named.names.is_empty() => files.push(Arc::clone(labels)),
-                Some(labels) => {
-                    let mut labels = LabelVolume::clone(labels);
-                    rename(&mut labels, named);
-                    files.push(Arc::new(labels));
-                }
-                // For the segments in the scan's own file.
-                None if volume.labels.is_some() => {
-                    if let Some(labels) = &mut Arc::make_mut(&mut volume).labels {
-                        rename(labels, named);
-                    }
-                }
-                None => {}
-            }
+        let (resources, mut notices) = assets.segment_resources(illustration);
+        if self.made_of.as_ref().map(|made| &made.segments) == Some(&wanted.segments) {
+            // They were said when the names came.
+            notices.clear();
         }
-        let work = segment(volume, files, wanted.recipes.clone(), turns.clone());
-        Job {
+        let files = resources.segmentations;
+        let work = segment(
+            resources.volume?,
+            files,
+            wanted.recipes.clone(),
+            turns.clone(),
+        );
+        Some(Job {
             wanted,
+            notices,
             until,
             turns,
             work: Box::pin(work),
-        }
-    }
-}
-
-/// The author's names go before those of the file.
-fn rename(labels: &mut LabelVolume, named: &SegmentsRef) {
-    for (label, name) in &named.names {
-        for segment in &mut labels.segments {
-            if u32::from(segment.label) == *label {
-                segment.name.clone_from(name);
-            }
-        }
+        })
     }
 }

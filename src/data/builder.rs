@@ -91,7 +91,7 @@ impl<P: FnMut(f32) -> bool> VolumeBuilder<P> {
                 found: volume.voxels.len(),
             });
         }
-        if let Some(labels) = &volume.labels
+        if let Some(labels) = &volume.segmentation
             && labels.labels.len() != self.label_total
         {
             return Err(BuildError::Miscounted {
@@ -154,7 +154,7 @@ impl<P: FnMut(f32) -> bool> VolumeSink for VolumeBuilder<P> {
             ));
         }
         self.label_total = header
-            .labels
+            .segmentation
             .as_ref()
             .map_or(0, |labels| labels.grid.voxel_count());
         self.volume = Some(header.clone());
@@ -194,7 +194,7 @@ impl<P: FnMut(f32) -> bool> VolumeSink for VolumeBuilder<P> {
         let Some(labels) = self
             .volume
             .as_mut()
-            .and_then(|volume| volume.labels.as_mut())
+            .and_then(|volume| volume.segmentation.as_mut())
         else {
             self.failure = Some(BuildError::Nothing);
             return;

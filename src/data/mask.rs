@@ -1,7 +1,8 @@
 //! Sets of voxels, and what is done to them: parts that hang together, growing and shrinking by millimetres, smoothing.
 //!
-//! Everything here is the same bit for bit on every machine: whole numbers, or floats by additions, products and comparisons in a fixed
-//! order. It runs slice by slice and lets others have their turn in between ([`Turns`]); besides the set itself it holds a few slices.
+//! Everything here is the same bit for bit on every machine: whole numbers, or floats by additions, products and
+//! comparisons in a fixed order. It runs slice by slice and lets others have their turn in between ([`Turns`]);
+//! besides the set itself it holds a few slices.
 
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -278,8 +279,8 @@ impl Mask {
             .await;
     }
 
-    /// Adds every voxel whose centre is at most `reach` from that of one in the set, by plain distance; or, where `wanted` is 0, takes
-    /// away those as near to one outside the set. What lies beyond the grid is neither.
+    /// Adds every voxel whose centre is at most `reach` from that of one in the set, by plain distance; or, where
+    /// `wanted` is 0, takes away those as near to one outside the set. What lies beyond the grid is neither.
     ///
     /// The squared distance is found axis by axis (Saito and Toriwaki 1994); only slices within reach are held.
     pub async fn spread(&mut self, wanted: u8, spacing_mm: [f32; 3], reach_mm: f32, turns: &Turns) {
@@ -359,8 +360,8 @@ impl Mask {
         }
     }
 
-    /// Smooths the outline: the set's voxels as 1 and the others as 0, blurred by a Gaussian, and what is then at least one half. What
-    /// lies beyond the grid is as its nearest voxel.
+    /// Smooths the outline: the set's voxels as 1 and the others as 0, blurred by a Gaussian, and what is then at
+    /// least one half. What lies beyond the grid is as its nearest voxel.
     pub async fn smooth(&mut self, spacing_mm: [f32; 3], sigma_mm: f32, turns: &Turns) {
         let (width, length, slices) = (self.row_length(), self.slice_length(), self.slices());
         let kernels = spacing_mm.map(|spacing| kernel(sigma_mm / spacing.max(1e-6)));

@@ -359,7 +359,7 @@ impl VolumeSink for Reducer<'_> {
             self.reduction = Some(Reduction { from, to });
             header.grid = resized(&header.grid, to);
         }
-        if let Some(labels) = &mut header.labels {
+        if let Some(labels) = &mut header.segmentation {
             let (from, to) = (labels.grid.dims, dims_that_fit(&labels.grid, self.limits));
             if from != to {
                 self.labels = Some(LabelAxes::new(from, to));
@@ -403,7 +403,7 @@ impl VolumeSink for Reducer<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::{LabelVolume, VolumeBuilder};
+    use crate::data::{Segmentation, VolumeBuilder};
 
     fn header(dims: UVec3, spacing: DVec3, voxels: Voxels) -> Volume {
         Volume {
@@ -417,7 +417,7 @@ mod tests {
             slope: 1.0,
             intercept: 0.0,
             value_range: [0.0, 0.0],
-            labels: None,
+            segmentation: None,
         }
     }
 
@@ -458,8 +458,8 @@ mod tests {
                 for x in 0..8 {
                     let coarse = UVec3::new(x, y, z);
                     let fine = fine_from_coarse.transform_point3(coarse.as_dvec3());
-                    // The mean of a piecewise constant ramp over a fractional box is off by at most an eighth of a voxel
-                    // per axis.
+                    // The mean of a piecewise constant ramp over a fractional box is off by at most an eighth of a
+                    // voxel per axis.
                     let found = f64::from(reduced.value_at(coarse).expect("inside"));
                     let expected = value(fine.x, fine.y, fine.z);
                     assert!(
@@ -492,7 +492,7 @@ mod tests {
     #[test]
     fn labels_take_the_majority_and_sizes_fit() {
         let mut volume = header(UVec3::splat(4), DVec3::ONE, Voxels::U8(Vec::new()));
-        volume.labels = Some(LabelVolume {
+        volume.segmentation = Some(Segmentation {
             grid: volume.grid,
             labels: Vec::new(),
             segments: Vec::new(),
@@ -522,7 +522,7 @@ mod tests {
         let reduced = builder.finish().expect("all came");
         // Of equal shares 0 and 9, the one that is something.
         assert_eq!(
-            reduced.labels.expect("labels").labels,
+            reduced.segmentation.expect("labels").labels,
             [5, 9, 5, 9, 5, 9, 5, 9]
         );
     }

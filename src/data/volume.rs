@@ -1,3 +1,4 @@
+use super::frame::SubjectFrame;
 use crate::math::Aabb;
 use glam::{DAffine3, DVec3, UVec3, Vec3};
 
@@ -6,7 +7,8 @@ use glam::{DAffine3, DVec3, UVec3, Vec3};
 pub struct Grid {
     /// Voxels along each axis, none of them 0.
     pub dims: UVec3,
-    /// Takes a voxel index (centre of the first voxel at 0) to mm, RAS+. Any invertible affine: oblique, sheared, mirrored.
+    /// Takes a voxel index (centre of the first voxel at 0) to mm, RAS+. Any invertible affine: oblique, sheared,
+    /// mirrored.
     pub world_from_voxel: DAffine3,
 }
 
@@ -49,6 +51,18 @@ impl Grid {
     pub fn mm_per_unit(&self) -> f64 {
         let (min, max) = self.world_bounds();
         (max - min).max_element()
+    }
+
+    /// Where a volume on this grid lies, and how fine it is.
+    pub fn frame(&self) -> SubjectFrame {
+        let (min, max) = self.world_bounds();
+        let mm_per_unit = self.mm_per_unit();
+        SubjectFrame {
+            bounds: self.subject_bounds(),
+            mm_per_unit,
+            middle_mm: 0.5 * (min + max),
+            detail: (self.spacing_mm().min_element() / mm_per_unit) as f32,
+        }
     }
 
     /// Subject space (spec/templates.md, "Spaces") from voxel indices.
@@ -130,14 +144,14 @@ pub struct Segment {
 
 /// Which segment each voxel belongs to; 0 is none. On its own grid.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LabelVolume {
+pub struct Segmentation {
     /// Its grid; often but not always that of the scan.
     pub grid: Grid,
     /// One label per voxel, x fastest.
     pub labels: Vec<u8>,
-    /// Named segments, those of files in label order. A name may stand under several labels: where segments overlap, a label of its own
-    /// stands for the overlap, and is listed once for each of them, in
-    /// their order; the first gives the color.
+    /// Named segments, those of files in label order. A name may stand under several labels: where segments overlap,
+    /// a label of its own stands for the overlap, and is listed once for each of them, in their order; the first
+    /// gives the color.
     pub segments: Vec<Segment>,
 }
 
@@ -155,7 +169,7 @@ pub struct Volume {
     /// Smallest and largest finite value (slope and intercept applied); equal if the volume is constant.
     pub value_range: [f32; 2],
     /// Segments, where the subject has them.
-    pub labels: Option<LabelVolume>,
+    pub segmentation: Option<Segmentation>,
 }
 
 impl Volume {
@@ -176,8 +190,8 @@ impl Volume {
 /// Takes a volume in pieces, so that readers and generators never hold it twice: the native program collects the
 /// pieces, a browser's worker posts them to the page.
 pub trait VolumeSink {
-    /// Once, first: an empty volume with everything but voxels (their type given by the empty variant) and `value_range`.
-    /// The sink refuses what is too large by returning a message.
+    /// Once, first: an empty volume with everything but voxels (their type given by the empty variant) and
+    /// `value_range`. The sink refuses what is too large by returning a message.
     fn begin(&mut self, header: &Volume) -> Result<(), String>;
     /// Scalars that follow the ones given before, always of the type announced, in whole z slices.
     fn scalars(&mut self, next: Voxels);

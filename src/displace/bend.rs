@@ -1,5 +1,9 @@
-use super::facts::{Arc, Facts, Given, Grip, INF, Icon, Material, Reach, aabb, on_arc};
+use super::facts::{
+    Arc, Facts, Given, Grip, Group, INF, Icon, Material, Mirror, Reach, Shape, aabb, on_arc,
+};
+use super::spec::{TemplateSpec, number};
 use glam::{Vec2, Vec3};
+use std::f32::consts::{FRAC_PI_4, PI};
 
 /// The arc of a bend; `None` where it is not bent.
 fn arc(given: &Given) -> Option<Arc> {
@@ -19,12 +23,14 @@ fn arc(given: &Given) -> Option<Arc> {
 }
 
 impl Arc {
-    /// Where a point of the middle plane goes, at `along` from the start, `height` above (both metric); as metric (y, z).
+    /// Where a point of the middle plane goes, at `along` from the start, `height` above (both metric); as metric (y,
+    /// z).
     fn subject(&self, along: f32, height: f32) -> Vec2 {
         let radius = self.length / self.turn;
         let angle = (along / radius).clamp(0.0, self.turn);
         let past = along - angle * radius;
-        // `on_arc` measures from straight down and turns towards -u; here the arc starts at the top and turns towards +u.
+        // `on_arc` measures from straight down and turns towards -u; here the arc starts at the top and turns towards
+        // +u.
         let p = -on_arc(angle, radius + height) + Vec2::new(angle.cos(), -angle.sin()) * past;
         Vec2::new(
             self.start + p.x,
@@ -33,7 +39,7 @@ impl Arc {
     }
 
     /// Box of where the material of a box (template space, finite) is after bending, template space.
-    pub(super) fn bounds(&self, material: &crate::math::Aabb) -> crate::math::Aabb {
+    pub(crate) fn bounds(&self, material: &crate::math::Aabb) -> crate::math::Aabb {
         let radius = self.length / self.turn;
         let end = (material.max.y * self.size.y - self.start).max(self.length);
         let heights = [material.min.z, material.max.z].map(|z| self.side * (z - 0.5) * self.size.z);
@@ -59,8 +65,25 @@ impl Arc {
     }
 }
 
-/// Everything about bend but its formula. It is grabbed at the middle of its far end.
+/// All that is known about bend besides its formula. It is grabbed at the middle of its far end.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "bend",
+        summary: "Bend a bar that runs along y",
+        params: &[
+            number(
+                "angle",
+                "Towards -z, or +z if negative, radians",
+                FRAC_PI_4,
+                -PI,
+                PI,
+            ),
+            number("start", "Where along y the bend begins", 0.25, 0.0, 1.0),
+            number("end", "Where along y the bend ends", 0.75, 0.0, 1.0),
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         let Some(arc) = arc(given) else {
             return Reach::NONE;
@@ -95,4 +118,7 @@ pub(super) const FACTS: Facts = Facts {
         yaw_pitch_deg: [60.0, 25.0],
         ..Icon::PLAIN
     },
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::Bend, 0)),
+    shape: Shape::WHOLE,
 };

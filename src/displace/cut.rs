@@ -1,8 +1,22 @@
-use super::facts::{Facts, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{ParamKind, ParamSpec, TemplateSpec};
 use crate::math::Aabb;
 
-/// Everything about cut but its formula. It has no main parameter: it is moved and sized as a whole.
+/// All that is known about cut besides its formula. It has no main parameter: it is moved and sized as a whole.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "cut",
+        summary: "Remove material, move nothing",
+        params: &[ParamSpec {
+            name: "shape",
+            summary: "What is removed",
+            kind: ParamKind::Choice {
+                names: &["box", "sphere", "cylinder", "halfspace"],
+            },
+        }],
+        main_param: None,
+    },
+    holds_data: false,
     reach: |given| Reach {
         boxes: [
             if given.p[0] > 2.5 {
@@ -21,4 +35,7 @@ pub(super) const FACTS: Facts = Facts {
         size: [0.8, 0.8, 0.8],
         ..Icon::PLAIN
     },
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::Carve, 0)),
+    shape: Shape::CUBE,
 };

@@ -1,8 +1,20 @@
-use super::facts::{Facts, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 
-/// Everything about cutquad but its formula. It is grabbed at the wound's rim, on the top.
+/// All that is known about cutquad besides its formula. It is grabbed at the wound's rim, on the top.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "cutquad",
+        summary: "An incision along y with lips that bulge",
+        params: &[
+            number("amount", "Half opening at the top", 0.3, 0.0, 0.4),
+            number("length", "Half length of the incision", 0.45, 0.05, 0.5),
+            number("ripple", "Height of the bulging lips", 0.1, 0.0, 0.5),
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         let [amount, length, ripple, ..] = given.p;
         if amount == 0.0 {
@@ -24,4 +36,7 @@ pub(super) const FACTS: Facts = Facts {
         yaw_pitch_deg: [148.0, 38.0],
         ..Icon::PLAIN
     },
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::OpenUp, 3)),
+    shape: Shape::OPENING,
 };

@@ -1,4 +1,7 @@
-use crate::document::{MAX_PARAM_FLOATS, PlacedTemplate, TemplateData};
+//! The form in which the file of a kind says what is known of it.
+
+use super::points::ControlPoints;
+use super::spec::{MAX_PARAM_FLOATS, TemplateSpec};
 use crate::math::Aabb;
 use glam::{Vec2, Vec3};
 
@@ -8,11 +11,13 @@ pub(super) const INF: f32 = f32::INFINITY;
 /// Where a template changes anything, template space. Conservative: outside of both boxes source = q and A ≥ 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// Two boxes, since a bed and its flap, or the two sides of a bend, lie apart. Sides may be infinite; either may be empty.
+    /// Two boxes, since a bed and its flap, or the two sides of a bend, lie apart. Sides may be infinite; either may be
+    /// empty.
     pub boxes: [Aabb; 2],
     /// Where moved material can be.
     pub material: Material,
-    /// Half side of the largest box (template units) in which differences across the box still tell how the map changes in it.
+    /// Half side of the largest box (template units) in which differences across the box still tell how the map changes
+    /// in it.
     pub detail: f32,
     /// True if the map jumps at a face of the first box, where it meets what is at rest.
     pub is_torn: bool,
@@ -105,63 +110,142 @@ pub(super) const fn aabb(min: [f32; 3], max: [f32; 3]) -> Aabb {
     }
 }
 
-/// Size and parameters of one placed template as numbers.
+/// One template as its kind sees it: no place in a subject, no name, numbers in the order of the parameters.
 #[derive(Clone, Debug)]
-pub(super) struct Given {
-    /// Subject units.
-    pub(super) size: Vec3,
-    /// As packed for the GPU.
-    pub(super) p: [f32; MAX_PARAM_FLOATS],
-    /// What is no number.
-    pub(super) data: TemplateData,
+pub struct Given {
+    /// Sides of its box, subject units; along a curve, of the box laid along it.
+    pub size: Vec3,
+    /// Parameters as packed for the GPU.
+    pub p: [f32; MAX_PARAM_FLOATS],
+    /// The control points of an `rbf`.
+    pub points: Option<ControlPoints>,
+    /// The samples of a `field`, once they have been read.
+    pub samples: Option<Samples>,
 }
 
-impl Given {
-    pub(super) fn new(template: &PlacedTemplate) -> Self {
-        let mut floats = Vec::with_capacity(MAX_PARAM_FLOATS);
-        template.params.iter().for_each(|v| v.pack(&mut floats));
-        floats.resize(MAX_PARAM_FLOATS, 0.0);
-        Self {
-            size: template
-                .bent()
-                .map_or(template.placement.size, |bent| bent.size()),
-            p: std::array::from_fn(|i| floats[i]),
-            data: template.data.clone(),
-        }
-    }
+/// What bounds the samples of a `field`.
+#[derive(Clone, Copy, Debug)]
+pub struct Samples {
+    /// Samples along the axis that has most.
+    pub most: u32,
+    /// Least and greatest displacement along each axis, template space.
+    pub shift: [Vec3; 2],
 }
 
-/// What is known about a kind besides its formula.
-pub(super) struct Facts {
+/// All that is known about a kind besides its formula.
+#[derive(Debug)]
+pub struct Facts {
+    /// Name, meaning and parameters.
+    pub spec: TemplateSpec,
+    /// True if its parameters do not say all: it holds control points or a file.
+    pub holds_data: bool,
     /// What it reaches.
-    pub(super) reach: fn(&Given) -> Reach,
+    pub reach: fn(&Given) -> Reach,
     /// Where it is grabbed.
-    pub(super) grip: Grip,
+    pub grip: Grip,
     /// How its icon is drawn.
-    pub(super) icon: Icon,
+    pub icon: Icon,
+    /// How its mirror image is made.
+    pub mirror: Mirror,
+    /// Its group in the catalogue and its place in the group, from 0; nothing if it is not offered there.
+    pub catalogue: Option<(Group, u32)>,
+    /// Proportions of a new one.
+    pub shape: Shape,
+}
+
+/// How the mirror image of a template is made: one axis of its cube is reversed, and parameters that have a hand take
+/// the other.
+#[derive(Debug)]
+pub struct Mirror {
+    /// Index of the axis of its cube about whose middle plane the kind is symmetric, but for `handed`.
+    pub axis: usize,
+    /// Names of parameters that have a hand. A number changes its sign, a vector its component along `axis`, a rotation
+    /// is seen in the mirror.
+    pub handed: &'static [&'static str],
+}
+
+impl Mirror {
+    /// Symmetric in x.
+    pub(super) const ACROSS_X: Self = Self {
+        axis: 0,
+        handed: &[],
+    };
+    /// Begins at its x = 0 edge or goes off along x; symmetric in y.
+    pub(super) const ACROSS_Y: Self = Self {
+        axis: 1,
+        handed: &[],
+    };
+}
+
+/// Groups in which the catalogue is shown: what one wants to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// Open something up.
+    OpenUp,
+    /// Take something apart.
+    TakeApart,
+    /// Carve and shape.
+    Carve,
+    /// Bend and twist.
+    Bend,
+}
+
+/// Proportions of a new template that is laid on a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    /// Sides of its box, in parts of the sensible side.
+    pub size: [f32; 3],
+    /// Part of its height that stands above the surface, 0 to 1.
+    pub above: f32,
+}
+
+impl Shape {
+    /// A layer, wide and flat: the top just over the skin, so that on a curved surface the layer still reaches it at
+    /// the edges.
+    pub(super) const LAYER: Self = Self {
+        size: [1.0, 0.8, 0.6],
+        above: 0.06,
+    };
+    /// An opening, as deep as wide, the top over the skin.
+    pub(super) const OPENING: Self = Self {
+        size: [1.0, 1.0, 0.8],
+        above: 0.15,
+    };
+    /// A cube about the place.
+    pub(super) const CUBE: Self = Self {
+        size: [1.0; 3],
+        above: 0.5,
+    };
+    /// A cube that holds the whole of what turns or bends.
+    pub(super) const WHOLE: Self = Self {
+        size: [1.5; 3],
+        above: 0.5,
+    };
 }
 
 /// Where a template is grabbed, template space.
-pub(super) enum Grip {
+#[derive(Debug)]
+pub enum Grip {
     /// Nowhere: it has no main parameter.
     None,
-    /// At the point that the main number puts there. The second number is how far, at most, one drag may take the value from where it
-    /// is (angles that come round to the same place).
+    /// At the point that the main number puts there. The second number is how far, at most, one drag may take the value
+    /// from where it is (angles that come round to the same place).
     Number(fn(&Given) -> Vec3, f32),
     /// At the middle of the cube plus the main vector.
     Vector,
 }
 
 /// How an icon is drawn: on a cube of one subject unit.
-pub(super) struct Icon {
+#[derive(Debug)]
+pub struct Icon {
     /// Centre of the template's box.
-    pub(super) at: [f32; 3],
+    pub at: [f32; 3],
     /// Its size.
-    pub(super) size: [f32; 3],
+    pub size: [f32; 3],
     /// Parameters that differ from their defaults.
-    pub(super) params: &'static [(&'static str, f32)],
+    pub params: &'static [(&'static str, f32)],
     /// Camera: turned about z from the front, and raised, degrees.
-    pub(super) yaw_pitch_deg: [f32; 2],
+    pub yaw_pitch_deg: [f32; 2],
 }
 
 impl Icon {
@@ -179,8 +263,8 @@ pub(super) fn on_arc(angle: f32, across: f32) -> Vec2 {
     Vec2::new(-across * angle.sin(), -across * angle.cos())
 }
 
-/// Box (in the plane of the arc, relative to its centre) of a ring sector: angles 0 to `turn`, distances `inner` to `outer`, and of the
-/// straight part of length `tail` that continues it.
+/// Box (in the plane of the arc, relative to its centre) of a ring sector: angles 0 to `turn`, distances `inner` to
+/// `outer`, and of the straight part of length `tail` that continues it.
 pub(super) fn sector(turn: f32, inner: f32, outer: f32, tail: f32) -> (Vec2, Vec2) {
     use std::f32::consts::FRAC_PI_2;
     let (mut min, mut max) = (Vec2::INFINITY, Vec2::NEG_INFINITY);

@@ -1,6 +1,8 @@
-use super::facts::{Facts, Given, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Given, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{TemplateSpec, number};
 use crate::math::Aabb;
 use glam::Vec3;
+use std::f32::consts::{FRAC_PI_2, PI};
 
 /// Where a point of the closed door (template space) is when it is open.
 fn opened(given: &Given, q: Vec3) -> Vec3 {
@@ -13,8 +15,24 @@ fn opened(given: &Given, q: Vec3) -> Vec3 {
     )
 }
 
-/// Everything about flap but its formula. It is grabbed at the middle of its free edge.
+/// All that is known about flap besides its formula. It is grabbed at the middle of its free edge.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "flap",
+        summary: "A door that opens about its x = 0, z = 1 edge",
+        params: &[
+            number("angle", "How far it is open, radians", FRAC_PI_2, 0.0, PI),
+            number(
+                "depth",
+                "Thickness of the door under the top, fraction of z",
+                0.3,
+                0.01,
+                1.0,
+            ),
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         if given.p[0] <= 0.0 {
             return Reach::NONE;
@@ -30,4 +48,7 @@ pub(super) const FACTS: Facts = Facts {
         params: &[("angle", 1.9), ("depth", 0.2)],
         yaw_pitch_deg: [212.0, 32.0],
     },
+    mirror: Mirror::ACROSS_Y,
+    catalogue: Some((Group::OpenUp, 1)),
+    shape: Shape::LAYER,
 };

@@ -1,8 +1,25 @@
-use super::facts::{Facts, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 
-/// Everything about hole but its formula. It is grabbed at its rim, on the top.
+/// All that is known about hole besides its formula. It is grabbed at its rim, on the top.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "hole",
+        summary: "Push a round opening aside, along z",
+        params: &[
+            number("amount", "Radius at the top", 0.25, 0.0, 0.45),
+            number(
+                "taper",
+                "Radius at the bottom as a fraction of it",
+                1.0,
+                0.0,
+                1.0,
+            ),
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         let amount = given.p[0];
         if amount == 0.0 {
@@ -17,4 +34,7 @@ pub(super) const FACTS: Facts = Facts {
         yaw_pitch_deg: [148.0, 40.0],
         ..Icon::PLAIN
     },
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::OpenUp, 5)),
+    shape: Shape::OPENING,
 };

@@ -1,10 +1,18 @@
-use super::facts::{Facts, Grip, INF, Icon, Reach};
+use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape};
+use super::spec::{TemplateSpec, number};
 use crate::math::Aabb;
 use glam::Vec3;
 
-/// Everything about lens but its formula. Nothing in the picture is where its strength is, so it is a slider along x, from the middle
-/// (0) to the side of the box (0.9).
+/// All that is known about lens besides its formula. Nothing in the picture is where its strength is, so it is a slider
+/// along x, from the middle (0) to the side of the box (0.9).
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "lens",
+        summary: "Magnify the middle of the box",
+        params: &[number("strength", "How much", 0.5, 0.0, 0.9)],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         if given.p[0] == 0.0 {
             return Reach::NONE;
@@ -22,4 +30,7 @@ pub(super) const FACTS: Facts = Facts {
         params: &[("strength", 0.75)],
         ..Icon::PLAIN
     },
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::Carve, 5)),
+    shape: Shape::CUBE,
 };

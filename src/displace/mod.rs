@@ -1,94 +1,76 @@
-//! Layer 3: what the program knows of each template besides its formula (which is WGSL, `shaders/displace/`): what it reaches, where
-//! material can go, where it is grabbed, and how its icon is drawn. One file per kind, by the same stem as its shader.
+//! Layer 1: the kinds of templates, and all that is known of each besides its formula (which is WGSL,
+//! `shaders/displace/`): its parameters, what it reaches, where material can go, where it is grabbed, its icon, its
+//! mirror image, its place in the catalogue and its proportions. One file per kind, by the same stem as its shader.
+//! Nothing here knows a document: what a template does in its place in a subject is in [`placed`](crate::placed).
 //!
-//! ```
-//! use fabrica::displace;
-//! use fabrica::document::TemplateKind;
+//! # Adding a kind
 //!
-//! // The icon's template is a placed peel; grab its hinge and pull it on.
-//! let (mut peel, _camera) = displace::icon(TemplateKind::Peel);
-//! let grip = displace::handle(&peel).expect("a peel is grabbed by its hinge");
-//! let value = displace::dragged(&peel, grip.at + grip.along.expect("along x") * 0.1).expect("a number");
-//! displace::set_main(&mut peel, value);
-//! assert!(displace::handle(&peel).expect("still").at.x > grip.at.x + 0.09);
-//! ```
+//! A kind has five places. Say that a `swirl` is wanted, which turns the middle of its box:
+//!
+//! 1. One line in `kind.rs`, at the end, with the next number: `Swirl = 21 in swirl`. The compiler and the tests ask
+//!    for the rest.
+//! 2. `displace/swirl.rs`: its [`Facts`]. A smooth kind that moves material within its box by no more than its
+//!    parameter is short:
+//!
+//!    ```ignore
+//!    pub(super) const FACTS: Facts = Facts {
+//!        spec: TemplateSpec {
+//!            name: "swirl",
+//!            summary: "Turn the middle of the box about z",
+//!            params: &[number("angle", "Turn of the middle, radians", 1.0, -PI, PI)],
+//!            main_param: Some(0),
+//!        },
+//!        holds_data: false,
+//!        reach: |given| match given.p[0] {
+//!            0.0 => Reach::NONE,
+//!            _ => Reach::shifted(Aabb::UNIT, -Vec3::ONE, Vec3::ONE).with_detail(0.1),
+//!        },
+//!        grip: Grip::Number(|given| Vec3::new(0.75, 0.5 + 0.25 * given.p[0].sin(), 0.5), INF),
+//!        icon: Icon::PLAIN,
+//!        mirror: Mirror { handed: &["angle"], ..Mirror::ACROSS_X },
+//!        catalogue: Some((Group::Bend, 3)),
+//!        shape: Shape::WHOLE,
+//!    };
+//!    ```
+//! 3. `shaders/displace/swirl.wgsl`: `displace_swirl(q, size, p0, p1)`, with its source and a diagram of its unit cube.
+//!    It is embedded in `render/device/programs.rs` and called in `shaders/displace/compose.wgsl` under `KIND_SWIRL`;
+//!    that name, its bit `DRAWN_SWIRL` and its main parameter are generated ([`shader_constants`]).
+//! 4. Its words in `app/words/kinds.rs`, in every language.
+//! 5. Its formula once more, in plain f64, in `tests/reference`.
+//!
+//! What shows that a place is forgotten: without 2 and 4 nothing compiles; `every_kind_has_its_place_in_the_shaders`
+//! (tests/fast/shaders.rs) asks for 3, the probes for 5; a wrong reach, main parameter, mirror axis or group is found
+//! by tests/gpu/probes.rs, tests/gpu/kinds.rs and the tests of `kind.rs`.
 
 mod bend;
-mod bounds;
+mod constants;
 mod cut;
 mod cutquad;
 mod dilate;
 mod facts;
 mod field;
 mod flap;
-mod handle;
 mod hole;
-mod icon;
+mod kind;
 mod lens;
 mod r#move;
 mod peel;
 mod peeler;
+mod points;
 mod poke;
 mod pull;
 mod rbf;
 mod retractor;
 mod slices;
+mod spec;
 mod split;
 mod squeeze;
 mod twist;
 mod wave;
 
-pub use bounds::{deformed_bounds, max_displacement};
-pub use facts::{Material, Reach};
-pub use handle::{Handle, dragged, dragged_along_ray, handle, set_main};
-pub use icon::icon;
-
-use crate::document::{PlacedTemplate, TemplateKind};
-use facts::{Facts, Given};
-
-/// What a template reaches with the parameters and the size it has, template space.
-pub fn reach(template: &PlacedTemplate) -> Reach {
-    (facts_of(template.kind).reach)(&Given::new(&template.acting()))
-}
-
-/// What the shader of an `rbf` that acts ([`PlacedTemplate::acting`]) reads besides its parameters (shaders/displace/rbf.wgsl).
-pub fn solved_points(template: &PlacedTemplate) -> Vec<[f32; 4]> {
-    rbf::Interpolant::of(&Given::new(template)).pack()
-}
-
-/// Lines of a lattice on the tissue of an `rbf`'s middle plane (z = ½), as they lie when it is bent, subject space.
-pub fn bent_lattice(template: &PlacedTemplate) -> Vec<Vec<glam::Vec3>> {
-    let template = template.acting();
-    let interpolant = rbf::Interpolant::of(&Given::new(&template));
-    let place = |q: glam::Vec3| template.subject_from_template(q);
-    let lines = interpolant.bent_lattice().into_iter();
-    lines
-        .map(|line| line.into_iter().map(place).collect())
-        .collect()
-}
-
-/// Everything known about a kind.
-fn facts_of(kind: TemplateKind) -> &'static Facts {
-    match kind {
-        TemplateKind::Poke => &poke::FACTS,
-        TemplateKind::Twist => &twist::FACTS,
-        TemplateKind::Wave => &wave::FACTS,
-        TemplateKind::Bend => &bend::FACTS,
-        TemplateKind::Squeeze => &squeeze::FACTS,
-        TemplateKind::Dilate => &dilate::FACTS,
-        TemplateKind::Peel => &peel::FACTS,
-        TemplateKind::Flap => &flap::FACTS,
-        TemplateKind::Split => &split::FACTS,
-        TemplateKind::Slices => &slices::FACTS,
-        TemplateKind::Retractor => &retractor::FACTS,
-        TemplateKind::Cutquad => &cutquad::FACTS,
-        TemplateKind::Peeler => &peeler::FACTS,
-        TemplateKind::Pull => &pull::FACTS,
-        TemplateKind::Cut => &cut::FACTS,
-        TemplateKind::Hole => &hole::FACTS,
-        TemplateKind::Lens => &lens::FACTS,
-        TemplateKind::Move => &r#move::FACTS,
-        TemplateKind::Rbf => &rbf::FACTS,
-        TemplateKind::Field => &field::FACTS,
-    }
-}
+pub use constants::shader_constants;
+pub use facts::{Arc, Facts, Given, Grip, Group, Icon, Material, Mirror, Reach, Samples, Shape};
+pub use kind::TemplateKind;
+pub use points::{ControlPoint, ControlPoints};
+pub(crate) use rbf::Interpolant;
+pub use spec::{MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateSpec};

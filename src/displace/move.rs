@@ -1,9 +1,33 @@
-use super::facts::{Facts, Grip, Icon, Reach};
+use super::facts::{Facts, Grip, Group, Icon, Mirror, Reach, Shape};
+use super::spec::{ParamKind, ParamSpec, TemplateSpec};
 use crate::math::Aabb;
 use glam::{Quat, Vec3};
 
-/// Everything about move but its formula. It is grabbed at the middle of the moved box.
+/// All that is known about move besides its formula. It is grabbed at the middle of the moved box.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "move",
+        summary: "Take the box out whole and put it elsewhere",
+        params: &[
+            ParamSpec {
+                name: "offset",
+                summary: "How far, fractions of the box",
+                kind: ParamKind::Vector {
+                    default: [0.0, 0.0, 0.6],
+                    min: -10.0,
+                    max: 10.0,
+                    max_length: f32::INFINITY,
+                },
+            },
+            ParamSpec {
+                name: "turn",
+                summary: "Turned about its centre",
+                kind: ParamKind::Rotation,
+            },
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         let p = given.p;
         let offset = Vec3::new(p[0], p[1], p[2]);
@@ -22,5 +46,14 @@ pub(super) const FACTS: Facts = Facts {
         size: [0.5, 0.5, 0.5],
         params: &[],
         yaw_pitch_deg: [148.0, 28.0],
+    },
+    mirror: Mirror {
+        handed: &["offset", "turn"],
+        ..Mirror::ACROSS_X
+    },
+    catalogue: Some((Group::TakeApart, 2)),
+    shape: Shape {
+        size: [0.9, 0.9, 0.7],
+        above: 0.3,
     },
 };

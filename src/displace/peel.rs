@@ -1,8 +1,46 @@
-use super::facts::{Facts, Grip, INF, Icon, Reach, aabb, sector};
+use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb, sector};
+use super::spec::{TemplateSpec, number};
 use glam::Vec3;
+use std::f32::consts::{PI, TAU};
 
-/// Everything about peel but its formula. It is grabbed at its hinge, on the top.
+/// All that is known about peel besides its formula. It is grabbed at its hinge, on the top.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "peel",
+        summary: "Roll a layer up from the x = 0 edge",
+        params: &[
+            number(
+                "progress",
+                "How far along x the hinge has come",
+                0.5,
+                0.0,
+                1.0,
+            ),
+            number(
+                "depth",
+                "Thickness of the layer under the top, fraction of z",
+                0.3,
+                0.01,
+                1.0,
+            ),
+            number(
+                "radius",
+                "Inside of the roll, fraction of x",
+                0.15,
+                0.01,
+                2.0,
+            ),
+            number(
+                "angle",
+                "Where the roll ends and the flap goes on straight, radians",
+                PI,
+                0.0,
+                TAU,
+            ),
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         let [progress, depth, radius, turn, ..] = given.p;
         if progress <= 0.0 || turn <= 0.0 {
@@ -29,4 +67,7 @@ pub(super) const FACTS: Facts = Facts {
         params: &[("progress", 0.62), ("depth", 0.22), ("radius", 0.12)],
         ..Icon::PLAIN
     },
+    mirror: Mirror::ACROSS_Y,
+    catalogue: Some((Group::OpenUp, 0)),
+    shape: Shape::LAYER,
 };

@@ -1,8 +1,19 @@
-use super::facts::{Facts, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 
-/// Everything about peeler but its formula. It is grabbed under the tip of its tongue.
+/// All that is known about peeler besides its formula. It is grabbed under the tip of its tongue.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "peeler",
+        summary: "Lift a tongue of the top layer",
+        params: &[
+            number("lift", "Height at the tip", 0.5, 0.0, 2.0),
+            number("width", "Width of the tongue", 1.0, 0.2, 1.0),
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         if given.p[0] == 0.0 {
             return Reach::NONE;
@@ -21,5 +32,11 @@ pub(super) const FACTS: Facts = Facts {
         size: [1.0, 1.0, 0.6],
         params: &[("lift", 0.7)],
         yaw_pitch_deg: [32.0, 28.0],
+    },
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::OpenUp, 4)),
+    shape: Shape {
+        size: [0.8, 1.0, 0.6],
+        above: 0.7,
     },
 };

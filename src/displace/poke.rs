@@ -1,8 +1,19 @@
-use super::facts::{Facts, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 
-/// Everything about poke but its formula. It is grabbed at the top of its bump.
+/// All that is known about poke besides its formula. It is grabbed at the top of its bump.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "poke",
+        summary: "Push in or pull out a bump along z",
+        params: &[
+            number("amount", "Height; positive pulls out", 0.5, -2.0, 0.95),
+            number("sigma", "Width of the bump", 0.15, 0.05, 0.3),
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         let amount = given.p[0];
         if amount == 0.0 {
@@ -34,5 +45,11 @@ pub(super) const FACTS: Facts = Facts {
         at: [0.0, 0.0, 0.1],
         params: &[("amount", 0.45)],
         ..Icon::PLAIN
+    },
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::Carve, 1)),
+    shape: Shape {
+        size: [0.9, 0.9, 0.6],
+        above: 0.2,
     },
 };

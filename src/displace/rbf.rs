@@ -1,16 +1,62 @@
-use super::facts::{Facts, Given, Grip, Icon, Reach};
-use crate::document::{ControlPoints, MAX_PARAM_FLOATS, TemplateData};
+use super::facts::{Facts, Given, Grip, Group, Icon, Mirror, Reach, Shape};
+use super::points::ControlPoints;
+use super::spec::{MAX_PARAM_FLOATS, ParamKind, ParamSpec, TemplateSpec, number};
 use crate::math::Aabb;
 use glam::{DVec2, DVec3, Vec3};
 
-/// Everything about rbf but its formula. Its control points have handles of their own.
+/// All that is known about rbf besides its formula. Its control points have handles of their own.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "rbf",
+        summary: "Displacements at control points, interpolated",
+        params: &[
+            number("strength", "Times the displacements", 1.0, 0.0, 2.0),
+            number(
+                "softness",
+                "Reach of a control point, fractions of the box",
+                0.2,
+                0.01,
+                2.0,
+            ),
+            number(
+                "exponent",
+                "Of the multiquadric; -0.5 is smooth and local",
+                -0.5,
+                -2.0,
+                0.9,
+            ),
+            ParamSpec {
+                name: "extrude",
+                summary: "Control points count in x and y alone, for every z",
+                kind: ParamKind::Flag { default: false },
+            },
+            number(
+                "falloff",
+                "0 extrudes through the whole box, 1 falls off from its middle on",
+                0.3,
+                0.0,
+                1.0,
+            ),
+            number(
+                "edge",
+                "Width over which it ends at the faces of the box",
+                0.0,
+                0.0,
+                0.5,
+            ),
+        ],
+        main_param: Some(0),
+    },
+    holds_data: true,
     reach: |given| {
         let [least, most] = Interpolant::of(given).shift();
         if least == Vec3::ZERO && most == Vec3::ZERO {
             return Reach::NONE;
         }
-        let has_cut = given.points().is_some_and(|points| points.cut.len() > 1);
+        let has_cut = given
+            .points
+            .as_ref()
+            .is_some_and(|points| points.cut.len() > 1);
         // The map is smooth as far as the points' reach goes; across a cut differences say nothing.
         let detail = if has_cut {
             0.0
@@ -27,13 +73,16 @@ pub(super) const FACTS: Facts = Facts {
     },
     grip: Grip::None,
     icon: Icon::PLAIN,
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::Carve, 6)),
+    shape: Shape::CUBE,
 };
 
-/// A point that lies nearer than this to one before it is left out, template units: two different displacements at one place have no
-/// smooth interpolant.
+/// A point that lies nearer than this to one before it is left out, template units: two different displacements at one
+/// place have no smooth interpolant.
 const NEAREST: f64 = 1e-3;
-/// The coefficients of one side are kept below this in sum, so that 32-bit floats hold the result to a few ten thousandths: where points
-/// lie close for their softness, the interpolant passes them by a hair instead.
+/// The coefficients of one side are kept below this in sum, so that 32-bit floats hold the result to a few ten
+/// thousandths: where points lie close for their softness, the interpolant passes them by a hair instead.
 const LARGEST_SUM: f64 = 4000.0;
 
 /// One side of the cut: coefficients for its points and for 1, x, y, z about the middle of the box.
@@ -45,18 +94,18 @@ struct Side {
 
 /// The solved interpolant. Source: Correa, eq. 4.32 to 4.36.
 ///
-/// Differs from the source: the basis is scaled to 1 at its centre (the same functions with other coefficients); the linear part is the
-/// one of least slope where the points do not determine it (all in a plane, say).
-pub(super) struct Interpolant {
+/// Differs from the source: the basis is scaled to 1 at its centre (the same functions with other coefficients); the
+/// linear part is the one of least slope where the points do not determine it (all in a plane, say).
+pub(crate) struct Interpolant {
     sides: Vec<Side>,
     cut: Vec<[DVec2; 2]>,
     p: [f64; MAX_PARAM_FLOATS],
 }
 
 impl Interpolant {
-    pub(super) fn of(given: &Given) -> Self {
+    pub(crate) fn of(given: &Given) -> Self {
         let nothing = ControlPoints::default();
-        let data = given.points().unwrap_or(&nothing);
+        let data = given.points.as_ref().unwrap_or(&nothing);
         let p = given.p.map(f64::from);
         let places: Vec<DVec2> = data.cut.iter().map(|p| p.as_dvec2()).collect();
         let cut: Vec<[DVec2; 2]> = places
@@ -84,7 +133,7 @@ impl Interpolant {
     }
 
     /// As the shader reads it (shaders/displace/rbf.wgsl).
-    pub(super) fn pack(&self) -> Vec<[f32; 4]> {
+    pub(crate) fn pack(&self) -> Vec<[f32; 4]> {
         let quad = |v: DVec3| [v.x as f32, v.y as f32, v.z as f32, 0.0];
         let count = |i: usize| self.sides.get(i).map_or(0.0, |s| s.centers.len() as f32);
         let mut out = vec![[count(0), count(1), self.cut.len() as f32, 0.0]];
@@ -103,7 +152,7 @@ impl Interpolant {
     }
 
     /// Lines along x and along y in the middle plane, bent with the tissue; parted where the cut runs. Template space.
-    pub(super) fn bent_lattice(&self) -> Vec<Vec<Vec3>> {
+    pub(crate) fn bent_lattice(&self) -> Vec<Vec<Vec3>> {
         const LINES: usize = 9;
         const PLACES: usize = 24;
         let mut lines = Vec::new();
@@ -187,16 +236,6 @@ impl Interpolant {
         }
         let margin = 0.75 * steepest + 1e-4;
         [(least - margin).as_vec3(), (most + margin).as_vec3()]
-    }
-}
-
-impl Given {
-    /// Control points of an rbf.
-    pub(super) fn points(&self) -> Option<&ControlPoints> {
-        match &self.data {
-            TemplateData::Points(points) => Some(points),
-            _ => None,
-        }
     }
 }
 

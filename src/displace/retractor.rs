@@ -1,8 +1,20 @@
-use super::facts::{Facts, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 
-/// Everything about retractor but its formula. It is grabbed at the wound's rim, on the top.
+/// All that is known about retractor besides its formula. It is grabbed at the wound's rim, on the top.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "retractor",
+        summary: "Draw an incision along x open, compressing the tissue beside it",
+        params: &[
+            number("amount", "Half opening at the top", 0.3, 0.0, 0.4),
+            number("length", "Half length of the incision", 0.5, 0.05, 1.0),
+            number("reach", "How far beside it tissue gives way", 0.4, 0.1, 0.5),
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         let [amount, _, reach, ..] = given.p;
         if amount == 0.0 {
@@ -25,4 +37,7 @@ pub(super) const FACTS: Facts = Facts {
         yaw_pitch_deg: [148.0, 38.0],
         ..Icon::PLAIN
     },
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::OpenUp, 2)),
+    shape: Shape::OPENING,
 };

@@ -1,8 +1,29 @@
-use super::facts::{Facts, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{ParamKind, ParamSpec, TemplateSpec, number};
 use glam::Vec3;
 
-/// Everything about slices but its formula. It is grabbed at the underside of the last slab.
+/// All that is known about slices besides its formula. It is grabbed at the underside of the last slab.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "slices",
+        summary: "Cut into slabs along z and draw them apart",
+        params: &[
+            ParamSpec {
+                name: "count",
+                summary: "Number of slabs",
+                kind: ParamKind::Count {
+                    default: 4.0,
+                    min: 1.0,
+                    max: 32.0,
+                },
+            },
+            number("gap", "Between two slabs", 0.1, 0.0, 2.0),
+            number("shift", "Sideways, along x, per slab", 0.0, -1.0, 1.0),
+            number("progress", "0 closed, 1 drawn apart", 1.0, 0.0, 1.0),
+        ],
+        main_param: Some(3),
+    },
+    holds_data: false,
     reach: |given| {
         let [count, gap, shift, progress, ..] = given.p;
         let (gap, shift) = (gap * progress, shift * progress);
@@ -36,4 +57,7 @@ pub(super) const FACTS: Facts = Facts {
         params: &[("count", 4.0), ("gap", 0.12), ("shift", 0.06)],
         ..Icon::PLAIN
     },
+    mirror: Mirror::ACROSS_Y,
+    catalogue: Some((Group::TakeApart, 1)),
+    shape: Shape::WHOLE,
 };

@@ -1,8 +1,30 @@
-use super::facts::{Facts, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{ParamKind, ParamSpec, TemplateSpec, number};
 use glam::Vec3;
 
-/// Everything about split but its formula. It is grabbed at the rim of the opening, on the top.
+/// All that is known about split besides its formula. It is grabbed at the rim of the opening, on the top.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "split",
+        summary: "Two halves apart along x",
+        params: &[
+            number("amount", "Half width of the opening", 0.25, 0.0, 1.0),
+            number(
+                "lens",
+                "1 closes the opening at both ends in y",
+                0.0,
+                0.0,
+                1.0,
+            ),
+            ParamSpec {
+                name: "wedge",
+                summary: "Closed at the bottom, open at the top",
+                kind: ParamKind::Flag { default: true },
+            },
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         let amount = given.p[0];
         if amount == 0.0 {
@@ -17,4 +39,7 @@ pub(super) const FACTS: Facts = Facts {
         params: &[("amount", 0.2)],
         ..Icon::PLAIN
     },
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::TakeApart, 0)),
+    shape: Shape::OPENING,
 };

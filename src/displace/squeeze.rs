@@ -1,4 +1,5 @@
-use super::facts::{Facts, Given, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Given, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 
 /// What squeeze and dilate reach: they move by half their strength at the sides and beyond.
@@ -11,8 +12,15 @@ pub(super) fn reach(given: &Given) -> Reach {
     Reach::shifted(aabb([-INF, -INF, 0.0], [INF, INF, 1.0]), -shift, shift).with_detail(0.05)
 }
 
-/// Everything about squeeze but its formula. It is grabbed at the waist.
+/// All that is known about squeeze besides its formula. It is grabbed at the waist.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "squeeze",
+        summary: "A waist at mid height",
+        params: &[number("strength", "How narrow", 0.5, 0.0, 2.0)],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach,
     grip: Grip::Number(
         |given| Vec3::new(0.5 + 0.5 / (1.0 + given.p[0]), 0.5, 0.5),
@@ -22,4 +30,7 @@ pub(super) const FACTS: Facts = Facts {
         params: &[("strength", 0.8)],
         ..Icon::PLAIN
     },
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::Carve, 3)),
+    shape: Shape::WHOLE,
 };

@@ -1,5 +1,7 @@
-use super::facts::{Facts, Given, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Given, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{TemplateSpec, number};
 use glam::Vec3;
+use std::f32::consts::{FRAC_PI_2, TAU};
 
 /// Radius up to which something turns, subject units.
 fn radius(given: &Given) -> f32 {
@@ -11,8 +13,30 @@ fn radius(given: &Given) -> f32 {
     }
 }
 
-/// Everything about twist but its formula. It is grabbed on its top face, at the edge of what turns as one.
+/// All that is known about twist besides its formula. It is grabbed on its top face, at the edge of what turns as one.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "twist",
+        summary: "Turn about the z axis",
+        params: &[
+            number(
+                "angle",
+                "Turn of the middle, radians",
+                FRAC_PI_2,
+                -2.0 * TAU,
+                2.0 * TAU,
+            ),
+            number(
+                "falloff",
+                "0 turns the whole box, 1 falls off from the axis on",
+                0.3,
+                0.0,
+                1.0,
+            ),
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         if given.p[0] == 0.0 {
             return Reach::NONE;
@@ -53,4 +77,10 @@ pub(super) const FACTS: Facts = Facts {
         params: &[("angle", 0.9), ("falloff", 0.0)],
         ..Icon::PLAIN
     },
+    mirror: Mirror {
+        handed: &["angle"],
+        ..Mirror::ACROSS_X
+    },
+    catalogue: Some((Group::Bend, 1)),
+    shape: Shape::WHOLE,
 };

@@ -1,5 +1,7 @@
-use super::facts::{Facts, Grip, INF, Icon, Reach, aabb};
+use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::spec::{TemplateSpec, number};
 use glam::Vec3;
+use std::f32::consts::TAU;
 
 /// Where the first crest lies, template units from the axis, and its weight.
 fn crest(frequency: f32, falloff: f32) -> (f32, f32) {
@@ -13,8 +15,31 @@ fn crest(frequency: f32, falloff: f32) -> (f32, f32) {
     (rho, weight * (frequency * rho).sin())
 }
 
-/// Everything about wave but its formula. It is grabbed at its first crest, on the face that it ripples.
+/// All that is known about wave besides its formula. It is grabbed at its first crest, on the face that it ripples.
 pub(super) const FACTS: Facts = Facts {
+    spec: TemplateSpec {
+        name: "wave",
+        summary: "Concentric ripple along y",
+        params: &[
+            number("amplitude", "Height of the ripple", 0.08, 0.0, 0.5),
+            number(
+                "frequency",
+                "Radians per unit of radius",
+                2.0 * TAU,
+                0.0,
+                64.0,
+            ),
+            number(
+                "falloff",
+                "0 ripples the whole box, 1 falls off from the axis on",
+                0.5,
+                0.0,
+                1.0,
+            ),
+        ],
+        main_param: Some(0),
+    },
+    holds_data: false,
     reach: |given| {
         let amplitude = given.p[0];
         if amplitude == 0.0 || given.p[1] == 0.0 {
@@ -40,4 +65,7 @@ pub(super) const FACTS: Facts = Facts {
         params: &[("amplitude", 0.1), ("frequency", 25.0)],
         ..Icon::PLAIN
     },
+    mirror: Mirror::ACROSS_X,
+    catalogue: Some((Group::Bend, 2)),
+    shape: Shape::WHOLE,
 };

@@ -1,15 +1,13 @@
-//! What an author does with whole templates: mirror them across a plane of the patient, group them, carry them from one
-//! document to another as text.
+//! Work on whole templates: mirroring across a plane of the patient, groups, copies between documents as text.
 
 use glam::{Mat3, Quat, Vec3};
 use serde_json::{Value, json};
 
-use super::catalogue::{ParamValue, TemplateKind};
-use super::edit::Edit;
-use super::error::DocumentError;
-use super::illustration::{PlacedTemplate, TemplateData};
+use super::limits::{FORMAT, MAX_BYTES};
+use super::model::{ParamValue, PlacedTemplate, TemplateData, TemplateKind};
+use super::text::{DocumentError, json as reading};
 use super::tree::Document;
-use super::{FORMAT, MAX_BYTES};
+use super::write::Edit;
 use crate::math::Placement;
 
 /// A plane through the middle of the subject, by its name in anatomy.
@@ -24,10 +22,10 @@ pub enum Plane {
 }
 
 impl Plane {
-    /// All of them.
+    /// The three planes.
     pub const ALL: [Self; 3] = [Self::Sagittal, Self::Coronal, Self::Axial];
 
-    /// Index of the axis of subject space that is across the plane.
+    /// Index of the axis of subject space that is normal to the plane.
     pub fn axis(self) -> usize {
         match self {
             Self::Sagittal => 0,
@@ -37,81 +35,58 @@ impl Plane {
     }
 }
 
-/// Identity but for one axis, which is reversed.
+/// The reflection that reverses one axis.
 fn reversing(axis: usize) -> Mat3 {
     let mut signs = Vec3::ONE;
     signs[axis] = -1.0;
     Mat3::from_diagonal(signs)
 }
 
-/// The axis of its cube that a template's mirror image has reversed.
-fn reversed_axis(kind: TemplateKind) -> usize {
-    use TemplateKind as K;
-    match kind {
-        // These begin at their x = 0 edge or go off along x; in y they are symmetric.
-        K::Peel | K::Flap | K::Slices => 1,
-        K::Poke
-        | K::Twist
-        | K::Wave
-        | K::Bend
-        | K::Squeeze
-        | K::Dilate
-        | K::Split
-        | K::Retractor
-        | K::Cutquad
-        | K::Peeler
-        | K::Pull
-        | K::Cut
-        | K::Hole
-        | K::Lens
-        | K::Move
-        | K::Rbf
-        | K::Field => 0,
+/// The value of a parameter that has a hand, seen in a mirror across an axis.
+fn other_hand(value: ParamValue, axis: usize) -> ParamValue {
+    match value {
+        ParamValue::Number(value) => ParamValue::Number(-value),
+        ParamValue::Vector(v) => ParamValue::Vector(reversing(axis) * v),
+        // F R F: about the axis as it is, about the others backwards.
+        ParamValue::Rotation(q) => {
+            let about = -(reversing(axis) * Vec3::new(q.x, q.y, q.z));
+            ParamValue::Rotation(Quat::from_xyzw(about.x, about.y, about.z, q.w))
+        }
+        other => other,
     }
 }
 
-/// The template that does on the other side of a plane what this one does here: placement and parameters.
+/// Placement and parameters of the mirror image of a template: it does on the other side of the plane what the template
+/// does on this side.
 ///
-/// With M the reflection of the subject, the mirrored map is M T M. M R alone is no rotation, so one axis of the template's
-/// cube is reversed as well (F): the placement M R F is proper again, and the kind must do F D F in its cube. Most kinds
-/// are symmetric about one of their middle planes and do that unchanged; those that have a hand take the other one.
+/// With M the reflection of the subject, the mirrored map is M T M. M R alone is no rotation, so one axis of the
+/// template's cube is reversed as well (F): the placement M R F is proper again, and the kind must do F D F in its
+/// cube. Most kinds are symmetric about one of their middle planes and do that unchanged; the others have parameters
+/// with a hand (`Mirror::handed`), which change.
 pub fn mirrored(template: &PlacedTemplate, plane: Plane) -> (Placement, Vec<ParamValue>) {
-    use TemplateKind as K;
-    let flipped = reversed_axis(template.kind);
-    let params = template
-        .params
-        .iter()
-        .map(|value| match (template.kind, *value) {
-            (K::Twist, ParamValue::Number(value)) => ParamValue::Number(value),
-            (K::Pull | K::Move, ParamValue::Vector(v)) => {
-                ParamValue::Vector(Vec3::new(-v.x, v.y, v.z))
-            }
-            // A turn seen in a mirror across x: F R F.
-            (K::Move, ParamValue::Rotation(q)) => {
-                ParamValue::Rotation(Quat::from_xyzw(q.x, -q.y, -q.z, q.w))
-            }
-            (_, value) => value,
-        });
-    let mut params: Vec<ParamValue> = params.collect();
-    if template.kind == K::Twist
-        && let Some(ParamValue::Number(angle)) = params.first_mut()
-    {
-        *angle = -*angle;
-    }
+    let mirror = &template.kind.facts().mirror;
+    let specs = template.kind.spec().params.iter();
+    let params = specs.zip(&template.params).map(|(spec, value)| {
+        if mirror.handed.contains(&spec.name) {
+            other_hand(*value, mirror.axis)
+        } else {
+            *value
+        }
+    });
     let placement = template.placement;
     let reflect = reversing(plane.axis());
-    let rotate = reflect * Mat3::from_quat(placement.rotate) * reversing(flipped);
+    let rotate = reflect * Mat3::from_quat(placement.rotate) * reversing(mirror.axis);
     let placement = Placement {
         at: reflect * placement.at,
         rotate: Quat::from_mat3(&rotate).normalize(),
         size: placement.size,
     };
-    (placement, params)
+    (placement, params.collect())
 }
 
-/// The edits that mirror a template where it is, or its copy right behind it.
+/// The edits that mirror a template, or a copy of it that is inserted after it.
 ///
-/// A field has no mirror image: its samples are what they are.
+/// There are none for a field: its samples come from a file and cannot be mirrored.
 pub fn mirror(template: &PlacedTemplate, plane: Plane, as_copy: bool) -> Vec<Edit> {
     if template.kind == TemplateKind::Field {
         return Vec::new();
@@ -129,7 +104,7 @@ pub fn mirror(template: &PlacedTemplate, plane: Plane, as_copy: bool) -> Vec<Edi
         placement,
     });
     if let Some(curve) = &template.curve
-        && reversed_axis(template.kind) == 0
+        && template.kind.facts().mirror.axis == 0
     {
         edits.push(Edit::SetCurve {
             template: index,
@@ -163,7 +138,7 @@ pub fn mirror(template: &PlacedTemplate, plane: Plane, as_copy: bool) -> Vec<Edi
     edits
 }
 
-/// Name of the group that an entry of the list is in; empty for none.
+/// Name of the group of an entry of `templates`; empty for none.
 pub fn group_of(document: &Document, template: usize) -> &str {
     let group = document.get(&format!("/templates/{template}/group"));
     group.and_then(Value::as_str).unwrap_or_default()
@@ -182,7 +157,7 @@ pub fn groups(document: &Document) -> Vec<String> {
     names
 }
 
-/// A name for a group that is not taken yet: the wanted one, or that with a number.
+/// A name for a group that is not taken yet: the wanted name, with a number if need be.
 pub fn free_group_name(wanted: &str, taken: &[String]) -> String {
     let is_free = |name: &String| !taken.contains(name);
     let numbered = (2..).map(|number| format!("{wanted} {number}"));
@@ -203,10 +178,11 @@ pub fn templates_to_text(document: &Document, templates: &[usize]) -> String {
     json!({ MARK: found.cloned().collect::<Vec<Value>>() }).to_string()
 }
 
-/// Templates out of such a text, held to the same rules as those of a document. `None` if it is another text.
+/// Reads templates from a text that [`templates_to_text`] wrote, checked by the rules of a document. `None` if the text
+/// is another one.
 ///
 /// # Errors
-/// Whatever is wrong with them, named by place; see [`DocumentError`].
+/// The first fault, named by its place; see [`DocumentError`].
 pub fn templates_from_text(text: &str) -> Option<Result<Vec<Value>, DocumentError>> {
     let text = text.trim();
     let head: String = text
@@ -227,7 +203,7 @@ pub fn templates_from_text(text: &str) -> Option<Result<Vec<Value>, DocumentErro
 }
 
 fn read(text: &str) -> Result<Vec<Value>, DocumentError> {
-    let mut value = super::json::read(text)?;
+    let mut value = reading::read(text)?;
     let list = value.get_mut(MARK).map(Value::take).unwrap_or_default();
     let document = Document::from_value(json!({ "fabrica": FORMAT, "templates": list }))?;
     let list = document.get("/templates").and_then(Value::as_array);

@@ -1,159 +1,128 @@
-//! Leaves out what stands at its default, so that documents that say the same are the same tree.
+//! The canonical form: keys at their default are left out, so that documents that mean the same are the same tree.
 
-use super::catalogue::{ParamKind, ParamSpec, TemplateKind};
+use super::limits::DEFAULT_SUBJECT;
+use super::model::{ParamKind, ParamSpec, TemplateKind};
+use super::schema::{Key, Kind, LeftOut, ROOT, params_of};
 use serde_json::{Map, Value};
 
-/// Strips defaults. The tree has been checked: what has another shape than expected is an unknown key and stays.
+/// Leaves out the keys that stand at their default. The tree has been checked: a value of another shape than the schema
+/// says belongs to an unknown kind of template or is not read, and stays.
 pub(super) fn strip(root: &mut Map<String, Value>) {
-    for key in ["title", "caption", "credit", "lang"] {
-        drop_if(root, key, is_text(""));
-    }
-    if let Some(Value::Object(subject)) = root.get_mut("subject") {
-        drop_if(subject, "name", is_text(""));
-        drop_if(subject, "frame", is_number(0.0));
-        if let Some(Value::Object(raw)) = subject.get_mut("raw") {
-            drop_if(raw, "size", is_numbers(&[1.0; 3]));
-            drop_if(raw, "type", is_text("uint8"));
-            drop_if(raw, "order", is_text("little"));
-            drop_if(raw, "spacing", is_numbers(&[1.0; 3]));
-            drop_if(raw, "skip", is_number(0.0));
-        }
-        if let Some(Value::Object(segments)) = subject.get_mut("segments") {
-            drop_if(segments, "names", is_empty);
-        }
-        for_each(subject, "segments", |segments| {
-            drop_if(segments, "names", is_empty);
-        });
-        drop_if(subject, "segments", is_empty);
-        for_each(subject, "features", |feature| {
-            drop_if(feature, "name", is_text(""));
-            drop_if(feature, "clean", is_empty);
-        });
-        drop_if(subject, "features", is_empty);
-        if subject.len() == 1 {
-            drop_if(subject, "builtin", is_text(super::DEFAULT_SUBJECT));
+    object(root, ROOT, None);
+}
+
+/// Strips an object with these keys. `kind` is that of the template that it belongs to.
+fn object(map: &mut Map<String, Value>, keys: &'static [Key], kind: Option<TemplateKind>) {
+    let own_kind = keys.iter().find(|key| matches!(key.kind, Kind::Template));
+    let own_kind = own_kind.and_then(|key| map.get(key.name)?.as_str());
+    let kind = kind.or(own_kind.and_then(TemplateKind::from_name));
+    for key in keys {
+        let Some(value) = map.get_mut(key.name) else {
+            continue;
+        };
+        inside(value, key.kind, kind);
+        let is_left_out = match key.left_out {
+            LeftOut::AtDefault => true,
+            LeftOut::ExceptField => kind != Some(TemplateKind::Field),
+            LeftOut::Alone | LeftOut::Never | LeftOut::Optional => false,
+        };
+        if is_left_out && is_default(value, key.kind) {
+            map.remove(key.name);
         }
     }
-    for_each(root, "templates", template);
-    if let Some(Value::Object(look)) = root.get_mut("look") {
-        drop_if(look, "transfer", is_text("auto"));
-        drop_if(look, "window", is_text("auto"));
-        drop_if(look, "opacity", is_text("constancy"));
-        drop_if(look, "gradient", is_number(0.0));
-        drop_if(look, "segments", is_empty);
-        drop_if(look, "background", is_text("#ffffff"));
+    for key in keys.iter().filter(|key| key.left_out == LeftOut::Alone) {
+        if map.len() == 1 && map.get(key.name).is_some_and(|v| is_default(v, key.kind)) {
+            map.remove(key.name);
+        }
     }
-    if let Some(Value::Object(camera)) = root.get_mut("camera") {
-        drop_if(camera, "target", is_numbers(&[0.0; 3]));
-        drop_if(camera, "rotate", is_numbers(&IDENTITY));
-        drop_if(camera, "distance", is_number(2.5));
-        drop_if(camera, "fov", is_number(30.0));
+}
+
+/// Strips the objects that a value holds.
+fn inside(value: &mut Value, holds: Kind, kind: Option<TemplateKind>) {
+    match (value, holds) {
+        (Value::Object(map), Kind::Object(of) | Kind::OneOrMore { of, .. }) => {
+            object(map, of, kind);
+        }
+        (
+            Value::Array(items),
+            Kind::List { of, .. } | Kind::FirstOf { of, .. } | Kind::OneOrMore { of, .. },
+        ) => {
+            for map in items.iter_mut().filter_map(Value::as_object_mut) {
+                object(map, of, kind);
+            }
+        }
+        (Value::Object(params), Kind::Params) => {
+            for spec in kind.map_or(&[][..], |kind| kind.spec().params) {
+                if params
+                    .get(spec.name)
+                    .is_some_and(|value| is_param_default(value, spec))
+                {
+                    params.remove(spec.name);
+                }
+            }
+            object(params, params_of(kind), kind);
+        }
+        _ => {}
     }
-    for_each(root, "labels", |label| {
-        drop_if(label, "at", is_numbers(&[0.0; 3]));
-        drop_if(label, "text", is_text(""));
-    });
-    for_each(root, "steps", |step| {
-        drop_if(step, "title", is_text(""));
-        drop_if(step, "caption", is_text(""));
-        drop_if(step, "set", is_empty);
-        drop_if(step, "seconds", is_number(1.0));
-    });
-    for key in ["subject", "templates", "look", "camera", "labels", "steps"] {
-        drop_if(root, key, is_empty);
+}
+
+/// True if a value is what a missing key of this kind means.
+fn is_default(value: &Value, kind: Kind) -> bool {
+    match kind {
+        Kind::Text => value.as_str() == Some(""),
+        Kind::Builtin => value.as_str() == Some(DEFAULT_SUBJECT),
+        Kind::Name(names) => value.as_str() == names.first().copied(),
+        Kind::Background => value.as_str() == Some("#ffffff"),
+        Kind::Transfer(_) | Kind::Window => value.as_str() == Some("auto"),
+        Kind::Flag { default } => value == &Value::Bool(default),
+        Kind::Whole => is_number(value, 0.0),
+        Kind::Number { default, .. } => is_number(value, default as f32),
+        Kind::Vector { default, .. } => is_numbers(value, &default.map(|v| v as f32)),
+        Kind::Rotation => is_numbers(value, &IDENTITY),
+        Kind::Pairs { .. }
+        | Kind::Vectors { .. }
+        | Kind::Segments
+        | Kind::List { .. }
+        | Kind::FirstOf { .. } => is_empty_list(value),
+        Kind::Labels | Kind::Looks(_) | Kind::Object(_) | Kind::Params | Kind::Set => {
+            is_empty_object(value)
+        }
+        Kind::OneOrMore { .. } => is_empty_list(value) || is_empty_object(value),
+        Kind::Format | Kind::Address | Kind::Hash | Kind::Template | Kind::Color | Kind::Range => {
+            false
+        }
     }
 }
 
 const IDENTITY: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 
-fn template(template: &mut Map<String, Value>) {
-    drop_if(template, "name", is_text(""));
-    drop_if(template, "group", is_text(""));
-    // A field without a place lies where its file says: there a default is no default.
-    if template.get("kind").and_then(Value::as_str) != Some("field") {
-        drop_if(template, "at", is_numbers(&[0.0; 3]));
-        drop_if(template, "rotate", is_numbers(&IDENTITY));
-        drop_if(template, "size", is_numbers(&[0.5; 3]));
-    }
-    drop_if(template, "amount", is_number(1.0));
-    drop_if(template, "enabled", |value| value == &Value::Bool(true));
-    drop_if(template, "mode", is_text("compose"));
-    if let Some(Value::Object(align)) = template.get_mut("align") {
-        drop_if(align, "depth", is_number(0.02));
-        drop_if(align, "thickness", is_number(0.01));
-        drop_if(align, "to", is_text("axis"));
-    }
-    drop_if(template, "align", is_empty);
-    let kind = template
-        .get("kind")
-        .and_then(Value::as_str)
-        .and_then(TemplateKind::from_name);
-    if let (Some(kind), Some(Value::Object(params))) = (kind, template.get_mut("params")) {
-        for spec in kind.spec().params {
-            drop_if(params, spec.name, |value| is_param_default(spec, value));
-        }
-        if kind == TemplateKind::Rbf {
-            drop_if(params, "points", is_empty);
-            drop_if(params, "cut", is_empty);
-        }
-        if kind == TemplateKind::Field {
-            drop_if(params, "name", is_text(""));
-        }
-    }
-    drop_if(template, "params", is_empty);
-    super::curve::strip(template);
-}
-
-fn is_param_default(spec: &ParamSpec, value: &Value) -> bool {
+fn is_param_default(value: &Value, spec: &ParamSpec) -> bool {
     match spec.kind {
         ParamKind::Number { default, .. } | ParamKind::Count { default, .. } => {
-            is_number(default)(value)
+            is_number(value, default)
         }
         ParamKind::Flag { default } => value == &Value::Bool(default),
         ParamKind::Choice { names } => value.as_str() == names.first().copied(),
-        ParamKind::Vector { default, .. } => is_numbers(&default)(value),
-        ParamKind::Rotation => is_numbers(&IDENTITY)(value),
+        ParamKind::Vector { default, .. } => is_numbers(value, &default),
+        ParamKind::Rotation => is_numbers(value, &IDENTITY),
     }
 }
 
-fn drop_if(map: &mut Map<String, Value>, key: &str, is_default: impl Fn(&Value) -> bool) {
-    if map.get(key).is_some_and(is_default) {
-        map.remove(key);
-    }
+/// What is drawn are 32-bit floats: a number that rounds to the default is the default.
+fn is_number(value: &Value, default: f32) -> bool {
+    value.is_number() && value.as_f64().map(|v| v as f32) == Some(default)
 }
 
-fn for_each(map: &mut Map<String, Value>, key: &str, strip: impl Fn(&mut Map<String, Value>)) {
-    if let Some(Value::Array(items)) = map.get_mut(key) {
-        for item in items {
-            if let Value::Object(item) = item {
-                strip(item);
-            }
-        }
-    }
+fn is_numbers(value: &Value, default: &[f32]) -> bool {
+    value.as_array().is_some_and(|items| {
+        items.len() == default.len() && items.iter().zip(default).all(|(v, d)| is_number(v, *d))
+    })
 }
 
-fn is_text(default: &str) -> impl Fn(&Value) -> bool {
-    move |value| value.as_str() == Some(default)
+fn is_empty_list(value: &Value) -> bool {
+    value.as_array().is_some_and(Vec::is_empty)
 }
 
-/// Defaults are 32-bit floats, and what is drawn is; what rounds to the default is the default.
-fn is_number(default: f32) -> impl Fn(&Value) -> bool {
-    move |value| value.is_number() && value.as_f64().map(|v| v as f32) == Some(default)
-}
-
-fn is_numbers(default: &[f32]) -> impl Fn(&Value) -> bool {
-    move |value| match value {
-        Value::Array(items) => {
-            items.len() == default.len() && items.iter().zip(default).all(|(v, d)| is_number(*d)(v))
-        }
-        _ => false,
-    }
-}
-
-fn is_empty(value: &Value) -> bool {
-    match value {
-        Value::Array(items) => items.is_empty(),
-        Value::Object(map) => map.is_empty(),
-        _ => false,
-    }
+fn is_empty_object(value: &Value) -> bool {
+    value.as_object().is_some_and(Map::is_empty)
 }

@@ -1,23 +1,25 @@
-use super::edit::Edit;
-use super::error::DocumentError;
-use super::tree::Document;
+//! A document with its undo and redo.
 
-/// Steps that can be undone at most.
+use super::text::DocumentError;
+use super::tree::Document;
+use super::write::Edit;
+
+/// Most edits that can be undone.
 const MAX_ENTRIES: usize = 500;
-/// Bytes of JSON that the steps hold together at most; the oldest go first.
+/// Most bytes of JSON that the edits to undo hold together; the oldest are dropped first.
 const MAX_HISTORY_BYTES: usize = 32 << 20;
 
-/// A document with what was done to it. Built once per opened document; an edit costs a copy of the tree.
+/// A document with its edits, to undo and to redo. Made once per opened document; an edit costs a copy of the tree.
 #[derive(Clone, Debug)]
 pub struct History {
     document: Document,
     undo: Vec<Entry>,
     redo: Vec<Entry>,
-    /// What is being dragged, while the last entry of `undo` still grows.
+    /// The target ([`Edit::target`]) of the drag that the last entry of `undo` still takes in.
     drag: Option<String>,
 }
 
-/// The document on the other side of an edit, and what the edit is called.
+/// The document on the other side of an edit, and the name of the edit.
 #[derive(Clone, Debug)]
 struct Entry {
     document: Document,
@@ -35,17 +37,17 @@ impl History {
         }
     }
 
-    /// The document as it stands.
+    /// The current document.
     pub fn document(&self) -> &Document {
         &self.document
     }
 
-    /// Opens another document: nothing before it can be undone.
+    /// Replaces the document by another one; edits before that cannot be undone.
     pub fn replace(&mut self, document: Document) {
         *self = Self::new(document);
     }
 
-    /// Does an edit as one step of its own. True if it changed anything.
+    /// Does an edit, which is undone by itself. True if it changed anything.
     ///
     /// # Errors
     /// As [`Edit::apply`]; the document stays as it was.
@@ -59,7 +61,7 @@ impl History {
         Ok(true)
     }
 
-    /// Does an edit as part of a drag: successive ones of the same target are one step, until [`History::end_drag`].
+    /// Does an edit as part of a drag: successive edits of one target are undone together, until [`History::end_drag`].
     /// True if it changed anything.
     ///
     /// # Errors
@@ -68,7 +70,7 @@ impl History {
         let target = edit.target();
         if self.drag.as_ref() != Some(&target) {
             let changed = self.apply(edit)?;
-            // A drag that has not moved yet has made no step that could grow.
+            // A drag that has changed nothing yet has made no entry that could grow.
             self.drag = changed.then_some(target);
             return Ok(changed);
         }
@@ -76,10 +78,10 @@ impl History {
         let changed = document != self.document;
         self.document = document;
         if let Some(first) = self.undo.last_mut() {
-            // Named by the whole way of the drag, not by its last bit.
+            // The name describes the whole drag, not its last movement.
             first.name = edit.name(&first.document);
             if first.document == self.document {
-                // Dragged back to where it began: nothing was done.
+                // The drag ended where it began: there is nothing to undo.
                 self.undo.pop();
                 self.drag = None;
             }
@@ -87,7 +89,7 @@ impl History {
         Ok(changed)
     }
 
-    /// The pointer was let go: the next drag is a step of its own.
+    /// Ends a drag: the next one is undone by itself.
     pub fn end_drag(&mut self) {
         self.drag = None;
     }
@@ -110,7 +112,7 @@ impl History {
         self.undo.drain(..too_many);
     }
 
-    /// Takes the last step back. False if there is none.
+    /// Undoes the last edit. False if there is none.
     pub fn undo(&mut self) -> bool {
         self.drag = None;
         let Some(entry) = self.undo.pop() else {
@@ -124,7 +126,7 @@ impl History {
         true
     }
 
-    /// Does the last undone step again. False if there is none.
+    /// Does the last undone edit again. False if there is none.
     pub fn redo(&mut self) -> bool {
         self.drag = None;
         let Some(entry) = self.redo.pop() else {
@@ -138,12 +140,12 @@ impl History {
         true
     }
 
-    /// What [`History::undo`] would take back: “Move peel”.
+    /// Name of the edit that [`History::undo`] would undo, such as “Move peel”.
     pub fn undo_name(&self) -> Option<&str> {
         self.undo.last().map(|entry| entry.name.as_str())
     }
 
-    /// What [`History::redo`] would do again.
+    /// Name of the edit that [`History::redo`] would do again.
     pub fn redo_name(&self) -> Option<&str> {
         self.redo.last().map(|entry| entry.name.as_str())
     }

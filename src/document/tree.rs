@@ -1,15 +1,19 @@
-use super::canonical;
-use super::error::DocumentError;
-use super::illustration::Illustration;
-use super::notice::{Notice, NoticeKind};
-use super::{FORMAT, MAX_BYTES, json, pointer, resolve, steps};
+//! The document: the JSON tree, whole and valid.
+
+use super::lesson::Lesson;
+use super::limits::{FORMAT, MAX_BYTES, MAX_NOTICES};
+use super::model::Illustration;
+use super::read::resolve;
+use super::text::{DocumentError, Notice, NoticeKind, json, pointer};
+use super::write::{Edit, json as writing, set};
+use super::{canonical, steps};
 use serde_json::Value;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// An illustration as plain data: the JSON tree of the contract, whole and valid by construction.
 ///
-/// Unknown keys stay where they are; what stands at its default is left out, so two documents that say the same are
-/// equal and are written with the same bytes. Cheap to clone. What it says is resolved once, when it is made.
+/// Unknown keys stay where they are; keys at their default are left out, so two documents that mean the same are equal
+/// and are written with the same bytes. Cheap to clone. Its illustration is resolved once, when the document is made.
 #[derive(Clone, Debug)]
 pub struct Document {
     inner: Arc<Inner>,
@@ -21,6 +25,8 @@ struct Inner {
     illustration: Illustration,
     notices: Vec<Notice>,
     bytes: usize,
+    /// Made when a step is first shown: most documents of a history never are.
+    lesson: OnceLock<Result<Lesson, DocumentError>>,
 }
 
 impl PartialEq for Document {
@@ -30,7 +36,7 @@ impl PartialEq for Document {
 }
 
 impl Document {
-    /// The document that says nothing: the head, untouched.
+    /// The empty document: the head, undeformed.
     pub fn new() -> Self {
         // Built by hand because reading could fail by its type; `tests::the_empty_document_is_one` compares the two.
         Self {
@@ -39,6 +45,7 @@ impl Document {
                 illustration: Illustration::document_default(),
                 notices: Vec::new(),
                 bytes: r#"{"fabrica":1}"#.len(),
+                lesson: OnceLock::new(),
             }),
         }
     }
@@ -46,7 +53,7 @@ impl Document {
     /// Reads a document from JSON text of at most 1 MiB.
     ///
     /// # Errors
-    /// Whatever is wrong first, named by place; see [`DocumentError`].
+    /// The first fault, named by its place; see [`DocumentError`].
     pub fn from_json(text: &str) -> Result<Self, DocumentError> {
         if text.len() > MAX_BYTES {
             return Err(DocumentError::TooLarge {
@@ -57,7 +64,7 @@ impl Document {
         Self::from_normal(json::read(text)?)
     }
 
-    /// Takes a tree as a document.
+    /// Makes a document of a JSON tree.
     ///
     /// # Errors
     /// As [`Document::from_json`].
@@ -81,7 +88,7 @@ impl Document {
                 .to_owned(),
             });
         };
-        let (illustration, mut notices) = resolve::resolve(map)?;
+        let (illustration, mut notices) = resolve(map)?;
         canonical::strip(map);
         notices.extend(steps::check(&root)?);
         if notices.len() > MAX_NOTICES {
@@ -89,7 +96,7 @@ impl Document {
             notices.push(Notice::new("", NoticeKind::More));
         }
         let mut text = String::new();
-        json::write_compact(&root, &mut text);
+        writing::write_compact(&root, &mut text);
         if text.len() > MAX_BYTES {
             return Err(DocumentError::TooLarge {
                 found: text.len(),
@@ -102,6 +109,7 @@ impl Document {
                 illustration,
                 notices,
                 bytes: text.len(),
+                lesson: OnceLock::new(),
             }),
         })
     }
@@ -109,7 +117,7 @@ impl Document {
     /// The document as JSON for people, in canonical order, ended by a newline. Reading it gives an equal document.
     pub fn to_json(&self) -> String {
         let mut text = String::new();
-        json::write_pretty(&self.inner.root, 0, &mut text);
+        writing::write_pretty(&self.inner.root, 0, &mut text);
         text.push('\n');
         if text.len() > MAX_BYTES {
             // White space alone must not make a document that cannot be read back.
@@ -121,7 +129,7 @@ impl Document {
     /// The document as JSON without white space, in canonical order.
     pub fn to_json_compact(&self) -> String {
         let mut text = String::with_capacity(self.inner.bytes);
-        json::write_compact(&self.inner.root, &mut text);
+        writing::write_compact(&self.inner.root, &mut text);
         text
     }
 
@@ -130,22 +138,22 @@ impl Document {
         self.inner.bytes
     }
 
-    /// What it says, with defaults filled in and values in range.
+    /// What the document means: defaults filled in, values in range.
     pub fn illustration(&self) -> &Illustration {
         &self.inner.illustration
     }
 
-    /// What is kept but not drawn as written.
+    /// Notices about values that are kept but not drawn as written.
     pub fn notices(&self) -> &[Notice] {
         &self.inner.notices
     }
 
-    /// The tree.
+    /// The JSON tree of the document.
     pub fn value(&self) -> &Value {
         &self.inner.root
     }
 
-    /// What a JSON pointer points at; nothing is there where a key stands at its default.
+    /// The value that a JSON pointer points at; `None` where a key stands at its default.
     pub fn get(&self, pointer: &str) -> Option<&Value> {
         pointer::get(&self.inner.root, pointer)
     }
@@ -156,7 +164,7 @@ impl Document {
     /// # Errors
     /// If there is no such place, or the document would be wrong with it.
     pub fn with(&self, pointer: &str, value: Value) -> Result<Self, DocumentError> {
-        self.edited(|root| pointer::set(root, pointer, value))
+        self.edited(|root| set(root, pointer, value))
     }
 
     /// The document with one value removed, which for a key means: back to its default.
@@ -167,7 +175,7 @@ impl Document {
         self.edited(|root| pointer::remove(root, pointer).map(|_| ()))
     }
 
-    pub(super) fn edited(
+    fn edited(
         &self,
         edit: impl FnOnce(&mut Value) -> Result<(), DocumentError>,
     ) -> Result<Self, DocumentError> {
@@ -190,29 +198,27 @@ impl Document {
         Self::from_value(steps::at_step(&self.inner.root, step, self.step_count())?)
     }
 
-    /// What the document says `seconds` into the passage to a step: numbers, vectors, colours and rotations on their
-    /// way with a smoothstep ease, the rest as it is at the step.
+    /// What the document means at each of its steps, resolved when it is first asked for. Copies of a document share
+    /// it.
+    ///
+    /// # Errors
+    /// None that the document would not have had when it was made.
+    pub fn lesson(&self) -> Result<&Lesson, DocumentError> {
+        let inner = &self.inner;
+        let make = || Lesson::new(&inner.root, &inner.illustration.steps);
+        inner
+            .lesson
+            .get_or_init(make)
+            .as_ref()
+            .map_err(Clone::clone)
+    }
+
+    /// What the document means `seconds` into the passage to a step; see [`Lesson::at`].
     ///
     /// # Errors
     /// [`DocumentError::NoSuchStep`].
     pub fn at_time(&self, step: usize, seconds: f32) -> Result<Illustration, DocumentError> {
-        let end = self.at_step(step)?;
-        let Some(before) = step.checked_sub(1) else {
-            return Ok(end.illustration().clone());
-        };
-        let start = self.at_step(before)?;
-        let passage = self.inner.illustration.steps.get(before);
-        let total = passage.map_or(0.0, |step| step.seconds);
-        let part = if total > 0.0 && seconds.is_finite() {
-            (seconds / total).clamp(0.0, 1.0)
-        } else {
-            1.0
-        };
-        Ok(steps::blend(
-            start.illustration(),
-            end.illustration(),
-            part * part * (3.0 - 2.0 * part),
-        ))
+        self.lesson()?.at(step, seconds)
     }
 }
 
@@ -222,5 +228,12 @@ impl Default for Document {
     }
 }
 
-/// More notices than this help nobody.
-pub(super) const MAX_NOTICES: usize = 200;
+impl Edit {
+    /// The document with the edit done.
+    ///
+    /// # Errors
+    /// If there is no such template, caption or step, or a limit would be passed.
+    pub fn apply(&self, document: &Document) -> Result<Document, DocumentError> {
+        document.edited(|root| self.change(root))
+    }
+}

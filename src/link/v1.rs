@@ -3,7 +3,9 @@
 //! The number is written in groups of five bits, lowest first, the sixth bit saying that more follow. The code is the
 //! canonical JSON of the document without its opening, through [`super::model`], in base 64.
 
-use super::{ALPHABET, CHECK_LENGTH, LIMIT, LinkError, is_whole, model};
+use super::error::LinkError;
+use super::model;
+use super::payload::{ALPHABET, CHECK_LENGTH, LIMIT, checksum, is_whole};
 use crate::document::Document;
 use base64::Engine as _;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
@@ -17,7 +19,7 @@ static PRIMED: LazyLock<model::Model> = LazyLock::new(model::Model::new);
 
 pub(super) fn encode(document: &Document) -> String {
     let text = document.to_json_compact();
-    // A document of format 1 begins so; see `document::json`'s order of keys.
+    // A document of format 1 begins so; see the order of keys in `document::schema`.
     let rest = text.strip_prefix(model::OPENING).unwrap_or("}");
     let code = URL_SAFE_NO_PAD.encode(model::compress(PRIMED.clone(), rest.as_bytes()));
     let mut payload = String::with_capacity(code.len() + 12);
@@ -32,7 +34,7 @@ pub(super) fn encode(document: &Document) -> String {
         }
     }
     payload.push_str(&code);
-    let check = super::checksum(&payload);
+    let check = checksum(&payload);
     payload.extend(check.map(char::from));
     payload
 }

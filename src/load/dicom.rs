@@ -1,6 +1,6 @@
 //! DICOM: a volume out of one file or of all files given together. Headers are looked through first, then the images of
-//! the wanted volume are read one after the other. Of a header, only what says how pixels are written and where they lie
-//! is ever taken out: names, dates and whatever else tells who the patient is are stepped over.
+//! the wanted volume are read one after the other. Of a header, only what says how pixels are written and where they
+//! lie is ever taken out: names, dates and whatever else tells who the patient is are stepped over.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -658,15 +658,7 @@ fn srgb_from_cielab([l, a, b]: [u16; 3]) -> [u8; 3] {
         -0.978_768_4 * x + 1.916_141_5 * y + 0.033_454_0 * z,
         0.071_945_3 * x - 0.228_991_4 * y + 1.405_242_7 * z,
     ];
-    linear.map(|c: f64| {
-        let c = c.clamp(0.0, 1.0);
-        let coded = if c <= 0.003_130_8 {
-            12.92 * c
-        } else {
-            1.055 * c.powf(1.0 / 2.4) - 0.055
-        };
-        (coded * 255.0).round() as u8
-    })
+    linear.map(crate::math::srgb_from_linear)
 }
 
 #[cfg(test)]

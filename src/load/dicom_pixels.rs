@@ -2,6 +2,7 @@
 //! not count, colours as brightness (PS3.3, "Image Pixel Module"; PS3.5, section 8 and annexes A and G).
 
 use super::ElementType;
+use super::dicom_codecs;
 use super::dicom_data::{Item, Parsed, tag};
 
 /// Pixels in a row or column at most, and bytes that a packed frame may unpack to beyond 64 times its own.
@@ -42,13 +43,13 @@ enum Packing {
     Native,
     Rle,
     Jpeg,
+    JpegLs,
     Jpeg2000,
 }
 
 /// What a transfer syntax is called, for those that are not read.
 fn syntax_name(uid: &str) -> &'static str {
     match uid {
-        "1.2.840.10008.1.2.4.80" | "1.2.840.10008.1.2.4.81" => "JPEG-LS",
         "1.2.840.10008.1.2.4.92" | "1.2.840.10008.1.2.4.93" => "JPEG 2000 in several components",
         "1.2.840.10008.1.2.4.110" | "1.2.840.10008.1.2.4.111" | "1.2.840.10008.1.2.4.112" => {
             "JPEG XL"
@@ -62,7 +63,7 @@ fn syntax_name(uid: &str) -> &'static str {
 }
 
 fn packing(uid: &str) -> Result<Packing, String> {
-    let packing = match uid {
+    Ok(match uid {
         ""
         | "1.2.840.10008.1.2"
         | "1.2.840.10008.1.2.1"
@@ -73,6 +74,7 @@ fn packing(uid: &str) -> Result<Packing, String> {
         | "1.2.840.10008.1.2.4.51"
         | "1.2.840.10008.1.2.4.57"
         | "1.2.840.10008.1.2.4.70" => Packing::Jpeg,
+        "1.2.840.10008.1.2.4.80" | "1.2.840.10008.1.2.4.81" => Packing::JpegLs,
         "1.2.840.10008.1.2.4.90" | "1.2.840.10008.1.2.4.91" => Packing::Jpeg2000,
         _ => {
             let uid: String = uid
@@ -80,23 +82,11 @@ fn packing(uid: &str) -> Result<Packing, String> {
                 .filter(|c| c.is_ascii_digit() || *c == '.')
                 .collect();
             return Err(format!(
-                "its pixels are packed as {} ({uid}), which is not read: save it uncompressed (dcmdjpls, gdcmconv or dcmconv do)",
+                "its pixels are packed as {} ({uid}), which is not read: save it uncompressed (gdcmconv or dcmconv do)",
                 syntax_name(&uid)
             ));
         }
-    };
-    let name = match packing {
-        Packing::Jpeg => "JPEG",
-        Packing::Jpeg2000 => "JPEG 2000",
-        Packing::Native | Packing::Rle => return Ok(packing),
-    };
-    if codec::IS_THERE {
-        Ok(packing)
-    } else {
-        Err(format!(
-            "its pixels are packed as {name}, which the page does not read: open it in the native program, or save it uncompressed"
-        ))
-    }
+    })
 }
 
 impl PixelFormat {
@@ -230,10 +220,17 @@ impl PixelFormat {
                         "its pixels are too few bytes for its rows and columns".to_owned(),
                     ));
                 }
+                let image = dicom_codecs::Image {
+                    columns: self.columns,
+                    rows: self.rows,
+                    samples: self.samples(),
+                    bits_allocated: self.bits_allocated,
+                };
                 match self.packing {
                     Packing::Rle => self.rle(&packed)?,
-                    Packing::Jpeg => codec::jpeg(&packed, self)?,
-                    Packing::Jpeg2000 | Packing::Native => codec::jpeg2000(&packed, self)?,
+                    Packing::Jpeg => dicom_codecs::jpeg(&packed, &image)?,
+                    Packing::JpegLs => dicom_codecs::jpeg_ls(&packed, &image)?,
+                    Packing::Jpeg2000 | Packing::Native => dicom_codecs::jpeg2000(&packed, &image)?,
                 }
             }
         };
@@ -388,7 +385,8 @@ impl PixelFormat {
         }
     }
 
-    /// Colours as brightness, a byte each: the luma of ITU-R BT.709 of red, green and blue, or the brightness as stored.
+    /// Colours as brightness, a byte each: the luma of ITU-R BT.709 of red, green and blue, or the brightness as
+    /// stored.
     fn brightness(&self, frame: Vec<u8>) -> Vec<u8> {
         // Of samples of 16 bits, the high byte is enough.
         let bytes = usize::from(self.bits_allocated / 8);
@@ -475,6 +473,12 @@ pub(crate) enum FrameFault {
     Other(String),
 }
 
+impl From<String> for FrameFault {
+    fn from(words: String) -> Self {
+        Self::Other(words)
+    }
+}
+
 /// The packed bytes of one frame.
 fn fragments(bytes: &[u8], parsed: &Parsed, index: u64, count: u64) -> Result<Vec<u8>, FrameFault> {
     let all = &parsed.pixels.fragments;
@@ -526,156 +530,4 @@ fn interleave(frame: &[u8], samples: usize, bytes: usize) -> Vec<u8> {
         }
     }
     out
-}
-
-/// JPEG and JPEG 2000: in the native program only, as they would make the page a tenth larger. This is why the target is
-/// asked for here, below the shell.
-#[cfg(not(target_arch = "wasm32"))]
-mod codec {
-    use std::panic::{AssertUnwindSafe, catch_unwind};
-
-    use super::{FrameFault, PixelFormat};
-
-    pub(super) const IS_THERE: bool = true;
-
-    fn other(what: impl std::fmt::Display) -> FrameFault {
-        let what: String = what
-            .to_string()
-            .chars()
-            .filter(|c| !c.is_control())
-            .take(120)
-            .collect();
-        FrameFault::Other(what)
-    }
-
-    /// A library that stumbles over damaged bytes has not read the file, and that is all.
-    fn guarded<T>(
-        name: &str,
-        decode: impl FnOnce() -> Result<T, FrameFault>,
-    ) -> Result<T, FrameFault> {
-        catch_unwind(AssertUnwindSafe(decode))
-            .unwrap_or_else(|_| Err(other(format!("its pixels are damaged {name}"))))
-    }
-
-    fn expect(
-        format: &PixelFormat,
-        size: [u32; 2],
-        samples: u64,
-        bytes: usize,
-    ) -> Result<(), FrameFault> {
-        let is_right = size == [format.columns, format.rows]
-            && samples == format.samples()
-            && bytes == usize::from(format.bits_allocated / 8);
-        if is_right {
-            return Ok(());
-        }
-        Err(other(format!(
-            "its packed image is {} × {} with {samples} samples of {bytes} bytes, not as its header says",
-            size[0], size[1]
-        )))
-    }
-
-    pub(super) fn jpeg(packed: &[u8], format: &PixelFormat) -> Result<Vec<u8>, FrameFault> {
-        guarded("JPEG", || {
-            let damaged = |error| other(format!("its JPEG image cannot be read: {error}"));
-            let mut decoder = jpeg_decoder::Decoder::new(packed);
-            decoder.read_info().map_err(damaged)?;
-            let info = decoder
-                .info()
-                .ok_or_else(|| other("its JPEG image says nothing of itself"))?;
-            let (samples, bytes) = match info.pixel_format {
-                jpeg_decoder::PixelFormat::L8 => (1, 1),
-                jpeg_decoder::PixelFormat::L16 => (1, 2),
-                jpeg_decoder::PixelFormat::RGB24 => (3, 1),
-                jpeg_decoder::PixelFormat::CMYK32 => (4, 1),
-            };
-            let size = [info.width.into(), info.height.into()];
-            let bits = format.bits_allocated;
-            if bits == 16 && bytes == 1 && size == [format.columns, format.rows] && samples == 1 {
-                // Eight bits in sixteen.
-                let frame = decoder.decode().map_err(damaged)?;
-                return Ok(frame.iter().flat_map(|&byte| [byte, 0]).collect());
-            }
-            expect(format, size, samples, bytes)?;
-            let mut frame = decoder.decode().map_err(damaged)?;
-            if bytes == 2 {
-                // Words come in this machine's order.
-                for word in frame.as_chunks_mut::<2>().0 {
-                    *word = u16::from_ne_bytes(*word).to_le_bytes();
-                }
-            }
-            complete(frame, format)
-        })
-    }
-
-    /// Some voxels come out one unit off: the library counts in 32-bit floats, also where nothing was lost.
-    pub(super) fn jpeg2000(packed: &[u8], format: &PixelFormat) -> Result<Vec<u8>, FrameFault> {
-        use dicom_toolkit_jpeg2000::{DecodeSettings, Image};
-        guarded("JPEG 2000", || {
-            let damaged = |error| other(format!("its JPEG 2000 image cannot be read: {error}"));
-            let image = Image::new(packed, &DecodeSettings::default()).map_err(damaged)?;
-            let depth = image.original_bit_depth();
-            if image.width() != format.columns
-                || image.height() != format.rows
-                || !(1..=16).contains(&depth)
-            {
-                return Err(other(format!(
-                    "its packed image is {} × {} with {depth} bits, not as its header says",
-                    image.width(),
-                    image.height()
-                )));
-            }
-            let raw = image.decode_native().map_err(damaged)?;
-            let bytes = usize::from(raw.bytes_per_sample);
-            let mut frame = raw.data;
-            if format.bits_allocated == 16 && bytes == 1 && raw.num_components == 1 {
-                frame = frame.iter().flat_map(|&byte| [byte, 0]).collect();
-            } else {
-                let size = [raw.width, raw.height];
-                expect(format, size, raw.num_components.into(), bytes)?;
-            }
-            // The library shifts signed samples up to be positive; the sign stands in the first header (ITU-T T.800, A.5.1).
-            let is_signed = packed.get(42).is_some_and(|sample| sample & 0x80 != 0);
-            let shift = 1u16 << (depth - 1);
-            match bytes {
-                1 if is_signed && format.bits_allocated == 8 => {
-                    frame
-                        .iter_mut()
-                        .for_each(|byte| *byte = byte.wrapping_sub(shift as u8));
-                }
-                _ if is_signed => {
-                    for word in frame.as_chunks_mut::<2>().0 {
-                        *word = u16::from_le_bytes(*word).wrapping_sub(shift).to_le_bytes();
-                    }
-                }
-                _ => {}
-            }
-            complete(frame, format)
-        })
-    }
-
-    fn complete(frame: Vec<u8>, format: &PixelFormat) -> Result<Vec<u8>, FrameFault> {
-        if frame.len() as u64 * 8 == format.frame_bits() {
-            Ok(frame)
-        } else {
-            Err(other(
-                "its packed image has another number of pixels than its header says",
-            ))
-        }
-    }
-}
-
-#[cfg(target_arch = "wasm32")]
-mod codec {
-    use super::{FrameFault, PixelFormat};
-
-    pub(super) const IS_THERE: bool = false;
-
-    pub(super) fn jpeg(_packed: &[u8], _format: &PixelFormat) -> Result<Vec<u8>, FrameFault> {
-        Err(FrameFault::Other("JPEG is not read here".to_owned()))
-    }
-
-    pub(super) fn jpeg2000(_packed: &[u8], _format: &PixelFormat) -> Result<Vec<u8>, FrameFault> {
-        Err(FrameFault::Other("JPEG 2000 is not read here".to_owned()))
-    }
 }

@@ -1,9 +1,10 @@
-//! Displacement fields: vectors on a grid (NRRD, NIfTI, MetaImage) or at scattered nodes (CSV), made into the samples of a `field`.
+//! Displacement fields: vectors on a grid (NRRD, NIfTI, MetaImage) or at scattered nodes (CSV), made into the samples
+//! of a `field`.
 //!
-//! A field maps output to input, as ITK's warps do: at a place of the deformed object stands the way to where its material was. Its
-//! vectors are in the file's own directions: in an NRRD those of its `space`, in a NIfTI and a MetaImage left, posterior, superior (ITK
-//! writes them so), but right, anterior, superior in a NIfTI of the intent "displacement vectors" (1006). The `axes` of the template
-//! overrule that.
+//! A field maps output to input, as ITK's warps do: at a place of the deformed object stands the way to where its
+//! material was. Its vectors are in the file's own directions: in an NRRD those of its `space`, in a NIfTI and a
+//! MetaImage left, posterior, superior (ITK writes them so), but right, anterior, superior in a NIfTI of the intent
+//! "displacement vectors" (1006). The `axes` of the template overrule that.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, UVec3};
 use half::f16;
@@ -27,14 +28,14 @@ const MAX_BOXES: f64 = 50.0;
 /// A displacement field as it stands in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldFile {
-    /// Where the samples lie. Of nodes in subject units it is in subject space, else in mm, RAS+.
-    grid: Grid,
+    /// Where the samples lie: of nodes in subject units it is in subject space, else in mm, RAS+.
+    pub grid: Grid,
     /// Vectors and continuity (1 where the file has none), x fastest.
-    samples: Vec<[f32; 4]>,
+    pub samples: Vec<[f32; 4]>,
     /// What takes the file's vectors to RAS+.
-    signs: DVec3,
+    pub signs: DVec3,
     /// From a table of nodes, which lie in the same unit as their displacements.
-    is_nodes: bool,
+    pub is_nodes: bool,
     /// SHA-256 of the file, lower-case hex.
     pub sha256: String,
     /// What the user should know.
@@ -62,7 +63,8 @@ pub fn is_field(files: &mut dyn FileSet, name: &str) -> bool {
 /// Reads a displacement field.
 ///
 /// # Errors
-/// As [`read_volume`]; [`LoadError::NotField`] for another number of components than 3 or 4, and for samples that are no numbers.
+/// As [`read_volume`]; [`LoadError::NotField`] for another number of components than 3 or 4, and for samples that are
+/// no numbers.
 pub fn read_field(files: &mut dyn FileSet, name: &str) -> Result<FieldFile, LoadError> {
     let refuse = |what: String| LoadError::NotField {
         name: name.to_owned(),

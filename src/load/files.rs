@@ -5,6 +5,12 @@ use std::io::{self, Cursor, Read};
 use super::LoadError;
 use super::stream::{SharedHash, Stream};
 
+/// Stands for a file's name where all files of a set are meant: a folder of DICOM, or many files dropped together.
+pub const ALL_FILES: &str = ".";
+
+/// Files that one header may name.
+const MAX_FILES: u64 = 100_000;
+
 /// An opened file: bytes to pull, and how many there are if that is known (it gives progress, and unmasks headers that
 /// promise more).
 pub struct FileHandle<'a> {
@@ -32,8 +38,8 @@ pub trait FileSet {
     /// [`io::ErrorKind::NotFound`] if there is none of this name.
     fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>>;
 
-    /// Names of all files, for formats whose volumes are spread over many (DICOM). None where only those are given that a
-    /// header asks for.
+    /// Names of all files, for formats whose volumes are spread over many (DICOM). None where only those are given that
+    /// a header asks for.
     fn names(&mut self) -> Vec<String> {
         Vec::new()
     }
@@ -222,6 +228,43 @@ pub(crate) fn first_there(
     })
 }
 
+/// The names that a pattern like `slice%03d.raw` stands for.
+pub(crate) fn pattern_files(
+    pattern: &str,
+    first: i64,
+    last: i64,
+    step: i64,
+) -> Option<Vec<String>> {
+    let (before, rest) = pattern.split_once('%')?;
+    let (width, after) = rest.split_once(['d', 'i', 'u'])?;
+    let is_padded = width.starts_with('0');
+    let width: usize = if width.is_empty() {
+        0
+    } else {
+        width.parse().ok()?
+    };
+    let span = last.checked_sub(first)?;
+    if width > 32 || step == 0 || span.signum() * step.signum() < 0 {
+        return None;
+    }
+    let count = span.checked_div(step)?.unsigned_abs().saturating_add(1);
+    if count > MAX_FILES {
+        return None;
+    }
+    Some(
+        (0..count as i64)
+            .map(|i| {
+                let number = first + i * step;
+                if is_padded {
+                    format!("{before}{number:0width$}{after}")
+                } else {
+                    format!("{before}{number:width$}{after}")
+                }
+            })
+            .collect(),
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -239,5 +282,22 @@ mod tests {
         assert_eq!(siblings("a.nii", "hdr", "img"), None);
         assert_eq!(siblings(".hdr", "hdr", "img"), None);
         assert_eq!(siblings("é.z", "hdr", "img"), None);
+    }
+
+    #[test]
+    fn patterns_count_up_and_down() {
+        assert_eq!(
+            pattern_files("a%d.raw", 9, 11, 1),
+            Some(vec!["a9.raw".into(), "a10.raw".into(), "a11.raw".into()])
+        );
+        assert_eq!(
+            pattern_files("a%03d", 4, 0, -2),
+            Some(vec!["a004".into(), "a002".into(), "a000".into()])
+        );
+        assert_eq!(pattern_files("a%d", 0, 5, -1), None);
+        assert_eq!(pattern_files("a%d", 0, i64::MAX, 1), None);
+        assert_eq!(pattern_files("a%d", i64::MIN, i64::MAX, 1), None);
+        assert_eq!(pattern_files("a%999999d", 0, 1, 1), None);
+        assert_eq!(pattern_files("a", 0, 1, 1), None);
     }
 }

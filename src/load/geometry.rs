@@ -93,7 +93,7 @@ pub(crate) fn header(
         slope,
         intercept,
         value_range: [0.0, 0.0],
-        labels: None,
+        segmentation: None,
     })
 }
 

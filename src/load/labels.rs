@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use super::report::clean_name;
 use super::{FileSet, LoadError, LoadReport, ReadOptions, read_volume};
-use crate::data::{LabelVolume, Segment, Volume, VolumeSink, Voxels};
+use crate::data::{Segment, Segmentation, Volume, VolumeSink, Voxels};
 
 /// Reads no voxels: size, type and orientation of a file, and what its header gives for the report. Quick, for a choice
 /// of frame or a question before a long load.
@@ -38,8 +38,8 @@ pub fn read_header(
 }
 
 /// Reads a file as labels, on its own grid. Segments are those that occur, under the names that the file, or else
-/// `names`, gives them. More than 255 different labels are refused; numbers beyond 255 are renumbered, and the number of
-/// the file stands in the name.
+/// `names`, gives them. More than 255 different labels are refused; numbers beyond 255 are renumbered, and the number
+/// of the file stands in the name.
 ///
 /// # Errors
 /// As [`read_volume`], and [`LoadError::NotLabels`].
@@ -49,7 +49,50 @@ pub fn read_labels(
     names: &BTreeMap<u16, String>,
     options: &ReadOptions,
     report: &mut LoadReport,
-) -> Result<LabelVolume, LoadError> {
+) -> Result<Segmentation, LoadError> {
+    Ok(read_numbered(files, name, names, options, report)?.0)
+}
+
+/// A label volume as its file has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelFile {
+    /// SHA-256 of the file's bytes, lower-case hex.
+    pub sha256: String,
+    /// Labels on the file's own grid, and a segment for each number that occurs.
+    pub segmentation: Segmentation,
+    /// The number that each of the segments has in the file, in their order. It differs from the label where numbers do
+    /// not fit into a byte.
+    pub numbers: Vec<u16>,
+}
+
+/// Reads a file as labels and keeps their numbers in the file, so that an author's names can be given to them
+/// afterwards.
+///
+/// # Errors
+/// As [`read_labels`].
+pub fn read_label_file(
+    files: &mut dyn FileSet,
+    name: &str,
+    options: &ReadOptions,
+) -> Result<LabelFile, LoadError> {
+    let mut report = LoadReport::default();
+    let (segmentation, numbers) =
+        read_numbered(files, name, &BTreeMap::new(), options, &mut report)?;
+    Ok(LabelFile {
+        sha256: report.sha256_hex().unwrap_or_default(),
+        segmentation,
+        numbers,
+    })
+}
+
+/// As [`read_labels`], with the number of each segment in the file.
+fn read_numbered(
+    files: &mut dyn FileSet,
+    name: &str,
+    names: &BTreeMap<u16, String>,
+    options: &ReadOptions,
+    report: &mut LoadReport,
+) -> Result<(Segmentation, Vec<u16>), LoadError> {
     let mut collector = Collector {
         header: None,
         labels: Vec::new(),
@@ -120,11 +163,12 @@ pub fn read_labels(
             }
         })
         .collect();
-    Ok(LabelVolume {
+    let segmentation = Segmentation {
         grid: header.grid,
         labels,
         segments,
-    })
+    };
+    Ok((segmentation, kept_as.into_keys().collect()))
 }
 
 /// Collects labels as positions in a list of the numbers that occur.
@@ -257,7 +301,7 @@ fn read_header_if_again(files: &mut dyn FileSet, name: &str, options: &ReadOptio
 /// Adds a label volume to what passes.
 struct WithLabels<'a> {
     inner: &'a mut dyn VolumeSink,
-    labels: Option<LabelVolume>,
+    labels: Option<Segmentation>,
 }
 
 impl VolumeSink for WithLabels<'_> {
@@ -266,7 +310,7 @@ impl VolumeSink for WithLabels<'_> {
             return self.inner.begin(header);
         };
         let mut header = header.clone();
-        header.labels = Some(LabelVolume {
+        header.segmentation = Some(Segmentation {
             grid: labels.grid,
             labels: Vec::new(),
             segments: labels.segments,

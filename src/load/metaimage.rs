@@ -4,9 +4,9 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::files::pattern_files;
 use super::geometry::{self, checked_dims};
 use super::header::Fields;
-use super::nrrd::pattern_files;
 use super::place::{Encoding, Header, Place, Skip};
 use super::stream::Stream;
 use super::voxels::{ElementType, Layout};

@@ -95,7 +95,8 @@ impl Fields<'_> {
     }
 }
 
-/// Reads the header and, of a single file, the voxels. Of a pair, gives the header for [`read_voxels`] on the other file.
+/// Reads the header and, of a single file, the voxels. Of a pair, gives the header for [`read_voxels`] on the other
+/// file.
 pub(crate) fn read(
     stream: &mut Stream<'_>,
     name: &str,

@@ -1,9 +1,9 @@
-//! Nodal displacements as simulations give them: a table of x, y, z and the forward displacement of each node, regularised onto a grid
-//! (dissertation, section 9.3).
+//! Nodal displacements as simulations give them: a table of x, y, z and the forward displacement of each node,
+//! regularised onto a grid (dissertation, section 9.3).
 //!
-//! What is wanted is the inverse: a node that went from x to x + u says that what is at x + u came from there, so its sample lies at
-//! x + u and is −u. Between samples Shepard's interpolation over the nearest ones (Franke and Little's weights), which runs through
-//! every node and needs no mesh.
+//! What is wanted is the inverse: a node that went from x to x + u says that what is at x + u came from there, so its
+//! sample lies at x + u and is −u. Between samples Shepard's interpolation over the nearest ones (Franke and Little's
+//! weights), which runs through every node and needs no mesh.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -40,7 +40,8 @@ pub(crate) struct Nodes {
     pub(crate) notices: Vec<String>,
 }
 
-/// Reads a table: six numbers a line, parted by commas, semicolons, tabs or spaces; one line of names may come first, `#` begins a remark.
+/// Reads a table: six numbers a line, parted by commas, semicolons, tabs or spaces; one line of names may come first,
+/// `#` begins a remark.
 pub(crate) fn read(files: &mut dyn FileSet, name: &str) -> Result<Nodes, LoadError> {
     let hash = Rc::new(RefCell::new(Sha256::new()));
     let mut stream = open(files, name, name, Some(&hash))?;
@@ -125,7 +126,7 @@ pub(crate) fn read(files: &mut dyn FileSet, name: &str) -> Result<Nodes, LoadErr
     Ok(Nodes {
         grid,
         samples,
-        sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+        sha256: crate::math::hex(&digest),
         notices: vec![format!(
             "{} nodes were regularised onto {} x {} x {} samples",
             nodes.len(),

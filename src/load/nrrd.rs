@@ -5,6 +5,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::files::pattern_files;
 use super::geometry::{self, checked_dims};
 use super::header::Fields;
 use super::place::{Encoding, Header, Place, Skip};
@@ -21,8 +22,6 @@ const MAX_LINES: usize = 100_000;
 const MAX_HEADER_BYTES: usize = 16 << 20;
 /// NRRD's own limit.
 const MAX_AXES: usize = 16;
-/// Files that one header may name.
-const MAX_FILES: u64 = 100_000;
 
 /// True if the bytes begin as a NRRD header does.
 pub(crate) fn is_header(start: &[u8]) -> bool {
@@ -613,63 +612,4 @@ fn data_files(fields: &Fields) -> Result<Option<Vec<String>>, LoadError> {
         }
     }
     Ok(Some(vec![text.to_owned()]))
-}
-
-/// The names that a pattern like `slice%03d.raw` stands for.
-pub(crate) fn pattern_files(
-    pattern: &str,
-    first: i64,
-    last: i64,
-    step: i64,
-) -> Option<Vec<String>> {
-    let (before, rest) = pattern.split_once('%')?;
-    let (width, after) = rest.split_once(['d', 'i', 'u'])?;
-    let is_padded = width.starts_with('0');
-    let width: usize = if width.is_empty() {
-        0
-    } else {
-        width.parse().ok()?
-    };
-    let span = last.checked_sub(first)?;
-    if width > 32 || step == 0 || span.signum() * step.signum() < 0 {
-        return None;
-    }
-    let count = span.checked_div(step)?.unsigned_abs().saturating_add(1);
-    if count > MAX_FILES {
-        return None;
-    }
-    Some(
-        (0..count as i64)
-            .map(|i| {
-                let number = first + i * step;
-                if is_padded {
-                    format!("{before}{number:0width$}{after}")
-                } else {
-                    format!("{before}{number:width$}{after}")
-                }
-            })
-            .collect(),
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn patterns_count_up_and_down() {
-        assert_eq!(
-            pattern_files("a%d.raw", 9, 11, 1),
-            Some(vec!["a9.raw".into(), "a10.raw".into(), "a11.raw".into()])
-        );
-        assert_eq!(
-            pattern_files("a%03d", 4, 0, -2),
-            Some(vec!["a004".into(), "a002".into(), "a000".into()])
-        );
-        assert_eq!(pattern_files("a%d", 0, 5, -1), None);
-        assert_eq!(pattern_files("a%d", 0, i64::MAX, 1), None);
-        assert_eq!(pattern_files("a%d", i64::MIN, i64::MAX, 1), None);
-        assert_eq!(pattern_files("a%999999d", 0, 1, 1), None);
-        assert_eq!(pattern_files("a", 0, 1, 1), None);
-    }
 }

@@ -29,8 +29,8 @@ pub struct RawLayout {
 }
 
 impl RawLayout {
-    /// A guess to begin with, from a name like `stent_128x128x256_int16le.raw.gz` and the number of bytes. Without sizes
-    /// in the name, a cube if the bytes make one; `None` if nothing fits.
+    /// A guess to begin with, from a name like `stent_128x128x256_int16le.raw.gz` and the number of bytes. Without
+    /// sizes in the name, a cube if the bytes make one; `None` if nothing fits.
     pub fn guess(name: &str, byte_len: Option<u64>) -> Option<Self> {
         let name = name.to_lowercase();
         let is_packed = name.ends_with(".gz");

@@ -271,8 +271,7 @@ impl LoadReport {
 
     /// The hash as the document writes it: 64 hexadecimal digits.
     pub fn sha256_hex(&self) -> Option<String> {
-        self.sha256
-            .map(|hash| hash.iter().map(|byte| format!("{byte:02x}")).collect())
+        self.sha256.map(|hash| crate::math::hex(&hash))
     }
 
     /// The warnings as lines for the user.

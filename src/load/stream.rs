@@ -10,7 +10,8 @@ use sha2::{Digest as _, Sha256};
 
 use super::LoadError;
 
-/// Bytes read from the file at once. Larger costs memory, smaller costs calls (a browser's file reader is slow per call).
+/// Bytes read from the file at once. Larger costs memory, smaller costs calls (a browser's file reader is slow per
+/// call).
 const BLOCK_BYTES: usize = 256 * 1024;
 
 /// The most that deflate can pack one byte (RFC 1951: 258 bytes per 2 bits), with room for the frame around it.

@@ -211,8 +211,8 @@ impl Tally {
     }
 }
 
-/// Collects voxels from one source after the other and hands them to the sink slab by slab. Holds no more than one slab,
-/// and of a slab no more than the bytes that really came.
+/// Collects voxels from one source after the other and hands them to the sink slab by slab. Holds no more than one
+/// slab, and of a slab no more than the bytes that really came.
 pub(crate) struct Slabs<'a> {
     layout: Layout,
     sink: &'a mut dyn VolumeSink,

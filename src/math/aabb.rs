@@ -64,7 +64,7 @@ impl Aabb {
         self.min.cmple(pos).all() && pos.cmple(self.max).all()
     }
 
-    /// Centre.
+    /// The point in the middle.
     pub fn center(&self) -> Vec3 {
         (self.min + self.max) * 0.5
     }

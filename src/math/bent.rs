@@ -1,64 +1,67 @@
 use super::Aabb;
 use glam::{DVec2, Vec2, Vec3};
 
-/// Segments that a spline is made of at most.
+/// Most straight segments that a spline is drawn with.
 const SPLINE_SEGMENTS: usize = 16;
-/// Places nearer to each other than this are one, template units.
+/// Points nearer to each other than this count as one point, template units.
 const SAME_PLACE: f64 = 1e-3;
-/// A corner sharper than this (cosine of its turn) has no mitre to speak of.
+/// Cosine of the sharpest turn that a corner may have: the mitre of a sharper corner is too long to be of use.
 const SHARPEST: f64 = -0.5;
-/// A line beside the curve that has less than this of its length is none: nothing is displaced there.
+/// Beside the curve, segments get shorter on the inner side. Where less than this fraction of the length is left, the
+/// space folds and nothing is displaced.
 const LEAST_ROOM: f32 = 0.05;
-/// How far past a mitre line a point still counts as inside, in parts of the segment: rounding must leave no gap between two.
+/// How far beyond a mitre line a point still belongs to the segment, as a fraction of its length, so that rounding
+/// leaves no gap between two segments.
 const PAST_MITRE: f32 = 1e-4;
-/// Stands for no end where infinity is not safe.
+/// A length that stands for infinity where arithmetic with infinity would give NaN.
 const FAR: f32 = 1e3;
 
-/// Why there is no bent space along some places.
+/// Why points make no line that a space can be bent along.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotBent {
-    /// Fewer than two places.
+    /// Fewer than two points that are apart from each other.
     TooShort,
-    /// It turns back on itself.
+    /// The line turns back on itself.
     TurnsBack,
 }
 
 /// A corner of the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Joint {
-    /// Subject units along x and z of the straight box, from its corner.
+    /// Position along x and z of the straight box, measured from its corner, subject units.
     at: Vec2,
-    /// Where the point beside it goes that is one unit away from the line.
+    /// Offset from the corner to the point at unit distance from the line, on the mitred normal.
     mitre: Vec2,
 }
 
-/// The space of a box bent along a line in its x-z plane (Correa, section 5.3), y straight: W(s, t) is bilinear between the mitred
-/// normals of the line, `s` along it and `t` away from it; before its first and behind its last place it goes straight on.
+/// The space of a box that is bent along a line in its x-z plane (Correa, section 5.3); y stays straight. The map W(s,
+/// t) is bilinear between the mitred normals of the line, with the arc length `s` and the distance `t` from the line.
+/// Before the first and after the last point the line goes straight on.
 ///
 /// ```text
-///      m0      m1        m2        at x = 0 … 1 the line begins … ends, in proportion to its length;
-///      |  t    |  s → __/          at z = height lies the line itself.
+///      m0      m1        m2        the line begins at x = 0 and ends at x = 1, in proportion to its length;
+///      |  t    |  s → __/          the line itself lies at z = height.
 ///      p0 ---- p1 ---p2
 /// ```
 ///
-/// The same numbers go to the shader (displace/curve.wgsl).
+/// The shader displace/curve.wgsl gets the same numbers ([`Bent::rows`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bent {
     joints: Vec<Joint>,
     /// Sides of the straight box, subject units.
     straight: Vec3,
-    /// Sides of the box laid along the line.
+    /// Sides of the box that is laid along the line, subject units.
     size: Vec3,
-    /// Where the line begins along the box and how far it lies from its bottom, subject units.
+    /// Position along the box at which the line begins, and its height over the bottom, subject units.
     origin: Vec2,
 }
 
-/// Which part of a box lies on a line.
+/// The part of a box that lies on a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Laid {
-    /// z of what lies on the line, template units.
+    /// Height (z) of the plane that lies on the line, template units.
     pub height: f32,
-    /// x of what lies at its first and last place, template units.
+    /// x of the planes that lie at the first and at the last point, template units.
     pub ends: [f32; 2],
 }
 
@@ -71,7 +74,8 @@ impl Laid {
 }
 
 impl Bent {
-    /// Along these places (x and z of the straight box, template units), as a Catmull-Rom spline or straight from each to the next.
+    /// The space bent along these points (x and z of the straight box, template units): along a Catmull-Rom spline, or
+    /// straight from each point to the next.
     ///
     /// # Errors
     /// [`NotBent`].
@@ -81,7 +85,7 @@ impl Bent {
         straight: Vec3,
         laid: Laid,
     ) -> Result<Self, NotBent> {
-        // Mitres are differences of near directions, hence the long floats.
+        // Mitres are differences of nearly equal directions: 64 bits keep their digits.
         let mut line: Vec<DVec2> = Vec::with_capacity(SPLINE_SEGMENTS + 1);
         let mut add = |place: DVec2| {
             let is_new = line
@@ -95,7 +99,7 @@ impl Bent {
         let places: Vec<DVec2> = known.map(|place| place.as_dvec2()).collect();
         let place = |i: usize| places.get(i).copied();
         let spans = places.len().saturating_sub(1);
-        // A spline is cut into as many pieces as there may be, evenly: corners as blunt as they can be.
+        // A spline is cut evenly into as many pieces as allowed, so that its corners are as blunt as possible.
         let pieces = if is_spline && spans > 1 {
             SPLINE_SEGMENTS
         } else {
@@ -108,7 +112,7 @@ impl Bent {
                 place(i).into_iter().for_each(&mut add);
                 break;
             };
-            // Beyond its ends the line goes on as it began.
+            // Beyond its ends the line goes straight on.
             let before = i.checked_sub(1).and_then(place);
             let before = before.unwrap_or(2.0 * from - to);
             let after = place(i + 2).unwrap_or(2.0 * to - from);
@@ -155,16 +159,21 @@ impl Bent {
         })
     }
 
-    /// Sides of the box laid along the line, subject units: the template acts in a box of this size.
+    /// Sides of the box that is laid along the line, subject units. The template acts in a box of this size.
     pub fn size(&self) -> Vec3 {
         self.size
     }
 
-    /// As the shader takes it: x where the line begins along the box, y its height over the bottom, z the number of segments; then place and
-    /// mitre of every corner.
+    /// As the shader takes it: x where the line begins along the box, y its height over the bottom, z the number of
+    /// segments, w the straight box's side along x; then place and mitre of every corner.
     pub fn rows(&self) -> Vec<[f32; 4]> {
         let segments = self.joints.len() - 1;
-        let head = [self.origin.x, self.origin.y, segments as f32, 0.0];
+        let head = [
+            self.origin.x,
+            self.origin.y,
+            segments as f32,
+            self.straight.x,
+        ];
         let corners = self.joints.iter();
         let corners = corners.map(|j| [j.at.x, j.at.y, j.mitre.x, j.mitre.y]);
         std::iter::once(head).chain(corners).collect()
@@ -180,7 +189,7 @@ impl Bent {
         self.joints.len() - 2
     }
 
-    /// Where a point of the template's own space is seen, in the space of the straight box.
+    /// Template space to the space of the straight box, both in template units.
     pub fn bend(&self, q: Vec3) -> Vec3 {
         let s = q.x * self.size.x - self.origin.x;
         let t = q.z * self.size.z - self.origin.y;
@@ -188,7 +197,8 @@ impl Bent {
         Vec3::new(at.x / self.straight.x, q.y, at.y / self.straight.z)
     }
 
-    /// W.
+    /// Maps arc length `s` and distance `t` from the line to the straight box's x-z plane, subject units (Correa,
+    /// section 5.3, W(s, t)).
     fn at(&self, s: f32, t: f32) -> Vec2 {
         let mut start = 0.0;
         let mut found = Vec2::ZERO;
@@ -206,7 +216,7 @@ impl Bent {
         found
     }
 
-    /// Where a point of the space of the straight box lies in the template's own; none where nothing of it is laid.
+    /// The space of the straight box to template space; `None` at points that the bent space does not reach.
     pub fn unbend(&self, q: Vec3) -> Option<Vec3> {
         let at = Vec2::new(q.x * self.straight.x, q.z * self.straight.z);
         let mut nearest: Option<(f32, f32)> = None;
@@ -240,7 +250,8 @@ impl Bent {
         ))
     }
 
-    /// What is left of the length of the segment that loses most, this far from the line: 1 on it, below 0 where the space folds.
+    /// The smallest ratio of a segment's length at distance `t` from the line to its length on the line: 1 on the line,
+    /// below 0 where the space folds.
     fn room(&self, t: f32) -> f32 {
         let rooms = self.segments().map(|(_, from, to)| {
             let along = to.at - from.at;
@@ -249,8 +260,8 @@ impl Bent {
         rooms.fold(1.0, f32::min)
     }
 
-    /// True if a layer under the top of the box, so thick in parts of its height, is deeper than the line is bent: there it folds, and nothing
-    /// is displaced.
+    /// True if the line is bent more sharply than a layer under the top of the box is deep (`layer` as a fraction of
+    /// the height): the layer folds there, and nothing is displaced.
     pub fn is_folded(&self, layer: f32) -> bool {
         [1.0 - layer, 1.0]
             .map(|z| self.room(z * self.size.z - self.origin.y))
@@ -258,7 +269,7 @@ impl Bent {
             .any(|room| *room < LEAST_ROOM)
     }
 
-    /// The height in the box that is nearest to this one and not beyond a fold, template units: how deep an outline can be drawn.
+    /// The height nearest to `z` that is not beyond a fold, template units: how deep an outline can be drawn.
     pub fn unfolded(&self, z: f32) -> f32 {
         let t = z * self.size.z - self.origin.y;
         let t = self.segments().fold(t, |t, (_, from, to)| {
@@ -276,19 +287,21 @@ impl Bent {
         (t + self.origin.y) / self.size.z
     }
 
-    /// From a range of z to one of t, without infinity.
+    /// A range of heights z (template units) as distances t from the line, with finite ends.
     fn across(&self, z: [f32; 2]) -> [f32; 2] {
         z.map(|z| (z * self.size.z - self.origin.y).clamp(-FAR, FAR))
     }
 
-    /// How much longer a step can be in the template's own space than in the straight one, both in subject units, between two heights.
+    /// Between two heights, the greatest ratio of a step's length in template space to its length in the straight box,
+    /// both in subject units.
     pub fn stretch(&self, z: [f32; 2]) -> f32 {
         let least = self.across(z).map(|t| self.room(t).max(LEAST_ROOM));
         let slant = self.slant();
         (1.0 + slant * slant).sqrt() / least[0].min(least[1])
     }
 
-    /// The other way round.
+    /// Between two heights, the greatest ratio of a step's length in the straight box to its length in template space,
+    /// both in subject units.
     pub fn widening(&self, z: [f32; 2]) -> f32 {
         let most = self.across(z).map(|t| {
             let rooms = self.segments().map(|(_, from, to)| {
@@ -298,11 +311,11 @@ impl Bent {
             rooms.fold(1.0, f32::max)
         });
         let slant = self.slant();
-        // Along by the widest line, across by the longest mitre.
+        // Along the line the widest line decides, across it the longest mitre.
         (most[0].max(most[1]).powi(2) + 1.0 + slant * slant).sqrt()
     }
 
-    /// How far a mitre leans at most: tangent of half the sharpest turn.
+    /// The greatest lean of a mitre: the tangent of half the sharpest turn.
     fn slant(&self) -> f32 {
         let leans = self.segments().flat_map(|(_, from, to)| {
             let way = (to.at - from.at).normalize_or_zero();
@@ -311,7 +324,8 @@ impl Bent {
         leans.fold(0.0, f32::max)
     }
 
-    /// Box (space of the straight box) of a box of the template's own space. Sides without an end end far away.
+    /// The box, in the space of the straight box, that holds the image of a box of template space. Infinite sides get
+    /// finite ends far away.
     pub fn bent_box(&self, own: Aabb) -> Aabb {
         if own.is_empty() {
             return Aabb::EMPTY;
@@ -321,7 +335,7 @@ impl Bent {
             s.clamp(-FAR, FAR)
         });
         let across = self.across([own.min.z, own.max.z]);
-        // Between two corners of the line it is bilinear: the corners of the pieces are its extremes.
+        // The map is bilinear between two corners of the line, so its extremes are at the corners of the pieces.
         let mut cuts = along.to_vec();
         let mut start = 0.0;
         for (_, from, to) in self.segments() {
@@ -339,7 +353,7 @@ impl Bent {
         bounds
     }
 
-    /// Box of the template's own space that holds whatever of it is seen in a box of the straight one.
+    /// The box of template space that holds everything that is seen inside a box of the straight space.
     pub fn unbent_box(&self, straight: Aabb) -> Aabb {
         if straight.is_empty() {
             return Aabb::EMPTY;
@@ -356,7 +370,7 @@ impl Bent {
             for at in corners {
                 let u = (at - from.at).dot(along) / length;
                 let t = along.perp_dot(at - from.at) / length;
-                // Past its ends the line goes on; between them s is no farther than they are.
+                // Beyond its ends the line goes on; between them s stays between the ends.
                 let before = if i == 0 { u.min(0.0) } else { 0.0 };
                 let after = if i == self.last() {
                     u.max(length)
@@ -376,7 +390,7 @@ impl Bent {
         }
     }
 
-    /// The line itself and the one this far from it, as places of the straight box, template units.
+    /// The line itself and the line at distance `z` from it, as points of the straight box, template units.
     pub fn beside(&self, t: f32) -> Vec<Vec2> {
         let flat = Vec2::new(self.straight.x, self.straight.z);
         let corners = self.joints.iter();

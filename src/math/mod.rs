@@ -1,10 +1,14 @@
-//! Layer 0: spaces, placements, boxes and float functions that give the same bits everywhere.
+//! Layer 0: spaces, placements, boxes, colours and float functions that give the same bits everywhere.
 
 mod aabb;
 mod bent;
+mod color;
+mod number;
 mod placement;
 pub mod space;
 
 pub use aabb::Aabb;
 pub use bent::{Bent, Laid, NotBent};
+pub use color::{linear_from_srgb, mix_srgb, srgb_from_linear};
+pub use number::{hex, plain_f64, round_to};
 pub use placement::Placement;

@@ -6,7 +6,7 @@
 //! | `voxel` | index into the grid, the centre of the first voxel at 0 | voxels |
 //! | `texture` | the same grid, outer edges at 0 and 1 | 1 |
 //! | `world` | the scanner's space, RAS+ | mm |
-//! | `subject` | origin at the centre of the subject's box, axes as `world`; what the viewer shows, deformed | longest side of the box |
+//! | `subject` | origin in the middle of the subject's box, axes as `world`; deformed, as shown | longest side of it |
 //! | `rest` | subject space before any template acted: where a sample came from | as `subject` |
 //! | `template` | unit cube of one placed template | 1 |
 //! | `view` | camera at the origin, looking along -z, y up | as `subject` |

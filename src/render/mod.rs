@@ -1,55 +1,49 @@
-//! Layer 4: everything GPU. Opens devices, assembles shader programs, uploads volumes and draws the picture.
+//! Layer 4: everything GPU. Opens devices, assembles shader programs, uploads subjects and draws the picture.
+//!
+//! The inner rooms, bottom to top; a file imports from its own room and from those above it in this list:
+//!
+//! | room | holds |
+//! |---|---|
+//! | `device` | the device, its programs, bindings and readback |
+//! | `pack` | from a document to what the shaders read |
+//! | `subject` | what is illustrated, on the GPU: one file for each kind |
+//! | `stage` | what is made on the GPU before a picture can be drawn |
+//! | `scene` | everything that is ready to be drawn |
+//! | `draw` | pictures, slices, picks and probes |
 
-mod baked;
-#[cfg(any(test, target_arch = "wasm32"))]
-mod bare;
-mod bench;
-mod bodies;
-mod error;
-mod feature;
-mod field;
-mod follow;
-mod gpu;
-pub mod gpu_types;
-mod grid;
-mod kernel;
-mod look;
-mod object;
-mod pace;
-mod passes;
-mod picture;
-mod probe;
-pub mod programs;
-mod readback;
-#[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
-mod reload;
-mod renderer;
-mod rigid;
+mod device;
+mod draw;
+mod pack;
 mod scene;
-mod slice;
+mod stage;
 mod subject;
-mod view;
 
-pub use baked::BakedMap;
-pub use bench::{BenchRow, bench};
-pub use error::RenderError;
-pub use feature::KeptTissue;
-pub use follow::PendingPlaces;
-pub use gpu::{Gpu, GpuOptions};
-pub use grid::GridCells;
-pub use kernel::{Binding, Kernel, result_buffer, storage_buffer, submit_and_read, uniform_buffer};
-pub use look::{
-    TABLE_SIZE, TransferTable, absolute_points, auto_preset, linear_color, linear_from_srgb,
-    window_of,
-};
-pub use picture::{Image, PendingPick, Pick, Studio, encode_png, render_image};
-pub use probe::{Probe, Sample};
-pub use readback::{Readback, WorkDone};
+pub use device::buffers::{result_buffer, storage_buffer, submit_and_read, uniform_buffer};
+pub use device::error::RenderError;
+pub use device::gpu::{Gpu, GpuOptions};
+pub use device::kernel::{Binding, Kernel};
+pub use device::programs;
+pub use device::readback::{Readback, WorkDone};
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
-pub use reload::watch_shaders;
+pub use device::reload::watch_shaders;
+pub use draw::bench::{BenchRow, bench};
+pub use draw::clock::Clock;
 #[cfg(not(target_arch = "wasm32"))]
-pub use renderer::system_clock;
-pub use renderer::{Clock, DrawState, Renderer};
-pub use slice::{PendingSlice, SliceColors, SlicePlane, SliceTexel, SliceView};
-pub use subject::{BRICK, Bricks, SubjectInfo};
-pub use view::View;
+pub use draw::clock::system_clock;
+pub use draw::follow::PendingPlaces;
+pub use draw::image::{Image, encode_png};
+pub use draw::pick::{PendingPick, Pick};
+pub use draw::probe::{Probe, Sample};
+pub use draw::renderer::{DrawState, Renderer};
+pub use draw::slice::{PendingSlice, SliceColors, SlicePlane, SliceTexel, SliceView};
+pub use draw::studio::{Studio, render_image};
+pub use pack::gpu_types;
+pub use pack::kept::KeptTissue;
+pub use pack::look::{
+    TABLE_SIZE, TransferTable, absolute_points, auto_preset, linear_color, window_of,
+};
+pub use pack::values::SubjectInfo;
+pub use pack::view::View;
+pub use stage::baked::BakedMap;
+pub use stage::skip_grid::GridCells;
+pub use subject::bricks::{BRICK, Bricks};

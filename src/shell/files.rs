@@ -120,6 +120,34 @@ impl FileSet for Picked {
     }
 }
 
+/// The file that an address in a document means; `None` for one on the network. Relative addresses start from `folder`.
+pub(super) fn local(folder: &Path, src: &str) -> Option<PathBuf> {
+    if src.contains("://") || src.starts_with("//") || src.starts_with("data:") {
+        return None;
+    }
+    let path = folder.join(src);
+    if !path.exists()
+        && let Some(plain) = percent_decoded(src)
+        && folder.join(&plain).exists()
+    {
+        // In an address a space is %20.
+        return Some(folder.join(plain));
+    }
+    Some(path)
+}
+
+fn percent_decoded(src: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(src.len());
+    let mut rest = src;
+    while let Some((before, after)) = rest.split_once('%') {
+        bytes.extend_from_slice(before.as_bytes());
+        bytes.push(u8::from_str_radix(after.get(..2)?, 16).ok()?);
+        rest = after.get(2..)?;
+    }
+    bytes.extend_from_slice(rest.as_bytes());
+    String::from_utf8(bytes).ok()
+}
+
 /// Reads the volume at a path: [`read_volume`] in the file's folder.
 ///
 /// # Errors

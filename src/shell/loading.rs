@@ -1,17 +1,16 @@
 //! One load, from its description to the events that the app waits for. The same natively (in a thread) and on the page
 //! (in a worker); where it runs and how events travel is the caller's affair.
 
-use std::collections::BTreeMap;
 use std::io::Read as _;
 
 use sha2::{Digest as _, Sha256};
 
-use crate::app::{LabelsExpected, LoadEvent, RawQuestion};
+use crate::assets::{LoadEvent, RawQuestion, SegmentationsExpected};
 use crate::data::{Reducer, Volume, VolumeLimits, VolumeSink, Voxels};
 use crate::document::Reading;
 use crate::load::{
     FileSet, LabelSource, LoadError, LoadReport, RawLayout, ReadOptions, Warning, is_segmentation,
-    read_header, read_labels, read_raw, read_subject,
+    read_header, read_label_file, read_raw, read_subject,
 };
 use crate::subjects::{COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab};
 
@@ -22,7 +21,7 @@ const SLAB_VOXELS: usize = 1 << 20;
 const PROGRESS_STEP: f32 = 0.01;
 
 /// Passes events on. Returns false when no one wants more of them.
-pub(super) trait Post {
+pub trait Post {
     /// One event.
     fn post(&mut self, event: LoadEvent) -> bool;
 }
@@ -33,16 +32,21 @@ impl<F: FnMut(LoadEvent) -> bool> Post for F {
     }
 }
 
-/// Makes a built-in subject: a coarse one at once, then a fine one. `slabs` makes the slabs of a generator that lie in
-/// the given ranges, in order; it may use threads.
-pub(super) fn make_subject(
+/// How finely a built-in subject is made for a device with these limits: coarsely at once, then finely.
+pub fn resolutions(limits: VolumeLimits) -> [u32; 2] {
+    [COARSE_RESOLUTION, FINE_RESOLUTION.min(limits.max_dim)]
+}
+
+/// Makes a built-in subject with each of these resolutions in turn, voxels along its longest side. `slabs` makes the
+/// slabs of a generator that lie in the given ranges, in order; it may use threads.
+pub fn make_subject(
     name: &str,
-    limits: VolumeLimits,
+    resolutions: &[u32],
     mut slabs: impl FnMut(&Generator, u32, &mut dyn FnMut(Slab) -> bool) -> bool,
     post: &mut dyn Post,
 ) {
-    let fine = FINE_RESOLUTION.min(limits.max_dim);
-    for (resolution, is_last) in [(COARSE_RESOLUTION, false), (fine, true)] {
+    for (i, &resolution) in resolutions.iter().enumerate() {
+        let is_last = i + 1 == resolutions.len();
         let generator = match Generator::new(name, resolution) {
             Ok(generator) => generator,
             Err(error) => {
@@ -69,7 +73,7 @@ pub(super) fn make_subject(
                 what: "Generating".to_owned(),
             };
             post.post(LoadEvent::Scalars(Voxels::I16(slab.values)))
-                && post.post(LoadEvent::Labels(slab.labels))
+                && post.post(LoadEvent::SegmentLabels(slab.labels))
                 && (!is_last || post.post(progress))
         });
         if !goes_on {
@@ -88,7 +92,7 @@ pub(super) fn make_subject(
 
 /// Makes the slabs of a generator one after the other.
 #[cfg(any(target_arch = "wasm32", test))]
-pub(super) fn slabs_in_turn(
+pub fn slabs_in_turn(
     generator: &Generator,
     thickness: u32,
     take: &mut dyn FnMut(Slab) -> bool,
@@ -114,12 +118,12 @@ const MOST_WITH_LABELS: usize = 12;
 /// Larger files are not read in advance to know them by their hash.
 const MOST_HASHED_BYTES: u64 = 64 << 20;
 
-/// Takes the label volumes out of files that were opened together, and posts them. What is left is the scan; nothing may be left if one is
-/// shown already, or if the document names them.
-pub(super) fn take_labels(
+/// Takes the label volumes out of files that were opened together, and posts them. What is left is the scan; nothing
+/// may be left if one is shown already, or if the document names them.
+pub fn take_segmentations(
     files: &mut dyn FileSet,
     names: Vec<String>,
-    expected: &LabelsExpected,
+    expected: &SegmentationsExpected,
     post: &mut dyn Post,
 ) -> Vec<String> {
     let is_series = names.len() > MOST_WITH_LABELS;
@@ -145,13 +149,9 @@ pub(super) fn take_labels(
         return labels.into_iter().map(|(name, _)| name).collect();
     }
     for (name, _) in labels {
-        let mut report = LoadReport::default();
-        let options = ReadOptions::default();
-        match read_labels(files, &name, &BTreeMap::new(), &options, &mut report) {
-            Ok(labels) => {
-                let sha256 = report.sha256_hex().unwrap_or_default();
-                let labels = Box::new(labels);
-                if !post.post(LoadEvent::LabelFile { sha256, labels }) {
+        match read_label_file(files, &name, &ReadOptions::default()) {
+            Ok(file) => {
+                if !post.post(LoadEvent::LabelFile(Box::new(file))) {
                     return Vec::new();
                 }
             }
@@ -189,14 +189,30 @@ fn hash_of(files: &mut dyn FileSet, name: &str) -> Option<String> {
             n => hash.update(block.get(..n)?),
         }
     }
-    Some(hash.finalize().iter().map(|b| format!("{b:02x}")).collect())
+    Some(crate::math::hex(&hash.finalize()))
 }
 
-/// Reads a file. `expected` is the hash that the document gives, lower-case hex.
-pub(super) fn read_file(
+/// Reads a label volume that the document names.
+pub fn read_segments(files: &mut dyn FileSet, name: &str, post: &mut dyn Post) {
+    let event = match read_label_file(files, name, &ReadOptions::default()) {
+        Ok(file) => {
+            if !post.post(LoadEvent::LabelFile(Box::new(file))) {
+                return;
+            }
+            LoadEvent::Done { sha256: None }
+        }
+        Err(error) => LoadEvent::Failed {
+            message: error.to_string(),
+            details: String::new(),
+        },
+    };
+    post.post(event);
+}
+
+/// Reads a scan.
+pub fn read_file(
     files: &mut dyn FileSet,
     name: &str,
-    expected: Option<&str>,
     limits: VolumeLimits,
     reading: &Reading,
     post: &mut dyn Post,
@@ -208,47 +224,12 @@ pub(super) fn read_file(
     };
     let mut report = LoadReport::default();
     let mut reducer = Reducer::new(&mut sink, limits);
-    // A file that says it holds labels brings its segments.
-    let options = ReadOptions {
-        frame: reading.frame,
-        ..ReadOptions::default()
-    };
-    let outcome = match &reading.raw {
-        Some(raw) => read_raw(
-            files,
-            name,
-            &RawLayout::from(raw),
-            &options,
-            &mut reducer,
-            &mut report,
-        ),
-        None => read_subject(
-            files,
-            name,
-            &LabelSource::default(),
-            &options,
-            &mut reducer,
-            &mut report,
-        ),
-    };
+    let outcome = read_scan(files, name, reading, &mut reducer, &mut report);
     let reduction = reducer.reduction();
     let is_stopped = sink.is_stopped;
     match outcome {
         Ok(()) => {
             let hash = report.sha256_hex();
-            if let (Some(expected), Some(hash)) = (expected, &hash)
-                && !expected.eq_ignore_ascii_case(hash)
-            {
-                post.post(LoadEvent::Failed {
-                    message:
-                        "This is another file than the one that the illustration was made with"
-                            .to_owned(),
-                    details: format!(
-                        "Its SHA-256 is {hash}; the illustration asks for {expected}."
-                    ),
-                });
-                return;
-            }
             if report.frame_count > 1 {
                 post.post(LoadEvent::Frames {
                     count: report.frame_count,
@@ -280,8 +261,44 @@ pub(super) fn read_file(
     }
 }
 
+/// Reads a scan as its document says. A file that says that it holds labels brings its segments.
+///
+/// # Errors
+/// As [`read_subject`] and [`read_raw`].
+pub fn read_scan(
+    files: &mut dyn FileSet,
+    name: &str,
+    reading: &Reading,
+    sink: &mut dyn VolumeSink,
+    report: &mut LoadReport,
+) -> Result<(), LoadError> {
+    let options = ReadOptions {
+        frame: reading.frame,
+        ..ReadOptions::default()
+    };
+    match &reading.raw {
+        Some(raw) => read_raw(files, name, &RawLayout::from(raw), &options, sink, report),
+        None => {
+            let own = LabelSource::default();
+            read_subject(files, name, &own, &options, sink, report)
+        }
+    }
+}
+
+/// What is said where a document asks for a file of the reader's own. `name` is what the author called it.
+pub fn wanted_file(name: &str) -> String {
+    let called = if name.is_empty() {
+        String::new()
+    } else {
+        format!(" (“{}”)", name.chars().take(80).collect::<String>())
+    };
+    format!(
+        "This illustration was made with a scan that is not part of it{called}: open the file, or drop it here"
+    )
+}
+
 /// True if a name promises voxels and no more.
-pub(super) fn may_be_raw(name: &str) -> bool {
+pub fn may_be_raw(name: &str) -> bool {
     let lower = name.to_lowercase();
     let lower = lower.strip_suffix(".gz").unwrap_or(&lower);
     RAW_ENDINGS.iter().any(|ending| lower.ends_with(ending))
@@ -332,7 +349,7 @@ impl VolumeSink for PostingSink<'_> {
     }
 
     fn labels(&mut self, next: Vec<u8>) {
-        self.pass(LoadEvent::Labels(next));
+        self.pass(LoadEvent::SegmentLabels(next));
     }
 
     fn progress(&mut self, fraction: f32) -> bool {
@@ -361,24 +378,29 @@ mod tests {
     fn a_subject_comes_coarse_and_then_fine() {
         let mut kinds = Vec::new();
         let mut counts = Vec::new();
-        make_subject("cube", LIMITS, slabs_in_turn, &mut |event: LoadEvent| {
-            match event {
-                LoadEvent::Begin(header) => {
-                    counts.push((header.grid.voxel_count(), 0));
-                    kinds.push('b');
-                }
-                LoadEvent::Scalars(voxels) => {
-                    if let Some(last) = counts.last_mut() {
-                        last.1 += voxels.len();
+        make_subject(
+            "cube",
+            &resolutions(LIMITS),
+            slabs_in_turn,
+            &mut |event: LoadEvent| {
+                match event {
+                    LoadEvent::Begin(header) => {
+                        counts.push((header.grid.voxel_count(), 0));
+                        kinds.push('b');
                     }
+                    LoadEvent::Scalars(voxels) => {
+                        if let Some(last) = counts.last_mut() {
+                            last.1 += voxels.len();
+                        }
+                    }
+                    LoadEvent::Coarse => kinds.push('c'),
+                    LoadEvent::Done { sha256: None } => kinds.push('d'),
+                    LoadEvent::SegmentLabels(_) | LoadEvent::Progress { .. } => {}
+                    other => panic!("unexpected: {other:?}"),
                 }
-                LoadEvent::Coarse => kinds.push('c'),
-                LoadEvent::Done { sha256: None } => kinds.push('d'),
-                LoadEvent::Labels(_) | LoadEvent::Progress { .. } => {}
-                other => panic!("unexpected: {other:?}"),
-            }
-            true
-        });
+                true
+            },
+        );
         assert_eq!(kinds, ['b', 'c', 'b', 'd'], "in this order");
         assert!(
             counts.iter().all(|(a, b)| a == b),
@@ -389,10 +411,15 @@ mod tests {
     #[test]
     fn a_stopped_subject_says_no_more() {
         let mut n = 0;
-        make_subject("cube", LIMITS, slabs_in_turn, &mut |_: LoadEvent| {
-            n += 1;
-            n < 3
-        });
+        make_subject(
+            "cube",
+            &resolutions(LIMITS),
+            slabs_in_turn,
+            &mut |_: LoadEvent| {
+                n += 1;
+                n < 3
+            },
+        );
         assert_eq!(n, 3, "nothing is posted after the receiver declined");
     }
 
@@ -403,7 +430,6 @@ mod tests {
         read_file(
             &mut files,
             "x.nii",
-            None,
             LIMITS,
             &Reading::default(),
             &mut |event: LoadEvent| {
@@ -443,13 +469,19 @@ mod tests {
             let mut files = MemoryFiles::new(all());
             let mut found = Vec::new();
             let mut post = |event: LoadEvent| {
-                if let LoadEvent::LabelFile { labels, .. } = event {
-                    found.extend(labels.segments.into_iter().map(|segment| segment.name));
+                if let LoadEvent::LabelFile(file) = event {
+                    let segments = file.segmentation.segments;
+                    found.extend(segments.into_iter().map(|segment| segment.name));
                 }
                 true
             };
             let names = all().map(|(name, _)| name).collect();
-            let rest = take_labels(&mut files, names, &LabelsExpected::default(), &mut post);
+            let rest = take_segmentations(
+                &mut files,
+                names,
+                &SegmentationsExpected::default(),
+                &mut post,
+            );
             assert_eq!((rest.len(), found), (count, vec!["Liver".to_owned()]));
         }
     }
@@ -467,19 +499,19 @@ mod tests {
             ("skull_label.nrrd", file([0, 0, 0, 1, 1, 1, 2, 2])),
             ("other.nrrd", file([0, 0, 5, 5, 0, 0, 0, 0])),
         ]);
-        let mut take = |names: &[&str], expected: &LabelsExpected| {
+        let mut take = |names: &[&str], expected: &SegmentationsExpected| {
             let mut found = Vec::new();
             let mut post = |event: LoadEvent| {
-                if let LoadEvent::LabelFile { sha256, labels } = event {
-                    found.push((sha256, labels.segments.len()));
+                if let LoadEvent::LabelFile(file) = event {
+                    found.push((file.sha256, file.segmentation.segments.len()));
                 }
                 true
             };
             let names = names.iter().map(|&name| name.to_owned()).collect();
-            let rest = take_labels(&mut files, names, expected, &mut post);
+            let rest = take_segmentations(&mut files, names, expected, &mut post);
             (rest, found)
         };
-        let nothing = LabelsExpected::default();
+        let nothing = SegmentationsExpected::default();
         let (rest, found) = take(&["scan.nrrd", "skull_label.nrrd"], &nothing);
         assert_eq!((rest, found[0].1), (vec!["scan.nrrd".to_owned()], 2));
         let (rest, found) = take(&["skull_label.nrrd"], &nothing);
@@ -488,9 +520,9 @@ mod tests {
             (1, 0),
             "labels of nothing are a scan"
         );
-        let has_scan = LabelsExpected {
+        let has_scan = SegmentationsExpected {
             has_scan: true,
-            ..LabelsExpected::default()
+            ..SegmentationsExpected::default()
         };
         let (rest, found) = take(&["skull_label.nrrd"], &has_scan);
         assert_eq!(
@@ -502,8 +534,8 @@ mod tests {
         assert_eq!((rest.len(), found.len()), (1, 0), "another scan");
         let mut hash = Sha256::new();
         hash.update(file([0, 0, 5, 5, 0, 0, 0, 0]));
-        let hash: String = hash.finalize().iter().map(|b| format!("{b:02x}")).collect();
-        let named = LabelsExpected {
+        let hash = crate::math::hex(&hash.finalize());
+        let named = SegmentationsExpected {
             sha256: vec![hash.clone()],
             has_scan: false,
         };
@@ -525,7 +557,7 @@ mod tests {
                 true
             };
             let name = "scan_4x3x2_uint8.raw";
-            read_file(&mut files, name, None, LIMITS, reading, &mut post);
+            read_file(&mut files, name, LIMITS, reading, &mut post);
             last
         };
         let Some(LoadEvent::AskRaw(question)) = read(&Reading::default()) else {

@@ -8,14 +8,15 @@ use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-use super::files::{Folder, Picked};
-use super::loading::{make_subject, read_file, take_labels};
-use super::reading::ReadingFlags;
-use crate::app::{
-    App, LabelsExpected, LinkChange, LoadEvent, Message, SaveFile, Services, Start, Ticket,
+use super::command_line::ReadingFlags;
+use super::files::{Folder, Picked, local};
+use super::loading::{
+    make_subject, read_file, read_segments, resolutions, take_segmentations, wanted_file,
 };
+use crate::app::{App, LinkChange, Message, SaveFile, Services, Start, Ticket};
+use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
-use crate::document::{Document, FieldRef, RawVoxels, Reading, SubjectRef};
+use crate::document::{Document, RawVoxels, Reading};
 use crate::load::{is_field, read_field};
 use crate::render::Gpu;
 use crate::subjects::{Generator, Slab};
@@ -95,7 +96,7 @@ pub fn view(opening: Opening) -> Result<(), WindowError> {
         let reading = opening.reading.over(said);
         let subject = opening
             .subject
-            .map(|path| services.start_file(path, None, true, reading));
+            .map(|path| services.start_file(path, true, reading));
         let start = Start {
             document: opening.document,
             text: None,
@@ -167,7 +168,7 @@ struct NativeServices {
     /// Files dropped since the last frame: those dropped together are opened together.
     dropped: Vec<PathBuf>,
     /// Label volumes that the document names.
-    labels: LabelsExpected,
+    labels: SegmentationsExpected,
 }
 
 impl NativeServices {
@@ -187,7 +188,7 @@ impl NativeServices {
             next_ticket: 1,
             known: Arc::default(),
             dropped: Vec::new(),
-            labels: LabelsExpected::default(),
+            labels: SegmentationsExpected::default(),
         }
     }
 
@@ -230,32 +231,19 @@ impl NativeServices {
         ticket
     }
 
-    fn start_file(
-        &mut self,
-        path: PathBuf,
-        expected: Option<String>,
-        is_asked: bool,
-        reading: Reading,
-    ) -> Ticket {
+    fn start_file(&mut self, path: PathBuf, is_asked: bool, reading: Reading) -> Ticket {
         let (ticket, is_wanted) = self.new_ticket();
         if !is_asked {
             // The ticket is announced before any event of the load.
             self.say(Message::FileStarted { ticket });
         }
         self.opened = Some((ticket, path.clone()));
-        self.read(ticket, is_wanted, path, expected, reading);
+        self.read(ticket, is_wanted, path, reading);
         ticket
     }
 
     /// Reads in a thread.
-    fn read(
-        &self,
-        ticket: Ticket,
-        is_wanted: Arc<AtomicBool>,
-        path: PathBuf,
-        expected: Option<String>,
-        reading: Reading,
-    ) {
+    fn read(&self, ticket: Ticket, is_wanted: Arc<AtomicBool>, path: PathBuf, reading: Reading) {
         let (sender, ctx, limits) = (self.sender.clone(), self.ctx.clone(), self.limits);
         let known = Arc::clone(&self.known);
         std::thread::spawn(move || {
@@ -267,9 +255,27 @@ impl NativeServices {
                 post_while_wanted(&sender, &ctx, ticket, &is_wanted, event)
             };
             let (mut folder, name) = Folder::of(&path);
-            let expected = expected.as_deref();
-            read_file(&mut folder, &name, expected, limits, &reading, &mut post);
+            read_file(&mut folder, &name, limits, &reading, &mut post);
         });
+    }
+
+    /// The file that was opened here under the hash that is wanted.
+    fn known_file(&self, want: &Want) -> Option<PathBuf> {
+        let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        known.get(&want.sha256()?.to_lowercase()).cloned()
+    }
+
+    /// Reads a label volume in a thread.
+    fn start_segments(&mut self, path: PathBuf) -> Ticket {
+        let (ticket, is_wanted) = self.new_ticket();
+        let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
+        std::thread::spawn(move || {
+            let mut post =
+                |event: LoadEvent| post_while_wanted(&sender, &ctx, ticket, &is_wanted, event);
+            let (mut folder, name) = Folder::of(&path);
+            read_segments(&mut folder, &name, &mut post);
+        });
+        ticket
     }
 
     fn start_builtin(&mut self, name: String) -> Ticket {
@@ -278,13 +284,13 @@ impl NativeServices {
         std::thread::spawn(move || {
             let mut post =
                 |event: LoadEvent| post_while_wanted(&sender, &ctx, ticket, &is_wanted, event);
-            make_subject(&name, limits, slabs_in_threads, &mut post);
+            make_subject(&name, &resolutions(limits), slabs_in_threads, &mut post);
         });
         ticket
     }
 
     /// Reads a displacement field in a thread.
-    fn read_field(&self, key: Option<String>, path: PathBuf) {
+    fn read_field(&self, want: Option<Want>, path: PathBuf) {
         let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
         let known = Arc::clone(&self.known);
         std::thread::spawn(move || {
@@ -295,11 +301,12 @@ impl NativeServices {
                 known.insert(field.sha256.clone(), path);
             }
             let outcome = Box::new(outcome);
-            send(&sender, &ctx, Message::Field { key, outcome });
+            send(&sender, &ctx, Message::Field { want, outcome });
         });
     }
 
-    /// Files that the user picked or dropped together: a document if one reads like one, else a scan and its label volumes.
+    /// Files that the user picked or dropped together: a document if one reads like one, else a scan and its label
+    /// volumes.
     fn open_paths(&mut self, mut paths: Vec<PathBuf>) {
         if let [path] = paths.as_slice() {
             if let Some(text) = document_text(path) {
@@ -314,7 +321,7 @@ impl NativeServices {
                 return;
             }
             if path.is_dir() {
-                self.start_file(paths.remove(0), None, false, Reading::default());
+                self.start_file(paths.remove(0), false, Reading::default());
                 return;
             }
         }
@@ -339,7 +346,7 @@ impl NativeServices {
             });
             let mut picked = Picked(named.collect());
             let names = picked.0.iter().map(|(name, _)| name.clone()).collect();
-            let rest = take_labels(&mut picked, names, &labels, &mut post);
+            let rest = take_segmentations(&mut picked, names, &labels, &mut post);
             if let Some(first) = rest.first() {
                 scan = picked.0.into_iter().find(|(name, _)| name == first);
             }
@@ -355,7 +362,7 @@ impl NativeServices {
                 post_while_wanted(&sender, &ctx, ticket, &is_wanted, event)
             };
             let (mut folder, name) = Folder::of(&path);
-            read_file(&mut folder, &name, None, limits, &reading, &mut post);
+            read_file(&mut folder, &name, limits, &reading, &mut post);
         });
         ticket
     }
@@ -508,59 +515,53 @@ impl Services for NativeServices {
         self.ctx.request_repaint();
     }
 
-    fn load_subject(&mut self, subject: &SubjectRef) -> Ticket {
-        match subject {
-            SubjectRef::Builtin { name } => self.start_builtin(name.clone()),
-            SubjectRef::Address {
-                src,
-                sha256,
-                reading,
-                ..
-            } => {
-                if src.contains("://") {
+    fn load(&mut self, want: &Want) -> Ticket {
+        let (src, name) = match &want.source {
+            Source::Builtin(name) => return self.start_builtin(name.clone()),
+            Source::File { src, name, .. } => (src.clone(), name),
+        };
+        // A file is read where the document says that it is, even if the same bytes were opened before.
+        let path = match src {
+            Some(src) => match (local(&self.folder, &src), want.role) {
+                (Some(path), _) => path,
+                (None, Role::Subject) => {
                     return self.fail(format!(
                         "This program reads local files only: download the scan and start with --subject FILE ({src})"
                     ));
                 }
-                self.start_file(self.folder.join(src), sha256.clone(), true, reading.clone())
-            }
-            SubjectRef::Supplied {
-                sha256,
-                name,
-                reading,
-            } => {
-                let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-                let path = known.get(&sha256.to_lowercase()).cloned();
-                drop(known);
-                match path {
-                    Some(path) => {
-                        self.start_file(path, Some(sha256.clone()), true, reading.clone())
-                    }
-                    None => self.fail(super::wanted_file(name)),
+                (None, _) => {
+                    return self.fail(format!(
+                        "This program reads local files only: download the label volume and open it here ({src})"
+                    ));
                 }
-            }
+            },
+            None => match self.known_file(want) {
+                Some(path) => path,
+                None => return self.fail(wanted_file(name)),
+            },
+        };
+        match want.role {
+            Role::Subject | Role::Field => self.start_file(path, true, want.reading.clone()),
+            Role::Segments => self.start_segments(path),
         }
     }
 
-    fn load_field(&mut self, field: &FieldRef) {
-        let key = field.key().map(str::to_owned);
-        let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let by_hash = field
-            .sha256
-            .as_ref()
-            .and_then(|hash| known.get(hash).cloned());
-        drop(known);
-        let local = field.src.as_ref().filter(|src| !src.contains("://"));
-        match by_hash.or_else(|| local.map(|src| self.folder.join(src))) {
-            Some(path) => self.read_field(key, path),
+    fn load_field(&mut self, want: &Want) {
+        let local = want.src().and_then(|src| local(&self.folder, src));
+        match self.known_file(want).or(local) {
+            Some(path) => self.read_field(Some(want.clone()), path),
             None => {
-                let outcome = Box::new(Err(super::wanted_file(&field.name)));
-                self.say(Message::Field { key, outcome });
+                let name = match &want.source {
+                    Source::Builtin(name) | Source::File { name, .. } => name,
+                };
+                let outcome = Box::new(Err(wanted_file(name)));
+                let want = Some(want.clone());
+                self.say(Message::Field { want, outcome });
             }
         }
     }
 
-    fn expect_labels(&mut self, expected: &LabelsExpected) {
+    fn expect_segmentations(&mut self, expected: &SegmentationsExpected) {
         self.labels.clone_from(expected);
     }
 
@@ -575,7 +576,7 @@ impl Services for NativeServices {
                 frame: 0,
                 raw: Some(raw.clone()),
             };
-            self.read(ticket, is_wanted, path, None, reading);
+            self.read(ticket, is_wanted, path, reading);
         }
     }
 

@@ -8,13 +8,16 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storage, Url, Window};
 
-use super::worker::{Task, WorkerLoad, start, text_of};
-use crate::app::{
-    LabelsExpected, LinkChange, LoadEvent, Message, STORED_DOCUMENT, SaveFile, Services, Ticket,
-};
+use super::loading::wanted_file;
+use super::worker::answer::Answer;
+use super::worker::fault::text_of;
+use super::worker::run::{self, WorkerLoad};
+use super::worker::task::{ScanTask, Task};
+use crate::app::{LinkChange, Message, STORED_DOCUMENT, SaveFile, Services, Ticket};
+use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
-use crate::document::{FieldRef, RawVoxels, Reading, SubjectRef};
-use crate::load::{MemoryFiles, is_field, read_field};
+use crate::document::{RawVoxels, Reading};
+use crate::load::FieldFile;
 
 /// A larger file is no document (the contract's limit is 1 MiB), and is opened as a scan.
 const MAX_DOCUMENT_BYTES: f64 = 2e6;
@@ -39,16 +42,18 @@ pub(super) struct Page {
     load: Option<(Ticket, WorkerLoad)>,
     next_ticket: u64,
     /// Loads that wait for leave to fetch.
-    asking: BTreeMap<Ticket, (String, Option<String>, Reading)>,
+    asking: BTreeMap<Ticket, (String, Want)>,
     allowed_hosts: BTreeSet<String>,
     /// Files that the reader gave, by the hash of their bytes.
     known: BTreeMap<String, Vec<(String, Blob)>>,
+    /// A file that may be a displacement field: a load only when its part says that it is none.
+    opening: Option<(Ticket, WorkerLoad)>,
     /// The files of the load under way, until their hash is known.
     opened: Option<(Ticket, Vec<(String, Blob)>)>,
     /// Files dropped since the last frame: those dropped together are opened together.
     dropped: Vec<(String, Blob)>,
     /// Label volumes that the document names.
-    labels: LabelsExpected,
+    labels: SegmentationsExpected,
     /// The payload that the app last gave.
     pub payload: String,
     /// A picture that a script asked for goes here instead of into a file.
@@ -68,13 +73,14 @@ impl Page {
             },
             messages: Vec::new(),
             load: None,
+            opening: None,
             next_ticket: 1,
             asking: BTreeMap::new(),
             allowed_hosts: BTreeSet::new(),
             known: BTreeMap::new(),
             opened: None,
             dropped: Vec::new(),
-            labels: LabelsExpected::default(),
+            labels: SegmentationsExpected::default(),
             payload: String::new(),
             picture_wanted: None,
             on_copy_refused: None,
@@ -88,9 +94,15 @@ impl Page {
         }
     }
 
+    /// Ends what is being loaded and names what comes instead.
     fn new_ticket(&mut self) -> Ticket {
         self.load = None;
+        self.opening = None;
         self.asking.clear();
+        self.next_ticket()
+    }
+
+    fn next_ticket(&mut self) -> Ticket {
         let ticket = Ticket(self.next_ticket);
         self.next_ticket += 1;
         ticket
@@ -107,33 +119,107 @@ fn matches_media(query: &str) -> bool {
 pub(super) struct PageServices(pub Rc<RefCell<Page>>);
 
 impl PageServices {
+    /// Starts a task and passes on what its part says of it.
     fn start(&self, ticket: Ticket, task: &Task) {
+        let started = self.answered(task, move |services, answer| match answer {
+            Answer::Event(event) => services.pass(ticket, event),
+            Answer::Field(outcome) => services.take_field(None, Vec::new(), *outcome),
+            Answer::Module(_) => {}
+        });
+        match started {
+            Ok(load) => self.0.borrow_mut().load = Some((ticket, load)),
+            Err(error) => self.pass(ticket, not_started(&error)),
+        }
+    }
+
+    /// Starts a task; `on_answer` is called with the page and each answer as long as the page is there.
+    fn answered(
+        &self,
+        task: &Task,
+        mut on_answer: impl FnMut(&Self, Answer) + 'static,
+    ) -> Result<WorkerLoad, JsValue> {
         let (worker, limits) = {
             let page = self.0.borrow();
             (page.place.worker.clone(), page.limits)
         };
         let weak = Rc::downgrade(&self.0);
-        let started = start(&worker, task, limits, move |event| {
-            let Some(page) = weak.upgrade() else { return };
-            let mut page = page.borrow_mut();
-            if let LoadEvent::Done { sha256: Some(hash) } = &event
-                && let Some((_, files)) = page.opened.take_if(|(t, _)| *t == ticket)
-            {
-                page.known.insert(hash.clone(), files);
+        run::start(&worker, task, limits, move |answer| {
+            if let Some(page) = weak.upgrade() {
+                on_answer(&Self(page), answer);
             }
-            page.say(Message::Load { ticket, event });
-        });
+        })
+    }
+
+    /// Gives the app an event of a load.
+    fn pass(&self, ticket: Ticket, event: LoadEvent) {
         let mut page = self.0.borrow_mut();
+        if let LoadEvent::Done { sha256: Some(hash) } = &event
+            && let Some((_, files)) = page.opened.take_if(|(t, _)| *t == ticket)
+        {
+            page.known.insert(hash.clone(), files);
+        }
+        page.say(Message::Load { ticket, event });
+    }
+
+    /// Gives the app a displacement field, or why there is none, and keeps its file by its hash.
+    fn take_field(
+        &self,
+        want: Option<Want>,
+        files: Vec<(String, Blob)>,
+        outcome: Result<FieldFile, String>,
+    ) {
+        let mut page = self.0.borrow_mut();
+        if let Ok(field) = &outcome {
+            page.known.insert(field.sha256.clone(), files);
+        }
+        let outcome = Box::new(outcome);
+        page.say(Message::Field { want, outcome });
+    }
+
+    /// Reads one file that the reader opened: as a displacement field if it is one, else as a scan, which takes the
+    /// place of what is being loaded.
+    fn open_one(&self, name: String, blob: Blob) {
+        let files = vec![(name, blob)];
+        let ticket = {
+            let mut page = self.0.borrow_mut();
+            page.opening = None;
+            page.next_ticket()
+        };
+        let task = Task::Scan(ScanTask::Files {
+            files: files.clone(),
+            reading: Reading::default(),
+            segmentations: self.0.borrow().labels.clone(),
+            may_be_field: true,
+        });
+        let started = self.answered(&task, move |services, answer| match answer {
+            Answer::Event(event) => {
+                services.begin(ticket, &files);
+                services.pass(ticket, event);
+            }
+            Answer::Field(outcome) => services.take_field(None, files.clone(), *outcome),
+            Answer::Module(_) => {}
+        });
         match started {
-            Ok(load) => page.load = Some((ticket, load)),
+            Ok(load) => self.0.borrow_mut().opening = Some((ticket, load)),
             Err(error) => {
-                let event = LoadEvent::Failed {
-                    message: "This browser cannot load scans in the background".to_owned(),
-                    details: text_of(&error),
-                };
-                page.say(Message::Load { ticket, event });
+                self.begin(ticket, &[]);
+                self.pass(ticket, not_started(&error));
             }
         }
+    }
+
+    /// Makes what is being opened the load under way, unless it is that already.
+    fn begin(&self, ticket: Ticket, files: &[(String, Blob)]) {
+        let mut page = self.0.borrow_mut();
+        if page.opened.as_ref().is_some_and(|(t, _)| *t == ticket)
+            || page.load.as_ref().is_some_and(|(t, _)| *t == ticket)
+        {
+            return;
+        }
+        page.load = page.opening.take_if(|(t, _)| *t == ticket);
+        page.asking.clear();
+        page.opened = Some((ticket, files.to_vec()));
+        page.say(Message::FileStarted { ticket });
     }
 
     fn fail(&self, message: String) -> Ticket {
@@ -147,21 +233,15 @@ impl PageServices {
         ticket
     }
 
-    /// Reads a displacement field: on the page itself, as fields are small beside scans.
-    async fn read_field(&self, key: Option<String>, name: String, blob: Blob) {
-        let outcome = match bytes_of(&blob).await {
-            Some(bytes) => {
-                let mut files = MemoryFiles::new([(name.as_str(), bytes)]);
-                read_field(&mut files, &name).map_err(|error| error.to_string())
-            }
-            None => Err(format!("{name} could not be read, or has more than 256 MB")),
+    /// Reads a displacement field that a document names.
+    async fn read_field(&self, want: Option<Want>, name: String, blob: Blob) {
+        let outcome = if blob.size() > MAX_FIELD_BYTES {
+            Err(format!("{name} could not be read, or has more than 256 MB"))
+        } else {
+            let worker = self.0.borrow().place.worker.clone();
+            run::read_field(&worker, name.clone(), blob.clone()).await
         };
-        let mut page = self.0.borrow_mut();
-        if let Ok(field) = &outcome {
-            page.known.insert(field.sha256.clone(), vec![(name, blob)]);
-        }
-        let outcome = Box::new(outcome);
-        page.say(Message::Field { key, outcome });
+        self.take_field(want, vec![(name, blob)], outcome);
     }
 
     /// Files that the reader picked or dropped together: a document if it reads like one, else a scan.
@@ -175,10 +255,8 @@ impl PageServices {
                 services.0.borrow_mut().say(Message::OpenText { text });
                 return;
             }
-            if let [(name, blob)] = files.as_slice()
-                && is_field_file(name, blob).await
-            {
-                services.read_field(None, name.clone(), blob.clone()).await;
+            if let [(name, blob)] = files.as_slice() {
+                services.open_one(name.clone(), blob.clone());
                 return;
             }
             let files = in_order(files);
@@ -190,8 +268,7 @@ impl PageServices {
                 ticket
             };
             let labels = services.0.borrow().labels.clone();
-            let task = Task::Files(files, None, Reading::default(), labels);
-            services.start(ticket, &task);
+            services.start(ticket, &scan_task(files, Reading::default(), labels));
         });
     }
 }
@@ -211,25 +288,34 @@ fn in_order(mut files: Vec<(String, Blob)>) -> Vec<(String, Blob)> {
 /// A larger displacement field is not read on the page.
 const MAX_FIELD_BYTES: f64 = 256e6;
 
-/// The bytes of a file that is not too large.
-async fn bytes_of(blob: &Blob) -> Option<Vec<u8>> {
-    if blob.size() > MAX_FIELD_BYTES {
-        return None;
-    }
-    let buffer = JsFuture::from(blob.array_buffer()).await.ok()?;
-    Some(js_sys::Uint8Array::new(&buffer).to_vec())
+/// The task to read files that the reader gave for a load that is under way.
+fn scan_task(
+    files: Vec<(String, Blob)>,
+    reading: Reading,
+    segmentations: SegmentationsExpected,
+) -> Task {
+    Task::Scan(ScanTask::Files {
+        files,
+        reading,
+        segmentations,
+        may_be_field: false,
+    })
 }
 
-/// True if the head of a file says that it is a displacement field.
-async fn is_field_file(name: &str, blob: &Blob) -> bool {
-    let head = blob.slice_with_f64_and_f64(0.0, 65_536.0);
-    let Some(bytes) = (match head {
-        Ok(head) => bytes_of(&head).await,
-        Err(_) => None,
-    }) else {
-        return false;
-    };
-    is_field(&mut MemoryFiles::new([(name, bytes)]), name)
+/// The task to fetch an address and read what comes.
+fn address_task(address: String, want: &Want) -> Task {
+    Task::Scan(ScanTask::Address {
+        address,
+        are_segments: want.role == Role::Segments,
+        reading: want.reading.clone(),
+    })
+}
+
+fn not_started(error: &JsValue) -> LoadEvent {
+    LoadEvent::Failed {
+        message: "This browser cannot load scans in the background".to_owned(),
+        details: text_of(error),
+    }
 }
 
 /// Fetches from the page's own host.
@@ -274,6 +360,20 @@ fn tab_storage() -> Option<Storage> {
 fn storage() -> Option<Storage> {
     // Throws where the reader forbids it; then nothing is kept.
     window()?.local_storage().ok().flatten()
+}
+
+/// What was kept under a key: by this tab, else by any.
+fn kept(key: &str) -> Option<String> {
+    let key = format!("fabrica.{key}");
+    let read = |storage: Storage| storage.get_item(&key).ok().flatten();
+    tab_storage()
+        .and_then(read)
+        .or_else(|| storage().and_then(read))
+}
+
+/// Payload of the document that an earlier visit kept.
+pub(super) fn kept_document() -> Option<String> {
+    kept(STORED_DOCUMENT)
 }
 
 /// Address of the page without fragment and without the document that it was opened with.
@@ -344,80 +444,68 @@ impl Services for PageServices {
         }
     }
 
-    fn load_subject(&mut self, subject: &SubjectRef) -> Ticket {
-        match subject {
-            SubjectRef::Builtin { name } => {
+    fn load(&mut self, want: &Want) -> Ticket {
+        let (src, sha256, name) = match &want.source {
+            Source::Builtin(name) => {
                 let ticket = self.0.borrow_mut().new_ticket();
-                self.start(ticket, &Task::Builtin(name.clone()));
-                ticket
+                self.start(ticket, &Task::Subject(name.clone(), None));
+                return ticket;
             }
-            SubjectRef::Address {
-                src,
-                sha256,
-                reading,
-                ..
-            } => {
-                let base = self.0.borrow().place.base.clone();
-                let Ok(url) = Url::new_with_base(src, &base) else {
-                    return self.fail(format!("This is no address: {src}"));
-                };
-                if !["http:", "https:", "blob:", "data:"].contains(&url.protocol().as_str()) {
-                    return self.fail(format!("A page can only fetch from http and https: {src}"));
-                }
-                let address = url.href();
-                let mut page = self.0.borrow_mut();
-                let ticket = page.new_ticket();
-                match foreign_host(&address) {
-                    Some(host) if !page.allowed_hosts.contains(&host) => {
-                        page.asking
-                            .insert(ticket, (address, sha256.clone(), reading.clone()));
-                        page.say(Message::AskHost { ticket, host });
-                    }
-                    _ => {
-                        drop(page);
-                        let task = Task::Address(address, sha256.clone(), reading.clone());
-                        self.start(ticket, &task);
-                    }
-                }
-                ticket
+            Source::File { src, sha256, name } => (src, sha256, name),
+        };
+        let Some(src) = src else {
+            let hash = sha256.as_deref().unwrap_or_default().to_lowercase();
+            let known = self.0.borrow().known.get(&hash).cloned();
+            let Some(files) = known else {
+                return self.fail(wanted_file(name));
+            };
+            let ticket = self.0.borrow_mut().new_ticket();
+            let labels = self.0.borrow().labels.clone();
+            let task = scan_task(files, want.reading.clone(), labels);
+            self.start(ticket, &task);
+            return ticket;
+        };
+        let base = self.0.borrow().place.base.clone();
+        let Ok(url) = Url::new_with_base(src, &base) else {
+            return self.fail(format!("This is no address: {src}"));
+        };
+        if !["http:", "https:", "blob:", "data:"].contains(&url.protocol().as_str()) {
+            return self.fail(format!("A page can only fetch from http and https: {src}"));
+        }
+        let address = url.href();
+        let mut page = self.0.borrow_mut();
+        let ticket = page.new_ticket();
+        match foreign_host(&address) {
+            Some(host) if !page.allowed_hosts.contains(&host) => {
+                page.asking.insert(ticket, (address, want.clone()));
+                page.say(Message::AskHost { ticket, host });
             }
-            SubjectRef::Supplied {
-                sha256,
-                name,
-                reading,
-            } => {
-                let known = self.0.borrow().known.get(&sha256.to_lowercase()).cloned();
-                match known {
-                    Some(files) => {
-                        let ticket = self.0.borrow_mut().new_ticket();
-                        let labels = self.0.borrow().labels.clone();
-                        let task =
-                            Task::Files(files, Some(sha256.clone()), reading.clone(), labels);
-                        self.start(ticket, &task);
-                        ticket
-                    }
-                    None => self.fail(super::wanted_file(name)),
-                }
+            _ => {
+                drop(page);
+                self.start(ticket, &address_task(address, want));
             }
         }
+        ticket
     }
 
-    fn load_field(&mut self, field: &FieldRef) {
+    fn load_field(&mut self, want: &Want) {
         let services = self.clone();
-        let key = field.key().map(str::to_owned);
-        let hash = field.sha256.as_ref();
-        let known = hash.and_then(|hash| self.0.borrow().known.get(hash).cloned());
+        let known = want.sha256();
+        let known = known.and_then(|hash| self.0.borrow().known.get(hash).cloned());
+        let for_want = Some(want.clone());
         if let Some([(name, blob)]) = known.as_deref() {
             let (name, blob) = (name.clone(), blob.clone());
-            spawn_local(async move { services.read_field(key, name, blob).await });
+            spawn_local(async move { services.read_field(for_want, name, blob).await });
             return;
         }
         let base = self.0.borrow().place.base.clone();
-        let address = field.src.as_ref().and_then(|src| {
+        let address = want.src().and_then(|src| {
             let url = Url::new_with_base(src, &base).ok()?;
-            Some((src.clone(), url.href()))
+            Some((src.to_owned(), url.href()))
         });
-        let missing = super::wanted_file(&field.name);
+        let missing = match &want.source {
+            Source::Builtin(name) | Source::File { name, .. } => wanted_file(name),
+        };
         spawn_local(async move {
             if let Some((src, address)) = address {
                 // What lies elsewhere is not fetched unasked: the reader opens the file.
@@ -425,25 +513,29 @@ impl Services for PageServices {
                     && let Some(blob) = fetched(&address).await
                 {
                     let name = src.rsplit('/').next().unwrap_or(&src).to_owned();
-                    return services.read_field(key, name, blob).await;
+                    return services.read_field(for_want, name, blob).await;
                 }
             }
             let outcome = Box::new(Err(missing));
-            services.0.borrow_mut().say(Message::Field { key, outcome });
+            let want = for_want;
+            services
+                .0
+                .borrow_mut()
+                .say(Message::Field { want, outcome });
         });
     }
 
-    fn expect_labels(&mut self, expected: &LabelsExpected) {
+    fn expect_segmentations(&mut self, expected: &SegmentationsExpected) {
         self.0.borrow_mut().labels.clone_from(expected);
     }
 
     fn allow_host(&mut self, ticket: Ticket) {
         let asked = self.0.borrow_mut().asking.remove(&ticket);
-        if let Some((address, expected, reading)) = asked {
+        if let Some((address, want)) = asked {
             if let Some(host) = foreign_host(&address) {
                 self.0.borrow_mut().allowed_hosts.insert(host);
             }
-            self.start(ticket, &Task::Address(address, expected, reading));
+            self.start(ticket, &address_task(address, &want));
         }
     }
 
@@ -459,7 +551,7 @@ impl Services for PageServices {
                 raw: Some(raw.clone()),
             };
             let labels = self.0.borrow().labels.clone();
-            self.start(ticket, &Task::Files(files, None, reading, labels));
+            self.start(ticket, &scan_task(files, reading, labels));
         }
     }
 
@@ -606,10 +698,6 @@ impl Services for PageServices {
         if !self.0.borrow().place.is_page {
             return None;
         }
-        let key = format!("fabrica.{key}");
-        let kept = |storage: Storage| storage.get_item(&key).ok().flatten();
-        tab_storage()
-            .and_then(kept)
-            .or_else(|| storage().and_then(kept))
+        kept(key)
     }
 }

@@ -8,13 +8,14 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{HtmlCanvasElement, Url};
 
-use super::page::{Page, PageServices, Place, foreign_host};
+use super::page::{Page, PageServices, Place, foreign_host, kept_document};
+use super::worker::run;
+use super::worker::task::Part;
 use crate::app::{App, Command, Message, Start};
-use crate::data::{VolumeBuilder, VolumeLimits};
+use crate::data::VolumeLimits;
 use crate::document::{Document, SubjectRef};
 use crate::link;
 use crate::render::{Gpu, GpuOptions, Studio, encode_png};
-use crate::subjects;
 
 /// An empty document: the head, nothing placed.
 const EMPTY: &str = "{\"fabrica\":1}";
@@ -32,8 +33,8 @@ pub struct Viewer {
 
 #[wasm_bindgen]
 impl Viewer {
-    /// A viewer for this canvas; nothing is shown until [`Viewer::start`]. `worker` is the address of worker.js. A viewer
-    /// that `is_page` binds the address bar and keeps the session; one that does not touches neither.
+    /// A viewer for this canvas; nothing is shown until [`Viewer::start`]. `worker` is the address of worker.js. A
+    /// viewer that `is_page` binds the address bar and keeps the session; one that does not touches neither.
     #[wasm_bindgen(constructor)]
     pub fn new(canvas: HtmlCanvasElement, worker: String, is_page: bool) -> Self {
         let base = web_sys::window().and_then(|w| w.document());
@@ -43,6 +44,7 @@ impl Viewer {
             is_page,
             base: base.unwrap_or_default(),
         };
+        WORKER_ADDRESS.set(place.worker.clone());
         let page = Rc::new(RefCell::new(Page::new(place)));
         let on_pop = is_page.then(|| {
             let page = Rc::clone(&page);
@@ -63,6 +65,13 @@ impl Viewer {
             page,
             text: RefCell::new(None),
             _on_pop: on_pop,
+        }
+    }
+
+    /// Takes a worker that web/parts.js started for the part of this name; the part's next task goes to it.
+    pub fn lend(&self, part: &str, worker: web_sys::Worker) {
+        if let Some(part) = Part::of_name(part) {
+            run::lend(part, worker);
         }
     }
 
@@ -186,8 +195,8 @@ impl Viewer {
         Some(shown.0.document().to_json_compact())
     }
 
-    /// The controls that are seen, a line each: role, name, value, and where it lies in the canvas (left, top, width and
-    /// height, CSS pixels), parted by tabs. Empty at the first call; the next frame makes it.
+    /// The controls that are seen, a line each: role, name, value, and where it lies in the canvas (left, top, width
+    /// and height, CSS pixels), parted by tabs. Empty at the first call; the next frame makes it.
     pub fn controls(&self) -> String {
         let page = self.page.borrow();
         let Some(ctx) = &page.ctx else {
@@ -310,9 +319,9 @@ impl eframe::App for Shown {
     }
 }
 
-/// Whether the page must not also act on an event. Keys that belong to the browser (reload, tools, full screen, what goes
-/// with Ctrl and is no shortcut of ours) stay with it; the wheel scrolls the page around an embedded viewer unless Ctrl
-/// says that zooming is meant.
+/// Whether the page must not also act on an event. Keys that belong to the browser (reload, tools, full screen, what
+/// goes with Ctrl and is no shortcut of ours) stay with it; the wheel scrolls the page around an embedded viewer unless
+/// Ctrl says that zooming is meant.
 fn is_ours(event: &egui::Event, is_page: bool) -> bool {
     use egui::{Event, Key};
     match event {
@@ -364,7 +373,7 @@ async fn fetch_text(address: &str) -> Result<String, JsValue> {
         ))
     };
     let response = JsFuture::from(window.fetch_with_str(address)).await;
-    let response = response.map_err(|e| fail(super::worker::text_of(&e)))?;
+    let response = response.map_err(|e| fail(super::worker::fault::text_of(&e)))?;
     let response: web_sys::Response = response.unchecked_into();
     if !response.ok() {
         return Err(fail(format!("the server answered {}", response.status())));
@@ -381,13 +390,43 @@ async fn fetch_text(address: &str) -> Result<String, JsValue> {
         .ok_or_else(|| fail("it is no text".to_owned()))
 }
 
-/// Called once when the program has been loaded, in the page and in every worker. Starting is left to web/start.js.
+/// Called once when the program has been loaded. Starting is left to web/start.js.
 pub fn loaded() {}
 
 /// Host that `?doc=` would fetch from, if it is not the page's own: nothing is fetched from it without a tap.
 #[wasm_bindgen]
 pub fn foreign_document_host() -> Option<String> {
     foreign_host(&document_address()?)
+}
+
+/// The name of the part (see web/parts.js) that a document needs first: the makers of subjects for a built-in one, the
+/// readers of scans for one at the page's own host. `text` is a link, a payload or JSON; `base` is what relative
+/// addresses start from. None if the reader is to be asked first, or if the text is no document.
+#[wasm_bindgen]
+pub fn first_part(text: &str, base: &str) -> Option<String> {
+    let document = open(text).ok()?;
+    let part = match &document.illustration().subject {
+        SubjectRef::Builtin { .. } => Part::Subjects,
+        SubjectRef::Address { src, .. } => {
+            let address = Url::new_with_base(src, base).ok()?.href();
+            if foreign_host(&address).is_some() {
+                return None;
+            }
+            Part::Scans
+        }
+        SubjectRef::Supplied { .. } => return None,
+    };
+    Some(part.name().to_owned())
+}
+
+/// [`first_part`] of what the page's address says, or of what was kept from an earlier visit.
+#[wasm_bindgen]
+pub fn part_of_address() -> Option<String> {
+    if document_address().is_some() {
+        return None;
+    }
+    let text = address_text().or_else(kept_document)?;
+    first_part(&text, &here()?.href())
 }
 
 /// Title, caption and steps of the document in a link or JSON, as lines of text, for where no picture can be drawn.
@@ -397,9 +436,9 @@ pub fn foreign_document_host() -> Option<String> {
 #[wasm_bindgen]
 pub fn describe(text: &str) -> Result<String, JsValue> {
     let illustration = open(text)?.illustration().clone();
-    let mut lines = vec![illustration.title, illustration.caption];
+    let mut lines = vec![illustration.title, illustration.legend];
     for (index, step) in illustration.steps.iter().enumerate() {
-        lines.push(format!("{}. {} {}", index + 1, step.title, step.caption));
+        lines.push(format!("{}. {} {}", index + 1, step.title, step.legend));
     }
     lines.retain(|line| !line.trim().is_empty());
     Ok(lines.join("\n"))
@@ -455,12 +494,26 @@ fn open(text: &str) -> Result<Document, JsValue> {
 }
 
 thread_local! {
-    /// What [`render_png`] draws with, kept for the next call: a subject's name, its resolution, and a device that holds it.
+    /// What [`render_png`] draws with, kept for the next call: a subject's name, its resolution, and a device that
+    /// holds it.
     static STUDIO: RefCell<Option<(String, u32, Studio)>> = const { RefCell::new(None) };
     static STUDIO_GPU: RefCell<Option<Gpu>> = const { RefCell::new(None) };
+    /// Address of worker.js, as the last viewer was given it.
+    static WORKER_ADDRESS: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Draws a document with a built-in subject offscreen and deterministically, as `fabrica render` does, and gives the PNG.
+/// Where worker.js is: beside the page, if there has been no viewer that knows better.
+fn worker_address() -> String {
+    let known = WORKER_ADDRESS.with_borrow(Clone::clone);
+    if known.is_empty() {
+        "./worker.js".to_owned()
+    } else {
+        known
+    }
+}
+
+/// Draws a document with a built-in subject offscreen and deterministically, as `fabrica render` does, and gives the
+/// PNG.
 /// `resolution` is the number of voxels along the subject's longest side. For tests and for pictures of other pages.
 ///
 /// # Errors
@@ -494,9 +547,7 @@ pub async fn render_png(
     let studio = match held.filter(|(n, r, _)| n == name && *r == resolution) {
         Some((_, _, studio)) => studio,
         None => {
-            let mut builder = VolumeBuilder::new();
-            subjects::generate(name, resolution, &mut builder).map_err(|e| words(&e))?;
-            let volume = builder.finish().map_err(|e| words(&e))?;
+            let volume = run::make_volume(&worker_address(), name, resolution).await?;
             let studio = Studio::new(&gpu, &volume, true).map_err(|e| words(&e))?;
             STUDIO.set(Some((name.clone(), resolution, studio.clone())));
             studio

@@ -17,7 +17,7 @@ const SEGMENTS: &[SegmentSpec] = &[
     segment("core", [238, 226, 196]),
 ];
 
-/// See the module.
+/// The bar, 70 by 200 by 70 mm, painted from distances; it holds no data.
 pub(super) struct Bar;
 
 impl Model for Bar {

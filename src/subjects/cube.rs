@@ -21,7 +21,7 @@ const SEGMENTS: &[SegmentSpec] = &[
     segment("ball", [104, 146, 188]),
 ];
 
-/// See the module.
+/// The cube, 100 mm wide, painted from distances; it holds no data.
 pub(super) struct Cube;
 
 impl Model for Cube {
@@ -41,7 +41,8 @@ impl Model for Cube {
         let width = border_width(block.spacing);
         for row in 0..ROWS {
             let p = block.row(row);
-            // Where two engraved lines would meet a third family runs along the face itself: there it only lowers the face.
+            // Where two engraved lines would meet a third family runs along the face itself: there it only lowers the
+            // face.
             let lines = groove(p.x, 2.0 * HALF_MM / 6.0, 0.8)
                 .max(groove(p.y, 2.0 * HALF_MM / 6.0, 0.8))
                 .max(groove(p.z, 2.0 * HALF_MM / 6.0, 0.8));

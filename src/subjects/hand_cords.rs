@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::hand::{Finger, arr};
+use super::hand_plan::{Finger, arr};
 use super::shape::{Field, Knot, curve, strap};
 
 pub(super) fn tendons(fingers: &[Finger]) -> Field {

@@ -74,7 +74,7 @@ const SEGMENTS: &[SegmentSpec] = &[
     segment("dura", [218, 206, 184]),
 ];
 
-/// See the module.
+/// The head's shapes, each as one field of distances in mm.
 pub(super) struct Head {
     skin: Field,
     lips: Field,
@@ -458,7 +458,8 @@ impl Model for Head {
                     lay(hole.max(front), flat(50.0), Tissue::Pupil);
                 }
             }
-            // What is drawn as the surface lies between voxels inside and voxels outside: those outside take the colour too.
+            // What is drawn as the surface lies between voxels inside and voxels outside: those outside take the colour
+            // too.
             let rim = 0.6 * block.spacing;
             if let Some(d) = eye {
                 let before = (d - rim).max(flat(rim) - s);

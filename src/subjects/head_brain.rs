@@ -1,8 +1,8 @@
 //! The brain: hemispheres with their folds, cerebellum with its leaves, stem, ventricles.
 //!
 //! The folds are the nodal lines of a random wave on the surface: such lines wind, keep their distance and hardly ever
-//! cross, as sulci do. The sulci that have names are drawn as curves, and the wave keeps away from them, which leaves the
-//! gyri along them whole. Coordinates as in [`super::head_skin`].
+//! cross, as sulci do. The sulci that have names are drawn as curves, and the wave keeps away from them, which leaves
+//! the gyri along them whole. Coordinates as in [`super::head_skin`].
 
 use super::head_skull::cerebral_space;
 use super::lanes::{LANES, Lanes, Points};
@@ -211,8 +211,8 @@ impl Folds {
         Self { center, distance }
     }
 
-    /// Distance to the nearest sulcus at a point, mm, as measured at the surface outwards of it, and how deep a sulcus may
-    /// reach there: they would crowd at the middle.
+    /// Distance to the nearest sulcus at a point, mm, as measured at the surface outwards of it, and how deep a sulcus
+    /// may reach there: they would crowd at the middle.
     #[inline]
     fn at(&self, x: f32, y: f32, z: f32) -> (f32, f32) {
         let (x, y, z) = (x - self.center[0], y - self.center[1], z - self.center[2]);
@@ -449,8 +449,8 @@ pub(super) fn ventricles() -> Field {
     f
 }
 
-/// Signed distance to the two folds of the dura, from the distance to the room under the tentorium: the sickle between the
-/// hemispheres, whose lower edge keeps off the callosal body, and the tent over the cerebellum, open for the stem.
+/// Signed distance to the two folds of the dura, from the distance to the room under the tentorium: the sickle between
+/// the hemispheres, whose lower edge keeps off the callosal body, and the tent over the cerebellum, open for the stem.
 pub(super) fn dura(p: &Points, under_tentorium: Lanes) -> Lanes {
     let one = Lanes::splat(1.0);
     let (y, z) = (p.y * (1.0 / 55.0), (p.z - 40.0) * (1.0 / 37.0));

@@ -1,7 +1,8 @@
 //! The head's outer surface, sculpted: braincase, face, nose, eyes, mouth, ears, neck.
 //!
-//! Millimetres about the middle between the ear canals, Frankfurt plane level: x right, y anterior, z up. Landmarks kept:
-//! vertex z 130, glabella y 97, pupils z 16 and x ±31.5, tip of the nose y 119, mouth z −52, chin z −98, gonion x ±52.
+//! Millimetres about the middle between the ear canals, Frankfurt plane level: x right, y anterior, z up. Landmarks
+//! kept: vertex z 130, glabella y 97, pupils z 16 and x ±31.5, tip of the nose y 119, mouth z −52, chin z −98, gonion x
+//! ±52.
 
 use glam::{Mat3, Vec3};
 

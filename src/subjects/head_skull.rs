@@ -537,7 +537,8 @@ pub(super) fn cartilages() -> Field {
     f
 }
 
-/// One tooth: middle of the crown, its frame (across, outwards, up), half its width and thickness, height, direction of the root.
+/// One tooth: middle of the crown, its frame (across, outwards, up), half its width and thickness, height, direction of
+/// the root.
 fn tooth(
     crowns: &mut Field,
     roots: &mut Field,

@@ -407,8 +407,8 @@ pub(super) fn airway() -> Field {
     f
 }
 
-/// Vessels that would run in the bone of the vault are moved to its inner or outer side, whichever is nearer; those under
-/// the scalp lie at an even depth.
+/// Vessels that would run in the bone of the vault are moved to its inner or outer side, whichever is nearer; those
+/// under the scalp lie at an even depth.
 fn fitted(knots: &[Knot], skin: &Field, cavity: &Field) -> Vec<Knot> {
     let distance = |field: &Field, p: [f32; 3]| {
         let lane = |axis: usize| Lanes::splat(p[axis]);
@@ -437,8 +437,8 @@ fn fitted(knots: &[Knot], skin: &Field, cavity: &Field) -> Vec<Knot> {
         .collect()
 }
 
-/// Signed distance to the superior sagittal sinus, mm, from that to the cavity: it runs under the vault in the middle, wider
-/// towards the back.
+/// Signed distance to the superior sagittal sinus, mm, from that to the cavity: it runs under the vault in the middle,
+/// wider towards the back.
 pub(super) fn sagittal_sinus(p: &Points, cavity: Lanes) -> Lanes {
     let radius = (p.y * -0.02 + 3.6).clamp(2.0, 5.2);
     let (x, under) = (p.x, cavity + radius * 0.75);

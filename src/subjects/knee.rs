@@ -32,7 +32,7 @@ const HALF_MM: f32 = 118.0;
 /// How much larger muscles grow far from the joint, mm: until they meet.
 const SWELL_MM: f32 = 9.0;
 
-/// See the module.
+/// The knee's shapes, each as one field of distances in mm.
 pub(super) struct Knee {
     skin: Field,
     muscles: Field,

@@ -1,7 +1,8 @@
 //! Eight floats side by side: a row of eight voxels is worked out at once.
 //!
-//! Only operations that IEEE 754 rounds exactly (+, −, ×, ÷, √, comparison) are offered, so the bits are the same on every
-//! machine, whichever vector instructions it has. (Which of two zeros is the smaller may differ; nothing asks for their sign.)
+//! Only operations that IEEE 754 rounds exactly (+, −, ×, ÷, √, comparison) are offered, so the bits are the same on
+//! every machine, whichever vector instructions it has. (Which of two zeros is the smaller may differ; nothing asks for
+//! their sign.)
 
 use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, Neg, Sub};
 

@@ -1,4 +1,5 @@
-//! What hand and knee are painted alike: skin over fat, muscles that stay apart, bone with a spongy inside, cords and vessels.
+//! What hand and knee are painted alike: skin over fat, muscles that stay apart, bone with a spongy inside, cords and
+//! vessels.
 
 use super::lanes::Lanes;
 use super::paint::{Block, Canvas, border_width};
@@ -44,7 +45,8 @@ pub(super) fn lay_skin(
     );
 }
 
-/// Distance from muscles `grow` mm larger than their shapes, parted by `gap` mm where they meet, from those of the two nearest.
+/// Distance from muscles `grow` mm larger than their shapes, parted by `gap` mm where they meet, from those of the two
+/// nearest.
 #[inline(always)]
 pub(super) fn parted((first, second): (Lanes, Lanes), grow: f32, gap: f32) -> Lanes {
     (first - grow).max(Lanes::splat(gap) - (second - first))

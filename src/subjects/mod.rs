@@ -1,7 +1,7 @@
 //! Layer 3: the built-in subjects. Nothing is downloaded: each is a model in mm, painted voxel by voxel.
 //!
-//! The labels, and the values, are the same bit for bit on every machine: only arithmetic that IEEE 754 rounds exactly is
-//! used, sines come from `libm`, and nothing depends on the order of a hash or on the number of threads.
+//! The labels, and the values, are the same bit for bit on every machine: only arithmetic that IEEE 754 rounds exactly
+//! is used, sines come from `libm`, and nothing depends on the order of a hash or on the number of threads.
 //!
 //! A small `resolution` gives the coarse picture that a page shows first, a large one the same model finely.
 //!
@@ -30,6 +30,7 @@ mod bar;
 mod cube;
 mod hand;
 mod hand_cords;
+mod hand_plan;
 mod head;
 mod head_brain;
 mod head_skin;
@@ -53,7 +54,7 @@ use std::ops::Range;
 
 use glam::{DAffine3, DMat3, DVec3, UVec3, Vec3};
 
-use crate::data::{Grid, LabelVolume, Segment, Volume, VolumeSink, Voxels};
+use crate::data::{Grid, Segment, Segmentation, Volume, VolumeSink, Voxels};
 use lanes::LANES;
 use paint::{Block, Canvas, Model, ROWS};
 
@@ -122,7 +123,8 @@ pub struct Slab {
     pub labels: Vec<u8>,
 }
 
-/// Makes a subject in slabs, in any order and from as many threads as the caller likes: the result does not depend on it.
+/// Makes a subject in slabs, in any order and from as many threads as the caller likes: the result does not depend on
+/// it.
 pub struct Generator {
     model: Box<dyn Model>,
     dims: UVec3,
@@ -137,25 +139,27 @@ impl Generator {
 
     /// Prepares a subject, `resolution` voxels along its longest side.
     pub fn new(name: &str, resolution: u32) -> Result<Self, SubjectError> {
-        if !(MIN_RESOLUTION..=MAX_RESOLUTION).contains(&resolution) {
-            return Err(SubjectError::Resolution(resolution));
-        }
+        check_resolution(resolution)?;
         let model = model(name).ok_or_else(|| {
             // A hostile name is not repeated at length.
             SubjectError::UnknownName(name.chars().take(40).collect())
         })?;
+        Ok(Self::of(model, resolution))
+    }
+
+    fn of(model: Box<dyn Model>, resolution: u32) -> Self {
         let (min, max) = model.bounds_mm();
         let size = max - min;
         let spacing = size.max_element() / resolution as f32;
         let dims = (size / spacing).round().as_uvec3().max(UVec3::ONE);
         // The grid is laid about the middle of the box, for its sides are no exact multiples of the spacing.
         let origin = (min + max) * 0.5 - (dims - UVec3::ONE).as_vec3() * (0.5 * spacing);
-        Ok(Self {
+        Self {
             model,
             dims,
             spacing,
             origin,
-        })
+        }
     }
 
     /// The volume without its voxels and labels. The values are CT-like numbers (HU).
@@ -173,7 +177,7 @@ impl Generator {
             slope: 1.0,
             intercept: 0.0,
             value_range: self.model.value_range(),
-            labels: Some(LabelVolume {
+            segmentation: Some(Segmentation {
                 grid,
                 labels: Vec::new(),
                 segments: self
@@ -246,7 +250,27 @@ pub fn generate(
     resolution: u32,
     sink: &mut dyn VolumeSink,
 ) -> Result<(), SubjectError> {
-    let generator = Generator::new(name, resolution)?;
+    run(&Generator::new(name, resolution)?, sink)
+}
+
+/// Makes the cube alone, as [`generate`] does by name: a program that calls this and not that holds no other subject.
+///
+/// # Errors
+/// As [`generate`].
+pub fn generate_cube(resolution: u32, sink: &mut dyn VolumeSink) -> Result<(), SubjectError> {
+    check_resolution(resolution)?;
+    run(&Generator::of(Box::new(cube::Cube), resolution), sink)
+}
+
+fn check_resolution(resolution: u32) -> Result<(), SubjectError> {
+    if (MIN_RESOLUTION..=MAX_RESOLUTION).contains(&resolution) {
+        Ok(())
+    } else {
+        Err(SubjectError::Resolution(resolution))
+    }
+}
+
+fn run(generator: &Generator, sink: &mut dyn VolumeSink) -> Result<(), SubjectError> {
     sink.begin(&generator.header())
         .map_err(SubjectError::Refused)?;
     let n = generator.slice_count();

@@ -97,7 +97,8 @@ impl Canvas {
         }
     }
 
-    /// Changes the values where `distance` (mm) is negative, over `width` mm around its border, and leaves the segments.
+    /// Changes the values where `distance` (mm) is negative, over `width` mm around its border, and leaves the
+    /// segments.
     #[inline(always)]
     pub(super) fn tone(&mut self, row: usize, distance: Lanes, width: f32, value: f32) {
         let cover = (Lanes::splat(0.5) - distance * (1.0 / width)).clamp(0.0, 1.0);
@@ -114,7 +115,8 @@ impl Canvas {
     }
 }
 
-/// Over how many mm a border is smoothed at a voxel spacing: wide enough that a gradient taken between neighbours is smooth.
+/// Over how many mm a border is smoothed at a voxel spacing: wide enough that a gradient taken between neighbours is
+/// smooth.
 pub(super) fn border_width(spacing: f32) -> f32 {
     2.6 * spacing
 }

@@ -20,7 +20,7 @@ const WALL_MM: f32 = 5.0;
 /// Radius and half the thickness of a coin, mm.
 const COIN_MM: [f32; 2] = [11.5, 1.2];
 
-/// See the module.
+/// The bank's shapes, each as one field of distances in mm.
 pub(super) struct Piggybank {
     body: Field,
     /// The belly, which is hollow.

@@ -8,7 +8,8 @@ const STEP_MM: f32 = 1.0;
 /// One cross-section as given: height, half width, front, back, mm.
 pub(super) type Ring = [f32; 4];
 
-/// See the module. Made once per subject; a look-up costs one row, for z is the same along a row of voxels.
+/// The outline of a body by height, mm. Made once per subject; a look-up costs one row, for z is the same along a row
+/// of voxels.
 pub(super) struct Profile {
     bottom: f32,
     /// Half width, middle, half depth in front, half depth behind, mm.

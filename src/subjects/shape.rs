@@ -1,7 +1,7 @@
 //! Modelling with signed distances: shapes, and fields that join, carve and brush them like clay.
 //!
-//! A field is a list of steps. For a block of voxels only the steps that can matter there are kept ([`Field::near`]): a step
-//! whose shape is farther away than the distance that is asked for changes nothing that is looked at.
+//! A field is a list of steps. For a block of voxels only the steps that can matter there are kept ([`Field::near`]): a
+//! step whose shape is farther away than the distance that is asked for changes nothing that is looked at.
 
 use glam::{Mat3, Vec3};
 
@@ -415,8 +415,8 @@ enum Op {
     Raise(f32),
 }
 
-/// Clay: a list of steps, each of which changes the signed distance that the ones before left. A step's shapes act as one:
-/// their plain union.
+/// Clay: a list of steps, each of which changes the signed distance that the ones before left. A step's shapes act as
+/// one: their plain union.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Field {
     steps: Vec<(Op, Vec<Shape>)>,

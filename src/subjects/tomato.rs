@@ -20,7 +20,7 @@ const SEGMENTS: &[SegmentSpec] = &[
 /// Chambers about the core.
 const CHAMBERS: usize = 5;
 
-/// See the module.
+/// The tomato's shapes, each as one field of distances in mm.
 pub(super) struct Tomato {
     body: Field,
     /// Walls between the chambers, and the core.

@@ -1,7 +1,7 @@
 //! A torso from the root of the neck to the hips: wall, frame, and all that chest and belly hold, in CT-like values.
 //!
-//! Millimetres: x to the patient's right, y anterior, z up; z = 0 at the lower end of the breastbone's body. The arms are cut
-//! off beside the shoulders.
+//! Millimetres: x to the patient's right, y anterior, z up; z = 0 at the lower end of the breastbone's body. The arms
+//! are cut off beside the shoulders.
 
 use glam::Vec3;
 
@@ -89,7 +89,7 @@ const SEGMENTS: &[SegmentSpec] = &[
     segment("air", [214, 146, 130]),
 ];
 
-/// See the module.
+/// The torso's shapes: outlines by height, and fields of distances in mm.
 pub(super) struct Torso {
     trunk: Profile,
     skin: Field,
@@ -373,8 +373,8 @@ impl Model for Torso {
             }
             let p = Places::new(block.row(row));
             let z = p.plain.z[0];
-            // Lungs are nearly air, so the surface of the picture lies low on the slope that leads out of the air: a wide one
-            // keeps it off the bend at its foot, where it would be terraced.
+            // Lungs are nearly air, so the surface of the picture lies low on the slope that leads out of the air: a
+            // wide one keeps it off the bend at its foot, where it would be terraced.
             out.lay(row, s, 1.4 * width, flat(30.0), Tissue::Skin as u8);
             let mut lay = |d: Lanes, value: f32, tissue: Tissue| {
                 if d.lowest() < width {
@@ -384,7 +384,8 @@ impl Model for Torso {
             lay(s + thickness, -100.0, Tissue::Fat);
             if s.lowest() < -2.0 {
                 let c = self.cavity.distance(&p.plain).max(p.plain.z - 184.0);
-                // The wall: muscle from the fat under the skin to the cavity, parted over the ribs by a thin layer of fat.
+                // The wall: muscle from the fat under the skin to the cavity, parted over the ribs by a thin layer of
+                // fat.
                 let m = relief.onto(&p, s + (thickness + torso_wall::fat_mm(z)));
                 lay(m, 55.0, Tissue::Muscle);
                 if z > -70.0 {

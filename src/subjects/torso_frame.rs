@@ -1,7 +1,7 @@
 //! The torso's frame: spine, ribs with their cartilages, breastbone, collar bones, shoulder blades, pelvis.
 //!
-//! Millimetres as in `torso`. Proportions after common textbooks of anatomy: the notch of the breastbone stands before T2/T3,
-//! its angle before T4/T5, its lower end before T9; the top of the pelvis before L4.
+//! Millimetres as in `torso`. Proportions after common textbooks of anatomy: the notch of the breastbone stands before
+//! T2/T3, its angle before T4/T5, its lower end before T9; the top of the pelvis before L4.
 
 use glam::Vec3;
 
@@ -291,7 +291,8 @@ struct Rib {
     back_z: f32,
     end_z: f32,
     end_deg: f32,
-    /// Where the cartilage reaches the breastbone or its upper neighbour: height and degrees; nothing for floating ribs.
+    /// Where the cartilage reaches the breastbone or its upper neighbour: height and degrees; nothing for floating
+    /// ribs.
     joint: Option<[f32; 2]>,
     half_height: f32,
 }

@@ -210,7 +210,8 @@ impl Outside {
         f
     }
 
-    /// White lines and sheets on the muscles: mid line, rows and edges of the straight muscle, the sheet of the lower back.
+    /// White lines and sheets on the muscles: mid line, rows and edges of the straight muscle, the sheet of the lower
+    /// back.
     pub(super) fn sheets(&self) -> Field {
         let mut f = Field::default();
         f.join_all(

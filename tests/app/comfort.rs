@@ -102,7 +102,8 @@ fn title_and_credit_are_written_into_a_saved_picture() {
     }
 }
 
-/// A frame that takes a second lies between press and release of a short click; a finger that rests is still a finger that rests.
+/// A frame that takes a second lies between press and release of a short click; a finger that rests is still a finger
+/// that rests.
 #[test]
 fn clicks_count_on_slow_devices() {
     let mut window = Window::open(DESK, CUBE);

@@ -1,11 +1,11 @@
 //! Labels: set on tissue, named, followed while the object is opened, written into saved pictures.
 
 use super::*;
-use fabrica::document::Label;
+use fabrica::document::Caption;
 
 impl Window {
-    fn labels(&self) -> Vec<Label> {
-        self.document().illustration().labels.clone()
+    fn labels(&self) -> Vec<Caption> {
+        self.document().illustration().captions.clone()
     }
 }
 

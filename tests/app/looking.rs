@@ -23,7 +23,8 @@ impl Window {
     }
 }
 
-// ---------------------------------------------------------------------------------------------------- transfer function
+// ---------------------------------------------------------------------------------------------------- transfer
+// function
 
 fn point_at(window: &Window, number: usize) -> Pos2 {
     let label = format!("Point {number}:");
@@ -181,11 +182,8 @@ fn a_preset_is_taken_from_its_group() {
 }
 
 #[test]
+#[ignore = "only drawn to be looked at: cargo xtask look"]
 fn the_transfer_function_of_the_head_to_look_at() {
-    if std::env::var_os("FABRICA_LOOK_AT").is_none() {
-        println!("FABRICA_LOOK_AT is not set: nobody looks, nothing is drawn");
-        return;
-    }
     for (name, size, theme) in [
         ("transfer_head", DESK, egui::Theme::Light),
         ("transfer_head_dark", DESK, egui::Theme::Dark),
@@ -422,11 +420,8 @@ fn distances_are_measured_on_the_surface_and_in_slices() {
 }
 
 #[test]
+#[ignore = "only drawn to be looked at: cargo xtask look"]
 fn slices_of_the_head_to_look_at() {
-    if std::env::var_os("FABRICA_LOOK_AT").is_none() {
-        println!("FABRICA_LOOK_AT is not set: nobody looks, nothing is drawn");
-        return;
-    }
     let json = r#"{ "fabrica": 1, "templates": [
         { "kind": "flap", "at": [0.05, 0.28, 0.25], "rotate": [-0.7071068, 0, 0, 0.7071068], "size": [0.4, 0.4, 0.3] },
         { "kind": "cut", "at": [-0.25, 0, 0.2], "size": [0.3, 0.3, 0.3] } ] }"#;

@@ -228,7 +228,8 @@ fn the_catalogue_is_searched() {
     );
 }
 
-/// What pressing a key sends, and what it writes. As one frame's events: the harness would give each a frame of its own.
+/// What pressing a key sends, and what it writes. As one frame's events: the harness would give each a frame of its
+/// own.
 fn typed(key: Key, letter: &str) -> impl Iterator<Item = egui::Event> {
     let pressed = egui::Event::Key {
         key,
@@ -299,7 +300,10 @@ fn a_displacement_field_that_is_opened_becomes_a_template() {
     let send = |window: &mut Window, outcome| {
         let outcome = Box::new(outcome);
         let mut log = window.log.0.borrow_mut();
-        log.queue.push(Message::Field { key: None, outcome });
+        log.queue.push(Message::Field {
+            want: None,
+            outcome,
+        });
         drop(log);
         window.settle();
     };

@@ -1,17 +1,17 @@
 //! What the evaluation asks the GPU: the program's own files with `methods.wgsl` behind them, on an analytic object.
 
+use crate::gpu::gpu;
 use crate::reference::{self, Placed};
 use fabrica::document::{PlacedTemplate, TemplateMode};
-use fabrica::render::gpu_types::{Subject, Templates, affine_rows};
-use fabrica::render::programs::{file, program};
+use fabrica::render::gpu_types::{Subject, Templates};
+use fabrica::render::programs::files_of;
 use fabrica::render::{
-    Gpu, GpuOptions, Probe, Sample, WorkDone, result_buffer, storage_buffer, submit_and_read,
-    uniform_buffer,
+    Probe, Sample, WorkDone, result_buffer, storage_buffer, submit_and_read, uniform_buffer,
 };
 use glam::{Affine3A, DMat3, DQuat, DVec3, Vec3};
 use half::f16;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::sync::OnceLock;
 
 /// Direction of the light in methods.wgsl.
 pub(crate) const LIGHT: DVec3 = DVec3::new(0.48, -0.64, 0.6);
@@ -25,17 +25,6 @@ pub(crate) const METHODS: [(u32, &str); 6] = [
     (3, "Sobel on the fly"),
     (4, "dot product"),
 ];
-
-pub(crate) fn gpu() -> &'static Gpu {
-    static GPU: OnceLock<Gpu> = OnceLock::new();
-    GPU.get_or_init(|| {
-        pollster::block_on(Gpu::open(&GpuOptions {
-            adapter: None,
-            is_strict: true,
-        }))
-        .expect("an adapter (lavapipe is enough)")
-    })
-}
 
 /// The exact map at points, by the program's WGSL.
 pub(crate) fn probe(list: &[PlacedTemplate], points: &[Vec3]) -> Vec<Sample> {
@@ -146,14 +135,12 @@ impl Scan {
             },
             texture.size(),
         );
-        let rows = affine_rows(&Affine3A::from_translation(Vec3::splat(0.5)));
         let uniform = Subject {
-            texture_from_rest_row0: rows[0],
-            texture_from_rest_row1: rows[1],
-            texture_from_rest_row2: rows[2],
-            dims: [n as f32, n as f32, n as f32, spacing as f32],
+            texture_from_rest: Affine3A::from_translation(Vec3::splat(0.5)).into(),
+            dims: [n as f32, n as f32, n as f32, 0.0],
             texture_end: [1.0; 4],
-            value: [0.0, 1.0, 0.0, 0.0],
+            value_range: 1.0,
+            detail: spacing as f32,
             ..Subject::default()
         };
         Self {
@@ -198,12 +185,17 @@ pub(crate) struct Method<'a> {
 
 fn source() -> String {
     let mut text = String::new();
-    let probe = program("probe").expect("in the table");
-    let more = ["bind/subject.wgsl", "march/ray.wgsl", "march/value.wgsl"];
-    let own = probe.files.iter().filter(|path| !path.starts_with("pass/"));
-    for path in own.copied().chain(more) {
-        let file = file(path).expect("in the table");
-        let _ = writeln!(text, "{}", file.source);
+    let mut known = BTreeSet::new();
+    for path in [
+        "displace/compose.wgsl",
+        "march/ray.wgsl",
+        "march/value.wgsl",
+    ] {
+        for file in files_of(path, None) {
+            if known.insert(file.path) {
+                let _ = writeln!(text, "{}", file.source);
+            }
+        }
     }
     text + include_str!("methods.wgsl")
 }

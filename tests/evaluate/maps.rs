@@ -169,9 +169,9 @@ impl Places {
         })
     }
 
-    /// Section 6.2.3: mean angle (degrees) between normals carried over by the closed form's Jacobian and by one that is kept with ten bits
-    /// per component over −2 to 2, by one that is divided by its largest component first (equation 6.1), and by the program's differences;
-    /// and the mean of the determinants.
+    /// Section 6.2.3: mean angle (degrees) between normals carried over by the closed form's Jacobian and by one that
+    /// is kept with ten bits per component over −2 to 2, by one that is divided by its largest component first
+    /// (equation 6.1), and by the program's differences; and the mean of the determinants.
     pub(crate) fn jacobians(&self, list: &[PlacedTemplate]) -> ([f64; 3], f64) {
         let kept = |m: DMat3, limit: f64| {
             let one = |v: f64| {

@@ -1,8 +1,11 @@
-// Ways to find the normal of a deformed volume, side by side (dissertation, sections 6.3 and 6.4): the program's own, and those it is compared
-// with. Only the evaluation runs this; the map, the scan and its gradient are the program's own files.
-// needs: types.wgsl bind/subject.wgsl bind/templates.wgsl march/ray.wgsl march/value.wgsl displace/compose.wgsl
+// Ways to find the normal of a deformed volume, side by side (dissertation, sections 6.3 and 6.4): the program's own,
+// and those it is compared with. Only the evaluation runs this; the map, the scan and its gradient are the program's
+// own files.
+// needs: types.wgsl bind/subject.wgsl bind/templates.wgsl affine.wgsl march/ray.wgsl march/value.wgsl
+// displace/compose.wgsl
 
-/// Points of the deformed object, subject space (w is not used); for `march` pixels of an orthographic picture, w its side.
+/// Points of the deformed object, subject space (w is not used); for `march` pixels of an orthographic picture, w its
+/// side.
 @group(3) @binding(0) var<storage, read> points: array<vec4f>;
 /// xyz: unit normal away from the denser side; w: diffuse light from `LIGHT`.
 @group(3) @binding(1) var<storage, read_write> results: array<vec4f>;
@@ -30,8 +33,8 @@ fn axis_of(i: u32) -> vec3f {
     return select(vec3f(0.0), vec3f(1.0), vec3u(0u, 1u, 2u) == vec3u(i));
 }
 
-/// Sobel's operator at rest: between filtered taps half a voxel off along every axis the differences are central ones and the means across have
-/// weights 1, 2, 1.
+/// Sobel's operator at rest: between filtered taps half a voxel off along every axis the differences are central ones
+/// and the means across have weights 1, 2, 1.
 fn sobel_at_rest(uvw: vec3f) -> vec3f {
     var slope = vec3f(0.0);
     for (var i = 0u; i < 8u; i++) {
@@ -63,7 +66,7 @@ fn by_jacobian(pos: vec3f) -> vec3f {
 fn by_central_differences(pos: vec3f) -> vec3f {
     var slope = vec3f(0.0);
     for (var i = 0u; i < 3u; i++) {
-        let way = axis_of(i) * subject.dims.w;
+        let way = axis_of(i) * subject.detail;
         slope += axis_of(i) * 0.5 * (value_at(pos + way) - value_at(pos - way));
     }
     return slope;
@@ -75,7 +78,7 @@ fn by_sobel(pos: vec3f) -> vec3f {
     for (var k = 0; k < 27; k++) {
         let at = vec3f(f32(k % 3), f32((k / 3) % 3), f32(k / 9)) - 1.0;
         let across = 2.0 - abs(at);
-        let value = value_at(pos + at * subject.dims.w);
+        let value = value_at(pos + at * subject.detail);
         slope += value * at * vec3f(across.y * across.z, across.z * across.x, across.x * across.y);
     }
     return slope / 32.0;
@@ -83,7 +86,7 @@ fn by_sobel(pos: vec3f) -> vec3f {
 
 /// The slope along the light alone (equation 6.5): light without a normal.
 fn by_dot_product(pos: vec3f) -> f32 {
-    let way = LIGHT * subject.dims.w;
+    let way = LIGHT * subject.detail;
     return max(0.5 * (value_at(pos - way) - value_at(pos + way)) / full_slope, 0.0);
 }
 
@@ -118,7 +121,8 @@ fn normals(@builtin(global_invocation_id) id: vec3u) {
     results[id.x] = evaluate_at(points[id.x].xyz);
 }
 
-/// A picture by even steps along y, every sample with something in it lit: what a method costs. x: light, w: transmittance.
+/// A picture by even steps along y, every sample with something in it lit: what a method costs. x: light, w:
+/// transmittance.
 @compute @workgroup_size(64)
 fn march(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= arrayLength(&points) {
@@ -127,7 +131,7 @@ fn march(@builtin(global_invocation_id) id: vec3u) {
     let start = points[id.x].xyz;
     var clear = 1.0;
     var light = 0.0;
-    let step = subject.dims.w;
+    let step = subject.detail;
     for (var t = 0.0; t < 1.3; t += step) {
         let pos = start - vec3f(0.0, t, 0.0);
         let opacity = 0.12 * smoothstep(0.1, 0.6, value_at(pos));

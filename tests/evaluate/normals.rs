@@ -1,4 +1,5 @@
-//! Section 6.3: normals by each method against those of an object whose deformed surface is known, and 6.3.1: its shape from them.
+//! Section 6.3: normals by each method against those of an object whose deformed surface is known, and 6.3.1: its shape
+//! from them.
 
 use super::bench::{LIGHT, METHODS, Method, Object, Scan, jacobian, plain};
 use crate::reference::{self, Placed};
@@ -85,7 +86,8 @@ impl Surface {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NormalError {
     pub(crate) name: &'static str,
-    /// Mean angle and that which one place in a hundred exceeds, degrees; none for the dot product, which has no normal.
+    /// Mean angle and that which one place in a hundred exceeds, degrees; none for the dot product, which has no
+    /// normal.
     pub(crate) angle: Option<[f64; 2]>,
     /// Root of the mean square of the error of diffuse light, 0 to 1.
     pub(crate) light: f64,
@@ -157,7 +159,8 @@ pub(crate) fn picture(
     lit
 }
 
-/// Section 6.3.1: a height field of n² seen along −z over ±0.3 units, its true height, and the slopes that a method's normals say.
+/// Section 6.3.1: a height field of n² seen along −z over ±0.3 units, its true height, and the slopes that a method's
+/// normals say.
 pub(crate) struct Relief {
     n: usize,
     height: Vec<f64>,
@@ -202,8 +205,8 @@ impl Relief {
         (square / self.height.len() as f64).sqrt()
     }
 
-    /// Height by integrating the slopes (Horn 1986): each place becomes what its neighbours and the slopes towards them say, again and again,
-    /// from flat. Root of the mean square error, subject units, after each number of rounds.
+    /// Height by integrating the slopes (Horn 1986): each place becomes what its neighbours and the slopes towards them
+    /// say, again and again, from flat. Root of the mean square error, subject units, after each number of rounds.
     pub(crate) fn errors(&self, rounds: &[u32]) -> Vec<f64> {
         let n = self.n;
         let step = 0.6 / (n - 1) as f64;

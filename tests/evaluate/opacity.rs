@@ -1,6 +1,8 @@
-//! Section 6.2.4: how opaque haze is that is pressed together or drawn apart, in each mode, against the integral along the ray.
+//! Section 6.2.4: how opaque haze is that is pressed together or drawn apart, in each mode, against the integral along
+//! the ray.
 
-use super::bench::{gpu, jacobian, plain};
+use super::bench::{jacobian, plain};
+use crate::gpu::gpu;
 use crate::reference;
 use fabrica::data::{Grid, Volume, Voxels};
 use fabrica::document::{
@@ -30,7 +32,7 @@ pub(crate) fn haze() -> Studio {
         slope: 1.0,
         intercept: 0.0,
         value_range: [7.0, 7.0],
-        labels: None,
+        segmentation: None,
     };
     Studio::new(gpu(), &volume, true).expect("a studio")
 }

@@ -1,11 +1,12 @@
 //! Everything at full size, written into target/evaluation.
 
-use super::bench::{METHODS, Method, Scan, gpu, seconds};
+use super::bench::{METHODS, Method, Scan, seconds};
 use super::maps::{Baked, MapError, Places, Precision};
 use super::normals::{Relief, Surface, normal_errors, picture};
 use super::opacity::{MODES, haze, stopped};
 use super::page::{Page, figures};
 use super::{BLOCK, EGG, PEEL, POKE, TWIST, WAVE, templates};
+use crate::gpu::gpu;
 use fabrica::data::VolumeBuilder;
 use fabrica::document::{PlacedTemplate, SubjectRef};
 use fabrica::render::{self, Image, Studio, encode_png};

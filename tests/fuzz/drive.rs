@@ -1,5 +1,5 @@
-//! What a fuzzer drives: bytes in, and whatever comes of them, no panic, no hang, and no memory beyond what really came.
-//! Where a format spreads over files, the bytes are cut in two: the first two say where.
+//! What a fuzzer drives: bytes in, and whatever comes of them, no panic, no hang, and no memory beyond what really
+//! came. Where a format spreads over files, the bytes are cut in two: the first two say where.
 
 use fabrica::data::{Volume, VolumeSink, Voxels};
 use fabrica::document::Document;

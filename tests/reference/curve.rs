@@ -1,5 +1,5 @@
-//! A template laid along a curve, read from the words of the additions to the contract: the map W is written down, its inverse is
-//! searched for by halving.
+//! A template laid along a curve, read from the words of the additions to the contract: the map W is written down, its
+//! inverse is searched for by halving.
 
 use glam::{DVec2, DVec3};
 
@@ -74,7 +74,7 @@ impl Line {
         low.lerp(high, part)
     }
 
-    /// W.
+    /// W(s, t): the place in the bent box's x-z plane at arc length `s` and height `t`.
     fn at(&self, s: f64, t: f64) -> DVec2 {
         let last = self.places.len() - 2;
         let mut start = 0.0;
@@ -132,7 +132,8 @@ impl Line {
         found
     }
 
-    /// Where a point of the straight box comes from and the continuity there, for a template that does this in the box it acts in.
+    /// Where a point of the straight box comes from and the continuity there, for a template that does this in the box
+    /// it acts in.
     pub(super) fn source(
         &self,
         q: DVec3,

@@ -1,13 +1,13 @@
-//! A plain f64 reading of spec/templates.md, for tests only. It was written from that page, line by line and in its words, and
-//! not from the shaders: what both get wrong has to be misread twice.
+//! A plain f64 reading of spec/templates.md, for tests only. It was written from that page, line by line and in its
+//! words, and not from the shaders: what both get wrong has to be misread twice.
 
 mod curve;
 
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// A template as the document has it: ranges already applied, parameters as numbers in catalogue order (a flag is 0 or 1, a choice
-/// its index, a vector three numbers, a quaternion four).
+/// A template as the document has it: ranges already applied, parameters as numbers in catalogue order (a flag is 0 or
+/// 1, a choice its index, a vector three numbers, a quaternion four).
 #[derive(Clone, Debug)]
 pub(crate) struct Placed {
     /// Name in the catalogue.
@@ -41,7 +41,8 @@ pub(crate) fn map(templates: &[Placed], pos: DVec3) -> (DVec3, f64) {
     map_with(templates, pos, &mut |q, _| q)
 }
 
-/// As [`map`]; `touch` may move the point in template space (it is given the template's size as well) before a template sees it (to ask how firmly the result stands).
+/// As [`map`]; `touch` may move the point in template space (it is given the template's size as well) before a template
+/// sees it (to ask how firmly the result stands).
 pub(crate) fn map_with(
     templates: &[Placed],
     pos: DVec3,

@@ -1,5 +1,5 @@
-//! A plain f64 reading of `rbf` (spec/templates.md; Correa, eq. 4.32 to 4.36), in the words of the source: the basis is not scaled, the
-//! polynomial is about the origin, and the system is solved as it stands there.
+//! A plain f64 reading of `rbf` (spec/templates.md; Correa, eq. 4.32 to 4.36), in the words of the source: the basis is
+//! not scaled, the polynomial is about the origin, and the system is solved as it stands there.
 
 use glam::{DVec2, DVec3};
 

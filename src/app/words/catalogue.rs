@@ -1,7 +1,7 @@
 //! The catalogue of templates.
 
 words! {
-    /// See the module.
+    /// The catalogue of template kinds.
     Catalogue {
         open_up: "Open up", "Öffnen", "Abrir", "打开";
         take_apart: "Take apart", "Zerlegen", "Separar", "分开";

@@ -1,7 +1,7 @@
 //! What a file leaves open: which of its volumes, and how bare voxels lie.
 
 words! {
-    /// See the module.
+    /// The choice of a volume in a file, and how bare voxels lie.
     Files {
         volume_of: "Volume {0} of {1}…", "Volumen {0} von {1} …", "Volumen {0} de {1}…", "第 {0} 个体数据，共 {1} 个…";
         volumes: "{0} volumes in this file", "{0} Volumen in dieser Datei", "{0} volúmenes en este archivo", "此文件含 {0} 个体数据";

@@ -1,7 +1,7 @@
 //! The sheet of keys and gestures.
 
 words! {
-    /// See the module.
+    /// The list of keys.
     Keys {
         heading: "Keys and gestures", "Tasten und Gesten", "Teclas y gestos", "按键与手势";
         close: "Close the sheet", "Blatt schließen", "Cerrar la hoja", "关闭此页";

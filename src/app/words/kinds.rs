@@ -1,8 +1,7 @@
-//! The catalogue's names and explanations. English is what the catalogue itself says, but for two titles; a match without
-//! a kind does not compile, and a test holds the number of parameters.
+//! The catalogue's names and explanations. English is what the catalogue itself says, but for two titles; a match
+//! without a kind does not compile, and a test holds the number of parameters.
 
-use super::super::control::capitalized;
-use super::{Lang, lang, of};
+use super::{Lang, capitalized, lang, of};
 use crate::document::TemplateKind;
 
 /// German, Spanish, Chinese; English stands in the catalogue.

@@ -1,7 +1,7 @@
 //! The panel of colours and background.
 
 words! {
-    /// See the module.
+    /// The panel of colours and background.
     Look {
         heading: "Look", "Aussehen", "Aspecto", "外观";
         colours: "Colours", "Farben", "Colores", "颜色";

@@ -1,8 +1,8 @@
-//! What the interface says, in every language that it speaks. A table per panel; a line of it holds one text in all
+//! Every text of the interface, in every language that it has. A table per panel; a line of it holds one text in all
 //! languages, so that none can be forgotten: a line with a language missing does not compile.
 //!
-//! Panels write `w().heading` with the `w` of their table. The language is the program's, not the document's: `lang` of a
-//! document says what its own texts are written in and changes nothing here.
+//! Panels write `w().heading` with the `w` of their table. The language is the program's, not the document's: `lang`
+//! of a document names the language of its own texts and changes nothing here.
 //!
 //! A new language is a variant of [`Lang`] and one more column; texts hold `{0}`, `{1}` where [`fill`] puts words and
 //! numbers, in the order that the language wants.
@@ -30,22 +30,24 @@ macro_rules! words {
     };
 }
 
+pub(crate) mod authoring;
 pub(crate) mod bar;
+pub(crate) mod captions;
 pub(crate) mod catalogue;
 pub(crate) mod curve;
 pub(crate) mod files;
-pub(crate) mod keep;
+pub(crate) mod kept;
 pub(crate) mod keys;
 pub(crate) mod kinds;
-pub(crate) mod labels;
 pub(crate) mod look;
-pub(crate) mod making;
+pub(crate) mod messages;
 pub(crate) mod names;
 pub(crate) mod picture;
 pub(crate) mod points;
-pub(crate) mod said;
 pub(crate) mod slices;
 pub(crate) mod templates;
+#[cfg(test)]
+mod tests;
 pub(crate) mod text;
 pub(crate) mod tissue;
 pub(crate) mod transfer;
@@ -62,8 +64,8 @@ pub enum Lang {
     Spanish,
     /// zh, in simplified characters
     Chinese,
-    /// English set from right to left: shows what a language of such a script would find. Never offered, only asked for by
-    /// its tag.
+    /// English set from right to left: shows what a language of such a script would find. Never offered, only asked
+    /// for by its tag.
     Mirrored,
 }
 
@@ -230,73 +232,11 @@ pub(crate) fn in_sentence(name: &str) -> String {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_line_has_the_same_gaps_in_every_language() {
-        let tables = [
-            bar::LINES,
-            catalogue::LINES,
-            files::LINES,
-            keep::LINES,
-            keys::LINES,
-            labels::LINES,
-            look::LINES,
-            making::LINES,
-            names::LINES,
-            picture::LINES,
-            curve::LINES,
-            points::LINES,
-            said::LINES,
-            slices::LINES,
-            templates::LINES,
-            text::LINES,
-            tissue::LINES,
-            transfer::LINES,
-        ];
-        let mut count = 0;
-        for (key, line) in tables.into_iter().flatten() {
-            for text in line {
-                assert!(!text.trim().is_empty(), "{key} says nothing");
-                for index in 0..4 {
-                    let gap = format!("{{{index}}}");
-                    assert_eq!(
-                        text.contains(&gap),
-                        line[0].contains(&gap),
-                        "{key}: {gap} in {text:?}"
-                    );
-                }
-            }
-            count += 1;
-        }
-        assert!(count > 150, "only {count} lines were seen");
-    }
-
-    #[test]
-    fn gaps_are_filled_once() {
-        assert_eq!(fill("{1} of {0}", &[&2, &"{0}"]), "{0} of 2");
-        assert_eq!(fill("a {9} b {", &[&1]), "a {9} b {");
-    }
-
-    #[test]
-    fn languages_are_found_by_their_tags() {
-        assert_eq!(Lang::from_tag("de-AT"), Some(Lang::German));
-        assert_eq!(Lang::from_tag("zh_CN.UTF-8"), Some(Lang::Chinese));
-        assert_eq!(Lang::from_tag("C"), None);
-        let wanted = ["fr-FR", "es-MX", "en"].map(str::to_owned);
-        assert_eq!(Lang::best(wanted), Lang::Spanish);
-        assert_eq!(Lang::best([]), Lang::English);
-    }
-
-    #[test]
-    fn numbers_are_read_as_they_are_written() {
-        set_lang(Lang::German);
-        assert_eq!(localized("0.25".to_owned()), "0,25");
-        assert_eq!(parse_number("\u{2212}0,25°"), Some(-0.25));
-        assert_eq!(parse_number("inf"), None);
-        set_lang(Lang::English);
-        assert_eq!(localized("0.25".to_owned()), "0.25");
+/// `progress` to `Progress`.
+pub(crate) fn capitalized(word: &str) -> String {
+    let mut letters = word.chars();
+    match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => String::new(),
     }
 }

@@ -1,9 +1,8 @@
-//! Names that lower rooms give in English: subjects, presets, steps of undo, what a loader is at. What is not known here
-//! stays as it is.
+//! Names that lower rooms give in English: subjects, presets, steps of undo, what a loader is at. What is not known
+//! here stays as it is.
 
-use super::super::control::capitalized;
-use super::{Lang, fill, kinds, lang, of};
-use crate::document::TemplateKind;
+use super::{Lang, bar, capitalized, fill, kinds, lang, of};
+use crate::document::{PlacedTemplate, SubjectRef, TemplateKind};
 
 words! {
     /// What a step of undo did.
@@ -85,7 +84,7 @@ pub(crate) fn stage(what: &str) -> String {
 }
 
 /// A step of undo, which the document names in English: a verb and what it was done to.
-pub(crate) fn deed(name: &str) -> String {
+pub(crate) fn edit_title(name: &str) -> String {
     if matches!(lang(), Lang::English | Lang::Mirrored) {
         return name.to_owned();
     }
@@ -165,7 +164,7 @@ pub(crate) fn deed(name: &str) -> String {
                 "mode" => w.mode.to_owned(),
                 "alignment" => w.alignment.to_owned(),
                 "amount" if param.is_none() => w.amount.to_owned(),
-                "constraint" => super::keep::w().constraint.to_owned(),
+                "constraint" => super::kept::w().constraint.to_owned(),
                 _ => param.unwrap_or_else(|| what.to_owned()),
             };
             return fill(w.change_of, &[&what, &title(of_what)]);
@@ -173,6 +172,31 @@ pub(crate) fn deed(name: &str) -> String {
         _ => return name.to_owned(),
     };
     fill(text, &[&title(rest)])
+}
+
+/// What a document's subject is called.
+pub(crate) fn subject_title(subject_ref: &SubjectRef) -> String {
+    let or = |name: &str, otherwise: &str| {
+        if name.is_empty() {
+            otherwise.to_owned()
+        } else {
+            name.to_owned()
+        }
+    };
+    match subject_ref {
+        SubjectRef::Builtin { name } => subject(name),
+        SubjectRef::Address { name, .. } => or(name, bar::w().scan_from_address),
+        SubjectRef::Supplied { name, .. } => or(name, bar::w().own_scan),
+    }
+}
+
+/// The author's name for a template, else the name of its kind.
+pub(crate) fn template_title(template: &PlacedTemplate) -> String {
+    if template.name.is_empty() {
+        kinds::title(template.kind).to_owned()
+    } else {
+        template.name.clone()
+    }
 }
 
 #[cfg(test)]
@@ -196,7 +220,7 @@ mod tests {
             kind: TemplateKind::Peel,
             placement,
         };
-        assert_eq!(deed(&add.name(&document)), "Abrollen hinzufügen");
+        assert_eq!(edit_title(&add.name(&document)), "Abrollen hinzufügen");
         let document = add.apply(&document).expect("an empty document takes it");
         let value = crate::document::ParamValue::Number(0.2);
         let edit = Edit::SetParam {
@@ -204,12 +228,15 @@ mod tests {
             param: "depth",
             value,
         };
-        assert_eq!(deed(&edit.name(&document)), "Tiefe von Abrollen ändern");
         assert_eq!(
-            deed(&Edit::SetTitle(String::new()).name(&document)),
+            edit_title(&edit.name(&document)),
+            "Tiefe von Abrollen ändern"
+        );
+        assert_eq!(
+            edit_title(&Edit::SetTitle(String::new()).name(&document)),
             "Titel ändern"
         );
-        assert_eq!(deed("Set peculiar"), "Set peculiar");
+        assert_eq!(edit_title("Set peculiar"), "Set peculiar");
         set_lang(Lang::English);
     }
 

@@ -1,7 +1,7 @@
 //! What stands over the picture: placing, handles, sides of the patient.
 
 words! {
-    /// See the module.
+    /// Texts over the picture: placing, handles, sides of the patient.
     OverPicture {
         picture_of: "Picture of {0}", "Bild von {0}", "Imagen de {0}", "{0}的图像";
         picture_named: "Picture: {0}", "Bild: {0}", "Imagen: {0}", "图像：{0}";

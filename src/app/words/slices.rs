@@ -1,7 +1,7 @@
 //! Slices, distances, the ghost and standard views.
 
 words! {
-    /// See the module.
+    /// The slices beside the picture.
     Slices {
         axial: "Axial", "Axial", "Axial", "横断面";
         coronal: "Coronal", "Koronal", "Coronal", "冠状面";

@@ -1,7 +1,7 @@
 //! The list of templates and everything about the selected one.
 
 words! {
-    /// See the module.
+    /// The list of templates.
     Templates {
         heading: "Templates", "Vorlagen", "Plantillas", "模板";
         unknown_kind: "This version does not know this kind of template. It is kept as it is, and not drawn.", "Diese Version kennt diese Art von Vorlage nicht. Sie bleibt erhalten und wird nicht gezeichnet.", "Esta versión no conoce este tipo de plantilla. Se conserva tal cual y no se dibuja.", "此版本不认识这种模板。它会原样保留，但不绘制。";

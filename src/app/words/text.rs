@@ -1,7 +1,7 @@
 //! The panel of title, caption and credit.
 
 words! {
-    /// See the module.
+    /// The panel of title, legend and credit.
     Text {
         heading: "Text", "Text", "Texto", "文字";
         title: "Title", "Titel", "Título", "标题";

@@ -1,7 +1,7 @@
 //! Tissues: the segments of the subject, and those made here.
 
 words! {
-    /// See the module.
+    /// The tissue panel and its messages.
     Tissue {
         heading: "Tissues", "Gewebe", "Tejidos", "组织";
         add: "Make a tissue", "Gewebe anlegen", "Crear un tejido", "创建组织";

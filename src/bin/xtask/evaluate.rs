@@ -1,11 +1,11 @@
 //! `cargo xtask evaluate`: the dissertation's chapter 6 with ground truth, as a page of tables and plots.
 
-use crate::Outcome;
-use crate::run::{root, run, say};
+use crate::run::{Outcome, root, run, say};
 use crate::setup;
 use crate::test::tests;
 
-/// Writes target/evaluation/index.html. In the test profile, on the adapter that the tests take: seconds are not what it is about, ratios are.
+/// Writes target/evaluation/index.html. In the test profile, on the adapter that the tests take: seconds are not what
+/// it is about, ratios are.
 pub(crate) fn evaluate() -> Outcome {
     setup::for_tests()?;
     let mut command = tests(&["--test", "evaluate", "--", "--ignored", "--nocapture"]);

@@ -1,5 +1,5 @@
-//! `cargo xtask gallery`: every built-in subject from four sides, and every illustration of the gallery, drawn by the native
-//! program into one page to look through.
+//! `cargo xtask gallery`: every built-in subject from four sides, and every illustration of the gallery, drawn by the
+//! native program into one page to look through.
 //!
 //! The gallery's documents are `web/gallery/*.json`: the page serves that folder, so that each opens as
 //! `?doc=gallery/NAME.json`, and `fabrica view` opens the same files.
@@ -13,8 +13,7 @@ use fabrica::link;
 use fabrica::subjects::{self, Generator};
 use serde_json::{Value, json};
 
-use crate::Outcome;
-use crate::run::{cargo, program, root, run, say};
+use crate::run::{Outcome, cargo, program, root, run, say};
 
 /// Where `cargo xtask serve` shows the page.
 const PAGE: &str = "http://127.0.0.1:8080/";
@@ -136,7 +135,7 @@ fn illustration(
     wish: &Wish,
 ) -> Outcome {
     let shown = document.illustration();
-    section(page, name, &shown.title, &shown.caption);
+    section(page, name, &shown.title, &shown.legend);
     for step in 0..=shown.steps.len() {
         let caption = match step.checked_sub(1) {
             None => "as it opens".to_owned(),
@@ -169,9 +168,9 @@ fn sheet(page: &mut String, name: &str, fabrica: &Path, folder: &Path, wish: &Wi
         "Plain, peeled, laid bare and sliced, from four sides.",
     );
     let segments: Vec<String> = header
-        .labels
+        .segmentation
         .iter()
-        .flat_map(|labels| &labels.segments)
+        .flat_map(|segmentation| &segmentation.segments)
         .map(|segment| segment.name.clone())
         .collect();
     for (how, is_from_above) in [
@@ -332,7 +331,7 @@ fn eye(angle_deg: f32, up_deg: f32) -> Value {
 fn rounded<const N: usize>(numbers: [f32; N]) -> Value {
     numbers
         .iter()
-        .map(|n| json!((f64::from(*n) * 1e4).round() / 1e4))
+        .map(|n| json!(fabrica::math::round_to(f64::from(*n), 4)))
         .collect()
 }
 

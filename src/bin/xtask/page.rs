@@ -1,7 +1,6 @@
 //! The page: built by Trunk, weighed, served.
 
-use crate::Outcome;
-use crate::run::{cargo, find, program, root, run, say};
+use crate::run::{Outcome, cargo, find, program, root, run, say};
 use crate::setup;
 
 /// Builds the page into dist/.
@@ -41,6 +40,14 @@ pub(crate) fn size() -> Outcome {
         build()?;
     }
     let mut command = cargo();
-    command.args(["test", "--quiet", "--test", "size", "--", "--nocapture"]);
+    command.args([
+        "test",
+        "--quiet",
+        "--test",
+        "browser",
+        "size::",
+        "--",
+        "--nocapture",
+    ]);
     run("weigh the page", &mut command)
 }

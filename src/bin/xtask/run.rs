@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use crate::Outcome;
+/// Why a command stopped: one message, with what to do about it.
+pub(crate) type Outcome = Result<(), String>;
 
 /// Root of the repository.
 pub(crate) fn root() -> &'static Path {

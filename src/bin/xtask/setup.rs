@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::Outcome;
-use crate::run::{cargo, cargo_bin, find, output, program, root, run, say};
+use crate::run::{Outcome, cargo, cargo_bin, find, output, program, root, run, say};
 
 /// The newest that the pinned compiler builds.
 const TRUNK: &str = "0.21.14";
@@ -115,8 +114,8 @@ fn wasm_target_works() -> Outcome {
     }
 }
 
-/// Builds std for the target with the source that belongs to this compiler: rustup's component `rust-src`, or a package of
-/// the distribution that has exactly this release.
+/// Builds std for the target with the source that belongs to this compiler: rustup's component `rust-src`, or a package
+/// of the distribution that has exactly this release.
 fn wasm_std_from_source() -> Outcome {
     let say_what = || {
         format!(

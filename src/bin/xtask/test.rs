@@ -1,47 +1,51 @@
-//! Every test there is, fast to slow.
+//! Every check and every test there is, fast to slow.
 
+use std::path::Path;
 use std::time::Instant;
 
-use crate::Outcome;
+use crate::check;
 use crate::page;
-use crate::run::{cargo, root, run, say};
+use crate::run::{Outcome, cargo, root, run, say};
 use crate::setup;
 
-/// Tests that need the built page.
-const OF_THE_PAGE: [&str; 2] = ["size", "e2e"];
+/// The test binaries, fast to slow.
+const BINARIES: [&str; 5] = ["fast", "gpu", "evaluate", "app", "browser"];
 
-/// Parts of tests/app.rs that get a process each: Mesa 22's lavapipe keeps some 0.3 GB of every window drawn in a process, as long as it
-/// lives, and half a hundred windows are more than a small machine has.
-const PARTS_OF_APP: [&str; 4] = ["comfort::", "looking::", "making::", "tissue::"];
+/// Parts of tests/app that get a process each: Mesa 22's lavapipe keeps some 0.3 GB of every window drawn in a process,
+/// as long as it lives, and half a hundred windows are more than a small machine has.
+const PARTS_OF_APP: [&str; 7] = [
+    "authoring::",
+    "comfort::",
+    "looking::",
+    "making::",
+    "opening::",
+    "screens::",
+    "tissue::",
+];
 
-/// Sets up, builds the page and runs all tests; with names, only the integration tests so called.
+/// Checks, sets up, builds the page and runs all tests; with names, only the test binaries so called.
 pub(crate) fn test(names: &[String]) -> Outcome {
     let start = Instant::now();
     setup::for_tests()?;
-    let needs_page = |name: &str| OF_THE_PAGE.contains(&name);
+    let not_run = root().join("target/xtask/not_run.txt");
+    let _was_there = std::fs::remove_file(&not_run);
     if !names.is_empty() {
-        if names.iter().any(|name| needs_page(name)) {
+        if names.iter().any(|name| name == "browser") {
             page::build()?;
         }
-        let outcomes = names.iter().map(|name| one(name)).collect::<Vec<_>>();
+        let mut outcomes: Vec<Outcome> = names.iter().map(|name| one(name)).collect();
+        outcomes.push(all_ran(&not_run));
         return close(start, outcomes);
     }
-    // The page first: where it cannot be built there is no use in waiting for the rest.
+    setup::for_page()?;
+    let mut outcomes = vec![check::check()];
+    // The page before the tests: where it cannot be built there is no use in waiting for the rest.
     page::build()?;
-    let mut outcomes = vec![
-        run("compile the tests", &mut tests(&["--no-run"])),
-        run("unit tests", &mut tests(&["--lib"])),
-    ];
-    let mut files = integration_tests()?;
-    files.sort_by_key(|name| needs_page(name));
-    outcomes.extend(files.iter().map(|name| one(name)));
+    outcomes.push(run("compile the tests", &mut tests(&["--no-run"])));
+    outcomes.push(run("unit tests", &mut tests(&["--lib"])));
+    outcomes.extend(BINARIES.map(one));
     outcomes.push(run("examples in the documentation", &mut tests(&["--doc"])));
-    // Their tests ran above; running them again would compile everything that tests depend on once more.
-    let bare = ["check", "--no-default-features", "--lib", "--quiet"];
-    outcomes.push(run(
-        "the rooms below the renderer, without any feature",
-        cargo().args(bare),
-    ));
+    outcomes.push(all_ran(&not_run));
     close(start, outcomes)
 }
 
@@ -49,7 +53,7 @@ fn one(name: &str) -> Outcome {
     let run_with = |what: &str, args: &[&str]| {
         let mut command = tests(&["--test", name]);
         command.args(args);
-        run(&format!("tests/{name}.rs{what}"), &mut command)
+        run(&format!("tests/{name}{what}"), &mut command)
     };
     match name {
         "app" => {
@@ -60,8 +64,34 @@ fn one(name: &str) -> Outcome {
             }
             run_with(", the rest", &rest)
         }
-        _ if OF_THE_PAGE.contains(&name) => run_with("", &["--", "--nocapture"]),
+        "browser" => run_with("", &["--", "--nocapture"]),
         _ => run_with("", &[]),
+    }
+}
+
+/// Says which tests of scans did not run. That is a failure where the scans should be there: where `FABRICA_TEST_DATA`
+/// names a folder.
+fn all_ran(list: &Path) -> Outcome {
+    let text = std::fs::read_to_string(list).unwrap_or_default();
+    let mut names: Vec<&str> = text.lines().collect();
+    names.sort_unstable();
+    names.dedup();
+    if names.is_empty() {
+        return Ok(());
+    }
+    let message = format!(
+        "{} tests of scans did not run: {}",
+        names.len(),
+        names.join(", ")
+    );
+    match std::env::var("FABRICA_TEST_DATA") {
+        Ok(folder) if folder != "none" => Err(message),
+        _ => {
+            say(&format!(
+                "{message} (FABRICA_TEST_DATA names no folder of scans)"
+            ));
+            Ok(())
+        }
     }
 }
 
@@ -73,22 +103,9 @@ pub(crate) fn tests(args: &[&str]) -> std::process::Command {
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
         command.env("XDG_RUNTIME_DIR", std::env::temp_dir());
     }
+    // Tests that find no scans put their names there.
+    command.env("FABRICA_NOT_RUN", root().join("target/xtask/not_run.txt"));
     command
-}
-
-fn integration_tests() -> Result<Vec<String>, String> {
-    let folder = root().join("tests");
-    let entries = std::fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let mut names: Vec<String> = entries
-        .flatten()
-        .filter_map(|entry| {
-            let path = entry.path();
-            let is_test = path.extension().is_some_and(|e| e == "rs");
-            is_test.then(|| path.file_stem().map(|s| s.to_string_lossy().into_owned()))?
-        })
-        .collect();
-    names.sort();
-    Ok(names)
 }
 
 /// All failures at the end, where they are seen.
@@ -111,7 +128,28 @@ fn close(start: Instant, outcomes: Vec<Outcome>) -> Outcome {
 pub(crate) fn bless(names: &[String]) -> Outcome {
     setup::for_tests()?;
     let name = names.first().map_or("all", String::as_str);
-    let mut command = tests(&["--test", "images", "--test", "app"]);
+    let mut command = tests(&["--test", "gpu", "images::"]);
     command.env("FABRICA_BLESS", name);
     run(&format!("bless {name}"), &mut command)
+}
+
+/// Draws the windows of tests/app, those that are there only to be looked at too, into target/look; with a name, only
+/// of the tests whose names hold it.
+pub(crate) fn look(names: &[String]) -> Outcome {
+    setup::for_tests()?;
+    let folder = root().join("target/look");
+    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let name = names.first().map_or("to_look_at", String::as_str);
+    let mut command = tests(&[
+        "--test",
+        "app",
+        name,
+        "--",
+        "--include-ignored",
+        "--nocapture",
+    ]);
+    command.env("FABRICA_LOOK_AT", &folder);
+    run("draw windows to look at", &mut command)?;
+    say(&format!("look into {}", folder.display()));
+    Ok(())
 }

@@ -1,7 +1,0 @@
-// Group 2, bindings 5 and 6: what templates leave alone.
-// needs: types.wgsl
-
-/// Sets of kept tissue and who keeps them.
-@group(2) @binding(5) var<uniform> features: Features;
-/// Signed distance to each set, positive outside it, subject units, in slabs (see `Features`).
-@group(2) @binding(6) var distances: texture_3d<f32>;

@@ -1,0 +1,7 @@
+// Group 2, bindings 5 and 6: what templates leave alone.
+// needs: types.wgsl
+
+/// Sets of kept tissue and who keeps them.
+@group(2) @binding(5) var<uniform> kept: Kept;
+/// Signed distance to each set, positive outside it, subject units, in slabs (see `Kept`).
+@group(2) @binding(6) var distances: texture_3d<f32>;

@@ -1,0 +1,36 @@
+// The colour of tissue: of the transfer table, tinted by the segments around, or of a body.
+// needs: types.wgsl bind/subject.wgsl bind/look.wgsl march/overrides.wgsl march/value.wgsl march/segments.wgsl
+//   march/sample.wgsl march/surface.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
+
+/// How far inside a surface its segment is looked up, voxels, if the voxels around it belong to none: where tissue
+/// fills less than half of a voxel, its label is air. The nearest segment counts, for skin is thin.
+const TINT_DEPTH: f32 = 1.9;
+
+/// Linear RGB of a surface.
+fn albedo_of(edge: Sample, surface: Surface) -> vec3f {
+    var texel = edge.texel;
+    if KEEPS_TISSUE {
+        texel = texel_at(texture_from_rest(surface.tint_pos));
+    }
+    var albedo = transfer(texel).rgb;
+    if has_labels != 0u {
+        let grad = surface.gradient;
+        let inwards = grad / max(length(grad), 1e-9) * (subject.detail * smoothstep(0.01, 0.05, surface.steepness));
+        var depth = 0.0;
+        var tint = vec4f(0.0);
+        loop {
+            tint = tint_at(surface.tint_pos + inwards * depth);
+            if tint.a > 0.02 || depth >= TINT_DEPTH {
+                break;
+            }
+            depth += 0.4;
+        }
+        let how_much = look.tint * smoothstep(0.0, 0.02, tint.a);
+        albedo = mix(albedo, albedo * tint.rgb / max(tint.a, 1e-4), how_much);
+    }
+    if has_bodies != 0u {
+        let body = body_color_at(surface.tint_pos);
+        albedo = mix(albedo, body.rgb / max(body.a, 1e-4), smoothstep(0.02, 0.3, body.a));
+    }
+    return albedo;
+}

@@ -1,0 +1,69 @@
+// Kept tissue: whether a point of rest space lies in it, and how far it is from there.
+// Differs from the source (Correa, section 5.4): the mask is not interpolated but the nearest label, so that a boundary
+// lies where the labels say; only normals see a smooth mask.
+// needs: types.wgsl affine.wgsl bind/subject.wgsl bind/kept.wgsl displace/frame.wgsl
+
+/// How a document keeps tissue. 0: not at all; 1: by the only group of the list; 2: one set, or one depth, by the first
+/// templates of the list; 3: any. A pipeline constant.
+override align_mode: u32 = 3u;
+
+/// What says that tissue is kept. Bit 0: its segment, bit 1: its depth. A pipeline constant, so that a picture asks one
+/// texture where one is enough.
+override kept_by: u32 = 3u;
+
+/// Where a point lies in the texture of distances.
+fn distance_uvw(rest: vec3f, slab: u32) -> vec3f {
+    let uvw = apply_affine(kept.distance_from_rest, rest);
+    let edge = 0.5 / kept.distance_dims.z;
+    let z = clamp(uvw.z, edge, 1.0 - edge);
+    return vec3f(uvw.xy, (z + f32(slab)) / f32(max(kept.slab_count, 1u)));
+}
+
+/// Depth of a rest point under the outer surface, subject units.
+fn depth_at(rest: vec3f) -> f32 {
+    return textureSampleLevel(distances, linear_sampler, distance_uvw(rest, kept.depth_slab), 0.0).x;
+}
+
+/// True if a rest point lies in tissue that this set of sets holds. Exact by the nearest label. Nothing lies deep where
+/// the scan ends.
+fn is_kept(rest: vec3f, keeps: u32, depth: f32) -> bool {
+    if (kept_by & 2u) != 0u {
+        if (keeps & KEEPS_DEEP) != 0u && depth_at(rest) >= depth {
+            let uvw = apply_affine(subject.texture_from_rest, rest);
+            return all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
+        }
+    }
+    if (kept_by & 1u) == 0u {
+        return false;
+    }
+    if (keeps & 15u) == 0u || subject.has_labels == 0u {
+        return false;
+    }
+    let voxel = floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz);
+    if any(voxel < vec3f(0.0)) || any(voxel >= subject.label_dims.xyz) {
+        return false;
+    }
+    let label = textureLoad(labels, vec3i(voxel), 0).x;
+    let word = kept.label_sets[label >> 5u][(label >> 3u) & 3u];
+    return ((word >> (4u * (label & 7u))) & keeps & 15u) != 0u;
+}
+
+/// Distance of a rest point to the nearest of some sets (positive outside), or how much deeper than `depth` it should
+/// lie to be kept. `slab` 0 is smooth.
+fn distance_to_kept(rest: vec3f, keeps: u32, depth: f32, slab: u32) -> f32 {
+    var least = NO_END;
+    if (kept_by & 2u) != 0u {
+        if (keeps & KEEPS_DEEP) != 0u {
+            least = depth - depth_at(rest);
+        }
+    }
+    if (kept_by & 1u) != 0u {
+        if (keeps & 15u) != 0u {
+            let d = textureSampleLevel(distances, linear_sampler, distance_uvw(rest, slab), 0.0);
+            let held = (vec4u(keeps) & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u);
+            let each = select(vec4f(NO_END), d, held);
+            least = min(least, min(min(each.x, each.y), min(each.z, each.w)));
+        }
+    }
+    return least;
+}

@@ -1,0 +1,15 @@
+// What a pipeline is made for: whatever a picture does not use is compiled away.
+// needs: -
+
+/// 1 if the subject has labels.
+override has_labels: u32 = 1u;
+/// 1 if there is a skip grid to leap with.
+override has_grid: u32 = 1u;
+/// 1 if opacity follows the gradient.
+override has_edges: u32 = 0u;
+/// 1 if segments are drawn as bodies of their own.
+override has_bodies: u32 = 0u;
+/// Taps of ambient occlusion, once per ray. More are smoother and cost a map and two texture reads each.
+override occlusion_taps: u32 = 8u;
+/// Taps towards the key light, once per ray.
+override shadow_taps: u32 = 10u;

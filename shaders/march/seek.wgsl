@@ -1,0 +1,154 @@
+// The way of a ray through the deformed space: leaps over empty cells, samples at steps that follow the map
+// (Correa, section 7.5.2, adaptive sampling).
+// needs: types.wgsl affine.wgsl bind/frame.wgsl bind/grid.wgsl displace/compose.wgsl march/overrides.wgsl
+// march/ray.wgsl
+//   march/opacity.wgsl march/sample.wgsl
+
+/// A ray through a point of the picture; the same all along.
+struct Ray {
+    /// The eye, subject space.
+    origin: vec3f,
+    /// Unit, subject space; no component is 0.
+    dir: vec3f,
+    /// One over each component of `dir`.
+    inverse_dir: vec3f,
+    /// Sign of each component of `dir`.
+    forward: vec3f,
+    /// Unit, view space.
+    dir_in_view: vec3f,
+    /// Distances from the eye at which the ray enters the box of the object, at least 0, and leaves it.
+    t_start: f32,
+    t_end: f32,
+}
+
+/// Where a ray stands.
+struct Walk {
+    /// Distance from the eye of the sample that is looked at, and of the one before it.
+    t: f32,
+    t_before: f32,
+    /// Those samples.
+    here: Sample,
+    before: Sample,
+    /// Templates that reach their cells. A cut between the two samples may be one of the earlier cell's templates
+    /// alone.
+    mask: u32,
+    mask_before: u32,
+    /// Distance from the eye at which the cell of the sample ends.
+    t_cell: f32,
+}
+
+/// Direction from the eye through a point of the picture (pixels, origin top left): unit, view space.
+fn dir_in_view_of(pixel: vec2f) -> vec3f {
+    let ndc = (pixel / frame.size_px) * 2.0 - 1.0;
+    return normalize(vec3f(ndc.x * frame.lens.x, -ndc.y * frame.lens.y, -1.0));
+}
+
+/// The ray through a point of the picture.
+fn ray_through(pixel: vec2f) -> Ray {
+    let dir_in_view = dir_in_view_of(pixel);
+    let origin = offset_of(frame.subject_from_view);
+    let dir = without_zeros(apply_linear(frame.subject_from_view, dir_in_view));
+    let inverse_dir = 1.0 / dir;
+    let span = ray_in_box(origin, inverse_dir, frame.bounds_min.xyz, frame.bounds_max.xyz);
+    let forward = select(vec3f(-1.0), vec3f(1.0), dir > vec3f(0.0));
+    return Ray(origin, dir, inverse_dir, forward, dir_in_view, max(span.x, 0.0), span.y);
+}
+
+/// A ray before its first step.
+fn walk_along(ray: Ray) -> Walk {
+    let nothing = Sample(vec3f(0.0), 0.0, 0.0, 1.0, 0u);
+    return Walk(ray.t_start + frame.step * frame.first_step, ray.t_start, nothing, nothing, 0u, 0u, -1.0);
+}
+
+/// Cell of the skip grid at a point: x mask, y emptiness. Everything is visible without a grid.
+fn cell_at(pos: vec3f) -> vec2u {
+    if has_grid == 0u || grid.is_used == 0u {
+        return vec2u(0xffffffffu, 0u);
+    }
+    let local = floor((pos - grid.origin_min.xyz) / grid.cell_size.xyz);
+    let cell = clamp(vec3i(local), vec3i(0), vec3i(grid.cells.xyz) - 1);
+    return textureLoad(grid_cells, cell, 0).xy;
+}
+
+/// Leaps from cell to cell until something may be seen. Not while inside tissue: its end must be found first.
+fn leap(ray: Ray, walk: ptr<function, Walk>) {
+    loop {
+        if (*walk).t >= ray.t_end {
+            break;
+        }
+        if has_grid == 0u || grid.is_used == 0u {
+            (*walk).mask = 0xffffffffu;
+            (*walk).t_cell = ray.t_end;
+            break;
+        }
+        let local = floor((ray.origin + ray.dir * (*walk).t - grid.origin_min.xyz) / grid.cell_size.xyz);
+        let cell = clamp(local, vec3f(0.0), vec3f(grid.cells.xyz) - 1.0);
+        let content = textureLoad(grid_cells, vec3i(cell), 0).xy;
+        let reach = max(f32(content.y), 1.0);
+        let plane = select(cell + 1.0 - reach, cell + reach, ray.dir > vec3f(0.0));
+        let exits = (grid.origin_min.xyz + plane * grid.cell_size.xyz - ray.origin) * ray.inverse_dir;
+        (*walk).t_cell = min(exits.x, min(exits.y, exits.z)) + frame.step * 0.01;
+        (*walk).mask = content.x;
+        if content.y == 0u || (*walk).before.opacity > VISIBLE {
+            break;
+        }
+        (*walk).t = max((*walk).t_cell, (*walk).t + frame.step * 0.01);
+        (*walk).t_before = (*walk).t;
+        (*walk).mask_before = 0u;
+    }
+}
+
+/// Seeks the next sample with something in it, or the first behind it. False if the ray ends before.
+fn seek(ray: Ray, walk: ptr<function, Walk>) -> bool {
+    var is_found = false;
+    (*walk).here = (*walk).before;
+    loop {
+        var t_stop = ray.t_end;
+        // Through empty cells and those that no template reaches.
+        loop {
+            leap(ray, walk);
+            // Cells that no template reaches are sampled without the map.
+            t_stop = min((*walk).t_cell, ray.t_end);
+            let is_mapped = (*walk).mask != 0u && drawn_kinds != 0u;
+            loop {
+                if is_mapped || (*walk).t >= t_stop || is_found {
+                    break;
+                }
+                (*walk).here = sample_unmoved(ray.origin + ray.dir * (*walk).t);
+                is_found = (*walk).here.opacity > VISIBLE || (*walk).before.opacity > VISIBLE;
+                if is_found {
+                    break;
+                }
+                (*walk).t_before = (*walk).t;
+                (*walk).mask_before = (*walk).mask;
+                (*walk).t += frame.step;
+            }
+            if is_mapped || is_found || (*walk).t >= ray.t_end {
+                break;
+            }
+        }
+        if drawn_kinds != 0u {
+            loop {
+                if (*walk).mask == 0u || (*walk).t >= t_stop || is_found {
+                    break;
+                }
+                let last = (*walk).here.pos;
+                (*walk).here = sample_mapped(map_point(ray.origin + ray.dir * (*walk).t, (*walk).mask));
+                is_found = (*walk).here.opacity > VISIBLE || (*walk).before.opacity > VISIBLE;
+                if is_found {
+                    break;
+                }
+                // The step follows the Jacobian: compressed tissue gets more samples, stretched tissue fewer.
+                let way = max((*walk).t - (*walk).t_before, 0.25 * frame.step);
+                let stretch = clamp(distance((*walk).here.pos, last) / way, 0.6, 3.0);
+                (*walk).t_before = (*walk).t;
+                (*walk).mask_before = (*walk).mask;
+                (*walk).t += frame.step / stretch;
+            }
+        }
+        if is_found || (*walk).t >= ray.t_end {
+            break;
+        }
+    }
+    return is_found;
+}

@@ -1,0 +1,58 @@
+// Segments around a point of rest space: their colours, blended over 27 voxels of the segmentation.
+// needs: types.wgsl affine.wgsl bind/subject.wgsl bind/bodies.wgsl
+
+/// The 27 label voxels around a point.
+struct Around {
+    /// The middle one.
+    middle: vec3i,
+    /// Columns: weights per axis of the voxel before the middle one, of the middle one, of the one after it.
+    weights: mat3x3f,
+}
+
+fn around_at(pos: vec3f) -> Around {
+    let uvw = apply_affine(subject.label_from_rest, pos);
+    // Quadratic B-spline: borders between segments come out smooth, where eight voxels would leave stairs.
+    let at = uvw * subject.label_dims.xyz - 0.5;
+    let middle = floor(at + 0.5);
+    let part = at - middle;
+    let weights = mat3x3f(
+        0.5 * (0.5 - part) * (0.5 - part),
+        0.75 - part * part,
+        0.5 * (0.5 + part) * (0.5 + part),
+    );
+    return Around(vec3i(middle), weights);
+}
+
+/// Label of voxel i of the 27.
+fn label_around(around: Around, i: i32) -> u32 {
+    let last = vec3i(subject.label_dims.xyz) - 1;
+    let voxel = clamp(around.middle + vec3i(i % 3, (i / 3) % 3, i / 9) - 1, vec3i(0), last);
+    return textureLoad(labels, voxel, 0).x;
+}
+
+/// Weight of voxel i of the 27; all weights add up to 1.
+fn weight_around(around: Around, i: i32) -> f32 {
+    return around.weights[i % 3].x * around.weights[(i / 3) % 3].y * around.weights[i / 9].z;
+}
+
+/// Colour of the segments around a point, linear RGB, premultiplied by how much of it is known (alpha).
+fn tint_at(pos: vec3f) -> vec4f {
+    let around = around_at(pos);
+    var sum = vec4f(0.0);
+    for (var i = 0; i < 27; i++) {
+        let color = textureLoad(palette, vec2i(i32(label_around(around, i)), 0), 0);
+        sum += vec4f(color.rgb * color.a, color.a) * weight_around(around, i);
+    }
+    return sum;
+}
+
+/// Linear RGB of the visible bodies around a point, premultiplied by how much of it is theirs (alpha).
+fn body_color_at(pos: vec3f) -> vec4f {
+    let around = around_at(pos);
+    var sum = vec4f(0.0);
+    for (var i = 0; i < 27; i++) {
+        let item = bodies.items[label_around(around, i) & 255u];
+        sum += select(vec4f(0.0), vec4f(item.rgb, 1.0) * weight_around(around, i), item.a >= BODY_HIDDEN);
+    }
+    return sum;
+}

@@ -1,0 +1,100 @@
+// What stands in the light of a surface: ambient occlusion and the shadow of the key light, by taps of the opacity.
+// needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/look.wgsl displace/compose.wgsl march/overrides.wgsl
+//   march/opacity.wgsl march/bodies.wgsl march/value.wgsl march/sample.wgsl march/seek.wgsl
+
+/// Direction k of n spread over the half sphere around +z, turned by `turn`.
+fn spread(k: u32, n: u32, turn: f32) -> vec3f {
+    let z = 0.25 + 0.7 * (f32(k) + 0.5) / f32(n);
+    let around = f32(k) * 2.39996323 + turn;
+    let r = sqrt(max(0.0, 1.0 - z * z));
+    return vec3f(r * cos(around), r * sin(around), z);
+}
+
+/// Even noise over the pixels (interleaved gradient noise, Jimenez 2014), 0 to 1: hides the spacing of the shadow's
+/// taps. The same for the same pixel always, so pictures stay repeatable.
+fn pixel_noise(pixel: vec2f) -> f32 {
+    return fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+}
+
+/// The opacity of what was sampled for a test of light: by the gradient at rest, whatever the deformation makes of it.
+fn shading_opacity(found: Sample) -> f32 {
+    if has_edges == 0u {
+        return found.opacity;
+    }
+    var gain = 0.0;
+    var left = select(0u, 1u, found.opacity > VISIBLE);
+    while left > 0u {
+        left--;
+        gain = edge_gain(length(gradient_at(texture_from_rest(found.pos))) * look.table_scale);
+        if has_bodies != 0u {
+            gain = mix(gain, 1.0, body_weight(body_at(found.pos)));
+        }
+    }
+    return found.opacity * gain;
+}
+
+/// What stands in the light of a surface.
+struct Surroundings {
+    /// How open they are, 0 to 1.
+    openness: f32,
+    /// How much of the key light arrives, 0 to 1.
+    key_light: f32,
+}
+
+/// A tap of the surroundings.
+struct Tap {
+    pos: vec3f,
+    /// How much it counts for occlusion, 0 for a tap towards the key light.
+    weight: f32,
+    /// How much of the key light something opaque there takes, 0 for a tap of occlusion.
+    shade: f32,
+}
+
+/// Tap k: first those of occlusion, then those towards the key light.
+fn tap_at(k: u32, pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Tap {
+    let voxel = subject.detail;
+    if k < occlusion_taps {
+        let up = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.y) < 0.9);
+        let tangent = normalize(cross(up, normal));
+        let bitangent = cross(normal, tangent);
+        let way = spread(k, occlusion_taps, frame.occlusion_turn + noise * 6.2831853);
+        // Near taps find creases, far ones the hollow under a flap.
+        let reach = mix(0.010, 0.045, f32((k * 5u) % occlusion_taps) / f32(occlusion_taps)) + voxel;
+        let at = pos + normal * (0.5 * voxel) + (tangent * way.x + bitangent * way.y + normal * way.z) * reach;
+        return Tap(at, way.z, 0.0);
+    }
+    // Closer together near the surface, where a shadow has its edge.
+    let part = (f32(k - occlusion_taps) + 0.3 + 0.7 * fract(frame.first_step + noise)) / f32(shadow_taps);
+    let at = pos + normal * (1.5 * voxel) + key_dir * (0.006 + 0.30 * part * part);
+    // Farther occluders dim less: a large soft lamp.
+    return Tap(at, 0.0, mix(0.62, 0.30, part));
+}
+
+/// Taps of the opacity in the deformed space around a surface.
+fn surroundings_of(pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Surroundings {
+    var closed = 0.0;
+    var weights = 0.0001;
+    var open = 1.0;
+    // Taps that no template reaches are sampled plainly, the others in a loop of their own: where there are none, it
+    // ends at once.
+    var mapped = 0u;
+    for (var k = 0u; k < occlusion_taps + shadow_taps; k++) {
+        let tap = tap_at(k, pos, normal, key_dir, noise);
+        let is_mapped = cell_at(tap.pos).x != 0u && drawn_kinds != 0u;
+        mapped |= select(0u, 1u << k, is_mapped);
+        let opacity = select(shading_opacity(sample_unmoved(tap.pos)), 0.0, is_mapped);
+        weights += tap.weight;
+        closed += tap.weight * smoothstep(0.02, 0.5, opacity);
+        open *= 1.0 - tap.shade * smoothstep(0.02, 0.6, opacity);
+    }
+    if drawn_kinds != 0u {
+        while mapped != 0u {
+            let tap = tap_at(firstTrailingBit(mapped), pos, normal, key_dir, noise);
+            mapped &= mapped - 1u;
+            let opacity = shading_opacity(sample_mapped(map_point(tap.pos, cell_at(tap.pos).x)));
+            closed += tap.weight * smoothstep(0.02, 0.5, opacity);
+            open *= 1.0 - tap.shade * smoothstep(0.02, 0.6, opacity);
+        }
+    }
+    return Surroundings(1.0 - closed / weights, open);
+}

@@ -1,0 +1,79 @@
+//! The list of captions in the panel of texts.
+
+use egui::{Align2, TextEdit, Ui, vec2};
+
+use crate::app::kit::icon::Icon;
+use crate::app::kit::theme::{self, Palette};
+use crate::app::kit::widget::{self, Named as _};
+use crate::app::session::{Command, Focus, Session};
+use crate::app::words::{captions::w, fill};
+use crate::document::{Caption, Edit};
+
+/// The list.
+pub(crate) fn ui(
+    ui: &mut Ui,
+    session: &Session,
+    focus: &mut Option<Focus>,
+    commands: &mut Vec<Command>,
+) {
+    let captions = &session.illustration().captions;
+    widget::heading(ui, w().heading, |ui| {
+        let name = w().add;
+        if widget::icon_button(ui, Icon::Plus, name, true).clicked() {
+            commands.push(Command::ToggleCaptioning);
+        }
+    });
+    if captions.is_empty() {
+        let weak = Palette::get(ui).weak;
+        let hint = egui::RichText::new(w().none).small().color(weak);
+        ui.add(egui::Label::new(hint).wrap());
+    }
+    for (index, caption) in captions.iter().enumerate() {
+        ui.push_id(("label", index), |ui| {
+            widget::row(ui, |ui| {
+                let mut text = caption.text.clone();
+                let id = egui::Id::unique(("text of label", index));
+                // Before the field is shown, so that it speaks its name.
+                let wants_focus = *focus == Some(Focus::Caption(index));
+                if wants_focus {
+                    *focus = None;
+                    ui.memory_mut(|memory| memory.request_focus(id));
+                    select_all(ui, id, &caption.text);
+                }
+                let edit = TextEdit::singleline(&mut text)
+                    .id(id)
+                    .align(Align2::LEFT_CENTER)
+                    .min_size(vec2(0.0, theme::control_height()))
+                    .desired_width(ui.available_width() - theme::control_height() - 8.0);
+                let response = ui.add(edit).named(fill(w().text_n, &[&(index + 1)]));
+                if wants_focus {
+                    response.scroll_to_me(None);
+                }
+                if response.changed() {
+                    let value = Caption {
+                        at: caption.at,
+                        text,
+                    };
+                    commands.push(Command::Drag(Edit::ReplaceCaption {
+                        caption: index,
+                        value,
+                    }));
+                }
+                let remove = fill(w().remove, &[&caption.text]);
+                if widget::icon_button(ui, Icon::Trash, &remove, true).clicked() {
+                    commands.push(Command::Apply(Edit::RemoveCaption { caption: index }));
+                }
+            });
+        });
+    }
+    ui.add_space(6.0);
+}
+
+/// What is typed next replaces the text.
+fn select_all(ui: &Ui, id: egui::Id, text: &str) {
+    let mut edit = egui::widgets::text_edit::TextEditState::load(ui.ctx(), id).unwrap_or_default();
+    let end = egui::text::CCursor::new(text.chars().count());
+    let all = egui::text::CCursorRange::two(egui::text::CCursor::new(0), end);
+    edit.cursor.set_char_range(Some(all));
+    edit.store(ui.ctx(), id);
+}

@@ -1,0 +1,19 @@
+//! One panel or dialog each.
+
+pub(crate) mod captions;
+pub(crate) mod catalogue;
+pub(crate) mod curve;
+pub(crate) mod frames;
+pub(crate) mod kept;
+pub(crate) mod keys;
+pub(crate) mod look;
+pub(crate) mod notice;
+pub(crate) mod points;
+pub(crate) mod raw;
+pub(crate) mod shortcuts;
+pub(crate) mod templates;
+pub(crate) mod text;
+pub(crate) mod tissue;
+pub(crate) mod topbar;
+pub(crate) mod transfer;
+pub(crate) mod transfer_plot;

@@ -1,0 +1,214 @@
+//! Messages: over the picture, and all of them again on demand. The load under way, with its cancel button.
+
+use egui::{CornerRadius, Label, Modal, Rect, RichText, Sense, Stroke, Ui, vec2};
+
+use crate::app::kit::icon::Icon;
+use crate::app::kit::theme::{self, Palette};
+use crate::app::kit::widget;
+use crate::app::session::Command;
+use crate::app::session::{Gravity, Load, Notice, Session};
+use crate::app::words::messages::w;
+use crate::app::words::{fill, names};
+
+/// Lines shown at once over the picture.
+const SHOWN: usize = 3;
+
+/// Over the bottom of the picture: loading, then the newest lines.
+pub(crate) fn ui(ui: &Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
+    if session.load.is_none() && session.notices.shown().next().is_none() {
+        return;
+    }
+    let is_narrow = rect.width() < 560.0;
+    let width = (rect.width() - if is_narrow { 20.0 } else { 300.0 }).clamp(240.0, 460.0);
+    let bottom = if is_narrow {
+        rect.bottom() - 128.0
+    } else {
+        rect.bottom() - 22.0
+    };
+    let area = egui::Area::new(egui::Id::unique("notices"))
+        .order(egui::Order::Middle)
+        .pivot(egui::Align2::CENTER_BOTTOM)
+        .fixed_pos(egui::pos2(rect.center().x, bottom))
+        .constrain_to(rect)
+        .fade_in(false);
+    area.show(ui.ctx(), |ui| {
+        ui.set_width(width);
+        ui.spacing_mut().item_spacing.y = 6.0;
+        let count = session.notices.shown().count();
+        for notice in session.notices.shown().skip(count.saturating_sub(SHOWN)) {
+            notice_ui(ui, notice, commands);
+        }
+        if let Some(load) = &session.load {
+            load_ui(ui, load, commands);
+        }
+    });
+}
+
+fn card<R>(ui: &mut Ui, border: egui::Color32, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    let palette = Palette::get(ui);
+    let frame = egui::Frame::new()
+        .fill(palette.raised)
+        .stroke(Stroke::new(1.0, border))
+        .corner_radius(CornerRadius::same(8))
+        .inner_margin(egui::Margin::symmetric(10, 6))
+        .shadow(egui::Shadow {
+            offset: [0, 2],
+            blur: 10,
+            spread: 0,
+            color: egui::Color32::from_black_alpha(45),
+        });
+    frame
+        .show(ui, |ui| {
+            ui.set_width(ui.available_width());
+            contents(ui)
+        })
+        .inner
+}
+
+fn notice_ui(ui: &mut Ui, notice: &Notice, commands: &mut Vec<Command>) {
+    let palette = Palette::get(ui);
+    let (icon, color) = match notice.gravity {
+        Gravity::Success => (Icon::Check, palette.accent),
+        Gravity::Info => (Icon::Info, palette.weak),
+        Gravity::Warning => (Icon::Warning, palette.warning),
+        Gravity::Error => (Icon::Warning, palette.danger),
+    };
+    let border = if notice.gravity == Gravity::Error {
+        palette.danger
+    } else {
+        palette.line
+    };
+    ui.push_id(notice.id, |ui| {
+        card(ui, border, |ui| {
+            ui.horizontal(|ui| {
+                let (spot, _) = ui.allocate_exact_size(vec2(20.0, 20.0), Sense::hover());
+                icon.paint(ui.painter(), spot, color);
+                let buttons = if notice.details.is_empty() {
+                    34.0
+                } else {
+                    34.0 + 76.0
+                };
+                let text_width = (ui.available_width() - buttons).max(80.0);
+                ui.allocate_ui_with_layout(
+                    vec2(text_width, 20.0),
+                    egui::Layout::top_down(egui::Align::Min),
+                    |ui| {
+                        ui.set_width(text_width);
+                        let label = ui.add(Label::new(&notice.message).wrap());
+                        // Screen readers speak it as it comes.
+                        ui.ctx().accesskit_node_builder(label.id, |node| {
+                            node.set_role(egui::Role::Alert);
+                            node.set_label(notice.message.clone());
+                        });
+                    },
+                );
+                ui.with_layout(widget::against(), |ui| {
+                    if widget::icon_button(ui, Icon::Close, w().dismiss, true).clicked() {
+                        commands.push(Command::Dismiss(notice.id));
+                    }
+                    if !notice.details.is_empty() {
+                        let text = if notice.is_unfolded {
+                            w().less
+                        } else {
+                            w().details
+                        };
+                        if ui.button(text).clicked() {
+                            commands.push(Command::Unfold(notice.id));
+                        }
+                    }
+                });
+            });
+            if notice.is_unfolded {
+                let text = RichText::new(&notice.details).small().color(palette.weak);
+                egui::ScrollArea::vertical()
+                    .max_height(160.0)
+                    .show(ui, |ui| {
+                        ui.add(Label::new(text).wrap().selectable(true));
+                    });
+            }
+        });
+    });
+}
+
+fn load_ui(ui: &mut Ui, load: &Load, commands: &mut Vec<Command>) {
+    let palette = Palette::get(ui);
+    card(ui, palette.line, |ui| {
+        if let Some(host) = &load.host {
+            ui.add(Label::new(fill(w().fetch_it, &[host])).wrap());
+            ui.horizontal(|ui| {
+                if widget::labelled_button(ui, Icon::Download, w().fetch, true, true).clicked() {
+                    commands.push(Command::AllowHost);
+                }
+                if widget::labelled_button(ui, Icon::Close, w().no, false, true).clicked() {
+                    commands.push(Command::CancelLoad);
+                }
+            });
+            return;
+        }
+        ui.horizontal(|ui| {
+            let percent = (load.fraction * 100.0).round();
+            let text = format!("{} {percent} %", names::stage(&load.what));
+            ui.add(Label::new(text).truncate());
+            ui.with_layout(widget::against(), |ui| {
+                if widget::icon_button(ui, Icon::Close, w().cancel_loading, true).clicked() {
+                    commands.push(Command::CancelLoad);
+                }
+                let (bar, response) = ui.allocate_exact_size(
+                    vec2((ui.available_width() - 8.0).max(20.0), 4.0),
+                    Sense::hover(),
+                );
+                response.widget_info(|| {
+                    let mut info =
+                        egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, w().loading);
+                    info.value = Some(f64::from(load.fraction));
+                    info
+                });
+                ui.painter()
+                    .rect_filled(bar, CornerRadius::same(2), palette.sunken);
+                let done = bar.with_max_x(bar.left() + bar.width() * load.fraction.clamp(0.0, 1.0));
+                ui.painter()
+                    .rect_filled(done, CornerRadius::same(2), palette.accent);
+            });
+        });
+    });
+}
+
+/// Every message so far, newest first.
+pub(crate) fn messages_ui(ui: &Ui, session: &Session, commands: &mut Vec<Command>) {
+    let content = ui.ctx().content_rect().size();
+    let frame = egui::Frame::window(ui.style());
+    let modal = Modal::new(egui::Id::unique("messages"))
+        .frame(frame)
+        .show(ui.ctx(), |ui| {
+            ui.set_width((content.x - 64.0).min(520.0));
+            widget::heading(ui, w().messages, |ui| {
+                if widget::icon_button(ui, Icon::Close, w().close_messages, true).clicked() {
+                    commands.push(Command::ToggleMessages);
+                }
+            });
+            widget::divider(ui);
+            let weak = Palette::get(ui).weak;
+            if session.notices.all().is_empty() {
+                ui.label(RichText::new(w().nothing_so_far).color(weak));
+            }
+            egui::ScrollArea::vertical()
+                .max_height(content.y - 180.0)
+                .show(ui, |ui| {
+                    for notice in session.notices.all().iter().rev() {
+                        ui.add(
+                            Label::new(theme::strong(notice.message.clone()).size(13.0))
+                                .wrap()
+                                .selectable(true),
+                        );
+                        if !notice.details.is_empty() {
+                            let details = RichText::new(&notice.details).small().color(weak);
+                            ui.add(Label::new(details).wrap().selectable(true));
+                        }
+                        ui.add_space(6.0);
+                    }
+                });
+        });
+    if modal.should_close() {
+        commands.push(Command::ToggleMessages);
+    }
+}

@@ -1,0 +1,193 @@
+//! The bar along the top: what is shown, undo, files, and the link.
+
+use egui::Ui;
+
+use crate::app::kit::icon::Icon;
+use crate::app::kit::menu::menu_item;
+use crate::app::kit::theme::{self, Palette};
+use crate::app::kit::widget::{self, Named as _};
+use crate::app::session::Command;
+use crate::app::session::Session;
+use crate::app::words::bar::w;
+use crate::app::words::{self, Lang, fill, names};
+use crate::document::SubjectRef;
+
+/// The bar. `is_narrow` leaves words out.
+pub(crate) fn ui(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut Vec<Command>) {
+    let palette = Palette::get(ui);
+    ui.horizontal_centered(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        if !is_narrow {
+            ui.add(egui::Label::new(
+                theme::strong("Fabrica").size(16.0).color(palette.text),
+            ));
+            ui.add_space(10.0);
+        }
+        subject_ui(ui, session, commands);
+        if !is_narrow
+            && widget::labelled_button(ui, Icon::Folder, w().open, false, true)
+                .on_hover_text(w().open_hint)
+                .clicked()
+        {
+            commands.push(Command::Open);
+        }
+        ui.add_space(if is_narrow { 0.0 } else { 8.0 });
+        let undo = session.history.undo_name().map(str::to_owned);
+        let redo = session.history.redo_name().map(str::to_owned);
+        let name = undo.as_ref().map_or_else(
+            || w().undo.to_owned(),
+            |what| fill(w().undo_what, &[&names::edit_title(what)]),
+        );
+        let response = widget::icon_button(ui, Icon::Undo, &name, undo.is_some());
+        if response.accessible_name(w().undo).clicked() {
+            commands.push(Command::Undo);
+        }
+        let name = redo.as_ref().map_or_else(
+            || w().redo.to_owned(),
+            |what| fill(w().redo_what, &[&names::edit_title(what)]),
+        );
+        let response = widget::icon_button(ui, Icon::Redo, &name, redo.is_some());
+        if response.accessible_name(w().redo).clicked() {
+            commands.push(Command::Redo);
+        }
+
+        ui.with_layout(widget::against(), |ui| {
+            more_menu(ui, session, is_narrow, commands);
+            let is_copied = session.copied_at.is_some();
+            let (icon, text) = match (is_copied, is_narrow) {
+                (true, _) => (Icon::Check, w().copied),
+                (false, true) => (Icon::Link, w().link),
+                (false, false) => (Icon::Link, w().copy_link),
+            };
+            let button = widget::labelled_button(ui, icon, text, true, true);
+            let length = session.payload.len();
+            let hint = fill(w().link_hint, &[&length]);
+            if button
+                .accessible_name(w().copy_link)
+                .on_hover_text(hint)
+                .clicked()
+            {
+                commands.push(Command::CopyLink);
+            }
+            if !is_narrow {
+                link_length_ui(ui, session, commands);
+            }
+        });
+    });
+}
+
+/// How long the link is, and what to do if it is long.
+fn link_length_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let length = session.payload.len();
+    let palette = Palette::get(ui);
+    if session.is_link_long() {
+        let text = theme::strong(fill(w().characters, &[&length]))
+            .size(12.0)
+            .color(palette.warning);
+        let advice = w().link_is_long;
+        if ui
+            .add(egui::Button::new(text).frame(false))
+            .on_hover_text(advice)
+            .clicked()
+        {
+            commands.push(Command::SaveDocument);
+        }
+    } else {
+        let text = egui::RichText::new(fill(w().characters, &[&length]))
+            .size(12.0)
+            .color(palette.weak);
+        ui.label(text).on_hover_text(w().link_length);
+    }
+    ui.add_space(4.0);
+}
+
+/// Which subject: the built-in ones, and opening one's own.
+fn subject_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let current = &session.illustration().subject;
+    let shown = widget::combo("subject", &names::subject_title(current), 112.0).show_ui(ui, |ui| {
+        for name in crate::subjects::names() {
+            let subject = SubjectRef::Builtin {
+                name: (*name).to_owned(),
+            };
+            if ui
+                .selectable_label(*current == subject, names::subject(name))
+                .clicked()
+                && *current != subject
+            {
+                commands.push(Command::SetSubject(subject));
+            }
+        }
+        ui.separator();
+        if ui.button(w().open_file_more).clicked() {
+            commands.push(Command::Open);
+            ui.close();
+        }
+    });
+    shown
+        .response
+        .named(w().subject)
+        .on_hover_text(w().subject_hint);
+}
+
+fn more_menu(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut Vec<Command>) {
+    let button = widget::icon_button(ui, Icon::More, w().more, true);
+    egui::Popup::menu(&button).show(|ui| {
+        ui.set_min_width(264.0);
+        let mut item = |ui: &mut Ui, icon: Icon, text: &str, command: Command| {
+            if menu_item(ui, icon, text) {
+                commands.push(command);
+                ui.close();
+            }
+        };
+        if is_narrow {
+            item(ui, Icon::Folder, w().open_file, Command::Open);
+        }
+        item(ui, Icon::Plus, w().new_document, Command::New);
+        item(ui, Icon::Download, w().save_document, Command::SaveDocument);
+        item(ui, Icon::Picture, w().save_picture, Command::SavePicture);
+        ui.separator();
+        item(ui, Icon::Eye, w().picture_alone, Command::TogglePanels);
+        item(ui, Icon::Contrast, w().theme, Command::ToggleTheme);
+        let contrast = if theme::has_contrast() {
+            w().usual_contrast
+        } else {
+            w().high_contrast
+        };
+        item(ui, Icon::Look, contrast, Command::ToggleContrast);
+        item(ui, Icon::Plus, w().larger, Command::Scale(1.15));
+        item(ui, Icon::Reset, w().smaller, Command::Scale(1.0 / 1.15));
+        ui.separator();
+        ui.label(
+            egui::RichText::new(w().language)
+                .small()
+                .color(Palette::get(ui).weak),
+        );
+        let languages = Lang::OFFERED.map(|lang| {
+            let name = lang.own_name();
+            let is_drawn = theme::can_draw(ui, name);
+            (lang, if is_drawn { name } else { lang.plain_name() })
+        });
+        if let Some(lang) = widget::segmented(ui, w().language, &languages, words::lang()) {
+            commands.push(Command::Speak(lang));
+        }
+        ui.separator();
+        let mut item = |ui: &mut Ui, icon: Icon, text: &str, command: Command| {
+            if menu_item(ui, icon, text) {
+                commands.push(command);
+                ui.close();
+            }
+        };
+        item(ui, Icon::Info, w().messages, Command::ToggleMessages);
+        item(ui, Icon::Help, w().keys, Command::ToggleKeys);
+        if is_narrow {
+            ui.separator();
+            let length = session.payload.len();
+            let weak = Palette::get(ui).weak;
+            ui.label(
+                egui::RichText::new(fill(w().link_of, &[&length]))
+                    .small()
+                    .color(weak),
+            );
+        }
+    });
+}

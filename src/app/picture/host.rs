@@ -1,0 +1,323 @@
+//! The picture in the middle: the renderer, the texture that egui shows, and what is asked of the GPU meanwhile. The
+//! one file of this room that touches wgpu.
+
+use std::sync::Arc;
+
+use eframe::egui_wgpu::RenderState;
+use glam::{Vec2, Vec3};
+
+use super::pending::{Pending, poll_once};
+use crate::app::session::{Command, Found, Place, Question};
+use crate::data::{Resources, Segment, Segmentation, Volume};
+use crate::document::{Background, Camera, Illustration};
+use crate::render::{
+    Clock, DrawState, Gpu, Image, PendingPick, PendingPlaces, PendingSlice, Pick, RenderError,
+    Renderer, SlicePlane, SliceView, SubjectInfo, View,
+};
+
+/// The renderer with what the interface needs around it. Built once per window.
+pub(crate) struct Picture {
+    renderer: Renderer,
+    render_state: RenderState,
+    texture: Option<egui::TextureId>,
+    generation: u64,
+    /// What egui shows of each slice, with the number of its texture.
+    slices: Vec<Option<(egui::TextureId, u64)>>,
+    /// The untouched object, drawn over the other while somebody wants it.
+    ghost: Option<Renderer>,
+    ghost_texture: Option<(egui::TextureId, u64)>,
+    clock: Clock,
+    questions: Vec<(Question, PendingPick)>,
+    file: Option<Pending<Result<Image, RenderError>>>,
+    resources: Resources,
+    /// As of the last frame.
+    pub(crate) state: DrawState,
+}
+
+impl Picture {
+    /// On the device that egui draws with.
+    pub(crate) fn new(render_state: &RenderState, clock: Clock) -> Self {
+        Self {
+            renderer: Renderer::new(
+                Gpu::from_parts(
+                    render_state.device.clone(),
+                    render_state.queue.clone(),
+                    render_state.adapter.get_info(),
+                ),
+                clock,
+            ),
+            render_state: render_state.clone(),
+            texture: None,
+            generation: 0,
+            slices: Vec::new(),
+            ghost: None,
+            resources: Resources::default(),
+            ghost_texture: None,
+            clock,
+            questions: Vec::new(),
+            file: None,
+            state: DrawState {
+                is_done: false,
+                progress: 0.0,
+                has_picture: false,
+                uploading: None,
+            },
+        }
+    }
+
+    /// Takes the shaders from their files again.
+    #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+    pub(crate) fn reload_shaders(&mut self) -> Result<(), RenderError> {
+        self.state.is_done = false;
+        self.renderer.reload_shaders()
+    }
+
+    pub(crate) fn gpu(&self) -> &Gpu {
+        self.renderer.gpu()
+    }
+
+    /// Shows another volume; it is uploaded while the old one stays.
+    pub(crate) fn set_subject(&mut self, volume: Arc<Volume>) -> Result<(), RenderError> {
+        self.state.is_done = false;
+        self.renderer.set_subject(volume)
+    }
+
+    /// Shows the same volume with other segments.
+    pub(crate) fn set_segmentation(
+        &mut self,
+        labels: Option<Arc<Segmentation>>,
+    ) -> Result<(), RenderError> {
+        self.state.is_done = false;
+        self.renderer.set_segmentation(labels)
+    }
+
+    /// What there is to say about the volume shown, once.
+    pub(crate) fn take_notices(&mut self) -> Vec<String> {
+        self.renderer.take_notices()
+    }
+
+    /// Value range, window and preset of what is shown.
+    pub(crate) fn subject_info(&self) -> Option<SubjectInfo> {
+        self.renderer.subject_info()
+    }
+
+    /// The named segments of what is shown.
+    pub(crate) fn segments(&self) -> &[Segment] {
+        self.renderer.segments()
+    }
+
+    /// Takes the displacement fields that documents may show.
+    pub(crate) fn set_resources(&mut self, resources: Resources) {
+        self.resources = resources;
+    }
+
+    /// Takes another illustration or camera to be drawn.
+    pub(crate) fn set(&mut self, illustration: &Illustration, camera: &Camera) {
+        let mut seen = illustration.clone();
+        seen.camera = *camera;
+        self.resources.attach_fields(&mut seen);
+        self.renderer.set_illustration(&seen);
+    }
+
+    /// Draws as much as fits into the budget and gives the texture to show.
+    pub(crate) fn draw(
+        &mut self,
+        size_px: [u32; 2],
+        budget_seconds: f32,
+        is_moving: bool,
+    ) -> Result<Option<egui::TextureId>, RenderError> {
+        self.state = self.renderer.draw(size_px, budget_seconds, is_moving)?;
+        let generation = self.renderer.output_generation();
+        if let Some(view) = self.renderer.output_view()
+            && (self.texture.is_none() || generation != self.generation)
+        {
+            self.generation = generation;
+            let device = &self.render_state.device;
+            let filter = wgpu::FilterMode::Linear;
+            let mut painter = self.render_state.renderer.write();
+            match self.texture {
+                Some(id) => painter.update_egui_texture_from_wgpu_texture(device, view, filter, id),
+                None => self.texture = Some(painter.register_native_texture(device, view, filter)),
+            }
+        }
+        Ok(self.texture.filter(|_| self.state.has_picture))
+    }
+
+    /// The texture of a slice, brought up to date. None until there is something to show.
+    pub(crate) fn slice(
+        &mut self,
+        slot: usize,
+        view: &SliceView,
+    ) -> Result<Option<egui::TextureId>, RenderError> {
+        if !self.renderer.draw_slice(slot, view)? {
+            return Ok(None);
+        }
+        if self.slices.len() <= slot {
+            self.slices.resize(slot + 1, None);
+        }
+        let (Some((texture, generation)), Some(shown)) =
+            (self.renderer.slice_view(slot), self.slices.get_mut(slot))
+        else {
+            return Ok(None);
+        };
+        Ok(Some(registered(
+            &self.render_state,
+            texture,
+            generation,
+            shown,
+        )))
+    }
+
+    /// Starts reading the numbers of a slice.
+    pub(crate) fn read_slice(
+        &mut self,
+        plane: &SlicePlane,
+        size_px: [u32; 2],
+    ) -> Result<PendingSlice, RenderError> {
+        self.renderer.read_slice(plane, size_px)
+    }
+
+    /// Draws the untouched object as seen by a camera, on a clear background. It shares the volume with the picture.
+    pub(crate) fn draw_ghost(
+        &mut self,
+        illustration: &Illustration,
+        camera: &Camera,
+        size_px: [u32; 2],
+        (budget_seconds, is_moving): (f32, bool),
+    ) -> Result<Option<egui::TextureId>, RenderError> {
+        let ghost = self
+            .ghost
+            .get_or_insert_with(|| Renderer::new(self.renderer.gpu().clone(), self.clock));
+        ghost.share_subject(&self.renderer);
+        let mut untouched = illustration.clone();
+        untouched.templates.clear();
+        untouched.look.background = Background::None;
+        untouched.camera = *camera;
+        ghost.set_illustration(&untouched);
+        let state = ghost.draw(size_px, budget_seconds, is_moving)?;
+        self.state.is_done &= state.is_done;
+        let generation = ghost.output_generation();
+        Ok(match ghost.output_view() {
+            Some(view) if state.has_picture => Some(registered(
+                &self.render_state,
+                view,
+                generation,
+                &mut self.ghost_texture,
+            )),
+            _ => None,
+        })
+    }
+
+    /// Nobody wants the ghost any more: what it holds on the device is given back.
+    pub(crate) fn drop_ghost(&mut self) {
+        self.ghost = None;
+    }
+
+    /// Asks what is seen at a pixel of the picture, for who looks after the answer.
+    pub(crate) fn pick(
+        &mut self,
+        pos_px: [f32; 2],
+        size_px: [u32; 2],
+    ) -> Result<PendingPick, RenderError> {
+        self.renderer.pick(Vec2::from_array(pos_px), size_px)
+    }
+
+    /// Asks a question about the picture as it is shown, `size_px` pixels large, or about the view of its own that it
+    /// names. After such a view the caller sets its own again.
+    pub(crate) fn ask(&mut self, question: Question, size_px: [u32; 2]) -> Result<(), RenderError> {
+        let [width, height] = size_px.map(|side| side as f32);
+        self.questions
+            .retain(|(earlier, _)| !question.replaces(earlier));
+        let pending = match &question.place {
+            Place::Pixel(pixel) => self.pick(*pixel, size_px)?,
+            Place::Middle => self.pick([0.5 * width, 0.5 * height], size_px)?,
+            Place::Beside(sight, pos) => {
+                self.set(&sight.illustration, &sight.camera);
+                let size_px = [SIGHT_PX; 2];
+                let view = View::new(&sight.camera, size_px);
+                let pixel = view.pixel_from_subject(*pos).unwrap_or_default();
+                self.pick(pixel.into(), size_px)?
+            }
+        };
+        self.questions.push((question, pending));
+        Ok(())
+    }
+
+    /// The commands that answers have become.
+    pub(crate) fn answers(&mut self) -> Vec<Result<Command, RenderError>> {
+        let mut answers = Vec::new();
+        self.questions.retain_mut(|(question, pending)| {
+            let Some(answer) = pending.poll_now() else {
+                return true;
+            };
+            answers.push(answer.map(|pick| (question.reply)(question.index, pick.map(found))));
+            false
+        });
+        answers
+    }
+
+    /// Asks where points of the rest are in the object that is shown.
+    pub(crate) fn follow_points(&mut self, points: &[Vec3]) -> Result<PendingPlaces, RenderError> {
+        self.renderer.follow_points(points)
+    }
+
+    /// Starts drawing the picture once more for a file.
+    pub(crate) fn start_file(&mut self, illustration: &Illustration, size_px: [u32; 2]) {
+        let mut seen = illustration.clone();
+        self.resources.attach_fields(&mut seen);
+        let future = self.renderer.render_image(&seen, size_px, FILE_SAMPLES);
+        self.file = Some(Box::pin(future));
+    }
+
+    /// The picture for a file once it is there.
+    pub(crate) fn poll_file(&mut self) -> Option<Result<Image, RenderError>> {
+        let image = poll_once(self.file.as_mut()?)?;
+        self.file = None;
+        Some(image)
+    }
+
+    /// The GPU is busy with something that the interface waits for.
+    pub(crate) fn is_waiting(&self) -> bool {
+        !self.questions.is_empty() || self.file.is_some()
+    }
+}
+
+/// The texture as egui knows it, made known anew if it is another than before.
+fn registered(
+    render_state: &RenderState,
+    view: &wgpu::TextureView,
+    generation: u64,
+    shown: &mut Option<(egui::TextureId, u64)>,
+) -> egui::TextureId {
+    let (device, filter) = (&render_state.device, wgpu::FilterMode::Linear);
+    match shown {
+        Some((id, known)) if *known == generation => *id,
+        Some((id, known)) => {
+            *known = generation;
+            let mut painter = render_state.renderer.write();
+            painter.update_egui_texture_from_wgpu_texture(device, view, filter, *id);
+            *id
+        }
+        None => {
+            let mut painter = render_state.renderer.write();
+            let id = painter.register_native_texture(device, view, filter);
+            *shown = Some((id, generation));
+            id
+        }
+    }
+}
+
+/// Samples per pixel of a saved picture.
+const FILE_SAMPLES: u32 = 4;
+/// Pixels of the view of its own that a question may name.
+const SIGHT_PX: u32 = 256;
+
+/// What a pick found, in the session's terms.
+pub(crate) fn found(pick: Pick) -> Found {
+    Found {
+        pos: pick.pos_in_subject,
+        normal: pick.normal,
+        pos_in_rest: pick.pos_in_rest,
+        value: pick.value,
+    }
+}

@@ -1,0 +1,170 @@
+//! The camera of the document as the user turns and zooms it, and the views that have names.
+
+use std::f32::consts::{FRAC_PI_2, PI};
+
+use glam::{Quat, Vec2, Vec3};
+
+use crate::document::Camera;
+
+/// Nearest and farthest distance of the camera, subject units.
+const DISTANCE_RANGE: (f32, f32) = (0.08, 20.0);
+
+/// A direction from which anatomists look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StandardView {
+    /// From anterior.
+    Front,
+    /// From posterior.
+    Back,
+    /// From the patient's right.
+    Right,
+    /// From the patient's left.
+    Left,
+    /// From superior.
+    Top,
+    /// From inferior.
+    Bottom,
+}
+
+impl StandardView {
+    /// In the order of the number keys.
+    pub const ALL: [Self; 6] = [
+        Self::Front,
+        Self::Back,
+        Self::Right,
+        Self::Left,
+        Self::Top,
+        Self::Bottom,
+    ];
+
+    /// As on the button: `Front`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Front => "Front",
+            Self::Back => "Back",
+            Self::Right => "Right",
+            Self::Left => "Left",
+            Self::Top => "Top",
+            Self::Bottom => "Bottom",
+        }
+    }
+
+    /// What radiologists call the side, one letter.
+    pub fn letter(self) -> &'static str {
+        match self {
+            Self::Front => "A",
+            Self::Back => "P",
+            Self::Right => "R",
+            Self::Left => "L",
+            Self::Top => "S",
+            Self::Bottom => "I",
+        }
+    }
+
+    /// The side it looks from, subject space.
+    pub fn direction(self) -> Vec3 {
+        match self {
+            Self::Front => Vec3::Y,
+            Self::Back => Vec3::NEG_Y,
+            Self::Right => Vec3::X,
+            Self::Left => Vec3::NEG_X,
+            Self::Top => Vec3::Z,
+            Self::Bottom => Vec3::NEG_Z,
+        }
+    }
+
+    /// [`Camera::rotate`] of the view. From above and below the patient's right stays where it is from the front.
+    pub fn rotation(self) -> Quat {
+        match self {
+            Self::Front => Quat::IDENTITY,
+            Self::Back => Quat::from_rotation_z(PI),
+            Self::Right => Quat::from_rotation_z(-FRAC_PI_2),
+            Self::Left => Quat::from_rotation_z(FRAC_PI_2),
+            Self::Top => Quat::from_rotation_x(FRAC_PI_2),
+            Self::Bottom => Quat::from_rotation_x(-FRAC_PI_2),
+        }
+    }
+}
+
+/// Right, up and backward (towards the viewer) of a camera, subject space.
+pub fn axes(rotate: Quat) -> [Vec3; 3] {
+    // The identity looks from +y towards -y with +z up, so the patient's right (+x) is on the viewer's left.
+    [rotate * Vec3::NEG_X, rotate * Vec3::Z, rotate * Vec3::Y]
+}
+
+/// Turns the camera about its target. `delta` in radians: x to the right, y down, as the pointer moves.
+/// The patient's long axis stays upright and the camera does not go over the poles.
+pub fn orbit(camera: &mut Camera, delta: Vec2) {
+    let [_, up, back] = axes(camera.rotate);
+    // A camera hanging upside down (a document may say so) is turned the way the hand expects.
+    let yaw = if up.z < -1e-3 { -delta.x } else { delta.x };
+    let elevation = back.z.clamp(-1.0, 1.0).asin();
+    let pitch = if up.z > -1e-3 {
+        (elevation + delta.y).clamp(-FRAC_PI_2, FRAC_PI_2) - elevation
+    } else {
+        delta.y
+    };
+    let turned = Quat::from_rotation_z(-yaw) * camera.rotate * Quat::from_rotation_x(pitch);
+    camera.rotate = turned.normalize();
+}
+
+/// Rolls the camera about its line of sight, radians, clockwise picture for positive.
+pub fn roll(camera: &mut Camera, angle: f32) {
+    camera.rotate = (camera.rotate * Quat::from_rotation_y(angle)).normalize();
+}
+
+/// Comes closer by a factor above 1, goes away by one below.
+pub fn zoom(camera: &mut Camera, factor: f32) {
+    if factor.is_finite() && factor > 0.0 {
+        camera.distance = (camera.distance / factor).clamp(DISTANCE_RANGE.0, DISTANCE_RANGE.1);
+    }
+}
+
+/// Between two cameras, `t` from 0 to 1; used to glide to a view instead of jumping.
+pub fn between(from: &Camera, to: &Camera, t: f32) -> Camera {
+    let ease = t * t * (3.0 - 2.0 * t);
+    Camera {
+        target: from.target.lerp(to.target, ease),
+        rotate: from.rotate.slerp(to.rotate, ease).normalize(),
+        distance: from.distance + (to.distance - from.distance) * ease,
+        fov_deg: from.fov_deg + (to.fov_deg - from.fov_deg) * ease,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::vec2;
+
+    fn camera() -> Camera {
+        Camera {
+            target: Vec3::ZERO,
+            rotate: Quat::IDENTITY,
+            distance: 2.5,
+            fov_deg: 30.0,
+        }
+    }
+
+    #[test]
+    fn each_standard_view_looks_from_its_side() {
+        for standard in StandardView::ALL {
+            let [right, up, back] = axes(standard.rotation());
+            assert!(back.distance(standard.direction()) < 1e-5, "{standard:?}");
+            assert!(
+                right.cross(up).distance(back) < 1e-5,
+                "right-handed, {standard:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn orbiting_keeps_the_patient_upright_and_stops_at_the_poles() {
+        let mut camera = camera();
+        orbit(&mut camera, vec2(1.0, 9.0));
+        let [_, up, back] = axes(camera.rotate);
+        assert!(back.z > 0.999, "above, not beyond: {back}");
+        assert!(up.z > -1e-3, "upright: {up}");
+        orbit(&mut camera, vec2(0.0, -9.0));
+        assert!(axes(camera.rotate)[2].z < -0.999, "and below");
+    }
+}

@@ -1,0 +1,46 @@
+//! What goes with the clock.
+
+use super::link::LINK_DELAY;
+use super::session::Session;
+
+/// Seconds for which the button of the link tells that it was copied.
+const COPIED_SECONDS: f64 = 2.0;
+
+impl Session {
+    /// Goes on to a time, seconds on the clock of the interface: glides the camera, goes on with a passage, puts old
+    /// messages away, renews the link. True if it wants to be called again at once.
+    pub fn advance(&mut self, now: f64) -> bool {
+        self.now = now;
+        self.notices.expire(now);
+        if self.copied_at.is_some_and(|at| now - at > COPIED_SECONDS) {
+            self.copied_at = None;
+        }
+        if self
+            .link_stale_since
+            .is_some_and(|since| now - since >= LINK_DELAY)
+        {
+            self.renew_link();
+        }
+        let is_walking = self.mode.is_moving();
+        if is_walking {
+            if let Some(camera) = self.mode.advance(self.history.document(), now) {
+                self.camera = camera;
+            }
+            self.revision += 1;
+        }
+        self.advance_glide() || is_walking
+    }
+
+    /// Seconds until [`Self::advance`] has something to do although nothing else happens.
+    pub fn seconds_to_next_change(&self) -> Option<f64> {
+        let link = self
+            .link_stale_since
+            .map(|since| since + LINK_DELAY - self.now);
+        let copied = self.copied_at.map(|at| at + COPIED_SECONDS - self.now);
+        [link, copied, self.notices.seconds_to_expiry(self.now)]
+            .into_iter()
+            .flatten()
+            .map(|seconds| seconds.max(0.0) + 0.01)
+            .min_by(f64::total_cmp)
+    }
+}

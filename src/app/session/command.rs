@@ -1,0 +1,183 @@
+//! Everything that can be done, as values: buttons, keys and gestures make them, the session runs them.
+
+use glam::Vec3;
+
+use super::camera::StandardView;
+use super::files::RawCommand;
+use super::found::Found;
+use super::notices::Gravity;
+use super::tissues::TissueCommand;
+use super::view::See;
+use crate::app::words::Lang;
+use crate::document::{Camera, Edit, Plane, SubjectRef, TemplateKind};
+
+/// One thing to do.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// Takes the last change of the document back.
+    Undo,
+    /// Makes the change again that was taken back last.
+    Redo,
+    /// Changes the document: one step of undo.
+    Apply(Edit),
+    /// Changes the document as part of a drag: the drag is one step of undo.
+    Drag(Edit),
+    /// Starts placing a template of a kind: the next click on the object says where. The same kind again ends it.
+    StartPlacing(TemplateKind),
+    /// Uses the active tool on what the middle of the picture shows.
+    PlaceInMiddle,
+    /// Starts or ends setting a caption.
+    ToggleCaptioning,
+    /// Uses the active tool at a pixel of the picture.
+    UseToolAt([f32; 2]),
+    /// Turns the look to what is seen at a pixel of the picture.
+    LookAtPixel([f32; 2]),
+    /// Places the template being placed on the surface that was found.
+    PlaceOn(Option<Found>),
+    /// Like `PlaceOn`; where nothing was found, the template goes to the camera's target.
+    PlaceOnOrAtTarget(Option<Found>),
+    /// Places the template being placed at a point of subject space, its z axis along a normal.
+    PlaceAt {
+        /// Subject space.
+        pos: Vec3,
+        /// Out of the object, any length but zero.
+        normal: Vec3,
+    },
+    /// Fastens a caption to the tissue that was found.
+    CaptionOn(Option<Found>),
+    /// Adds a seed to the recipe that is being seeded.
+    SeedOn(Option<Found>),
+    /// Adds a seed to the recipe that is open: a point of rest space and the subject's value there.
+    AddSeed(Vec3, f32),
+    /// Measures from or to a point of subject space.
+    Measure(Option<Vec3>),
+    /// Turns the look to the surface that was found.
+    LookAt(Option<Found>),
+    /// Lays the template of this index on the surface that was found along its axis.
+    LayOn(usize, Option<Found>),
+    /// Takes one of the places of the surface along the template that is to follow it.
+    Trace(usize, Option<Found>),
+    /// Drops what is being done: a sheet, the tool, a search, at last the selection.
+    Escape,
+    /// Selects a template by its index in the document.
+    Select(Option<usize>),
+    /// Selects the next one in the list, or with `false` the one before.
+    SelectNext(bool),
+    /// Removes the selected template.
+    DeleteSelected,
+    /// Makes a copy of the selected template behind it.
+    DuplicateSelected,
+    /// Puts the selected template, with its group, on the clipboard.
+    Copy,
+    /// Puts the selected template, with its group, on the clipboard and takes it out of the document.
+    Cut,
+    /// Takes what is on the clipboard: templates, a link, a document.
+    Paste,
+    /// Mirrors the selected template, with its group, across a middle plane of the subject: as a copy, or where it is.
+    Mirror(Plane, bool),
+    /// Turns and moves the selected template so that it lies on the surface under it.
+    LayOnSurface,
+    /// Bends the selected template along the surface under it.
+    FollowSurface,
+    /// Puts the selected template into the group of the one before it.
+    GroupWithPrevious,
+    /// Takes the selected template out of its group.
+    LeaveGroup,
+    /// Handles go in steps, or not.
+    ToggleSnap,
+    /// Searches the catalogue for a text.
+    Search(String),
+    /// Puts the keyboard into the search over the catalogue.
+    StartSearch,
+    /// Shows or hides the selected template.
+    ToggleSelected,
+    /// Makes the selected template act earlier (`-1`) or later (`1`).
+    ShiftSelected(i8),
+    /// Adds to the main parameter of the selected template, in hundredths of its range.
+    NudgeMain(f32),
+    /// What the handles in the picture do.
+    SetGizmo(GizmoMode),
+    /// Looks from a side.
+    View(StandardView),
+    /// Back to the camera that the document came with.
+    ResetView,
+    /// Takes another camera, as a hand moved it.
+    MoveCamera(Camera),
+    /// Turns the camera, radians to the right and down.
+    Orbit(f32, f32),
+    /// Comes closer by a factor.
+    Zoom(f32),
+    /// Takes a subject in place of the present one.
+    SetSubject(SubjectRef),
+    /// Opens a scan or a document.
+    Open,
+    /// Starts from an empty document.
+    New,
+    /// Shows a step of the document; 0 is the document as it stands.
+    GoToStep(usize),
+    /// Shows the next step, or with `false` the one before.
+    WalkStep(bool),
+    /// Puts the link on the clipboard.
+    CopyLink,
+    /// Saves the document as a file.
+    SaveDocument,
+    /// Saves the picture as a PNG.
+    SavePicture,
+    /// Stops loading.
+    CancelLoad,
+    /// Fetches from the host that was asked about.
+    AllowHost,
+    /// Answers the question how the voxels of a bare file lie.
+    Raw(RawCommand),
+    /// Shows or hides the sheet of keys.
+    ToggleKeys,
+    /// Shows or hides every message so far.
+    ToggleMessages,
+    /// Shows a message: how grave, one line, details.
+    Notify(Gravity, String, String),
+    /// Puts the message of this number away.
+    Dismiss(u64),
+    /// Unfolds the details of the message of this number, or folds them.
+    Unfold(u64),
+    /// Opens the field of the caption of this index.
+    EditCaption(usize),
+    /// Shows or hides the choice among the volumes of the subject's file.
+    ToggleFrames,
+    /// Light, dark.
+    ToggleTheme,
+    /// Turns to the next panel and gives it the keyboard, or with `false` to the one before.
+    NextPanel(bool),
+    /// High contrast or the usual one.
+    ToggleContrast,
+    /// Title and credit are written into saved pictures, or not.
+    ToggleLettering,
+    /// The first hint does not come again.
+    PutHintAway,
+    /// The interface speaks another language.
+    Speak(Lang),
+    /// Everything larger or smaller, for a projector.
+    Scale(f32),
+    /// Panels away, the picture alone.
+    TogglePanels,
+    /// Changes how one looks: slices, ghost, distances.
+    See(See),
+    /// Edits or shows tissues.
+    Tissue(TissueCommand),
+}
+
+/// What the handles in the picture do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GizmoMode {
+    /// Along the axes, in the planes between them, freely.
+    #[default]
+    Move,
+    /// About the axes.
+    Turn,
+    /// The faces of the box.
+    Size,
+}
+
+impl GizmoMode {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Move, Self::Turn, Self::Size];
+}

@@ -1,0 +1,75 @@
+//! What the session wants done outside of itself, as values. Whoever runs a command carries out what it returns.
+
+use super::question::Question;
+use super::ticket::Ticket;
+use crate::document::{RawVoxels, SubjectRef};
+
+/// Bytes on their way out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SaveFile {
+    /// Proposed file name with its ending.
+    pub name: String,
+    /// Media type: `image/png`.
+    pub mime: &'static str,
+    /// What is in it.
+    pub bytes: Vec<u8>,
+}
+
+/// How the address bar takes a new link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkChange {
+    /// In place: while something is dragged, and for the camera.
+    Replace,
+    /// As a new entry of the history.
+    Push,
+}
+
+/// A control that takes the keyboard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Focus {
+    /// The tab of the panel that is open.
+    Panel,
+    /// The search over the catalogue.
+    Search,
+    /// The text field of the caption of this index.
+    Caption(usize),
+}
+
+/// One thing to do outside of the session.
+#[derive(Clone, Debug)]
+pub enum Effect {
+    /// Start loading a subject, and tell the session by `load_started`.
+    LoadSubject(SubjectRef),
+    /// Stop a load.
+    CancelLoad(Ticket),
+    /// Let a load fetch from the host that it asked about.
+    AllowHost(Ticket),
+    /// Say how the voxels of the file lie that a load asked about.
+    AnswerRaw(Ticket, RawVoxels),
+    /// Show a dialog for a scan or a document.
+    OpenFile,
+    /// Give bytes to the user as a file.
+    Save(SaveFile),
+    /// Draw the picture once more for a file.
+    SavePicture,
+    /// Put text on the clipboard.
+    Copy(String),
+    /// Put the link on the clipboard; the text goes behind the `#` of the page's address.
+    CopyLink(String),
+    /// Read the clipboard.
+    Paste,
+    /// Show a link in the address bar; the text goes behind its `#`.
+    SetLink(String, LinkChange),
+    /// Keep a text under a key for the next start.
+    Store(&'static str, String),
+    /// Ask the picture.
+    Ask(Question),
+    /// Give a control the keyboard.
+    Focus(Focus),
+    /// Change between the light and the dark theme.
+    ToggleTheme,
+    /// Change between high and usual contrast.
+    ToggleContrast,
+    /// Draw the interface larger by a factor.
+    Scale(f32),
+}

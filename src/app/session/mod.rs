@@ -1,0 +1,66 @@
+//! What the viewer knows and what can be done with it, without a window and without a device.
+//!
+//! Input makes [`Command`]s. [`Session::run`] runs one and returns [`Effect`]s: what is to be done outside. A
+//! [`Question`] goes to the picture, and its answer is a command again. One [`Tool`] is active at a time; [`Mode`]
+//! tells the author from the lesson.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `tool`, `mode`, `walk` | the active tool; author or lesson; the steps of a lesson |
+//! | `command`, `effect`, `question`, `found`, `ticket` | what goes in and out |
+//! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
+//! | `notices`, `view`, `tissues`, `files`, `clipboard` | other parts of the state |
+//! | `session` | the state itself |
+//! | `run`, `using`, `surface`, `templates`, `opening`, `raw`, `link`, `clock` | what can be done with it |
+
+pub mod camera;
+mod clipboard;
+mod clock;
+mod command;
+mod effect;
+mod files;
+mod found;
+mod link;
+mod measures;
+mod mode;
+mod notices;
+mod opening;
+mod question;
+mod raw;
+mod run;
+#[expect(
+    clippy::module_inception,
+    reason = "the room is named for the type that this file holds"
+)]
+mod session;
+pub mod shape;
+mod surface;
+mod templates;
+mod ticket;
+pub mod tissues;
+mod tool;
+mod tracing;
+mod using;
+mod view;
+mod walk;
+
+#[cfg(test)]
+mod tests;
+
+pub use self::camera::StandardView;
+pub use self::clipboard::{Clipboard, Copied};
+pub use self::command::{Command, GizmoMode};
+pub use self::effect::{Effect, Focus, LinkChange, SaveFile};
+pub use self::files::{FileChoice, Fit, RawCommand, RawDraft};
+pub use self::found::Found;
+pub use self::measures::Measures;
+pub use self::mode::Mode;
+pub use self::notices::{Gravity, Notice, Notices};
+pub use self::question::{Place, Question, Sight};
+pub use self::run::{STORED_HINT, STORED_LETTERING};
+pub use self::session::{Load, LoadOf, STORED_DOCUMENT, Session, Tab};
+pub use self::ticket::Ticket;
+pub use self::tissues::{TissueCommand, Tissues};
+pub use self::tool::Tool;
+pub use self::view::{Pane, See, SubjectFacts, ViewState};
+pub use self::walk::Walk;

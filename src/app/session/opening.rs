@@ -1,0 +1,261 @@
+//! Opening documents and the subjects that they show.
+
+use serde_json::{Value, json};
+
+use super::effect::Effect;
+use super::mode::Mode;
+use super::notices::Gravity;
+use super::session::{Load, LoadOf, STORED_DOCUMENT, Session, payload_of};
+use super::ticket::Ticket;
+use super::tool::Tool;
+use crate::app::words::fill;
+use crate::app::words::messages::w;
+use crate::assets::{OtherFile, Want};
+use crate::document::{Document, Edit, Reading, SubjectRef};
+use crate::link;
+
+impl Session {
+    /// Takes another document in place of the present one, at one of its steps, and shows its notices.
+    pub fn open_document(&mut self, document: Document, step: usize) {
+        let notices: Vec<String> = document.notices().iter().map(ToString::to_string).collect();
+        self.glide = None;
+        self.selected = None;
+        if self.tool.is_for_authors() {
+            self.tool = Tool::Look;
+        }
+        self.tissues.open = None;
+        self.tissues.alone = None;
+        self.link_stale_since = None;
+        self.payload = payload_of(&document, &document.illustration().camera);
+        self.mode = Mode::at(&document, step);
+        self.history.replace(document);
+        self.camera = self.shown().camera;
+        self.home = self.camera;
+        self.revision += 1;
+        self.opened += 1;
+        self.is_restored = false;
+        self.store(STORED_DOCUMENT, self.link_tail());
+        match notices.as_slice() {
+            [] => {}
+            [one] => self.notify(Gravity::Warning, one.clone(), ""),
+            [first, ..] => {
+                let more = fill(w().more_notices, &[first, &(notices.len() - 1)]);
+                self.notify(Gravity::Warning, more, notices.join("\n"));
+            }
+        }
+        self.load_subject();
+    }
+
+    /// Opens a document from JSON or a link; a message tells why where it cannot be opened.
+    pub fn open_text(&mut self, text: &str) {
+        let trimmed = text.trim_start_matches('\u{feff}').trim();
+        if self.paste_templates(trimmed) {
+            return;
+        }
+        let result = if trimmed.starts_with('{') {
+            Document::from_json(trimmed)
+                .map(|document| (document, 0))
+                .map_err(|error| error.to_string())
+        } else {
+            link::decode(trimmed)
+                .map(|link| (link.document, link.step))
+                .map_err(|error| error.to_string())
+        };
+        match result {
+            Ok((document, step)) => {
+                let last = document.step_count();
+                self.open_document(document, step);
+                if step > last {
+                    let text = fill(w().step_too_far, &[&step, &last]);
+                    self.notify(Gravity::Warning, text, "");
+                }
+            }
+            Err(error) => self.notify(Gravity::Error, fill(w().cannot_be_opened, &[&error]), ""),
+        }
+    }
+
+    /// Asks for the document's subject unless it is there or on its way.
+    pub fn load_subject(&mut self) {
+        let subject = self.illustration().subject.clone();
+        if self.requested.as_ref() != Some(&subject) {
+            self.requested = Some(subject.clone());
+            self.effect(Effect::LoadSubject(subject));
+        }
+    }
+
+    /// The document's subject is on its way.
+    pub fn load_started(&mut self, ticket: Ticket) {
+        self.load = Some(Load::new(ticket, "Loading", LoadOf::Subject));
+    }
+
+    /// A file that the user opened is on its way and will be the subject.
+    pub fn file_started(&mut self, ticket: Ticket) {
+        self.load = Some(Load::new(ticket, "Reading", LoadOf::File));
+    }
+
+    /// A file is on its way that takes the place of the document's subject, which is not asked for then.
+    pub fn instead_started(&mut self, ticket: Ticket) {
+        let is_other = |effect: &Effect| !matches!(effect, Effect::LoadSubject(_));
+        self.effects.retain(is_other);
+        self.load = Some(Load::new(ticket, "Reading", LoadOf::Instead));
+    }
+
+    /// A label volume of the document is on its way.
+    pub fn segments_started(&mut self, ticket: Ticket, want: Want) {
+        self.load = Some(Load::new(ticket, "Loading", LoadOf::Segments(want)));
+    }
+
+    /// What is wrong with the file of a load, by the hash of its bytes: the document asks for another one. A file that
+    /// replaces a subject which is shown, or which nobody asked for in this session, is no answer to the document and
+    /// always right.
+    pub fn other_file(&self, load: &Load, found: &str) -> Option<OtherFile> {
+        let subject = &self.illustration().subject;
+        let is_answer = match load.of {
+            LoadOf::Subject => true,
+            LoadOf::File => {
+                let is_missing = self.requested.as_ref() != Some(subject);
+                let is_supplied = matches!(subject, SubjectRef::Supplied { .. });
+                let is_asked_for = !self.is_restored || self.template_count() > 0;
+                is_missing && is_supplied && is_asked_for
+            }
+            LoadOf::Instead | LoadOf::Segments(_) => false,
+        };
+        let check = Want::subject(subject).check(found);
+        check.err().filter(|_| is_answer)
+    }
+
+    /// Tells that a file is not the one that the document means, with both hashes.
+    pub fn notify_other_file(&mut self, other: &OtherFile) {
+        let details = fill(w().other_file_details, &[&other.wanted, &other.found]);
+        self.notify(Gravity::Error, w().wrong_file, details);
+    }
+
+    /// There will be no volume of the load under way: it is stopped, and a message tells why.
+    pub fn refuse_load(&mut self, message: &str, details: String) {
+        if let Some(load) = &self.load {
+            self.effects.push(Effect::CancelLoad(load.ticket));
+        }
+        let is_beside = self.is_loading_segments();
+        self.load_ended();
+        self.notify(Gravity::Error, message, details);
+        if !is_beside {
+            self.load_failure = self.notices.all().last().map(|notice| notice.id);
+        }
+    }
+
+    fn is_loading_segments(&self) -> bool {
+        let load = self.load.as_ref();
+        load.is_some_and(|load| matches!(load.of, LoadOf::Segments(_)))
+    }
+
+    /// The load is over. A file becomes the subject of the document, as one step of undo.
+    pub fn load_done(&mut self, sha256: Option<String>) {
+        let Some(load) = self.load.take() else {
+            return;
+        };
+        if matches!(load.of, LoadOf::Segments(_)) {
+            return;
+        }
+        // The message that it is missing is no longer true.
+        if let Some(failure) = self.load_failure.take() {
+            self.notices.dismiss(failure);
+        }
+        self.files.loaded(load.frame_count, load.is_file());
+        let Some(sha256) = sha256.filter(|_| load.is_file()) else {
+            return;
+        };
+        let is_instead = load.of == LoadOf::Instead;
+        if is_instead && let Err(other) = Want::subject(&self.illustration().subject).check(&sha256)
+        {
+            let details = fill(w().other_file_details, &[&other.wanted, &other.found]);
+            self.notify(Gravity::Warning, w().other_file, details);
+        } else if let SubjectRef::Supplied { sha256: wanted, .. } = &self.illustration().subject {
+            if *wanted == sha256 && self.wants_other_frame(&load.reading) {
+                self.requested = None;
+                self.load_subject();
+                return;
+            }
+            if *wanted == sha256 {
+                self.requested = Some(self.illustration().subject.clone());
+                return;
+            }
+            if self.template_count() > 0 {
+                self.notify(
+                    Gravity::Info,
+                    w().other_file,
+                    fill(w().other_file_details, &[wanted, &sha256]),
+                );
+            }
+        }
+        let subject = SubjectRef::Supplied {
+            sha256,
+            name: String::new(),
+            reading: load.reading,
+        };
+        self.requested = Some(subject.clone());
+        let edit = Edit::SetSubject(subject);
+        let edit = match is_instead {
+            true => self.with_its_segments(edit),
+            false => edit,
+        };
+        self.apply(&edit, false);
+    }
+
+    /// The change to another subject, but with the segments and recipes of the present one.
+    fn with_its_segments(&self, change: Edit) -> Edit {
+        let at = "/subject";
+        let changed = change.apply(self.document()).ok();
+        let Some(mut value) = changed.and_then(|document| document.get(at).cloned()) else {
+            return change;
+        };
+        for key in ["segments", "features"] {
+            if let Some(kept) = self.document().get(&format!("{at}/{key}")) {
+                value[key] = kept.clone();
+            }
+        }
+        Edit::Set {
+            pointer: at.to_owned(),
+            value,
+            name: change.name(self.document()),
+        }
+    }
+
+    /// The document names a label volume beside its scan, behind those that it names already.
+    pub fn add_label_file(&mut self, sha256: &str) {
+        let at = "/subject/segments";
+        let mut list = match self.document().get(at) {
+            None => Vec::new(),
+            Some(Value::Array(list)) => list.clone(),
+            Some(one) => vec![one.clone()],
+        };
+        list.push(json!({ "sha256": sha256 }));
+        // A document may hold one by itself, as the first versions wrote it.
+        let value = match list.len() {
+            1 => list.remove(0),
+            _ => Value::from(list),
+        };
+        let edit = Edit::Set {
+            pointer: at.to_owned(),
+            value,
+            name: "Add segments".to_owned(),
+        };
+        self.apply(&edit, false);
+    }
+
+    /// The load came to nothing; the document keeps its subject.
+    pub fn load_ended(&mut self) {
+        if let Some(load) = self.load.take()
+            && load.of == LoadOf::Subject
+        {
+            self.requested = None;
+        }
+    }
+
+    /// A load brought the file whose hash the document waits for. True if the document wants another of its volumes.
+    fn wants_other_frame(&self, loaded: &Reading) -> bool {
+        self.illustration()
+            .subject
+            .reading()
+            .is_some_and(|wanted| wanted != loaded)
+    }
+}

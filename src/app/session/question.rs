@@ -1,0 +1,62 @@
+//! Questions to the picture. Each names the command that its answer becomes.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+
+use super::command::Command;
+use super::found::Found;
+use crate::document::{Camera, Illustration};
+
+/// Asks what is seen at a place.
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// Where to look.
+    pub place: Place,
+    /// Handed to `reply`, for questions that are asked several at a time.
+    pub index: usize,
+    /// Makes the command that is run with the answer; `None` where nothing is seen.
+    pub reply: fn(usize, Option<Found>) -> Command,
+}
+
+/// Where a question looks.
+#[derive(Clone, Debug)]
+pub enum Place {
+    /// Pixels from the upper left corner of the picture as it is shown.
+    Pixel([f32; 2]),
+    /// The middle of the picture as it is shown.
+    Middle,
+    /// Where a point of subject space is seen in a view of its own.
+    Beside(Arc<Sight>, Vec3),
+}
+
+/// A view that is drawn for questions only.
+#[derive(Debug)]
+pub struct Sight {
+    /// What is seen.
+    pub illustration: Illustration,
+    /// From where.
+    pub camera: Camera,
+}
+
+impl Question {
+    /// A question about a place of the picture.
+    pub fn new(place: Place, reply: fn(usize, Option<Found>) -> Command) -> Self {
+        let index = 0;
+        Self {
+            place,
+            index,
+            reply,
+        }
+    }
+
+    /// True if this question makes an earlier one that has no answer yet pointless: a click the click before it, a
+    /// view of its own other such views.
+    pub fn replaces(&self, earlier: &Self) -> bool {
+        match (&self.place, &earlier.place) {
+            (Place::Beside(new, _), Place::Beside(old, _)) => !Arc::ptr_eq(new, old),
+            (Place::Beside(..), _) | (_, Place::Beside(..)) => false,
+            _ => true,
+        }
+    }
+}

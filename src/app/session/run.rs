@@ -1,0 +1,391 @@
+//! Running commands.
+
+use glam::{Vec2, Vec3};
+
+use super::camera;
+use super::command::Command;
+use super::effect::{Effect, Focus, LinkChange};
+use super::question::{Place, Question};
+use super::session::{Session, Tab};
+use super::tissues::TissueCommand;
+use super::tool::Tool;
+use super::view::See;
+use crate::app::words;
+use crate::document::{Camera, Document, Edit, ParamKind, ParamValue, TemplateKind};
+
+/// The key under which it is kept that the first hint was seen.
+pub const STORED_HINT: &str = "hint";
+/// The key under which it is kept whether title and credit are written into saved pictures.
+pub const STORED_LETTERING: &str = "lettering";
+
+impl Session {
+    /// Runs a command at a time, seconds on the clock of the interface. Returns what is to be done outside, in order.
+    /// A message tells why where something cannot be done.
+    pub fn run(&mut self, command: Command, now: f64) -> Vec<Effect> {
+        self.now = now;
+        match command {
+            Command::Undo => self.undo_or_redo(true),
+            Command::Redo => self.undo_or_redo(false),
+            Command::Apply(edit) => {
+                self.apply(&self.with_group(edit), false);
+            }
+            Command::Drag(edit) => {
+                self.apply(&self.with_group(edit), true);
+            }
+            Command::GoToStep(step) => self.go_to_step(step),
+            Command::WalkStep(forward) => self.walk_step(forward),
+            Command::StartPlacing(kind) => self.start_placing(kind),
+            Command::PlaceInMiddle => self.use_tool_in_middle(),
+            Command::ToggleCaptioning => self.toggle_captioning(),
+            Command::UseToolAt(pixel) => self.use_tool_at(pixel),
+            Command::LookAtPixel(pixel) => {
+                let question =
+                    Question::new(Place::Pixel(pixel), |_, found| Command::LookAt(found));
+                self.effect(Effect::Ask(question));
+            }
+            Command::PlaceOn(found) => self.place_on(found),
+            Command::PlaceOnOrAtTarget(found) => self.place_on_or_at_target(found),
+            Command::PlaceAt { pos, normal } => self.place_at(pos, normal),
+            Command::CaptionOn(found) => self.caption_on(found),
+            Command::SeedOn(found) => self.seed_on(found),
+            Command::AddSeed(pos, value) => {
+                if let Some(open) = self.tissues.open {
+                    self.add_seed(open, pos, value);
+                }
+            }
+            Command::Measure(pos) => self.measure(pos),
+            Command::LookAt(found) => self.look_at(found),
+            Command::LayOn(template, found) => self.lay_on(template, found),
+            Command::Trace(index, found) => self.trace(index, found),
+            Command::Escape => self.escape(),
+            Command::Select(index) => self.select(index),
+            Command::SelectNext(forward) => self.select_next(forward),
+            Command::DeleteSelected => self.delete_selected(),
+            Command::DuplicateSelected => {
+                if let Some(template) = self.selected
+                    && self.apply(&Edit::DuplicateTemplate { template }, false)
+                {
+                    self.selected = Some(template + 1);
+                }
+            }
+            Command::Copy => {
+                self.copy_templates();
+            }
+            Command::Cut => self.cut_templates(),
+            Command::Paste => self.effect(Effect::Paste),
+            Command::Mirror(plane, as_copy) => self.mirror_selected(plane, as_copy),
+            Command::LayOnSurface => self.ask_surface_under_selected(),
+            Command::FollowSurface => self.ask_surface_along_selected(),
+            Command::GroupWithPrevious => self.group_with_previous(),
+            Command::LeaveGroup => self.leave_group(),
+            Command::ToggleSnap => self.is_snapping = !self.is_snapping,
+            Command::Search(text) => self.search = text,
+            Command::StartSearch => {
+                self.are_panels_hidden = false;
+                self.tab = Some(Tab::Add);
+                self.effect(Effect::Focus(Focus::Search));
+            }
+            Command::ToggleSelected => {
+                if let Some(template) = self.selected_template() {
+                    let edit = Edit::SetEnabled {
+                        template: template.index,
+                        enabled: !template.enabled,
+                    };
+                    self.apply(&edit, false);
+                }
+            }
+            Command::ShiftSelected(by) => self.shift_selected(by),
+            Command::NudgeMain(hundredths) => self.nudge_main(hundredths),
+            Command::SetGizmo(mode) => self.gizmo = mode,
+            Command::View(view) => self.glide_to(Camera {
+                rotate: view.rotation(),
+                ..self.camera
+            }),
+            Command::ResetView => self.glide_to(self.home),
+            Command::MoveCamera(camera) => self.move_camera(camera),
+            Command::Orbit(x, y) => {
+                let mut camera = self.camera;
+                camera::orbit(&mut camera, Vec2::new(x, y));
+                self.move_camera(camera);
+            }
+            Command::Zoom(factor) => {
+                let mut camera = self.camera;
+                camera::zoom(&mut camera, factor);
+                self.move_camera(camera);
+            }
+            Command::SetSubject(subject) => {
+                self.apply(&Edit::SetSubject(subject), false);
+                self.load_subject();
+            }
+            Command::Open => self.effect(Effect::OpenFile),
+            Command::New => {
+                self.open_document(Document::new(), 0);
+                self.touch_link(LinkChange::Push);
+            }
+            Command::CopyLink => self.copy_link(),
+            Command::SaveDocument => self.save_document(),
+            Command::SavePicture => self.effect(Effect::SavePicture),
+            Command::CancelLoad => {
+                if let Some(load) = &self.load {
+                    self.effects.push(Effect::CancelLoad(load.ticket));
+                }
+            }
+            Command::AllowHost => {
+                if let Some(load) = &mut self.load
+                    && load.host.take().is_some()
+                {
+                    self.effects.push(Effect::AllowHost(load.ticket));
+                }
+            }
+            Command::Raw(command) => self.run_raw(command),
+            Command::See(see) => self.run_see(see),
+            Command::Tissue(command) => self.run_tissue(command),
+            Command::ToggleKeys => self.is_keys_sheet_open = !self.is_keys_sheet_open,
+            Command::ToggleFrames => self.files.is_open = !self.files.is_open,
+            Command::ToggleMessages => self.is_messages_open = !self.is_messages_open,
+            Command::Notify(gravity, message, details) => self.notify(gravity, message, details),
+            Command::Dismiss(id) => self.notices.dismiss(id),
+            Command::Unfold(id) => self.notices.unfold(id),
+            Command::EditCaption(index) => self.edit_caption(index),
+            Command::ToggleContrast => self.effect(Effect::ToggleContrast),
+            Command::ToggleLettering => {
+                self.is_lettering = !self.is_lettering;
+                let kept = if self.is_lettering { "yes" } else { "no" };
+                self.store(STORED_LETTERING, kept);
+            }
+            Command::NextPanel(forward) => self.next_panel(forward),
+            Command::PutHintAway => self.put_hint_away(),
+            Command::ToggleTheme => self.effect(Effect::ToggleTheme),
+            Command::Speak(lang) => {
+                words::set_lang(lang);
+                self.store(words::STORED_LANGUAGE, lang.tag());
+            }
+            Command::Scale(factor) => self.effect(Effect::Scale(factor)),
+            Command::TogglePanels => {
+                self.are_panels_hidden = !self.are_panels_hidden;
+                self.tab = None;
+            }
+        }
+        self.take_effects()
+    }
+
+    fn walk_step(&mut self, forward: bool) {
+        let step = self.step();
+        let next = if forward {
+            step + 1
+        } else {
+            step.saturating_sub(1)
+        };
+        if self.document().step_count() > 0 {
+            self.go_to_step(next);
+        }
+    }
+
+    fn start_placing(&mut self, kind: TemplateKind) {
+        self.end_tissues();
+        let is_same = self.tool == Tool::Place(kind);
+        self.leave_lesson();
+        self.take_tool(if is_same {
+            Tool::Look
+        } else {
+            Tool::Place(kind)
+        });
+        if self.tab == Some(Tab::Add) {
+            self.tab = None;
+        }
+    }
+
+    fn toggle_captioning(&mut self) {
+        if self.tool == Tool::Caption {
+            self.take_tool(Tool::Look);
+        } else {
+            self.take_tool(Tool::Caption);
+            self.tab = None;
+        }
+    }
+
+    /// Drops what is being done: the topmost thing first.
+    fn escape(&mut self) {
+        if self.is_keys_sheet_open || self.is_messages_open {
+            self.is_keys_sheet_open = false;
+            self.is_messages_open = false;
+        } else if matches!(self.tool, Tool::Measure(Some(_))) {
+            self.take_tool(Tool::Measure(None));
+        } else if self.tool != Tool::Look {
+            self.take_tool(Tool::Look);
+        } else if self.view.expanded.take().is_some() {
+            // All views are back.
+        } else if !self.search.is_empty() {
+            self.search.clear();
+        } else if self.tab.is_some() {
+            self.tab = None;
+        } else if self.are_panels_hidden {
+            self.are_panels_hidden = false;
+        } else {
+            self.selected = None;
+        }
+    }
+
+    fn select(&mut self, index: Option<usize>) {
+        self.selected = index;
+        if self.tool.placing().is_some() {
+            self.take_tool(Tool::Look);
+        }
+        if index.is_some() {
+            self.leave_lesson();
+            self.side_tab = Tab::Templates;
+        }
+    }
+
+    fn select_next(&mut self, forward: bool) {
+        let count = self.template_count();
+        if count == 0 {
+            return;
+        }
+        self.leave_lesson();
+        let step = if forward { 1 } else { count - 1 };
+        self.selected = Some(match self.selected {
+            Some(index) => (index + step) % count,
+            None if forward => 0,
+            None => count - 1,
+        });
+        self.side_tab = Tab::Templates;
+    }
+
+    fn delete_selected(&mut self) {
+        if let Some(template) = self.selected {
+            self.apply(&Edit::RemoveTemplate { template }, false);
+            let count = self.template_count();
+            self.selected = count.checked_sub(1).map(|last| template.min(last));
+        }
+    }
+
+    fn shift_selected(&mut self, by: i8) {
+        let Some(from) = self.selected else {
+            return;
+        };
+        let to = from.saturating_add_signed(isize::from(by));
+        let is_there = to != from && to < self.template_count();
+        // The selection goes with the template.
+        if is_there && self.apply(&Edit::MoveTemplate { from, to }, false) {
+            self.selected = Some(to);
+        }
+    }
+
+    fn nudge_main(&mut self, hundredths: f32) {
+        let Some(template) = self.selected_template() else {
+            return;
+        };
+        let spec = template.kind.spec();
+        let Some(param) = spec.main_param else {
+            return;
+        };
+        let (kind, value) = (&spec.params[param].kind, template.params[param]);
+        let value = match (kind, value) {
+            (
+                ParamKind::Number { min, max, .. } | ParamKind::Count { min, max, .. },
+                ParamValue::Number(value),
+            ) => ParamValue::Number((value + (max - min) * hundredths / 100.0).clamp(*min, *max)),
+            (_, ParamValue::Vector(v)) => {
+                ParamValue::Vector(v + v.normalize_or(Vec3::Z) * hundredths / 100.0)
+            }
+            _ => return,
+        };
+        let edit = Edit::SetParam {
+            template: template.index,
+            param: spec.params[param].name,
+            value,
+        };
+        self.apply(&edit, true);
+    }
+
+    fn undo_or_redo(&mut self, is_undo: bool) {
+        self.history.end_drag();
+        let did = if is_undo {
+            self.history.undo()
+        } else {
+            self.history.redo()
+        };
+        if did {
+            self.document_changed(LinkChange::Push);
+            self.load_subject();
+        }
+    }
+
+    fn run_see(&mut self, see: See) {
+        let view = &mut self.view;
+        match see {
+            See::ToggleSlices => {
+                view.is_split = !view.is_split;
+                view.expanded = None;
+            }
+            See::Expand(pane) => view.expanded = pane,
+            See::ToggleSliceColors => view.has_slice_colors = !view.has_slice_colors,
+            See::Cross(pos) => view.set_cross(pos),
+            See::ReadCross(read) => view.cross_read = read,
+            See::ToggleGhost => view.has_ghost = !view.has_ghost,
+            See::ToggleMeasure => {
+                let is_on = self.tool.is_measuring();
+                self.take_tool(if is_on {
+                    Tool::Look
+                } else {
+                    Tool::Measure(None)
+                });
+            }
+            See::RemoveMeasure(index) => view.measures.remove(index),
+        }
+    }
+
+    fn run_tissue(&mut self, command: TissueCommand) {
+        self.revision += 1;
+        let is_seeding = matches!(self.tool, Tool::Seed(_));
+        match command {
+            TissueCommand::Open(index) => {
+                self.tissues.open = index;
+                if is_seeding {
+                    self.take_tool(Tool::Look);
+                }
+            }
+            TissueCommand::Alone(name) => self.tissues.alone = name,
+            TissueCommand::Look(name) => self.tissues.look = name,
+            TissueCommand::Seed(true) => {
+                if let Some(open) = self.tissues.open {
+                    self.take_tool(Tool::Seed(open));
+                }
+            }
+            TissueCommand::Seed(false) if is_seeding => self.take_tool(Tool::Look),
+            TissueCommand::Seed(false) => {}
+        }
+    }
+
+    /// Turns to the next panel, or the one before, and gives it the keyboard.
+    fn next_panel(&mut self, forward: bool) {
+        const PANELS: [Tab; 5] = [Tab::Add, Tab::Templates, Tab::Tissues, Tab::Look, Tab::Text];
+        // The catalogue has a place of its own where there is room.
+        let panels = &PANELS[usize::from(!self.are_drawers)..];
+        let current = if self.are_drawers {
+            self.tab
+        } else {
+            Some(self.side_tab)
+        };
+        let at = panels.iter().position(|tab| Some(*tab) == current);
+        let count = panels.len();
+        let next = match (at, forward) {
+            (Some(at), true) => (at + 1) % count,
+            (Some(at), false) => (at + count - 1) % count,
+            (None, true) => 0,
+            (None, false) => count - 1,
+        };
+        self.are_panels_hidden = false;
+        self.side_tab = panels[next];
+        self.tab = self.are_drawers.then_some(panels[next]);
+        self.effect(Effect::Focus(Focus::Panel));
+    }
+
+    /// The first hint was read or followed to its end: it does not come again.
+    pub(super) fn put_hint_away(&mut self) {
+        if std::mem::take(&mut self.has_hint) {
+            self.store(STORED_HINT, "seen");
+        }
+    }
+}

@@ -1,0 +1,478 @@
+//! The state of the viewer: the document and its history, the tool, the camera, the load under way, the messages.
+//! Other files of this room add what can be done with it.
+
+use super::camera;
+use super::clipboard::Clipboard;
+use super::command::GizmoMode;
+use super::effect::{Effect, LinkChange};
+use super::files::{FileChoice, RawDraft};
+use super::mode::Mode;
+use super::notices::{Gravity, Notices};
+use super::ticket::Ticket;
+use super::tissues::Tissues;
+use super::tool::Tool;
+use super::tracing::Tracing;
+use super::view::ViewState;
+use crate::assets::Want;
+use crate::data::Volume;
+use crate::document::{
+    Camera, Document, Edit, History, Illustration, PlacedTemplate, Reading, SubjectRef,
+};
+use crate::link;
+
+/// The key under which the last document is kept for the next start.
+pub const STORED_DOCUMENT: &str = "document";
+
+/// Seconds in which the camera glides to a standard view.
+const GLIDE_SECONDS: f64 = 0.3;
+
+/// What a load brings.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LoadOf {
+    /// The document's subject.
+    Subject,
+    /// A file that the user opened. It becomes the document's subject.
+    File,
+    /// A file that takes the place of the document's subject, whichever that is.
+    Instead,
+    /// A label volume that the document names.
+    Segments(Want),
+}
+
+/// A load under way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Load {
+    /// Its name.
+    pub ticket: Ticket,
+    /// How much of it is done, 0 to 1.
+    pub fraction: f32,
+    /// What is being done: `Reading`.
+    pub what: String,
+    /// What it brings.
+    pub of: LoadOf,
+    /// The host that it wants to fetch from, while it waits for leave.
+    pub host: Option<String>,
+    /// How the file is read.
+    pub reading: Reading,
+    /// Volumes in the file, once that is known.
+    pub frame_count: u64,
+}
+
+impl Load {
+    /// A load that has just begun.
+    pub fn new(ticket: Ticket, what: &str, of: LoadOf) -> Self {
+        Self {
+            ticket,
+            fraction: 0.0,
+            what: what.to_owned(),
+            of,
+            host: None,
+            reading: Reading::default(),
+            frame_count: 1,
+        }
+    }
+
+    /// The subject becomes the document's when the load is done.
+    pub fn is_file(&self) -> bool {
+        matches!(self.of, LoadOf::File | LoadOf::Instead)
+    }
+}
+
+/// The camera on its way to a standard view or to a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Glide {
+    /// Where it began.
+    pub from: Camera,
+    /// Where it ends.
+    pub to: Camera,
+    /// When it began, seconds on the clock of the interface.
+    pub since: f64,
+}
+
+/// A panel that is open, beside the picture or as a drawer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tab {
+    /// The catalogue.
+    Add,
+    /// The list of templates and the selected one.
+    Templates,
+    /// Segments, and the recipes of those made here.
+    Tissues,
+    /// Colours and background.
+    Look,
+    /// Title, text, credit, captions.
+    Text,
+}
+
+/// The state of one viewer.
+pub struct Session {
+    /// The document and its undo.
+    pub history: History,
+    /// Where one looks from; joins the document when a link or a file is made, so that undo leaves it alone.
+    pub camera: Camera,
+    /// The camera that the document came with.
+    pub home: Camera,
+    pub(super) glide: Option<Glide>,
+    pub(super) mode: Mode,
+    pub(super) tool: Tool,
+    /// Index in the document's `templates` of the selected one.
+    pub selected: Option<usize>,
+    /// What the handles in the picture do.
+    pub gizmo: GizmoMode,
+    /// Every message.
+    pub notices: Notices,
+    /// The load under way.
+    pub load: Option<Load>,
+    /// Number of the message of the last load that failed, until one is done.
+    pub(super) load_failure: Option<u64>,
+    /// What the subject's file leaves to choose.
+    pub files: FileChoice,
+    /// The subject that was loaded, or is on its way.
+    pub(super) requested: Option<SubjectRef>,
+    /// Rises with every document that is opened.
+    pub opened: u64,
+    /// The document was kept from the last time; nobody asked for it now.
+    pub is_restored: bool,
+    /// The drawer that is open, where there is no room for panels.
+    pub tab: Option<Tab>,
+    /// The panel beside the picture, where there is room.
+    pub side_tab: Tab,
+    /// There is room for drawers only.
+    pub are_drawers: bool,
+    /// The picture is shown alone.
+    pub are_panels_hidden: bool,
+    /// The sheet of keys is open.
+    pub is_keys_sheet_open: bool,
+    /// The list of all messages is open.
+    pub is_messages_open: bool,
+    /// The link of the document with the present camera, without the step.
+    pub payload: String,
+    /// Since when the document or the camera is newer than the link.
+    pub(super) link_stale_since: Option<f64>,
+    /// How the address bar takes the link when it is renewed.
+    pub(super) link_change: LinkChange,
+    /// When the link was last copied, for the button's answer.
+    pub copied_at: Option<f64>,
+    /// The first hint is shown.
+    pub has_hint: bool,
+    /// Title and credit are written into saved pictures.
+    pub is_lettering: bool,
+    /// Handles go in steps.
+    pub is_snapping: bool,
+    /// A template of a group moves without the others, while the key for it is held.
+    pub is_alone: bool,
+    /// The text that the catalogue is searched for.
+    pub search: String,
+    pub(super) clipboard: Clipboard,
+    /// The surface along a template, as far as it has been found.
+    pub(super) tracing: Option<Tracing>,
+    /// Seconds on the clock of the interface.
+    pub now: f64,
+    /// Rises with every change of what is shown.
+    pub revision: u64,
+    /// How one looks besides the camera.
+    pub view: ViewState,
+    /// What of the tissues is edited or shown.
+    pub tissues: Tissues,
+    /// What is to be done outside, in order.
+    pub(super) effects: Vec<Effect>,
+}
+
+impl Session {
+    /// Of a document that was just opened.
+    pub fn new(document: Document) -> Self {
+        let camera = document.illustration().camera;
+        let payload = payload_of(&document, &camera);
+        Self {
+            history: History::new(document),
+            camera,
+            home: camera,
+            glide: None,
+            mode: Mode::default(),
+            tool: Tool::default(),
+            selected: None,
+            gizmo: GizmoMode::Move,
+            notices: Notices::default(),
+            load: None,
+            load_failure: None,
+            files: FileChoice::default(),
+            requested: None,
+            opened: 0,
+            is_restored: false,
+            tab: None,
+            side_tab: Tab::Templates,
+            are_drawers: false,
+            are_panels_hidden: false,
+            is_keys_sheet_open: false,
+            is_messages_open: false,
+            payload,
+            link_stale_since: None,
+            link_change: LinkChange::Replace,
+            copied_at: None,
+            has_hint: false,
+            is_lettering: false,
+            is_snapping: false,
+            is_alone: false,
+            search: String::new(),
+            clipboard: Clipboard::default(),
+            tracing: None,
+            now: 0.0,
+            revision: 0,
+            view: ViewState::default(),
+            tissues: Tissues::default(),
+            effects: Vec::new(),
+        }
+    }
+
+    /// The document as it stands, with the camera it was opened with.
+    pub fn document(&self) -> &Document {
+        self.history.document()
+    }
+
+    /// The illustration that the document describes, with the camera it was opened with.
+    pub fn illustration(&self) -> &Illustration {
+        self.document().illustration()
+    }
+
+    /// The document with the present camera: what a link, a file and the picture show.
+    ///
+    /// At a step it is the author's camera: the one that the step turned would be step 0's.
+    pub fn document_as_seen(&self) -> Document {
+        match self.step() {
+            0 => with_camera(self.document(), &self.camera),
+            _ => self.document().clone(),
+        }
+    }
+
+    /// What the picture shows: the document, or the state of its lesson.
+    pub fn shown(&self) -> &Illustration {
+        self.mode.shown(self.history.document())
+    }
+
+    /// What the picture shows, with the present camera.
+    pub fn shown_as_seen(&self) -> Illustration {
+        Illustration {
+            camera: self.camera,
+            ..self.shown().clone()
+        }
+    }
+
+    /// The step that is shown; 0 is the document as it stands.
+    pub fn step(&self) -> usize {
+        self.mode.step()
+    }
+
+    /// The selected template, if it is of a kind that can be drawn.
+    pub fn selected_template(&self) -> Option<&PlacedTemplate> {
+        self.template(self.selected?)
+    }
+
+    /// The template of this index in the document, if it is of a kind that can be drawn.
+    pub fn template(&self, index: usize) -> Option<&PlacedTemplate> {
+        let mut templates = self.illustration().templates.iter();
+        templates.find(|template| template.index == index)
+    }
+
+    /// Entries of the document's `templates`, unknown kinds included.
+    pub fn template_count(&self) -> usize {
+        self.document()
+            .get("/templates")
+            .and_then(|list| list.as_array())
+            .map_or(0, Vec::len)
+    }
+
+    /// The question how bare voxels lie, while its load waits for the answer.
+    pub fn raw_draft(&self) -> Option<&RawDraft> {
+        let load = self.load.as_ref()?;
+        let draft = self.files.raw.as_ref()?;
+        (draft.ticket == load.ticket).then_some(draft)
+    }
+
+    // ------------------------------------------------------------------------------------------------ effects
+
+    /// What is to be done outside since the last call, in order.
+    pub fn take_effects(&mut self) -> Vec<Effect> {
+        std::mem::take(&mut self.effects)
+    }
+
+    pub(super) fn effect(&mut self, effect: Effect) {
+        self.effects.push(effect);
+    }
+
+    pub(super) fn store(&mut self, key: &'static str, value: impl Into<String>) {
+        self.effect(Effect::Store(key, value.into()));
+    }
+
+    // ------------------------------------------------------------------------------------------------ messages
+
+    /// Shows one line over the picture; errors stay until they are put away.
+    pub fn notify(
+        &mut self,
+        gravity: Gravity,
+        message: impl Into<String>,
+        details: impl Into<String>,
+    ) {
+        self.notices
+            .add(self.now, gravity, message.into(), details.into());
+    }
+
+    // ------------------------------------------------------------------------------------------------ the tool
+
+    /// The active tool.
+    pub fn tool(&self) -> Tool {
+        self.tool
+    }
+
+    /// Takes a tool in hand, in place of the one before. A tool that changes the document ends the lesson.
+    pub fn take_tool(&mut self, tool: Tool) {
+        self.tool = tool;
+        if tool.is_for_authors() {
+            self.leave_lesson();
+        }
+    }
+
+    /// Other things are done than with tissues: everything is shown, and clicks add no more seeds.
+    pub fn end_tissues(&mut self) {
+        if matches!(self.tool, Tool::Seed(_)) {
+            self.tool = Tool::Look;
+        }
+        if self.tissues.alone.take().is_some() {
+            self.revision += 1;
+        }
+    }
+
+    // ------------------------------------------------------------------------------------------------ the lesson
+
+    /// Goes to a step. Nothing is selected there, and no tool of authors is active, for a step is looked at.
+    pub(super) fn go_to_step(&mut self, step: usize) {
+        self.glide = None;
+        self.selected = None;
+        if self.tool.is_for_authors() {
+            self.tool = Tool::Look;
+        }
+        let document = self.history.document();
+        if let Some(camera) = self.mode.go(document, step, self.now, self.camera) {
+            self.camera = camera;
+        }
+        self.revision += 1;
+        self.touch_link(LinkChange::Push);
+    }
+
+    /// Back from the lesson to the document as it stands, which is what is edited.
+    pub(super) fn leave_lesson(&mut self) {
+        if matches!(self.mode, Mode::Lesson(_)) {
+            self.mode = Mode::Author;
+            self.revision += 1;
+            self.touch_link(LinkChange::Replace);
+        }
+    }
+
+    // ------------------------------------------------------------------------------------------------ the camera
+
+    /// The camera was moved by hand: a glide under way ends, the link is renewed when the camera rests.
+    pub(super) fn move_camera(&mut self, camera: Camera) {
+        self.camera = camera;
+        self.glide = None;
+        self.touch_link(LinkChange::Replace);
+    }
+
+    pub(super) fn glide_to(&mut self, to: Camera) {
+        self.glide = Some(Glide {
+            from: self.camera,
+            to,
+            since: self.now,
+        });
+        self.touch_link(LinkChange::Replace);
+    }
+
+    /// Puts the camera where its glide has come to. True while the glide goes on.
+    pub(super) fn advance_glide(&mut self) -> bool {
+        let Some(glide) = self.glide else {
+            return false;
+        };
+        let t = ((self.now - glide.since) / GLIDE_SECONDS).clamp(0.0, 1.0) as f32;
+        self.camera = camera::between(&glide.from, &glide.to, t);
+        if t >= 1.0 {
+            self.camera = glide.to;
+            self.glide = None;
+        }
+        true
+    }
+
+    // ------------------------------------------------------------------------------------------------ changes
+
+    /// The link is older than what is shown from now on.
+    pub(super) fn touch_link(&mut self, change: LinkChange) {
+        if self.link_stale_since.is_none() {
+            self.link_change = LinkChange::Replace;
+        }
+        if change == LinkChange::Push {
+            self.link_change = LinkChange::Push;
+        }
+        self.link_stale_since = Some(self.now);
+    }
+
+    /// Ends the drag under way, so that the next change is a new step of undo.
+    pub fn end_drag(&mut self) {
+        self.history.end_drag();
+    }
+
+    /// Changes the document, as a part of a drag or as one step of undo. True if the document took the change; else a
+    /// message tells why.
+    pub fn apply(&mut self, edit: &Edit, is_drag: bool) -> bool {
+        let result = if is_drag {
+            self.history.drag(edit)
+        } else {
+            self.history.apply(edit)
+        };
+        match result {
+            Ok(_) => {
+                self.document_changed(if is_drag {
+                    LinkChange::Replace
+                } else {
+                    LinkChange::Push
+                });
+                true
+            }
+            Err(error) => {
+                self.notify(Gravity::Error, error.to_string(), "");
+                false
+            }
+        }
+    }
+
+    pub(super) fn document_changed(&mut self, change: LinkChange) {
+        self.leave_lesson();
+        self.revision += 1;
+        if self
+            .selected
+            .is_some_and(|index| index >= self.template_count())
+        {
+            self.selected = None;
+        }
+        self.touch_link(change);
+    }
+
+    // ------------------------------------------------------------------------------------------------ the subject
+
+    /// Another volume is shown. Distances and the crosshair stay where it fills the same box.
+    pub fn set_subject(&mut self, volume: &Volume) {
+        if !self.view.set_subject(volume) && self.tool.is_measuring() {
+            self.tool = Tool::Measure(None);
+        }
+        self.tissues.voxel_cm3 = volume.grid.spacing_mm().element_product() / 1000.0;
+    }
+}
+
+fn with_camera(document: &Document, camera: &Camera) -> Document {
+    if document.illustration().camera == *camera {
+        return document.clone();
+    }
+    let edit = Edit::SetCamera(*camera);
+    edit.apply(document).unwrap_or_else(|_| document.clone())
+}
+
+/// The link of a document with another camera.
+pub(super) fn payload_of(document: &Document, camera: &Camera) -> String {
+    link::encode(&with_camera(document, camera))
+}

@@ -1,0 +1,46 @@
+//! What a click in the picture does. Exactly one tool is active at a time.
+
+use glam::Vec3;
+
+use crate::document::TemplateKind;
+
+/// The tool in the author's hand.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Tool {
+    /// Clicks select templates; drags turn the object.
+    #[default]
+    Look,
+    /// The next click on the object places a template of this kind.
+    Place(TemplateKind),
+    /// The next click on the object fastens a caption to its tissue.
+    Caption,
+    /// Clicks on the object add seeds to the recipe of this index in `subject.features`.
+    Seed(usize),
+    /// Clicks measure distances. Holds the first point of the distance under way, subject space.
+    Measure(Option<Vec3>),
+}
+
+impl Tool {
+    /// The kind of the template that is being placed.
+    pub fn placing(self) -> Option<TemplateKind> {
+        match self {
+            Self::Place(kind) => Some(kind),
+            _ => None,
+        }
+    }
+
+    /// True if the tool waits for one click, which the middle of the picture can stand in for: placing and captioning.
+    pub fn wants_place(self) -> bool {
+        matches!(self, Self::Place(_) | Self::Caption)
+    }
+
+    /// True while clicks measure.
+    pub fn is_measuring(self) -> bool {
+        matches!(self, Self::Measure(_))
+    }
+
+    /// True if the tool changes the document, so that it cannot be used in a lesson.
+    pub fn is_for_authors(self) -> bool {
+        matches!(self, Self::Place(_) | Self::Caption | Self::Seed(_))
+    }
+}

@@ -1,0 +1,159 @@
+//! How one looks at the object besides the camera: slices next to the picture, the ghost of the untouched object,
+//! distances. None of it belongs to the document, so that none of it is undone.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec3, Vec3};
+
+use super::measures::Measures;
+use crate::data::{Segment, Volume};
+use crate::math::Aabb;
+
+/// A part of the window in which the object is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pane {
+    /// The picture.
+    Picture,
+    /// The slice across z.
+    Axial,
+    /// The slice across y.
+    Coronal,
+    /// The slice across x.
+    Sagittal,
+}
+
+impl Pane {
+    /// In the order of the panes: by rows, from the left.
+    pub const ALL: [Self; 4] = [Self::Axial, Self::Picture, Self::Coronal, Self::Sagittal];
+}
+
+/// Changes how one looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum See {
+    /// Slices beside the picture, or the picture alone.
+    ToggleSlices,
+    /// One pane alone, or with none all four.
+    Expand(Option<Pane>),
+    /// Grey or the look's colours in slices.
+    ToggleSliceColors,
+    /// Puts the crosshair to a point, subject space.
+    Cross(Vec3),
+    /// The untouched object faintly over the deformed one.
+    ToggleGhost,
+    /// Clicks measure distances, or not.
+    ToggleMeasure,
+    /// Tells what the crosshair lies on: where that is at rest, and its value; nothing where it lies outside.
+    ReadCross(Option<(Vec3, f32)>),
+    /// Drops one distance by its place in the list.
+    RemoveMeasure(usize),
+}
+
+/// What panels want to know of the volume that is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SubjectFacts {
+    /// Millimetres in one subject unit.
+    pub mm_per_unit: f32,
+    /// Where the middle of its box lies in the scanner's space, mm.
+    pub middle_mm: DVec3,
+    /// Box of the untouched subject, subject space.
+    pub bounds: Aabb,
+    /// Smallest spacing of its voxels, subject units.
+    pub voxel: f32,
+    /// Names of its segments by label.
+    pub segments: BTreeMap<u16, String>,
+}
+
+impl SubjectFacts {
+    fn new(volume: &Volume) -> Self {
+        let frame = volume.grid.frame();
+        let segments = volume.segmentation.as_ref();
+        Self {
+            mm_per_unit: frame.mm_per_unit as f32,
+            middle_mm: frame.middle_mm,
+            bounds: frame.bounds,
+            voxel: frame.detail,
+            segments: segments.map_or_else(BTreeMap::new, |labels| names_of(&labels.segments)),
+        }
+    }
+
+    /// The scanner's space, mm, from a point of the subject.
+    pub fn world_from_subject(&self, pos: Vec3) -> Vec3 {
+        (self.middle_mm + pos.as_dvec3() * f64::from(self.mm_per_unit)).as_vec3()
+    }
+}
+
+/// What a label means; where segments overlap, all of them.
+fn names_of(segments: &[Segment]) -> BTreeMap<u16, String> {
+    let mut names: BTreeMap<u16, String> = BTreeMap::new();
+    for segment in segments {
+        let name = names.entry(segment.label).or_default();
+        if !name.is_empty() {
+            name.push_str(" + ");
+        }
+        name.push_str(&segment.name);
+    }
+    names
+}
+
+/// How one looks, beside the camera.
+#[derive(Debug, Default)]
+pub struct ViewState {
+    /// Slices are shown beside the picture.
+    pub is_split: bool,
+    /// The pane that is shown alone.
+    pub expanded: Option<Pane>,
+    /// Slices are in the look's colours.
+    pub has_slice_colors: bool,
+    /// Where the slices cross, subject space.
+    pub cross: Vec3,
+    /// The volume that is shown.
+    pub subject: Option<SubjectFacts>,
+    /// What the crosshair lies on: where that was at rest, and its value.
+    pub cross_read: Option<(Vec3, f32)>,
+    /// The untouched object is seen over the deformed one.
+    pub has_ghost: bool,
+    /// Distances in the picture.
+    pub measures: Measures,
+    /// Rises with every volume.
+    pub subject_revision: u64,
+}
+
+impl ViewState {
+    /// Takes the facts of another volume. Distances and the crosshair stay where it fills the same box; true if it
+    /// does.
+    pub fn set_subject(&mut self, volume: &Volume) -> bool {
+        let facts = SubjectFacts::new(volume);
+        let is_same_place = self
+            .subject
+            .as_ref()
+            .is_some_and(|old| old.mm_per_unit == facts.mm_per_unit && old.bounds == facts.bounds);
+        if !is_same_place {
+            self.cross = facts.bounds.center();
+            self.measures.clear();
+        }
+        self.subject = Some(facts);
+        self.subject_revision += 1;
+        is_same_place
+    }
+
+    /// The volume has other segments now.
+    pub fn set_segments(&mut self, segments: &[Segment]) {
+        let Some(facts) = &mut self.subject else {
+            return;
+        };
+        facts.segments = names_of(segments);
+        self.subject_revision += 1;
+    }
+
+    /// Puts the crosshair to a point, within reach of the object.
+    pub fn set_cross(&mut self, pos: Vec3) {
+        if pos.is_finite() {
+            self.cross = pos.clamp(Vec3::splat(-1.5), Vec3::splat(1.5));
+        }
+    }
+
+    /// Millimetres in one subject unit, once a volume is there.
+    pub fn mm_per_unit(&self) -> Option<f32> {
+        self.subject.as_ref().map(|subject| subject.mm_per_unit)
+    }
+}

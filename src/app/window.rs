@@ -1,0 +1,812 @@
+//! The window: input becomes commands, commands change the session, and what they ask for is done.
+
+use std::time::Duration;
+
+use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, Vec2, vec2};
+
+use crate::app::canvas::panes::{self, Places};
+use crate::app::canvas::slices::Slices;
+use crate::app::canvas::viewport::{self, Viewport};
+use crate::app::canvas::{hint, lettering, steps, title};
+use crate::app::kit::icon::Icon;
+use crate::app::kit::theme::{self, Palette};
+use crate::app::kit::{slow_click, widget};
+use crate::app::panel::{
+    catalogue, frames, keys, look, notice, raw, shortcuts, templates, text, tissue, topbar,
+    transfer,
+};
+use crate::app::picture::catalogue_icons::CatalogueIcons;
+use crate::app::picture::host::Picture;
+use crate::app::services::Services;
+use crate::app::session::{
+    Command, Effect, Focus, Gravity, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING, SaveFile,
+    Session, Tab, Ticket,
+};
+use crate::app::tissue_work;
+use crate::app::words::{self, Lang};
+use crate::assets::{Assets, SegmentationsExpected, Want};
+use crate::data::{Resources, Statistics, VolumeBuilder};
+use crate::document::{Document, SegmentsRef};
+use crate::load::LabelFile;
+use crate::render::{Clock, encode_png};
+
+/// Width in points below which panels become drawers.
+const NARROW: f32 = 760.0;
+/// Width of the catalogue and of the panel at the right.
+const CATALOGUE_WIDTH: f32 = 218.0;
+const SIDE_WIDTH: f32 = 304.0;
+/// The key under which the theme is kept.
+const STORED_THEME: &str = "theme";
+/// The key under which it is kept whether the contrast is high.
+const STORED_CONTRAST: &str = "contrast";
+
+/// How the app starts.
+pub struct Start {
+    /// The document to open; with none, the one kept from the last time, else an empty one.
+    pub document: Option<Document>,
+    /// A link or JSON; goes before `document`. Where it is broken a message tells so, and an empty document is opened.
+    pub text: Option<String>,
+    /// A load that the shell has already started in place of the document's subject.
+    pub subject: Option<Ticket>,
+    /// Seconds, from any origin; the renderer measures itself with it.
+    pub clock: Clock,
+}
+
+/// The viewer: an [`eframe::App`] for a window and for the page alike.
+pub struct App {
+    pub(crate) session: Session,
+    pub(crate) services: Box<dyn Services>,
+    pub(crate) picture: Option<Picture>,
+    icons: CatalogueIcons,
+    viewport: Viewport,
+    /// A message has told that the device was lost.
+    has_told_loss: bool,
+    /// What commands want done in the window, once the frame is drawn.
+    pending: Vec<Effect>,
+    /// The control that takes the keyboard when it is shown next.
+    focus: Option<Focus>,
+    announced: Announced,
+    /// The next picture asked for is of the size that is shown.
+    wants_shown_size: bool,
+    /// Title and credit are written into the picture that is being made.
+    is_lettering: bool,
+    /// Panels are drawers.
+    is_narrow: bool,
+    /// Fingers point first, so that controls are large in a wide window too.
+    has_fingers: bool,
+    /// The volume that is arriving.
+    pub(crate) incoming: Option<VolumeBuilder>,
+    /// What has come of the files that documents named.
+    pub(crate) assets: Assets,
+    /// The document, by its number, whose addresses `assets` knows.
+    pub(crate) opened: u64,
+    /// Fields that the shell was asked for.
+    pub(crate) fields_asked: Vec<Want>,
+    /// Fields as they are laid over the subject that is shown.
+    pub(crate) resources: Resources,
+    /// Its values, counted as they arrive.
+    pub(crate) statistics: Statistics,
+    /// The plot of the transfer function.
+    pub(crate) transfer: transfer::Editor,
+    /// The slices beside the picture.
+    slices: Slices,
+    /// The segments of the subject in the making.
+    pub(crate) tissue: tissue_work::TissueWork,
+    /// Label volumes of the load under way.
+    pub(crate) incoming_labels: Vec<LabelFile>,
+    /// What the shell was told last of label volumes.
+    pub(crate) labels_expected: SegmentationsExpected,
+    /// That a label volume is missing has been said of this document.
+    pub(crate) has_said_labels: Vec<SegmentsRef>,
+}
+
+/// What has been spoken to a screen reader so far.
+#[derive(Debug, Default)]
+struct Announced {
+    next_notice: u64,
+    step: usize,
+}
+
+impl App {
+    /// In a window that eframe has made. Without a device everything works but the picture.
+    pub fn new(
+        cc: &eframe::CreationContext<'_>,
+        services: Box<dyn Services>,
+        start: Start,
+    ) -> Self {
+        theme::install(&cc.egui_ctx);
+        cc.egui_ctx.add_plugin(slow_click::SlowClicks::default());
+        let has_fingers = services.has_fingers();
+        let contrast = services.stored(STORED_CONTRAST);
+        let is_wanted = contrast.map_or_else(|| services.wants_contrast(), |text| text == "high");
+        theme::set_contrast(&cc.egui_ctx, is_wanted);
+        match services.stored(STORED_THEME).as_deref() {
+            Some("dark") => cc.egui_ctx.set_theme(egui::Theme::Dark),
+            Some("light") => cc.egui_ctx.set_theme(egui::Theme::Light),
+            _ => {}
+        }
+        let kept = services.stored(words::STORED_LANGUAGE);
+        words::set_lang(Lang::best(kept.into_iter().chain(services.languages())));
+        let picture = cc
+            .wgpu_render_state
+            .as_ref()
+            .map(|render_state| Picture::new(render_state, start.clock));
+        let mut session = Session::new(Document::new());
+        session.is_lettering = services.stored(STORED_LETTERING).as_deref() == Some("yes");
+        // Who comes with a document has been here before, or comes to look.
+        let is_first = start.text.is_none()
+            && start.document.is_none()
+            && services.stored(STORED_DOCUMENT).is_none();
+        session.has_hint = is_first && services.stored(STORED_HINT).is_none();
+        match (start.text, start.document) {
+            (Some(text), _) => session.open_text(&text),
+            (None, Some(document)) => session.open_document(document, 0),
+            (None, None) => {
+                // What was kept is a convenience: a broken one is not worth a message.
+                let kept = services
+                    .stored(STORED_DOCUMENT)
+                    .and_then(|text| crate::link::decode(&text).ok());
+                if let Some(link) = kept {
+                    session.open_document(link.document, link.step);
+                    session.is_restored = true;
+                }
+            }
+        }
+        session.load_subject();
+        if let Some(ticket) = start.subject {
+            session.instead_started(ticket);
+        }
+        let mut app = Self {
+            session,
+            services,
+            has_fingers,
+            picture,
+            icons: CatalogueIcons::default(),
+            viewport: Viewport::default(),
+            has_told_loss: false,
+            pending: Vec::new(),
+            focus: None,
+            announced: Announced::default(),
+            wants_shown_size: false,
+            is_lettering: false,
+            is_narrow: false,
+            incoming: None,
+            assets: Assets::default(),
+            opened: 0,
+            fields_asked: Vec::new(),
+            resources: Resources::default(),
+            statistics: Statistics::new(),
+            transfer: transfer::Editor::default(),
+            slices: Slices::default(),
+            tissue: tissue_work::TissueWork::new(start.clock),
+            incoming_labels: Vec::new(),
+            labels_expected: SegmentationsExpected::default(),
+            has_said_labels: Vec::new(),
+        };
+        app.do_outside();
+        app
+    }
+
+    /// The document with the present camera, for whoever embeds the app.
+    pub fn document(&self) -> Document {
+        self.session.document_as_seen()
+    }
+
+    /// The step that is shown; 0 is the document as it stands.
+    pub fn step(&self) -> usize {
+        self.session.step()
+    }
+
+    /// Index of the selected template, if one is.
+    pub fn selected(&self) -> Option<usize> {
+        self.session.selected
+    }
+
+    /// True when the picture is complete, nothing is being loaded and no question to the picture is open.
+    pub fn is_at_rest(&self) -> bool {
+        let is_picture_done = |picture: &Picture| picture.state.is_done && !picture.is_waiting();
+        self.session.load.is_none()
+            && !self.tissue.is_behind(&self.assets, self.session.shown())
+            && !self.wants_segments()
+            && self.pending.is_empty()
+            && !self.viewport.is_waiting()
+            && self.picture.as_ref().is_none_or(is_picture_done)
+    }
+
+    /// True if the graphics device was lost; whoever embeds the app makes a new one with [`App::document`].
+    pub fn is_device_lost(&self) -> bool {
+        let gpu = self.picture.as_ref().map(Picture::gpu);
+        gpu.is_some_and(|gpu| gpu.lost().is_some())
+    }
+
+    /// Asks for the picture as a PNG in the size in which it is shown; it comes by [`Services::save_file`].
+    pub fn ask_for_picture(&mut self) {
+        self.wants_shown_size = true;
+        self.run(Command::SavePicture);
+    }
+
+    /// Runs a command as if a button had been pressed.
+    pub fn run(&mut self, command: Command) {
+        let effects = self.session.run(command, self.session.now);
+        self.perform(effects);
+    }
+
+    // ------------------------------------------------------------------------------------------------ effects
+
+    /// Does what the session wants done since the last time.
+    pub(crate) fn do_outside(&mut self) {
+        let effects = self.session.take_effects();
+        self.perform(effects);
+    }
+
+    /// Does what goes to the surroundings at once; what needs the window waits for the end of the frame.
+    fn perform(&mut self, effects: Vec<Effect>) {
+        let services = self.services.as_mut();
+        for effect in effects {
+            match effect {
+                Effect::LoadSubject(subject) => {
+                    let ticket = services.load(&Want::subject(&subject));
+                    self.session.load_started(ticket);
+                }
+                Effect::CancelLoad(ticket) => services.cancel_load(ticket),
+                Effect::AllowHost(ticket) => services.allow_host(ticket),
+                Effect::AnswerRaw(ticket, voxels) => services.answer_raw(ticket, &voxels),
+                Effect::OpenFile => services.open_file(),
+                Effect::Save(file) => services.save_file(file),
+                Effect::Copy(text) => services.copy_text(text),
+                Effect::CopyLink(tail) => {
+                    let page = services.page_address();
+                    let page = page.split('#').next().unwrap_or_default();
+                    services.copy_text(format!("{page}#{tail}"));
+                }
+                Effect::Paste => services.paste_text(),
+                Effect::SetLink(tail, change) => services.set_link(&tail, change),
+                Effect::Store(key, value) => services.store(key, &value),
+                Effect::Ask(question) => self.viewport.take_question(question),
+                Effect::Focus(focus) => self.focus = Some(focus),
+                Effect::SavePicture
+                | Effect::ToggleTheme
+                | Effect::ToggleContrast
+                | Effect::Scale(_) => self.pending.push(effect),
+            }
+        }
+    }
+
+    /// Does in the window what had to wait for the end of the frame.
+    fn perform_in_window(&mut self, ui: &Ui) {
+        let ctx = ui.ctx();
+        for effect in std::mem::take(&mut self.pending) {
+            match effect {
+                Effect::ToggleTheme => {
+                    let is_dark = ctx.theme() == egui::Theme::Dark;
+                    let (theme, name) = match is_dark {
+                        true => (egui::Theme::Light, "light"),
+                        false => (egui::Theme::Dark, "dark"),
+                    };
+                    ctx.set_theme(theme);
+                    self.services.store(STORED_THEME, name);
+                }
+                Effect::ToggleContrast => {
+                    let is_high = !theme::has_contrast();
+                    theme::set_contrast(ctx, is_high);
+                    let kept = if is_high { "high" } else { "usual" };
+                    self.services.store(STORED_CONTRAST, kept);
+                    ctx.request_repaint();
+                }
+                Effect::Scale(factor) => {
+                    ctx.set_zoom_factor((ctx.zoom_factor() * factor).clamp(0.6, 3.0));
+                }
+                Effect::SavePicture => self.start_picture_file(ui.pixels_per_point()),
+                // The rest is done at once.
+                _ => {}
+            }
+        }
+    }
+
+    fn start_picture_file(&mut self, pixels_per_point: f32) {
+        let Some(picture) = &mut self.picture else {
+            return;
+        };
+        let size = self.viewport.size_px(pixels_per_point);
+        let is_as_shown = std::mem::take(&mut self.wants_shown_size);
+        let size = if is_as_shown { size } else { file_size(size) };
+        picture.start_file(&self.session.shown_as_seen(), size);
+        // What a script asks for is the picture as it is shown.
+        self.is_lettering = self.session.is_lettering && !is_as_shown;
+    }
+
+    // ------------------------------------------------------------------------------------------------ frame
+
+    fn frame(&mut self, ui: &mut Ui) {
+        let now = ui.input(|i| i.time);
+        self.take_messages();
+        self.follow_fields();
+        self.advance_tissue(ui);
+        if self.session.advance(now) {
+            ui.ctx().request_repaint();
+        }
+        for file in viewport::dropped(ui) {
+            self.services.drop_file(file);
+        }
+        if let Some(text) = viewport::pasted(ui) {
+            self.session.open_text(&text);
+        }
+        self.do_outside();
+        self.session.is_alone = ui.input(|i| i.modifiers.shift);
+        let mut commands = Vec::new();
+        self.keys(ui, &mut commands);
+        // Set anew by the panel, if it is shown in this frame.
+        self.transfer.has_keyboard = false;
+
+        self.is_narrow = ui.available_width() < NARROW;
+        self.session.are_drawers = self.is_narrow;
+        theme::set_touch(ui.ctx(), self.is_narrow || self.has_fingers);
+        if self.is_narrow {
+            self.narrow_ui(ui, &mut commands);
+        } else {
+            self.wide_ui(ui, &mut commands);
+        }
+        if self.session.is_keys_sheet_open {
+            keys::ui(ui, &mut commands);
+        }
+        if self.session.is_messages_open {
+            notice::messages_ui(ui, &self.session, &mut commands);
+        }
+
+        frames::ui(ui, &self.session, &mut commands);
+        raw::ui(ui, &self.session, &mut commands);
+
+        // A drag is one step of undo: it ends when nothing is held any more.
+        if !ui.input(|i| i.pointer.any_down())
+            && !ui.ctx().text_edit_focused()
+            && commands.is_empty()
+        {
+            self.session.end_drag();
+        }
+        // The field was there to take it in this frame.
+        self.focus.take_if(|focus| *focus == Focus::Search);
+        let has_commands = !commands.is_empty();
+        let before = self.session.tool();
+        for command in commands {
+            let effects = self.session.run(command, now);
+            self.perform(effects);
+        }
+        let tool = self.session.tool();
+        if tool.wants_place() && tool != before {
+            // The next Enter places it; it does not press the button again that started it.
+            let picture_id = self.picture_id(ui);
+            ui.memory_mut(|memory| {
+                if memory.focused().is_some() {
+                    memory.request_focus(picture_id);
+                }
+            });
+        }
+        if has_commands {
+            ui.ctx().request_repaint();
+        }
+        self.afterwards(ui);
+    }
+
+    /// Identity of the picture as a widget.
+    fn picture_id(&self, ui: &Ui) -> egui::Id {
+        self.viewport
+            .id()
+            .unwrap_or_else(|| ui.scope_id().with("picture"))
+    }
+
+    fn keys(&mut self, ui: &Ui, commands: &mut Vec<Command>) {
+        let mut is_typing = ui.ctx().text_edit_focused() || self.focus == Some(Focus::Search);
+        let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
+        let is_sheet_open = self.session.is_keys_sheet_open
+            || self.session.is_messages_open
+            || self.session.raw_draft().is_some();
+        if !is_typing && !is_sheet_open {
+            ui.input(|i| {
+                commands.extend(i.events.iter().filter_map(|event| match event {
+                    egui::Event::Copy => Some(Command::Copy),
+                    egui::Event::Cut => Some(Command::Cut),
+                    _ => None,
+                }));
+            });
+            // A slow frame may hold the words too: the field is there to take them in this very frame.
+            if ui.input_mut(|i| take_slash(&mut i.events)) {
+                is_typing = true;
+                self.run(Command::StartSearch);
+            }
+        }
+        for shortcut in shortcuts::shortcuts() {
+            if shortcuts::is_of_clipboard(&shortcut.command) {
+                continue;
+            }
+            let key = shortcut.keys.logical_key;
+            let is_plain = !shortcut.keys.modifiers.command;
+            // Letters belong to a text field, arrows to whatever control has the keyboard.
+            if is_plain && (is_typing || (viewport::is_widget_key(key) && !has_arrows)) {
+                continue;
+            }
+            // A point of the transfer function is removed by the same keys as a template.
+            let is_delete = matches!(key, egui::Key::Delete | egui::Key::Backspace);
+            if is_delete && self.transfer.has_keyboard {
+                continue;
+            }
+            // A slice is scrolled by the keys that order templates.
+            if self.slices.has_keyboard && matches!(key, egui::Key::PageUp | egui::Key::PageDown) {
+                continue;
+            }
+            if is_sheet_open && !matches!(shortcut.command, Command::ToggleKeys | Command::Escape) {
+                continue;
+            }
+            let is_placing = self.session.tool().wants_place();
+            if key == egui::Key::Enter && !is_placing {
+                continue;
+            }
+            // A slow frame may hold a key that was pressed several times.
+            let modifiers = shortcut.keys.modifiers;
+            let times = ui.input_mut(|i| i.count_and_consume_key(modifiers, key));
+            commands.extend(std::iter::repeat_n(shortcut.command, times));
+        }
+    }
+
+    /// What happens after everything is shown.
+    fn afterwards(&mut self, ui: &Ui) {
+        self.announce(ui);
+        self.perform_in_window(ui);
+        let ctx = ui.ctx();
+        if let Some(picture) = &mut self.picture {
+            for notice in picture.take_notices() {
+                // What is not there yet may be on its way.
+                let is_early = self.tissue.is_behind(&self.assets, self.session.shown());
+                if !(is_early && notice.starts_with("keep: ")) {
+                    self.session.notify(Gravity::Warning, notice, "");
+                }
+            }
+            let file = picture.poll_file().map(|image| {
+                let mut image = image?;
+                if self.is_lettering {
+                    let places = self.viewport.caption_places();
+                    lettering::letter_with(ctx, &mut image, &self.session.shown_as_seen(), &places);
+                }
+                encode_png(&image)
+            });
+            match file {
+                Some(Ok(bytes)) => {
+                    let name = format!("{}.png", self.session.file_stem());
+                    self.services.save_file(SaveFile {
+                        name,
+                        mime: "image/png",
+                        bytes,
+                    });
+                }
+                Some(Err(error)) => {
+                    self.session.notify(
+                        Gravity::Error,
+                        words::messages::w().picture_failed,
+                        error.to_string(),
+                    );
+                }
+                None => {}
+            }
+            // Icons are drawn when the picture has had its turn, somebody sees them, and no hand is at work: making
+            // a program for the GPU may take longer than a frame.
+            let is_quiet = ui.input(|i| i.events.is_empty() && !i.pointer.any_down());
+            let is_seen = self.session.tab == Some(Tab::Add) || !self.is_narrow;
+            let is_icon_time =
+                is_quiet && is_seen && picture.state.is_done && self.session.load.is_none();
+            if is_icon_time && self.icons.advance(ctx, picture, catalogue::kinds()) {
+                ctx.request_repaint();
+            }
+            if picture.is_waiting() {
+                ctx.request_repaint();
+            }
+            self.look_after_device();
+        }
+        if let Some(seconds) = self.session.seconds_to_next_change() {
+            ctx.request_repaint_after(Duration::from_secs_f64(seconds));
+        }
+    }
+
+    /// Speaks new messages, the step that was reached, and the control that has the keyboard or was changed.
+    fn announce(&mut self, ui: &Ui) {
+        if let Some(text) = widget::spoken(ui) {
+            self.services.announce(&text);
+        }
+        for notice in self.session.notices.all() {
+            if notice.id >= self.announced.next_notice {
+                self.announced.next_notice = notice.id + 1;
+                self.services.announce(&notice.message);
+            }
+        }
+        let step = self.session.step();
+        if step != std::mem::replace(&mut self.announced.step, step)
+            && let Some(text) = steps::spoken(&self.session)
+        {
+            self.services.announce(&text);
+        }
+    }
+
+    /// A message tells once that the device is lost; the shell makes another window for the same document.
+    fn look_after_device(&mut self) {
+        let lost = self
+            .picture
+            .as_ref()
+            .and_then(|picture| picture.gpu().lost());
+        if let Some(reason) = lost.filter(|_| !self.has_told_loss) {
+            self.has_told_loss = true;
+            self.icons.device_lost();
+            self.session
+                .notify(Gravity::Error, words::messages::w().device_lost, reason);
+        }
+    }
+
+    // ------------------------------------------------------------------------------------------------ layout
+
+    fn wide_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        // Everything has a place of its own.
+        self.session.tab = None;
+        let palette = Palette::get(ui);
+        if !self.session.are_panels_hidden {
+            let bar = Frame::new()
+                .fill(palette.panel)
+                .inner_margin(Margin::symmetric(12, 0));
+            Panel::top("top")
+                .exact_size(46.0)
+                .frame(bar)
+                .show(ui, |ui| {
+                    widget::directed(ui, |ui| topbar::ui(ui, &self.session, false, commands));
+                });
+            let side = Frame::new().fill(palette.panel).inner_margin(Margin {
+                left: 12,
+                right: 6,
+                top: 8,
+                bottom: 8,
+            });
+            let (first, last) = if words::is_rtl() {
+                (Panel::right("catalogue"), Panel::left("side"))
+            } else {
+                (Panel::left("catalogue"), Panel::right("side"))
+            };
+            first
+                .exact_size(CATALOGUE_WIDTH)
+                .resizable(false)
+                .frame(side)
+                .show(ui, |ui| {
+                    widget::directed(ui, |ui| widget::heading(ui, words::bar::w().add, |_| {}));
+                    scroll(ui, |ui| {
+                        catalogue::ui(ui, &self.session, &self.icons, self.focus, commands)
+                    });
+                });
+            last.exact_size(SIDE_WIDTH)
+                .resizable(false)
+                .frame(side)
+                .show(ui, |ui| {
+                    ui.horizontal(|ui| {
+                        ui.set_max_width(ui.available_width() - 8.0);
+                        let w = words::bar::w();
+                        let tabs = [
+                            (Tab::Templates, w.templates),
+                            (Tab::Tissues, w.tissues),
+                            (Tab::Look, w.look),
+                            (Tab::Text, w.text),
+                        ];
+                        if self.focus.take_if(|focus| *focus == Focus::Panel).is_some() {
+                            widget::focus_chosen(ui, w.panel);
+                        }
+                        if let Some(tab) =
+                            widget::segmented(ui, w.panel, &tabs, self.session.side_tab)
+                        {
+                            self.session.side_tab = tab;
+                        }
+                    });
+                    ui.add_space(6.0);
+                    let tab = self.session.side_tab;
+                    scroll(ui, |ui| self.tab_ui(ui, tab, commands));
+                });
+        }
+        if self.session.side_tab != Tab::Tissues {
+            self.session.end_tissues();
+        }
+        self.picture_ui(ui, commands);
+    }
+
+    fn narrow_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        let palette = Palette::get(ui);
+        if !self.session.are_panels_hidden {
+            let bar = Frame::new()
+                .fill(palette.panel)
+                .inner_margin(Margin::symmetric(8, 0));
+            Panel::top("top")
+                .exact_size(48.0)
+                .frame(bar)
+                .show(ui, |ui| {
+                    widget::directed(ui, |ui| topbar::ui(ui, &self.session, true, commands));
+                });
+            let tabs = Frame::new()
+                .fill(palette.panel)
+                .inner_margin(Margin::symmetric(4, 2));
+            Panel::bottom("tabs")
+                .exact_size(56.0)
+                .frame(tabs)
+                .show(ui, |ui| {
+                    widget::directed(ui, |ui| self.tabs_ui(ui));
+                });
+            let drawer = Frame::new().fill(palette.panel).inner_margin(Margin {
+                left: 14,
+                right: 8,
+                top: 8,
+                bottom: 8,
+            });
+            if let Some(tab) = self.session.tab {
+                let height = (ui.available_height() * 0.52).clamp(180.0, 420.0);
+                Panel::bottom("drawer")
+                    .exact_size(height)
+                    .resizable(false)
+                    .frame(drawer)
+                    .show(ui, |ui| {
+                        scroll(ui, |ui| match tab {
+                            Tab::Add => {
+                                catalogue::ui(ui, &self.session, &self.icons, self.focus, commands)
+                            }
+                            _ => self.tab_ui(ui, tab, commands),
+                        });
+                    });
+            }
+        }
+        if self.session.tab.is_some_and(|tab| tab != Tab::Tissues) {
+            self.session.end_tissues();
+        }
+        self.picture_ui(ui, commands);
+    }
+
+    /// The picture, the slices beside it, and what floats over both.
+    fn picture_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
+            let session = &self.session;
+            let rect = ui.available_rect_before_wrap();
+            let places = Places::new(rect, &session.view);
+            ui.painter().rect_filled(rect, 0.0, Palette::get(ui).line);
+            let picture = self.picture.as_mut();
+            self.viewport
+                .ui(ui, places.picture, session, picture, commands);
+            places.tabs_ui(ui, &session.view, commands);
+            let picture = self.picture.as_mut();
+            self.slices.ui(ui, &places, session, picture, commands);
+            if places.picture.is_some() {
+                steps::ui(ui, rect, session, commands);
+            }
+            hint::ui(ui, rect, session, commands);
+            notice::ui(ui, rect, session, commands);
+            if session.are_panels_hidden {
+                title::ui(ui, rect, session, commands);
+            }
+            if ui.input(|i| !i.raw.hovered_files.is_empty()) {
+                panes::drop_hint_ui(ui, rect);
+            }
+        });
+    }
+
+    fn tab_ui(&mut self, ui: &mut Ui, tab: Tab, commands: &mut Vec<Command>) {
+        match tab {
+            Tab::Add | Tab::Templates => {
+                let segments = self.picture.as_ref().map_or(&[][..], Picture::segments);
+                templates::ui(ui, &self.session, segments, commands);
+            }
+            Tab::Tissues => {
+                let segments = self.picture.as_ref().map_or(&[][..], Picture::segments);
+                let info = self.picture.as_ref().and_then(Picture::subject_info);
+                tissue::ui(ui, &self.session, segments, info.as_ref(), commands);
+            }
+            Tab::Look => {
+                let info = self.picture.as_ref().and_then(Picture::subject_info);
+                look::ui(
+                    ui,
+                    &self.session,
+                    info.as_ref(),
+                    &mut self.transfer,
+                    commands,
+                );
+            }
+            Tab::Text => text::ui(ui, &self.session, &mut self.focus, commands),
+        }
+    }
+
+    /// The row of drawers at the bottom of a narrow window.
+    fn tabs_ui(&mut self, ui: &mut Ui) {
+        let palette = Palette::get(ui);
+        let w = words::bar::w();
+        let tabs = [
+            (Tab::Add, Icon::Plus, w.add),
+            (Tab::Templates, Icon::Layers, w.templates),
+            (Tab::Tissues, Icon::Tissue, w.tissues),
+            (Tab::Look, Icon::Look, w.look),
+            (Tab::Text, Icon::Text, w.text),
+        ];
+        let size = vec2(
+            ui.available_width() / tabs.len() as f32,
+            ui.available_height(),
+        );
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing = Vec2::ZERO;
+            for (tab, icon, name) in tabs {
+                let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
+                let is_open = self.session.tab == Some(tab);
+                response.widget_info(|| {
+                    egui::WidgetInfo::selected(egui::Role::Button, ui.is_enabled(), is_open, name)
+                });
+                if is_open && self.focus.take_if(|focus| *focus == Focus::Panel).is_some() {
+                    response.request_focus();
+                }
+                let color = if is_open {
+                    palette.accent
+                } else {
+                    palette.weak
+                };
+                let inner = rect.shrink2(vec2(4.0, 3.0));
+                if is_open {
+                    ui.painter().rect_filled(inner, 8.0, palette.accent_wash);
+                }
+                widget::focus_ring(ui, &response, inner);
+                let spot =
+                    egui::Rect::from_center_size(rect.center() - vec2(0.0, 8.0), Vec2::splat(22.0));
+                icon.paint(ui.painter(), spot, color);
+                let at = rect.center() + vec2(0.0, 13.0);
+                ui.painter().text(
+                    at,
+                    egui::Align2::CENTER_CENTER,
+                    name,
+                    egui::FontId::proportional(11.5),
+                    color,
+                );
+                if response.clicked() {
+                    self.session.tab = if is_open { None } else { Some(tab) };
+                }
+            }
+        });
+    }
+}
+
+/// A panel's contents, scrolled when they do not fit, with room for the bar at the right.
+fn scroll(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.set_max_width(ui.available_width() - 8.0);
+        widget::directed(ui, contents);
+        ui.add_space(12.0);
+    });
+}
+
+/// A saved picture has the window's proportions, and at least 2,000 pixels along its longer side.
+fn file_size([width, height]: [u32; 2]) -> [u32; 2] {
+    let longest = width.max(height).max(1) as f32;
+    let factor = (2000.0 / longest).max(1.0);
+    [width, height].map(|side| ((side as f32 * factor).round() as u32).clamp(1, 4096))
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.frame(ui);
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+}
+
+/// Takes the key of the search and what lies before it out of a frame's events, and leaves what was typed after it;
+/// false if that key was not pressed.
+fn take_slash(events: &mut Vec<egui::Event>) -> bool {
+    let is_slash = |event: &egui::Event| match event {
+        egui::Event::Key {
+            key: egui::Key::Slash,
+            pressed,
+            modifiers,
+            ..
+        } => *pressed && !(modifiers.command || modifiers.ctrl || modifiers.alt),
+        _ => false,
+    };
+    let Some(at) = events.iter().position(is_slash) else {
+        return false;
+    };
+    let is_its_text = |event: &egui::Event| matches!(event, egui::Event::Text(text) if text == "/");
+    let own = events[at..].iter().position(is_its_text);
+    events.drain(..=at + own.unwrap_or(0));
+    true
+}

@@ -1,0 +1,40 @@
+//! Messages of the program, loading, questions.
+
+words! {
+    /// Messages that are shown and read aloud.
+    Messages {
+        link_on_clipboard: "The link is on the clipboard", "Der Link ist in der Zwischenablage", "El enlace está en el portapapeles", "链接已在剪贴板中";
+        link_long: "The link has {0} characters, which some programs cut off; a saved document is safer", "Der Link hat {0} Zeichen, was manche Programme kürzen; ein gesichertes Dokument ist sicherer", "El enlace tiene {0} caracteres y algunos programas lo cortan; es más seguro guardar el documento", "链接有 {0} 个字符，有些程序会截断；保存文档更稳妥";
+        clipboard_refused: "The clipboard did not take the link", "Die Zwischenablage hat den Link nicht angenommen", "El portapapeles no aceptó el enlace", "剪贴板未能接受链接";
+        saved: "Saved {0}", "{0} gesichert", "{0} guardado", "已保存 {0}";
+        not_saved: "The file was not saved", "Die Datei wurde nicht gesichert", "El archivo no se guardó", "文件未保存";
+        cannot_be_held: "The scan cannot be held", "Der Scan lässt sich nicht aufnehmen", "El estudio no cabe en memoria", "无法容纳该扫描";
+        loading_stopped: "Loading was stopped", "Das Laden wurde angehalten", "Se detuvo la carga", "已停止载入";
+        does_not_fit: "The scan does not fit on the graphics device", "Der Scan passt nicht auf das Grafikgerät", "El estudio no cabe en el dispositivo gráfico", "图形设备容纳不下该扫描";
+        incomplete: "The scan is incomplete", "Der Scan ist unvollständig", "El estudio está incompleto", "扫描不完整";
+        picture_failed: "The picture could not be made", "Das Bild konnte nicht erzeugt werden", "No se pudo crear la imagen", "无法生成图片";
+        device_lost: "The graphics device was lost. Your work is kept: copy the link, or start again", "Das Grafikgerät ging verloren. Die Arbeit ist erhalten: Link kopieren oder neu starten", "Se perdió el dispositivo gráfico. Su trabajo se conserva: copie el enlace o reinicie", "图形设备已丢失。您的工作已保留：请复制链接，或重新启动";
+        more_notices: "{0} (and {1} more)", "{0} (und {1} weitere)", "{0} (y {1} más)", "{0}（另有 {1} 条）";
+        cannot_be_opened: "This document cannot be opened: {0}", "Dieses Dokument lässt sich nicht öffnen: {0}", "Este documento no se puede abrir: {0}", "无法打开此文档：{0}";
+        step_too_far: "The link opens at step {0}, the last is {1}", "Der Link öffnet bei Schritt {0}, der letzte ist {1}", "El enlace abre en el paso {0}; el último es {1}", "链接要打开第 {0} 步，但最后一步是第 {1} 步";
+        other_file: "This is another file than the one the document was made with; undo brings the first one's name back", "Das ist eine andere Datei als die, mit der das Dokument gemacht wurde; Rückgängig bringt den ersten Namen zurück", "Este no es el archivo con el que se hizo el documento; deshacer recupera el nombre del primero", "这不是制作该文档时所用的文件；撤销可恢复原来的名称";
+        wrong_file: "This is another file than the one that the illustration was made with", "Das ist eine andere Datei als die, mit der die Illustration gemacht wurde", "Este no es el archivo con el que se hizo la ilustración", "这不是制作该图解时所用的文件";
+        other_file_details: "expected {0}\nopened {1}", "erwartet {0}\ngeöffnet {1}", "esperado {0}\nabierto {1}", "应为 {0}\n打开的是 {1}";
+        cannot_draw: "The picture could not be drawn", "Das Bild konnte nicht gezeichnet werden", "No se pudo dibujar la imagen", "无法绘制图像";
+        nothing_to_click: "There is nothing to click on yet", "Es gibt noch nichts anzuklicken", "Todavía no hay nada en que hacer clic", "还没有可点击的内容";
+        point_not_found: "The point could not be found", "Der Punkt wurde nicht gefunden", "No se encontró el punto", "找不到该点";
+        nothing_here: "There is nothing at this place: click on the object", "Hier ist nichts: bitte auf das Objekt klicken", "Aquí no hay nada: haga clic en el objeto", "此处没有内容：请点击对象";
+        field_refused: "The displacement field cannot be used", "Das Verschiebungsfeld ist nicht brauchbar", "El campo de desplazamiento no se puede usar", "无法使用该位移场";
+        less: "Less", "Weniger", "Menos", "收起";
+        details: "Details", "Einzelheiten", "Detalles", "详情";
+        dismiss: "Dismiss", "Ausblenden", "Descartar", "关闭";
+        fetch_it: "This document shows a scan from {0}. Fetch it?", "Dieses Dokument zeigt einen Scan von {0}. Laden?", "Este documento muestra un estudio de {0}. ¿Descargarlo?", "此文档显示来自 {0} 的扫描。要获取吗？";
+        fetch: "Fetch", "Laden", "Descargar", "获取";
+        no: "No", "Nein", "No", "否";
+        cancel_loading: "Cancel loading", "Laden abbrechen", "Cancelar la carga", "取消载入";
+        loading: "Loading", "Laden", "Cargando", "正在载入";
+        messages: "Messages", "Meldungen", "Mensajes", "消息";
+        close_messages: "Close messages", "Meldungen schließen", "Cerrar los mensajes", "关闭消息";
+        nothing_so_far: "Nothing so far.", "Bisher nichts.", "Nada por ahora.", "暂无消息。";
+    }
+}

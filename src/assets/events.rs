@@ -1,0 +1,72 @@
+//! What a load says on its way, from whatever thread or worker it runs in.
+
+use crate::data::{Volume, Voxels};
+use crate::document::RawVoxels;
+use crate::load::LabelFile;
+
+/// Which files hold labels of the subject: files that are opened are taken as its segments where they are among these,
+/// or where they look like labels and a scan is shown.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SegmentationsExpected {
+    /// SHA-256 of files, lower-case hex.
+    pub sha256: Vec<String>,
+    /// A scan from a file is shown.
+    pub has_scan: bool,
+}
+
+/// What happens to a load, in this order; `Begin` to `Coarse` may repeat, each time finer.
+#[derive(Debug)]
+pub enum LoadEvent {
+    /// A volume without its voxels; see `VolumeSink::begin`.
+    Begin(Box<Volume>),
+    /// Scalars that follow the ones before.
+    Scalars(Voxels),
+    /// Labels that follow the ones before.
+    SegmentLabels(Vec<u8>),
+    /// How far it is.
+    Progress {
+        /// 0 to 1.
+        fraction: f32,
+        /// `Reading`, `Generating`.
+        what: String,
+    },
+    /// What has come makes a whole coarse volume: show it. A finer `Begin` follows.
+    Coarse,
+    /// A label volume that was wanted, opened beside the scan, or opened for the one that is shown. It comes before the
+    /// scan's `Begin`.
+    LabelFile(Box<LabelFile>),
+    /// The file holds several volumes, of which the wanted one comes. Told before `Done`.
+    Frames {
+        /// How many.
+        count: u64,
+    },
+    /// The file does not say how its voxels lie. The load waits for the answer.
+    AskRaw(RawQuestion),
+    /// The volume is whole.
+    Done {
+        /// Of the file's bytes, lower-case hex; `None` for a built-in subject.
+        sha256: Option<String>,
+    },
+    /// Something was not as expected but the volume is usable.
+    Notice(String),
+    /// There will be no volume.
+    Failed {
+        /// One line in plain words.
+        message: String,
+        /// More, shown on demand; may be empty.
+        details: String,
+    },
+    /// Stopped by the user.
+    Cancelled,
+}
+
+/// What is known of a file that may hold bare voxels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawQuestion {
+    /// Its length in bytes, if that is known.
+    pub byte_len: Option<u64>,
+    /// It is packed by gzip, so that its length says nothing.
+    pub is_packed: bool,
+    /// A guess from its name and length.
+    pub guess: Option<RawVoxels>,
+}

@@ -1,0 +1,27 @@
+//! Layer 4: what a document needs from outside, and what has come of it. No files, no network and no GPU: the shell
+//! fetches and reads, the app and the renderer use.
+//!
+//! [`Wanted::of`] lists the subject, the label volumes and the displacement fields that an illustration names. Whoever
+//! meets a want hands what came to [`Assets::take`], which refuses a file of another hash. What is drawn comes out
+//! again as [`Resources`](crate::data::Resources). The window, the page and the commands all go this way, so that a
+//! document opens alike in each of them.
+//!
+//! ```
+//! use fabrica::assets::{Role, Wanted};
+//! use fabrica::document::Document;
+//!
+//! let text = r#"{ "fabrica": 1, "subject": { "builtin": "head", "segments": [{ "src": "parts.nii.gz" }] } }"#;
+//! let wanted = Wanted::of(Document::from_json(text)?.illustration()).0;
+//! assert_eq!(wanted[1].role, Role::Segments);
+//! assert_eq!(wanted[1].src(), Some("parts.nii.gz"));
+//! # Ok::<(), fabrica::document::DocumentError>(())
+//! ```
+
+mod events;
+mod naming;
+mod store;
+mod want;
+
+pub use events::{LoadEvent, RawQuestion, SegmentationsExpected};
+pub use store::{Assets, Data, FieldNews};
+pub use want::{OtherFile, Role, Source, Want, Wanted};

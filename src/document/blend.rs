@@ -1,0 +1,124 @@
+//! The way between two states of a document.
+
+use super::model::{
+    Align, Background, Curve, Illustration, ParamKind, ParamValue, PlacedTemplate, TemplateData,
+    Transfer, TransferPoint, Window,
+};
+use crate::math::mix_srgb;
+use glam::Quat;
+
+/// The state between two others: `end`, with its numbers, vectors, colours and rotations `part` (0 to 1) of the way
+/// from `start`.
+pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illustration {
+    let mix = |a: f32, b: f32| a + (b - a) * part;
+    let mut out = end.clone();
+    for template in &mut out.templates {
+        let before = start
+            .templates
+            .iter()
+            .find(|t| t.index == template.index && t.kind == template.kind);
+        if let Some(before) = before {
+            blend_template(before, template, part);
+        }
+    }
+    out.look.background = match (start.look.background, end.look.background) {
+        (Background::Color(a), Background::Color(b)) => Background::Color(mix_srgb(a, b, part)),
+        (_, other) => other,
+    };
+    if let (Window::Range(a), Window::Range(b)) = (start.look.window, end.look.window) {
+        out.look.window = Window::Range([mix(a[0], b[0]), mix(a[1], b[1])]);
+    }
+    out.look.gradient = mix(start.look.gradient, end.look.gradient);
+    for segment in &mut out.look.segments {
+        let mut before = start.look.segments.iter();
+        if let Some(before) = before.find(|before| before.name == segment.name) {
+            segment.opacity = mix(before.opacity, segment.opacity);
+            if let (Some(a), Some(b)) = (before.color_srgb, segment.color_srgb) {
+                segment.color_srgb = Some(mix_srgb(a, b, part));
+            }
+        }
+    }
+    if let (Some(a), Some(b)) = (start.look.tint, end.look.tint) {
+        out.look.tint = Some(mix(a, b));
+    }
+    if let (Transfer::Points(a), Transfer::Points(b)) = (&start.look.transfer, &end.look.transfer)
+        && a.len() == b.len()
+    {
+        let mixed = a.iter().zip(b).map(|(a, b)| TransferPoint {
+            value: mix(a.value, b.value),
+            color_srgb: mix_srgb(a.color_srgb, b.color_srgb, part),
+            opacity: mix(a.opacity, b.opacity),
+        });
+        out.look.transfer = Transfer::Points(mixed.collect());
+    }
+    out.camera.target = start.camera.target.lerp(end.camera.target, part);
+    out.camera.rotate = slerp(start.camera.rotate, end.camera.rotate, part);
+    out.camera.distance = mix(start.camera.distance, end.camera.distance);
+    out.camera.fov_deg = mix(start.camera.fov_deg, end.camera.fov_deg);
+    for (caption, before) in out.captions.iter_mut().zip(&start.captions) {
+        caption.at = before.at.lerp(caption.at, part);
+    }
+    out
+}
+
+fn blend_template(start: &PlacedTemplate, out: &mut PlacedTemplate, part: f32) {
+    let mix = |a: f32, b: f32| a + (b - a) * part;
+    out.placement.at = start.placement.at.lerp(out.placement.at, part);
+    out.placement.rotate = slerp(start.placement.rotate, out.placement.rotate, part);
+    out.placement.size = start.placement.size.lerp(out.placement.size, part);
+    out.amount = mix(start.amount, out.amount);
+    out.curve = Curve::blend(start.curve.as_ref(), out.curve.as_ref(), part);
+    let specs = out.kind.spec().params;
+    for ((value, before), spec) in out.params.iter_mut().zip(&start.params).zip(specs) {
+        *value = match (*before, *value) {
+            (ParamValue::Number(a), ParamValue::Number(b)) => {
+                let mixed = mix(a, b);
+                ParamValue::Number(if matches!(spec.kind, ParamKind::Count { .. }) {
+                    (mixed + 0.5).floor()
+                } else {
+                    mixed
+                })
+            }
+            (ParamValue::Vector(a), ParamValue::Vector(b)) => ParamValue::Vector(a.lerp(b, part)),
+            (ParamValue::Rotation(a), ParamValue::Rotation(b)) => {
+                ParamValue::Rotation(slerp(a, b, part))
+            }
+            (_, other) => other,
+        };
+    }
+    if let (TemplateData::Points(a), TemplateData::Points(b)) = (&start.data, &mut out.data)
+        && a.points.len() == b.points.len()
+    {
+        for (from, to) in a.points.iter().zip(&mut b.points) {
+            to.at = from.at.lerp(to.at, part);
+            to.shift = from.shift.lerp(to.shift, part);
+        }
+    }
+    match (&start.align, &mut out.align) {
+        (
+            Align::Surface {
+                depth: d0,
+                thickness: t0,
+            },
+            Align::Surface { depth, thickness },
+        ) => {
+            *depth = mix(*d0, *depth);
+            *thickness = mix(*t0, *thickness);
+        }
+        (Align::Segment { thickness: t0, .. }, Align::Segment { thickness, .. }) => {
+            *thickness = mix(*t0, *thickness);
+        }
+        _ => {}
+    }
+}
+
+/// The shorter way between two rotations; the ends themselves at 0 and 1.
+fn slerp(a: Quat, b: Quat, part: f32) -> Quat {
+    if part <= 0.0 {
+        a
+    } else if part >= 1.0 {
+        b
+    } else {
+        a.slerp(b, part)
+    }
+}

@@ -1,0 +1,52 @@
+//! The format's number, and how much a document may hold.
+
+/// Number of the document format that this version reads and writes.
+pub const FORMAT: u32 = 1;
+/// Most templates in a document.
+pub const MAX_TEMPLATES: usize = 32;
+/// Most different sets of kept tissue (`align`, `constrain`) in a document.
+pub const MAX_KEEP_SETS: usize = 4;
+/// Most label volumes beside a subject.
+pub const MAX_LABEL_FILES: usize = 8;
+/// Most control points of an `rbf`.
+pub const MAX_POINTS: usize = 64;
+/// Most fields of a document that are drawn.
+pub const MAX_FIELDS: usize = 4;
+/// Most points on the cut of an `rbf`.
+pub const MAX_CUT: usize = 16;
+/// Most points of a template's curve.
+pub const MAX_CURVE: usize = 9;
+/// Most captions in a document.
+pub const MAX_LABELS: usize = 256;
+/// Most steps in a document.
+pub const MAX_STEPS: usize = 100;
+/// Most recipes in a document.
+pub const MAX_RECIPES: usize = 16;
+/// Most steps in the clean-up of one recipe.
+pub const MAX_CLEAN_STEPS: usize = 16;
+/// Most seeds of one recipe.
+pub const MAX_SEEDS: usize = 64;
+/// Longest reach of one step of a clean-up, mm.
+pub const MAX_CLEAN_MM: f32 = 50.0;
+/// Widest smoothing of a clean-up, mm (standard deviation).
+pub const MAX_SMOOTH_MM: f32 = 10.0;
+/// Most bytes of a document's JSON.
+pub const MAX_BYTES: usize = 1 << 20;
+/// Most levels of nested arrays and objects in a document, counting the root.
+pub const MAX_DEPTH: usize = 64;
+/// Most notices that are listed for one document.
+pub(crate) const MAX_NOTICES: usize = 200;
+
+/// The subject of a document that names none.
+pub const DEFAULT_SUBJECT: &str = "head";
+/// The subjects that the program generates, or will generate in a later release.
+pub const BUILTIN_SUBJECTS: [&str; 8] = [
+    "bar",
+    "cube",
+    "tomato",
+    "piggybank",
+    "head",
+    "hand",
+    "torso",
+    "knee",
+];

@@ -1,0 +1,114 @@
+//! The whole illustration: what a document means once its defaults are filled in.
+
+use super::look::{Background, Look, OpacityMode, Transfer, Window};
+use super::recipe::Recipe;
+use super::subject::{SegmentsRef, SubjectRef};
+use super::template::PlacedTemplate;
+use crate::document::limits::DEFAULT_SUBJECT;
+use glam::{Quat, Vec3};
+
+/// What a document means: every default filled in, every value inside its range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Illustration {
+    /// Title, or empty.
+    pub title: String,
+    /// The text under the picture (`caption` in a document), or empty.
+    pub legend: String,
+    /// Credit line, or empty.
+    pub credit: String,
+    /// BCP 47 language of the texts, or empty.
+    pub lang: String,
+    /// What is cut open.
+    pub subject: SubjectRef,
+    /// Revision of a built-in subject that was improved since; `None` is the first.
+    pub subject_revision: Option<u32>,
+    /// Label volumes beside the subject.
+    pub segments: Vec<SegmentsRef>,
+    /// Recipes of segments that are made from the subject's values, besides the segments that come with files.
+    pub recipes: Vec<Recipe>,
+    /// Templates in the order in which they act, switched off ones included. Unknown kinds are left out; a notice names
+    /// each.
+    pub templates: Vec<PlacedTemplate>,
+    /// Colours, opacity, background.
+    pub look: Look,
+    /// The camera.
+    pub camera: Camera,
+    /// Texts that follow the tissue that they are fastened to (`labels` in a document).
+    pub captions: Vec<Caption>,
+    /// Steps of the lesson, without step 0.
+    pub steps: Vec<Step>,
+}
+
+impl Illustration {
+    /// The illustration of an empty document: every default.
+    pub fn document_default() -> Self {
+        Self {
+            title: String::new(),
+            legend: String::new(),
+            credit: String::new(),
+            lang: String::new(),
+            subject: SubjectRef::Builtin {
+                name: DEFAULT_SUBJECT.to_owned(),
+            },
+            subject_revision: None,
+            segments: Vec::new(),
+            recipes: Vec::new(),
+            templates: Vec::new(),
+            look: Look {
+                transfer: Transfer::Auto,
+                window: Window::Auto,
+                tint: None,
+                opacity: OpacityMode::Constancy,
+                gradient: 0.0,
+                segments: Vec::new(),
+                background: Background::Color([255; 3]),
+            },
+            camera: Camera::DOCUMENT_DEFAULT,
+            captions: Vec::new(),
+            steps: Vec::new(),
+        }
+    }
+}
+
+/// A perspective camera that looks at a target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// The point in the middle of the picture, subject space.
+    pub target: Vec3,
+    /// Turns the camera about the target; the identity looks from +y towards -y with +z up.
+    pub rotate: Quat,
+    /// Distance from the target, subject units.
+    pub distance: f32,
+    /// Field of view across the shorter side of the picture, degrees.
+    pub fov_deg: f32,
+}
+
+impl Camera {
+    /// The camera of a document that gives none (contract, "Defaults").
+    pub const DOCUMENT_DEFAULT: Self = Self {
+        target: Vec3::ZERO,
+        rotate: Quat::IDENTITY,
+        distance: 2.5,
+        fov_deg: 30.0,
+    };
+}
+
+/// A text that follows the tissue that it is fastened to (an entry of `labels` in a document).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Caption {
+    /// The point of tissue, rest space.
+    pub at: Vec3,
+    /// The text.
+    pub text: String,
+}
+
+/// One step of a lesson.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Title, or empty.
+    pub title: String,
+    /// The text under the picture (`caption` in a document), or empty.
+    pub legend: String,
+    /// Length of the passage to this step, seconds.
+    pub seconds: f32,
+}

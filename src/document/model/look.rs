@@ -1,0 +1,95 @@
+//! Colours, opacity and background.
+
+/// Colours, opacity and background.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// Opacity and colour over value.
+    pub transfer: Transfer,
+    /// The value range that a preset is stretched over.
+    pub window: Window,
+    /// How much the segments' own colours tint, 0 to 1. `None`: as the preset says, and 0 with listed points.
+    pub tint: Option<f32>,
+    /// How opacity follows compression (dissertation, section 4.5.4).
+    pub opacity: OpacityMode,
+    /// How much opacity follows the gradient of the value (dissertation, section 6.2.5): at 0 not at all, at 1 only
+    /// edges and cut faces show.
+    pub gradient: f32,
+    /// Segments that are drawn as bodies of their own, whatever the transfer function says.
+    pub segments: Vec<SegmentLook>,
+    /// What is behind the object.
+    pub background: Background,
+}
+
+/// How one segment is drawn: as a body of its own, whatever its values are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentLook {
+    /// Its name, or its label number written as text.
+    pub name: String,
+    /// 1 is solid, 0 is hidden; between them the opacity of a layer of [`SegmentLook::LAYER`].
+    pub opacity: f32,
+    /// sRGB bytes; `None`: the segment's own colour.
+    pub color_srgb: Option<[u8; 3]>,
+}
+
+impl SegmentLook {
+    /// Thickness of the layer whose opacity [`SegmentLook::opacity`] gives, subject units.
+    pub const LAYER: f32 = 0.05;
+}
+
+/// The source of opacity and colour.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Transfer {
+    /// The subject's own preset.
+    Auto,
+    /// A named preset, relative to the window.
+    Preset(String),
+    /// Points at absolute values, sorted by value; the window is ignored.
+    Points(Vec<TransferPoint>),
+}
+
+/// One point of a transfer function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TransferPoint {
+    /// Absolute value; in a preset the position in the window, 0 to 1.
+    pub value: f32,
+    /// sRGB bytes.
+    pub color_srgb: [u8; 3],
+    /// Opacity of 0.01 subject units, 0 to 1.
+    pub opacity: f32,
+}
+
+/// The value range that a preset is stretched over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Window {
+    /// The subject's own range.
+    Auto,
+    /// Lowest and highest value.
+    Range([f32; 2]),
+}
+
+/// How opacity follows the deformation (dissertation, eq. 4.23 and 4.30).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OpacityMode {
+    /// Exponent |J v|: a surface keeps its opacity from every side.
+    Constancy,
+    /// Exponent |det J|: particles are conserved.
+    Mass,
+    /// No adjustment.
+    None,
+}
+
+impl OpacityMode {
+    /// All modes; the first is the default.
+    pub(crate) const ALL: [Self; 3] = [Self::Constancy, Self::Mass, Self::None];
+    /// Names in documents, in the order of [`Self::ALL`].
+    pub(crate) const NAMES: [&'static str; 3] = ["constancy", "mass", "none"];
+}
+
+/// What is behind the object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Background {
+    /// Nothing: the picture is transparent there.
+    None,
+    /// One colour, sRGB bytes.
+    Color([u8; 3]),
+}

@@ -1,0 +1,24 @@
+//! Plain types: what a document means. No JSON.
+
+mod curve;
+mod illustration;
+mod look;
+mod preset;
+mod recipe;
+mod subject;
+mod template;
+
+pub use crate::displace::{
+    ControlPoint, ControlPoints, MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateKind,
+    TemplateSpec,
+};
+pub use curve::Curve;
+pub use illustration::{Camera, Caption, Illustration, Step};
+pub use look::{Background, Look, OpacityMode, SegmentLook, Transfer, TransferPoint, Window};
+pub use preset::{PRESETS, Preset, PresetSubject, preset, presets};
+pub use recipe::{CleanStep, Recipe, RecipeSource};
+pub use subject::{RawVoxels, Reading, SegmentsRef, SubjectRef};
+pub use template::{
+    Align, Constrain, ConstrainBy, FieldRef, FieldSamples, PlacedTemplate, SampledField,
+    TemplateData, TemplateMode, keep_set, keep_sets,
+};

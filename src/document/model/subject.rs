@@ -1,0 +1,100 @@
+//! Which file or built-in subject is illustrated, and how its file is read.
+
+/// The subject of a document.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SubjectRef {
+    /// A subject that the program generates.
+    Builtin {
+        /// `head`, `bar`, `cube`, …
+        name: String,
+    },
+    /// A file at an address, relative to the document or absolute.
+    Address {
+        /// The address, as written in the document.
+        src: String,
+        /// SHA-256 of its bytes, lower-case hex, if given.
+        sha256: Option<String>,
+        /// The author's name for it, or empty.
+        name: String,
+        /// How the file is read.
+        reading: Reading,
+    },
+    /// A file that the reader supplies; its hash says which.
+    Supplied {
+        /// SHA-256 of its bytes, lower-case hex.
+        sha256: String,
+        /// The author's name for it, or empty.
+        name: String,
+        /// How the file is read.
+        reading: Reading,
+    },
+}
+
+impl SubjectRef {
+    /// How its file is read; `None` for a built-in subject.
+    pub fn reading(&self) -> Option<&Reading> {
+        match self {
+            Self::Builtin { .. } => None,
+            Self::Address { reading, .. } | Self::Supplied { reading, .. } => Some(reading),
+        }
+    }
+
+    /// This subject with another way of reading its file. A built-in subject stays as it is.
+    #[must_use]
+    pub fn with_reading(mut self, new: Reading) -> Self {
+        match &mut self {
+            Self::Builtin { .. } => {}
+            Self::Address { reading, .. } | Self::Supplied { reading, .. } => *reading = new,
+        }
+        self
+    }
+}
+
+/// How a file is read where the file leaves a choice: `frame` and `raw` of a document's `subject`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Which of the volumes in the file, counted from 0: a time point, a component, a layer.
+    pub frame: u64,
+    /// The layout of the voxels in a file that does not describe it.
+    pub raw: Option<RawVoxels>,
+}
+
+/// The layout of a file that holds bare voxels, as its author describes it.
+///
+/// In a document: `{ "size": [128, 128, 256], "type": "int16", "order": "big", "spacing": [1, 1, 1], "skip": 0 }`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RawVoxels {
+    /// Voxels along each axis, x fastest.
+    pub size: [u32; 3],
+    /// Type of a voxel: one of [`RawVoxels::ELEMENTS`].
+    pub element: &'static str,
+    /// True if the high byte comes first.
+    pub big_endian: bool,
+    /// Size of a voxel, mm.
+    pub spacing_mm: [f64; 3],
+    /// Bytes before the first voxel, after unpacking.
+    pub skip_bytes: u64,
+}
+
+impl RawVoxels {
+    /// Types that bare voxels may have; the first is the default.
+    pub const ELEMENTS: [&'static str; 10] = [
+        "uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float32",
+        "float64",
+    ];
+    /// The type of voxels whose document names none.
+    pub const DEFAULT_ELEMENT: &'static str = Self::ELEMENTS[0];
+    /// Names of the byte orders; the first is the default.
+    pub(crate) const ORDERS: [&'static str; 2] = ["little", "big"];
+}
+
+/// A label volume that goes with a subject.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SegmentsRef {
+    /// The address of the file, relative to the document or absolute; without one the document only gives names.
+    pub src: Option<String>,
+    /// SHA-256 of its bytes, lower-case hex, if given.
+    pub sha256: Option<String>,
+    /// Label numbers and the names of their segments, by number.
+    pub names: Vec<(u32, String)>,
+}

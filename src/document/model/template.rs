@@ -1,0 +1,286 @@
+//! A placed template and everything that belongs to it.
+
+use super::curve::Curve;
+use crate::displace::{ControlPoints, ParamValue, TemplateKind};
+use crate::math::{Bent, Placement};
+use glam::{Quat, Vec2, Vec3};
+use std::sync::Arc;
+
+/// A template of the document with its place and parameters, ready to be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedTemplate {
+    /// Index in the document's `templates`, which may also hold kinds that this version does not know.
+    pub index: usize,
+    /// The kind of deformation.
+    pub kind: TemplateKind,
+    /// The author's name for it, or empty.
+    pub name: String,
+    /// Where its cube lies in subject space.
+    pub placement: Placement,
+    /// The line that its top lies along; `None` if it is straight.
+    pub curve: Option<Curve>,
+    /// One value per entry of `kind.spec().params`, in that order.
+    pub params: Vec<ParamValue>,
+    /// How much of the deformation is done, from 0 (none) to 1 (as the parameters say); see [`PlacedTemplate::acting`].
+    pub amount: f32,
+    /// False: the template is left out.
+    pub enabled: bool,
+    /// How it joins the template before it.
+    pub mode: TemplateMode,
+    /// The tissue that it leaves where it is.
+    pub align: Align,
+    /// The tissue towards which its displacement fades, if any.
+    pub constrain: Option<Constrain>,
+    /// Control points or the file of a field, for the kinds that have them.
+    pub data: TemplateData,
+}
+
+impl PlacedTemplate {
+    /// This template with its amount worked into its parameters; the amount is 1 then.
+    ///
+    /// The main parameter is scaled by the amount (at 0 every kind is the identity); a move scales its rotation as
+    /// well. A cut has no main parameter, so its box shrinks: a sphere about its centre, the other shapes towards the
+    /// top of the box. At 0 a cut is switched off.
+    pub fn acting(&self) -> Self {
+        let mut acting = self.clone();
+        if self.amount >= 1.0 {
+            return acting;
+        }
+        let part = self.amount.max(0.0);
+        acting.amount = 1.0;
+        if let Some(main) = self
+            .kind
+            .spec()
+            .main_param
+            .and_then(|i| acting.params.get_mut(i))
+        {
+            *main = match *main {
+                ParamValue::Number(value) => ParamValue::Number(value * part),
+                ParamValue::Vector(value) => ParamValue::Vector(value * part),
+                other => other,
+            };
+        }
+        match self.kind {
+            TemplateKind::Move => {
+                for value in &mut acting.params {
+                    if let ParamValue::Rotation(turn) = value {
+                        *turn = Quat::IDENTITY.slerp(*turn, part);
+                    }
+                }
+            }
+            TemplateKind::Cut => {
+                const SPHERE: u32 = 1;
+                acting.enabled &= part > 0.0;
+                let size = self.placement.size;
+                // A box without a size has no inverse.
+                let part = part.max(1e-3);
+                if self.params.first() == Some(&ParamValue::Choice(SPHERE)) {
+                    acting.placement.size = size * part;
+                    acting.curve = acting
+                        .curve
+                        .map(|curve| curve.in_part(Vec2::splat(part), Vec2::splat(0.5)));
+                } else {
+                    acting.placement.size.z = size.z * part;
+                    acting.curve = acting
+                        .curve
+                        .map(|curve| curve.in_part(Vec2::new(1.0, part), Vec2::ONE));
+                    let down = 0.5 * size.z * (1.0 - part);
+                    acting.placement.at += self.placement.rotate * Vec3::new(0.0, 0.0, down);
+                }
+            }
+            _ => {}
+        }
+        acting
+    }
+
+    /// Value of a number parameter by name; 0 if there is none of that name.
+    pub fn number(&self, name: &str) -> f32 {
+        let found = self.kind.spec().params.iter().position(|p| p.name == name);
+        match found.and_then(|i| self.params.get(i)) {
+            Some(ParamValue::Number(value)) => *value,
+            _ => 0.0,
+        }
+    }
+}
+
+/// How a template joins the one before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TemplateMode {
+    /// Deforms what the templates before it left.
+    Compose,
+    /// Its displacement is added to that of the template before it.
+    Add,
+}
+
+impl TemplateMode {
+    /// All modes; the first is the default.
+    pub(crate) const ALL: [Self; 2] = [Self::Compose, Self::Add];
+    /// Names in documents, in the order of [`Self::ALL`].
+    pub(crate) const NAMES: [&'static str; 2] = ["compose", "add"];
+}
+
+/// A displacement that fades towards kept tissue, so that no other tissue is drawn through it (dissertation, section
+/// 5.7).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Constrain {
+    /// The quantity that fades.
+    pub by: ConstrainBy,
+    /// Segments that stay where they are: names, or label numbers written as text.
+    pub keep: Vec<String>,
+}
+
+/// The quantity of a template that fades towards kept tissue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConstrainBy {
+    /// The length of the displacement (section 5.7.1).
+    Displacement,
+    /// The main parameter, which stands for the template's own coordinate: a twist turns less (section 5.7.2).
+    Coordinate,
+    /// The kept segments move rigidly (least-squares fit to the displacement); nearby tissue blends into that motion
+    /// (section 5.7.2, second part).
+    Rigid,
+}
+
+impl ConstrainBy {
+    /// All ways; the first is the default.
+    pub(crate) const ALL: [Self; 3] = [Self::Displacement, Self::Coordinate, Self::Rigid];
+    /// Names in documents, in the order of [`Self::ALL`].
+    pub(crate) const NAMES: [&'static str; 3] = ["displacement", "coordinate", "rigid"];
+}
+
+/// The tissue that a template leaves where it is (dissertation, section 5.4).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Align {
+    /// None: the template moves everything.
+    Axis,
+    /// Tissue that lies deeper than `depth` under the outer surface.
+    Surface {
+        /// Subject units.
+        depth: f32,
+        /// Width of the blend between moved and kept tissue, subject units.
+        thickness: f32,
+    },
+    /// The named segments.
+    Segment {
+        /// Segment names, or label numbers written as text.
+        keep: Vec<String>,
+        /// Width of the blend between moved and kept tissue, subject units.
+        thickness: f32,
+    },
+}
+
+impl Align {
+    /// Names in documents: axis, surface, segment; the first is the default.
+    pub(crate) const NAMES: [&'static str; 3] = ["axis", "surface", "segment"];
+    /// `depth` of a document that gives none, subject units.
+    pub const DEFAULT_DEPTH: f32 = 0.02;
+    /// `thickness` of a document that gives none, subject units.
+    pub const DEFAULT_THICKNESS: f32 = 0.01;
+}
+
+impl PlacedTemplate {
+    /// The bent space that the template acts in; `None` if it is straight.
+    pub fn bent(&self) -> Option<Bent> {
+        self.curve.as_ref()?.bent(self.placement.size).ok()
+    }
+
+    /// Template space to subject space, along the curve if there is one.
+    pub fn subject_from_template(&self, q: Vec3) -> Vec3 {
+        let straight = self.bent().map_or(q, |bent| bent.bend(q));
+        self.placement.subject_from_template(straight)
+    }
+
+    /// Subject space to template space, along the curve if there is one. Points that the bent space does not reach are
+    /// mapped as if the template were straight.
+    pub fn template_from_subject(&self, pos: Vec3) -> Vec3 {
+        let straight = self.placement.template_from_subject(pos);
+        let own = self.bent().and_then(|bent| bent.unbend(straight));
+        own.unwrap_or(straight)
+    }
+}
+
+/// What a template holds besides its parameters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum TemplateData {
+    /// Nothing: the parameters say all.
+    #[default]
+    None,
+    /// The control points of an `rbf`.
+    Points(ControlPoints),
+    /// The file of a `field`.
+    Field(FieldRef),
+}
+
+/// The file of a `field`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FieldRef {
+    /// The address of the file, relative to the document or absolute; without one the reader supplies the file.
+    pub src: Option<String>,
+    /// SHA-256 of its bytes, lower-case hex, if given.
+    pub sha256: Option<String>,
+    /// The author's name for it, or empty.
+    pub name: String,
+    /// True: the document says where the box lies. False: the file does.
+    pub is_placed: bool,
+    /// The samples of the file. A document never has them: whoever draws puts them in.
+    pub samples: Option<FieldSamples>,
+}
+
+impl FieldRef {
+    /// The key that tells this file from other files: its hash, else its address.
+    pub fn key(&self) -> Option<&str> {
+        self.sha256.as_deref().or(self.src.as_deref())
+    }
+}
+
+/// A displacement field on a grid that fills the box of its template, from outer edge to outer edge. Shared and
+/// immutable.
+#[derive(Clone, Debug)]
+pub struct FieldSamples(pub Arc<SampledField>);
+
+/// The content of [`FieldSamples`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct SampledField {
+    /// Samples along each axis, x fastest.
+    pub dims: [u32; 3],
+    /// Displacement (template space) and continuity as 16-bit floats, four per sample.
+    pub texels: Vec<u16>,
+    /// Least and greatest displacement along each axis, template space.
+    pub shift: [Vec3; 2],
+    /// Where the file says that the box lies, subject space.
+    pub placement: Placement,
+}
+
+impl PartialEq for FieldSamples {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+/// The different sets of segments that templates keep (`align`, `constrain`), each sorted, in the order in which they
+/// first occur. Empty sets keep nothing and are left out.
+pub fn keep_sets(templates: &[PlacedTemplate]) -> Vec<Vec<String>> {
+    let mut sets: Vec<Vec<String>> = Vec::new();
+    for template in templates {
+        let aligned = match &template.align {
+            Align::Segment { keep, .. } => Some(keep),
+            Align::Axis | Align::Surface { .. } => None,
+        };
+        let constrained = template.constrain.as_ref().map(|c| &c.keep);
+        for keep in aligned.into_iter().chain(constrained) {
+            let set = keep_set(keep);
+            if !set.is_empty() && !sets.contains(&set) {
+                sets.push(set);
+            }
+        }
+    }
+    sets
+}
+
+/// The names of one `keep` list, sorted, each once.
+pub fn keep_set(keep: &[String]) -> Vec<String> {
+    let mut set = keep.to_vec();
+    set.sort();
+    set.dedup();
+    set
+}

@@ -1,0 +1,130 @@
+//! From the tree to what it means: every type checked, every default filled in, every value brought into its range.
+
+use super::object::{Object, wrong};
+use super::reader::Reader;
+use crate::document::limits::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS};
+use crate::document::model::{
+    Camera, Caption, Illustration, PlacedTemplate, Step, TemplateKind, keep_sets,
+};
+use crate::document::schema::ROOT;
+use crate::document::text::json::number_text;
+use crate::document::text::{DocumentError, Notice, NoticeKind};
+use serde_json::{Map, Value};
+
+/// Checks a tree and reads what it means.
+///
+/// # Errors
+/// The first fault, by pointer.
+pub(crate) fn resolve(
+    root: &Map<String, Value>,
+) -> Result<(Illustration, Vec<Notice>), DocumentError> {
+    let mut reader = Reader::default();
+    version(root)?;
+    let illustration = reader.illustration(root)?;
+    Ok((illustration, reader.notices))
+}
+
+fn version(root: &Map<String, Value>) -> Result<(), DocumentError> {
+    let found = root.get("fabrica").ok_or(DocumentError::NoVersion)?;
+    let Value::Number(number) = found else {
+        return Err(wrong("/fabrica", "the format's number", found));
+    };
+    match number.as_u64() {
+        Some(version) if version == u64::from(FORMAT) => Ok(()),
+        Some(version) if version > u64::from(FORMAT) => Err(DocumentError::TooNew {
+            found: number_text(number),
+        }),
+        _ if number.as_f64().is_some_and(|n| n > f64::from(FORMAT)) => Err(DocumentError::TooNew {
+            found: number_text(number),
+        }),
+        _ => Err(wrong("/fabrica", "the format's number", found)),
+    }
+}
+
+impl Reader {
+    fn illustration(&mut self, root: &Map<String, Value>) -> Result<Illustration, DocumentError> {
+        let root = Object {
+            pointer: String::new(),
+            map: root,
+            keys: ROOT,
+        };
+        self.unknown_keys(&root);
+        let subject_object = root.child("subject")?;
+        let subject = self.subject(&subject_object)?;
+        let subject_revision = self.revision(&subject_object)?;
+        let segments = self.segments(&subject_object)?;
+        let recipes = self.recipes(&subject_object)?;
+        let mut templates = Vec::new();
+        for (index, object) in root.children("templates")?.enumerate() {
+            templates.extend(self.template(index, &object?)?);
+        }
+        let is_field = |t: &&PlacedTemplate| t.kind == TemplateKind::Field && t.enabled;
+        if let Some(over) = templates.iter().filter(is_field).nth(MAX_FIELDS) {
+            let what = "more than four fields are";
+            self.note(
+                format!("/templates/{}", over.index),
+                NoticeKind::NotDrawn { what },
+            );
+        }
+        let sets = keep_sets(&templates).len();
+        if sets > MAX_KEEP_SETS {
+            return Err(DocumentError::TooMany {
+                pointer: "/templates".to_owned(),
+                what: "different sets of kept tissue",
+                found: sets,
+                limit: MAX_KEEP_SETS,
+            });
+        }
+        let look = self.look(&root.child("look")?)?;
+        let camera = self.camera(&root.child("camera")?)?;
+        let mut captions = Vec::new();
+        for object in root.children("labels")? {
+            let object = object?;
+            self.unknown_keys(&object);
+            captions.push(Caption {
+                at: self.vector(&object, "at")?,
+                text: object.string("text")?,
+            });
+        }
+        let mut steps = Vec::new();
+        for object in root.children("steps")? {
+            steps.push(self.step(&object?)?);
+        }
+        Ok(Illustration {
+            title: root.string("title")?,
+            legend: root.string("caption")?,
+            credit: root.string("credit")?,
+            lang: root.string("lang")?,
+            subject,
+            subject_revision,
+            segments,
+            recipes,
+            templates,
+            look,
+            camera,
+            captions,
+            steps,
+        })
+    }
+
+    fn camera(&mut self, object: &Object<'_>) -> Result<Camera, DocumentError> {
+        self.unknown_keys(object);
+        Ok(Camera {
+            target: self.vector(object, "target")?,
+            rotate: self.rotation(object, "rotate")?,
+            distance: self.number(object, "distance")?,
+            fov_deg: self.number(object, "fov")?,
+        })
+    }
+
+    fn step(&mut self, object: &Object<'_>) -> Result<Step, DocumentError> {
+        self.unknown_keys(object);
+        // Only its shape: the values are checked where the steps are walked.
+        object.child("set")?;
+        Ok(Step {
+            title: object.string("title")?,
+            legend: object.string("caption")?,
+            seconds: self.number(object, "seconds")?,
+        })
+    }
+}

@@ -1,0 +1,13 @@
+//! From the JSON tree to the typed illustration.
+
+mod curve;
+mod data;
+mod illustration;
+mod look;
+mod object;
+mod reader;
+mod recipe;
+mod subject;
+mod template;
+
+pub(super) use illustration::resolve;

@@ -1,0 +1,134 @@
+//! Reading of the subject: which one, from where, and how its file is read.
+
+use super::object::{Object, wrong};
+use super::reader::Reader;
+use crate::document::limits::{BUILTIN_SUBJECTS, DEFAULT_SUBJECT};
+use crate::document::model::{RawVoxels, Reading, SegmentsRef, SubjectRef};
+use crate::document::text::{DocumentError, NoticeKind, shortened};
+use serde_json::Value;
+
+impl Reader {
+    pub(super) fn subject(&mut self, object: &Object<'_>) -> Result<SubjectRef, DocumentError> {
+        self.unknown_keys(object);
+        let builtin = object.text("builtin")?;
+        let src = object.text("src")?;
+        let sha256 = object.hash()?;
+        let name = object.string("name")?;
+        if let Some(builtin) = builtin {
+            if !BUILTIN_SUBJECTS.contains(&builtin) {
+                self.note(
+                    object.at("builtin"),
+                    NoticeKind::UnknownSubject {
+                        found: shortened(builtin, 40),
+                    },
+                );
+            }
+            for key in ["src", "sha256", "frame", "raw"] {
+                if object.map.contains_key(key) {
+                    self.note(
+                        object.at(key),
+                        NoticeKind::LeftAside {
+                            taken: "the built-in subject",
+                        },
+                    );
+                }
+            }
+            return Ok(SubjectRef::Builtin {
+                name: builtin.to_owned(),
+            });
+        }
+        let reading = self.reading(object)?;
+        Ok(match (src, sha256) {
+            (Some(src), sha256) => SubjectRef::Address {
+                src: src.to_owned(),
+                sha256,
+                name,
+                reading,
+            },
+            (None, Some(sha256)) => SubjectRef::Supplied {
+                sha256,
+                name,
+                reading,
+            },
+            (None, None) => SubjectRef::Builtin {
+                name: DEFAULT_SUBJECT.to_owned(),
+            },
+        })
+    }
+
+    /// How a file is read that leaves a choice.
+    fn reading(&mut self, object: &Object<'_>) -> Result<Reading, DocumentError> {
+        let raw = if object.map.contains_key("raw") {
+            let object = object.child("raw")?;
+            Some(self.raw(&object)?)
+        } else {
+            None
+        };
+        Ok(Reading {
+            frame: object.whole("frame")?,
+            raw,
+        })
+    }
+
+    fn raw(&mut self, object: &Object<'_>) -> Result<RawVoxels, DocumentError> {
+        self.unknown_keys(object);
+        let size = self.numbers(object, "size")?.map(|side| side as u32);
+        let element = RawVoxels::ELEMENTS[self.choice(object, "type")?];
+        let big_endian = self.choice(object, "order")? == 1;
+        Ok(RawVoxels {
+            size,
+            element,
+            big_endian,
+            spacing_mm: self.numbers(object, "spacing")?,
+            skip_bytes: object.whole("skip")?,
+        })
+    }
+
+    pub(super) fn revision(&mut self, object: &Object<'_>) -> Result<Option<u32>, DocumentError> {
+        match object.map.get("revision") {
+            None => Ok(None),
+            Some(value) => value
+                .as_u64()
+                .and_then(|revision| u32::try_from(revision).ok())
+                .map(Some)
+                .ok_or_else(|| wrong(&object.at("revision"), "a whole number", value)),
+        }
+    }
+
+    /// One label volume, or a list of them.
+    pub(super) fn segments(
+        &mut self,
+        subject: &Object<'_>,
+    ) -> Result<Vec<SegmentsRef>, DocumentError> {
+        match subject.map.get("segments") {
+            None => Ok(Vec::new()),
+            Some(Value::Array(_)) => subject
+                .children("segments")?
+                .map(|object| self.label_volume(&object?))
+                .collect(),
+            Some(_) => Ok(vec![self.label_volume(&subject.child("segments")?)?]),
+        }
+    }
+
+    fn label_volume(&mut self, object: &Object<'_>) -> Result<SegmentsRef, DocumentError> {
+        self.unknown_keys(object);
+        let names = object.child("names")?;
+        let mut list = Vec::new();
+        for (number, value) in names.map {
+            let name = match value {
+                Value::String(name) => name.clone(),
+                other => return Err(wrong(&names.at(number), "a name", other)),
+            };
+            match number.parse::<u32>() {
+                Ok(label) => list.push((label, name)),
+                Err(_) => self.unknown_value(names.at(number), number, "no label"),
+            }
+        }
+        list.sort();
+        Ok(SegmentsRef {
+            src: object.text("src")?.map(str::to_owned),
+            sha256: object.hash()?,
+            names: list,
+        })
+    }
+}

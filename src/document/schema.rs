@@ -1,0 +1,611 @@
+//! The keys of the document, each described once.
+//!
+//! [`ROOT`] lists the keys of the document itself; a key that holds objects names the list of their keys. Defaults,
+//! ranges, the canonical form, notices about unknown keys, the order of keys in JSON, objects that a JSON pointer makes
+//! on its way, and the reference of the format (`reference.md`) all follow from these lists. Parameters of templates
+//! stand in the catalogue in the same manner ([`ParamSpec`](super::ParamSpec)).
+//!
+//! To add a key: one line here, its field in `model`, and the line that reads it in `read`.
+
+use super::limits::{
+    MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CURVE, MAX_CUT, MAX_LABEL_FILES, MAX_LABELS, MAX_POINTS,
+    MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_TEMPLATES,
+};
+use super::model::{
+    Align, Camera, ConstrainBy, OpacityMode, ParamKind, RawVoxels, TemplateKind, TemplateMode,
+};
+use super::text::{json, pointer};
+use crate::math::{Placement, plain_f64};
+use serde_json::{Value, json};
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
+/// One key of an object of the document.
+#[derive(Debug)]
+pub(crate) struct Key {
+    /// As written in documents.
+    pub(crate) name: &'static str,
+    /// Place among the keys of an object when it is written; [`BY_NAME`] comes last. One name has one place everywhere,
+    /// since unknown objects are ordered by it too.
+    pub(crate) order: u16,
+    /// Type, default and range.
+    pub(crate) kind: Kind,
+    /// When the key is left out in canonical form.
+    pub(crate) left_out: LeftOut,
+    /// True if a pointer to something inside makes the key at its default where it is missing.
+    pub(crate) is_made: bool,
+    /// True if no step may set the key or anything inside it.
+    pub(crate) is_fixed: bool,
+    /// One sentence for the reference. The programs do without these texts.
+    #[cfg(test)]
+    pub(crate) meaning: &'static str,
+}
+
+/// When a key is left out in canonical form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LeftOut {
+    /// At its default.
+    AtDefault,
+    /// At its default, if no other key stands beside it.
+    Alone,
+    /// At its default, except in a `field`: without a placement its file says where the box lies.
+    ExceptField,
+    /// Never: it stays even at its default.
+    Never,
+    /// Never: a missing key means something else than any value.
+    Optional,
+}
+
+/// Type, default and range of a key.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Kind {
+    /// The number of the format.
+    Format,
+    /// A text; the default is empty.
+    Text,
+    /// An address, relative to the document or absolute.
+    Address,
+    /// SHA-256, 64 hexadecimal digits.
+    Hash,
+    /// The name of a built-in subject.
+    Builtin,
+    /// The name of a template's kind.
+    Template,
+    /// One of several names; the first is the default.
+    Name(&'static [&'static str]),
+    /// A colour, `#rgb` or `#rrggbb`.
+    Color,
+    /// A colour or `none`; the default is white.
+    Background,
+    /// `auto` (the default), the name of a preset, or a list of points with these keys.
+    Transfer(&'static [Key]),
+    /// `auto` (the default) or the lowest and the highest value.
+    Window,
+    /// True or false.
+    Flag {
+        /// The value of a missing key.
+        default: bool,
+    },
+    /// A whole number from 0; the default is 0.
+    Whole,
+    /// A number in a closed range.
+    Number {
+        /// The value of a missing key.
+        default: f64,
+        /// Lowest value.
+        min: f64,
+        /// Highest value.
+        max: f64,
+    },
+    /// One number, a lower end, or two, the ends of a range.
+    Range,
+    /// Three numbers, each in a closed range.
+    Vector {
+        /// The value of a missing key.
+        default: [f64; 3],
+        /// Lowest value of each number.
+        min: f64,
+        /// Highest value of each number.
+        max: f64,
+    },
+    /// A unit quaternion x, y, z, w; the default is the identity.
+    Rotation,
+    /// A list of pairs of numbers, each in -10 to 10; more than `most` are not drawn.
+    Pairs {
+        /// Most pairs that are drawn.
+        most: usize,
+    },
+    /// A list of three numbers each; more than `most` are refused.
+    Vectors {
+        /// Most entries.
+        most: usize,
+        /// The entries' name in a message.
+        what: &'static str,
+        /// Greatest absolute value of a number.
+        max: f64,
+    },
+    /// A list of names or numbers of segments.
+    Segments,
+    /// Names of segments, by label number.
+    Labels,
+    /// For each segment an opacity or an object with these keys.
+    Looks(&'static [Key]),
+    /// An object with these keys.
+    Object(&'static [Key]),
+    /// A list of objects with these keys; more than `most` are refused.
+    List {
+        /// Keys of an entry.
+        of: &'static [Key],
+        /// Most entries.
+        most: usize,
+        /// The entries' name in a message.
+        what: &'static str,
+    },
+    /// A list of objects with these keys; more than `most` are not drawn.
+    FirstOf {
+        /// Keys of an entry.
+        of: &'static [Key],
+        /// Most entries that are drawn.
+        most: usize,
+    },
+    /// An object with these keys, or a list of such objects; more than `most` are refused.
+    OneOrMore {
+        /// Keys of an object.
+        of: &'static [Key],
+        /// Most entries.
+        most: usize,
+        /// The entries' name in a message.
+        what: &'static str,
+    },
+    /// The parameters of a template; its kind says which.
+    Params,
+    /// For each JSON pointer a value.
+    Set,
+}
+
+/// The place of keys that are written after all others, by name.
+pub(crate) const BY_NAME: u16 = u16::MAX;
+
+/// Points farther out are clamped: a subject is one unit long, and floats get coarse out there.
+const FAR: f64 = 1e4;
+/// Largest value of a voxel that is told from infinity.
+pub(crate) const MAX_VALUE: f64 = f32::MAX as f64 / 4.0;
+/// Greatest coordinate of control points, cuts and curves, template units.
+pub(crate) const MAX_PAIR: f64 = 10.0;
+
+/// A key that is left out at its default, and made by a pointer to something inside.
+const fn key(order: u16, name: &'static str, kind: Kind, meaning: &'static str) -> Key {
+    _ = meaning;
+    Key {
+        name,
+        order,
+        kind,
+        left_out: LeftOut::AtDefault,
+        is_made: true,
+        is_fixed: false,
+        #[cfg(test)]
+        meaning,
+    }
+}
+
+impl Key {
+    /// This key, written even at its default.
+    const fn stays(mut self) -> Self {
+        self.left_out = LeftOut::Never;
+        self
+    }
+
+    /// This key, whose absence means something else than any value.
+    const fn optional(mut self) -> Self {
+        self.left_out = LeftOut::Optional;
+        self
+    }
+
+    /// This key, left out only where `left_out` says.
+    const fn leaves(mut self, left_out: LeftOut) -> Self {
+        self.left_out = left_out;
+        self
+    }
+
+    /// This key, not made by a pointer to something inside.
+    const fn unmade(mut self) -> Self {
+        self.is_made = false;
+        self
+    }
+
+    /// This key, refused in steps.
+    const fn fixed(mut self) -> Self {
+        self.is_fixed = true;
+        self
+    }
+}
+
+const fn number(default: f64, min: f64, max: f64) -> Kind {
+    Kind::Number { default, min, max }
+}
+
+const fn vector(default: glam::Vec3, min: f64, max: f64) -> Kind {
+    Kind::Vector {
+        default: [default.x as f64, default.y as f64, default.z as f64],
+        min,
+        max,
+    }
+}
+
+const ORIGIN: glam::Vec3 = Placement::DOCUMENT_DEFAULT.at;
+
+/// Keys of a document.
+#[rustfmt::skip]
+pub(crate) const ROOT: &[Key] = &[
+    key(10, "fabrica", Kind::Format, "number of the document format; the one key that a document must have").stays().fixed(),
+    key(20, "title", Kind::Text, "title of the illustration"),
+    key(30, "caption", Kind::Text, "text under the picture"),
+    key(40, "credit", Kind::Text, "credit line"),
+    key(50, "lang", Kind::Text, "language of the texts, a BCP 47 tag such as `en`"),
+    key(60, "subject", Kind::Object(SUBJECT), "what is illustrated").fixed(),
+    key(70, "templates", Kind::List { of: TEMPLATE, most: MAX_TEMPLATES, what: "templates" }, "deformations, in the order in which they act on the subject"),
+    key(80, "look", Kind::Object(LOOK), "colours, opacity and background"),
+    key(90, "camera", Kind::Object(CAMERA), "a perspective camera"),
+    key(100, "labels", Kind::List { of: LABEL, most: MAX_LABELS, what: "labels" }, "texts that follow the tissue that they are fastened to"),
+    key(110, "steps", Kind::List { of: STEP, most: MAX_STEPS, what: "steps" }, "the steps of a lesson; step 0 is the document itself, each further step changes the one before it").fixed(),
+];
+
+/// Keys of `/subject`.
+#[rustfmt::skip]
+pub(crate) const SUBJECT: &[Key] = &[
+    key(210, "builtin", Kind::Builtin, "a subject that the program generates; it goes before `src` and `sha256`").leaves(LeftOut::Alone),
+    key(220, "revision", Kind::Whole, "revision of a built-in subject; without it the first one").optional(),
+    key(230, "src", Kind::Address, "address of a file").optional(),
+    key(240, "sha256", Kind::Hash, "hash of the file's bytes; without `src` the reader supplies the file that has it").optional(),
+    key(250, "name", Kind::Text, "the author's name for the file"),
+    key(270, "frame", Kind::Whole, "which volume of a file that holds several, counted from 0"),
+    key(280, "raw", Kind::Object(RAW), "the layout of the voxels in a file that does not describe it").optional().unmade(),
+    key(290, "segments", Kind::OneOrMore { of: LABELS, most: MAX_LABEL_FILES, what: "label volumes" }, "label volumes beside the subject, or names for its own labels"),
+    key(310, "features", Kind::List { of: FEATURE, most: MAX_RECIPES, what: "features" }, "recipes of segments that are made from the values of the subject"),
+];
+
+/// Keys of `/subject/raw`.
+#[rustfmt::skip]
+pub(crate) const RAW: &[Key] = &[
+    key(340, "size", Kind::Vector { default: [1.0; 3], min: 1.0, max: 65_536.0 }, "voxels along x, y and z; x is fastest").unmade(),
+    key(360, "type", Kind::Name(&RawVoxels::ELEMENTS), "type of a voxel"),
+    key(370, "order", Kind::Name(&RawVoxels::ORDERS), "byte order"),
+    key(380, "spacing", Kind::Vector { default: [1.0; 3], min: 1e-6, max: 1e6 }, "size of a voxel, mm").unmade(),
+    key(390, "skip", Kind::Whole, "bytes before the first voxel"),
+];
+
+/// Keys of a label volume in `/subject/segments`.
+#[rustfmt::skip]
+pub(crate) const LABELS: &[Key] = &[
+    key(230, "src", Kind::Address, "address of the label volume").optional(),
+    key(240, "sha256", Kind::Hash, "hash of its bytes; without `src` the reader supplies the file that has it").optional(),
+    key(300, "names", Kind::Labels, "names of its segments, by label number: `{ \"1\": \"bone\" }`"),
+];
+
+/// Keys of a recipe in `/subject/features`.
+#[rustfmt::skip]
+pub(crate) const FEATURE: &[Key] = &[
+    key(250, "name", Kind::Text, "name of the segment; without it `feature 1` and so on"),
+    key(520, "color", Kind::Color, "colour of the segment; without it one that the program picks").optional(),
+    key(530, "from", Kind::Object(FROM), "the first draft of the segment").stays().unmade(),
+    key(570, "clean", Kind::List { of: CLEAN, most: MAX_CLEAN_STEPS, what: "steps of a clean-up" }, "steps of a clean-up, each an object of one key").unmade(),
+];
+
+/// Keys of a recipe's `from`.
+#[rustfmt::skip]
+pub(crate) const FROM: &[Key] = &[
+    key(540, "threshold", Kind::Range, "all voxels with a value in this range, ends included").optional().unmade(),
+    key(BY_NAME, "grow", Kind::Object(GROW), "the voxels with a value in a range that are connected to a seed; it goes before `threshold`").stays().unmade(),
+];
+
+/// Keys of a recipe's `from.grow`.
+#[rustfmt::skip]
+pub(crate) const GROW: &[Key] = &[
+    key(550, "seeds", Kind::Vectors { most: MAX_SEEDS, what: "seeds", max: FAR }, "points in the undeformed subject").stays().unmade(),
+    key(560, "range", Kind::Range, "the range of values, ends included").stays().unmade(),
+];
+
+/// Keys of a step in a recipe's `clean`: one of them each.
+#[rustfmt::skip]
+pub(crate) const CLEAN: &[Key] = &[
+    key(BY_NAME, "largest", number(1.0, 1.0, 1000.0), "keeps this many of the largest connected parts").stays(),
+    key(BY_NAME, "fill", Kind::Flag { default: false }, "fills enclosed cavities").stays(),
+    key(BY_NAME, "close", number(0.0, 0.0, MAX_CLEAN_MM as f64), "closes gaps up to twice this width, mm").stays(),
+    key(BY_NAME, "smooth", number(0.0, 0.0, MAX_SMOOTH_MM as f64), "smooths the outline by a Gaussian of this standard deviation, mm").stays(),
+    key(BY_NAME, "grow", number(0.0, 0.0, MAX_CLEAN_MM as f64), "adds voxels up to this distance, mm").stays(),
+    key(BY_NAME, "shrink", number(0.0, 0.0, MAX_CLEAN_MM as f64), "removes voxels up to this distance from the outside, mm").stays(),
+];
+
+/// Keys of an entry of `/templates`.
+#[rustfmt::skip]
+pub(crate) const TEMPLATE: &[Key] = &[
+    key(200, "kind", Kind::Template, "kind of the deformation").optional(),
+    key(250, "name", Kind::Text, "the author's name for the template"),
+    key(260, "group", Kind::Text, "templates of one group are selected and moved together; the picture does not depend on it"),
+    key(320, "at", vector(ORIGIN, -FAR, FAR), "centre of the box, subject space").leaves(LeftOut::ExceptField),
+    key(330, "rotate", Kind::Rotation, "rotation of the box").leaves(LeftOut::ExceptField),
+    key(340, "size", vector(Placement::DOCUMENT_DEFAULT.size, 1e-4, FAR), "sides of the box, subject units").leaves(LeftOut::ExceptField),
+    key(350, "curve", Kind::Object(CURVE), "the line that the top of the template lies along (dissertation, section 5.3), from x = 0 at its first point to x = 1 at its last, in proportion to its length. Heights stand on its mitred normals, y stays straight, beyond its ends the line goes straight on, and the template is as long as the line. Where the line bends more sharply than the template is deep, nothing is moved"),
+    key(400, "params", Kind::Params, "parameters; the kind says which (see below)"),
+    key(410, "amount", number(1.0, 0.0, 1.0), "how much of the deformation is done: at 0 nothing, at 1 what the parameters say"),
+    key(420, "enabled", Kind::Flag { default: true }, "false: the template is left out"),
+    key(430, "mode", Kind::Name(&TemplateMode::NAMES), "`compose` deforms what the templates before it left, `add` adds its displacement to that of the template before it"),
+    key(440, "align", Kind::Object(ALIGN), "the tissue that the template leaves where it is (section 5.4)"),
+    key(450, "constrain", Kind::Object(CONSTRAIN), "tissue towards which the displacement fades, so that no other tissue is drawn through it (section 5.7); a missing key constrains nothing").optional(),
+];
+
+/// Keys of a template's `curve`.
+#[rustfmt::skip]
+pub(crate) const CURVE: &[Key] = &[
+    key(BY_NAME, "points", Kind::Pairs { most: MAX_CURVE }, "x and z of the points in template space, at least two; `[[0, 1], [1, 1]]` is the straight box").unmade(),
+    key(BY_NAME, "spline", Kind::Flag { default: true }, "true: a smooth curve through the points (Catmull-Rom, drawn as 16 pieces); false: straight from point to point"),
+];
+
+/// Keys of a template's `align`.
+#[rustfmt::skip]
+pub(crate) const ALIGN: &[Key] = &[
+    key(460, "to", Kind::Name(&Align::NAMES), "`axis` moves everything, `surface` keeps what lies deeper than `depth` under the outer surface, `segment` keeps the segments in `keep`"),
+    key(480, "keep", Kind::Segments, "segments that stay where they are").stays().unmade(),
+    key(490, "depth", number(plain(Align::DEFAULT_DEPTH), 0.0, 10.0), "depth under the outer surface from which on tissue stays, subject units"),
+    key(500, "thickness", number(plain(Align::DEFAULT_THICKNESS), 0.0, 10.0), "width of the blend between moved and kept tissue, subject units"),
+];
+
+/// Keys of a template's `constrain`.
+#[rustfmt::skip]
+pub(crate) const CONSTRAIN: &[Key] = &[
+    key(470, "by", Kind::Name(&ConstrainBy::NAMES), "`displacement`: its length fades (section 5.7.1); `coordinate`: the main parameter fades (section 5.7.2); `rigid`: the segments in `keep` move rigidly, by the least-squares fit to the displacement, and nearby tissue blends into that motion (section 5.7.2)").stays(),
+    key(480, "keep", Kind::Segments, "segments that are not deformed").stays().unmade(),
+];
+
+/// Keys in `params` of an `rbf`, besides its parameters.
+#[rustfmt::skip]
+pub(crate) const RBF: &[Key] = &[
+    key(BY_NAME, "points", Kind::FirstOf { of: POINT, most: MAX_POINTS }, "control points").unmade(),
+    key(BY_NAME, "cut", Kind::Pairs { most: MAX_CUT }, "x and y of a line in template space that divides the box in two; its ends go straight on. Fewer than two points divide nothing").unmade(),
+];
+
+/// Keys of a control point of an `rbf`.
+#[rustfmt::skip]
+pub(crate) const POINT: &[Key] = &[
+    key(320, "at", Kind::Vector { default: [0.5; 3], min: -MAX_PAIR, max: MAX_PAIR }, "position, template space").stays().unmade(),
+    key(BY_NAME, "move", Kind::Vector { default: [0.0; 3], min: -MAX_PAIR, max: MAX_PAIR }, "inverse displacement: what is seen at `at` comes from `at` + `move`, template space").stays().unmade(),
+];
+
+/// Keys in `params` of a `field`, besides its parameters.
+#[rustfmt::skip]
+pub(crate) const FIELD: &[Key] = &[
+    key(230, "src", Kind::Address, "address of the displacement field").optional(),
+    key(240, "sha256", Kind::Hash, "hash of its bytes; without `src` the reader supplies the file that has it").optional(),
+    key(250, "name", Kind::Text, "the author's name for the file"),
+];
+
+/// Keys of `/look`.
+#[rustfmt::skip]
+pub(crate) const LOOK: &[Key] = &[
+    key(580, "transfer", Kind::Transfer(TRANSFER), "opacity and colour over value. A preset is relative to `window`, listed points stand at absolute values; colours mix in linear light"),
+    key(590, "window", Kind::Window, "the value range that a preset is stretched over; `auto` is the preset's own"),
+    key(600, "tint", number(0.0, 0.0, 1.0), "how far segments keep their own colours over the transfer function; without it the preset's own, and 0 with listed points").optional(),
+    key(610, "opacity", Kind::Name(&OpacityMode::NAMES), "how opacity follows the deformation (section 4.5.4): a surface keeps its opacity from every side, particles are conserved, or no correction"),
+    key(620, "gradient", number(0.0, 0.0, 1.0), "how far opacity follows the gradient of the value, with its correction at cuts (section 6.2.5): at 1 even tissue is clear and borders stay"),
+    key(290, "segments", Kind::Looks(BODY), "segments that are drawn as bodies of their own, by name: `{ \"brain\": 1, \"skull\": { \"opacity\": 0.3, \"color\": \"#eadfc4\" } }`. A number is an opacity. Where segments overlap, the one that the subject lists first decides. Opacities and colours ease from step to step").unmade(),
+    key(630, "background", Kind::Background, "behind the object; `none` is transparent"),
+];
+
+/// Keys of a point in `/look/transfer`.
+#[rustfmt::skip]
+pub(crate) const TRANSFER: &[Key] = &[
+    key(510, "value", number(0.0, -MAX_VALUE, MAX_VALUE), "the value that the point stands at").stays(),
+    key(520, "color", Kind::Color, "colour at this value; white if missing").optional(),
+    key(610, "opacity", number(0.0, 0.0, 1.0), "opacity of a layer of 0.01 subject units").stays(),
+];
+
+/// Keys of an entry of `/look/segments`.
+#[rustfmt::skip]
+pub(crate) const BODY: &[Key] = &[
+    key(520, "color", Kind::Color, "colour; without it the segment's own").optional(),
+    key(610, "opacity", number(1.0, 0.0, 1.0), "1 is solid, 0 is hidden; between them the opacity of a layer of 0.05 subject units").stays(),
+];
+
+/// Keys of `/camera`.
+#[rustfmt::skip]
+pub(crate) const CAMERA: &[Key] = &[
+    key(640, "target", vector(Camera::DOCUMENT_DEFAULT.target, -FAR, FAR), "the point in the middle of the picture, subject space"),
+    key(330, "rotate", Kind::Rotation, "turns the camera about the target; the identity looks from +y towards -y with +z up"),
+    key(650, "distance", number(plain(Camera::DOCUMENT_DEFAULT.distance), 0.01, 1e3), "distance from the target, subject units"),
+    key(660, "fov", number(plain(Camera::DOCUMENT_DEFAULT.fov_deg), 0.1, 170.0), "field of view across the shorter side of the picture, degrees"),
+];
+
+/// Keys of an entry of `/labels`.
+#[rustfmt::skip]
+pub(crate) const LABEL: &[Key] = &[
+    key(320, "at", vector(ORIGIN, -FAR, FAR), "the point of tissue that the text is fastened to, in the undeformed subject"),
+    key(670, "text", Kind::Text, "the text"),
+];
+
+/// Keys of an entry of `/steps`.
+#[rustfmt::skip]
+pub(crate) const STEP: &[Key] = &[
+    key(20, "title", Kind::Text, "title of the step"),
+    key(30, "caption", Kind::Text, "text under the picture at this step"),
+    key(680, "set", Kind::Set, "JSON pointers into the document and the values that they get"),
+    key(690, "seconds", number(1.0, 0.0, 3600.0), "length of the passage to this step"),
+];
+
+/// A default of the model as a decimal number: 0.02, not 0.019999999552965164.
+const fn plain(value: f32) -> f64 {
+    // Defaults have at most six digits behind the point.
+    let millionths = value as f64 * 1e6;
+    let whole = (millionths + 0.5) as i64;
+    whole as f64 / 1e6
+}
+
+/// The fixed keys in the parameters of a kind, besides those of its [`TemplateSpec`](super::TemplateSpec).
+pub(crate) fn params_of(kind: Option<TemplateKind>) -> &'static [Key] {
+    match kind {
+        Some(TemplateKind::Rbf) => RBF,
+        Some(TemplateKind::Field) => FIELD,
+        _ => &[],
+    }
+}
+
+/// The key of a name in a list of keys.
+pub(crate) fn find(keys: &'static [Key], name: &str) -> Option<&'static Key> {
+    keys.iter().find(|key| key.name == name)
+}
+
+impl Kind {
+    /// Keys of the objects that a value of this kind holds, itself or in a list.
+    pub(crate) fn keys(self) -> &'static [Key] {
+        match self {
+            Self::Object(of)
+            | Self::List { of, .. }
+            | Self::FirstOf { of, .. }
+            | Self::OneOrMore { of, .. }
+            | Self::Looks(of)
+            | Self::Transfer(of) => of,
+            _ => &[],
+        }
+    }
+
+    /// The JSON of a list, object or vector at its default; `None` for kinds that hold nothing to point into.
+    fn container(self) -> Option<Value> {
+        Some(match self {
+            Self::Vector { default, .. } => Value::from(default.map(json::number).to_vec()),
+            Self::Rotation => json!([0, 0, 0, 1]),
+            Self::List { .. }
+            | Self::FirstOf { .. }
+            | Self::Pairs { .. }
+            | Self::Vectors { .. }
+            | Self::Segments => json!([]),
+            Self::Object(_)
+            | Self::OneOrMore { .. }
+            | Self::Labels
+            | Self::Looks(_)
+            | Self::Params
+            | Self::Set => json!({}),
+            _ => return None,
+        })
+    }
+}
+
+/// What stands at a path when the document says nothing: a list, an object or a vector. `kind` is that of the template
+/// on the way, since it says which parameters there are. `None` where a pointer makes nothing.
+pub(crate) fn default_at(path: &[String], kind: Option<TemplateKind>) -> Option<Value> {
+    let mut path = path.iter();
+    let mut keys = ROOT;
+    loop {
+        let key = find(keys, path.next()?)?;
+        let Some(inner) = path.as_slice().first() else {
+            return key.kind.container().filter(|_| key.is_made);
+        };
+        match key.kind {
+            Kind::Object(of) | Kind::OneOrMore { of, .. } => keys = of,
+            Kind::List { of, .. } | Kind::FirstOf { of, .. } => {
+                keys = of;
+                path.next();
+                if path.as_slice().is_empty() {
+                    return None;
+                }
+            }
+            Kind::Params if path.as_slice().len() == 1 => return param_at(kind?, inner),
+            _ => return None,
+        }
+    }
+}
+
+/// What stands at a parameter that the document does not give, if it is a vector or a rotation.
+fn param_at(kind: TemplateKind, name: &str) -> Option<Value> {
+    let spec = kind.spec().params.iter().find(|spec| spec.name == name)?;
+    match spec.kind {
+        ParamKind::Vector { default, .. } => Some(json!(default.map(plain_f64))),
+        ParamKind::Rotation => Kind::Rotation.container(),
+        _ => None,
+    }
+}
+
+/// True if a step may not set what stands under this key of the document.
+pub(crate) fn is_fixed(key: &str) -> bool {
+    find(ROOT, key).is_some_and(|key| key.is_fixed)
+}
+
+/// Calls `visit` with the JSON pointer and the keys of every object of the document; `*` stands for an index or a name.
+pub(crate) fn visit(visit: &mut impl FnMut(&str, &'static [Key])) {
+    fn inside(at: &str, keys: &'static [Key], visit: &mut impl FnMut(&str, &'static [Key])) {
+        visit(at, keys);
+        for key in keys {
+            let at = pointer::join(at, key.name);
+            let entry = pointer::join(&at, "*");
+            match key.kind {
+                Kind::Object(of) | Kind::OneOrMore { of, .. } => inside(&at, of, visit),
+                Kind::List { of, .. }
+                | Kind::FirstOf { of, .. }
+                | Kind::Looks(of)
+                | Kind::Transfer(of) => inside(&entry, of, visit),
+                Kind::Params => {
+                    inside(&at, RBF, visit);
+                    inside(&at, FIELD, visit);
+                }
+                _ => {}
+            }
+        }
+    }
+    inside("", ROOT, visit);
+}
+
+/// Place of every known name among the keys of an object.
+static ORDER: LazyLock<HashMap<&'static str, u16>> = LazyLock::new(|| {
+    let mut order: HashMap<&'static str, u16> = HashMap::new();
+    visit(&mut |_, keys| {
+        for key in keys {
+            order.insert(key.name, key.order);
+        }
+    });
+    order
+});
+
+/// Place of a key when its object is written; [`BY_NAME`] for a key that has none.
+pub(crate) fn order_of(name: &str) -> u16 {
+    ORDER.get(name).copied().unwrap_or(BY_NAME)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_has_one_place_and_an_object_no_name_twice() {
+        let mut order: HashMap<&str, u16> = HashMap::new();
+        let mut names: HashMap<u16, &str> = HashMap::new();
+        visit(&mut |at, keys| {
+            for (i, key) in keys.iter().enumerate() {
+                let before = order.insert(key.name, key.order);
+                assert!(
+                    before.is_none_or(|before| before == key.order),
+                    "{at}/{} stands at another place elsewhere",
+                    key.name
+                );
+                let same = names.insert(key.order, key.name);
+                assert!(
+                    key.order == BY_NAME || same.is_none_or(|same| same == key.name),
+                    "{at}/{} has the place of {same:?}",
+                    key.name
+                );
+                assert!(
+                    keys[..i].iter().all(|other| other.name != key.name),
+                    "{at}/{}",
+                    key.name
+                );
+                assert!(!key.meaning.is_empty(), "{at}/{} has no meaning", key.name);
+            }
+        });
+        assert!(order.len() > 60, "only {} names were seen", order.len());
+    }
+
+    #[test]
+    fn defaults_are_the_decimal_numbers_of_the_contract() {
+        assert_eq!(
+            [0.02_f32, 0.01, 2.5, 30.0, 0.5, 1.0].map(plain),
+            [0.02, 0.01, 2.5, 30.0, 0.5, 1.0]
+        );
+    }
+}

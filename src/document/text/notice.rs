@@ -1,0 +1,139 @@
+//! What is said about a document that is valid but not drawn as written.
+
+use std::fmt;
+
+/// A remark on a value that is kept, but not drawn as written. A document with notices is still drawn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// JSON pointer to the value.
+    pub pointer: String,
+    /// What is said about it.
+    pub kind: NoticeKind,
+}
+
+/// The content of a [`Notice`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoticeKind {
+    /// A key that this version does not know.
+    UnknownKey,
+    /// A template without a kind, or of a kind that this version does not know.
+    UnknownTemplate {
+        /// The kind, or empty.
+        kind: String,
+    },
+    /// A parameter that the kind of the template does not have.
+    UnknownParam {
+        /// The template's kind.
+        kind: &'static str,
+    },
+    /// A name that this version does not know, where one of several is expected.
+    UnknownValue {
+        /// The value as the document writes it.
+        found: String,
+        /// The name that is used in its place.
+        instead: String,
+    },
+    /// A value outside its range.
+    Clamped {
+        /// The value as the document writes it.
+        found: String,
+        /// The value that is drawn.
+        drawn: String,
+    },
+    /// A rotation that is no unit quaternion; its direction is drawn.
+    Normalised,
+    /// A built-in subject that this version does not know.
+    UnknownSubject {
+        /// The value as the document writes it.
+        found: String,
+    },
+    /// A value that this version knows but does not draw.
+    NotDrawn {
+        /// What is not drawn, in plain words.
+        what: &'static str,
+    },
+    /// A step sets a value in a place that the document does not have.
+    Dangling {
+        /// The pointer in `set`.
+        target: String,
+    },
+    /// There are more notices, which are not listed.
+    More,
+    /// A curve that is not drawn, or not all of it.
+    Curve {
+        /// The reason, and what is drawn, in plain words.
+        what: &'static str,
+    },
+    /// Two sources are named, of which one is used.
+    LeftAside {
+        /// The source that is used.
+        taken: &'static str,
+    },
+}
+
+impl Notice {
+    pub(crate) fn new(pointer: impl Into<String>, kind: NoticeKind) -> Self {
+        Self {
+            pointer: pointer.into(),
+            kind,
+        }
+    }
+}
+
+impl fmt::Display for Notice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let pointer = &self.pointer;
+        match &self.kind {
+            NoticeKind::UnknownKey => {
+                write!(
+                    f,
+                    "{pointer}: this version does not know this key; it is kept"
+                )
+            }
+            NoticeKind::UnknownTemplate { kind } if kind.is_empty() => {
+                write!(
+                    f,
+                    "{pointer}: the template names no kind; it is kept, not drawn"
+                )
+            }
+            NoticeKind::UnknownTemplate { kind } => write!(
+                f,
+                "{pointer}: this version does not know the template “{kind}”; it is kept, not drawn"
+            ),
+            NoticeKind::UnknownParam { kind } => {
+                write!(
+                    f,
+                    "{pointer}: {kind} has no such parameter; it is kept, not drawn"
+                )
+            }
+            NoticeKind::UnknownValue { found, instead } => write!(
+                f,
+                "{pointer}: this version does not know “{found}”; it is kept, {instead} is drawn"
+            ),
+            NoticeKind::Clamped { found, drawn } => {
+                write!(
+                    f,
+                    "{pointer}: {found} is outside the range; {drawn} is drawn"
+                )
+            }
+            NoticeKind::Normalised => {
+                write!(f, "{pointer}: not of length 1; the direction is drawn")
+            }
+            NoticeKind::UnknownSubject { found } => write!(
+                f,
+                "{pointer}: this version does not know the built-in subject “{found}”; it is kept, not drawn"
+            ),
+            NoticeKind::NotDrawn { what } => {
+                write!(f, "{pointer}: {what} not drawn yet; kept")
+            }
+            NoticeKind::Dangling { target } => {
+                write!(f, "{pointer}: {target} is not there; left out")
+            }
+            NoticeKind::More => write!(f, "there is more that this version does not know"),
+            NoticeKind::Curve { what } => write!(f, "{pointer}: {what}"),
+            NoticeKind::LeftAside { taken } => {
+                write!(f, "{pointer}: {taken} is shown; this is kept, left aside")
+            }
+        }
+    }
+}

@@ -1,0 +1,306 @@
+//! What each edit does to the tree.
+
+use super::edit::Edit;
+use super::lists::{insert, list, reorder, take};
+use super::number::{color_text, rotation, rounded, rounded_size, rounded_value, vector};
+use super::set::set;
+use super::value;
+use crate::document::limits::{MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
+use crate::document::model::{
+    Align, Background, Constrain, ConstrainBy, OpacityMode, ParamKind, ParamValue, Reading,
+    SubjectRef, TemplateKind, TemplateMode, Transfer, Window,
+};
+use crate::document::text::DocumentError;
+use crate::document::text::pointer::{self, join};
+use serde_json::{Value, json};
+
+impl Edit {
+    /// Does the edit in a tree.
+    ///
+    /// # Errors
+    /// If there is no such template, caption or step, or a limit would be passed.
+    pub(crate) fn change(&self, root: &mut Value) -> Result<(), DocumentError> {
+        let template = |i: &usize| format!("/templates/{i}");
+        match self {
+            Self::Set { pointer, value, .. } => set(root, pointer, value.clone()),
+            Self::Reset { pointer, .. } => pointer::remove(root, pointer).map(|_| ()),
+            Self::AddTemplate {
+                index,
+                kind,
+                placement,
+            } => {
+                let mut value = json!({
+                    "kind": kind.spec().name,
+                    "at": vector(placement.at),
+                    "rotate": rotation(placement.rotate),
+                    "size": placement.size.to_array().map(rounded_size),
+                });
+                if *kind == TemplateKind::Rbf {
+                    value["params"] = value::fresh_points();
+                }
+                insert(root, "templates", MAX_TEMPLATES, *index, value)
+            }
+            Self::RemoveTemplate { template } => take(root, "templates", *template).map(|_| ()),
+            Self::DuplicateTemplate { template: i } => {
+                let copy = pointer::get(root, &template(i)).cloned().ok_or_else(|| {
+                    DocumentError::NotFound {
+                        pointer: template(i),
+                    }
+                })?;
+                insert(root, "templates", MAX_TEMPLATES, i + 1, copy)
+            }
+            Self::MoveTemplate { from, to } => reorder(root, "templates", *from, *to),
+            Self::SetParam {
+                template: i,
+                param,
+                value,
+            } => {
+                let kind = pointer::get(root, &join(&template(i), "kind"))
+                    .and_then(Value::as_str)
+                    .and_then(TemplateKind::from_name);
+                let pointer = format!("{}/params/{param}", template(i));
+                let spec = kind
+                    .and_then(|kind| kind.spec().params.iter().find(|spec| spec.name == *param))
+                    .ok_or_else(|| DocumentError::NotFound {
+                        pointer: pointer.clone(),
+                    })?;
+                let value = match (value, spec.kind) {
+                    (ParamValue::Number(value), _) => rounded(*value),
+                    (ParamValue::Flag(value), _) => json!(value),
+                    (ParamValue::Choice(index), ParamKind::Choice { names }) => {
+                        json!(names.get(*index as usize).or(names.first()))
+                    }
+                    (ParamValue::Choice(index), _) => json!(index),
+                    (ParamValue::Vector(value), _) => vector(*value),
+                    (ParamValue::Rotation(value), _) => rotation(*value),
+                };
+                set(root, &pointer, value)
+            }
+            Self::SetControlPoints {
+                template: i,
+                points,
+            } => {
+                let [listed, cut] = value::points_and_cut(points);
+                let at = join(&template(i), "params");
+                set(root, &join(&at, "points"), listed)?;
+                set(root, &join(&at, "cut"), cut)
+            }
+            Self::SetPlacement {
+                template: i,
+                placement,
+            } => {
+                let at = template(i);
+                set(root, &join(&at, "at"), vector(placement.at))?;
+                set(root, &join(&at, "rotate"), rotation(placement.rotate))?;
+                let size = placement.size.to_array().map(rounded_size);
+                set(root, &join(&at, "size"), json!(size))
+            }
+            Self::SetCurve { template: i, curve } => {
+                let at = join(&template(i), "curve");
+                let Some(curve) = curve else {
+                    return pointer::remove(root, &at).map(|_| ());
+                };
+                set(root, &at, value::curve(curve))
+            }
+            Self::SetAmount {
+                template: i,
+                amount,
+            } => set(root, &join(&template(i), "amount"), rounded(*amount)),
+            Self::SetEnabled {
+                template: i,
+                enabled,
+            } => set(root, &join(&template(i), "enabled"), json!(enabled)),
+            Self::SetMode { template: i, mode } => {
+                let name = TemplateMode::NAMES[*mode as usize];
+                set(root, &join(&template(i), "mode"), json!(name))
+            }
+            Self::SetAlign { template: i, align } => {
+                let at = template(i);
+                // Set key by key: unknown ones stay.
+                let mut put =
+                    |key: &str, value: Value| set(root, &format!("{at}/align/{key}"), value);
+                match align {
+                    Align::Axis => {
+                        put("to", json!("axis"))?;
+                        for key in ["keep", "depth", "thickness"] {
+                            pointer::remove(root, &format!("{at}/align/{key}"))?;
+                        }
+                        Ok(())
+                    }
+                    Align::Surface { depth, thickness } => {
+                        put("to", json!("surface"))?;
+                        put("depth", rounded(*depth))?;
+                        put("thickness", rounded(*thickness))?;
+                        pointer::remove(root, &format!("{at}/align/keep")).map(|_| ())
+                    }
+                    Align::Segment { keep, thickness } => {
+                        put("to", json!("segment"))?;
+                        put("keep", json!(keep))?;
+                        put("thickness", rounded(*thickness))?;
+                        pointer::remove(root, &format!("{at}/align/depth")).map(|_| ())
+                    }
+                }
+            }
+            Self::SetConstrain {
+                template: i,
+                constrain,
+            } => {
+                let at = format!("{}/constrain", template(i));
+                let Some(Constrain { by, keep }) = constrain else {
+                    return pointer::remove(root, &at).map(|_| ());
+                };
+                let by = ConstrainBy::NAMES[*by as usize];
+                set(root, &format!("{at}/by"), json!(by))?;
+                set(root, &format!("{at}/keep"), json!(keep))
+            }
+            Self::RenameTemplate { template: i, name } => {
+                set(root, &join(&template(i), "name"), json!(name))
+            }
+            Self::SetGroup { template: i, group } => {
+                set(root, &join(&template(i), "group"), json!(group))
+            }
+            Self::InsertTemplates { index, templates } => {
+                let end = list(root, "templates")?.len();
+                let index = (*index).min(end);
+                for (offset, value) in templates.iter().enumerate() {
+                    insert(
+                        root,
+                        "templates",
+                        MAX_TEMPLATES,
+                        index + offset,
+                        value.clone(),
+                    )?;
+                }
+                Ok(())
+            }
+            Self::All { edits, .. } => edits.iter().try_for_each(|edit| edit.change(root)),
+            Self::SetTransfer(transfer) => {
+                let value = match transfer {
+                    Transfer::Auto => json!("auto"),
+                    Transfer::Preset(name) => json!(name),
+                    Transfer::Points(points) => value::transfer_points(points),
+                };
+                if !matches!(transfer, Transfer::Points(_)) {
+                    pointer::remove(root, "/look/tint")?;
+                }
+                set(root, "/look/transfer", value)
+            }
+            Self::SetPoints { points, tint } => {
+                if *tint > 0.0 {
+                    set(root, "/look/tint", rounded(*tint))?;
+                } else {
+                    pointer::remove(root, "/look/tint")?;
+                }
+                set(root, "/look/transfer", value::transfer_points(points))
+            }
+            Self::SetWindow(window) => {
+                let value = match window {
+                    Window::Auto => json!("auto"),
+                    Window::Range(range) => json!(range.map(rounded_value)),
+                };
+                set(root, "/look/window", value)
+            }
+            Self::SetOpacity(mode) => {
+                let name = OpacityMode::NAMES[*mode as usize];
+                set(root, "/look/opacity", json!(name))
+            }
+            Self::SetBackground(background) => {
+                let name = match background {
+                    Background::None => "none".to_owned(),
+                    Background::Color(color) => color_text(*color),
+                };
+                set(root, "/look/background", json!(name))
+            }
+            Self::SetCamera(camera) => {
+                set(root, "/camera/target", vector(camera.target))?;
+                set(root, "/camera/rotate", rotation(camera.rotate))?;
+                set(root, "/camera/distance", rounded(camera.distance))?;
+                set(root, "/camera/fov", rounded(camera.fov_deg))
+            }
+            Self::SetTitle(text) => set(root, "/title", json!(text)),
+            Self::SetLegend(text) => set(root, "/caption", json!(text)),
+            Self::SetCredit(text) => set(root, "/credit", json!(text)),
+            Self::SetLang(text) => set(root, "/lang", json!(text)),
+            Self::SetSubject(subject) => {
+                // Segments belong to the file, however it is called and read.
+                if !is_same_file(root, subject) {
+                    pointer::remove(root, "/subject/segments")?;
+                    pointer::remove(root, "/subject/features")?;
+                }
+                for key in [
+                    "builtin", "revision", "src", "sha256", "name", "frame", "raw",
+                ] {
+                    pointer::remove(root, &join("/subject", key))?;
+                }
+                let mut put =
+                    |key: &str, value: &str| set(root, &join("/subject", key), json!(value));
+                match subject {
+                    SubjectRef::Builtin { name } => put("builtin", name),
+                    SubjectRef::Address {
+                        src, sha256, name, ..
+                    } => {
+                        put("src", src)?;
+                        if let Some(sha256) = sha256 {
+                            put("sha256", sha256)?;
+                        }
+                        put("name", name)
+                    }
+                    SubjectRef::Supplied { sha256, name, .. } => {
+                        put("sha256", sha256)?;
+                        put("name", name)
+                    }
+                }?;
+                match subject.reading() {
+                    Some(reading) => set_reading(root, reading),
+                    None => Ok(()),
+                }
+            }
+            Self::AddCaption(caption) => insert(
+                root,
+                "labels",
+                MAX_LABELS,
+                usize::MAX,
+                value::caption(caption),
+            ),
+            Self::ReplaceCaption { caption, value } => {
+                let at = format!("/labels/{caption}");
+                if pointer::get(root, &at).is_none() {
+                    return Err(DocumentError::NotFound { pointer: at });
+                }
+                set(root, &join(&at, "at"), vector(value.at))?;
+                set(root, &join(&at, "text"), json!(value.text))
+            }
+            Self::RemoveCaption { caption } => take(root, "labels", *caption).map(|_| ()),
+            Self::AddStep { index, step } => insert(root, "steps", MAX_STEPS, *index, step.clone()),
+            Self::RemoveStep { step } => take(root, "steps", *step).map(|_| ()),
+            Self::MoveStep { from, to } => reorder(root, "steps", *from, *to),
+        }
+    }
+}
+
+/// True if the document's subject is the file of `subject`.
+fn is_same_file(root: &Value, subject: &SubjectRef) -> bool {
+    let text = |key| {
+        pointer::get(root, &join("/subject", key))
+            .and_then(Value::as_str)
+            .unwrap_or_default()
+    };
+    match subject {
+        SubjectRef::Builtin { .. } => false,
+        SubjectRef::Address { src, .. } => text("src") == src,
+        SubjectRef::Supplied { sha256, .. } => {
+            text("src").is_empty() && text("sha256").eq_ignore_ascii_case(sha256)
+        }
+    }
+}
+
+/// Writes how the subject's file is read.
+fn set_reading(root: &mut Value, reading: &Reading) -> Result<(), DocumentError> {
+    if reading.frame > 0 {
+        set(root, "/subject/frame", json!(reading.frame))?;
+    }
+    match &reading.raw {
+        Some(raw) => set(root, "/subject/raw", value::raw(raw)),
+        None => Ok(()),
+    }
+}

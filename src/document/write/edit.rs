@@ -1,0 +1,259 @@
+//! Edits: what can be done to a document.
+
+use crate::document::model::{
+    Align, Background, Camera, Caption, Constrain, ControlPoints, Curve, OpacityMode, ParamValue,
+    SubjectRef, TemplateKind, TemplateMode, Transfer, TransferPoint, Window,
+};
+use crate::math::Placement;
+use serde_json::Value;
+
+/// A change of a document. Numbers are rounded to four decimals when they are written, so that links stay short.
+///
+/// A template, caption or step is named by its index in the document's list
+/// ([`crate::document::PlacedTemplate::index`]), which counts unknown kinds too. Pointers in the steps follow entries
+/// that move, and go with entries that are removed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// Sets any value by JSON pointer, as it stands (not rounded).
+    Set {
+        /// JSON pointer to the value.
+        pointer: String,
+        /// The new value.
+        value: Value,
+        /// Name of the edit in the menu, such as “Set key”.
+        name: String,
+    },
+    /// Puts a key back to its default.
+    Reset {
+        /// JSON pointer to the key.
+        pointer: String,
+        /// Name of the edit in the menu.
+        name: String,
+    },
+    /// Places a new template before the one of that index (or last).
+    AddTemplate {
+        /// Its index afterwards; larger than the number of templates means last.
+        index: usize,
+        /// Its kind.
+        kind: TemplateKind,
+        /// Where its cube lies.
+        placement: Placement,
+    },
+    /// Removes a template.
+    RemoveTemplate {
+        /// Index of the template.
+        template: usize,
+    },
+    /// Places a copy right after a template.
+    DuplicateTemplate {
+        /// Index of the template that is copied.
+        template: usize,
+    },
+    /// Changes when a template acts.
+    MoveTemplate {
+        /// Index of the template.
+        from: usize,
+        /// Its index afterwards.
+        to: usize,
+    },
+    /// Sets a parameter.
+    SetParam {
+        /// Index of the template.
+        template: usize,
+        /// Name of the parameter.
+        param: &'static str,
+        /// Its value, of the type that the catalogue says.
+        value: ParamValue,
+    },
+    /// Sets the control points and the cut of an `rbf`.
+    SetControlPoints {
+        /// Index of the template.
+        template: usize,
+        /// Points and cut, template space.
+        points: ControlPoints,
+    },
+    /// Moves, turns or sizes a template.
+    SetPlacement {
+        /// Index of the template.
+        template: usize,
+        /// Where its cube lies afterwards.
+        placement: Placement,
+    },
+    /// Lays a template along a curve.
+    SetCurve {
+        /// Index of the template.
+        template: usize,
+        /// The curve, template space; `None` makes the template straight.
+        curve: Option<Curve>,
+    },
+    /// Sets how much of a template's deformation is done.
+    SetAmount {
+        /// Index of the template.
+        template: usize,
+        /// From 0 (nothing) to 1 (what its parameters say).
+        amount: f32,
+    },
+    /// Switches a template on or off.
+    SetEnabled {
+        /// Index of the template.
+        template: usize,
+        /// True to switch it on.
+        enabled: bool,
+    },
+    /// Sets how a template joins the one before it.
+    SetMode {
+        /// Index of the template.
+        template: usize,
+        /// Composed or added.
+        mode: TemplateMode,
+    },
+    /// Sets the tissue that a template leaves where it is.
+    SetAlign {
+        /// Index of the template.
+        template: usize,
+        /// The kept tissue.
+        align: Align,
+    },
+    /// Sets the tissue towards which a template's displacement fades.
+    SetConstrain {
+        /// Index of the template.
+        template: usize,
+        /// The kept tissue; `None` takes the constraint away.
+        constrain: Option<Constrain>,
+    },
+    /// Gives a template a name.
+    RenameTemplate {
+        /// Index of the template.
+        template: usize,
+        /// The author's name for it; empty for none.
+        name: String,
+    },
+    /// Puts a template into a group of the list.
+    SetGroup {
+        /// Index of the template.
+        template: usize,
+        /// Name of the group; empty for none.
+        group: String,
+    },
+    /// Inserts templates from elsewhere before the one of that index (or last).
+    InsertTemplates {
+        /// Index of the first afterwards; larger than the number of templates means last.
+        index: usize,
+        /// Entries of `templates`, as in a document.
+        templates: Vec<Value>,
+    },
+    /// Several edits, one after the other, as one.
+    All {
+        /// Name of the whole in the menu.
+        name: String,
+        /// The edits; each sees what the ones before it left.
+        edits: Vec<Edit>,
+    },
+    /// Sets opacity and colour over value. A preset brings its own tint; listed points leave the tint as it is.
+    SetTransfer(Transfer),
+    /// Lists points in place of a preset, and sets how much the segments' own colours tint them.
+    SetPoints {
+        /// Points at absolute values, sorted by value.
+        points: Vec<TransferPoint>,
+        /// 0 to 1; 0 is not written.
+        tint: f32,
+    },
+    /// Sets the value range of a preset.
+    SetWindow(Window),
+    /// Sets how opacity follows the deformation.
+    SetOpacity(OpacityMode),
+    /// Sets what is behind the object.
+    SetBackground(Background),
+    /// Sets the camera.
+    SetCamera(Camera),
+    /// Sets the title.
+    SetTitle(String),
+    /// Sets the text under the picture (`caption` in a document).
+    SetLegend(String),
+    /// Sets the credit line.
+    SetCredit(String),
+    /// Sets the language of the texts.
+    SetLang(String),
+    /// Shows another subject. Segments and revision of the subject before it are removed.
+    SetSubject(SubjectRef),
+    /// Adds a caption at the end of `labels`.
+    AddCaption(Caption),
+    /// Changes a caption.
+    ReplaceCaption {
+        /// Index in `labels`.
+        caption: usize,
+        /// The caption afterwards.
+        value: Caption,
+    },
+    /// Removes a caption.
+    RemoveCaption {
+        /// Index in `labels`.
+        caption: usize,
+    },
+    /// Adds a step before the one of that index, counted from 0 for the first after step 0.
+    AddStep {
+        /// Its index afterwards; larger than the number of steps means last.
+        index: usize,
+        /// The step as JSON: `title`, `caption`, `set`, `seconds`.
+        step: Value,
+    },
+    /// Removes a step.
+    RemoveStep {
+        /// Index of the step, from 0 for the first after step 0.
+        step: usize,
+    },
+    /// Changes when a step comes.
+    MoveStep {
+        /// Index of the step, from 0 for the first after step 0.
+        from: usize,
+        /// Its index afterwards.
+        to: usize,
+    },
+}
+
+impl Edit {
+    /// Names what the edit changes: successive edits of one target in one drag are one step of the history.
+    pub fn target(&self) -> String {
+        match self {
+            Self::Set { pointer, .. } | Self::Reset { pointer, .. } => pointer.clone(),
+            Self::SetParam {
+                template, param, ..
+            } => format!("/templates/{template}/params/{param}"),
+            Self::SetControlPoints { template, .. } => format!("/templates/{template}/points"),
+            Self::SetPlacement { template, .. } => format!("/templates/{template}/placement"),
+            Self::SetCurve { template, .. } => format!("/templates/{template}/curve"),
+            Self::SetAmount { template, .. } => format!("/templates/{template}/amount"),
+            Self::SetEnabled { template, .. } => format!("/templates/{template}/enabled"),
+            Self::SetMode { template, .. } => format!("/templates/{template}/mode"),
+            Self::SetAlign { template, .. } => format!("/templates/{template}/align"),
+            Self::SetConstrain { template, .. } => format!("/templates/{template}/constrain"),
+            Self::RenameTemplate { template, .. } => format!("/templates/{template}/name"),
+            Self::MoveTemplate { from, to } => format!("/templates/{from}/to/{to}"),
+            Self::AddTemplate { index, .. } => format!("/templates/{index}/add"),
+            Self::RemoveTemplate { template } => format!("/templates/{template}/remove"),
+            Self::DuplicateTemplate { template } => format!("/templates/{template}/duplicate"),
+            Self::SetGroup { template, .. } => format!("/templates/{template}/group"),
+            Self::InsertTemplates { index, .. } => format!("/templates/{index}/paste"),
+            Self::All { name, edits } => {
+                let first = edits.first().map(Self::target).unwrap_or_default();
+                format!("{first} {name}")
+            }
+            Self::SetTransfer(_) | Self::SetPoints { .. } => "/look/transfer".to_owned(),
+            Self::SetWindow(_) => "/look/window".to_owned(),
+            Self::SetOpacity(_) => "/look/opacity".to_owned(),
+            Self::SetBackground(_) => "/look/background".to_owned(),
+            Self::SetCamera(_) => "/camera".to_owned(),
+            Self::SetTitle(_) => "/title".to_owned(),
+            Self::SetLegend(_) => "/caption".to_owned(),
+            Self::SetCredit(_) => "/credit".to_owned(),
+            Self::SetLang(_) => "/lang".to_owned(),
+            Self::SetSubject(_) => "/subject".to_owned(),
+            Self::AddCaption(_) => "/labels/-".to_owned(),
+            Self::ReplaceCaption { caption, .. } => format!("/labels/{caption}"),
+            Self::RemoveCaption { caption } => format!("/labels/{caption}/remove"),
+            Self::AddStep { index, .. } => format!("/steps/{index}/add"),
+            Self::RemoveStep { step } => format!("/steps/{step}/remove"),
+            Self::MoveStep { from, to } => format!("/steps/{from}/to/{to}"),
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Entries of the document's lists: inserting, removing, moving. Pointers in the steps follow their entries.
+
+use crate::document::text::DocumentError;
+use crate::document::text::pointer::{self, join};
+use serde_json::{Map, Value, json};
+
+/// A list of the document; made if it is missing.
+pub(super) fn list<'a>(
+    root: &'a mut Value,
+    key: &'static str,
+) -> Result<&'a mut Vec<Value>, DocumentError> {
+    let not_found = || DocumentError::NotFound {
+        pointer: join("", key),
+    };
+    let map = root.as_object_mut().ok_or_else(not_found)?;
+    let value = map.entry(key).or_insert_with(|| json!([]));
+    value.as_array_mut().ok_or_else(not_found)
+}
+
+/// Inserts a value before the entry of an index, or last; pointers in steps follow the entries that move up.
+pub(super) fn insert(
+    root: &mut Value,
+    key: &'static str,
+    limit: usize,
+    index: usize,
+    value: Value,
+) -> Result<(), DocumentError> {
+    let items = list(root, key)?;
+    if items.len() >= limit {
+        return Err(DocumentError::TooMany {
+            pointer: join("", key),
+            what: key,
+            found: items.len() + 1,
+            limit,
+        });
+    }
+    let index = index.min(items.len());
+    items.insert(index, value);
+    rewrite(root, key, |i| Some(if i < index { i } else { i + 1 }));
+    Ok(())
+}
+
+/// Removes an entry; pointers in steps follow the entries that move down, and those to the entry itself go.
+pub(super) fn take(
+    root: &mut Value,
+    key: &'static str,
+    index: usize,
+) -> Result<Value, DocumentError> {
+    let items = list(root, key)?;
+    if index >= items.len() {
+        return Err(DocumentError::NotFound {
+            pointer: format!("/{key}/{index}"),
+        });
+    }
+    let value = items.remove(index);
+    rewrite(root, key, |i| match i.cmp(&index) {
+        std::cmp::Ordering::Less => Some(i),
+        std::cmp::Ordering::Equal => None,
+        std::cmp::Ordering::Greater => Some(i - 1),
+    });
+    Ok(value)
+}
+
+/// Moves an entry; pointers in steps follow.
+pub(super) fn reorder(
+    root: &mut Value,
+    key: &'static str,
+    from: usize,
+    to: usize,
+) -> Result<(), DocumentError> {
+    let items = list(root, key)?;
+    if from >= items.len() || to >= items.len() {
+        return Err(DocumentError::NotFound {
+            pointer: format!("/{key}/{}", from.max(to)),
+        });
+    }
+    let value = items.remove(from);
+    items.insert(to, value);
+    rewrite(root, key, |i| {
+        Some(if i == from {
+            to
+        } else if from < i && i <= to {
+            i - 1
+        } else if to <= i && i < from {
+            i + 1
+        } else {
+            i
+        })
+    });
+    Ok(())
+}
+
+/// Rewrites the pointers in all steps after entries of a list have moved: `moved` gives the new index of an old one, or
+/// `None` if the entry is gone, and its pointers with it.
+fn rewrite(root: &mut Value, key: &str, moved: impl Fn(usize) -> Option<usize>) {
+    let Some(Value::Array(steps)) = root.get_mut("steps") else {
+        return;
+    };
+    for step in steps {
+        let Some(Value::Object(set)) = step.get_mut("set") else {
+            continue;
+        };
+        let old = std::mem::replace(set, Map::new());
+        for (target, value) in old {
+            let keys = pointer::keys(&target).unwrap_or_default();
+            let index = match keys.as_slice() {
+                [first, second, ..] if first == key => pointer::index(second),
+                _ => None,
+            };
+            match index.map(&moved) {
+                None => {
+                    set.insert(target, value);
+                }
+                Some(None) => {}
+                Some(Some(index)) => {
+                    let head = join(&join("", key), &index.to_string());
+                    let target = keys.iter().skip(2).fold(head, |p, key| join(&p, key));
+                    set.insert(target, value);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! From typed values to the JSON tree, and from the tree to text.
+
+mod change;
+mod edit;
+pub(super) mod json;
+mod lists;
+mod number;
+mod set;
+mod value;
+
+pub use edit::Edit;
+#[cfg(feature = "app")]
+pub(crate) use number::color_text;
+pub(super) use set::set;

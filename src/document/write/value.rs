@@ -1,0 +1,131 @@
+//! Parts of a document as JSON.
+
+use super::number::{color_text, hundredths, rounded, rounded_value, vector};
+use crate::document::model::{
+    Caption, CleanStep, ControlPoints, Curve, RawVoxels, Recipe, RecipeSource, TransferPoint,
+};
+use crate::document::schema::MAX_VALUE;
+use glam::Vec3;
+use serde_json::{Value, json};
+
+/// The points of a transfer function.
+pub(super) fn transfer_points(points: &[TransferPoint]) -> Value {
+    points
+        .iter()
+        .map(|point| {
+            json!({
+                "value": rounded_value(point.value),
+                "color": color_text(point.color_srgb),
+                "opacity": rounded(point.opacity),
+            })
+        })
+        .collect()
+}
+
+/// The curve of a template.
+pub(super) fn curve(curve: &Curve) -> Value {
+    let points = curve
+        .points
+        .iter()
+        .map(|p| json!([rounded(p.x), rounded(p.y)]));
+    let mut value = json!({ "points": points.collect::<Vec<_>>() });
+    if !curve.is_spline {
+        value["spline"] = json!(false);
+    }
+    value
+}
+
+/// An entry of `labels`.
+pub(super) fn caption(caption: &Caption) -> Value {
+    json!({ "at": vector(caption.at), "text": caption.text })
+}
+
+/// The layout of bare voxels.
+pub(super) fn raw(raw: &RawVoxels) -> Value {
+    let mut value = json!({ "size": raw.size, "type": raw.element });
+    let mut set = |key: &str, to: Value| value[key] = to;
+    if raw.big_endian {
+        set("order", json!("big"));
+    }
+    if raw.spacing_mm != [1.0; 3] {
+        set("spacing", json!(raw.spacing_mm));
+    }
+    if raw.skip_bytes > 0 {
+        set("skip", json!(raw.skip_bytes));
+    }
+    value
+}
+
+/// Parameters of a new `rbf`: its middle is drawn up between four points that stay, so that there is something to take
+/// hold of.
+pub(super) fn fresh_points() -> Value {
+    let point = |x: f32, y: f32| json!({ "at": vector(Vec3::new(x, y, 0.5)) });
+    json!({ "edge": 0.25, "points": [
+        { "at": [0.5, 0.5, 0.6], "move": [0, 0, -0.15] },
+        point(0.25, 0.25), point(0.75, 0.25), point(0.25, 0.75), point(0.75, 0.75),
+    ] })
+}
+
+/// The points and the cut of an `rbf`.
+pub(super) fn points_and_cut(points: &ControlPoints) -> [Value; 2] {
+    let listed = points.points.iter().map(|point| {
+        let mut value = json!({ "at": vector(point.at) });
+        if point.shift != Vec3::ZERO {
+            value["move"] = vector(point.shift);
+        }
+        value
+    });
+    let cut = points
+        .cut
+        .iter()
+        .map(|p| json!([rounded(p.x), rounded(p.y)]));
+    [listed.collect(), cut.collect()]
+}
+
+/// One step of a clean-up.
+fn clean_step(step: CleanStep) -> Value {
+    match step {
+        CleanStep::Largest(count) => json!({ "largest": count }),
+        CleanStep::Fill => json!({ "fill": true }),
+        CleanStep::Close(by) => json!({ "close": hundredths(by) }),
+        CleanStep::Smooth(by) => json!({ "smooth": hundredths(by) }),
+        CleanStep::Grow(by) => json!({ "grow": hundredths(by) }),
+        CleanStep::Shrink(by) => json!({ "shrink": hundredths(by) }),
+    }
+}
+
+impl Recipe {
+    /// The recipe as an entry of `subject.features`. Seeds are rounded to four decimals; lengths, in mm, and values are
+    /// rounded to hundredths.
+    pub fn to_value(&self) -> Value {
+        let range = |range: &[f32; 2]| {
+            let mut list = vec![hundredths(range[0])];
+            if f64::from(range[1]) < MAX_VALUE {
+                list.push(hundredths(range[1]));
+            }
+            list
+        };
+        let mut value = json!({ "name": self.name });
+        let mut set = |key: &str, to: Value| value[key] = to;
+        if let Some(color_srgb) = self.color_srgb {
+            set("color", json!(color_text(color_srgb)));
+        }
+        set(
+            "from",
+            match &self.from {
+                RecipeSource::Threshold { range: ends } => json!({ "threshold": range(ends) }),
+                RecipeSource::Grow { seeds, range: ends } => {
+                    let seeds: Vec<Value> = seeds.iter().map(|seed| vector(*seed)).collect();
+                    json!({ "grow": { "seeds": seeds, "range": range(ends) } })
+                }
+            },
+        );
+        if !self.clean.is_empty() {
+            set(
+                "clean",
+                self.clean.iter().copied().map(clean_step).collect(),
+            );
+        }
+        value
+    }
+}

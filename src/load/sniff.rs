@@ -1,0 +1,77 @@
+use super::{dicom, metaimage, nifti, nrrd};
+
+/// Bytes looked at to tell what a file is.
+pub(super) const SNIFF_BYTES: usize = 1024;
+
+/// What the start and the name of a file say that it is.
+pub(super) enum Kind {
+    Dicom,
+    Nifti,
+    Nrrd,
+    MetaImage,
+    Empty,
+    /// Known, and not read: in words.
+    Refused(&'static str),
+    Unknown,
+}
+
+/// Tells the kind of a file by its first bytes (unpacked), and by its name where they say nothing.
+pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
+    let lower = name.to_lowercase();
+    let named = |ending: &str| {
+        lower.ends_with(ending)
+            || lower
+                .strip_suffix(".gz")
+                .is_some_and(|inner| inner.ends_with(ending))
+    };
+    if start.is_empty() {
+        return Kind::Empty;
+    }
+    if nifti::is_header(start) || named(".nii") || named(".hdr") {
+        return Kind::Nifti;
+    }
+    if nrrd::is_header(start) {
+        return Kind::Nrrd;
+    }
+    if metaimage::is_header(start) || named(".mha") || named(".mhd") {
+        return Kind::MetaImage;
+    }
+    if start.get(128..132) == Some(b"DICM") || dicom::has_ending(name) {
+        return Kind::Dicom;
+    }
+    if named(".mgz") || named(".mgh") {
+        return Kind::Refused(
+            "FreeSurfer's MGH is not read: convert it to NIfTI (mri_convert does)",
+        );
+    }
+    const SIGNS: [(&[u8], &str); 7] = [
+        (b"\x89PNG", "a PNG picture is no volume"),
+        (b"\xff\xd8\xff", "a JPEG picture is no volume"),
+        (
+            b"PK\x03\x04",
+            "a ZIP archive: unpack it and open the scan in it",
+        ),
+        (
+            b"\x93NUMPY",
+            "a NumPy array says nothing of voxel size or orientation: save it as NIfTI or NRRD",
+        ),
+        (
+            b"# vtk DataFile",
+            "VTK files are not read: save as MetaImage or NIfTI",
+        ),
+        (b"glTF", "a surface (glTF), no volume"),
+        (b"ply\n", "a surface (PLY), no volume"),
+    ];
+    for (sign, what) in SIGNS {
+        if start.starts_with(sign) {
+            return Kind::Refused(what);
+        }
+    }
+    if dicom::is_header(start) && !named(".raw") {
+        return Kind::Dicom;
+    }
+    if named(".obj") || named(".stl") || named(".ply") {
+        return Kind::Refused("a surface, no volume");
+    }
+    Kind::Unknown
+}

@@ -1,0 +1,70 @@
+use crate::document::{
+    Align, Camera, ControlPoint, ControlPoints, ParamValue, PlacedTemplate, TemplateData,
+    TemplateKind, TemplateMode,
+};
+use crate::math::Placement;
+use glam::{Quat, Vec3};
+
+/// Far enough for the opened cube to fit.
+const DISTANCE: f32 = 3.4;
+
+/// The template and the camera of a kind's icon, to be drawn on the built-in `cube`.
+pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
+    let spec = kind.spec();
+    let icon = &kind.facts().icon;
+    let params = spec.params.iter().map(|param| {
+        let given = icon.params.iter().find(|(name, _)| *name == param.name);
+        match (given, param.kind.default_value()) {
+            (Some((_, value)), ParamValue::Number(_)) => ParamValue::Number(*value),
+            (_, default) => default,
+        }
+    });
+    let template = PlacedTemplate {
+        index: 0,
+        kind,
+        name: String::new(),
+        placement: Placement {
+            at: Vec3::from_array(icon.at),
+            rotate: Quat::IDENTITY,
+            size: Vec3::from_array(icon.size),
+        },
+        params: params.collect(),
+        enabled: true,
+        mode: TemplateMode::Compose,
+        amount: 1.0,
+        align: Align::Axis,
+        constrain: None,
+        curve: None,
+        data: icon_data(kind),
+    };
+    let [yaw, pitch] = icon.yaw_pitch_deg.map(f32::to_radians);
+    let camera = Camera {
+        target: Vec3::ZERO,
+        rotate: Quat::from_rotation_z(yaw) * Quat::from_rotation_x(pitch),
+        distance: DISTANCE,
+        fov_deg: 30.0,
+    };
+    (template, camera)
+}
+
+/// Of an rbf: the top drawn up to one side and down on the other.
+fn icon_data(kind: TemplateKind) -> TemplateData {
+    if kind != TemplateKind::Rbf {
+        return TemplateData::None;
+    }
+    let point = |x, y, z, dx, dz| ControlPoint {
+        at: Vec3::new(x, y, z),
+        shift: Vec3::new(dx, 0.0, dz),
+    };
+    TemplateData::Points(ControlPoints {
+        points: vec![
+            point(0.0, 0.0, 0.0, 0.0, 0.0),
+            point(1.0, 0.0, 0.0, 0.0, 0.0),
+            point(0.0, 1.0, 0.0, 0.0, 0.0),
+            point(1.0, 1.0, 0.0, 0.0, 0.0),
+            point(0.3, 0.3, 0.8, -0.1, -0.3),
+            point(0.75, 0.7, 0.8, 0.1, 0.2),
+        ],
+        cut: Vec::new(),
+    })
+}

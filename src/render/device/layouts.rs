@@ -1,0 +1,182 @@
+//! The table of bindings: what the programs of the picture bind, and what WebGPU leaves for more.
+//!
+//! | group | holds | uniform buffers | textures | samplers |
+//! |---|---|---|---|---|
+//! | 0 | the frame: camera and sampling | 1 | | |
+//! | 1 | the subject: values, labels, palette | 1 | 3 | 1 |
+//! | 2 | the scene: templates, look, skip grid, kept tissue, fields, bodies | 5 | 5 | |
+//! | 3 | the pass: the baked map | 1 | 1 | |
+//! | | in all | 8 | 9 | 1 |
+//! | | left in one stage | 4 | 7 | 15 |
+//!
+//! Group 3 belongs to the pass: other passes (resolve, slices) bind less there. A picture uses no storage buffer.
+
+use super::gpu::Gpu;
+use wgpu::TextureViewDimension::{D2, D3};
+
+/// What a binding holds.
+#[derive(Clone, Copy, Debug)]
+enum Holds {
+    Uniform,
+    /// Numbers that are interpolated.
+    Texture(wgpu::TextureViewDimension),
+    /// Whole numbers.
+    Numbers(wgpu::TextureViewDimension),
+    Sampler,
+}
+
+/// What the bindings of a group hold, from binding 0 on.
+type Group = &'static [Holds];
+
+const FRAME: Group = &[Holds::Uniform];
+/// The uniform, values, how they are read, labels, the colours of labels.
+const SUBJECT: Group = &[
+    Holds::Uniform,
+    Holds::Texture(D3),
+    Holds::Sampler,
+    Holds::Numbers(D3),
+    Holds::Texture(D2),
+];
+/// Templates, look and its table, the skip grid and its cells, kept tissue and its distances, fields, bodies and
+/// their shares.
+const SCENE: Group = &[
+    Holds::Uniform,
+    Holds::Uniform,
+    Holds::Texture(D2),
+    Holds::Uniform,
+    Holds::Numbers(D3),
+    Holds::Uniform,
+    Holds::Texture(D3),
+    Holds::Texture(D3),
+    Holds::Uniform,
+    Holds::Texture(D3),
+];
+/// Where the baked map lies, and the map.
+const BAKED: Group = &[Holds::Uniform, Holds::Texture(D3)];
+/// The accumulated picture and how it is read.
+const RESOLVE: Group = &[Holds::Uniform, Holds::Texture(D2), Holds::Sampler];
+const SLICE: Group = &[Holds::Uniform];
+
+/// The layouts of all groups, and the sampler that goes with them. Built once per device.
+#[derive(Debug)]
+pub(crate) struct Layouts {
+    /// Group 0 of the picture.
+    pub frame: wgpu::BindGroupLayout,
+    /// Group 1 of the picture and of slices.
+    pub subject: wgpu::BindGroupLayout,
+    /// Group 2 of the picture and of slices.
+    pub scene: wgpu::BindGroupLayout,
+    /// Group 3 of a picture that is drawn from the baked map.
+    pub baked: wgpu::BindGroupLayout,
+    /// Group 3 of the pass from the accumulated picture to the one that is shown.
+    pub resolve: wgpu::BindGroupLayout,
+    /// Group 3 of slices.
+    pub slice: wgpu::BindGroupLayout,
+    /// Stands for a group that a pass does not bind.
+    pub empty: wgpu::BindGroupLayout,
+    /// Reads textures with interpolation, to their edges.
+    pub linear_sampler: wgpu::Sampler,
+}
+
+impl Layouts {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        Self {
+            frame: group_layout(gpu, "frame", FRAME),
+            subject: group_layout(gpu, "subject", SUBJECT),
+            scene: group_layout(gpu, "scene", SCENE),
+            baked: group_layout(gpu, "baked", BAKED),
+            resolve: group_layout(gpu, "resolve", RESOLVE),
+            slice: group_layout(gpu, "slice", SLICE),
+            empty: group_layout(gpu, "empty", &[]),
+            linear_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("linear"),
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            }),
+        }
+    }
+}
+
+/// The layout of a pipeline with these groups, from group 0 on.
+pub(crate) fn pipeline_layout(
+    gpu: &Gpu,
+    label: &str,
+    groups: &[&wgpu::BindGroupLayout],
+) -> wgpu::PipelineLayout {
+    let groups: Vec<_> = groups.iter().map(|group| Some(*group)).collect();
+    gpu.device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(label),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        })
+}
+
+fn group_layout(gpu: &Gpu, label: &str, group: Group) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = (0..)
+        .zip(group)
+        .map(|(binding, holds)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty: holds.binding_type(),
+            count: None,
+        })
+        .collect();
+    gpu.device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(label),
+            entries: &entries,
+        })
+}
+
+impl Holds {
+    fn binding_type(self) -> wgpu::BindingType {
+        let texture = |view_dimension, sample_type| wgpu::BindingType::Texture {
+            sample_type,
+            view_dimension,
+            multisampled: false,
+        };
+        match self {
+            Self::Uniform => wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            Self::Texture(dimension) => texture(
+                dimension,
+                wgpu::TextureSampleType::Float { filterable: true },
+            ),
+            Self::Numbers(dimension) => texture(dimension, wgpu::TextureSampleType::Uint),
+            Self::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_with_everything_on_leaves_what_the_table_says() {
+        let all = [FRAME, SUBJECT, SCENE, BAKED];
+        let count = |is_it: fn(&Holds) -> bool| {
+            let counts = all
+                .iter()
+                .map(|group| group.iter().filter(|h| is_it(h)).count());
+            counts.sum::<usize>() as u32
+        };
+        let limits = wgpu::Limits::defaults();
+        let uniforms = count(|h| matches!(h, Holds::Uniform));
+        let textures = count(|h| matches!(h, Holds::Texture(_) | Holds::Numbers(_)));
+        let samplers = count(|h| matches!(h, Holds::Sampler));
+        assert_eq!([uniforms, textures, samplers], [8, 9, 1]);
+        let left = [
+            limits.max_uniform_buffers_per_shader_stage - uniforms,
+            limits.max_sampled_textures_per_shader_stage - textures,
+            limits.max_samplers_per_shader_stage - samplers,
+        ];
+        assert_eq!(left, [4, 7, 15]);
+        assert_eq!(all.len() as u32, limits.max_bind_groups, "no group is left");
+    }
+}

@@ -1,0 +1,111 @@
+//! Pipelines: of drawing over a whole target and of computing, each made when it is first asked for.
+
+use super::gpu::Gpu;
+use std::collections::HashMap;
+use std::hash::Hash;
+use std::sync::{Mutex, PoisonError};
+
+/// What a pipeline that draws over the whole target is made of.
+pub(crate) struct PipelineParts<'a> {
+    pub label: &'a str,
+    pub layout: &'a wgpu::PipelineLayout,
+    pub module: &'a wgpu::ShaderModule,
+    pub entry: &'a str,
+    pub constants: &'a [(&'a str, f64)],
+    pub format: wgpu::TextureFormat,
+    pub blend: Option<wgpu::BlendState>,
+}
+
+pub(crate) fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
+    let options = wgpu::PipelineCompilationOptions {
+        constants: parts.constants,
+        ..Default::default()
+    };
+    gpu.device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(parts.label),
+            layout: Some(parts.layout),
+            vertex: wgpu::VertexState {
+                module: parts.module,
+                entry_point: Some("cover"),
+                compilation_options: options.clone(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: parts.module,
+                entry_point: Some(parts.entry),
+                compilation_options: options,
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: parts.format,
+                    blend: parts.blend,
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+}
+
+/// Starts to draw over what a target holds.
+pub(crate) fn render_pass<'e>(
+    encoder: &'e mut wgpu::CommandEncoder,
+    label: &str,
+    target: &wgpu::TextureView,
+) -> wgpu::RenderPass<'e> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: target,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Load,
+                store: wgpu::StoreOp::Store,
+            },
+        })],
+        ..Default::default()
+    })
+}
+
+/// A pipeline for a compute entry point with values for its `override` constants; it derives its own layout.
+pub(crate) fn compute_pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    entry: &str,
+    constants: &[(&str, f64)],
+) -> wgpu::ComputePipeline {
+    gpu.device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry),
+            layout: None,
+            module,
+            entry_point: Some(entry),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants,
+                ..Default::default()
+            },
+            cache: None,
+        })
+}
+
+/// Pipelines by what they are made for: software GPUs run every branch, so each document gets programs without what
+/// it does not use.
+#[derive(Debug)]
+pub(crate) struct Pipelines<Key, Pipeline>(Mutex<HashMap<Key, Pipeline>>);
+
+impl<Key, Pipeline> Default for Pipelines<Key, Pipeline> {
+    fn default() -> Self {
+        Self(Mutex::new(HashMap::new()))
+    }
+}
+
+impl<Key: Eq + Hash, Pipeline: Clone> Pipelines<Key, Pipeline> {
+    /// The pipeline for a key; made on first use.
+    pub(crate) fn get(&self, key: Key, make: impl FnOnce() -> Pipeline) -> Pipeline {
+        let mut made = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        made.entry(key).or_insert_with(make).clone()
+    }
+}

@@ -1,0 +1,128 @@
+use super::object::{object_groups, object_pipeline};
+use crate::render::device::bindings::{encoder, entry};
+use crate::render::device::buffers::{
+    result_buffer, storage_buffer, submit_and_read, uniform_buffer,
+};
+use crate::render::device::error::RenderError;
+use crate::render::device::gpu::Gpu;
+use crate::render::device::programs::{ProgramId, module};
+use crate::render::device::readback::Readback;
+use crate::render::pack::gpu_types::Lattice;
+use crate::render::pack::raycast_key::RaycastKey;
+use crate::render::scene::Scene;
+use crate::render::subject::volume::SubjectTextures;
+use glam::Vec3;
+
+/// Cells along the longest side of the lattice; with all three sides as long it is less than the 2^17 that the
+/// program can number.
+const CELLS: f32 = 48.0;
+
+/// Blocks of the lattice, as in pass/follow.wgsl.
+const BLOCKS: usize = 6 * 6 * 6;
+
+/// Farther from a point at rest than this (subject units), nothing is taken for it: its tissue is cut away.
+const FOUND: f32 = 0.008;
+
+/// Finds where points of the rest are in the deformed object. Compiles its programs when templates of other kinds come.
+#[derive(Debug, Default)]
+pub(crate) struct Follower {
+    made: Option<(RaycastKey, [wgpu::ComputePipeline; 2])>,
+}
+
+/// Places on their way back. Await them, or ask once per frame.
+#[derive(Debug)]
+pub struct PendingPlaces(Readback);
+
+impl PendingPlaces {
+    /// The answer if it has come; does not wait. For each point where it is now, subject space; `None` where its
+    /// tissue is cut away.
+    pub fn poll_now(&mut self) -> Option<Result<Vec<Option<Vec3>>, RenderError>> {
+        self.0.poll_now().map(|bytes| bytes.map(|b| read(&b)))
+    }
+}
+
+impl Future for PendingPlaces {
+    type Output = Result<Vec<Option<Vec3>>, RenderError>;
+
+    fn poll(
+        mut self: std::pin::Pin<&mut Self>,
+        context: &mut std::task::Context<'_>,
+    ) -> std::task::Poll<Self::Output> {
+        std::pin::Pin::new(&mut self.0)
+            .poll(context)
+            .map(|bytes| bytes.map(|b| read(&b)))
+    }
+}
+
+fn read(bytes: &[u8]) -> Vec<Option<Vec3>> {
+    let places: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(bytes);
+    places
+        .into_iter()
+        .map(|[x, y, z, off]| (off <= FOUND).then_some(Vec3::new(x, y, z)))
+        .collect()
+}
+
+impl Follower {
+    /// Starts looking for points (rest space) in the object as it is scene. There has to be one at least.
+    pub(crate) fn find(
+        &mut self,
+        gpu: &Gpu,
+        subject: &SubjectTextures,
+        scene: &Scene,
+        points: &[Vec3],
+    ) -> PendingPlaces {
+        let key = scene.key(false);
+        if self.made.as_ref().is_none_or(|(made, _)| *made != key) {
+            self.made = None;
+        }
+        let (_, [search, settle]) = self.made.get_or_insert_with(|| (key, pipelines(gpu, &key)));
+        let bounds = scene.bounds();
+        let side = bounds.size().max_element() / CELLS;
+        let cells = (bounds.size() / side).ceil().max(Vec3::ONE).as_uvec3();
+        let lattice = Lattice {
+            corner: bounds.min.extend(0.0).to_array(),
+            cells: cells.extend(0).to_array(),
+            side,
+            count: points.len() as u32,
+            padding: [0; 2],
+        };
+        let padded: Vec<[f32; 4]> = points.iter().map(|p| [p.x, p.y, p.z, 0.0]).collect();
+        let lattice_buffer = uniform_buffer(gpu, "lattice", &lattice);
+        let followed = storage_buffer(gpu, "followed points", &padded);
+        let nearest = storage_buffer(gpu, "nearest cells", &vec![u32::MAX; BLOCKS * points.len()]);
+        let places = result_buffer(gpu, "places", 16 * points.len() as u64);
+        let mut encoder = encoder(gpu);
+        let mut encode = |pipeline: &wgpu::ComputePipeline, groups: u32, has_places: bool| {
+            let object = object_groups(gpu, pipeline, subject, scene);
+            let point_entries = [
+                entry(0, lattice_buffer.as_entire_binding()),
+                entry(1, followed.as_entire_binding()),
+                entry(2, nearest.as_entire_binding()),
+                entry(3, places.as_entire_binding()),
+            ];
+            let point_entries = &point_entries[..if has_places { 4 } else { 3 }];
+            let points = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("followed points"),
+                layout: &pipeline.get_bind_group_layout(3),
+                entries: point_entries,
+            });
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("follow"),
+                timestamp_writes: None,
+            });
+            pass.set_pipeline(pipeline);
+            for (index, group) in (1..).zip(object.iter().chain([&points])) {
+                pass.set_bind_group(index, group, &[]);
+            }
+            pass.dispatch_workgroups(groups, 1, 1);
+        };
+        encode(search, cells.element_product().div_ceil(64), false);
+        encode(settle, points.len() as u32, true);
+        PendingPlaces(submit_and_read(gpu, encoder, &places))
+    }
+}
+
+fn pipelines(gpu: &Gpu, key: &RaycastKey) -> [wgpu::ComputePipeline; 2] {
+    let module = module(gpu, ProgramId::Follow);
+    ["search", "settle"].map(|name| object_pipeline(gpu, &module, name, key))
+}

@@ -1,0 +1,64 @@
+use super::raycast::RaycastPasses;
+use super::resolve::ResolvePass;
+use crate::document::Illustration;
+use crate::render::device::gpu::Gpu;
+use crate::render::device::layouts::Layouts;
+use crate::render::scene::Scene;
+use crate::render::stage::programs::StagePrograms;
+use crate::render::subject::volume::SubjectTextures;
+
+/// Layouts and programs. Built once per device and shared by everything that draws on it.
+#[derive(Debug)]
+pub(crate) struct Passes {
+    pub layouts: Layouts,
+    pub stages: StagePrograms,
+    pub raycast: RaycastPasses,
+    pub resolve: ResolvePass,
+}
+
+impl Passes {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        let layouts = Layouts::new(gpu);
+        Self {
+            stages: StagePrograms::new(gpu),
+            raycast: RaycastPasses::new(gpu, &layouts),
+            resolve: ResolvePass::new(gpu, &layouts),
+            layouts,
+        }
+    }
+
+    /// A scene of an illustration on a subject. `wants_grid` false draws without the skip grid.
+    pub(crate) fn scene(
+        &self,
+        gpu: &Gpu,
+        subject: &SubjectTextures,
+        illustration: &Illustration,
+        wants_grid: bool,
+    ) -> Scene {
+        let mut scene = Scene::new(gpu, &self.layouts, wants_grid);
+        self.update(gpu, &mut scene, subject, illustration);
+        scene
+    }
+
+    /// Brings a scene up to date. True if the picture changes by it.
+    pub(crate) fn update(
+        &self,
+        gpu: &Gpu,
+        scene: &mut Scene,
+        subject: &SubjectTextures,
+        illustration: &Illustration,
+    ) -> bool {
+        scene.update(gpu, &self.layouts, &self.stages, subject, illustration)
+    }
+
+    /// Bakes about so many texels more of a scene's map; see [`Scene::bake`].
+    pub(crate) fn bake(
+        &self,
+        gpu: &Gpu,
+        scene: &mut Scene,
+        texels_along: Option<u32>,
+        most_texels: u32,
+    ) -> u32 {
+        scene.bake(gpu, &self.layouts, &self.stages, texels_along, most_texels)
+    }
+}

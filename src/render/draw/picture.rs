@@ -1,0 +1,118 @@
+use super::image::{Image, read_picture};
+use super::passes::Passes;
+use super::raycast::{March, encode_march, frame_group};
+use super::tiles::{TILE, tiles_of};
+use crate::render::device::bindings::encoder;
+use crate::render::device::error::RenderError;
+use crate::render::device::gpu::Gpu;
+use crate::render::device::readback::WorkDone;
+use crate::render::device::textures::{LINEAR_FORMAT, OUTPUT_FORMAT, Target};
+use crate::render::pack::frame::frame_of;
+use crate::render::pack::gpu_types::Resolve;
+use crate::render::pack::view::View;
+use crate::render::scene::Scene;
+use crate::render::subject::volume::SubjectTextures;
+use std::sync::Arc;
+
+/// Pixels handed to the GPU before it is waited for: seconds at most on a software GPU.
+const BATCH_PIXELS: u32 = 64 * TILE * TILE;
+
+/// Everything for one picture, so that drawing it borrows nothing.
+pub(crate) struct PictureJob {
+    pub gpu: Gpu,
+    pub passes: Arc<Passes>,
+    pub subject: Arc<SubjectTextures>,
+    pub scene: Scene,
+    pub view: View,
+    pub size: [u32; 2],
+}
+
+impl PictureJob {
+    /// Fails if a picture of this size cannot be drawn on this device.
+    pub(crate) fn check_size(gpu: &Gpu, size: [u32; 2]) -> Result<(), RenderError> {
+        let max = gpu.device.limits().max_texture_dimension_2d;
+        if size.iter().any(|&side| side == 0 || side > max) {
+            return Err(RenderError::BadSize {
+                width: size[0],
+                height: size[1],
+                max,
+            });
+        }
+        Ok(())
+    }
+
+    /// From now on drawn from the baked map.
+    pub(crate) fn bake(&mut self, texels_along: Option<u32>) {
+        self.passes
+            .bake(&self.gpu, &mut self.scene, texels_along, u32::MAX);
+    }
+
+    /// Draws it, from the start each time.
+    pub(crate) async fn draw(&self, samples: u32) -> Result<Image, RenderError> {
+        let linear = Target::new(&self.gpu, "linear", self.size, LINEAR_FORMAT);
+        let output = Target::new(&self.gpu, "image", self.size, OUTPUT_FORMAT);
+        let baked = self.scene.baked();
+        let key = match baked {
+            Some(_) => self.scene.baked_key(),
+            None => self.scene.key(false),
+        };
+        let pipeline = self.passes.raycast.pipeline(&self.gpu, key);
+        let tiles = tiles_of(self.size);
+        for index in 0..samples {
+            let frame = frame_of(
+                &self.view,
+                self.scene.bounds(),
+                self.subject.frame.detail,
+                index,
+                false,
+            );
+            let frame_group = frame_group(&self.gpu, &self.passes.layouts, &frame);
+            for batch in tiles.chunks((BATCH_PIXELS / (TILE * TILE)) as usize) {
+                let mut encoder = encoder(&self.gpu);
+                encode_march(
+                    &mut encoder,
+                    &March {
+                        target: &linear.view,
+                        pipeline: &pipeline,
+                        frame: &frame_group,
+                        subject: &self.subject.bind_group,
+                        scene: &self.scene.bindings,
+                        baked: baked.map(|baked| &baked.group),
+                        viewport: self.size,
+                        tiles: batch,
+                        weight: 1.0 / (index + 1) as f32,
+                    },
+                );
+                self.gpu.queue.submit([encoder.finish()]);
+                WorkDone::start(&self.gpu).await?;
+                self.gpu.check()?;
+            }
+        }
+        let mut encoder = encoder(&self.gpu);
+        let [width, height] = self.size.map(|side| side as f32);
+        let resolve = Resolve {
+            scale: [1.0 / width, 1.0 / height],
+            end: [1.0; 2],
+            background: self.scene.background(),
+            is_straight: 1,
+            padding: [0; 3],
+        };
+        self.passes.resolve.encode(
+            &self.gpu,
+            &self.passes.layouts,
+            &mut encoder,
+            &resolve,
+            [&linear.view, &output.view],
+            &[[0, 0, self.size[0], self.size[1]]],
+        );
+        let reading = read_picture(&self.gpu, encoder, &output.texture);
+        let image = reading.await?;
+        if let Some(message) = self.gpu.take_errors().into_iter().next() {
+            return Err(RenderError::Refused {
+                pass: "picture",
+                message,
+            });
+        }
+        Ok(image)
+    }
+}

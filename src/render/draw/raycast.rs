@@ -1,0 +1,153 @@
+//! The ray march: the pass that draws the picture, and that asks what is under a pixel.
+
+use crate::render::device::bindings::entry;
+use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::gpu::Gpu;
+use crate::render::device::layouts::{Layouts, pipeline_layout};
+use crate::render::device::pipelines::{PipelineParts, Pipelines, render_pass, render_pipeline};
+use crate::render::device::programs::{ProgramId, module};
+use crate::render::device::textures::{LINEAR_FORMAT, PICK_FORMAT};
+use crate::render::pack::gpu_types::Frame;
+use crate::render::pack::raycast_key::RaycastKey;
+use std::sync::OnceLock;
+
+/// The programs of the ray march. Built once per device.
+#[derive(Debug)]
+pub(crate) struct RaycastPasses {
+    plain: wgpu::ShaderModule,
+    /// For documents that keep tissue; compiled when the first one comes.
+    aligned: OnceLock<wgpu::ShaderModule>,
+    /// For pictures of the baked map; compiled when the first one comes.
+    baked: OnceLock<wgpu::ShaderModule>,
+    layout: wgpu::PipelineLayout,
+    baked_layout: wgpu::PipelineLayout,
+    pipelines: Pipelines<RaycastKey, wgpu::RenderPipeline>,
+}
+
+impl RaycastPasses {
+    pub(crate) fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
+        let groups = [
+            &layouts.frame,
+            &layouts.subject,
+            &layouts.scene,
+            &layouts.baked,
+        ];
+        Self {
+            plain: module(gpu, ProgramId::Raycast),
+            aligned: OnceLock::new(),
+            baked: OnceLock::new(),
+            layout: pipeline_layout(gpu, "raycast", &groups[..3]),
+            baked_layout: pipeline_layout(gpu, "raycast", &groups),
+            pipelines: Pipelines::default(),
+        }
+    }
+
+    /// The pipeline for a key; made on first use.
+    pub(crate) fn pipeline(&self, gpu: &Gpu, key: RaycastKey) -> wgpu::RenderPipeline {
+        self.pipelines.get(key, || self.make(gpu, key))
+    }
+
+    fn make(&self, gpu: &Gpu, key: RaycastKey) -> wgpu::RenderPipeline {
+        let number = |flag: bool| f64::from(u8::from(flag));
+        let mut constants = vec![
+            ("drawn_kinds", f64::from(key.drawn_kinds)),
+            ("has_labels", number(key.has_labels)),
+            ("has_grid", number(key.has_grid)),
+            ("has_edges", number(key.has_edges)),
+            ("has_bodies", number(key.has_bodies)),
+        ];
+        let module = if key.is_baked {
+            self.baked
+                .get_or_init(|| module(gpu, ProgramId::RaycastBaked))
+        } else if key.keeps_tissue() {
+            constants.extend(key.align_constants());
+            self.aligned
+                .get_or_init(|| module(gpu, ProgramId::RaycastAligned))
+        } else {
+            &self.plain
+        };
+        let layout = if key.is_baked {
+            &self.baked_layout
+        } else {
+            &self.layout
+        };
+        // Sample k counts 1/(k + 1): the mean so far.
+        let (entry, format, blend) = if key.is_pick {
+            ("pick", PICK_FORMAT, None)
+        } else {
+            ("draw", LINEAR_FORMAT, Some(MEAN))
+        };
+        let parts = PipelineParts {
+            label: "raycast",
+            layout,
+            module,
+            entry,
+            constants: &constants,
+            format,
+            blend,
+        };
+        render_pipeline(gpu, &parts)
+    }
+}
+
+const MEAN_PART: wgpu::BlendComponent = wgpu::BlendComponent {
+    src_factor: wgpu::BlendFactor::Constant,
+    dst_factor: wgpu::BlendFactor::OneMinusConstant,
+    operation: wgpu::BlendOperation::Add,
+};
+
+const MEAN: wgpu::BlendState = wgpu::BlendState {
+    color: MEAN_PART,
+    alpha: MEAN_PART,
+};
+
+/// Group 0 of one frame.
+pub(crate) fn frame_group(gpu: &Gpu, layouts: &Layouts, frame: &Frame) -> wgpu::BindGroup {
+    let buffer = uniform_buffer(gpu, "frame", frame);
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("frame"),
+        layout: &layouts.frame,
+        entries: &[entry(0, buffer.as_entire_binding())],
+    })
+}
+
+/// One ray march pass.
+pub(crate) struct March<'a> {
+    pub target: &'a wgpu::TextureView,
+    pub pipeline: &'a wgpu::RenderPipeline,
+    pub frame: &'a wgpu::BindGroup,
+    pub subject: &'a wgpu::BindGroup,
+    pub scene: &'a wgpu::BindGroup,
+    /// For pipelines that draw from the baked map.
+    pub baked: Option<&'a wgpu::BindGroup>,
+    /// Pixels of the target in use, from its top left.
+    pub viewport: [u32; 2],
+    pub tiles: &'a [[u32; 4]],
+    /// Weight against what the target holds: 1 overwrites.
+    pub weight: f32,
+}
+
+/// Adds a ray march to the encoder.
+pub(crate) fn encode_march(encoder: &mut wgpu::CommandEncoder, march: &March<'_>) {
+    let mut pass = render_pass(encoder, "raycast", march.target);
+    pass.set_pipeline(march.pipeline);
+    pass.set_bind_group(0, march.frame, &[]);
+    pass.set_bind_group(1, march.subject, &[]);
+    pass.set_bind_group(2, march.scene, &[]);
+    if let Some(baked) = march.baked {
+        pass.set_bind_group(3, baked, &[]);
+    }
+    let weight = f64::from(march.weight);
+    pass.set_blend_constant(wgpu::Color {
+        r: weight,
+        g: weight,
+        b: weight,
+        a: weight,
+    });
+    let [width, height] = march.viewport.map(|side| side as f32);
+    pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
+    for &[x, y, w, h] in march.tiles {
+        pass.set_scissor_rect(x, y, w, h);
+        pass.draw(0..3, 0..1);
+    }
+}

@@ -1,0 +1,779 @@
+use super::clock::Clock;
+use super::follow::{Follower, PendingPlaces};
+use super::image::{Image, read_picture};
+use super::pace::{Pace, Work};
+use super::passes::Passes;
+use super::pick::{PendingPick, encode_pick};
+use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
+use super::studio::Studio;
+use super::targets::{Shot, Targets, fitting_size};
+use crate::data::{Segment, Segmentation, Volume};
+use crate::document::{Camera, Illustration};
+use crate::render::device::bindings::encoder;
+use crate::render::device::error::RenderError;
+use crate::render::device::gpu::Gpu;
+use crate::render::device::readback::WorkDone;
+use crate::render::pack::frame::frame_of;
+use crate::render::pack::values::SubjectInfo;
+use crate::render::pack::view::View;
+use crate::render::scene::Scene;
+use crate::render::subject::reduce::reduced_to_fit;
+use crate::render::subject::upload::Upload;
+use glam::{Vec2, Vec3};
+use std::sync::Arc;
+
+/// Samples per pixel of the finished picture.
+const SAMPLES_HARDWARE: u32 = 16;
+const SAMPLES_SOFTWARE: u32 = 5;
+
+/// The quick picture is at least this part of the full one along each side.
+const LEAST_SCALE: f32 = 0.14;
+
+/// Refining waits so long after the last change, so that a drag is not slowed down by tiles nobody will see, seconds.
+const CALM_SECONDS: f64 = 0.12;
+
+/// First guesses of the cost of a pixel, seconds; measured from then on.
+const FIRST_COST_SOFTWARE: f64 = 2.5e-6;
+const FIRST_COST_HARDWARE: f64 = 3.0e-8;
+
+/// A pixel of the baked map is taken to cost so much of one of the formulas until it was measured.
+const BAKED_HOPE: f64 = 0.5;
+
+/// What [`Renderer::draw`] left behind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrawState {
+    /// Nothing is left to do: no repaint is needed until something changes.
+    pub is_done: bool,
+    /// Of refinement, 0 to 1.
+    pub progress: f32,
+    /// There is a picture in [`Renderer::output_view`].
+    pub has_picture: bool,
+    /// A volume is on its way to the GPU: fraction done.
+    pub uploading: Option<f32>,
+}
+
+/// Draws progressively: at once at the resolution that holds the frame rate, then, tile by tile, the full picture.
+///
+/// Call [`Renderer::draw`] once per frame. It never waits for the GPU, keeps at most one submission under way, and
+/// hands in no more work than fits the time budget, measured on this device as it goes.
+#[derive(Debug)]
+pub struct Renderer {
+    gpu: Gpu,
+    clock: Clock,
+    passes: Option<Arc<Passes>>,
+    studio: Option<Studio>,
+    volume: Option<Arc<Volume>>,
+    upload: Option<(Upload, Arc<Volume>)>,
+    /// Shown in place of the segments that the volume came with.
+    labels: Option<Option<Arc<Segmentation>>>,
+    /// What the device has, made smaller where it was too large.
+    fitting: Option<Arc<Volume>>,
+    notices: Vec<String>,
+    illustration: Option<Illustration>,
+    scene: Option<Scene>,
+    targets: Option<Targets>,
+    stage: Stage,
+    changed_at: f64,
+    pace: Pace,
+    /// The quick picture by the formulas could not hold the full resolution.
+    is_coarse: bool,
+    under_way: Option<UnderWay>,
+    generation: u64,
+    slice_passes: Option<SlicePasses>,
+    slices: SliceBoard,
+    follower: Follower,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Stage {
+    /// What is shown is not what should be.
+    Stale,
+    /// The quick picture is out; sample `sample` is drawn from tile `tile` on.
+    Refining {
+        sample: u32,
+        tile: usize,
+    },
+    Done,
+}
+
+#[derive(Debug)]
+struct UnderWay {
+    done: WorkDone,
+    started: f64,
+    pixels: u32,
+    work: Work,
+    checks: u32,
+}
+
+impl Renderer {
+    /// Cheap: programs are compiled when the first picture is drawn.
+    pub fn new(gpu: Gpu, clock: Clock) -> Self {
+        let cost = if gpu.is_software() {
+            FIRST_COST_SOFTWARE
+        } else {
+            FIRST_COST_HARDWARE
+        };
+        Self {
+            gpu,
+            clock,
+            passes: None,
+            studio: None,
+            volume: None,
+            upload: None,
+            labels: None,
+            fitting: None,
+            notices: Vec::new(),
+            illustration: None,
+            scene: None,
+            targets: None,
+            stage: Stage::Stale,
+            changed_at: f64::NEG_INFINITY,
+            pace: Pace::new([cost, BAKED_HOPE * cost, 1.5 * cost, 0.05 * cost]),
+            is_coarse: false,
+            under_way: None,
+            generation: 0,
+            slice_passes: None,
+            follower: Follower::default(),
+            slices: SliceBoard::default(),
+        }
+    }
+
+    /// The device it draws on.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Shows another volume as soon as it is on the GPU ([`Renderer::draw`] brings it there piece by piece); until then
+    /// the old one stays. The volume is kept, so that a lost device can be recovered from.
+    ///
+    /// # Errors
+    /// [`RenderError::TooLarge`] if the volume is not whole.
+    pub fn set_subject(&mut self, volume: Arc<Volume>) -> Result<(), RenderError> {
+        self.gpu.check()?;
+        let fitting = match reduced_to_fit(&self.gpu, &volume)? {
+            Some((small, notice)) => {
+                self.notices.push(notice);
+                Arc::new(small)
+            }
+            None => Arc::clone(&volume),
+        };
+        self.upload = Some((Upload::new(&self.gpu, &fitting)?, fitting));
+        self.volume = Some(volume);
+        self.labels = None;
+        Ok(())
+    }
+
+    /// Shows the volume with other segments than it came with, from when it is on the GPU on; for
+    /// [`Renderer::set_subject`]'s last volume.
+    ///
+    /// # Errors
+    /// [`RenderError::TooLarge`] if the device does not take them.
+    pub fn set_segmentation(
+        &mut self,
+        labels: Option<Arc<Segmentation>>,
+    ) -> Result<(), RenderError> {
+        self.labels = Some(labels);
+        match self.upload {
+            Some(_) => Ok(()),
+            None => self.take_segmentations(),
+        }
+    }
+
+    fn take_segmentations(&mut self) -> Result<(), RenderError> {
+        let passes = self.passes();
+        if let (Some(labels), Some(studio), Some(volume)) =
+            (&self.labels, &mut self.studio, &self.fitting)
+        {
+            let labels = labels.as_deref();
+            let subject = studio
+                .subject
+                .with_labels(&self.gpu, &passes.layouts, volume, labels)?;
+            studio.subject = Arc::new(subject);
+            self.scene = None;
+            self.slices.forget();
+            self.touch();
+        }
+        Ok(())
+    }
+
+    /// Shows the subject that another renderer on the same device shows; the volume is on the device once.
+    pub fn share_subject(&mut self, other: &Self) {
+        let is_same = match (&self.studio, &other.studio) {
+            (Some(mine), Some(theirs)) => Arc::ptr_eq(&mine.subject, &theirs.subject),
+            (None, None) => true,
+            _ => false,
+        };
+        if !is_same {
+            self.passes = other.passes.clone();
+            self.studio = other.studio.clone();
+            self.scene = None;
+            self.slices.forget();
+            self.touch();
+        }
+    }
+
+    /// Shows this illustration from the next [`Renderer::draw`] on. Cheap; call it every frame.
+    pub fn set_illustration(&mut self, illustration: &Illustration) {
+        if let Some(shown) = &self.illustration
+            && shown.templates == illustration.templates
+            && shown.look == illustration.look
+            && shown.camera == illustration.camera
+            && shown.subject == illustration.subject
+        {
+            return;
+        }
+        self.illustration = Some(illustration.clone());
+        self.touch();
+    }
+
+    /// Looks from elsewhere than the illustration says, until that is set again.
+    pub fn set_camera(&mut self, camera: &Camera) {
+        if let Some(shown) = &mut self.illustration
+            && shown.camera != *camera
+        {
+            shown.camera = *camera;
+            self.touch();
+        }
+    }
+
+    fn touch(&mut self) {
+        self.stage = Stage::Stale;
+        self.changed_at = (self.clock)();
+    }
+
+    /// One frame's work: `size_px` is the size of the picture in device pixels, `budget_seconds` what the GPU may
+    /// spend on it. `is_moving` says that more changes are about to come (a drag, an animation): then nothing is
+    /// refined.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`] (then [`Renderer::recover`]), [`RenderError::Refused`].
+    pub fn draw(
+        &mut self,
+        size_px: [u32; 2],
+        budget_seconds: f32,
+        is_moving: bool,
+    ) -> Result<DrawState, RenderError> {
+        self.gpu.check()?;
+        let polled = self.gpu.device.poll(wgpu::PollType::Poll);
+        // The loss is reported while polling.
+        self.gpu.check()?;
+        if let Err(why) = polled {
+            return Err(RenderError::Refused {
+                pass: "frame",
+                message: why.to_string(),
+            });
+        }
+        if let Some(message) = self.gpu.take_errors().into_iter().next() {
+            return Err(RenderError::Refused {
+                pass: "picture",
+                message,
+            });
+        }
+        let budget = f64::from(budget_seconds).max(1e-3);
+        self.advance_upload(budget)?;
+        self.measure();
+        let size = fitting_size(&self.gpu, size_px);
+        if self.targets.as_ref().is_none_or(|t| t.size != size) && size.iter().all(|&s| s > 0) {
+            self.make_targets(size);
+        }
+        if self.prepare() && self.targets.is_some() {
+            // Two submissions in line would show every change a frame late; a resize cannot wait, its picture is empty.
+            let is_blank = self.generation_is_blank();
+            if self.under_way.is_none() || is_blank {
+                match self.stage {
+                    Stage::Stale => self.draw_quick(budget),
+                    Stage::Refining { sample, tile } if !is_moving || self.is_calm() => {
+                        if !self.bake(budget) {
+                            self.refine(sample, tile, budget);
+                        }
+                    }
+                    Stage::Refining { .. } | Stage::Done => {}
+                }
+            }
+        }
+        Ok(self.state())
+    }
+
+    fn is_calm(&self) -> bool {
+        (self.clock)() - self.changed_at > CALM_SECONDS
+    }
+
+    /// The picture: Rgba8Unorm, sRGB-encoded, premultiplied after encoding. Made anew when the size changes; see
+    /// [`Renderer::output_generation`].
+    pub fn output_view(&self) -> Option<&wgpu::TextureView> {
+        self.targets.as_ref().map(|t| &t.output.view)
+    }
+
+    /// True if the next movement is drawn from the baked map, as far as that is faster.
+    pub fn has_baked(&self) -> bool {
+        self.scene.as_ref().is_some_and(|p| p.baked().is_some())
+    }
+
+    /// Counts the textures that [`Renderer::output_view`] has had.
+    pub fn output_generation(&self) -> u64 {
+        self.generation
+    }
+
+    /// Size of the picture, pixels; smaller than asked for where a screen has more pixels than can be drawn in time.
+    pub fn output_size(&self) -> Option<[u32; 2]> {
+        self.targets.as_ref().map(|t| t.size)
+    }
+
+    /// Reads what is shown at this moment (premultiplied where the background is transparent).
+    ///
+    /// # Errors
+    /// [`RenderError::NoSubject`] before the first picture, [`RenderError::DeviceLost`].
+    pub fn read_output(&self) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        let reading = self
+            .targets
+            .as_ref()
+            .map(|t| read_picture(&self.gpu, encoder(&self.gpu), &t.output.texture));
+        async move {
+            match reading {
+                Some(picture) => picture.await,
+                None => Err(RenderError::NoSubject),
+            }
+        }
+    }
+
+    /// What the subject is, once one is on the GPU.
+    pub fn subject_info(&self) -> Option<SubjectInfo> {
+        self.studio.as_ref().map(|s| s.info())
+    }
+
+    /// The named segments of the subject, once one is on the GPU.
+    pub fn segments(&self) -> &[Segment] {
+        self.studio.as_ref().map_or(&[], |s| s.segments())
+    }
+
+    /// Notices since the last call (a volume was made coarser, …).
+    pub fn take_notices(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notices)
+    }
+
+    /// What is under a pixel of the picture as it is set now (origin top left, of a picture of `size_px`).
+    ///
+    /// # Errors
+    /// [`RenderError::NoSubject`], [`RenderError::DeviceLost`].
+    pub fn pick(&mut self, pixel: Vec2, size_px: [u32; 2]) -> Result<PendingPick, RenderError> {
+        self.gpu.check()?;
+        if !self.prepare() {
+            return Err(RenderError::NoSubject);
+        }
+        match (&self.studio, &self.scene, &self.illustration) {
+            (Some(studio), Some(scene), Some(illustration)) => Ok(encode_pick(
+                &self.gpu,
+                &studio.passes,
+                &studio.subject,
+                scene,
+                &View::new(&illustration.camera, size_px),
+                pixel,
+                studio.subject.uniform.has_labels != 0,
+            )),
+            _ => Err(RenderError::NoSubject),
+        }
+    }
+
+    /// Where points of the rest are in the object as it is set now.
+    ///
+    /// # Errors
+    /// [`RenderError::NoSubject`], [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub fn follow_points(&mut self, points_in_rest: &[Vec3]) -> Result<PendingPlaces, RenderError> {
+        self.gpu.check()?;
+        if !self.prepare() {
+            return Err(RenderError::NoSubject);
+        }
+        match (&self.studio, &self.scene) {
+            (Some(studio), Some(scene)) => {
+                Ok(self
+                    .follower
+                    .find(&self.gpu, &studio.subject, scene, points_in_rest))
+            }
+            _ => Err(RenderError::NoSubject),
+        }
+    }
+
+    /// Brings the slice of a slot (0, 1, …; each has its own texture) up to date with what was set last; nothing is
+    /// drawn where nothing changed. True if [`Renderer::slice_view`] has a picture of it.
+    ///
+    /// # Errors
+    /// [`RenderError::BadSize`], [`RenderError::DeviceLost`].
+    pub fn draw_slice(&mut self, slot: usize, view: &SliceView) -> Result<bool, RenderError> {
+        if !self.ready_for_slices()? {
+            return Ok(false);
+        }
+        if let (Some(studio), Some(scene), Some(passes)) =
+            (&self.studio, &self.scene, &self.slice_passes)
+        {
+            let scene = SliceScene {
+                gpu: &self.gpu,
+                passes,
+                subject: &studio.subject,
+                scene,
+            };
+            self.slices.draw(slot, view, &scene)?;
+            return Ok(true);
+        }
+        Ok(false)
+    }
+
+    /// The picture of a slot (Rgba8Unorm, sRGB-encoded, opaque), and a number that changes when its texture is another.
+    pub fn slice_view(&self, slot: usize) -> Option<(&wgpu::TextureView, u64)> {
+        self.slices.view(slot)
+    }
+
+    /// What the deformed object has at each pixel of a slice, row by row from the top.
+    ///
+    /// # Errors
+    /// [`RenderError::NoSubject`], [`RenderError::BadSize`], [`RenderError::DeviceLost`].
+    pub fn read_slice(
+        &mut self,
+        plane: &SlicePlane,
+        size_px: [u32; 2],
+    ) -> Result<PendingSlice, RenderError> {
+        if !self.ready_for_slices()? {
+            return Err(RenderError::NoSubject);
+        }
+        match (&self.studio, &self.scene, &self.slice_passes) {
+            (Some(studio), Some(scene), Some(passes)) => SliceScene {
+                gpu: &self.gpu,
+                passes,
+                subject: &studio.subject,
+                scene,
+            }
+            .read(plane, size_px),
+            _ => Err(RenderError::NoSubject),
+        }
+    }
+
+    fn ready_for_slices(&mut self) -> Result<bool, RenderError> {
+        self.gpu.check()?;
+        if !self.prepare() {
+            return Ok(false);
+        }
+        if self.slice_passes.is_none() {
+            let passes = self.passes();
+            self.slice_passes = Some(SlicePasses::new(&self.gpu, &passes.layouts));
+        }
+        Ok(true)
+    }
+
+    /// A finished picture of the subject that is on the GPU, beside what is shown: for PNG export and icons. The future
+    /// owns what it needs and may be polled once per frame.
+    pub fn render_image(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        samples: u32,
+    ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        let started = self
+            .studio
+            .as_ref()
+            .map(|studio| studio.render_image(illustration, size_px, samples));
+        async move {
+            match started {
+                Some(picture) => picture.await,
+                None => Err(RenderError::NoSubject),
+            }
+        }
+    }
+
+    /// Goes on with another device after the old one was lost: the kept volume is uploaded again, and the same picture
+    /// comes back.
+    ///
+    /// # Errors
+    /// [`RenderError::TooLarge`] if the new device takes less.
+    pub fn recover(&mut self, gpu: Gpu) -> Result<(), RenderError> {
+        let volume = self.volume.take();
+        let labels = self.labels.take();
+        let illustration = self.illustration.take();
+        let generation = self.generation;
+        *self = Self {
+            generation,
+            illustration,
+            ..Self::new(gpu, self.clock)
+        };
+        match volume {
+            Some(volume) => {
+                self.set_subject(volume)?;
+                self.labels = labels;
+                Ok(())
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Brings the next slabs to the GPU.
+    fn advance_upload(&mut self, budget: f64) -> Result<(), RenderError> {
+        let Some((mut upload, volume)) = self.upload.take() else {
+            return Ok(());
+        };
+        let start = (self.clock)();
+        loop {
+            if upload.advance(&self.gpu, &volume) {
+                let passes = self.passes();
+                let subject = upload.finish(&self.gpu, &passes.layouts, &volume);
+                self.studio = Some(Studio {
+                    gpu: self.gpu.clone(),
+                    passes,
+                    subject: Arc::new(subject),
+                    wants_grid: true,
+                });
+                self.fitting = Some(volume);
+                self.scene = None;
+                self.slices.forget();
+                self.touch();
+                return self.take_segmentations();
+            }
+            if (self.clock)() - start > budget {
+                // Hands over what has piled up.
+                self.gpu.queue.submit([]);
+                self.upload = Some((upload, volume));
+                return Ok(());
+            }
+        }
+    }
+
+    /// Takes the shaders from their files again, for whoever is changing them. With an error all stays as it was.
+    ///
+    /// # Errors
+    /// [`RenderError::Shader`] with file and line.
+    #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+    pub fn reload_shaders(&mut self) -> Result<(), RenderError> {
+        crate::render::device::programs::check_programs()?;
+        let passes = Arc::new(Passes::new(&self.gpu));
+        if let Some(studio) = &mut self.studio {
+            studio.passes = Arc::clone(&passes);
+        }
+        self.passes = Some(passes);
+        self.slice_passes = None;
+        self.scene = None;
+        self.slices.forget();
+        self.touch();
+        Ok(())
+    }
+
+    fn passes(&mut self) -> Arc<Passes> {
+        if let Some(passes) = &self.passes {
+            return Arc::clone(passes);
+        }
+        let passes = Arc::new(Passes::new(&self.gpu));
+        self.passes = Some(Arc::clone(&passes));
+        passes
+    }
+
+    /// Learns from the last submission how long a pixel takes.
+    fn measure(&mut self) {
+        let Some(work) = &mut self.under_way else {
+            return;
+        };
+        work.checks += 1;
+        if !work.done.is_done() {
+            return;
+        }
+        let elapsed = (self.clock)() - work.started;
+        self.pace
+            .learn(elapsed, work.pixels, work.checks, work.work);
+        self.under_way = None;
+    }
+
+    fn make_targets(&mut self, size: [u32; 2]) {
+        self.targets = Some(Targets::new(&self.gpu, size));
+        self.generation += 1;
+        self.stage = Stage::Stale;
+    }
+
+    /// True while a new output texture has nothing in it.
+    fn generation_is_blank(&self) -> bool {
+        self.stage == Stage::Stale && self.drawn_generation() != self.generation
+    }
+
+    fn drawn_generation(&self) -> u64 {
+        match &self.scene {
+            Some(scene) => scene.drawn_generation,
+            None => 0,
+        }
+    }
+
+    /// Brings the scene up to date. False if there is nothing to draw yet.
+    fn prepare(&mut self) -> bool {
+        let (Some(studio), Some(illustration)) = (&self.studio, &self.illustration) else {
+            return false;
+        };
+        let scene = self.scene.get_or_insert_with(|| {
+            Scene::new(&self.gpu, &studio.passes.layouts, studio.wants_grid)
+        });
+        let passes = &studio.passes;
+        if passes.update(&self.gpu, scene, &studio.subject, illustration) {
+            self.stage = Stage::Stale;
+            self.notices.extend(scene.take_notices());
+        }
+        true
+    }
+
+    /// The whole picture at the resolution that fits the budget.
+    fn draw_quick(&mut self, budget: f64) {
+        let (Some(studio), Some(illustration), Some(targets), Some(scene)) = (
+            &self.studio,
+            &self.illustration,
+            &self.targets,
+            &mut self.scene,
+        ) else {
+            return;
+        };
+        let [width, height] = targets.size.map(|side| side as f32);
+        // The baked map if it is there and faster on this device, as far as was seen.
+        let is_faster = self.pace.cost(Work::QuickBaked) < self.pace.cost(Work::Quick);
+        let baked = scene.baked().filter(|_| is_faster);
+        let (work, key) = match baked {
+            Some(_) => (Work::QuickBaked, scene.baked_key()),
+            None => (Work::Quick, scene.key(false)),
+        };
+        let affordable = self.pace.affordable(budget, work);
+        // In sixteenths, so that the resolution does not flicker from frame to frame.
+        let scale = (affordable as f32 / (width * height))
+            .sqrt()
+            .clamp(LEAST_SCALE, 1.0);
+        let scale = ((scale * 16.0).floor() / 16.0).max(LEAST_SCALE);
+        let small = targets
+            .size
+            .map(|side| ((side as f32 * scale).round() as u32).clamp(1, side));
+        let view = View::new(&illustration.camera, small);
+        let frame = frame_of(&view, scene.bounds(), studio.subject.frame.detail, 0, true);
+        let [small_width, small_height] = small.map(|side| side as f32);
+        let shot = Shot {
+            key,
+            frame,
+            baked: baked.map(|baked| &baked.group),
+            viewport: small,
+            tiles: &[[0, 0, small[0], small[1]]],
+            weight: 1.0,
+            scale: [
+                small_width / (width * width),
+                small_height / (height * height),
+            ],
+            end: [(small_width - 0.5) / width, (small_height - 0.5) / height],
+            shown: &[[0, 0, targets.size[0], targets.size[1]]],
+        };
+        targets.draw(studio, scene, &shot);
+        scene.drawn_generation = self.generation;
+        self.stage = Stage::Refining { sample: 0, tile: 0 };
+        self.is_coarse = self.pace.affordable(budget, Work::Quick) < f64::from(width * height);
+        self.follow(small[0] * small[1], work);
+    }
+
+    /// The next tiles of the full picture, as many as fit the budget.
+    fn refine(&mut self, sample: u32, first: usize, budget: f64) {
+        let (Some(studio), Some(illustration), Some(targets), Some(scene)) =
+            (&self.studio, &self.illustration, &self.targets, &self.scene)
+        else {
+            return;
+        };
+        let affordable = self.pace.affordable(budget, Work::Refine);
+        let mut pixels = 0;
+        let mut end = first;
+        while let Some(&[_, _, w, h]) = targets.tiles.get(end) {
+            if end > first && f64::from(pixels) >= affordable {
+                break;
+            }
+            pixels += w * h;
+            end += 1;
+        }
+        let tiles = targets.tiles.get(first..end).unwrap_or_default();
+        let view = View::new(&illustration.camera, targets.size);
+        let frame = frame_of(
+            &view,
+            scene.bounds(),
+            studio.subject.frame.detail,
+            sample,
+            false,
+        );
+        let [width, height] = targets.size.map(|side| side as f32);
+        let shot = Shot {
+            key: scene.key(false),
+            frame,
+            baked: None,
+            viewport: targets.size,
+            tiles,
+            weight: 1.0 / (sample + 1) as f32,
+            scale: [1.0 / width, 1.0 / height],
+            end: [1.0; 2],
+            shown: tiles,
+        };
+        targets.draw(studio, scene, &shot);
+        self.stage = if end < targets.tiles.len() {
+            Stage::Refining { sample, tile: end }
+        } else if sample + 1 < self.samples() {
+            Stage::Refining {
+                sample: sample + 1,
+                tile: 0,
+            }
+        } else {
+            Stage::Done
+        };
+        self.follow(pixels, Work::Refine);
+    }
+
+    /// Bakes on where the next movement would gain by it: the formulas are too slow for the full resolution. True if
+    /// it had anything to do.
+    fn bake(&mut self, budget: f64) -> bool {
+        let (Some(studio), Some(scene)) = (&self.studio, &mut self.scene) else {
+            return false;
+        };
+        if !self.is_coarse || !scene.may_bake() || scene.baked().is_some() {
+            return false;
+        }
+        let affordable = self
+            .pace
+            .affordable(budget, Work::Bake)
+            .min(f64::from(u32::MAX));
+        let texels = studio
+            .passes
+            .bake(&self.gpu, scene, None, affordable as u32);
+        if scene.baked().is_some() {
+            // Compiled now, while nobody waits for it.
+            studio.passes.raycast.pipeline(&self.gpu, scene.baked_key());
+            self.pace.hope_for_baked(BAKED_HOPE);
+        }
+        self.follow(texels, Work::Bake);
+        true
+    }
+
+    fn follow(&mut self, pixels: u32, work: Work) {
+        self.under_way = Some(UnderWay {
+            done: WorkDone::start(&self.gpu),
+            started: (self.clock)(),
+            pixels,
+            work,
+            checks: 0,
+        });
+    }
+
+    fn samples(&self) -> u32 {
+        if self.gpu.is_software() {
+            SAMPLES_SOFTWARE
+        } else {
+            SAMPLES_HARDWARE
+        }
+    }
+
+    fn state(&self) -> DrawState {
+        let has_scene = self.studio.is_some() && self.illustration.is_some();
+        let progress = match (self.stage, &self.targets) {
+            (Stage::Done, _) => 1.0,
+            (Stage::Refining { sample, tile }, Some(targets)) => {
+                (sample as f32 + tile as f32 / targets.tiles.len().max(1) as f32)
+                    / self.samples() as f32
+            }
+            _ => 0.0,
+        };
+        DrawState {
+            is_done: self.upload.is_none()
+                && self.under_way.is_none()
+                && (!has_scene || self.stage == Stage::Done || self.targets.is_none()),
+            progress,
+            has_picture: self.targets.is_some() && self.drawn_generation() == self.generation,
+            uploading: self.upload.as_ref().map(|(upload, _)| upload.progress()),
+        }
+    }
+}

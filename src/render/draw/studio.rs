@@ -1,0 +1,320 @@
+//! Pictures without a window.
+
+use super::follow::Follower;
+use super::image::Image;
+use super::object::object_samples;
+use super::passes::Passes;
+use super::pick::{PendingPick, Pick, encode_pick};
+use super::picture::PictureJob;
+use super::probe::Sample;
+use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
+use crate::data::{Segment, Volume};
+use crate::document::Illustration;
+use crate::render::device::error::RenderError;
+use crate::render::device::gpu::Gpu;
+use crate::render::pack::values::SubjectInfo;
+use crate::render::pack::view::View;
+use crate::render::scene::Scene;
+use crate::render::stage::baked::BakedMap;
+use crate::render::stage::skip_grid::GridCells;
+use crate::render::subject::reduce::reduced_to_fit;
+use crate::render::subject::upload::Upload;
+use crate::render::subject::volume::SubjectTextures;
+use glam::{Vec2, Vec3};
+use std::sync::Arc;
+
+/// Draws one picture without a window: uploads the volume, draws every sample, reads back. Deterministic on one
+/// adapter.
+///
+/// # Errors
+/// What [`RenderError`] lists but shaders.
+pub async fn render_image(
+    gpu: &Gpu,
+    illustration: &Illustration,
+    volume: &Volume,
+    size_px: [u32; 2],
+    samples: u32,
+) -> Result<Image, RenderError> {
+    let studio = Studio::new(gpu, volume, true)?;
+    studio.render_image(illustration, size_px, samples).await
+}
+
+/// A device with a volume on it, ready for pictures. What [`render_image`] makes each time, kept for several.
+#[derive(Clone, Debug)]
+pub struct Studio {
+    pub(crate) gpu: Gpu,
+    pub(crate) passes: Arc<Passes>,
+    pub(crate) subject: Arc<SubjectTextures>,
+    pub(crate) wants_grid: bool,
+}
+
+impl Studio {
+    /// Uploads the volume. `wants_grid` false draws without the grid over the deformed space, to measure what it gains.
+    ///
+    /// # Errors
+    /// [`RenderError::TooLarge`].
+    pub fn new(gpu: &Gpu, volume: &Volume, wants_grid: bool) -> Result<Self, RenderError> {
+        let passes = Passes::new(gpu);
+        let smaller = reduced_to_fit(gpu, volume)?;
+        let volume = smaller.as_ref().map_or(volume, |(small, _)| small);
+        let mut upload = Upload::new(gpu, volume)?;
+        while !upload.advance(gpu, volume) {
+            // Hands the slabs over now and then, so that they do not pile up.
+            gpu.queue.submit([]);
+        }
+        let subject = upload.finish(gpu, &passes.layouts, volume);
+        Ok(Self {
+            gpu: gpu.clone(),
+            passes: Arc::new(passes),
+            subject: Arc::new(subject),
+            wants_grid,
+        })
+    }
+
+    fn scene(&self, illustration: &Illustration, wants_grid: bool) -> Scene {
+        self.passes
+            .scene(&self.gpu, &self.subject, illustration, wants_grid)
+    }
+
+    /// Makes everything ready for one picture.
+    ///
+    /// # Errors
+    /// [`RenderError::BadSize`], [`RenderError::DeviceLost`].
+    pub(crate) fn picture(
+        &self,
+        illustration: &Illustration,
+        size: [u32; 2],
+    ) -> Result<PictureJob, RenderError> {
+        self.gpu.check()?;
+        PictureJob::check_size(&self.gpu, size)?;
+        Ok(PictureJob {
+            view: View::new(&illustration.camera, size),
+            scene: self.scene(illustration, self.wants_grid),
+            gpu: self.gpu.clone(),
+            passes: Arc::clone(&self.passes),
+            subject: Arc::clone(&self.subject),
+            size,
+        })
+    }
+
+    /// What the volume is.
+    pub fn info(&self) -> SubjectInfo {
+        self.subject.info
+    }
+
+    /// The same volume, drawn with or without the grid.
+    pub fn with_grid(&self, wants_grid: bool) -> Self {
+        Self {
+            wants_grid,
+            ..self.clone()
+        }
+    }
+
+    /// Draws one picture. The future owns what it needs.
+    ///
+    /// # Errors
+    /// [`RenderError::BadSize`], [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub fn render_image(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        samples: u32,
+    ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        let job = self.picture(illustration, size_px);
+        async move { job?.draw(samples.max(1)).await }
+    }
+
+    /// Draws one picture from the baked map, with so many texels along its longest side: what is shown while the
+    /// camera moves, where that is faster. Alignment and constraints are not in it. The future owns what it needs.
+    ///
+    /// # Errors
+    /// As [`Studio::render_image`].
+    pub fn render_baked(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        samples: u32,
+        texels_along: Option<u32>,
+    ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        let job = self.picture(illustration, size_px);
+        async move {
+            let mut job = job?;
+            job.bake(texels_along);
+            job.draw(samples.max(1)).await
+        }
+    }
+
+    /// The map of an illustration baked with so many texels along its longest side, read back.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn bake(
+        &self,
+        illustration: &Illustration,
+        texels_along: Option<u32>,
+    ) -> Result<BakedMap, RenderError> {
+        let mut scene = self.scene(illustration, false);
+        self.passes
+            .bake(&self.gpu, &mut scene, texels_along, u32::MAX);
+        match scene.baked() {
+            Some(baked) => baked.read(&self.gpu).await,
+            None => Err(RenderError::NoSubject),
+        }
+    }
+
+    /// The grid over the deformed space of an illustration, as the ray march will read it; `None` for a studio
+    /// without one.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn grid_cells(
+        &self,
+        illustration: &Illustration,
+    ) -> Result<Option<GridCells>, RenderError> {
+        let scene = self.scene(illustration, self.wants_grid);
+        match scene.grid() {
+            Some(grid) => Ok(Some(grid.read(&self.gpu).await?)),
+            None => Ok(None),
+        }
+    }
+
+    /// Its named segments.
+    pub fn segments(&self) -> &[Segment] {
+        &self.subject.segments
+    }
+
+    /// What the object has at points of subject space when alignment and constraints count: where that material was
+    /// at rest, and the composed continuity along its path, below 0 where there is nothing.
+    ///
+    /// # Errors
+    /// [`RenderError::Shader`], [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn probe_object(
+        &self,
+        illustration: &Illustration,
+        points: &[Vec3],
+    ) -> Result<Vec<Sample>, RenderError> {
+        let scene = self.scene(illustration, false);
+        object_samples(&self.gpu, &self.subject, &scene, points).await
+    }
+
+    /// Where points of the rest (rest space) are in the deformed object, subject space; `None` where their tissue is
+    /// cut away.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn follow_points(
+        &self,
+        illustration: &Illustration,
+        points_in_rest: &[Vec3],
+    ) -> Result<Vec<Option<Vec3>>, RenderError> {
+        if points_in_rest.is_empty() {
+            return Ok(Vec::new());
+        }
+        let scene = self.scene(illustration, false);
+        let mut follower = Follower::default();
+        follower
+            .find(&self.gpu, &self.subject, &scene, points_in_rest)
+            .await
+    }
+
+    /// Distances as made for an illustration, read back: voxels along each axis, all slabs counted, and per voxel the
+    /// four sets' signed distances. The first slab is smoothed; behind it lie the exact ones if there are
+    /// constraints, and then the depth under the outer surface if a template is aligned to that. For tests and
+    /// whoever wants to look.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn distances(
+        &self,
+        illustration: &Illustration,
+    ) -> Result<([u32; 3], Vec<[f32; 4]>), RenderError> {
+        let scene = self.scene(illustration, false);
+        scene.kept_textures().read(&self.gpu).await
+    }
+
+    /// What is at a point of the picture (pixels, origin top left). The future owns what it needs.
+    pub fn pick(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        pixel: Vec2,
+    ) -> impl Future<Output = Result<Option<Pick>, RenderError>> + 'static {
+        let reading = self.start_pick(illustration, size_px, pixel);
+        async move { reading?.await }
+    }
+
+    /// Draws one slice of the deformed object. The future owns what it needs.
+    ///
+    /// # Errors
+    /// [`RenderError::BadSize`], [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub fn slice_image(
+        &self,
+        illustration: &Illustration,
+        view: &SliceView,
+    ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        let reading = self.with_slices(illustration, |scene| {
+            let mut board = SliceBoard::default();
+            board.draw(0, view, scene)?;
+            board.read(0, scene.gpu)
+        });
+        let gpu = self.gpu.clone();
+        async move {
+            let image = reading?.await?;
+            match gpu.take_errors().into_iter().next() {
+                Some(message) => Err(RenderError::Refused {
+                    pass: "slice",
+                    message,
+                }),
+                None => Ok(image),
+            }
+        }
+    }
+
+    /// What the deformed object has at each pixel of a slice, row by row from the top. The future owns what it needs.
+    ///
+    /// # Errors
+    /// [`RenderError::BadSize`], [`RenderError::DeviceLost`].
+    pub fn read_slice(
+        &self,
+        illustration: &Illustration,
+        plane: &SlicePlane,
+        size_px: [u32; 2],
+    ) -> Result<PendingSlice, RenderError> {
+        self.with_slices(illustration, |scene| scene.read(plane, size_px))
+    }
+
+    fn with_slices<T>(
+        &self,
+        illustration: &Illustration,
+        run: impl FnOnce(&SliceScene<'_>) -> Result<T, RenderError>,
+    ) -> Result<T, RenderError> {
+        self.gpu.check()?;
+        let scene = self.scene(illustration, false);
+        run(&SliceScene {
+            gpu: &self.gpu,
+            passes: &SlicePasses::new(&self.gpu, &self.passes.layouts),
+            subject: &self.subject,
+            scene: &scene,
+        })
+    }
+
+    pub(crate) fn start_pick(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        pixel: Vec2,
+    ) -> Result<PendingPick, RenderError> {
+        let scene = self.scene(illustration, self.wants_grid);
+        let view = View::new(&illustration.camera, size_px);
+        let has_labels = self.subject.uniform.has_labels != 0;
+        Ok(encode_pick(
+            &self.gpu,
+            &self.passes,
+            &self.subject,
+            &scene,
+            &view,
+            pixel,
+            has_labels,
+        ))
+    }
+}

@@ -1,0 +1,54 @@
+//! The uniform of one sample of a picture: camera, sampling and the length of a step.
+
+use super::gpu_types::Frame;
+use super::view::View;
+use crate::math::Aabb;
+
+/// Step at rest, in voxels of the finest spacing. Crossings are found exactly at any step; this is for thin things
+/// and haze.
+const STEP_AT_REST: f32 = 0.75;
+/// Step while anything moves.
+const STEP_MOVING: f32 = 1.25;
+/// Steps are never longer than this, subject units, but for subjects of few voxels: the grid is made for it.
+const LONGEST_STEP: f32 = 0.009;
+
+/// The longest step that any ray takes through a subject whose finest detail has this length.
+pub(crate) fn longest_step(detail: f32) -> f32 {
+    (STEP_MOVING * detail).max(LONGEST_STEP)
+}
+
+/// Uniform of sample `index` of a picture of a subject whose finest detail has this length, subject units. The same
+/// for the same index on every machine: nothing is random.
+pub(crate) fn frame_of(
+    view: &View,
+    bounds: Aabb,
+    detail: f32,
+    index: u32,
+    is_moving: bool,
+) -> Frame {
+    let distance = (view.eye() - bounds.center()).length();
+    let factor = if is_moving { STEP_MOVING } else { STEP_AT_REST };
+    // Finer than a pixel is lost on the picture.
+    let step = (detail * factor)
+        .max(0.6 * view.units_per_pixel(distance))
+        .min(longest_step(detail));
+    let k = index as f32;
+    // Rank-1 lattice with the plastic number: the first samples already lie well apart (Roberts 2018).
+    let place = |ratio: f32| (0.5 + k * ratio).fract();
+    let margin = 1.5 * step;
+    let min = bounds.min - margin;
+    let max = bounds.max + margin;
+    Frame {
+        subject_from_view: view.subject_from_view.into(),
+        lens: view.lens.to_array(),
+        size_px: view.size_px.to_array(),
+        jitter: [place(0.754_877_7), place(0.569_840_3)],
+        first_step: place(0.618_034),
+        occlusion_turn: k * 2.399_963,
+        bounds_min: min.extend(0.0).to_array(),
+        bounds_max: max.extend(0.0).to_array(),
+        pick: [0.0; 2],
+        step,
+        padding: 0,
+    }
+}

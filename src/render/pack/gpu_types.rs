@@ -1,0 +1,566 @@
+//! Mirrors of the structs in `shaders/types.wgsl`, member by member and in order; `tests/layout.rs` compares them.
+
+use crate::document::{
+    FieldRef, FieldSamples, MAX_FIELDS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData,
+    TemplateMode,
+};
+use crate::placed::solved_points;
+use glam::{Affine3A, Mat3A, Vec3A};
+
+/// Format of the transfer table.
+pub const TABLE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+
+/// Templates of one document at most (spec/contract.md, "Limits").
+pub const MAX_TEMPLATES: usize = 32;
+/// Entries of [`Templates::pool`].
+pub const POOL: usize = 640;
+
+/// An affine map, by the rows of its matrix: three factors and the offset of each coordinate of the result.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Affine {
+    /// Of x.
+    pub row0: [f32; 4],
+    /// Of y.
+    pub row1: [f32; 4],
+    /// Of z.
+    pub row2: [f32; 4],
+}
+
+impl Affine {
+    const ZERO: Self = Self {
+        row0: [0.0; 4],
+        row1: [0.0; 4],
+        row2: [0.0; 4],
+    };
+}
+
+impl From<Affine3A> for Affine {
+    fn from(affine: Affine3A) -> Self {
+        let m = affine.matrix3;
+        let t = affine.translation;
+        let row = |i: usize| [m.x_axis[i], m.y_axis[i], m.z_axis[i], t[i]];
+        Self {
+            row0: row(0),
+            row1: row(1),
+            row2: row(2),
+        }
+    }
+}
+
+/// One placed template.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Template {
+    /// Subject space to template space.
+    pub template_from_subject: Affine,
+    /// Template space to subject space.
+    pub subject_from_template: Affine,
+    /// xyz: side lengths of the box that it acts in, subject units; along a curve, of the box laid along it.
+    pub size: [f32; 4],
+    /// Parameters 0 to 3.
+    pub params0: [f32; 4],
+    /// Parameters 4 to 7.
+    pub params1: [f32; 4],
+    /// `TemplateKind as u32`.
+    pub kind: u32,
+    /// Index of the composing template that heads its `add` group (its own if it composes).
+    pub group: u32,
+    /// Index of its curve in the pool, 0 if it is straight.
+    pub curve: u32,
+    /// Index in the pool of what it holds besides parameters, 0 for none.
+    pub held: u32,
+}
+
+/// All templates that act, in order.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Templates {
+    /// The first `count` count.
+    pub items: [Template; MAX_TEMPLATES],
+    /// How many count.
+    pub count: u32,
+    /// To the next row of four.
+    pub padding: [u32; 3],
+    /// What templates hold besides parameters.
+    pub pool: [[f32; 4]; POOL],
+}
+
+impl Templates {
+    /// No templates: the identity.
+    pub const NONE: Self = Self {
+        items: [Template {
+            template_from_subject: Affine::ZERO,
+            subject_from_template: Affine::ZERO,
+            size: [0.0; 4],
+            params0: [0.0; 4],
+            params1: [0.0; 4],
+            kind: 0,
+            group: 0,
+            curve: 0,
+            held: 0,
+        }; MAX_TEMPLATES],
+        count: 0,
+        padding: [0; 3],
+        pool: [[0.0; 4]; POOL],
+    };
+
+    /// Packs the enabled templates. An `add` with no enabled one before it composes (spec/templates.md). More than
+    /// [`MAX_TEMPLATES`] cannot come from a valid document; what is over is left out.
+    pub fn pack(placed: &[PlacedTemplate]) -> Self {
+        let mut packed = Self::NONE;
+        let acting = placed.iter().map(PlacedTemplate::acting);
+        let enabled: Vec<_> = acting.filter(|t| t.enabled).take(MAX_TEMPLATES).collect();
+        let (mut count, mut group) = (0, 0);
+        // The first entry stays 0: no points, no samples, no curve. Curves come first: there is room for one of every
+        // template.
+        let (mut used, mut slice) = (1, 0);
+        let mut fields = 0;
+        let mut hold = |rows: &[[f32; 4]]| {
+            let free = packed.pool.get_mut(used..used + rows.len())?;
+            free.copy_from_slice(rows);
+            used += rows.len();
+            (!rows.is_empty()).then_some(used - rows.len())
+        };
+        for (slot, template) in packed.items.iter_mut().zip(&enabled) {
+            if count == 0 || template.mode == TemplateMode::Compose {
+                group = count;
+            }
+            *slot = Template::pack(template, group);
+            if let Some(bent) = template.bent()
+                && let Some(first) = hold(&bent.rows())
+            {
+                slot.size = bent.size().extend(0.0).to_array();
+                slot.curve = first as u32;
+            }
+            count += 1;
+        }
+        for (slot, template) in packed.items.iter_mut().zip(&enabled) {
+            let held = match &template.data {
+                TemplateData::Points(_) => solved_points(template),
+                TemplateData::Field(field) if fields < MAX_FIELDS => {
+                    fields += usize::from(field.samples.is_some());
+                    field_place(field, &mut slice)
+                }
+                TemplateData::Field(_) | TemplateData::None => Vec::new(),
+            };
+            if let Some(first) = hold(&held) {
+                slot.held = first as u32;
+            }
+        }
+        packed.count = count;
+        packed
+    }
+
+    /// Bit k: templates of kind k occur; bit 0: some lie along a curve. Pipelines are made for this.
+    pub fn drawn_kinds(&self) -> u32 {
+        let used = self.items.iter().take(self.count as usize);
+        used.fold(0, |bits, t| {
+            let kind = 1u32.checked_shl(t.kind).unwrap_or(0);
+            bits | kind | u32::from(t.curve != 0)
+        })
+    }
+}
+
+/// Where the samples of a field begin among those of all, as packed into the pool.
+fn field_place(field: &FieldRef, slice: &mut u32) -> Vec<[f32; 4]> {
+    let Some(FieldSamples(samples)) = &field.samples else {
+        return Vec::new();
+    };
+    let [x, y, z] = samples.dims;
+    let place = [x as f32, y as f32, z as f32, *slice as f32];
+    *slice += z;
+    vec![place]
+}
+
+impl Template {
+    /// Of one that acts ([`PlacedTemplate::acting`]).
+    fn pack(placed: &PlacedTemplate, group: u32) -> Self {
+        let p = &placed.placement;
+        let rotate = Mat3A::from_quat(p.rotate);
+        let size = Vec3A::from(p.size);
+        let scaled = Mat3A::from_cols(
+            rotate.x_axis * size.x,
+            rotate.y_axis * size.y,
+            rotate.z_axis * size.z,
+        );
+        let subject_from_template = Affine3A {
+            matrix3: scaled,
+            translation: Vec3A::from(p.at) - scaled * Vec3A::splat(0.5),
+        };
+        // From the parts, not by inverting: exact for every size that a document may hold.
+        let unscale = Mat3A::from_diagonal(p.size.recip()) * rotate.transpose();
+        let template_from_subject = Affine3A {
+            matrix3: unscale,
+            translation: Vec3A::splat(0.5) - unscale * Vec3A::from(p.at),
+        };
+        let mut floats = Vec::with_capacity(MAX_PARAM_FLOATS);
+        for value in &placed.params {
+            value.pack(&mut floats);
+        }
+        floats.resize(MAX_PARAM_FLOATS, 0.0);
+        let quad = |i: usize| [floats[i], floats[i + 1], floats[i + 2], floats[i + 3]];
+        Self {
+            template_from_subject: template_from_subject.into(),
+            subject_from_template: subject_from_template.into(),
+            size: p.size.extend(0.0).to_array(),
+            params0: quad(0),
+            params1: quad(4),
+            kind: placed.kind as u32,
+            group,
+            curve: 0,
+            held: 0,
+        }
+    }
+}
+
+/// Bit of [`KeptGroup::keeps`]: what lies deep under the outer surface.
+pub const KEEPS_DEEP: u32 = 16;
+/// [`KeptGroup::constraint`]: the displacement gives way to nothing.
+pub const CONSTRAIN_NOTHING: u32 = 0;
+/// [`KeptGroup::constraint`]: the displacement's length gives way.
+pub const CONSTRAIN_DISPLACEMENT: u32 = 1;
+/// [`KeptGroup::constraint`]: the template's main parameter gives way.
+pub const CONSTRAIN_COORDINATE: u32 = 2;
+/// [`KeptGroup::constraint`]: tissue moves as a whole.
+pub const CONSTRAIN_RIGID: u32 = 3;
+
+/// What one template leaves alone.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct KeptGroup {
+    /// Sets kept, bit k for set k, and [`KEEPS_DEEP`]; 0 keeps nothing.
+    pub keeps: u32,
+    /// First template of the run of groups that keep the same.
+    pub run: u32,
+    /// Sets that the displacement gives way to.
+    pub gives_way_to: u32,
+    /// One of `CONSTRAIN_`.
+    pub constraint: u32,
+    /// Depth under the outer surface from where on tissue is kept, subject units.
+    pub depth: f32,
+    /// Width of the blend of normals, subject units.
+    pub blend: f32,
+    /// Longest displacement of the group, subject units.
+    pub longest: f32,
+    /// How far around a segment that moves as a whole other tissue goes with it, subject units.
+    pub fade: f32,
+}
+
+/// Kept tissue of a document.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Kept {
+    /// Rest space to texture space of the distances.
+    pub distance_from_rest: Affine,
+    /// xyz: voxels of the distances.
+    pub distance_dims: [f32; 4],
+    /// Their smallest spacing, subject units.
+    pub spacing: f32,
+    /// Slabs of the distances.
+    pub slab_count: u32,
+    /// Slab of exact distances, or 0.
+    pub exact_slab: u32,
+    /// Slab of the depth, or 0.
+    pub depth_slab: u32,
+    /// Sets of each label, four bits each.
+    pub label_sets: [[u32; 4]; 8],
+    /// As in [`Templates`].
+    pub items: [KeptGroup; MAX_TEMPLATES],
+    /// Rigid motions (subject space to rest space) of segments that move as a whole; only heads of groups count.
+    /// Written on the GPU.
+    pub motions: [Affine; MAX_TEMPLATES],
+}
+
+/// One pass of the making of distances.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct DistanceJob {
+    /// Fine voxels to texture space of the volume.
+    pub volume_from_voxel: Affine,
+    /// xyz: fine voxels.
+    pub fine: [u32; 4],
+    /// xyz: coarse voxels.
+    pub coarse: [u32; 4],
+    /// xyz: spacing of fine voxels, subject units.
+    pub spacing: [f32; 4],
+    /// Fine voxels along a side of a coarse one.
+    pub factor: u32,
+    /// Channel that is worked on.
+    pub channel: u32,
+    /// Normalised value from which on a voxel is something.
+    pub threshold: f32,
+    /// 1 to read the labels.
+    pub reads_labels: u32,
+    /// First fine slice of the part.
+    pub first_slice: u32,
+    /// Slices in the part.
+    pub slice_count: u32,
+    /// Axis of a sweep or a smoothing; the axis from foot to head, 3 for none.
+    pub axis: u32,
+    /// Slab that is written.
+    pub slab: u32,
+    /// Sets in that slab, 0 for the depth.
+    pub set_count: u32,
+    /// To the next row of four.
+    pub padding: [u32; 3],
+    /// As in [`Kept`].
+    pub label_sets: [[u32; 4]; 8],
+}
+
+/// One picture's camera and sampling.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Frame {
+    /// View space to subject space.
+    pub subject_from_view: Affine,
+    /// Tangents of half the field of view (width, height).
+    pub lens: [f32; 2],
+    /// Width and height of the whole picture, pixels.
+    pub size_px: [f32; 2],
+    /// Place in the pixel, 0 to 1.
+    pub jitter: [f32; 2],
+    /// Offset of the first step, in steps.
+    pub first_step: f32,
+    /// Turn of the occlusion taps, radians.
+    pub occlusion_turn: f32,
+    /// Box of the deformed object, lowest corner.
+    pub bounds_min: [f32; 4],
+    /// Highest corner.
+    pub bounds_max: [f32; 4],
+    /// Pick pass only: the pixel.
+    pub pick: [f32; 2],
+    /// Length of a step, subject units.
+    pub step: f32,
+    /// To the end of the row.
+    pub padding: u32,
+}
+
+/// The uploaded volume.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Subject {
+    /// Rest space to texture space of the volume.
+    pub texture_from_rest: Affine,
+    /// Rest space to texture space of the segmentation.
+    pub label_from_rest: Affine,
+    /// xyz: voxels.
+    pub dims: [f32; 4],
+    /// xyz: voxels of the segmentation.
+    pub label_dims: [f32; 4],
+    /// xyz: texture coordinate at which the volume ends.
+    pub texture_end: [f32; 4],
+    /// Value of texel 0.
+    pub value_low: f32,
+    /// Values from texel 0 to texel 1.
+    pub value_range: f32,
+    /// Smallest voxel spacing, subject units.
+    pub detail: f32,
+    /// 1 if there is a segmentation.
+    pub has_labels: u32,
+}
+
+/// Transfer function, light and opacity.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Look {
+    /// Table position = `table_scale` · texel + `table_offset`.
+    pub table_scale: f32,
+    /// Table position of a texel of 0.
+    pub table_offset: f32,
+    /// Tint by segment, 0 to 1.
+    pub tint: f32,
+    /// Strength of the highlight, 0 to 1.
+    pub specular: f32,
+    /// One of `OPACITY_`.
+    pub opacity_mode: u32,
+    /// How much opacity follows the gradient, 0 to 1.
+    pub edges: f32,
+}
+
+/// Segments drawn as bodies of their own.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Bodies {
+    /// Of each label: linear RGB and opacity; w below 0: no body.
+    pub items: [[f32; 4]; 256],
+}
+
+impl Bodies {
+    /// No segment is.
+    pub const NONE: Self = Self {
+        items: [[0.0, 0.0, 0.0, -1.0]; 256],
+    };
+}
+
+/// A layer so thick is as opaque as a body's opacity says, subject units.
+pub const BODY_LAYER: f32 = crate::document::SegmentLook::LAYER;
+/// Opacity from which a body is solid.
+pub const BODY_SOLID: f32 = 0.995;
+/// Opacity below which a body is hidden.
+pub const BODY_HIDDEN: f32 = 0.005;
+
+/// [`Look::opacity_mode`]: a surface keeps its opacity.
+pub const OPACITY_CONSTANCY: u32 = 0;
+/// [`Look::opacity_mode`]: particles are conserved.
+pub const OPACITY_MASS: u32 = 1;
+/// [`Look::opacity_mode`]: no adjustment.
+pub const OPACITY_NONE: u32 = 2;
+
+/// The skip grid: the grid over the deformed space.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Grid {
+    /// Lowest corner, subject space.
+    pub origin_min: [f32; 4],
+    /// Sides of a cell, subject units.
+    pub cell_size: [f32; 4],
+    /// Cells along each axis.
+    pub cells: [u32; 4],
+    /// 1 if in use.
+    pub is_used: u32,
+    /// To the end of the row.
+    pub padding: [u32; 3],
+}
+
+/// The baked map: a texture over the deformed space.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Baked {
+    /// Lowest corner, subject space.
+    pub origin_min: [f32; 4],
+    /// One over the sides of the whole box, subject units.
+    pub per_unit: [f32; 4],
+    /// Texels along each axis.
+    pub texels: [u32; 4],
+    /// Offset for finite differences of the map, subject units.
+    pub map_step: f32,
+    /// The first slab of those that are being made.
+    pub first_slab: u32,
+    /// To the end of the row.
+    pub padding: [u32; 2],
+}
+
+/// From the accumulated picture to the one that is shown.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Resolve {
+    /// From output pixel to texture coordinate.
+    pub scale: [f32; 2],
+    /// Largest texture coordinate in use.
+    pub end: [f32; 2],
+    /// Linear RGB; alpha 1 if there is a background.
+    pub background: [f32; 4],
+    /// 1 for straight alpha.
+    pub is_straight: u32,
+    /// To the end of the row.
+    pub padding: [u32; 3],
+}
+
+/// A flat cut through the deformed object.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Slice {
+    /// Pixels of the slice to subject space.
+    pub subject_from_pixel: Affine,
+    /// Linear RGB where nothing is.
+    pub background: [f32; 4],
+    /// Grey level = `grey_scale` · texel + `grey_offset`.
+    pub grey_scale: f32,
+    /// Grey level of a texel of 0.
+    pub grey_offset: f32,
+    /// One of `SLICE_`.
+    pub mode: u32,
+    /// Samples per pixel along each side.
+    pub samples: u32,
+}
+
+/// [`Slice::mode`]: values as grey, by the window.
+pub const SLICE_GREY: u32 = 0;
+/// [`Slice::mode`]: the look's colours.
+pub const SLICE_COLORS: u32 = 1;
+
+/// The lattice on which points of tissue are looked for in the deformed object.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Lattice {
+    /// Lowest corner, subject space.
+    pub corner: [f32; 4],
+    /// Cells along each axis.
+    pub cells: [u32; 4],
+    /// Side of a cell, subject units.
+    pub side: f32,
+    /// Points that are followed.
+    pub count: u32,
+    /// To the end of the row.
+    pub padding: [u32; 2],
+}
+
+/// What a template reaches, for the making of the grid.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct GridTemplate {
+    /// First box, lowest corner.
+    pub reach0_min: [f32; 4],
+    /// First box, highest corner.
+    pub reach0_max: [f32; 4],
+    /// Second box, lowest corner.
+    pub reach1_min: [f32; 4],
+    /// Second box, highest corner.
+    pub reach1_max: [f32; 4],
+    /// First box in the template's own space, lowest corner.
+    pub own_min: [f32; 4],
+    /// Highest corner.
+    pub own_max: [f32; 4],
+    /// Least shift.
+    pub shift_min: [f32; 4],
+    /// Greatest shift.
+    pub shift_max: [f32; 4],
+    /// Half side of the largest box in which differences tell how the map changes.
+    pub detail: f32,
+    /// How much longer a step can be along a curve; 1 without one.
+    pub stretch: f32,
+    /// The longest way along a curve, subject units; 0 without one.
+    pub longest: f32,
+    /// One of `MATERIAL_`.
+    pub material: u32,
+    /// 1 if the map jumps at the faces of the first box.
+    pub is_torn: u32,
+    /// To the end of the row.
+    pub padding: [u32; 3],
+}
+
+/// [`GridTemplate::material`]: moved by a bounded shift.
+pub const MATERIAL_SHIFTED: u32 = 0;
+/// [`GridTemplate::material`]: taken out of the cube.
+pub const MATERIAL_WITHIN: u32 = 1;
+/// [`GridTemplate::material`]: rolled about an axis.
+pub const MATERIAL_BENT: u32 = 2;
+/// [`GridTemplate::material`]: moved by a bounded shift that may change faster than differences tell.
+pub const MATERIAL_RIPPLED: u32 = 3;
+
+/// One making of the grid.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct GridJob {
+    /// Lowest corner, subject space.
+    pub origin_min: [f32; 4],
+    /// Sides of a cell, subject units.
+    pub cell_size: [f32; 4],
+    /// Cells along each axis.
+    pub cells: [u32; 4],
+    /// Rest space to bricks.
+    pub brick_from_rest: Affine,
+    /// Bricks along each axis.
+    pub bricks: [u32; 4],
+    /// How far beyond its sides a cell is looked at, subject units.
+    pub margin: f32,
+    /// Ways are not followed farther than this, cells.
+    pub farthest: u32,
+    /// How many cells a mask spreads.
+    pub spread: u32,
+    /// To the next row of four.
+    pub padding: u32,
+    /// In the order of [`Templates`].
+    pub items: [GridTemplate; MAX_TEMPLATES],
+}

@@ -1,0 +1,221 @@
+//! Kept tissue: which labels a document's templates leave alone.
+
+use super::gpu_types::{
+    CONSTRAIN_COORDINATE, CONSTRAIN_DISPLACEMENT, CONSTRAIN_RIGID, KEEPS_DEEP, KeptGroup,
+    MAX_TEMPLATES,
+};
+use crate::data::Segment;
+use crate::document::{
+    Align, ConstrainBy, MAX_KEEP_SETS, PlacedTemplate, TemplateMode, keep_set, keep_sets,
+};
+use crate::math::Aabb;
+use crate::placed::max_displacement;
+
+/// How far around a segment that moves as a whole other tissue goes with it, as a share of the longest displacement:
+/// less folds it.
+const RIGID_REACH: f32 = 0.3;
+
+/// What of the labels a document's templates keep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeptTissue {
+    /// Sets of each label, four bits each, as the shaders take it.
+    pub label_sets: [[u32; 4]; 8],
+    /// Number of sets.
+    pub set_count: u32,
+    /// Some template keeps what lies deep under the outer surface.
+    pub keeps_deep: bool,
+    /// Per enabled template, in order.
+    pub items: [KeptGroup; MAX_TEMPLATES],
+    /// Names in `keep` that the subject has no segment for.
+    pub unknown: Vec<String>,
+    /// What the pipeline constant `align_mode` has to be. 0: nothing is kept or gives way; 1: the list is one group;
+    /// 2: the first templates of the list keep the same; 3: any.
+    pub align_mode: u32,
+    /// How displacements give way, a bit for each `CONSTRAIN_` mode that occurs.
+    pub constraints: u32,
+}
+
+/// The label that a name or number in `keep` means.
+pub(crate) fn labels_of(name: &str, segments: &[Segment]) -> Vec<u8> {
+    let named: Vec<u8> = segments
+        .iter()
+        .filter(|s| s.name == name)
+        .filter_map(|s| u8::try_from(s.label).ok())
+        .collect();
+    if !named.is_empty() {
+        return named;
+    }
+    // Names may differ in case only where files were written by several programs.
+    let similar: Vec<u8> = segments
+        .iter()
+        .filter(|s| s.name.eq_ignore_ascii_case(name))
+        .filter_map(|s| u8::try_from(s.label).ok())
+        .collect();
+    if !similar.is_empty() {
+        return similar;
+    }
+    match name.parse::<u8>() {
+        Ok(label) if label > 0 => {
+            // Where the segment overlaps others it stands under labels of their own.
+            let own = segments.iter().find(|s| s.label == u16::from(label));
+            let stands_for = |label: u16| segments.iter().filter(|s| s.label == label).count();
+            let overlaps = segments
+                .iter()
+                .filter(|s| own.is_some_and(|own| s.name == own.name) && stands_for(s.label) > 1)
+                .filter_map(|s| u8::try_from(s.label).ok());
+            std::iter::once(label).chain(overlaps).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+impl KeptTissue {
+    /// What the templates keep of a subject with these segments. `bounds` is the box of the subject at rest.
+    pub fn of(templates: &[PlacedTemplate], segments: &[Segment], bounds: Aabb) -> Self {
+        let mut kept = Self {
+            label_sets: [[0; 4]; 8],
+            set_count: 0,
+            keeps_deep: false,
+            items: [KeptGroup::default(); MAX_TEMPLATES],
+            unknown: Vec::new(),
+            align_mode: 0,
+            constraints: 0,
+        };
+        let acting: Vec<PlacedTemplate> = templates
+            .iter()
+            .map(PlacedTemplate::acting)
+            .filter(|t| t.enabled)
+            .take(MAX_TEMPLATES)
+            .collect();
+        let enabled: Vec<&PlacedTemplate> = acting.iter().collect();
+        let sets = keep_sets(&acting);
+        for (set, names) in sets.iter().take(MAX_KEEP_SETS).enumerate() {
+            for name in names {
+                let labels = labels_of(name, segments);
+                if labels.is_empty() && !kept.unknown.contains(name) {
+                    kept.unknown.push(name.clone());
+                }
+                for label in labels.into_iter().map(usize::from) {
+                    kept.label_sets[label / 32][label / 8 % 4] |= 1 << (4 * (label % 8) + set);
+                }
+            }
+            kept.set_count = set as u32 + 1;
+        }
+        let bit = |keep: &[String]| {
+            let wanted = keep_set(keep);
+            sets.iter()
+                .take(MAX_KEEP_SETS)
+                .position(|set| *set == wanted)
+                .map_or(0, |i| 1 << i)
+        };
+        let mut head = 0;
+        for (index, template) in enabled.iter().enumerate() {
+            if index == 0 || template.mode == TemplateMode::Compose {
+                head = index;
+            }
+            let longest = max_displacement(template, bounds);
+            let item = &mut kept.items[head];
+            item.longest += longest;
+            match &template.align {
+                Align::Axis => {}
+                Align::Surface { depth, thickness } => {
+                    // Two depths in one group: what either keeps.
+                    let is_first = item.keeps & KEEPS_DEEP == 0;
+                    item.depth = if is_first {
+                        *depth
+                    } else {
+                        item.depth.min(*depth)
+                    };
+                    item.blend = item.blend.max(*thickness);
+                    item.keeps |= KEEPS_DEEP;
+                    kept.keeps_deep = true;
+                }
+                Align::Segment { keep, thickness } => {
+                    item.blend = item.blend.max(*thickness);
+                    item.keeps |= bit(keep);
+                }
+            }
+            if let Some(constrain) = &template.constrain
+                && bit(&constrain.keep) != 0
+            {
+                item.gives_way_to |= bit(&constrain.keep);
+                item.constraint = match constrain.by {
+                    ConstrainBy::Displacement => CONSTRAIN_DISPLACEMENT,
+                    ConstrainBy::Coordinate => CONSTRAIN_COORDINATE,
+                    ConstrainBy::Rigid => CONSTRAIN_RIGID,
+                };
+                kept.constraints |= 1 << item.constraint;
+            }
+        }
+        for item in kept
+            .items
+            .iter_mut()
+            .filter(|i| i.constraint == CONSTRAIN_RIGID)
+        {
+            item.fade = (RIGID_REACH * item.longest).clamp(0.02, 0.06);
+            // The motion nearest to a displacement goes farther than it in places.
+            item.longest = 1.5 * item.longest + 0.02;
+        }
+        kept.find_runs(&enabled);
+        kept
+    }
+
+    fn find_runs(&mut self, enabled: &[&PlacedTemplate]) {
+        let is_head = |i: usize, t: &PlacedTemplate| i == 0 || t.mode == TemplateMode::Compose;
+        let heads: Vec<usize> = enabled
+            .iter()
+            .enumerate()
+            .filter(|(i, t)| is_head(*i, t))
+            .map(|(i, _)| i)
+            .collect();
+        let (mut base, mut before) = (0, None);
+        for &head in &heads {
+            let item = &mut self.items[head];
+            let same = (item.keeps, item.depth.to_bits());
+            if before != Some(same) {
+                base = head;
+                before = Some(same);
+            }
+            item.run = base as u32;
+        }
+        let keeping: Vec<usize> = heads
+            .iter()
+            .copied()
+            .filter(|&i| self.items[i].keeps != 0)
+            .collect();
+        self.align_mode = if keeping.is_empty() && self.constraints == 0 {
+            0
+        } else if heads.len() == 1 {
+            1
+        } else if keeping.iter().all(|&i| self.items[i].run == 0) {
+            2
+        } else {
+            3
+        };
+    }
+
+    /// One line for each name that the subject has no segment for.
+    pub fn notices(&self) -> Vec<String> {
+        self.unknown.iter().map(|name| kept_notice(name)).collect()
+    }
+
+    /// True if nothing is kept and nothing gives way.
+    pub fn is_nothing(&self) -> bool {
+        self.align_mode == 0
+    }
+
+    /// True if some segment moves as a whole.
+    pub fn has_rigid(&self) -> bool {
+        self.constraints & (1 << CONSTRAIN_RIGID) != 0
+    }
+
+    /// What the pipeline constant `kept_by` has to be: bit 0 for segments, bit 1 for the depth.
+    pub fn kept_by(&self) -> u32 {
+        u32::from(self.set_count > 0) | u32::from(self.keeps_deep) << 1
+    }
+}
+
+/// Says that a name in `keep` means nothing here.
+pub(crate) fn kept_notice(name: &str) -> String {
+    format!("keep: the subject has no segment “{name}”; nothing is kept for it")
+}

@@ -1,0 +1,11 @@
+//! From a document to what the shaders read: uniforms, the transfer table, the camera. Nothing here needs a GPU.
+
+pub(crate) mod bodies;
+pub(crate) mod frame;
+pub mod gpu_types;
+pub(crate) mod kept;
+pub(crate) mod look;
+pub(crate) mod raycast_key;
+pub(crate) mod stamps;
+pub(crate) mod values;
+pub(crate) mod view;

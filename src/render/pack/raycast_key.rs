@@ -1,0 +1,41 @@
+/// What a ray march pipeline is made for. Few of them per document: software GPUs run every branch, so what a document
+/// does not use is left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct RaycastKey {
+    /// Bit k: templates of kind k occur.
+    pub drawn_kinds: u32,
+    /// The subject has labels and the look tints by them.
+    pub has_labels: bool,
+    /// There is a grid to leap with.
+    pub has_grid: bool,
+    /// How kept tissue is found: 0 nothing is kept, 1 by one group, 2 by a chain, 3 by asking back.
+    pub align_mode: u32,
+    /// How displacements give way to kept tissue, a bit for each `CONSTRAIN_` mode that occurs.
+    pub constraints: u32,
+    /// What says that tissue is kept: bit 0 its segment, bit 1 its depth.
+    pub kept_by: u32,
+    /// Opacity follows the gradient.
+    pub has_edges: bool,
+    /// Segments are drawn as bodies of their own.
+    pub has_bodies: bool,
+    /// The map is read from its baked texture.
+    pub is_baked: bool,
+    /// For picking instead of drawing.
+    pub is_pick: bool,
+}
+
+impl RaycastKey {
+    /// True if templates leave tissue alone or give way to it: a longer program.
+    pub(crate) fn keeps_tissue(&self) -> bool {
+        self.align_mode != 0
+    }
+
+    /// The pipeline constants of march/align.wgsl.
+    pub(crate) fn align_constants(&self) -> [(&'static str, f64); 3] {
+        [
+            ("align_mode", f64::from(self.align_mode)),
+            ("has_constraints", f64::from(self.constraints)),
+            ("kept_by", f64::from(self.kept_by)),
+        ]
+    }
+}

@@ -1,0 +1,137 @@
+//! What the stages of a scene are made from.
+
+use super::fields::acting_fields;
+use crate::document::{FieldSamples, Illustration, OpacityMode};
+use crate::math::Aabb;
+use crate::placed::deformed_bounds;
+use crate::render::pack::bodies::{bodies_of, segment_notice};
+use crate::render::pack::gpu_types::{Bodies, Templates};
+use crate::render::pack::kept::{KeptTissue, kept_notice};
+use crate::render::pack::look::{TransferTable, background_uniform};
+use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
+use crate::render::subject::volume::SubjectTextures;
+
+/// What of an illustration and its subject the stages are made from, each with a stamp.
+#[derive(Debug)]
+pub(crate) struct Inputs {
+    /// Stamp of the subject.
+    pub subject: Stamp,
+    /// As the shaders take them.
+    pub templates: Stamped<Templates>,
+    /// Samples of the fields that act.
+    pub fields: Stamped<Vec<FieldSamples>>,
+    /// What templates leave alone; `None` before the first update.
+    pub kept: Stamped<Option<KeptTissue>>,
+    /// Box of the deformed object, subject space.
+    pub bounds: Stamped<Aabb>,
+    /// Segments that are drawn as bodies of their own.
+    pub bodies: Stamped<Bodies>,
+    /// The transfer function and how opacity follows the deformation; `None` before the first update.
+    pub look: Stamped<Option<(TransferTable, OpacityMode)>>,
+    /// Linear RGB; w: 1 if there is a background.
+    pub background: Stamped<[f32; 4]>,
+    bounds_from: MadeFrom<4>,
+    /// Names that mean no segment, as far as a notice said so.
+    said: Vec<String>,
+    notices: Vec<String>,
+}
+
+impl Inputs {
+    /// Of no template and no look, before the first [`Inputs::update`].
+    pub(crate) fn new() -> Self {
+        Self {
+            subject: 0,
+            templates: Stamped::new(Templates::NONE),
+            fields: Stamped::default(),
+            kept: Stamped::default(),
+            bounds: Stamped::new(Aabb::EMPTY),
+            bodies: Stamped::new(Bodies::NONE),
+            look: Stamped::default(),
+            background: Stamped::default(),
+            bounds_from: MadeFrom::default(),
+            said: Vec::new(),
+            notices: Vec::new(),
+        }
+    }
+
+    /// Takes over what an illustration says about a subject.
+    pub(crate) fn update(&mut self, illustration: &Illustration, subject: &SubjectTextures) {
+        let placed = &illustration.templates;
+        self.subject = subject.stamp;
+        let acting = placed.iter().filter(|t| t.acting().enabled);
+        self.fields.set(acting_fields(acting));
+        self.templates.set(Templates::pack(placed));
+        let kept = KeptTissue::of(placed, &subject.segments, subject.frame.bounds);
+        self.say(&kept.unknown, kept_notice);
+        self.kept.set(Some(kept));
+        let bounds_from = [
+            self.subject,
+            self.templates.stamp(),
+            self.fields.stamp(),
+            self.kept.stamp(),
+        ];
+        if self.bounds_from.is_stale(bounds_from) {
+            let bounds = deformed_bounds(placed, subject.frame.bounds);
+            let around = self
+                .rigid_reach()
+                .map(|far| subject.frame.bounds.expanded(far));
+            self.bounds
+                .set(around.map_or(bounds, |around| bounds.union(around)));
+        }
+        let mut unknown = Vec::new();
+        let look = &illustration.look;
+        let bodies = bodies_of(&look.segments, &subject.segments, &mut unknown);
+        self.say(&unknown, segment_notice);
+        self.bodies.set(bodies);
+        let table = TransferTable::new(look, &illustration.subject, &subject.info);
+        self.look.set(Some((table, look.opacity)));
+        self.background.set(background_uniform(look.background));
+    }
+
+    /// Grows with every change that the picture shows.
+    pub(crate) fn revision(&self) -> u64 {
+        [
+            self.subject,
+            self.templates.stamp(),
+            self.fields.stamp(),
+            self.kept.stamp(),
+            self.bodies.stamp(),
+            self.look.stamp(),
+            self.background.stamp(),
+        ]
+        .iter()
+        .sum()
+    }
+
+    /// What templates leave alone.
+    pub(crate) fn kept(&self) -> Option<&KeptTissue> {
+        self.kept.get().as_ref()
+    }
+
+    /// The transfer function.
+    pub(crate) fn table(&self) -> Option<&TransferTable> {
+        self.look.get().as_ref().map(|(table, _)| table)
+    }
+
+    /// What is to be said about the document since the last call.
+    pub(crate) fn take_notices(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notices)
+    }
+
+    /// How far segments that move as a whole may go, subject units; `None` if there are none.
+    fn rigid_reach(&self) -> Option<f32> {
+        let kept = self.kept().filter(|kept| kept.has_rigid())?;
+        let longest = kept.items.iter().map(|item| item.longest);
+        Some(longest.fold(0.0, f32::max))
+    }
+
+    /// Says each name that means no segment once.
+    fn say(&mut self, names: &[String], notice: fn(&str) -> String) {
+        for name in names {
+            if !self.said.contains(name) {
+                self.notices.push(notice(name));
+                self.said.push(name.clone());
+            }
+        }
+    }
+}

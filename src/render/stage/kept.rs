@@ -1,0 +1,578 @@
+//! How far every place is from kept tissue: textures of distances, made on the GPU.
+
+use crate::render::device::bindings::{encoder, entry};
+use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::error::RenderError;
+use crate::render::device::gpu::Gpu;
+use crate::render::device::pipelines::compute_pipeline;
+use crate::render::device::programs::{ProgramId, module};
+use crate::render::device::readback::Readback;
+use crate::render::device::textures::volume_texture;
+use crate::render::pack::gpu_types::{DistanceJob, Kept};
+use crate::render::pack::kept::KeptTissue;
+use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
+use crate::render::subject::volume::{SubjectTextures, VoxelFrame};
+use glam::{DAffine3, UVec3, Vec3};
+use std::sync::OnceLock;
+
+/// Voxels of the distances at most: 128³, 16 MiB of texture. Surfaces stay exact to the fine voxels; what is coarser
+/// is where the distance is asked for, and it is interpolated between.
+const MOST_VOXELS: u64 = 1 << 21;
+
+/// Bytes of the lines that are worked on at a time.
+const PART_BYTES: u64 = 32 << 20;
+
+/// Rounds of spreading the outside along the three axes. Each round turns three corners; no body has a dozen on the
+/// way out.
+const SWEEP_ROUNDS: usize = 6;
+
+/// Channel of the distance to the outside.
+const CHANNEL_OUTSIDE: u32 = 4;
+
+/// Below this (Hounsfield units) there is air: half of it lies between air and soft tissue.
+const AIR_BELOW: f32 = -500.0;
+
+/// Where values have no unit: part of the window, from its low end, up to which there is nothing.
+const DARK_PART: f32 = 0.12;
+
+/// The compute programs that make distances; compiled when the first document keeps something.
+#[derive(Debug, Default)]
+pub(crate) struct DistancePrograms(OnceLock<DistancePipelines>);
+
+#[derive(Debug)]
+struct DistancePipelines {
+    open_blocks: wgpu::ComputePipeline,
+    sweep: wgpu::ComputePipeline,
+    along: [wgpu::ComputePipeline; 3],
+    smooth: [wgpu::ComputePipeline; 2],
+    write: wgpu::ComputePipeline,
+}
+
+impl DistancePrograms {
+    fn get(&self, gpu: &Gpu) -> &DistancePipelines {
+        self.0.get_or_init(|| {
+            let module = module(gpu, ProgramId::Distance);
+            let pipeline = |entry: &str| compute_pipeline(gpu, &module, entry, &[]);
+            DistancePipelines {
+                open_blocks: pipeline("open_blocks"),
+                sweep: pipeline("sweep"),
+                along: ["along_x", "along_y", "along_z"].map(pipeline),
+                smooth: ["smooth_out", "smooth_back"].map(pipeline),
+                write: pipeline("write_texture"),
+            }
+        })
+    }
+}
+
+/// What templates leave alone, on the GPU, for one document and subject.
+#[derive(Debug)]
+pub(crate) struct KeptTextures {
+    pub uniform: wgpu::Buffer,
+    pub view: wgpu::TextureView,
+    texture: wgpu::Texture,
+    plan: Option<Plan>,
+    made_for: Option<MadeFor>,
+    /// Stamp of the texture.
+    pub stamp: Stamp,
+    made_from: MadeFrom<2>,
+}
+
+/// What distances depend on: the stamp of the subject, the sets of each label, their number, whether the depth is
+/// wanted, and whether exact distances are.
+type MadeFor = (Stamp, [[u32; 4]; 8], u32, bool, bool);
+
+/// Where distances are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Plan {
+    fine: UVec3,
+    coarse: UVec3,
+    factor: u32,
+    spacing: Vec3,
+    reads_labels: bool,
+    /// As in [`Kept`].
+    slab_count: u32,
+    exact_slab: u32,
+    depth_slab: u32,
+}
+
+impl Plan {
+    fn new(frame: &VoxelFrame, reads_labels: bool, kept: &KeptTissue) -> Self {
+        let exact_slab = u32::from(kept.constraints != 0);
+        let depth_slab = if kept.keeps_deep { 1 + exact_slab } else { 0 };
+        let mut factor = 1;
+        let coarse = loop {
+            let coarse = frame.dims.map(|n| n.div_ceil(factor));
+            if coarse.as_u64vec3().element_product() <= MOST_VOXELS {
+                break coarse;
+            }
+            factor += 1;
+        };
+        Self {
+            fine: frame.dims,
+            coarse,
+            factor,
+            spacing: frame.spacing,
+            reads_labels,
+            slab_count: 1 + exact_slab + u32::from(kept.keeps_deep),
+            exact_slab,
+            depth_slab,
+        }
+    }
+
+    fn count(&self) -> u64 {
+        self.coarse.as_u64vec3().element_product()
+    }
+}
+
+impl KeptTextures {
+    /// Holds nothing until [`KeptTextures::update`].
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        let texture = texture_of(gpu, UVec3::ONE);
+        Self {
+            uniform: uniform_buffer(gpu, "kept", &Kept::default()),
+            view: texture.create_view(&Default::default()),
+            texture,
+            plan: None,
+            made_for: None,
+            stamp: 0,
+            made_from: MadeFrom::default(),
+        }
+    }
+
+    /// Takes over what a document keeps. The work is on its way to the GPU when this returns; nothing is read back.
+    pub(crate) fn update(
+        &mut self,
+        gpu: &Gpu,
+        programs: &DistancePrograms,
+        subject: &SubjectTextures,
+        kept: &Stamped<Option<KeptTissue>>,
+    ) {
+        let is_stale = self.made_from.is_stale([subject.stamp, kept.stamp()]);
+        let Some(kept) = kept.get().as_ref().filter(|_| is_stale) else {
+            return;
+        };
+        if !kept.is_nothing() {
+            let made_for = (
+                subject.stamp,
+                kept.label_sets,
+                kept.set_count,
+                kept.keeps_deep,
+                kept.constraints != 0,
+            );
+            if self.made_for != Some(made_for) {
+                self.make(gpu, programs.get(gpu), subject, kept);
+                self.made_for = Some(made_for);
+            }
+        }
+        let frame = frame_for(subject, kept);
+        let coarse = self
+            .plan
+            .map_or(Vec3::ONE, |plan| plan.coarse.as_vec3() * plan.factor as f32);
+        // The coarse grid may reach over the fine one's end by part of a voxel.
+        let texture_from_rest = DAffine3::from_scale(coarse.as_dvec3().recip())
+            * DAffine3::from_translation(glam::DVec3::splat(0.5))
+            * frame.rest_from_voxel.inverse();
+        let spacing = self
+            .plan
+            .map_or(1.0, |plan| plan.spacing.min_element() * plan.factor as f32);
+        let dims = self.plan.map_or(UVec3::ONE, |plan| plan.coarse).as_vec3();
+        let uniform = Kept {
+            distance_from_rest: texture_from_rest.as_affine3a().into(),
+            distance_dims: dims.extend(0.0).to_array(),
+            spacing,
+            slab_count: self.plan.map_or(1, |plan| plan.slab_count),
+            exact_slab: self.plan.map_or(0, |plan| plan.exact_slab),
+            depth_slab: self.plan.map_or(0, |plan| plan.depth_slab),
+            label_sets: kept.label_sets,
+            items: kept.items,
+            motions: Default::default(),
+        };
+        gpu.queue
+            .write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+    }
+
+    /// The distances, read back.
+    pub(crate) async fn read(&self, gpu: &Gpu) -> Result<([u32; 3], Vec<[f32; 4]>), RenderError> {
+        let [x, y, z] = [
+            self.texture.width(),
+            self.texture.height(),
+            self.texture.depth_or_array_layers(),
+        ];
+        let pitch = (8 * x).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("distances readback"),
+            size: u64::from(pitch) * u64::from(y) * u64::from(z),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = encoder(gpu);
+        encoder.copy_texture_to_buffer(
+            self.texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(pitch),
+                    rows_per_image: Some(y),
+                },
+            },
+            self.texture.size(),
+        );
+        gpu.queue.submit([encoder.finish()]);
+        let bytes = Readback::start(gpu, buffer).await?;
+        let texels = bytes
+            .chunks_exact(pitch as usize)
+            .flat_map(|row| row.chunks_exact(8).take(x as usize))
+            .map(|texel| {
+                std::array::from_fn(|i| {
+                    half::f16::from_le_bytes([texel[2 * i], texel[2 * i + 1]]).to_f32()
+                })
+            });
+        Ok(([x, y, z], texels.collect()))
+    }
+
+    fn make(
+        &mut self,
+        gpu: &Gpu,
+        pipelines: &DistancePipelines,
+        subject: &SubjectTextures,
+        kept: &KeptTissue,
+    ) {
+        let frame = frame_for(subject, kept);
+        let reads_labels = frame == *subject.label_voxels.as_ref().unwrap_or(&subject.voxels)
+            && subject.label_voxels.is_some();
+        let plan = Plan::new(&frame, reads_labels, kept);
+        if self.plan != Some(plan) {
+            let size = plan.coarse * UVec3::new(1, 1, plan.slab_count);
+            self.texture = texture_of(gpu, size);
+            self.view = self.texture.create_view(&Default::default());
+            self.stamp += 1;
+            self.plan = Some(plan);
+        }
+        let work = Work::new(gpu, pipelines, subject, &plan, &frame, kept, &self.view);
+        for set in 0..kept.set_count {
+            work.distances(set);
+        }
+        if plan.exact_slab != 0 {
+            work.write(plan.exact_slab, kept.set_count);
+        }
+        for set in 0..kept.set_count {
+            work.smooth(set);
+        }
+        work.write(0, kept.set_count);
+        if plan.depth_slab != 0 {
+            work.flood(subject.foot_axis);
+            work.distances(CHANNEL_OUTSIDE);
+            work.write(plan.depth_slab, 0);
+        }
+    }
+}
+
+/// The grid that distances are taken on: the labels', where sets of labels are asked for or the labels lie on the
+/// volume's grid.
+fn frame_for(subject: &SubjectTextures, kept: &KeptTissue) -> VoxelFrame {
+    match &subject.label_voxels {
+        Some(labels) if kept.set_count > 0 || labels.dims == subject.voxels.dims => *labels,
+        _ => subject.voxels,
+    }
+}
+
+/// Normalised value up to which there is nothing.
+fn threshold(subject: &SubjectTextures) -> f32 {
+    let info = &subject.info;
+    let value = if info.is_ct || info.value_range[0] <= -500.0 {
+        AIR_BELOW + info.hounsfield_offset
+    } else {
+        let [low, high] = info.window_auto;
+        low + DARK_PART * (high - low)
+    };
+    (value - subject.uniform.value_low) / subject.uniform.value_range
+}
+
+fn texture_of(gpu: &Gpu, dims: UVec3) -> wgpu::Texture {
+    let format = wgpu::TextureFormat::Rgba16Float;
+    let usage = wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC;
+    volume_texture(gpu, "distances", dims, format, usage)
+}
+
+/// The buffers of one making, dropped when it is handed in.
+struct Work<'a> {
+    gpu: &'a Gpu,
+    pipelines: &'a DistancePipelines,
+    subject: &'a SubjectTextures,
+    plan: &'a Plan,
+    view: &'a wgpu::TextureView,
+    job: DistanceJob,
+    lines: wgpu::Buffer,
+    planes: wgpu::Buffer,
+    fields: wgpu::Buffer,
+    smoothed: wgpu::Buffer,
+    flood: wgpu::Buffer,
+    slices: u32,
+}
+
+impl<'a> Work<'a> {
+    fn new(
+        gpu: &'a Gpu,
+        pipelines: &'a DistancePipelines,
+        subject: &'a SubjectTextures,
+        plan: &'a Plan,
+        frame: &VoxelFrame,
+        kept: &KeptTissue,
+        view: &'a wgpu::TextureView,
+    ) -> Self {
+        let buffer = |label, size: u64| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: size.max(16),
+                usage: wgpu::BufferUsages::STORAGE
+                    | wgpu::BufferUsages::COPY_SRC
+                    | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
+        let line = 8 * u64::from(plan.coarse.x) * u64::from(plan.fine.y);
+        let slices = (PART_BYTES / line).clamp(1, u64::from(plan.fine.z)) as u32;
+        let plane = 8 * u64::from(plan.coarse.x) * u64::from(plan.coarse.y);
+        let channels = if kept.keeps_deep {
+            u64::from(CHANNEL_OUTSIDE) + 1
+        } else {
+            u64::from(kept.set_count)
+        };
+        let volume_from_voxel = subject.voxels.texture_from_rest() * frame.rest_from_voxel;
+        Self {
+            gpu,
+            pipelines,
+            subject,
+            plan,
+            view,
+            job: DistanceJob {
+                volume_from_voxel: volume_from_voxel.as_affine3a().into(),
+                fine: plan.fine.extend(0).to_array(),
+                coarse: plan.coarse.extend(0).to_array(),
+                spacing: plan.spacing.extend(0.0).to_array(),
+                factor: plan.factor,
+                threshold: threshold(subject),
+                reads_labels: u32::from(plan.reads_labels),
+                axis: 3,
+                label_sets: kept.label_sets,
+                ..DistanceJob::default()
+            },
+            lines: buffer("distance lines", line * u64::from(slices)),
+            planes: buffer("distance planes", plane * u64::from(plan.fine.z)),
+            fields: buffer("distances", 4 * plan.count() * channels),
+            smoothed: buffer("distances smoothed", 4 * plan.count()),
+            flood: buffer("outside", 4 * plan.count()),
+            slices,
+        }
+    }
+
+    /// One dispatch. `bindings` of group 3 besides the job; `reads_subject` binds group 1.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all that a dispatch is told, each once"
+    )]
+    fn run(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::ComputePipeline,
+        job: &DistanceJob,
+        bindings: &[(u32, &wgpu::Buffer)],
+        reads_subject: bool,
+        threads: [u32; 3],
+        size: [u32; 3],
+    ) {
+        let job = uniform_buffer(self.gpu, "distance job", job);
+        let mut entries = vec![entry(0, job.as_entire_binding())];
+        entries.extend(
+            bindings
+                .iter()
+                .map(|(binding, buffer)| entry(*binding, buffer.as_entire_binding())),
+        );
+        self.dispatch(encoder, pipeline, &entries, reads_subject, threads, size);
+    }
+
+    fn dispatch(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::ComputePipeline,
+        entries: &[wgpu::BindGroupEntry<'_>],
+        reads_subject: bool,
+        threads: [u32; 3],
+        size: [u32; 3],
+    ) {
+        let device = &self.gpu.device;
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("distance"),
+            layout: &pipeline.get_bind_group_layout(3),
+            entries,
+        });
+        let subject = reads_subject.then(|| {
+            device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("distance subject"),
+                layout: &pipeline.get_bind_group_layout(1),
+                entries: &[
+                    entry(
+                        1,
+                        wgpu::BindingResource::TextureView(&self.subject.volume_view),
+                    ),
+                    entry(2, wgpu::BindingResource::Sampler(&self.subject.sampler)),
+                    entry(
+                        3,
+                        wgpu::BindingResource::TextureView(&self.subject.label_view),
+                    ),
+                ],
+            })
+        });
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("distance"),
+            timestamp_writes: None,
+        });
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(3, &group, &[]);
+        if let Some(subject) = &subject {
+            pass.set_bind_group(1, subject, &[]);
+        }
+        let groups: [u32; 3] = std::array::from_fn(|i| threads[i].div_ceil(size[i]));
+        pass.dispatch_workgroups(groups[0], groups[1], groups[2]);
+    }
+
+    fn encoder(&self) -> wgpu::CommandEncoder {
+        encoder(self.gpu)
+    }
+
+    /// Finds the outside of the object.
+    fn flood(&self, foot_axis: u32) {
+        let mut encoder = self.encoder();
+        let coarse = self.plan.coarse;
+        let mut job = self.job;
+        job.axis = foot_axis;
+        self.run(
+            &mut encoder,
+            &self.pipelines.open_blocks,
+            &job,
+            &[(5, &self.flood)],
+            true,
+            coarse.to_array(),
+            [4; 3],
+        );
+        let across = [
+            [coarse.y, coarse.z, 1],
+            [coarse.x, coarse.z, 1],
+            [coarse.x, coarse.y, 1],
+        ];
+        for _ in 0..SWEEP_ROUNDS {
+            for (axis, threads) in across.into_iter().enumerate() {
+                job.axis = axis as u32;
+                self.run(
+                    &mut encoder,
+                    &self.pipelines.sweep,
+                    &job,
+                    &[(5, &self.flood)],
+                    false,
+                    threads,
+                    [8, 8, 1],
+                );
+            }
+        }
+        self.gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Signed distances of one channel.
+    fn distances(&self, channel: u32) {
+        let plan = self.plan;
+        let mut job = self.job;
+        job.channel = channel;
+        let mut first = 0;
+        while first < plan.fine.z {
+            let slices = self.slices.min(plan.fine.z - first);
+            job.first_slice = first;
+            job.slice_count = slices;
+            let mut encoder = self.encoder();
+            let bindings = [(1, &self.lines), (5, &self.flood)];
+            self.run(
+                &mut encoder,
+                &self.pipelines.along[0],
+                &job,
+                &bindings,
+                true,
+                [plan.fine.y, slices, 1],
+                [8, 8, 1],
+            );
+            self.run(
+                &mut encoder,
+                &self.pipelines.along[1],
+                &job,
+                &[(1, &self.lines), (2, &self.planes)],
+                false,
+                [plan.coarse.x, plan.coarse.y, slices],
+                [8, 8, 1],
+            );
+            self.gpu.queue.submit([encoder.finish()]);
+            first += slices;
+        }
+        let mut encoder = self.encoder();
+        self.run(
+            &mut encoder,
+            &self.pipelines.along[2],
+            &job,
+            &[(2, &self.planes), (3, &self.fields)],
+            false,
+            plan.coarse.to_array(),
+            [8, 8, 1],
+        );
+        self.gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Takes the stairs off a channel.
+    fn smooth(&self, channel: u32) {
+        let mut encoder = self.encoder();
+        let mut job = self.job;
+        job.channel = channel;
+        let both = [(3, &self.fields), (4, &self.smoothed)];
+        for axis in 0..3 {
+            job.axis = axis;
+            self.run(
+                &mut encoder,
+                &self.pipelines.smooth[(axis % 2) as usize],
+                &job,
+                &both,
+                false,
+                self.plan.coarse.to_array(),
+                [4; 3],
+            );
+        }
+        let bytes = 4 * self.plan.count();
+        encoder.copy_buffer_to_buffer(
+            &self.smoothed,
+            0,
+            &self.fields,
+            bytes * u64::from(channel),
+            bytes,
+        );
+        self.gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Into a slab of the texture, the distances as they are now; without sets the depth.
+    fn write(&self, slab: u32, set_count: u32) {
+        let mut encoder = self.encoder();
+        let mut job = self.job;
+        job.slab = slab;
+        job.set_count = set_count;
+        let job = uniform_buffer(self.gpu, "distance job", &job);
+        let entries = [
+            entry(0, job.as_entire_binding()),
+            entry(3, self.fields.as_entire_binding()),
+            entry(6, wgpu::BindingResource::TextureView(self.view)),
+        ];
+        self.dispatch(
+            &mut encoder,
+            &self.pipelines.write,
+            &entries,
+            false,
+            self.plan.coarse.to_array(),
+            [4; 3],
+        );
+        self.gpu.queue.submit([encoder.finish()]);
+    }
+}

@@ -1,0 +1,97 @@
+//! Rigid motions of segments that move as a whole, found on the GPU after each change of a template.
+
+use super::inputs::Inputs;
+use super::kept::KeptTextures;
+use crate::render::device::bindings::{encoder, entry};
+use crate::render::device::buffers::result_buffer;
+use crate::render::device::gpu::Gpu;
+use crate::render::device::pipelines::{Pipelines, compute_pipeline};
+use crate::render::device::programs::{ProgramId, module};
+use crate::render::pack::gpu_types::{Kept, MAX_TEMPLATES};
+use crate::render::pack::kept::KeptTissue;
+use crate::render::pack::stamps::MadeFrom;
+use crate::render::subject::volume::SubjectTextures;
+use std::mem::offset_of;
+use std::sync::OnceLock;
+
+/// Bytes of the motions of all groups.
+const BYTES: u64 = 48 * MAX_TEMPLATES as u64;
+
+/// The program, compiled when the first document asks for it; one pipeline per set of template kinds.
+#[derive(Debug, Default)]
+pub(crate) struct RigidPrograms {
+    module: OnceLock<wgpu::ShaderModule>,
+    pipelines: Pipelines<u32, wgpu::ComputePipeline>,
+}
+
+impl RigidPrograms {
+    fn pipeline(&self, gpu: &Gpu, kinds: u32) -> wgpu::ComputePipeline {
+        self.pipelines.get(kinds, || {
+            let module = self.module.get_or_init(|| module(gpu, ProgramId::Rigid));
+            compute_pipeline(gpu, module, "fit", &[("drawn_kinds", f64::from(kinds))])
+        })
+    }
+}
+
+/// The motions of one document's segments, behind its other kept tissue on the GPU.
+#[derive(Debug, Default)]
+pub(crate) struct RigidMotions(MadeFrom<4>);
+
+impl RigidMotions {
+    /// Finds the motions anew where something has changed. On its way to the GPU when this returns; nothing is read
+    /// back.
+    pub(crate) fn update(
+        &mut self,
+        gpu: &Gpu,
+        programs: &RigidPrograms,
+        inputs: &Inputs,
+        subject: &SubjectTextures,
+        templates: &wgpu::Buffer,
+        (kept_textures, fields): (&KeptTextures, &wgpu::TextureView),
+    ) {
+        let is_stale = self.0.is_stale([
+            inputs.subject,
+            inputs.templates.stamp(),
+            inputs.fields.stamp(),
+            inputs.kept.stamp(),
+        ]);
+        if !is_stale || !inputs.kept().is_some_and(KeptTissue::has_rigid) {
+            return;
+        }
+        let pipeline = programs.pipeline(gpu, inputs.templates.get().drawn_kinds());
+        let motions = result_buffer(gpu, "rigid motions", BYTES);
+        let view = wgpu::BindingResource::TextureView;
+        let groups = [
+            vec![
+                entry(0, subject.buffer.as_entire_binding()),
+                entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
+                entry(3, view(&subject.label_view)),
+            ],
+            vec![
+                entry(0, templates.as_entire_binding()),
+                entry(5, kept_textures.uniform.as_entire_binding()),
+                entry(6, view(&kept_textures.view)),
+                entry(7, view(fields)),
+            ],
+            vec![entry(0, motions.as_entire_binding())],
+        ];
+        let mut encoder = encoder(gpu);
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&pipeline);
+            for (i, entries) in groups.iter().enumerate() {
+                let index = i as u32 + 1;
+                let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("rigid"),
+                    layout: &pipeline.get_bind_group_layout(index),
+                    entries,
+                });
+                pass.set_bind_group(index, &group, &[]);
+            }
+            pass.dispatch_workgroups(MAX_TEMPLATES as u32, 1, 1);
+        }
+        let offset = offset_of!(Kept, motions) as u64;
+        encoder.copy_buffer_to_buffer(&motions, 0, &kept_textures.uniform, offset, BYTES);
+        gpu.queue.submit([encoder.finish()]);
+    }
+}

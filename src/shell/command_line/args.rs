@@ -1,0 +1,154 @@
+//! The arguments of the command line.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+
+use super::reading::ReadingFlags;
+
+/// Opens CT and MRI scans the way a medical illustrator would.
+///
+/// DOC is an existing file, a link, or a link's payload; - reads a document from standard input.
+#[derive(Debug, Parser)]
+#[command(name = "fabrica", version, max_term_width = 100)]
+pub(super) struct Args {
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
+    #[command(flatten)]
+    pub(super) common: Common,
+}
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Common {
+    /// A scan that takes the place of the document's subject.
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(super) subject: Option<PathBuf>,
+    /// A displacement field that the document names by its hash; may be given several times.
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(super) field: Vec<PathBuf>,
+    /// A label volume beside the scan; may be given several times.
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(super) segments: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) reading: ReadingFlags,
+    /// The graphics adapter to use, by (part of) its name.
+    #[arg(long, global = true, value_name = "NAME")]
+    pub(super) adapter: Option<String>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Opens a window.
+    View {
+        /// What to open; without it, what was open the last time.
+        doc: Option<String>,
+    },
+    /// Draws without a window.
+    Render {
+        /// What to draw.
+        doc: String,
+        /// The PNG file to write.
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+        /// Width and height, pixels.
+        #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = parse_size)]
+        size: [u32; 2],
+        #[command(flatten)]
+        moment: Moment,
+        /// Samples per pixel against jagged edges.
+        #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=1024))]
+        samples: u32,
+        /// Writes title, credit and labels into the picture.
+        #[arg(long)]
+        lettering: bool,
+    },
+    /// Says where the material at a point comes from: reads x,y,z lines, prints x,y,z,sx,sy,sz,a lines.
+    Probe {
+        /// What to probe.
+        doc: String,
+        /// Lines of x,y,z in the deformed subject; standard input without it, or for -.
+        #[arg(long, value_name = "FILE")]
+        points: Option<PathBuf>,
+        /// Looks into the subject as well: adds value,segment, empty where there is nothing.
+        #[arg(long)]
+        object: bool,
+        #[command(flatten)]
+        moment: Moment,
+    },
+    /// Writes the composed map of a document as a displacement field: NRRD, millimetres from output to input, and
+    /// continuity.
+    ExportField {
+        /// What to export.
+        doc: String,
+        /// The NRRD file to write.
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+        /// Samples along the longest side.
+        #[arg(long, value_name = "N", default_value_t = 128, value_parser = clap::value_parser!(u32).range(2..=512))]
+        size: u32,
+        #[command(flatten)]
+        moment: Moment,
+    },
+    /// Prints the link of a document.
+    Link {
+        /// What to link to.
+        doc: String,
+        /// The page in front of the link.
+        #[arg(long, value_name = "URL")]
+        page: Option<String>,
+    },
+    /// Prints the document of a link, as canonical JSON.
+    Doc {
+        /// What to print.
+        doc: String,
+    },
+    /// Says what a data file holds.
+    Info {
+        /// A scan.
+        file: PathBuf,
+    },
+    /// Lists the displacement templates with parameters, defaults and ranges.
+    Templates {
+        /// As JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Measures frame times on this adapter, as ratios to the undeformed frame.
+    Bench {
+        /// As JSON.
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+/// A moment of a lesson.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(super) struct Moment {
+    /// The step; a link may name one itself, else 0.
+    #[arg(long, value_name = "N")]
+    pub(super) step: Option<usize>,
+    /// Seconds into the passage to that step; without it, its end.
+    #[arg(long, value_name = "T", value_parser = parse_seconds)]
+    pub(super) time: Option<f32>,
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| {
+        text.trim()
+            .parse::<u32>()
+            .ok()
+            .filter(|side| (1..=32_768).contains(side))
+    };
+    text.split_once(['x', 'X', '×'])
+        .and_then(|(width, height)| Some([side(width)?, side(height)?]))
+        .ok_or_else(|| {
+            "expected width and height such as 1024x768, each from 1 to 32768".to_owned()
+        })
+}
+
+fn parse_seconds(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(seconds) if seconds.is_finite() && seconds >= 0.0 => Ok(seconds),
+        _ => Err("expected seconds, 0 or more".to_owned()),
+    }
+}

@@ -1,0 +1,128 @@
+//! Why a command failed.
+
+use std::io;
+use std::path::Path;
+
+use crate::assets::{OtherFile, Role, Want};
+use crate::data::BuildError;
+use crate::document::{DocumentError, MAX_BYTES};
+use crate::link::LinkError;
+use crate::load::LoadError;
+use crate::render::RenderError;
+use crate::subjects::SubjectError;
+
+/// Why a command failed. One line each.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum CliError {
+    #[error("{path}: {source}")]
+    Read { path: String, source: io::Error },
+    #[error("{path}: larger than a document may be ({MAX_BYTES} bytes)")]
+    TooLong { path: String },
+    #[error("{path}: not a text in UTF-8")]
+    NotUtf8 { path: String },
+    #[error("{path}: {source}")]
+    Document { path: String, source: DocumentError },
+    #[error("{path}: {source}")]
+    Link { path: String, source: LinkError },
+    #[error("there is no file {path}, and no link that begins so: {source}")]
+    NeitherFileNorLink { path: String, source: LinkError },
+    #[error(transparent)]
+    Step(DocumentError),
+    #[error("{0}")]
+    Field(String),
+    #[error("subject: {0}")]
+    Subject(#[from] MissingSubject),
+    #[error("{0} [{1}]")]
+    Load(LoadError, String),
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    #[error("{path}: {source}; nothing was written")]
+    Write { path: String, source: io::Error },
+    #[error("{path}, line {line}: expected x,y,z, three finite numbers, found “{found}”")]
+    Point {
+        path: String,
+        line: usize,
+        found: String,
+    },
+    #[error("standard output: {0}")]
+    Output(io::Error),
+    #[error("{0}")]
+    Window(String),
+    #[error("{0}")]
+    Usage(&'static str),
+}
+
+/// Why a document's subject is not there.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum MissingSubject {
+    /// An address that is no local file.
+    #[error(
+        "the subject is at {src}; this program reads local files only: fetch it and give it by --subject FILE"
+    )]
+    Remote {
+        /// As written in the document.
+        src: String,
+    },
+    /// A file that the reader is to supply.
+    #[error("the document needs the file {name} (SHA-256 {sha256}): give it by --subject FILE")]
+    Wanted {
+        /// What the author called it.
+        name: String,
+        /// Of its bytes.
+        sha256: String,
+    },
+    /// A label volume at an address that is no local file.
+    #[error(
+        "the label volume is at {src}; this program reads local files only: fetch it and name the file"
+    )]
+    RemoteSegments {
+        /// As written in the document.
+        src: String,
+    },
+    /// Another file than the document means.
+    #[error("{path} is {other}")]
+    OtherFile {
+        /// The file.
+        path: String,
+        /// Both hashes.
+        other: OtherFile,
+    },
+    /// No such built-in subject in this version.
+    #[error(transparent)]
+    Builtin(#[from] SubjectError),
+    /// The file cannot be read.
+    #[error("{source} [{path}]")]
+    File {
+        /// The file.
+        path: String,
+        /// What the reader said.
+        source: LoadError,
+    },
+    /// What was read is no volume.
+    #[error("{source} [{path}]")]
+    Build {
+        /// The file or subject.
+        path: String,
+        /// What is missing or wrong in it.
+        source: BuildError,
+    },
+}
+
+impl MissingSubject {
+    /// Of an address on the network.
+    pub(super) fn remote(want: &Want) -> Self {
+        let src = want.src().unwrap_or_default().chars().take(200).collect();
+        match want.role {
+            Role::Segments => Self::RemoteSegments { src },
+            Role::Subject | Role::Field => Self::Remote { src },
+        }
+    }
+
+    /// Of a file that is not the one that the document means.
+    pub(super) fn other(path: &Path, other: OtherFile) -> Self {
+        Self::OtherFile {
+            path: path.display().to_string(),
+            other,
+        }
+    }
+}

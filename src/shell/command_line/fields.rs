@@ -1,0 +1,117 @@
+//! Displacement fields for the command line: read for the `field` templates of a document.
+
+use std::path::{Path, PathBuf};
+
+use super::args::Common;
+use super::error::CliError;
+use super::output::notice;
+use super::subject::subject_of;
+use crate::assets::{Assets, Data, FieldNews, Source, Want};
+use crate::data::{Grid, VolumeLimits};
+use crate::document::{Illustration, SubjectRef, TemplateData};
+use crate::load::{FieldFile, read_field};
+use crate::shell::files::{Folder, local};
+use crate::subjects::{FINE_RESOLUTION, Generator};
+
+/// Gives each `field` template that acts its samples, and its place where the file says it.
+///
+/// # Errors
+/// [`CliError::Field`] with the template's pointer.
+pub(super) fn attach_fields(
+    illustration: &mut Illustration,
+    common: &Common,
+    folder: &Path,
+) -> Result<(), CliError> {
+    let mut assets = Assets::default();
+    let mut paths = Vec::new();
+    for template in illustration.templates.iter().filter(|t| t.enabled) {
+        let TemplateData::Field(field) = &template.data else {
+            continue;
+        };
+        let place = format!("/templates/{}", template.index);
+        let failed = |why: String| CliError::Field(format!("{place}: {why}"));
+        let Some(want) = Want::field(field) else {
+            notice(format!("{place}: the field names no file; it is not drawn"));
+            continue;
+        };
+        let (path, file) = file_of(&want, folder, &common.field).map_err(failed)?;
+        let taken = assets.take(&want, Data::Field(file));
+        taken.map_err(|other| failed(format!("{} is {other}", path.display())))?;
+        paths.push((template.index, path));
+    }
+    if paths.is_empty() {
+        return Ok(());
+    }
+    assets.set_grid(subject_grid(illustration, common, folder)?);
+    let (resources, news) = assets.field_resources(illustration);
+    for news in news {
+        match news {
+            FieldNews::Notice(index, line) => notice(format!("/templates/{index}: {line}")),
+            FieldNews::Refused(index, why) => {
+                let path = paths.iter().find(|(i, _)| *i == index);
+                let path = path.map(|(_, path)| path.display().to_string());
+                return Err(CliError::Field(format!(
+                    "/templates/{index}: {why} ({})",
+                    path.unwrap_or_default()
+                )));
+            }
+        }
+    }
+    resources.attach_fields(illustration);
+    Ok(())
+}
+
+/// The file of a field: at its address, else the one of those given that has its hash.
+fn file_of(want: &Want, folder: &Path, given: &[PathBuf]) -> Result<(PathBuf, FieldFile), String> {
+    if let Some(src) = want.src() {
+        let path = local(folder, src).ok_or_else(|| {
+            format!(
+                "the field is at {src}; this program reads local files only: fetch it and give it by --field FILE"
+            )
+        })?;
+        let file = read(&path)?;
+        return Ok((path, file));
+    }
+    let mut others = Vec::new();
+    for path in given {
+        if let Ok(file) = read(path) {
+            match want.check(&file.sha256) {
+                Ok(()) => return Ok((path.clone(), file)),
+                Err(other) => others.push(format!("{} is {other}", path.display())),
+            }
+        }
+    }
+    let (Source::Builtin(name) | Source::File { name, .. }) = &want.source;
+    others.insert(
+        0,
+        format!(
+            "the document needs the field “{name}” (SHA-256 {}): give it by --field FILE",
+            want.sha256().unwrap_or_default()
+        ),
+    );
+    Err(others.join("; "))
+}
+
+fn read(path: &Path) -> Result<FieldFile, String> {
+    let (mut files, name) = Folder::of(path);
+    read_field(&mut files, &name).map_err(|error| error.to_string())
+}
+
+/// Where the subject's voxels lie, without making them where that can be.
+pub(super) fn subject_grid(
+    illustration: &Illustration,
+    common: &Common,
+    folder: &Path,
+) -> Result<Grid, CliError> {
+    if common.subject.is_none()
+        && let SubjectRef::Builtin { name } = &illustration.subject
+        && let Ok(generator) = Generator::new(name, FINE_RESOLUTION)
+    {
+        return Ok(generator.header().grid);
+    }
+    let limits = VolumeLimits {
+        max_dim: u32::MAX,
+        max_voxels: u64::MAX,
+    };
+    Ok(subject_of(illustration, common, folder, limits)?.grid)
+}

@@ -1,0 +1,22 @@
+//! `fabrica info`: what a data file holds.
+
+use std::path::Path;
+
+use super::args::Common;
+use super::error::CliError;
+use super::output::{notice, print};
+use super::reading::hint;
+
+pub(super) fn info(common: &Common, file: &Path) -> Result<(), CliError> {
+    let description = common.reading.describe(file).map_err(|error| {
+        let name = file.to_string_lossy();
+        if let Some(hint) = hint(&name, &error) {
+            notice(hint);
+        }
+        CliError::Load(error, name.into_owned())
+    })?;
+    for line in description.report.notices() {
+        notice(line);
+    }
+    print(&format!("{}\n", description.to_string().trim_end()))
+}

@@ -1,0 +1,23 @@
+//! The command line of the native program (spec/contract.md, "The command line").
+//!
+//! Results go to standard output, notices and errors to standard error, one line each; 0 is success, 1 an error, 2 bad
+//! usage. A file that is written is whole or not there.
+
+mod args;
+mod bench;
+mod device;
+mod error;
+mod export;
+mod fields;
+mod info;
+mod opening;
+mod output;
+mod probe;
+mod reading;
+mod render;
+mod run;
+mod subject;
+mod templates;
+
+pub use reading::ReadingFlags;
+pub use run::run;

@@ -1,0 +1,143 @@
+//! What DOC on the command line means: a file, a link, a payload, or standard input.
+
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
+
+use super::args::{Common, Moment};
+use super::error::CliError;
+use super::fields::attach_fields;
+use super::output::{notice, shortened};
+use crate::document::{Document, Illustration, MAX_BYTES};
+use crate::link::{self, LinkError};
+
+/// A document, where its relative addresses start, and the step that its link names.
+pub(super) struct Opened {
+    pub(super) document: Document,
+    pub(super) folder: PathBuf,
+    pub(super) step: usize,
+}
+
+impl Opened {
+    pub(super) fn say_notices(&self) {
+        for line in self.document.notices() {
+            notice(line);
+        }
+    }
+
+    /// What the document says at a moment, its notices said.
+    pub(super) fn illustration(
+        &self,
+        moment: Moment,
+        common: &Common,
+    ) -> Result<Illustration, CliError> {
+        let mut illustration = self.at_moment(moment)?;
+        attach_fields(&mut illustration, common, &self.folder)?;
+        Ok(illustration)
+    }
+
+    fn at_moment(&self, moment: Moment) -> Result<Illustration, CliError> {
+        self.say_notices();
+        let last = self.document.step_count();
+        let step = moment.step.unwrap_or_else(|| {
+            if self.step > last {
+                notice(format!(
+                    "the link opens at step {}, the last is {last}",
+                    self.step
+                ));
+            }
+            self.step.min(last)
+        });
+        let at_step = self.document.at_step(step).map_err(CliError::Step)?;
+        for line in at_step.notices() {
+            if !self.document.notices().contains(line) {
+                notice(format!("step {step}: {line}"));
+            }
+        }
+        match moment.time {
+            Some(_) if step == 0 => {
+                notice("there is no passage to step 0; --time changes nothing");
+                Ok(at_step.illustration().clone())
+            }
+            Some(seconds) => self.document.at_time(step, seconds).map_err(CliError::Step),
+            None => Ok(at_step.illustration().clone()),
+        }
+    }
+}
+
+/// Opens DOC: an existing path, a link, a payload, or `-`.
+pub(super) fn open(doc: &str) -> Result<Opened, CliError> {
+    let here = PathBuf::from(".");
+    if doc == "-" {
+        let text = read_text(io::stdin().lock(), "standard input")?;
+        return from_text(&text, "standard input", here);
+    }
+    let path = Path::new(doc);
+    if path.exists() {
+        let file = std::fs::File::open(path).map_err(|source| CliError::Read {
+            path: doc.to_owned(),
+            source,
+        })?;
+        let text = read_text(file, doc)?;
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
+            _ => here,
+        };
+        return from_text(&text, doc, folder);
+    }
+    match link::decode(doc) {
+        Ok(link) => Ok(Opened {
+            document: link.document,
+            folder: here,
+            step: link.step,
+        }),
+        Err(source @ (LinkError::Foreign { .. } | LinkError::Empty)) if !doc.contains('#') => {
+            Err(CliError::NeitherFileNorLink {
+                path: format!("“{}”", shortened(doc)),
+                source,
+            })
+        }
+        Err(source) => Err(CliError::Link {
+            path: shortened(doc),
+            source,
+        }),
+    }
+}
+
+fn read_text(from: impl io::Read, path: &str) -> Result<String, CliError> {
+    let mut bytes = Vec::new();
+    from.take(MAX_BYTES as u64 + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|source| CliError::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+    if bytes.len() > MAX_BYTES {
+        return Err(CliError::TooLong {
+            path: path.to_owned(),
+        });
+    }
+    String::from_utf8(bytes).map_err(|_not_utf8| CliError::NotUtf8 {
+        path: path.to_owned(),
+    })
+}
+
+/// A file holds a document, or just its link.
+fn from_text(text: &str, path: &str, folder: PathBuf) -> Result<Opened, CliError> {
+    let is_link = text.trim().lines().count() == 1 && link::decode(text).is_ok();
+    if is_link && let Ok(link) = link::decode(text) {
+        return Ok(Opened {
+            document: link.document,
+            folder,
+            step: link.step,
+        });
+    }
+    let document = Document::from_json(text).map_err(|source| CliError::Document {
+        path: path.to_owned(),
+        source,
+    })?;
+    Ok(Opened {
+        document,
+        folder,
+        step: 0,
+    })
+}

@@ -1,0 +1,62 @@
+//! `fabrica render`: one picture, drawn without a window.
+
+use std::io;
+use std::path::Path;
+
+use super::args::{Common, Moment};
+use super::device::open_gpu;
+use super::error::CliError;
+use super::opening::Opened;
+use super::output::{notice, write_whole};
+use super::subject::{say_kept, subject_of};
+use crate::render::{Studio, encode_png};
+
+/// What a picture is drawn on.
+pub(super) struct Paper {
+    /// Width and height, pixels.
+    pub(super) size: [u32; 2],
+    /// Per pixel.
+    pub(super) samples: u32,
+    /// With title, credit and labels.
+    pub(super) lettering: bool,
+}
+
+pub(super) fn render(
+    common: &Common,
+    opened: &Opened,
+    output: &Path,
+    moment: Moment,
+    paper: Paper,
+) -> Result<(), CliError> {
+    let illustration = opened.illustration(moment, common)?;
+    // Found out before minutes of drawing, not after.
+    let folder = output
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    if output.is_dir() || folder.is_some_and(|folder| !folder.is_dir()) {
+        return Err(CliError::Write {
+            path: output.display().to_string(),
+            source: io::Error::from(if output.is_dir() {
+                io::ErrorKind::IsADirectory
+            } else {
+                io::ErrorKind::NotFound
+            }),
+        });
+    }
+    let gpu = open_gpu(common)?;
+    let volume = subject_of(&illustration, common, &opened.folder, gpu.volume_limits())?;
+    say_kept(&illustration, &volume);
+    let studio = Studio::new(&gpu, &volume, true)?;
+    let drawing = studio.render_image(&illustration, paper.size, paper.samples);
+    let mut image = pollster::block_on(drawing)?;
+    if paper.lettering {
+        let places = crate::app::caption_places(&studio, &illustration, paper.size);
+        let places = pollster::block_on(places)?;
+        let missing = crate::app::letter(&mut image, &illustration, &places);
+        if !missing.is_empty() {
+            notice(format!("no font here has the characters {missing}"));
+        }
+    }
+    let bytes = encode_png(&image)?;
+    write_whole(output, &bytes)
+}

@@ -1,0 +1,131 @@
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+use super::args::{Args, Command};
+use super::bench::bench;
+use super::error::CliError;
+use super::export::export_field;
+use super::info::info;
+use super::opening::open;
+use super::output::{notice, one_line, print, write_whole};
+use super::probe::probe;
+use super::render::{Paper, render};
+use super::templates::{templates_json, templates_text};
+use crate::link;
+use crate::shell::native::{Opening, view};
+
+/// Runs the command line. Without arguments it opens the window.
+pub fn run() -> ExitCode {
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => {
+            // Help and version go to standard output and are no error.
+            let code = if error.use_stderr() { 2 } else { 0 };
+            let _unprintable = error.print();
+            return ExitCode::from(code);
+        }
+    };
+    match execute(args) {
+        Ok(()) => ExitCode::SUCCESS,
+        // Who reads has seen enough.
+        Err(CliError::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {}", one_line(&error));
+            ExitCode::from(if matches!(error, CliError::Usage(_)) {
+                2
+            } else {
+                1
+            })
+        }
+    }
+}
+
+fn execute(args: Args) -> Result<(), CliError> {
+    let common = &args.common;
+    match args.command.unwrap_or(Command::View { doc: None }) {
+        Command::View { doc } => {
+            let opened = doc.as_deref().map(open).transpose()?;
+            if let Some(opened) = &opened {
+                opened.say_notices();
+            }
+            let opening = Opening {
+                folder: opened.as_ref().map(|opened| opened.folder.clone()),
+                document: opened.map(|opened| opened.document),
+                subject: common.subject.clone(),
+                reading: common.reading.clone(),
+                adapter: common.adapter.clone(),
+            };
+            view(opening).map_err(|error| CliError::Window(error.to_string()))
+        }
+        Command::Render {
+            doc,
+            output,
+            size,
+            moment,
+            samples,
+            lettering,
+        } => {
+            let paper = Paper {
+                size,
+                samples,
+                lettering,
+            };
+            render(common, &open(&doc)?, &output, moment, paper)
+        }
+        Command::Probe {
+            doc,
+            points,
+            object,
+            moment,
+        } => {
+            let points = points.filter(|path| path != Path::new("-"));
+            if doc == "-" && points.is_none() {
+                return Err(CliError::Usage(
+                    "document and points cannot both come from standard input: name a file by --points",
+                ));
+            }
+            probe(common, &open(&doc)?, points.as_deref(), object, moment)
+        }
+        Command::ExportField {
+            doc,
+            output,
+            size,
+            moment,
+        } => {
+            let bytes = export_field(common, &open(&doc)?, moment, size)?;
+            write_whole(&output, &bytes)
+        }
+        Command::Link { doc, page } => {
+            let opened = open(&doc)?;
+            opened.say_notices();
+            let fragment = link::fragment(&opened.document, opened.step);
+            if fragment.len() > link::ADVISED_LENGTH {
+                notice(format!(
+                    "the link has {} characters; above {} some programs cut it, a document file is safer",
+                    fragment.len(),
+                    link::ADVISED_LENGTH
+                ));
+            }
+            let page = page.unwrap_or_default();
+            let page = page.split('#').next().unwrap_or_default();
+            print(&format!("{page}{fragment}\n"))
+        }
+        Command::Doc { doc } => {
+            let opened = open(&doc)?;
+            opened.say_notices();
+            print(&opened.document.to_json())
+        }
+        Command::Info { file } => info(common, &file),
+        Command::Templates { json } => print(&if json {
+            templates_json()
+        } else {
+            templates_text()
+        }),
+        Command::Bench { json } => bench(common, json),
+    }
+}

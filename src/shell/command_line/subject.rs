@@ -1,0 +1,261 @@
+//! The subject of a document with its segments, for the command line: generated, or read from local files.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::sync_channel;
+
+use super::args::Common;
+use super::error::{CliError, MissingSubject};
+use super::output::notice;
+use super::reading::hint;
+use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
+use crate::data::{
+    Reducer, Turns, Volume, VolumeBuilder, VolumeLimits, VolumeSink, Voxels, segment,
+};
+use crate::document::{Illustration, Reading};
+use crate::load::{LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
+use crate::render::KeptTissue;
+use crate::shell::files::{Folder, local};
+use crate::shell::loading::read_scan;
+use crate::subjects::{FINE_RESOLUTION, Generator, SubjectError};
+
+/// The subject of a document with its segments: those of its own file, those of label volumes that the document names
+/// or that are given beside it, and those that its recipes make. `folder` is where relative addresses start; a larger
+/// volume than `limits` allow is reduced.
+///
+/// # Errors
+/// [`CliError::Subject`] if a file is not there, cannot be read, or is another one than the document means.
+pub(super) fn subject_of(
+    illustration: &Illustration,
+    common: &Common,
+    folder: &Path,
+    limits: VolumeLimits,
+) -> Result<Volume, CliError> {
+    let mut assets = Assets::default();
+    let mut given = Vec::new();
+    for path in &common.segments {
+        given.push((path.clone(), read_segments(path)?));
+    }
+    for want in Wanted::of(illustration).0 {
+        match want.role {
+            Role::Subject => {
+                take_subject(&mut assets, &want, illustration, common, folder, limits)?
+            }
+            Role::Segments => take_segments(&mut assets, &want, &mut given, folder)?,
+            // Fields come by `attach_fields`, as they need the subject's grid only.
+            Role::Field => {}
+        }
+    }
+    for (_, file) in given {
+        assets.add_segments(file);
+    }
+    let (resources, notices) = assets.segment_resources(illustration);
+    drop(assets);
+    notices.iter().for_each(notice);
+    // A document has a subject, and it was brought.
+    let Some(volume) = resources.volume else {
+        return Err(CliError::from(MissingSubject::Wanted {
+            name: "without a name".to_owned(),
+            sha256: String::new(),
+        }));
+    };
+    if resources.segmentations.is_empty() && illustration.recipes.is_empty() {
+        return Ok(Arc::unwrap_or_clone(volume));
+    }
+    let made = pollster::block_on(segment(
+        Arc::clone(&volume),
+        resources.segmentations,
+        illustration.recipes.clone(),
+        Turns::endless(),
+    ));
+    made.notices.iter().for_each(notice);
+    let mut volume = Arc::unwrap_or_clone(volume);
+    volume.segmentation = made.segmentation.map(Arc::unwrap_or_clone);
+    Ok(volume)
+}
+
+/// Brings the subject. The file of `--subject` takes the place of the document's, and only a notice says that it is
+/// another one.
+fn take_subject(
+    assets: &mut Assets,
+    want: &Want,
+    illustration: &Illustration,
+    common: &Common,
+    folder: &Path,
+    limits: VolumeLimits,
+) -> Result<(), MissingSubject> {
+    let reading = common.reading.over(illustration.subject.reading());
+    if let Some(path) = &common.subject {
+        let data = read(path, &reading, limits)?;
+        if let Some(Err(other)) = data.sha256().map(|found| want.check(found)) {
+            notice(format!("{} is {other}", path.display()));
+        }
+        assets.give(data);
+        return Ok(());
+    }
+    match &want.source {
+        Source::Builtin(name) => {
+            if let Some(revision) = illustration.subject_revision.filter(|r| *r > 1) {
+                notice(format!(
+                    "/subject/revision: this version does not know revision {revision} of {name}; the first is drawn"
+                ));
+            }
+            assets.give(Data::Subject {
+                volume: Arc::new(generate(name)?),
+                sha256: None,
+            });
+            Ok(())
+        }
+        Source::File { src: Some(src), .. } => {
+            let path = local(folder, src).ok_or_else(|| MissingSubject::remote(want))?;
+            let data = read(&path, &reading, limits)?;
+            let taken = assets.take(want, data);
+            taken.map_err(|other| MissingSubject::other(&path, other))
+        }
+        Source::File { sha256, name, .. } => Err(MissingSubject::Wanted {
+            name: if name.is_empty() {
+                "without a name".to_owned()
+            } else {
+                format!("“{name}”")
+            },
+            sha256: sha256.clone().unwrap_or_default(),
+        }),
+    }
+}
+
+/// Brings a label volume that the document names: one of those given if it has the hash, else the file at the address.
+fn take_segments(
+    assets: &mut Assets,
+    want: &Want,
+    given: &mut Vec<(PathBuf, LabelFile)>,
+    folder: &Path,
+) -> Result<(), MissingSubject> {
+    let is_it = |(_, file): &(PathBuf, LabelFile)| {
+        want.sha256().is_some() && want.check(&file.sha256).is_ok()
+    };
+    let (path, file) = match (given.iter().position(is_it), want.src()) {
+        (Some(i), _) => given.remove(i),
+        (None, Some(src)) => {
+            let path = local(folder, src).ok_or_else(|| MissingSubject::remote(want))?;
+            let file = read_segments(&path)?;
+            (path, file)
+        }
+        (None, None) => {
+            notice(format!(
+                "the document needs a label volume (SHA-256 {}): give it by --segments FILE; its segments are left out",
+                want.sha256().unwrap_or_default()
+            ));
+            return Ok(());
+        }
+    };
+    let taken = assets.take(want, Data::Segments(file));
+    taken.map_err(|other| MissingSubject::other(&path, other))
+}
+
+fn read_segments(path: &Path) -> Result<LabelFile, MissingSubject> {
+    let (mut files, name) = Folder::of(path);
+    let file = read_label_file(&mut files, &name, &ReadOptions::default());
+    file.map_err(|source| MissingSubject::File {
+        path: path.display().to_string(),
+        source,
+    })
+}
+
+/// A built-in subject in full resolution, with as many threads as there are cores.
+///
+/// # Errors
+/// [`SubjectError::UnknownName`].
+pub(super) fn generate(name: &str) -> Result<Volume, MissingSubject> {
+    let generator = Generator::new(name, FINE_RESOLUTION)?;
+    let mut builder = VolumeBuilder::new();
+    builder
+        .begin(&generator.header())
+        .map_err(SubjectError::Refused)?;
+    let n_threads = std::thread::available_parallelism().map_or(1, |n| n.get().min(16)) as u32;
+    let thickness = Generator::SLAB;
+    let n_slabs = generator.slice_count().div_ceil(thickness);
+    std::thread::scope(|scope| {
+        let outputs: Vec<_> = (0..n_threads)
+            .map(|first| {
+                // Two slabs ahead, so that little is held.
+                let (sender, receiver) = sync_channel(2);
+                let generator = &generator;
+                scope.spawn(move || {
+                    for slab in (first..n_slabs).step_by(n_threads as usize) {
+                        let start = slab * thickness;
+                        let end = (start + thickness).min(generator.slice_count());
+                        if sender.send(generator.slab(start..end)).is_err() {
+                            return;
+                        }
+                    }
+                });
+                receiver
+            })
+            .collect();
+        for slab in 0..n_slabs {
+            let output = outputs.get((slab % n_threads) as usize);
+            if let Some(slab) = output.and_then(|output| output.recv().ok()) {
+                builder.scalars(Voxels::I16(slab.values));
+                builder.labels(slab.labels);
+            }
+        }
+    });
+    builder.finish().map_err(|source| MissingSubject::Build {
+        path: name.to_owned(),
+        source,
+    })
+}
+
+/// A scan.
+fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, MissingSubject> {
+    let mut builder = VolumeBuilder::new();
+    let mut reducer = Reducer::new(&mut builder, limits);
+    let mut report = LoadReport::default();
+    let shown = path.display().to_string();
+    let (mut files, name) = Folder::of(path);
+    let result = read_scan(&mut files, &name, reading, &mut reducer, &mut report);
+    if let Some(reduction) = reducer.reduction() {
+        notice(reduction);
+    }
+    for line in report.notices() {
+        notice(format!("{shown}: {line}"));
+    }
+    let build = |source| MissingSubject::Build {
+        path: shown.clone(),
+        source,
+    };
+    let failed = |source| MissingSubject::File {
+        path: shown.clone(),
+        source,
+    };
+    match result {
+        Ok(()) => {}
+        // The builder stopped it and knows why.
+        Err(LoadError::Cancelled) => {
+            let why = builder.finish().err();
+            return Err(why.map_or_else(|| failed(LoadError::Cancelled), build));
+        }
+        Err(source) => {
+            if let Some(hint) = hint(&name, &source) {
+                notice(hint);
+            }
+            return Err(failed(source));
+        }
+    }
+    Ok(Data::Subject {
+        volume: Arc::new(builder.finish().map_err(build)?),
+        sha256: report.sha256_hex(),
+    })
+}
+
+/// Names what `keep` asks for and the subject has not.
+pub(super) fn say_kept(illustration: &Illustration, volume: &Volume) {
+    let segments = volume
+        .segmentation
+        .as_ref()
+        .map_or(&[][..], |l| &l.segments);
+    let bounds = volume.grid.subject_bounds();
+    for line in KeptTissue::of(&illustration.templates, segments, bounds).notices() {
+        notice(line);
+    }
+}

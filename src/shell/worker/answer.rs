@@ -1,0 +1,266 @@
+//! What a part posts to the page: an array that begins with a word. `["module", WebAssembly.Module]` comes first, if
+//! the page did not send the module; `["field", header as JSON, Float32Array]` or `["field", undefined, why not]` is
+//! the answer to a displacement field. The others are the events of a load:
+//! `["begin", header as JSON]`, `["scalars", typed array]`, `["labels", Uint8Array]`, `["progress", fraction, what]`,
+//! `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`, `["label-file", sha256, header as JSON, Uint8Array]`,
+//! `["frames", count]`, `["raw", bytes or undefined, is packed, guess or undefined]`, `["failed", message, details]`,
+//! `["cancelled"]`.
+
+use js_sys::{Array, Float32Array, Reflect, Uint8Array};
+use serde_json::Value;
+use wasm_bindgen::prelude::*;
+
+use super::header::{field_of, json_of, json_of_field, json_of_labels, labels_of, volume_of};
+use super::task::{reading_of, text_of_reading};
+use crate::assets::{LoadEvent, RawQuestion};
+use crate::data::Voxels;
+use crate::document::Reading;
+use crate::load::{FieldFile, LabelFile};
+
+/// What the page gets from a part.
+#[derive(Debug)]
+pub enum Answer {
+    /// The part's compiled module, for the next worker.
+    Module(JsValue),
+    /// Something happened to a load.
+    Event(LoadEvent),
+    /// The file is a displacement field, or should have been one and why it is not.
+    Field(Box<Result<FieldFile, String>>),
+}
+
+impl Answer {
+    /// The answer in a message; none if the message is of no known kind.
+    pub fn of(message: &JsValue) -> Option<Self> {
+        let message: &Array = message.dyn_ref()?;
+        match message.get(0).as_string()?.as_str() {
+            "module" => Some(Self::Module(message.get(1))),
+            "field" => {
+                let Some(header) = message.get(1).as_string() else {
+                    let why = message.get(2).as_string().unwrap_or_default();
+                    return Some(Self::Field(Box::new(Err(why))));
+                };
+                let header: Value = serde_json::from_str(&header).ok()?;
+                let mut field = field_of(&header)?;
+                let samples = message.get(2).dyn_ref::<Float32Array>()?.to_vec();
+                field.samples = samples.as_chunks::<4>().0.to_vec();
+                Some(Self::Field(Box::new(Ok(field))))
+            }
+            _ => event_of(message).map(Self::Event),
+        }
+    }
+
+    /// True if the worker says no more after this.
+    pub fn is_last(&self) -> bool {
+        match self {
+            Self::Module(_) => false,
+            Self::Field(_) => true,
+            Self::Event(event) => matches!(
+                event,
+                LoadEvent::Done { .. }
+                    | LoadEvent::Failed { .. }
+                    | LoadEvent::Cancelled
+                    | LoadEvent::AskRaw(_)
+            ),
+        }
+    }
+}
+
+/// In the worker: answers on their way to the page.
+pub mod post {
+    use super::*;
+    use crate::shell::worker::fault::scope;
+
+    fn send(message: &Array, moved: Option<js_sys::ArrayBuffer>) -> Result<(), JsValue> {
+        match moved {
+            Some(buffer) => scope().post_message_with_transfer(message, &Array::of1(&buffer)),
+            None => scope().post_message(message),
+        }
+    }
+
+    /// Posts this part's compiled module, unless the task came with it.
+    ///
+    /// # Errors
+    /// If the page cannot take the message.
+    pub fn module_unless_known(task: &JsValue) -> Result<(), JsValue> {
+        if Reflect::get(task, &"module".into())?.is_truthy() {
+            return Ok(());
+        }
+        send(&Array::of2(&"module".into(), &wasm_bindgen::module()), None)
+    }
+
+    /// Posts a displacement field, or why there is none.
+    ///
+    /// # Errors
+    /// If the page cannot take the message.
+    pub fn field(outcome: &Result<FieldFile, String>) -> Result<(), JsValue> {
+        match outcome {
+            Ok(field) => {
+                let samples = Float32Array::from(field.samples.as_flattened());
+                let header = json_of_field(field).to_string();
+                let message = Array::of3(&"field".into(), &header.into(), &samples);
+                send(&message, Some(samples.buffer()))
+            }
+            Err(why) => send(
+                &Array::of3(&"field".into(), &JsValue::UNDEFINED, &why.into()),
+                None,
+            ),
+        }
+    }
+
+    /// Posts what a load says. Samples are moved to the page, not copied.
+    ///
+    /// # Errors
+    /// If the page cannot take the message.
+    pub fn event(event: LoadEvent) -> Result<(), JsValue> {
+        let message = Array::new();
+        let push = |value: &JsValue| {
+            message.push(value);
+        };
+        let mut moved: Option<js_sys::ArrayBuffer> = None;
+        match event {
+            LoadEvent::Begin(header) => {
+                push(&"begin".into());
+                push(&json_of(&header).to_string().into());
+            }
+            LoadEvent::Scalars(voxels) => {
+                push(&"scalars".into());
+                let array: JsValue = match &voxels {
+                    Voxels::U8(v) => Uint8Array::from(v.as_slice()).into(),
+                    Voxels::I16(v) => js_sys::Int16Array::from(v.as_slice()).into(),
+                    Voxels::U16(v) => js_sys::Uint16Array::from(v.as_slice()).into(),
+                    Voxels::F32(v) => js_sys::Float32Array::from(v.as_slice()).into(),
+                };
+                moved = Some(Reflect::get(&array, &"buffer".into())?.unchecked_into());
+                push(&array);
+            }
+            LoadEvent::SegmentLabels(labels) => {
+                push(&"labels".into());
+                let array = Uint8Array::from(labels.as_slice());
+                moved = Some(array.buffer());
+                push(&array);
+            }
+            LoadEvent::LabelFile(file) => {
+                push(&"label-file".into());
+                push(&file.sha256.into());
+                let mut header = json_of_labels(&file.segmentation);
+                header["numbers"] = file.numbers.into();
+                push(&header.to_string().into());
+                let array = Uint8Array::from(file.segmentation.labels.as_slice());
+                moved = Some(array.buffer());
+                push(&array);
+            }
+            LoadEvent::Progress { fraction, what } => {
+                push(&"progress".into());
+                push(&fraction.into());
+                push(&what.into());
+            }
+            LoadEvent::Coarse => push(&"coarse".into()),
+            LoadEvent::Frames { count } => {
+                push(&"frames".into());
+                push(&(count as f64).into());
+            }
+            LoadEvent::AskRaw(question) => {
+                push(&"raw".into());
+                push(&question.byte_len.map(|n| n as f64).into());
+                push(&question.is_packed.into());
+                let raw = question.guess;
+                push(
+                    &raw.map(|raw| {
+                        text_of_reading(&Reading {
+                            frame: 0,
+                            raw: Some(raw),
+                        })
+                    })
+                    .into(),
+                );
+            }
+            LoadEvent::Done { sha256 } => {
+                push(&"done".into());
+                push(&sha256.into());
+            }
+            LoadEvent::Notice(text) => {
+                push(&"notice".into());
+                push(&text.into());
+            }
+            LoadEvent::Failed { message, details } => {
+                push(&"failed".into());
+                push(&message.into());
+                push(&details.into());
+            }
+            LoadEvent::Cancelled => push(&"cancelled".into()),
+        }
+        send(&message, moved)
+    }
+}
+
+fn event_of(message: &Array) -> Option<LoadEvent> {
+    let text = |index: u32| message.get(index).as_string().unwrap_or_default();
+    Some(match text(0).as_str() {
+        "begin" => match serde_json::from_str(&text(1))
+            .ok()
+            .as_ref()
+            .and_then(volume_of)
+        {
+            Some(header) => LoadEvent::Begin(Box::new(header)),
+            None => LoadEvent::Failed {
+                message: "The background thread said something that the page does not understand"
+                    .to_owned(),
+                details:
+                    "fabrica.js and worker.js may be of different versions: load the page again."
+                        .to_owned(),
+            },
+        },
+        "scalars" => LoadEvent::Scalars(voxels_of(&message.get(1))?),
+        "labels" => LoadEvent::SegmentLabels(message.get(1).dyn_ref::<Uint8Array>()?.to_vec()),
+        "label-file" => {
+            let header: Value = serde_json::from_str(&text(2)).ok()?;
+            let mut segmentation = labels_of(&header)?;
+            segmentation.labels = message.get(3).dyn_ref::<Uint8Array>()?.to_vec();
+            let numbers = header.get("numbers")?.as_array()?.iter();
+            let numbers = numbers.map(|n| u16::try_from(n.as_u64()?).ok());
+            LoadEvent::LabelFile(Box::new(LabelFile {
+                sha256: text(1),
+                segmentation,
+                numbers: numbers.collect::<Option<_>>()?,
+            }))
+        }
+        "progress" => LoadEvent::Progress {
+            fraction: message.get(1).as_f64()? as f32,
+            what: text(2),
+        },
+        "coarse" => LoadEvent::Coarse,
+        "frames" => LoadEvent::Frames {
+            count: message.get(1).as_f64()? as u64,
+        },
+        "raw" => LoadEvent::AskRaw(RawQuestion {
+            byte_len: message.get(1).as_f64().map(|n| n as u64),
+            is_packed: message.get(2).is_truthy(),
+            guess: reading_of(&text(3)).raw,
+        }),
+        "done" => LoadEvent::Done {
+            sha256: message.get(1).as_string(),
+        },
+        "notice" => LoadEvent::Notice(text(1)),
+        "failed" => LoadEvent::Failed {
+            message: text(1),
+            details: text(2),
+        },
+        "cancelled" => LoadEvent::Cancelled,
+        _ => return None,
+    })
+}
+
+fn voxels_of(array: &JsValue) -> Option<Voxels> {
+    if let Some(a) = array.dyn_ref::<Uint8Array>() {
+        return Some(Voxels::U8(a.to_vec()));
+    }
+    if let Some(a) = array.dyn_ref::<js_sys::Int16Array>() {
+        return Some(Voxels::I16(a.to_vec()));
+    }
+    if let Some(a) = array.dyn_ref::<js_sys::Uint16Array>() {
+        return Some(Voxels::U16(a.to_vec()));
+    }
+    array
+        .dyn_ref::<js_sys::Float32Array>()
+        .map(|a| Voxels::F32(a.to_vec()))
+}

@@ -1,0 +1,21 @@
+//! What the page leaves to Web Workers. Each part is a program of its own, with its own module, which is fetched when
+//! the page first needs it: one makes the built-in subjects, one reads scans and holds their decoders.
+//!
+//! `web/worker.js` loads the part that the first message names, and hands it a [`task`]. What the part posts back is an
+//! [`answer`]. One worker does one task; to cancel it is to end it. A part that panics ends its worker, and the page
+//! goes on with a message.
+
+pub mod answer;
+pub mod fault;
+pub mod header;
+pub mod task;
+
+#[cfg(feature = "app")]
+pub mod run;
+
+#[cfg(feature = "part-scans")]
+mod blobs;
+#[cfg(feature = "part-scans")]
+pub mod scans;
+#[cfg(feature = "part-subjects")]
+pub mod subjects;

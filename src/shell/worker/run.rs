@@ -1,0 +1,188 @@
+//! In the page: starts workers, hands them tasks, takes their answers.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use js_sys::{Object, Promise, Reflect};
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::JsFuture;
+use web_sys::{MessageEvent, Worker, WorkerOptions, WorkerType};
+
+use super::answer::Answer;
+use super::task::{Part, ScanTask, Task};
+use crate::assets::LoadEvent;
+use crate::data::{Volume, VolumeBuilder, VolumeLimits, VolumeSink as _};
+use crate::load::FieldFile;
+
+thread_local! {
+    /// Compiled modules of parts that have run, so that their next workers neither fetch nor compile them.
+    static MODULES: RefCell<BTreeMap<Part, JsValue>> = const { RefCell::new(BTreeMap::new()) };
+    /// Workers that web/parts.js started while the page's own module was on its way; each takes one task.
+    static WAITING: RefCell<Vec<(Part, Worker)>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Takes a worker that was started early and has loaded a part, or is loading it.
+pub fn lend(part: Part, worker: Worker) {
+    WAITING.with_borrow_mut(|waiting| waiting.push((part, worker)));
+}
+
+/// A worker for a part: one that waits, if there is one that could be started, else a new one.
+fn worker_for(part: Part, address: &str) -> Result<Worker, JsValue> {
+    let waiting = WAITING.with_borrow_mut(|waiting| {
+        let found = waiting.iter().position(|(other, _)| *other == part)?;
+        Some(waiting.swap_remove(found).1)
+    });
+    let could_start = |worker: &Worker| {
+        !Reflect::get(worker, &"hasFailed".into()).is_ok_and(|failed| failed.is_truthy())
+    };
+    if let Some(worker) = waiting.filter(could_start) {
+        return Ok(worker);
+    }
+    let options = WorkerOptions::new();
+    options.set_type(WorkerType::Module);
+    Worker::new_with_options(address, &options)
+}
+
+/// A task under way. Ends when dropped, and its worker by itself after the last answer.
+pub struct WorkerLoad {
+    worker: Worker,
+    _on_message: Closure<dyn FnMut(MessageEvent)>,
+    _on_error: Closure<dyn FnMut(web_sys::Event)>,
+}
+
+impl Drop for WorkerLoad {
+    fn drop(&mut self) {
+        end(&self.worker);
+    }
+}
+
+fn end(worker: &Worker) {
+    worker.set_onmessage(None);
+    worker.set_onerror(None);
+    worker.terminate();
+}
+
+/// Starts a task in a worker of its own; `on_answer` is called with each answer but the part's module, which is kept.
+/// `address` is that of worker.js.
+///
+/// # Errors
+/// If the browser starts no workers.
+pub fn start(
+    address: &str,
+    task: &Task,
+    limits: VolumeLimits,
+    on_answer: impl FnMut(Answer) + 'static,
+) -> Result<WorkerLoad, JsValue> {
+    let part = task.part();
+    let worker = worker_for(part, address)?;
+    let on_answer = Rc::new(RefCell::new(on_answer));
+    let (for_error, for_end) = (Rc::clone(&on_answer), worker.clone());
+    let on_message = Closure::new(move |event: MessageEvent| match Answer::of(&event.data()) {
+        Some(Answer::Module(module)) => {
+            MODULES.with_borrow_mut(|modules| modules.insert(part, module));
+        }
+        Some(answer) => {
+            if answer.is_last() {
+                end(&for_end);
+            }
+            (on_answer.borrow_mut())(answer);
+        }
+        None => {}
+    });
+    let on_error = Closure::new(move |_: web_sys::Event| {
+        (for_error.borrow_mut())(Answer::Event(LoadEvent::Failed {
+            message: "This browser did not start the background thread that loads scans".to_owned(),
+            details: "Workers of this page may be blocked: by an extension, by the content policy of a page that embeds the viewer, or because worker.js is not beside fabrica.js.".to_owned(),
+        }));
+    });
+    worker.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
+    worker.set_onerror(Some(on_error.as_ref().unchecked_ref()));
+    let module = MODULES.with_borrow(|modules| modules.get(&part).cloned());
+    let message: Object = task.message(limits, &module.unwrap_or_default())?;
+    worker.post_message(&message)?;
+    Ok(WorkerLoad {
+        worker,
+        _on_message: on_message,
+        _on_error: on_error,
+    })
+}
+
+/// Does a task to its last answer.
+async fn to_end(
+    address: &str,
+    task: &Task,
+    limits: VolumeLimits,
+    mut take: impl FnMut(Answer) + 'static,
+) -> Result<(), JsValue> {
+    let resolve = Rc::new(RefCell::new(None::<js_sys::Function>));
+    let for_answer = Rc::clone(&resolve);
+    let ended = Promise::new(&mut |done, _| *resolve.borrow_mut() = Some(done));
+    let load = start(address, task, limits, move |answer| {
+        let is_last = answer.is_last();
+        take(answer);
+        if is_last && let Some(done) = &*for_answer.borrow() {
+            let _nobody_waits = done.call0(&JsValue::NULL);
+        }
+    })?;
+    JsFuture::from(ended).await?;
+    drop(load);
+    Ok(())
+}
+
+/// Limits that hold nothing back.
+const UNLIMITED: VolumeLimits = VolumeLimits {
+    max_dim: u32::MAX,
+    max_voxels: u64::MAX,
+};
+
+/// Reads a displacement field.
+///
+/// # Errors
+/// In words: why the file is no displacement field, or why no worker reads it.
+pub async fn read_field(
+    address: &str,
+    name: String,
+    file: web_sys::Blob,
+) -> Result<FieldFile, String> {
+    let found = Rc::new(RefCell::new(Err("the file was not read".to_owned())));
+    let for_answer = Rc::clone(&found);
+    let task = Task::Scan(ScanTask::Field { name, file });
+    let read = to_end(address, &task, UNLIMITED, move |answer| match answer {
+        Answer::Field(outcome) => *for_answer.borrow_mut() = *outcome,
+        Answer::Event(LoadEvent::Failed { message, details }) => {
+            *for_answer.borrow_mut() = Err(format!("{message}: {details}"));
+        }
+        _ => {}
+    });
+    match read.await {
+        Ok(()) => found.replace(Err(String::new())),
+        Err(error) => Err(super::fault::text_of(&error)),
+    }
+}
+
+/// Makes a built-in subject with this many voxels along its longest side.
+///
+/// # Errors
+/// In words: why there is none.
+pub async fn make_volume(address: &str, name: &str, resolution: u32) -> Result<Volume, String> {
+    let made = Rc::new(RefCell::new((VolumeBuilder::new(), None::<String>)));
+    let for_answer = Rc::clone(&made);
+    let task = Task::Subject(name.to_owned(), Some(resolution));
+    let run = to_end(address, &task, UNLIMITED, move |answer| {
+        let (builder, fault) = &mut *for_answer.borrow_mut();
+        match answer {
+            Answer::Event(LoadEvent::Begin(header)) => *fault = builder.begin(&header).err(),
+            Answer::Event(LoadEvent::Scalars(voxels)) => builder.scalars(voxels),
+            Answer::Event(LoadEvent::SegmentLabels(labels)) => builder.labels(labels),
+            Answer::Event(LoadEvent::Failed { message, .. }) => *fault = Some(message),
+            _ => {}
+        }
+    });
+    run.await.map_err(|error| super::fault::text_of(&error))?;
+    let (builder, fault) = made.replace((VolumeBuilder::new(), None));
+    match fault {
+        Some(fault) => Err(fault),
+        None => builder.finish().map_err(|error| error.to_string()),
+    }
+}

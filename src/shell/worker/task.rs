@@ -1,0 +1,231 @@
+//! What a part is asked to do, as a message to its worker: an object with the fields `part` (its name), `module` (its
+//! compiled module, if the page has it), `max_dim` and `max_voxels` (the limits of the device), `task` (`true`), and
+//! - for the makers of subjects `builtin` (a name) and `resolution` (voxels along the longest side; without it the
+//!   coarse volume comes first, then the fine one),
+//! - for the readers of scans `files` (pairs of name and `Blob`), `address`, or `field` (a pair), with `reading`
+//!   (JSON), `are_segments` (of an address), `labels` (SHA-256 of label volumes), `has_scan` and `may_be_field`.
+
+use js_sys::{Array, Object, Reflect};
+use serde_json::{Value, json};
+use wasm_bindgen::prelude::*;
+use web_sys::Blob;
+
+use crate::assets::SegmentationsExpected;
+use crate::data::VolumeLimits;
+use crate::document::{RawVoxels, Reading};
+
+/// A program that runs in a worker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Part {
+    /// Makes the built-in subjects.
+    Subjects,
+    /// Reads scans, label volumes and displacement fields.
+    Scans,
+}
+
+impl Part {
+    /// The name by which web/worker.js finds its files: `fabrica_NAME.js` and `fabrica_NAME_bg.wasm`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Subjects => "subjects",
+            Self::Scans => "scans",
+        }
+    }
+
+    /// The part of this name.
+    pub fn of_name(name: &str) -> Option<Self> {
+        [Self::Subjects, Self::Scans]
+            .into_iter()
+            .find(|part| part.name() == name)
+    }
+}
+
+/// What a part is to do.
+#[derive(Clone, Debug)]
+pub enum Task {
+    /// Make a built-in subject: coarse and then fine, or once with this many voxels along its longest side.
+    Subject(String, Option<u32>),
+    /// Read files.
+    Scan(ScanTask),
+}
+
+/// What the part that reads scans is to do.
+#[derive(Clone, Debug)]
+pub enum ScanTask {
+    /// Read files that the reader gave.
+    Files {
+        /// Names and contents, the one that describes the others first.
+        files: Vec<(String, Blob)>,
+        /// How the file is to be read.
+        reading: Reading,
+        /// Which of the files may be label volumes.
+        segmentations: SegmentationsExpected,
+        /// A single file that the reader opened, which is read as a displacement field if it says that it is one.
+        may_be_field: bool,
+    },
+    /// Fetch an address and read what comes.
+    Address {
+        /// Absolute; the reader agreed to its host.
+        address: String,
+        /// A label volume is wanted, not a scan.
+        are_segments: bool,
+        /// How the file is to be read.
+        reading: Reading,
+    },
+    /// Read a displacement field.
+    Field {
+        /// Name of the file, which tells its format.
+        name: String,
+        /// The file.
+        file: Blob,
+    },
+}
+
+impl Task {
+    /// The program that does it.
+    pub fn part(&self) -> Part {
+        match self {
+            Self::Subject(..) => Part::Subjects,
+            Self::Scan(_) => Part::Scans,
+        }
+    }
+
+    /// The message for the worker. `module` is the part's compiled module, if it is there.
+    ///
+    /// # Errors
+    /// If the browser refuses to set a field of a new object.
+    pub fn message(&self, limits: VolumeLimits, module: &JsValue) -> Result<Object, JsValue> {
+        let message = Object::new();
+        let set = |key: &str, value: &JsValue| Reflect::set(&message, &key.into(), value);
+        set("part", &self.part().name().into())?;
+        set("module", module)?;
+        set("task", &true.into())?;
+        set("max_dim", &limits.max_dim.into())?;
+        set("max_voxels", &(limits.max_voxels as f64).into())?;
+        match self {
+            Self::Subject(name, resolution) => {
+                set("builtin", &name.into())?;
+                set("resolution", &(*resolution).into())?;
+            }
+            Self::Scan(ScanTask::Files {
+                files,
+                reading,
+                segmentations,
+                may_be_field,
+            }) => {
+                let files = files
+                    .iter()
+                    .map(|(name, blob)| Array::of2(&name.into(), blob));
+                set("files", &files.collect::<Array>())?;
+                set("reading", &text_of_reading(reading).into())?;
+                let hashes: Array = segmentations.sha256.iter().map(JsValue::from).collect();
+                set("labels", &hashes)?;
+                set("has_scan", &segmentations.has_scan.into())?;
+                set("may_be_field", &(*may_be_field).into())?;
+            }
+            Self::Scan(ScanTask::Address {
+                address,
+                are_segments,
+                reading,
+            }) => {
+                set("address", &address.into())?;
+                set("are_segments", &(*are_segments).into())?;
+                set("reading", &text_of_reading(reading).into())?;
+            }
+            Self::Scan(ScanTask::Field { name, file }) => {
+                set("field", &Array::of2(&name.into(), file))?;
+            }
+        }
+        Ok(message)
+    }
+}
+
+impl ScanTask {
+    /// What a message asks for.
+    ///
+    /// # Errors
+    /// If the message is no object.
+    pub fn of(message: &JsValue) -> Result<Self, JsValue> {
+        let get = |key: &str| Reflect::get(message, &key.into());
+        let pair = |value: JsValue| {
+            let pair: Array = value.unchecked_into();
+            let name = pair.get(0).as_string().unwrap_or_default();
+            (name, pair.get(1).unchecked_into::<Blob>())
+        };
+        let field = get("field")?;
+        if field.is_truthy() {
+            let (name, file) = pair(field);
+            return Ok(Self::Field { name, file });
+        }
+        let reading = reading_of(&get("reading")?.as_string().unwrap_or_default());
+        if let Some(address) = get("address")?.as_string() {
+            return Ok(Self::Address {
+                address,
+                are_segments: get("are_segments")?.is_truthy(),
+                reading,
+            });
+        }
+        let files: Array = get("files")?.unchecked_into();
+        let hashes: Array = get("labels")?.unchecked_into();
+        Ok(Self::Files {
+            files: files.iter().map(pair).collect(),
+            reading,
+            segmentations: SegmentationsExpected {
+                sha256: hashes.iter().filter_map(|hash| hash.as_string()).collect(),
+                has_scan: get("has_scan")?.is_truthy(),
+            },
+            may_be_field: get("may_be_field")?.is_truthy(),
+        })
+    }
+}
+
+/// The limits of the device that a message gives.
+///
+/// # Errors
+/// If the message is no object.
+pub fn limits_of(message: &JsValue) -> Result<VolumeLimits, JsValue> {
+    let number = |key: &str| {
+        Reflect::get(message, &key.into()).map(|value| value.as_f64().unwrap_or_default())
+    };
+    Ok(VolumeLimits {
+        max_dim: number("max_dim")? as u32,
+        max_voxels: number("max_voxels")? as u64,
+    })
+}
+
+/// How a file is to be read, as JSON.
+pub fn text_of_reading(reading: &Reading) -> String {
+    let raw = reading.raw.as_ref().map(|raw| {
+        json!({
+            "size": raw.size, "element": raw.element, "big_endian": raw.big_endian,
+            "spacing_mm": raw.spacing_mm, "skip_bytes": raw.skip_bytes,
+        })
+    });
+    json!({ "frame": reading.frame, "raw": raw }).to_string()
+}
+
+/// How a file is to be read, from [`text_of_reading`]; nothing in particular if the text is not from there.
+pub fn reading_of(text: &str) -> Reading {
+    let value: Value = serde_json::from_str(text).unwrap_or_default();
+    Reading {
+        frame: value.get("frame").and_then(Value::as_u64).unwrap_or(0),
+        raw: value.get("raw").and_then(raw_of),
+    }
+}
+
+fn raw_of(value: &Value) -> Option<RawVoxels> {
+    let element = value.get("element")?.as_str()?;
+    let size = value.get("size")?.as_array()?.iter();
+    let size: Option<Vec<u32>> = size.map(|n| u32::try_from(n.as_u64()?).ok()).collect();
+    let spacing = value.get("spacing_mm")?.as_array()?.iter();
+    let spacing: Option<Vec<f64>> = spacing.map(Value::as_f64).collect();
+    Some(RawVoxels {
+        size: size?.try_into().ok()?,
+        element: RawVoxels::ELEMENTS
+            .into_iter()
+            .find(|known| *known == element)?,
+        big_endian: value.get("big_endian")?.as_bool()?,
+        spacing_mm: spacing?.try_into().ok()?,
+        skip_bytes: value.get("skip_bytes")?.as_u64()?,
+    })
+}

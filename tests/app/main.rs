@@ -1,0 +1,29 @@
+//! The app by role and label.
+
+mod assets;
+mod authoring;
+mod comfort;
+mod labels;
+mod looking;
+mod making;
+mod opening;
+mod screens;
+#[path = "../support/segment_files.rs"]
+mod segment_files;
+mod tissue;
+mod window;
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use egui::{Key, Modifiers, Pos2, Role, Vec2, pos2, vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, wgpu::WgpuTestRenderer};
+use fabrica::app::{
+    App, LinkChange, LoadEvent, Message, RawQuestion, SaveFile, Services, Start, Ticket,
+};
+use fabrica::data::{Volume, VolumeSink, Voxels};
+use fabrica::document::{Document, ParamValue, RawVoxels, SubjectRef, TemplateMode};
+use window::{CUBE, DESK, Fake, Queue, RESOLUTION, Window, clock};

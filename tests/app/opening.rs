@@ -1,0 +1,382 @@
+//! What is opened, fetched, stopped and saved, and what the address says of it.
+
+use super::*;
+use fabrica::assets::Source;
+
+#[test]
+fn the_address_follows_what_is_done() {
+    let mut window = Window::open(DESK, CUBE);
+    assert!(
+        window.log.0.borrow().links.is_empty(),
+        "opening changes nothing in the address bar"
+    );
+    let center = window.picture_center();
+    window.drag(center, vec2(50.0, 0.0));
+    let turned = window
+        .log
+        .0
+        .borrow()
+        .links
+        .last()
+        .cloned()
+        .expect("the camera is in the link");
+    assert_eq!(
+        turned.1,
+        LinkChange::Replace,
+        "without an entry in the history"
+    );
+    window.place_peel();
+    window.settle();
+    let (payload, change) = window
+        .log
+        .0
+        .borrow()
+        .links
+        .last()
+        .cloned()
+        .expect("the peel is in the link");
+    assert_eq!(change, LinkChange::Push);
+    let opened = fabrica::link::decode(&payload).expect("it opens").document;
+    assert_eq!(opened, window.document());
+    assert_eq!(
+        window.log.0.borrow().stored.get("document"),
+        Some(&payload),
+        "and it is kept for a reload"
+    );
+
+    let log = Fake::default();
+    log.0
+        .borrow_mut()
+        .stored
+        .insert("document".to_owned(), payload);
+    let again = Window::open_with(DESK, egui::Theme::Light, log, None);
+    assert_eq!(again.document(), opened, "nothing is lost on reload");
+}
+
+#[test]
+fn steps_are_walked_and_an_edit_leaves_them() {
+    let document = r#"{ "fabrica": 1, "title": "A cut", "subject": { "builtin": "cube" },
+        "templates": [{ "kind": "split", "params": { "amount": 0 } }],
+        "steps": [{ "title": "Incision", "caption": "It opens.", "seconds": 0.2, "set": { "/templates/0/params/amount": 0.3 } },
+                  { "title": "Wide", "seconds": 0.2, "set": { "/templates/0/params/amount": 0.8, "/camera/distance": 4 } }] }"#;
+    let document = fabrica::document::Document::from_json(document).expect("a document");
+    let link = fabrica::link::fragment(&document, 1);
+    let mut window = Window::open_with(DESK, egui::Theme::Light, Fake::default(), Some(&link));
+    assert_eq!(window.harness.state().step(), 1);
+    window.harness.get_by_label("1 / 2   Incision");
+    let at_one = window.harness.render().expect("a picture");
+    window.look("steps_one");
+
+    window.click("Next step");
+    window.settle();
+    window.harness.get_by_label("2 / 2   Wide");
+    let address = |window: &Window| {
+        window
+            .log
+            .0
+            .borrow()
+            .links
+            .last()
+            .map(|(link, _)| link.clone())
+    };
+    assert!(
+        address(&window).is_some_and(|link| link.ends_with("&step=2")),
+        "the address names the step"
+    );
+    let at_two = window.harness.render().expect("a picture");
+    assert_ne!(at_one, at_two);
+    assert!(
+        window
+            .harness
+            .state()
+            .document()
+            .get("/camera/distance")
+            .is_none(),
+        "the document is as it was"
+    );
+
+    window.press(Key::N);
+    window.settle();
+    assert_eq!(
+        window.harness.state().step(),
+        0,
+        "what is edited is the document as it stands"
+    );
+    window.harness.get_by_label("0 / 2   A cut");
+    assert!(address(&window).is_some_and(|link| !link.contains("step=")));
+}
+
+#[test]
+fn a_broken_link_is_said_and_leaves_a_working_viewer() {
+    let window = Window::open_with(
+        DESK,
+        egui::Theme::Light,
+        Fake::default(),
+        Some("#Anonsense"),
+    );
+    assert!(
+        window
+            .harness
+            .query_by_label_contains("cannot be opened")
+            .is_some(),
+        "what is wrong is said"
+    );
+    assert!(
+        window.log.0.borrow().links.is_empty(),
+        "the address is left as it is"
+    );
+    assert!(
+        window.harness.query_by_label("Place peel").is_some(),
+        "and everything works"
+    );
+}
+
+#[test]
+fn loading_shows_its_progress_and_is_stopped() {
+    let log = Fake::default();
+    log.0.borrow_mut().is_slow = true;
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(CUBE));
+    let ticket = Ticket(log.0.borrow().next_ticket);
+    let event = LoadEvent::Progress {
+        fraction: 0.42,
+        what: "Generating".to_owned(),
+    };
+    log.0
+        .borrow_mut()
+        .queue
+        .push(Message::Load { ticket, event });
+    window.steps(3);
+    assert!(
+        window
+            .harness
+            .query_by_label_contains("Generating 42")
+            .is_some(),
+        "how far it is"
+    );
+    window.look("desk_loading");
+    window.click("Cancel loading");
+    assert_eq!(log.0.borrow().cancelled, [ticket]);
+    window.steps(3);
+    assert!(
+        window.harness.query_by_label_contains("stopped").is_some(),
+        "and it is said"
+    );
+    let late = LoadEvent::Failed {
+        message: "late".to_owned(),
+        details: String::new(),
+    };
+    log.0.borrow_mut().queue.push(Message::Load {
+        ticket,
+        event: late,
+    });
+    window.steps(3);
+    assert!(
+        window.harness.query_by_label("late").is_none(),
+        "what comes after is dropped"
+    );
+}
+
+#[test]
+fn another_host_is_asked_about_before_it_is_fetched_from() {
+    let log = Fake::default();
+    log.0.borrow_mut().is_slow = true;
+    let json = r#"{ "fabrica": 1, "subject": { "src": "https://scans.example/a.nii.gz" } }"#;
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(json));
+    let ticket = Ticket(log.0.borrow().next_ticket);
+    log.0.borrow_mut().queue.push(Message::AskHost {
+        ticket,
+        host: "scans.example".to_owned(),
+    });
+    window.steps(3);
+    assert!(
+        window
+            .harness
+            .query_by_label_contains("scans.example")
+            .is_some(),
+        "names the host"
+    );
+    assert!(log.0.borrow().allowed.is_empty());
+    window.click("Fetch");
+    assert_eq!(log.0.borrow().allowed, [ticket]);
+}
+
+/// A file of the user's that was read: the bar, under a hash.
+fn file_arrives(log: &Fake, ticket: Ticket, before_done: Option<LoadEvent>) {
+    let log = &mut *log.0.borrow_mut();
+    fabrica::subjects::generate("bar", 32, &mut Queue(log, ticket)).expect("a built-in subject");
+    let sha256 = Some("ab".repeat(32));
+    let events = before_done.into_iter().chain([LoadEvent::Done { sha256 }]);
+    for event in events {
+        log.queue.push(Message::Load { ticket, event });
+    }
+}
+
+#[test]
+fn one_of_several_volumes_is_chosen_and_taken_back() {
+    let log = Fake::default();
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(CUBE));
+    let ticket = Ticket(99);
+    log.0
+        .borrow_mut()
+        .queue
+        .push(Message::FileStarted { ticket });
+    window.steps(2);
+    file_arrives(&log, ticket, Some(LoadEvent::Frames { count: 20 }));
+    window.settle();
+    let frame = |window: &Window| {
+        let subject = window.document().illustration().subject.clone();
+        subject.reading().map(|reading| reading.frame)
+    };
+    assert_eq!(frame(&window), Some(0), "the first is shown");
+    window
+        .harness
+        .get_by_role_and_label(Role::Slider, "Volume")
+        .focus();
+    window.steps(2);
+    window.harness.key_press(egui::Key::ArrowRight);
+    window.steps(3);
+    assert_eq!(frame(&window), Some(1), "one further");
+    let asked = log.0.borrow().loads.last().cloned();
+    assert_eq!(
+        asked.map(|want| want.reading.frame),
+        Some(1),
+        "and it is loaded"
+    );
+    window.click("Undo");
+    window.steps(3);
+    assert_eq!(frame(&window), Some(0), "and back");
+}
+
+#[test]
+fn bare_voxels_are_opened_by_what_one_says_of_them() {
+    let log = Fake::default();
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(CUBE));
+    let ticket = Ticket(99);
+    let question = RawQuestion {
+        byte_len: Some(4 * 3 * 2),
+        is_packed: false,
+        guess: Some(RawVoxels {
+            size: [4, 3, 2],
+            element: "uint8",
+            big_endian: false,
+            spacing_mm: [1.0; 3],
+            skip_bytes: 0,
+        }),
+    };
+    {
+        let queue = &mut log.0.borrow_mut().queue;
+        queue.push(Message::FileStarted { ticket });
+        queue.push(Message::Load {
+            ticket,
+            event: LoadEvent::AskRaw(question),
+        });
+    }
+    window.steps(3);
+    window
+        .harness
+        .get_by_label("The size fits the file to the byte");
+    window
+        .harness
+        .get_by_role_and_label(Role::CheckBox, "High byte first")
+        .click();
+    window.steps(2);
+    // "Open" also stands in the bar above, behind the dialog.
+    let buttons = window
+        .harness
+        .get_all_by_role_and_label(Role::Button, "Open");
+    buttons.last().expect("the dialog's").click();
+    window.steps(2);
+    let answered = log.0.borrow().answered_raw.clone();
+    assert_eq!(answered.len(), 1, "one answer");
+    assert!(answered[0].1.big_endian, "as it was said");
+    file_arrives(&log, ticket, None);
+    window.settle();
+    let subject = window.document().illustration().subject.clone();
+    let raw = subject.reading().and_then(|reading| reading.raw.clone());
+    assert_eq!(raw.as_ref(), Some(&answered[0].1), "kept in the document");
+    let json = window.document().to_json_compact();
+    assert!(
+        json.contains(r#""raw":{"size":[4,3,2],"order":"big"}"#),
+        "{json}"
+    );
+}
+
+#[test]
+fn an_opened_file_becomes_the_subject_by_its_hash() {
+    let log = Fake::default();
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(CUBE));
+    window
+        .harness
+        .get_by_role_and_label(Role::Button, "Open")
+        .click();
+    window.steps(3);
+    assert_eq!(log.0.borrow().dialogs, 1);
+    let ticket = Ticket(99);
+    {
+        let log = &mut *log.0.borrow_mut();
+        log.queue.push(Message::FileStarted { ticket });
+        fabrica::subjects::generate("bar", 32, &mut Queue(log, ticket))
+            .expect("a built-in subject");
+        let sha256 = Some("ab".repeat(32));
+        log.queue.push(Message::Load {
+            ticket,
+            event: LoadEvent::Done { sha256 },
+        });
+    }
+    window.settle();
+    match &window.document().illustration().subject {
+        SubjectRef::Supplied { sha256, name, .. } => {
+            assert_eq!(*sha256, "ab".repeat(32));
+            assert!(name.is_empty(), "never the file's own name");
+        }
+        other => panic!("the reader's file, not {other:?}"),
+    }
+    window.click("Undo");
+    window.settle();
+    assert_eq!(
+        window.document().illustration().subject,
+        SubjectRef::Builtin {
+            name: "cube".to_owned()
+        }
+    );
+    let last = log.0.borrow().loads.last().cloned();
+    assert_eq!(
+        last.map(|want| want.source),
+        Some(Source::Builtin("cube".to_owned())),
+        "and the cube is there again"
+    );
+}
+
+#[test]
+fn documents_and_pictures_are_saved() {
+    let mut window = Window::open(
+        vec2(900.0, 600.0),
+        r#"{ "fabrica": 1, "title": "A cube, cut", "subject": { "builtin": "cube" } }"#,
+    );
+    window.press_with(Modifiers::COMMAND, Key::S);
+    {
+        let log = window.log.0.borrow();
+        let file = log.saved.last().expect("the document");
+        assert_eq!(file.name, "a-cube-cut.json");
+        let text = String::from_utf8(file.bytes.clone()).expect("text");
+        assert_eq!(
+            Document::from_json(&text).expect("a document"),
+            window.document()
+        );
+    }
+    window.click("More");
+    window.look("more_menu");
+    window.click("Save picture");
+    let patience = clock() + 120.0;
+    while clock() < patience && window.log.0.borrow().saved.len() < 2 {
+        window.harness.step();
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let log = window.log.0.borrow();
+    let file = log.saved.last().expect("the picture");
+    assert_eq!(
+        (file.name.as_str(), file.mime),
+        ("a-cube-cut.png", "image/png")
+    );
+    assert_eq!(file.bytes.get(1..4), Some(b"PNG".as_slice()), "a PNG");
+}

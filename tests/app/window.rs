@@ -1,0 +1,330 @@
+//! The app in a window that nobody sees, with surroundings that keep what it asks of them.
+//!
+//! With `FABRICA_LOOK_AT=folder` the windows are written there as PNG, to be looked at.
+
+use super::*;
+use fabrica::assets::{Role, Source, Want};
+use fabrica::load::{LabelSource, LoadReport, ReadOptions, read_label_file, read_subject};
+
+/// What the app asked of its surroundings.
+#[derive(Default)]
+pub(crate) struct Log {
+    pub(crate) copied: Vec<String>,
+    pub(crate) saved: Vec<SaveFile>,
+    pub(crate) links: Vec<(String, LinkChange)>,
+    pub(crate) stored: BTreeMap<String, String>,
+    pub(crate) loads: Vec<Want>,
+    pub(crate) answered_raw: Vec<(Ticket, RawVoxels)>,
+    pub(crate) cancelled: Vec<Ticket>,
+    pub(crate) allowed: Vec<Ticket>,
+    pub(crate) dialogs: usize,
+    pub(crate) queue: Vec<Message>,
+    pub(crate) next_ticket: u64,
+    /// Loads are answered only when a test does it itself.
+    pub(crate) is_slow: bool,
+    /// Files that there are, by their addresses.
+    pub(crate) files: Vec<(String, Vec<u8>)>,
+    /// A load that was started in place of the document's subject.
+    pub(crate) instead: Option<Ticket>,
+}
+
+#[derive(Clone, Default)]
+pub(crate) struct Fake(pub(crate) Rc<RefCell<Log>>);
+
+impl Fake {
+    /// As if it had been kept from the last time.
+    pub(crate) fn store_value(&self, key: &str, value: &str) {
+        let mut log = self.0.borrow_mut();
+        log.stored.insert(key.to_owned(), value.to_owned());
+    }
+}
+
+impl Log {
+    /// Reads one of its files as the shells do.
+    pub(crate) fn read(&mut self, name: &str, role: Role, ticket: Ticket) {
+        let mut files = fabrica::load::MemoryFiles::new(self.files.clone());
+        let options = ReadOptions::default();
+        let mut report = LoadReport::default();
+        let outcome = match role {
+            Role::Segments => read_label_file(&mut files, name, &options).map(|file| {
+                let event = LoadEvent::LabelFile(Box::new(file));
+                self.queue.push(Message::Load { ticket, event });
+                None
+            }),
+            _ => {
+                let own = LabelSource::default();
+                let sink = &mut Queue(self, ticket);
+                read_subject(&mut files, name, &own, &options, sink, &mut report)
+                    .map(|()| report.sha256_hex())
+            }
+        };
+        let event = match outcome {
+            Ok(sha256) => LoadEvent::Done { sha256 },
+            Err(error) => LoadEvent::Failed {
+                message: error.to_string(),
+                details: String::new(),
+            },
+        };
+        self.queue.push(Message::Load { ticket, event });
+    }
+}
+
+/// Voxels along the subject: small, since lavapipe draws it.
+pub(crate) const RESOLUTION: u32 = 48;
+/// The same for the head when somebody looks.
+pub(crate) const HEAD_RESOLUTION: u32 = 144;
+
+pub(crate) struct Queue<'a>(pub(crate) &'a mut Log, pub(crate) Ticket);
+
+impl Queue<'_> {
+    fn push(&mut self, event: LoadEvent) {
+        self.0.queue.push(Message::Load {
+            ticket: self.1,
+            event,
+        });
+    }
+}
+
+impl VolumeSink for Queue<'_> {
+    fn begin(&mut self, header: &Volume) -> Result<(), String> {
+        self.push(LoadEvent::Begin(Box::new(header.clone())));
+        Ok(())
+    }
+    fn scalars(&mut self, next: Voxels) {
+        self.push(LoadEvent::Scalars(next));
+    }
+    fn labels(&mut self, next: Vec<u8>) {
+        self.push(LoadEvent::SegmentLabels(next));
+    }
+    fn progress(&mut self, _: f32) -> bool {
+        true
+    }
+}
+
+impl Services for Fake {
+    fn poll(&mut self) -> Vec<Message> {
+        std::mem::take(&mut self.0.borrow_mut().queue)
+    }
+    fn open_file(&mut self) {
+        self.0.borrow_mut().dialogs += 1;
+    }
+    fn drop_file(&mut self, _: egui::DroppedFileHandle) {}
+    fn load(&mut self, want: &Want) -> Ticket {
+        let log = &mut *self.0.borrow_mut();
+        log.next_ticket += 1;
+        let ticket = Ticket(log.next_ticket);
+        log.loads.push(want.clone());
+        if !log.is_slow
+            && let Source::Builtin(name) = &want.source
+        {
+            let resolution = if name == "head" && std::env::var_os("FABRICA_LOOK_AT").is_some() {
+                HEAD_RESOLUTION
+            } else {
+                RESOLUTION
+            };
+            let generated = fabrica::subjects::generate(name, resolution, &mut Queue(log, ticket));
+            let event = match generated {
+                Ok(()) => LoadEvent::Done { sha256: None },
+                Err(error) => LoadEvent::Failed {
+                    message: error.to_string(),
+                    details: String::new(),
+                },
+            };
+            log.queue.push(Message::Load { ticket, event });
+        }
+        if !log.is_slow
+            && let Some(src) = want.src()
+        {
+            log.read(src, want.role, ticket);
+        }
+        ticket
+    }
+    fn allow_host(&mut self, ticket: Ticket) {
+        self.0.borrow_mut().allowed.push(ticket);
+    }
+    fn answer_raw(&mut self, ticket: Ticket, raw: &RawVoxels) {
+        self.0.borrow_mut().answered_raw.push((ticket, raw.clone()));
+    }
+    fn cancel_load(&mut self, ticket: Ticket) {
+        let log = &mut *self.0.borrow_mut();
+        log.cancelled.push(ticket);
+        log.queue.push(Message::Load {
+            ticket,
+            event: LoadEvent::Cancelled,
+        });
+    }
+    fn save_file(&mut self, file: SaveFile) {
+        let log = &mut *self.0.borrow_mut();
+        log.queue.push(Message::Saved(Ok(file.name.clone())));
+        log.saved.push(file);
+    }
+    fn copy_text(&mut self, text: String) {
+        let log = &mut *self.0.borrow_mut();
+        log.copied.push(text);
+        log.queue.push(Message::Copied(Ok(())));
+    }
+    fn paste_text(&mut self) {
+        let log = &mut *self.0.borrow_mut();
+        let text = log.copied.last().cloned();
+        log.queue.push(Message::Pasted(text));
+    }
+    fn page_address(&self) -> String {
+        "https://fabrica.example/#old".to_owned()
+    }
+    fn set_link(&mut self, payload: &str, change: LinkChange) {
+        self.0.borrow_mut().links.push((payload.to_owned(), change));
+    }
+    fn store(&mut self, key: &str, value: &str) {
+        self.0
+            .borrow_mut()
+            .stored
+            .insert(key.to_owned(), value.to_owned());
+    }
+    fn stored(&self, key: &str) -> Option<String> {
+        self.0.borrow().stored.get(key).cloned()
+    }
+}
+
+pub(crate) fn clock() -> f64 {
+    std::time::SystemTime::now()
+        .duration_since(std::time::UNIX_EPOCH)
+        .map_or(0.0, |since| since.as_secs_f64())
+}
+
+/// Small, since lavapipe draws it; 1280 by 800 to be looked at.
+pub(crate) const DESK: Vec2 = if option_env!("FABRICA_LOOK_AT").is_some() {
+    Vec2::new(1280.0, 800.0)
+} else {
+    Vec2::new(940.0, 700.0)
+};
+
+/// The app in a window of a size, on the software device.
+pub(crate) struct Window {
+    pub(crate) harness: Harness<'static, App>,
+    pub(crate) log: Fake,
+}
+
+pub(crate) const CUBE: &str = r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#;
+
+impl Window {
+    pub(crate) fn open(size: Vec2, json: &str) -> Self {
+        Self::open_with(size, egui::Theme::Light, Fake::default(), Some(json))
+    }
+
+    pub(crate) fn open_with(size: Vec2, theme: egui::Theme, log: Fake, text: Option<&str>) -> Self {
+        let mut setup = match egui_kittest::wgpu::default_wgpu_setup() {
+            eframe::egui_wgpu::WgpuSetup::CreateNew(setup) => setup,
+            other => panic!("the harness makes its own device, not {other:?}"),
+        };
+        setup.device_descriptor = Arc::new(fabrica::render::Gpu::device_descriptor);
+        let services = log.clone();
+        let text = text.map(str::to_owned);
+        let instead = log.0.borrow().instead;
+        let harness = Harness::builder()
+            .with_size(size)
+            .with_theme(theme)
+            .with_max_steps(2000)
+            .renderer(WgpuTestRenderer::from_setup(
+                eframe::egui_wgpu::WgpuSetup::CreateNew(setup),
+            ))
+            .build_eframe(|cc| {
+                let start = Start {
+                    document: None,
+                    text,
+                    subject: instead,
+                    clock,
+                };
+                App::new(cc, Box::new(services), start)
+            });
+        let mut window = Self { harness, log };
+        window.settle();
+        window
+    }
+
+    /// Goes on until the picture is complete and the link is renewed.
+    pub(crate) fn settle(&mut self) {
+        // What is never answered is not waited for.
+        let patience = clock()
+            + if self.log.0.borrow().is_slow {
+                0.2
+            } else {
+                120.0
+            };
+        self.harness.step();
+        while clock() < patience && !self.harness.state().is_at_rest() {
+            self.harness.step();
+            std::thread::sleep(std::time::Duration::from_millis(2));
+        }
+        // The link follows after a while on the clock of the interface, 1/60 s a step.
+        self.harness.run_steps(40);
+    }
+
+    pub(crate) fn steps(&mut self, n: usize) {
+        self.harness.run_steps(n);
+    }
+
+    pub(crate) fn click(&mut self, label: &str) {
+        self.harness.get_by_label(label).click();
+        self.steps(3);
+    }
+
+    pub(crate) fn document(&self) -> Document {
+        self.harness.state().document()
+    }
+
+    pub(crate) fn press(&mut self, key: Key) {
+        self.harness.key_press(key);
+        self.steps(3);
+    }
+
+    pub(crate) fn press_with(&mut self, modifiers: Modifiers, key: Key) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.steps(3);
+    }
+
+    pub(crate) fn picture_center(&self) -> Pos2 {
+        self.harness.get_by_role(egui::Role::Image).rect().center()
+    }
+
+    pub(crate) fn click_at(&mut self, pos: Pos2) {
+        self.harness.hover_at(pos);
+        self.harness.step();
+        self.harness.drag_at(pos);
+        self.harness.step();
+        self.harness.drop_at(pos);
+        self.settle();
+    }
+
+    pub(crate) fn drag(&mut self, from: Pos2, by: Vec2) {
+        self.harness.hover_at(from);
+        self.harness.step();
+        self.harness.drag_at(from);
+        self.harness.step();
+        for i in 1..=6 {
+            self.harness.hover_at(from + by * (i as f32 / 6.0));
+            self.harness.step();
+        }
+        self.harness.drop_at(from + by);
+        self.settle();
+    }
+
+    /// Writes the window to be looked at, if somebody wants to.
+    pub(crate) fn look(&mut self, name: &str) {
+        if let Some(folder) = std::env::var_os("FABRICA_LOOK_AT") {
+            let image = self.harness.render().expect("the window can be drawn");
+            let path = std::path::Path::new(&folder).join(format!("{name}.png"));
+            image.save(path).expect("a picture to look at");
+        }
+    }
+
+    pub(crate) fn place_peel(&mut self) {
+        self.click("Place peel");
+        let center = self.picture_center();
+        self.click_at(center);
+        assert_eq!(
+            self.document().illustration().templates.len(),
+            1,
+            "a click on the object places it"
+        );
+    }
+}

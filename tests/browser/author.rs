@@ -1,0 +1,359 @@
+//! What an author does in a real browser: by touch alone on a phone, by keyboard alone, in two tabs; and a page that
+//! sleeps.
+
+use super::hand::{CTRL, SHIFT, document, mark, pause};
+use super::hand::{Touch, changed, controls, find, focus, hear, press, press_with, tab_to};
+use super::harness::{Tab, with_browser};
+use super::*;
+use serde_json::Value;
+
+/// A phone, CSS pixels.
+const PHONE: (u32, u32) = (360, 640);
+/// A cube with nothing placed: quick to draw.
+const PLAIN: &str = r#"{"fabrica":1,"subject":{"builtin":"cube"}}"#;
+/// What is there before the author chooses.
+const OTHER: &str = r#"{"fabrica":1,"subject":{"builtin":"bar"}}"#;
+
+const IS_CUBE: &str =
+    "JSON.parse(window.fabrica.viewer.get_document()).subject?.builtin === 'cube'";
+
+const TEMPLATES: &str =
+    "(JSON.parse(window.fabrica.viewer.get_document() || '{}').templates ?? [])";
+
+/// The text on the clipboard once it has come.
+async fn clipboard(tab: &Tab, start: &str) -> String {
+    let read = "navigator.clipboard.readText().catch(error => String(error))";
+    let start = serde_json::to_string(start).expect("text");
+    let wanted = format!("{read}.then(text => text.startsWith({start}))");
+    tab.wait_until(&wanted, 30).await;
+    tab.eval(read).await
+}
+
+// ---------------------------------------------------------------------------------------------------- the path
+
+/// Choose, place, open, adjust the look, copy the link: with fingers on a phone.
+#[test]
+fn the_path_by_touch_alone() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.allow_clipboard().await;
+        let tab = session
+            .viewer_sized(&format!("#{}", payload(OTHER)), PHONE)
+            .await;
+        let hand = Touch::new(&tab).await;
+        hand.scenery().await;
+        hand.tap("Subject").await;
+        tab.picture("touch_0_subjects").await;
+        hand.tap("Cube").await;
+        tab.wait_until(IS_CUBE, 20).await;
+        hand.scenery().await;
+        tab.picture("touch_1_start").await;
+
+        // One finger turns, two zoom and move.
+        let camera = document(&tab).await["camera"].clone();
+        let middle = find(&tab, "Picture").await.middle();
+        let beside = |x: f64, y: f64| (middle.0 + x, middle.1 + y);
+        mark(&tab, "camera").await;
+        hand.swipe(&[[beside(-120.0, -60.0), beside(-70.0, -60.0)]])
+            .await;
+        let turned = changed(&tab, "camera").await;
+        assert_ne!(turned["rotate"], camera["rotate"], "one finger turns");
+        assert_eq!(turned["target"], camera["target"], "and moves nothing");
+        mark(&tab, "camera").await;
+        let pinch = [
+            [beside(-30.0, 0.0), beside(-70.0, 20.0)],
+            [beside(30.0, 0.0), beside(90.0, 40.0)],
+        ];
+        hand.swipe(&pinch).await;
+        let pinched = changed(&tab, "camera").await;
+        let distance = |camera: &Value| camera["distance"].as_f64().unwrap_or(2.5);
+        assert!(
+            distance(&pinched) < 0.9 * distance(&turned),
+            "two fingers come closer: {turned} {pinched}"
+        );
+        assert_ne!(pinched["target"], turned["target"], "and move");
+        assert_eq!(pinched["rotate"], turned["rotate"], "and turn nothing");
+        mark(&tab, "camera").await;
+        hand.tap("Back to the first view").await;
+        changed(&tab, "camera").await;
+
+        // Choose and place.
+        hand.tap("Add").await;
+        tab.picture("touch_2_catalogue").await;
+        hand.tap("Place peel").await;
+        let middle = find(&tab, "Picture").await.middle();
+        hand.tap_at(middle).await;
+        tab.wait_until(&format!("{TEMPLATES}.length === 1"), 60)
+            .await;
+        tab.picture("touch_3_placed").await;
+        let placed = document(&tab).await;
+        assert_eq!(placed["templates"][0]["kind"], "peel", "{placed}");
+
+        // Open it where it acts: its handle is drawn out.
+        let handle = find(&tab, "Drag progress").await;
+        mark(&tab, "templates").await;
+        let from = handle.middle();
+        hand.swipe(&[[from, (from.0 + 60.0, from.1)]]).await;
+        let opened = changed(&tab, "templates").await;
+        tab.picture("touch_4_opened").await;
+        let progress = |t: &Value| t[0]["params"]["progress"].as_f64().unwrap_or(0.5);
+        assert!(
+            (progress(&opened) - progress(&placed["templates"])).abs() > 0.05,
+            "its handle opens it: {opened}"
+        );
+
+        // A long press is the right button: the template's menu. A tap above it puts it away.
+        let beside = find(&tab, "Picture").await.corner(0.9, 0.3);
+        hand.hold_at(beside).await;
+        let first = find(&tab, "Copy").await;
+        tab.picture("touch_5_menu").await;
+        hand.tap_at((20.0, first.at.1 - 20.0)).await;
+        let open: Vec<String> = controls(&tab).await.into_iter().map(|c| c.name).collect();
+        assert!(
+            !open.contains(&"Duplicate".to_owned()),
+            "the menu is away: {open:?}"
+        );
+
+        // The look: a tap on a background, which is far down in the drawer.
+        hand.tap("Look").await;
+        mark(&tab, "look").await;
+        hand.scroll_to("Background: Paper").await;
+        tab.picture("touch_6_look").await;
+        hand.tap("Background: Paper").await;
+        let look = changed(&tab, "look").await;
+        assert!(look["background"].is_string(), "{look}");
+        hand.tap("Look").await;
+        rest(&tab).await;
+        tab.picture("touch_7_done").await;
+
+        // Everything that a thumb has to meet is large enough for one; the marks of the ball of axes stand in the menu
+        // of views too.
+        let small: Vec<String> = controls(&tab)
+            .await
+            .into_iter()
+            .filter(|c| c.role == "Button" && !c.name.starts_with("View: "))
+            .filter(|c| c.size.0.min(c.size.1) < 40.0)
+            .map(|c| format!("{} {:?}", c.name, c.size))
+            .collect();
+        assert!(small.is_empty(), "too small for a finger: {small:?}");
+
+        // The link.
+        hand.tap("Copy link").await;
+        let link = clipboard(&tab, &session.server.address()).await;
+        let sent = document(&tab).await;
+        let other = session.viewer_at(&link, PHONE).await;
+        other
+            .wait_until("window.fabrica.viewer.get_document() !== ''", 60)
+            .await;
+        assert_eq!(document(&other).await, sent, "the link is what was made");
+        other.assert_no_complaints().await;
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// The same path without mouse and finger, and without seeing more than what is said aloud.
+#[test]
+fn the_path_by_keys_alone() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.allow_clipboard().await;
+        let tab = session
+            .viewer_sized(&format!("#{}", payload(PLAIN)), PAGE)
+            .await;
+        rest(&tab).await;
+        focus(&tab).await;
+        mark(&tab, "camera").await;
+        press(&tab, "ArrowRight").await;
+        changed(&tab, "camera").await;
+        press(&tab, "0").await;
+
+        // Choose by search, place in the middle, open.
+        press(&tab, "/").await;
+        hear(&tab, "Search").await;
+        for letter in ["p", "e", "e", "l"] {
+            press(&tab, letter).await;
+        }
+        tab.picture("keys_1_search").await;
+        press(&tab, "Enter").await;
+        pause(1000).await;
+        press(&tab, "Enter").await;
+        tab.wait_until(&format!("{TEMPLATES}.length === 1"), 60)
+            .await;
+        tab.picture("keys_2_placed").await;
+        for _ in 0..4 {
+            press(&tab, "]").await;
+        }
+        // Opened by four times five hundredths.
+        tab.wait_until(
+            &format!("Math.abs({TEMPLATES}[0].params.progress - 0.7) < 0.01"),
+            20,
+        )
+        .await;
+
+        // The look: panel by panel, then control by control.
+        press(&tab, "e").await;
+        press(&tab, "e").await;
+        find(&tab, "Opacity: Mass").await;
+        tab_to(&tab, "Opacity: Mass").await;
+        press(&tab, "Enter").await;
+        tab.wait_until(
+            "JSON.parse(window.fabrica.viewer.get_document()).look?.opacity === 'mass'",
+            20,
+        )
+        .await;
+        // A label in the middle, named at once.
+        press(&tab, "a").await;
+        rest(&tab).await;
+        press(&tab, "Enter").await;
+        let labels = "JSON.parse(window.fabrica.viewer.get_document()).labels";
+        tab.wait_until(&format!("{labels}?.length === 1"), 30).await;
+        hear(&tab, "Text of label 1").await;
+        for letter in ["b", "o", "x"] {
+            press(&tab, letter).await;
+        }
+        tab.wait_until(&format!("{labels}[0].text === 'box'"), 20)
+            .await;
+        rest(&tab).await;
+        tab.picture("keys_3_look").await;
+        let adjusted = document(&tab).await;
+        assert_eq!(adjusted["look"]["opacity"], "mass", "{adjusted}");
+
+        press_with(&tab, CTRL | SHIFT, "L", None).await;
+        let link = clipboard(&tab, &session.server.address()).await;
+        hear(&tab, "clipboard").await;
+        let other = session.viewer_at(&link, PAGE).await;
+        other
+            .wait_until("window.fabrica.viewer.get_document() !== ''", 60)
+            .await;
+        assert_eq!(
+            document(&other).await,
+            document(&tab).await,
+            "the link is what was made"
+        );
+        tab.assert_no_complaints().await;
+    });
+}
+
+// ---------------------------------------------------------------------------------------------------- tabs
+
+async fn to_front(tab: &Tab) {
+    tab.page.bring_to_front().await.expect("the tab comes up");
+    pause(500).await;
+}
+
+/// A template copied in one tab is pasted in another; both are edited in turn, reloaded without their addresses, and
+/// come back as they were left.
+#[test]
+fn two_tabs_share_templates_and_nothing_else() {
+    const SIZE: (u32, u32) = (420, 380);
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.allow_clipboard().await;
+        let with_title = |title: &str, templates: &str| {
+            payload(&format!(
+                r#"{{"fabrica":1,"title":"{title}","subject":{{"builtin":"cube"}},"templates":[{templates}]}}"#
+            ))
+        };
+        let poke =
+            r#"{"kind":"poke","name":"nose","group":"face","at":[0.1,0.4,0.2],"later":true}"#;
+        let first = session
+            .viewer_sized(&format!("#{}", with_title("first", poke)), SIZE)
+            .await;
+        rest(&first).await;
+        focus(&first).await;
+        press(&first, "n").await;
+        press_with(&first, CTRL, "c", Some("copy")).await;
+        let text = clipboard(&first, "{\"fabrica-templates\"").await;
+        assert!(text.contains("nose") && text.contains("later"), "{text}");
+
+        let second = session
+            .viewer_sized(&format!("#{}", with_title("second", "")), SIZE)
+            .await;
+        rest(&second).await;
+        focus(&second).await;
+        press_with(&second, CTRL, "v", Some("paste")).await;
+        second
+            .wait_until(&format!("{TEMPLATES}.length === 1"), 30)
+            .await;
+        assert_eq!(
+            document(&second).await["templates"],
+            document(&first).await["templates"],
+            "whole, with what this version does not know"
+        );
+        rest(&second).await;
+        second.picture("tabs_pasted").await;
+
+        // Edited in turn.
+        to_front(&first).await;
+        press(&first, "d").await;
+        first
+            .wait_until(&format!("{TEMPLATES}.length === 2"), 30)
+            .await;
+        pause(1000).await;
+        to_front(&second).await;
+        press(&second, "h").await;
+        second
+            .wait_until(&format!("{TEMPLATES}[0].enabled === false"), 30)
+            .await;
+        pause(1000).await;
+        to_front(&first).await;
+        press(&first, "h").await;
+        pause(1500).await;
+        rest(&first).await;
+        let left = [document(&first).await, document(&second).await];
+        assert_ne!(left[0], left[1]);
+
+        // Reloaded at the plain address: only what the tab itself kept can bring its document back.
+        for (tab, left) in [(&second, &left[1]), (&first, &left[0])] {
+            to_front(tab).await;
+            tab.eval::<bool>("(history.replaceState(null, '', location.pathname), true)")
+                .await;
+            tab.page.reload().await.expect("the page reloads");
+            tab.wait_for_state("started").await;
+            tab.wait_until("window.fabrica.viewer.get_document() !== ''", 60)
+                .await;
+            let back = document(tab).await;
+            assert_eq!(&back, left, "as it was left");
+            tab.assert_no_complaints().await;
+        }
+    });
+}
+
+// ---------------------------------------------------------------------------------------------------- sleep
+
+/// Once the picture is complete nothing is asked of the graphics device, in front and behind another tab.
+#[test]
+fn a_sleeping_page_draws_nothing() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tab = session
+            .viewer_sized(&format!("#{}", payload(PLAIN)), (420, 380))
+            .await;
+        tab.eval::<bool>(
+            "(() => { const submit = GPUQueue.prototype.submit; window.submits = 0; GPUQueue.prototype.submit = function (...a) { window.submits++; return submit.apply(this, a) }; return true })()",
+        )
+        .await;
+        let submits = "window.submits";
+        // Turned once, to see that the counter counts.
+        focus(&tab).await;
+        press(&tab, "ArrowRight").await;
+        rest(&tab).await;
+        assert!(tab.eval::<u32>(submits).await > 0, "drawing is counted");
+        // Messages go by and the catalogue's pictures are made; then there is silence.
+        let mut before = tab.eval::<u32>(submits).await;
+        for _ in 0..40 {
+            pause(4000).await;
+            let now = tab.eval::<u32>(submits).await;
+            if now == before {
+                break;
+            }
+            before = now;
+        }
+        pause(6000).await;
+        assert_eq!(tab.eval::<u32>(submits).await, before, "asleep in front");
+        let other = session.open("icon.svg").await;
+        pause(4000).await;
+        assert_eq!(tab.eval::<u32>(submits).await, before, "asleep behind");
+        other.page.close().await.expect("the tab closes");
+        to_front(&tab).await;
+        press(&tab, "ArrowLeft").await;
+        pause(1500).await;
+        assert!(tab.eval::<u32>(submits).await > before, "and awake again");
+    });
+}

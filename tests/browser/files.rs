@@ -1,0 +1,147 @@
+//! Files that are dropped on the page or fetched by it.
+
+use super::*;
+
+/// A real scan dropped on the page is drawn; reloaded, the page says which file it wants.
+#[test]
+fn dropped_scan_is_drawn() {
+    let Some(data) = data_folder("dropped_scan_is_drawn") else {
+        return;
+    };
+    with_browser(BrowserGpu::Software, |session| async move {
+        for name in ["head_ct_headsq.nii.gz", "chest_ct_2mm.nii.gz"] {
+            let scan = std::fs::read(data.join("ct").join(name)).expect("a scan");
+            session.server.add(name, scan);
+            let tab = session.viewer_sized("#", PAGE).await;
+            tab.wait_until("window.fabrica.viewer.get_document() !== ''", 60)
+                .await;
+            let before = object_part(&tab.picture(&format!("{name}_before")).await);
+            drop_files(&tab, &[name]).await;
+            tab.wait_until(
+                "JSON.parse(window.fabrica.viewer.get_document()).subject?.sha256 !== undefined",
+                180,
+            )
+            .await;
+            rest(&tab).await;
+            let after = object_part(&tab.picture(name).await);
+            assert!(drawn_pixels(&after) > 5000, "the scan is drawn");
+            assert!(
+                difference(&before, &after, WHITE).mean > 3.0,
+                "it is not the head of before"
+            );
+            let hash: String = tab.eval("location.hash").await;
+            assert!(!hash.contains(name), "the file's name is not in the link");
+            tab.assert_no_complaints().await;
+            tab.page.close().await.expect("the tab closes");
+        }
+    });
+}
+
+/// A document from another host waits for a tap on a message that names the host.
+#[test]
+fn foreign_document_waits_for_a_tap() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let other = session.other_server();
+        other.add(
+            "lesson.json",
+            br#"{"fabrica":1,"title":"far","subject":{"builtin":"cube"}}"#.to_vec(),
+        );
+        let tab = session
+            .open(&format!("?doc={}/lesson.json", other.address()))
+            .await;
+        tab.wait_until("document.getElementById('agree') !== null", 60)
+            .await;
+        let text = tab.text().await;
+        let host = other.address().replace("http://", "");
+        assert!(text.contains(&host), "the host is named: {text}");
+        assert!(
+            other.asked().is_empty(),
+            "nothing was fetched before the tap"
+        );
+        tab.eval::<bool>("(document.getElementById('agree').click(), true)")
+            .await;
+        tab.wait_for_state("started").await;
+        tab.wait_until(
+            "JSON.parse(window.fabrica.viewer.get_document()).title === 'far'",
+            30,
+        )
+        .await;
+    });
+}
+
+/// A 512³ volume of 16-bit voxels loads and draws; the page's heap stays under 1.6 times its bytes over the idle
+/// program.
+#[test]
+fn large_volume_stays_within_its_memory() {
+    const SIDE: usize = 512;
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tab = session.viewer_sized("#", (420, 360)).await;
+        rest(&tab).await;
+        let heap = "window.fabrica.memory.buffer.byteLength";
+        let idle: f64 = tab.eval(heap).await;
+        session.server.add("large.nii", large_nifti(SIDE));
+        let document = r#"{"fabrica":1,"subject":{"src":"large.nii"}}"#;
+        tab.eval::<bool>(&format!(
+            "(window.fabrica.viewer.set_link('{document}'), true)"
+        ))
+        .await;
+        tokio::time::sleep(Duration::from_secs(3)).await;
+        rest(&tab).await;
+        let picture = tab.picture("large").await;
+        assert!(drawn_pixels(&picture) > 5000, "it is drawn");
+        let loaded: f64 = tab.eval(heap).await;
+        let bytes = (SIDE * SIDE * SIDE * 2) as f64;
+        let ratio = (loaded - idle) / bytes;
+        println!(
+            "512³: page heap {:.0} MB idle, {:.0} MB loaded: {ratio:.2} times the volume's {:.0} MB over idle",
+            idle / 1e6,
+            loaded / 1e6,
+            bytes / 1e6
+        );
+        assert!(
+            ratio < 1.6,
+            "the heap grew by {ratio:.2} times the volume's bytes"
+        );
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// A ball with a core, as NIfTI-1.
+fn large_nifti(side: usize) -> Vec<u8> {
+    let mut file = vec![0u8; 352];
+    file[..4].copy_from_slice(&348i32.to_le_bytes());
+    for (i, n) in [3, side as i16, side as i16, side as i16]
+        .iter()
+        .enumerate()
+    {
+        file[40 + 2 * i..42 + 2 * i].copy_from_slice(&n.to_le_bytes());
+    }
+    file[70..72].copy_from_slice(&4i16.to_le_bytes());
+    file[72..74].copy_from_slice(&16i16.to_le_bytes());
+    for i in 0..4 {
+        file[76 + 4 * i..80 + 4 * i].copy_from_slice(&1f32.to_le_bytes());
+    }
+    file[108..112].copy_from_slice(&352f32.to_le_bytes());
+    file[344..348].copy_from_slice(b"n+1\0");
+    file.reserve(side * side * side * 2);
+    let middle = side as i32 / 2;
+    let squares: Vec<i32> = (0..side as i32)
+        .map(|i| (i - middle) * (i - middle))
+        .collect();
+    for z in &squares {
+        for y in &squares {
+            for x in &squares {
+                let r2 = x + y + z;
+                let value: i16 = if r2 < (middle / 3).pow(2) {
+                    900
+                } else if r2 < (middle * 4 / 5).pow(2) {
+                    60
+                } else {
+                    -1000
+                };
+                file.extend_from_slice(&value.to_le_bytes());
+            }
+        }
+    }
+    file
+}

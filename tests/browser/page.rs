@@ -1,0 +1,256 @@
+//! The page itself: its first picture, links, its window's size, history, refusal and loss of the GPU.
+
+use super::*;
+
+/// A plain address shows the head, asks only its own server, and breaks no content policy.
+#[test]
+fn plain_address_shows_the_head() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let start = std::time::Instant::now();
+        let tab = session.viewer_sized("", PAGE).await;
+        println!(
+            "viewer started after {:.1} s",
+            start.elapsed().as_secs_f32()
+        );
+        rest(&tab).await;
+        println!(
+            "picture complete after {:.1} s",
+            start.elapsed().as_secs_f32()
+        );
+        let picture = object_part(&tab.picture("plain").await);
+        let drawn = drawn_pixels(&picture);
+        assert!(
+            drawn * 4 > picture.pixels().len(),
+            "the head fills the picture: {drawn} pixels"
+        );
+        tab.assert_no_complaints().await;
+        let fetched: Vec<String> = tab
+            .eval("performance.getEntriesByType('resource').map(e => e.name).filter(n => !n.startsWith(location.origin) && !n.startsWith('blob:'))")
+            .await;
+        assert!(fetched.is_empty(), "asked elsewhere: {fetched:?}");
+        let asked = session.server.asked();
+        println!("asked for: {asked:?}");
+    });
+}
+
+/// Open a link with a peel, drag its handle, copy the link, open it elsewhere: the same picture.
+#[test]
+fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.allow_clipboard().await;
+        let first = payload(PEEL);
+        let tab = session.viewer_sized(&format!("#{first}"), PAGE).await;
+        rest(&tab).await;
+        let closed = object_part(&tab.picture("peel_before").await);
+        assert!(drawn_pixels(&closed) > 10_000, "something is drawn");
+        // Select it in the list, then take its handle where the head's geometry says that it is.
+        tab.click(f64::from(PAGE.0) - 210.0, 150.0).await;
+        tokio::time::sleep(Duration::from_millis(800)).await;
+        tab.picture("peel_selected").await;
+        let document = Document::from_json(PEEL).expect("a good document");
+        let template = &document.illustration().templates[0];
+        let handle = fabrica::placed::handle(template).expect("a peel has a handle");
+        let size = [PICTURE.2 as u32, PICTURE.3 as u32];
+        let view = View::new(&document.illustration().camera, size);
+        let pixel_of = |pos| {
+            let pixel = view
+                .pixel_from_subject(pos)
+                .expect("in front of the camera");
+            (
+                PICTURE.0 + f64::from(pixel.x),
+                PICTURE.1 + f64::from(pixel.y),
+            )
+        };
+        let from = pixel_of(handle.at);
+        let along = handle.along.expect("a peel's handle goes one way");
+        let to = pixel_of(handle.at + along * 0.15);
+        println!("the handle is dragged from {from:?} to {to:?}");
+        tab.drag(from, to, 8).await;
+        tab.wait_until(&format!("location.hash !== '#{first}'"), 60)
+            .await;
+        tab.picture("peel_dragged").await;
+        let progress: f64 = tab
+            .eval("JSON.parse(window.fabrica.viewer.get_document()).templates[0].params?.progress ?? 0.5")
+            .await;
+        assert!(
+            (progress - 0.2).abs() > 0.1,
+            "the drag changed the peel: {progress}"
+        );
+        let hash: String = tab.eval("location.hash").await;
+        assert_ne!(hash, format!("#{first}"), "the address follows");
+        // The reader's way: the button.
+        tab.key("Escape").await;
+        tab.click(f64::from(PAGE.0) - 74.0, 23.0).await;
+        let copied = "navigator.clipboard.readText().catch(error => String(error))";
+        tab.wait_until(
+            &format!("{copied}.then(text => text.startsWith(location.origin))"),
+            30,
+        )
+        .await;
+        let copied: String = tab.eval(copied).await;
+        assert!(
+            copied.starts_with(&session.server.address()),
+            "a link was copied: {copied}"
+        );
+        rest(&tab).await;
+        let dragged = object_part(&tab.picture("peel_dragged_rest").await);
+        let other = session.viewer_at(&copied, PAGE).await;
+        rest(&other).await;
+        let opened = object_part(&other.picture("peel_opened").await);
+        let same = difference(&dragged, &opened, WHITE);
+        println!("dragged and opened: {same:?}");
+        assert!(
+            same.mean <= 1.0 && same.percentile <= 8,
+            "the same picture: {same:?}"
+        );
+        let moved = difference(&closed, &opened, WHITE);
+        assert!(moved.mean > 2.0, "the drag is seen: {moved:?}");
+        other.assert_no_complaints().await;
+    });
+}
+
+/// The window changes its size: the picture follows, and nothing is blank.
+#[test]
+fn resize_keeps_the_picture() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tab = session.viewer_sized("", (700, 480)).await;
+        rest(&tab).await;
+        for (width, height) in [(420, 600), (900, 560)] {
+            tab.resize(width, height).await;
+            rest(&tab).await;
+            let picture = tab.picture(&format!("resize_{width}")).await;
+            assert_eq!(
+                picture.dimensions(),
+                (width, height),
+                "the page has its new size"
+            );
+            assert!(
+                drawn_pixels(&picture) > 15_000,
+                "the head is drawn at {width} × {height}"
+            );
+        }
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// Back and forward restore documents; what was last shown is kept over a reload; a payload goes before what was kept.
+#[test]
+fn history_and_reload_restore_documents() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let titled = |title: &str| {
+            payload(&format!(
+                r#"{{"fabrica":1,"title":"{title}","subject":{{"builtin":"cube"}}}}"#
+            ))
+        };
+        let title = "JSON.parse(window.fabrica.viewer.get_document()).title ?? ''";
+        let is = |wanted: &str| format!("({title}) === '{wanted}'");
+        let tab = session
+            .viewer_sized(&format!("#{}", titled("one")), (420, 360))
+            .await;
+        tab.wait_until(&is("one"), 30).await;
+        tab.eval::<bool>(&format!("(location.hash = '{}', true)", titled("two")))
+            .await;
+        tab.wait_until(&is("two"), 30).await;
+        tab.eval::<bool>("(history.back(), true)").await;
+        tab.wait_until(&is("one"), 30).await;
+        tab.eval::<bool>("(history.forward(), true)").await;
+        tab.wait_until(&is("two"), 30).await;
+        let plain = session.viewer_sized("", (420, 360)).await;
+        plain.wait_until(&is("two"), 30).await;
+        let given = session
+            .viewer_sized(&format!("?s={}", titled("three")), (420, 360))
+            .await;
+        given.wait_until(&is("three"), 30).await;
+        session.server.add(
+            "lesson.json",
+            br#"{"fabrica":1,"title":"four","subject":{"builtin":"bar"}}"#.to_vec(),
+        );
+        let from_file = session.viewer_sized("?doc=lesson.json", (420, 360)).await;
+        from_file.wait_until(&is("four"), 30).await;
+        from_file.assert_no_complaints().await;
+    });
+}
+
+/// A hostile link leaves a working viewer and stays in the address.
+#[test]
+fn hostile_link_leaves_a_working_viewer() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let good = payload(PEEL);
+        let cut_off = &good[..good.len() / 2];
+        for (name, bad, message) in [
+            (
+                "garbage",
+                "1%00<script>alert(1)</script>",
+                "cut off: 1 of 7",
+            ),
+            ("cut_off", cut_off, "cut off"),
+            ("foreign", "Section-3", "not a Fabrica link"),
+            // What a page's own router keeps there is no link at all.
+            ("route", "/route/to?page", ""),
+        ] {
+            let tab = session.viewer_sized(&format!("#{bad}"), PAGE).await;
+            let before: String = tab.eval("location.hash").await;
+            rest(&tab).await;
+            let picture = tab.picture(&format!("hostile_{name}")).await;
+            assert!(
+                drawn_pixels(&object_part(&picture)) > 5000,
+                "{name}: the viewer draws the head"
+            );
+            let said: String = tab
+                .eval("document.getElementById('said').textContent")
+                .await;
+            println!("{name}: {said}");
+            assert!(said.contains(message), "{name}: {said}");
+            let after: String = tab.eval("location.hash").await;
+            assert_eq!(before, after, "{name}: the link stays in the address");
+            assert!(
+                !tab.eval::<bool>("window.fabrica.viewer.has_panicked()")
+                    .await,
+                "{name}: no fault"
+            );
+            tab.assert_no_complaints().await;
+            tab.page.close().await.expect("the tab closes");
+        }
+    });
+}
+
+/// The graphics device is lost: the viewer comes back with the same picture.
+#[test]
+fn lost_device_comes_back() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tab = session
+            .viewer_sized(&format!("#{}", payload(PEEL)), PAGE)
+            .await;
+        rest(&tab).await;
+        let before = object_part(&tab.picture("lost_before").await);
+        tab.eval::<bool>("(window.devices[0].destroy(), true)")
+            .await;
+        tab.wait_until("document.documentElement.dataset.losses === '1' && document.documentElement.dataset.state === 'started'", 60).await;
+        rest(&tab).await;
+        let after = object_part(&tab.picture("lost_after").await);
+        let same = difference(&before, &after, WHITE);
+        println!("before and after the loss: {same:?}");
+        assert!(same.mean <= 1.0, "the same picture: {same:?}");
+    });
+}
+
+/// Without WebGPU the page says so, says what to do, keeps the link, and gives the document's words.
+#[test]
+fn page_without_webgpu_names_remedies() {
+    with_browser(BrowserGpu::None, |session| async move {
+        let link = payload(PEEL);
+        let tab = session.open(&format!("#{link}")).await;
+        tab.wait_until("document.documentElement.dataset.state === 'no-webgpu'", 60)
+            .await;
+        let text = tab.text().await;
+        assert!(text.contains("WebGPU"), "names the cause: {text}");
+        assert!(
+            text.contains("graphics acceleration"),
+            "names a remedy: {text}"
+        );
+        assert!(text.contains("Scalp"), "gives the document's title: {text}");
+        let address: String = tab.eval("location.href").await;
+        assert!(address.ends_with(&link), "the link is kept: {address}");
+        tab.assert_no_complaints().await;
+    });
+}

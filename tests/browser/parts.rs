@@ -1,0 +1,149 @@
+//! The parts of the page: each is fetched when it is first needed, and not before; a part that fails is no end of the
+//! page.
+
+use super::*;
+use harness::Server;
+
+/// The files of programs that a server was asked for, in order.
+fn programs(server: &Server) -> Vec<String> {
+    let mut asked = server.asked();
+    asked.retain(|path| path.starts_with("/fabrica"));
+    asked
+}
+
+/// How often a file of a part was asked for.
+fn count(server: &Server, name: &str) -> usize {
+    let asked = programs(server);
+    asked
+        .iter()
+        .filter(|path| path.trim_start_matches('/').starts_with(name))
+        .count()
+}
+
+/// True if an object fills a quarter of the picture's middle; the hint for newcomers may cover the rest.
+fn is_drawn(picture: &image::RgbaImage) -> bool {
+    drawn_pixels(picture) * 4 > picture.pixels().len()
+}
+
+/// A small scan: a ball in an NRRD file.
+fn small_scan() -> Vec<u8> {
+    const SIDE: i32 = 24;
+    let mut file = format!(
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: {SIDE} {SIDE} {SIDE}\nencoding: raw\n\n"
+    )
+    .into_bytes();
+    let half = SIDE / 2;
+    for z in 0..SIDE {
+        for y in 0..SIDE {
+            for x in 0..SIDE {
+                let square = (x - half).pow(2) + (y - half).pow(2) + (z - half).pow(2);
+                file.push(if square < half * half { 200 } else { 0 });
+            }
+        }
+    }
+    file
+}
+
+/// The built-in head takes the page and the makers of subjects: no reader of scans, no decoder. A dropped scan fetches
+/// those.
+#[test]
+fn each_part_is_fetched_when_it_is_needed() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.server.add("ball.nrrd", small_scan());
+        let tab = session.viewer_sized("", PAGE).await;
+        rest(&tab).await;
+        let picture = object_part(&tab.picture("parts_head").await);
+        assert!(is_drawn(&picture), "the head is drawn");
+        let server = &session.server;
+        let asked = programs(server);
+        println!("for the head: {asked:?}");
+        assert_eq!(count(server, "fabrica_scans"), 0, "no reader: {asked:?}");
+        assert_eq!(count(server, "fabrica_subjects.js"), 1, "{asked:?}");
+        assert_eq!(count(server, "fabrica_subjects_bg.wasm"), 1, "{asked:?}");
+        assert_eq!(count(server, "fabrica_bg.wasm"), 1, "{asked:?}");
+        let all = server.asked();
+        let first = |name: &str| all.iter().position(|path| path == name);
+        assert!(
+            first("/worker.js") < first("/fabrica_bg.wasm"),
+            "the part is asked for while the page's own module is on its way: {all:?}"
+        );
+        drop_files(&tab, &["ball.nrrd"]).await;
+        hand::settled(&tab).await;
+        let ball = object_part(&tab.picture("parts_ball").await);
+        assert!(
+            difference(&picture, &ball, WHITE).mean > 2.0,
+            "the ball is drawn"
+        );
+        let asked = programs(server);
+        println!("with the scan: {asked:?}");
+        assert_eq!(count(server, "fabrica_scans_bg.wasm"), 1, "{asked:?}");
+        // The compiled module serves the next load: nothing is fetched again.
+        drop_files(&tab, &["ball.nrrd"]).await;
+        hand::settled(&tab).await;
+        assert_eq!(count(server, "fabrica_scans_bg.wasm"), 1, "kept");
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// A link to a scan beside the page fetches the readers of scans and no maker of subjects.
+#[test]
+fn a_link_to_a_scan_fetches_no_maker_of_subjects() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.server.add("ball.nrrd", small_scan());
+        let link = payload(r#"{"fabrica":1,"subject":{"src":"ball.nrrd"}}"#);
+        let tab = session.viewer_sized(&format!("#{link}"), PAGE).await;
+        rest(&tab).await;
+        let picture = object_part(&tab.picture("parts_link").await);
+        assert!(is_drawn(&picture), "the ball is drawn");
+        let server = &session.server;
+        assert_eq!(
+            count(server, "fabrica_subjects"),
+            0,
+            "{:?}",
+            programs(server)
+        );
+        assert_eq!(count(server, "fabrica_scans_bg.wasm"), 1);
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// A part that cannot be loaded, or stops with a fault, becomes a message; the page goes on.
+#[test]
+fn a_part_that_fails_is_a_message() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.server.add("ball.nrrd", small_scan());
+        let tab = session.viewer_sized("", PAGE).await;
+        rest(&tab).await;
+        // It loads, and stops in the midst of its task.
+        let faulty = "export default async () => {}; export async function run() { setTimeout(() => { throw new Error('planted fault'); }); await new Promise(() => {}); }";
+        session
+            .server
+            .add("fabrica_scans.js", faulty.as_bytes().to_vec());
+        drop_files(&tab, &["ball.nrrd"]).await;
+        hand::settled(&tab).await;
+        tab.picture("parts_fault").await;
+        let said = "document.getElementById('said').textContent";
+        tab.wait_until(
+            &format!("{said}.includes('stopped because of a fault')"),
+            20,
+        )
+        .await;
+        assert!(
+            !tab.eval::<bool>("window.fabrica.viewer.has_panicked()")
+                .await,
+            "the page itself goes on"
+        );
+        // It cannot be loaded at all.
+        session
+            .server
+            .add("fabrica_scans.js", b"this is no program".to_vec());
+        drop_files(&tab, &["ball.nrrd"]).await;
+        hand::settled(&tab).await;
+        let document: String = tab.eval("window.fabrica.viewer.get_document()").await;
+        assert!(
+            !document.contains("ball"),
+            "the document is as it was: {document}"
+        );
+        tab.assert_no_complaints().await;
+    });
+}

@@ -1,0 +1,144 @@
+//! What a visitor downloads. Fails above a ceiling, so that growth is a decision.
+
+use std::io::Write as _;
+use std::path::Path;
+
+/// A program with its script, and its ceilings in bytes.
+struct Program {
+    name: &'static str,
+    /// As a server sends it that compresses while it sends (brotli, quality 9).
+    sent: usize,
+    /// As a static host sends it, packed once beforehand (brotli, quality 11, the tool's default).
+    packed: usize,
+}
+
+/// The page itself, and the parts that it fetches when it first needs them.
+const PROGRAMS: [Program; 3] = [
+    Program {
+        name: "fabrica",
+        sent: 1_650_000,
+        packed: 1_500_000,
+    },
+    Program {
+        name: "fabrica_subjects",
+        sent: 572_000,
+        packed: 520_000,
+    },
+    Program {
+        name: "fabrica_scans",
+        sent: 572_000,
+        packed: 520_000,
+    },
+];
+
+#[test]
+fn programs_stay_under_their_ceilings() {
+    let mut head = 0;
+    for program in &PROGRAMS {
+        let mut total = [0; 4];
+        for name in [
+            format!("{}_bg.wasm", program.name),
+            format!("{}.js", program.name),
+        ] {
+            let bytes = built(&name);
+            let sizes = [
+                bytes.len(),
+                gzip(&bytes),
+                brotli(&bytes, 9),
+                brotli(&bytes, 11),
+            ];
+            println!("{name}: {}", shown(sizes));
+            for (sum, size) in total.iter_mut().zip(sizes) {
+                *sum += size;
+            }
+        }
+        println!("{} in all: {}", program.name, shown(total));
+        for (sum, ceiling) in [(total[2], program.sent), (total[3], program.packed)] {
+            assert!(
+                sum <= ceiling,
+                "{} has grown to {sum} bytes (brotli), the ceiling is {ceiling}",
+                program.name
+            );
+        }
+        if program.name != "fabrica_scans" {
+            head += total[3];
+        }
+    }
+    println!("to show the built-in head: {head} bytes brotli (quality 11)");
+}
+
+/// The names of the program's functions are for debugging and not for visitors. wasm-bindgen names its own adapters,
+/// which are few.
+#[test]
+fn no_names_of_functions_are_shipped() {
+    const MOST_BYTES: usize = 32 << 10;
+    for program in &PROGRAMS {
+        let module = built(&format!("{}_bg.wasm", program.name));
+        for (name, bytes) in custom_sections(&module) {
+            let is_short = name != "name" || bytes.len() < MOST_BYTES;
+            assert!(is_short, "{}: {} bytes of names", program.name, bytes.len());
+            let is_ours = bytes.windows(9).any(|part| part == b"fabrica::");
+            assert!(!is_ours, "{}: “{name}” names functions", program.name);
+        }
+    }
+}
+
+/// The custom sections of a WebAssembly module, by name.
+fn custom_sections(module: &[u8]) -> Vec<(String, &[u8])> {
+    fn number(bytes: &mut &[u8]) -> usize {
+        let (mut value, mut shift) = (0, 0);
+        loop {
+            let (&byte, rest) = bytes.split_first().expect("the module goes on");
+            *bytes = rest;
+            value |= usize::from(byte & 0x7f) << shift;
+            shift += 7;
+            if byte < 0x80 {
+                return value;
+            }
+        }
+    }
+    let mut sections = Vec::new();
+    let mut rest = module
+        .strip_prefix(b"\0asm\x01\0\0\0")
+        .expect("a module of version 1");
+    while let Some((&kind, after)) = rest.split_first() {
+        rest = after;
+        let length = number(&mut rest);
+        let (mut section, after) = rest.split_at(length);
+        rest = after;
+        if kind == 0 {
+            let length = number(&mut section);
+            let (name, content) = section.split_at(length);
+            sections.push((String::from_utf8_lossy(name).into_owned(), content));
+        }
+    }
+    sections
+}
+
+fn built(name: &str) -> Vec<u8> {
+    let dist = Path::new(env!("CARGO_MANIFEST_DIR")).join("dist");
+    std::fs::read(dist.join(name)).unwrap_or_else(|error| {
+        panic!(
+            "dist/{name}: {error}. The page is not built: run `cargo xtask test`, or `trunk build`"
+        )
+    })
+}
+
+fn shown([raw, gzip, quality_9, quality_11]: [usize; 4]) -> String {
+    format!(
+        "{raw} bytes raw, {gzip} gzip, {quality_9} brotli (quality 9), {quality_11} brotli (quality 11)"
+    )
+}
+
+fn gzip(bytes: &[u8]) -> usize {
+    let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::new(6));
+    encoder.write_all(bytes).expect("a vector takes bytes");
+    encoder.finish().expect("a vector takes bytes").len()
+}
+
+fn brotli(bytes: &[u8], quality: u32) -> usize {
+    let mut out = Vec::new();
+    let mut reader = brotli::CompressorReader::new(bytes, 1 << 16, quality, 22);
+    std::io::copy(&mut reader, &mut out).expect("a vector takes bytes");
+    out.len()
+}

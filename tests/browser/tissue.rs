@@ -1,0 +1,210 @@
+//! Scans and their tissues in a real browser: a bone that a link makes in a scan without labels, and label files beside
+//! a scan.
+
+use super::hand::{changed, click, document, drop_files, focus, mark, press, settled};
+use super::harness::{Session, Tab, with_browser};
+use super::*;
+use sha2::{Digest as _, Sha256};
+use std::path::Path;
+
+/// Size of the page, CSS pixels: the picture is drawn by a software GPU.
+const SMALL: (u32, u32) = (360, 420);
+
+/// The same where what stands in the panels has to be seen.
+const HIGH: (u32, u32) = (780, 560);
+
+/// Serves a file of the test data under a name; its hash.
+fn serve(session: &Session, path: &Path, name: &str) -> String {
+    let bytes = std::fs::read(path).expect("a file of the test data");
+    let hash = Sha256::digest(&bytes);
+    session.server.add(name, bytes);
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The picture of a tab between its bars.
+async fn object(tab: &Tab, name: &str) -> image::RgbaImage {
+    let page = tab.picture(name).await;
+    image::imageops::crop_imm(&page, 30, 90, 300, 240).to_image()
+}
+
+/// Opens a link, drops what it asks for, and takes a picture when all is there.
+async fn opened(
+    session: &Session,
+    json: &str,
+    files: &[&str],
+    name: &str,
+) -> (Tab, image::RgbaImage) {
+    let start = std::time::Instant::now();
+    let tab = session
+        .viewer_sized(&format!("#{}", payload(json)), SMALL)
+        .await;
+    tab.wait_until("window.fabrica.viewer.get_document() !== ''", 60)
+        .await;
+    drop_files(&tab, files).await;
+    settled(&tab).await;
+    let picture = object(&tab, name).await;
+    println!("{name} after {:.1} s", start.elapsed().as_secs_f32());
+    tab.assert_no_complaints().await;
+    (tab, picture)
+}
+
+/// Pixels whose green is between these parts of their red.
+fn pixels_between(picture: &image::RgbaImage, low: f32, high: f32) -> usize {
+    let is_meant = |p: &&image::Rgba<u8>| {
+        let [r, g, b, _] = p.0.map(f32::from);
+        b < 0.97 * r && r > 50.0 && (low..high).contains(&(g / r))
+    };
+    picture.pixels().filter(is_meant).count()
+}
+
+/// A bone made by its values stays where the flesh is cut away, and comes back from the link; the scalp cut away bares
+/// the skull, the skull cut away the brain, from label files on a grid turned the other way.
+#[test]
+fn links_bring_their_tissues_when_the_files_are_dropped() {
+    let Some(data) = data_folder("links_bring_their_tissues_when_the_files_are_dropped") else {
+        return;
+    };
+    with_browser(BrowserGpu::Software, |session| async move {
+        let thigh = serve(
+            &session,
+            &data.join("ct/thigh_femur_ct.nii.gz"),
+            "thigh.nii.gz",
+        );
+        let bared = |align: &str| {
+            format!(
+                r#"{{"fabrica":1,"subject":{{"sha256":"{thigh}","features":[{{"name":"bone","from":{{"threshold":[180]}},"clean":[{{"close":2}},{{"largest":1}},{{"fill":true}}]}}]}},"templates":[{{"kind":"cut","at":[0,0.1,0],"size":[0.9,0.6,0.5]{align}}}],"camera":{{"distance":2}}}}"#
+            )
+        };
+        let kept = bared(r#","align":{"to":"segment","keep":["bone"]}"#);
+        let files = ["thigh.nii.gz"];
+        let (tab, first) = opened(&session, &kept, &files, "tissue_bone").await;
+        tab.eval::<bool>(&format!(
+            "(location.hash = '{}', true)",
+            payload(&bared(""))
+        ))
+        .await;
+        settled(&tab).await;
+        let without = object(&tab, "tissue_no_bone").await;
+        tab.page.close().await.expect("the tab closes");
+        let (tab, again) = opened(&session, &kept, &files, "tissue_bone_again").await;
+        tab.page.close().await.expect("the tab closes");
+        assert!(first == again, "the same again, to the last bit");
+        let cut = difference(&first, &without, WHITE);
+        assert!(cut.mean > 1.0, "bone is kept: {cut:?}");
+
+        let mri = data.join("mri");
+        let scan = serve(&session, &mri.join("head_t1.nii.gz"), "head.nii.gz");
+        let [skull, brain] = ["skull", "brain"].map(|name| {
+            let file = format!("head_t1_{name}_label.nrrd");
+            serve(&session, &mri.join(file), &format!("{name}.nrrd"))
+        });
+        let head = |templates: &str| {
+            format!(
+                r##"{{"fabrica":1,"subject":{{"sha256":"{scan}","segments":[{{"sha256":"{brain}","names":{{"1":"brain"}}}},{{"sha256":"{skull}","names":{{"1":"skull"}}}}]}},"templates":[{{"kind":"cut","at":[0,0.25,0.35],"size":[1,0.7,0.5],"align":{{"to":"segment","keep":["skull","brain"]}}}}{templates}],"look":{{"segments":{{"brain":{{"color":"#d06a78"}},"skull":{{"color":"#e9dfc6"}}}}}},"camera":{{"distance":2.2,"rotate":[0.2079,0,0,0.9781]}}}}"##
+            )
+        };
+        let opening = r#",{"kind":"cut","at":[0.15,0.25,0.35],"size":[0.45,0.7,0.5],"align":{"to":"segment","keep":["brain"]}}"#;
+        let files = ["brain.nrrd", "head.nii.gz", "skull.nrrd"];
+        let (tab, bone) = opened(&session, &head(""), &files, "tissue_skull").await;
+        tab.eval::<bool>(&format!(
+            "(location.hash = '{}', true)",
+            payload(&head(opening))
+        ))
+        .await;
+        settled(&tab).await;
+        let opened_up = object(&tab, "tissue_brain").await;
+        tab.assert_no_complaints().await;
+        let ivory = [&bone, &opened_up].map(|picture| pixels_between(picture, 0.85, 0.99));
+        let pink = [&bone, &opened_up].map(|picture| pixels_between(picture, 0.3, 0.66));
+        println!("of the skull {ivory:?}, of the brain {pink:?} pixels");
+        assert!(ivory[0] > 2000, "the skull is bare: {ivory:?}");
+        assert!(pink[1] > pink[0] + 1000, "the brain is bare: {pink:?}");
+    });
+}
+
+/// An author drops a scan, has its bone found, and peels what lies over it; whoever has the link and the file sees the
+/// same.
+#[test]
+fn bone_is_found_in_a_scan_and_laid_bare() {
+    let Some(data) = data_folder("bone_is_found_in_a_scan_and_laid_bare") else {
+        return;
+    };
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.allow_clipboard().await;
+        serve(
+            &session,
+            &data.join("ct/chest_ct_2mm.nii.gz"),
+            "chest.nii.gz",
+        );
+        let plain = payload(r#"{"fabrica":1,"subject":{"builtin":"cube"}}"#);
+        let tab = session.viewer_sized(&format!("#{plain}"), HIGH).await;
+        focus(&tab).await;
+        drop_files(&tab, &["chest.nii.gz"]).await;
+        tab.wait_until(
+            "JSON.parse(window.fabrica.viewer.get_document()).subject?.sha256 !== undefined",
+            60,
+        )
+        .await;
+        settled(&tab).await;
+
+        let start = std::time::Instant::now();
+        click(&tab, "Panel: Tissues").await;
+        mark(&tab, "subject").await;
+        click(&tab, "Make a tissue").await;
+        let subject = changed(&tab, "subject").await;
+        assert_eq!(subject["features"].as_array().map(Vec::len), Some(1));
+        settled(&tab).await;
+        let found = start.elapsed().as_secs_f32();
+        tab.picture("bone_found").await;
+        // A peel in the middle of the picture, which leaves the new tissue alone.
+        press(&tab, "/").await;
+        for letter in ["p", "e", "e", "l"] {
+            press(&tab, letter).await;
+        }
+        press(&tab, "Enter").await;
+        settled(&tab).await;
+        tab.picture("bone_placing").await;
+        press(&tab, "Enter").await;
+        tab.wait_until(
+            "JSON.parse(window.fabrica.viewer.get_document()).templates?.length === 1",
+            60,
+        )
+        .await;
+        mark(&tab, "templates").await;
+        click(&tab, "Leaves alone: Tissue").await;
+        let templates = changed(&tab, "templates").await;
+        println!(
+            "bone named after {found:.1} s, kept by a peel after {:.1} s",
+            start.elapsed().as_secs_f32()
+        );
+        assert_eq!(
+            templates[0]["align"]["keep"][0], subject["features"][0]["name"],
+            "{templates}"
+        );
+        // Nothing is selected by whoever opens the link: no handles over the picture.
+        press(&tab, "Escape").await;
+        settled(&tab).await;
+        let made = object_part(&tab.picture("bone_bared").await);
+        assert!(drawn_pixels(&made) > 3000);
+
+        click(&tab, "Copy link").await;
+        tab.wait_until(
+            "navigator.clipboard.readText().then(text => text.includes('#'))",
+            30,
+        )
+        .await;
+        let link: String = tab.eval("navigator.clipboard.readText()").await;
+        let other = session.viewer_at(&link, HIGH).await;
+        other
+            .wait_until("window.fabrica.viewer.get_document() !== ''", 60)
+            .await;
+        drop_files(&other, &["chest.nii.gz"]).await;
+        settled(&other).await;
+        assert_eq!(document(&other).await, document(&tab).await);
+        let seen = object_part(&other.picture("bone_linked").await);
+        let same = difference(&made, &seen, WHITE);
+        assert!(made == seen, "the same to the last bit: {same:?}");
+        other.assert_no_complaints().await;
+        tab.assert_no_complaints().await;
+    });
+}

@@ -1,0 +1,653 @@
+//! Links: golden ones of every release, round trips, lengths, damage, bombs, foreign text.
+
+use fabrica::document::{
+    Document, DocumentError, Edit, History, MAX_BYTES, ParamValue, TemplateKind,
+};
+use fabrica::link::{self, LinkError};
+use serde_json::{Map, Value, json};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Small, fast and the same everywhere (xorshift64*).
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.bits() >> 33) as usize % n
+    }
+
+    fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    fn rounded(&mut self, low: f64, high: f64) -> f64 {
+        (self.between(low, high) * 1e4).round() / 1e4
+    }
+
+    fn rotation(&mut self) -> Value {
+        let q: [f64; 4] = std::array::from_fn(|_| self.between(-1.0, 1.0));
+        let length = q.iter().map(|v| v * v).sum::<f64>().sqrt().max(1e-3);
+        json!(q.map(|v| (v / length * 1e4).round() / 1e4))
+    }
+
+    fn vector(&mut self, low: f64, high: f64) -> Value {
+        json!([
+            self.rounded(low, high),
+            self.rounded(low, high),
+            self.rounded(low, high)
+        ])
+    }
+
+    fn text(&mut self) -> String {
+        let n = self.below(24);
+        (0..n)
+            .map(|_| match self.below(8) {
+                0 => char::from_u32(self.below(0x11_0000) as u32).unwrap_or('\u{fffd}'),
+                1 => ['"', '\\', '\n', '\u{0}', '/', '~', '🧠', 'é', '}', ']'][self.below(10)],
+                _ => char::from(b' ' + self.below(95) as u8),
+            })
+            .collect()
+    }
+
+    /// Any JSON.
+    fn value(&mut self, depth: usize) -> Value {
+        match self.below(if depth == 0 { 5 } else { 7 }) {
+            0 => Value::Null,
+            1 => json!(self.below(2) == 0),
+            2 => json!(f64::from_bits(self.bits())),
+            3 => json!(self.bits()),
+            4 => json!(self.text()),
+            5 => (0..self.below(5)).map(|_| self.value(depth - 1)).collect(),
+            _ => Value::Object(
+                (0..self.below(5))
+                    .map(|_| (self.text(), self.value(depth - 1)))
+                    .collect(),
+            ),
+        }
+    }
+
+    /// A document with everything in it, known and unknown.
+    fn document(&mut self) -> Value {
+        let templates: Vec<Value> = (0..self.below(9))
+            .map(|_| {
+                let kind = TemplateKind::FORMULAS[self.below(TemplateKind::FORMULAS.len())];
+                let mut params = Map::new();
+                for spec in kind.spec().params {
+                    if let (ParamValue::Number(_), 0..2) = (spec.kind.default_value(), self.below(3)) {
+                        params.insert(spec.name.to_owned(), json!(self.rounded(-3.0, 3.0)));
+                    }
+                }
+                let mut template = json!({
+                    "kind": if self.below(9) == 0 { self.text() } else { kind.spec().name.to_owned() },
+                    "at": self.vector(-0.5, 0.5), "rotate": self.rotation(), "size": self.vector(0.1, 1.0), "params": params,
+                });
+                if self.below(3) == 0 {
+                    template["name"] = json!(self.text());
+                    template["enabled"] = json!(self.below(2) == 0);
+                    template["mode"] = json!(["compose", "add", "later"][self.below(3)]);
+                    template["align"] = json!({ "to": "segment", "keep": ["bone", 3], "thickness": self.unit() });
+                }
+                template
+            })
+            .collect();
+        let mut document = json!({
+            "fabrica": 1, "title": self.text(), "templates": templates,
+            "camera": { "rotate": self.rotation(), "distance": self.between(0.5, 5.0) },
+            "look": { "window": [self.between(-1000.0, 0.0), self.between(1.0, 1000.0)], "opacity": "mass" },
+            "labels": (0..self.below(6)).map(|_| json!({ "at": self.vector(-0.5, 0.5), "text": self.text() })).collect::<Vec<_>>(),
+        });
+        if !templates.is_empty() {
+            document["steps"] = (0..self.below(4))
+                .map(|_| json!({ "title": self.text(), "set": { "/templates/0/at": self.vector(-0.5, 0.5), "/x y": self.value(2) } }))
+                .collect();
+        }
+        for _ in 0..self.below(3) {
+            document[format!("x-{}", self.text())] = self.value(4);
+        }
+        document
+    }
+}
+
+fn document(value: Value) -> Document {
+    let text = value.to_string();
+    Document::from_value(value).unwrap_or_else(|error| panic!("{error} in {text}"))
+}
+
+#[test]
+fn any_document_survives() {
+    let mut random = Random(0x5eed);
+    for i in 0..150 {
+        let document = document(random.document());
+        let payload = link::encode(&document);
+        assert!(
+            payload
+                .bytes()
+                .all(|b| b.is_ascii_alphanumeric() || b == b'-' || b == b'_'),
+            "the alphabet of {payload}"
+        );
+        let read = link::decode(&format!("#{payload}"))
+            .unwrap_or_else(|error| panic!("{i}: {error}"))
+            .document;
+        assert_eq!(read, document, "document {i} by link");
+        assert_eq!(
+            read.notices(),
+            document.notices(),
+            "notices of document {i}"
+        );
+        assert_eq!(link::encode(&read), payload, "one document has one payload");
+        for text in [document.to_json(), document.to_json_compact()] {
+            let read = Document::from_json(&text).expect("a document's own text");
+            assert_eq!(read, document, "document {i} by text");
+            assert_eq!(
+                read.to_json(),
+                document.to_json(),
+                "one document has one text"
+            );
+        }
+    }
+}
+
+#[test]
+fn order_of_keys_and_written_defaults_make_no_difference() {
+    let a = r#"{"templates":[{"params":{"progress":0.50,"depth":0.2},"kind":"peel","rotate":[0,0,0,1.0],"at":[0,0,0]}],"title":"","fabrica":1.0,"camera":{}}"#;
+    let b = r#"{"fabrica":1,"templates":[{"kind":"peel","params":{"depth":2e-1}}]}"#;
+    let (a, b) = (
+        Document::from_json(a).expect("a"),
+        Document::from_json(b).expect("b"),
+    );
+    assert_eq!(link::encode(&a), link::encode(&b));
+    assert_eq!(
+        a.to_json_compact(),
+        r#"{"fabrica":1,"templates":[{"kind":"peel","params":{"depth":0.2}}]}"#
+    );
+}
+
+const KINDS: [(&str, &[&str]); 8] = [
+    ("peel", &["progress", "depth"]),
+    ("retractor", &["amount", "length"]),
+    ("flap", &["angle", "depth"]),
+    ("hole", &["amount", "taper"]),
+    ("twist", &["angle", "falloff"]),
+    ("cutquad", &["amount", "ripple"]),
+    ("slices", &["gap", "progress"]),
+    ("bend", &["angle", "start"]),
+];
+
+const CAPTIONS: [(&str, &str); 6] = [
+    (
+        "Incision",
+        "First the scalp is incised in a wide arc behind the hairline and the galea is exposed.",
+    ),
+    (
+        "Haemostasis",
+        "Raney clips stop the bleeding at the edges while the flap is turned towards the face.",
+    ),
+    (
+        "Bone",
+        "Four burr holes are drilled and joined by the craniotome, and the bone flap is lifted off.",
+    ),
+    (
+        "Dura",
+        "The dura is opened in a star shape; its leaves are tacked to the edge of the wound.",
+    ),
+    (
+        "Fissure",
+        "The Sylvian fissure is split under the microscope to reach the middle cerebral artery.",
+    ),
+    (
+        "Closure",
+        "Finally everything is put back: the plate is fixed with titanium screws, the skin is sutured.",
+    ),
+];
+
+const LABELS: [&str; 12] = [
+    "Galea aponeurotica",
+    "Temporalis muscle",
+    "Pericranium",
+    "Coronal suture",
+    "Burr hole",
+    "Dura mater",
+    "Middle meningeal artery",
+    "Superior temporal gyrus",
+    "Sylvian fissure",
+    "Frontal sinus",
+    "Supraorbital nerve",
+    "Pterion",
+];
+
+fn lesson(random: &mut Random) -> Value {
+    json!({
+        "fabrica": 1, "title": "Pterional craniotomy",
+        "caption": "The classic approach to the anterior circulation, shown in six steps for students of the third year.",
+        "templates": KINDS.iter().map(|(kind, params)| json!({
+            "kind": kind, "at": random.vector(-0.4, 0.4), "rotate": random.rotation(), "size": random.vector(0.1, 0.6),
+            "params": params.iter().map(|p| ((*p).to_owned(), json!(random.rounded(0.1, 0.9)))).collect::<Map<_, _>>(),
+        })).collect::<Vec<_>>(),
+        "look": { "transfer": "ct-soft-tissue", "window": [-160, 420] },
+        "camera": { "target": random.vector(-0.1, 0.1), "rotate": random.rotation(), "distance": 1.95 },
+        "labels": LABELS.map(|text| json!({ "at": random.vector(-0.4, 0.4), "text": text })),
+        "steps": CAPTIONS.iter().enumerate().map(|(i, (title, caption))| {
+            let pointer = format!("/templates/{i}/params/{}", KINDS[i].1[0]);
+            json!({ "title": title, "caption": caption, "seconds": 1.5,
+                "set": { pointer: random.rounded(0.0, 0.4), "/camera/rotate": random.rotation(), "/camera/distance": random.rounded(1.0, 3.0) } })
+        }).collect::<Vec<_>>(),
+    })
+}
+
+#[test]
+fn links_are_short() {
+    let mut random = Random(11);
+    let mut longest = [0, 0];
+    for _ in 0..20 {
+        let peel = document(json!({
+            "fabrica": 1, "subject": { "builtin": "torso" },
+            "templates": [{ "kind": "peel", "at": random.vector(-0.4, 0.4), "rotate": random.rotation(), "size": random.vector(0.1, 0.6),
+                "params": { "progress": random.rounded(0.0, 1.0), "depth": random.rounded(0.1, 1.0), "radius": random.rounded(0.1, 1.0), "angle": random.rounded(0.0, 6.0) } }],
+            "camera": { "target": random.vector(-0.1, 0.1), "rotate": random.rotation(), "distance": random.rounded(1.0, 3.0), "fov": 35 },
+            "look": { "transfer": "ct-bone", "window": [-160, 420] },
+        }));
+        longest[0] = longest[0].max(link::encode(&peel).len());
+        longest[1] = longest[1].max(link::encode(&document(lesson(&mut random))).len());
+    }
+    println!(
+        "one peel with everything else set: {} characters; the lesson: {}",
+        longest[0], longest[1]
+    );
+    let bare = document(
+        json!({ "fabrica": 1, "subject": { "builtin": "bar" }, "templates": [{ "kind": "peel" }] }),
+    );
+    println!(
+        "a peel at its defaults: {} characters",
+        link::encode(&bare).len()
+    );
+    assert!(longest[0] < 200, "one peel takes {} characters", longest[0]);
+    assert!(
+        longest[1] < 1800,
+        "the lesson takes {} characters",
+        longest[1]
+    );
+    assert!(link::encode(&bare).len() < 24, "the smallest peel");
+}
+
+#[test]
+fn damage_is_always_noticed() {
+    let mut random = Random(99);
+    let links: Vec<(Document, String)> = [
+        json!({ "fabrica": 1 }),
+        random.document(),
+        lesson(&mut random),
+    ]
+    .map(|value| {
+        let document = document(value);
+        let payload = link::encode(&document);
+        (document, payload)
+    })
+    .into();
+    let mut errors = 0;
+    for round in 0..10_000 {
+        let (document, payload) = &links[round % links.len()];
+        let mut bytes = payload.clone().into_bytes();
+        match round % 4 {
+            0 => bytes.truncate(random.below(bytes.len())),
+            1 => {
+                let other = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"
+                    [random.below(64)];
+                let at = random.below(bytes.len());
+                bytes[at] = other;
+            }
+            2 => {
+                let (a, b) = (random.below(bytes.len()), random.below(bytes.len()));
+                bytes.swap(a, b);
+            }
+            _ => {
+                let at = random.below(bytes.len());
+                bytes[at] ^= 1 << random.below(7);
+            }
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        match link::decode(&format!("#{text}")) {
+            Ok(read) => assert_eq!(
+                &read.document, document,
+                "{text} silently is another document"
+            ),
+            Err(error) => {
+                errors += 1;
+                assert!(!error.to_string().contains('\n'), "one line: {error}");
+            }
+        }
+    }
+    println!("{errors} of 10000 damaged links refused, the rest unchanged in meaning");
+    assert!(errors > 9_000, "only {errors} of 10000 were damaged at all");
+}
+
+#[test]
+fn what_is_wrong_is_said() {
+    let payload = link::encode(&document(json!({ "fabrica": 1, "title": "A title" })));
+    let error = |text: &str| link::decode(text).expect_err(text);
+    for empty in [
+        "",
+        " ",
+        "#",
+        "https://example.org/",
+        "https://example.org/#",
+        "https://example.org/?s=",
+        "?doc=a.json",
+        "?s=#",
+        "#&step=2",
+    ] {
+        assert_eq!(error(empty), LinkError::Empty, "{empty:?}");
+        assert!(!link::has_payload(empty), "{empty:?} is no payload");
+    }
+    for foreign in [
+        "#top",
+        "#section-2",
+        "#AAAA",
+        "#0",
+        "#9abcdefgh",
+        "#!/route",
+        "hello",
+        "#__",
+    ] {
+        assert!(
+            matches!(error(foreign), LinkError::Foreign { .. } | LinkError::Empty),
+            "{foreign}: {}",
+            error(foreign)
+        );
+    }
+    let cut = &payload[..payload.len() - 1];
+    assert_eq!(
+        error(cut).to_string(),
+        format!(
+            "the link is cut off: {} of {} characters are there",
+            cut.len(),
+            payload.len()
+        )
+    );
+    assert_eq!(
+        error(&format!("{payload}A")),
+        LinkError::Damaged,
+        "longer than it says"
+    );
+    assert!(
+        matches!(error("1"), LinkError::CutOff { .. }),
+        "only a version"
+    );
+    assert_eq!(
+        error("1-----------"),
+        LinkError::Damaged,
+        "a length without end"
+    );
+    assert!(
+        matches!(error("1AAAAAA"), LinkError::Damaged),
+        "an empty code with a wrong checksum"
+    );
+}
+
+#[test]
+fn a_later_version_says_so() {
+    // Version 2 of an unknown scheme, with the checksum that all versions share.
+    let text = "2abcDEF_-";
+    let mut crc = 0x3fff_ffff_u32;
+    for bit in text
+        .bytes()
+        .flat_map(|byte| (0..8).rev().map(move |i| u32::from(byte >> i) & 1))
+    {
+        let top = crc >> 29 & 1;
+        crc = crc << 1 & 0x3fff_ffff;
+        if top != bit {
+            crc ^= 0x2030_b9c7;
+        }
+    }
+    crc ^= 0x3fff_ffff;
+    let alphabet = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+    let check: String = (0..5)
+        .map(|i| char::from(alphabet[(crc >> (24 - 6 * i)) as usize & 63]))
+        .collect();
+    assert_eq!(
+        link::decode(&format!("#{text}{check}")),
+        Err(LinkError::NewerVersion { version: '2' })
+    );
+    assert!(
+        matches!(
+            link::decode(&format!("#{text}AAAAA")),
+            Err(LinkError::Foreign { .. })
+        ),
+        "without its checksum it is foreign"
+    );
+}
+
+#[test]
+fn addresses_hold_payloads_in_many_ways() {
+    let expected =
+        document(json!({ "fabrica": 1, "title": "x", "templates": [{ "kind": "flap" }] }));
+    let p = link::encode(&expected);
+    for (text, step) in [
+        (p.clone(), 0),
+        (format!("#{p}"), 0),
+        (format!(" #{p}\n"), 0),
+        (format!("#{p}&step=3"), 3),
+        (format!("{p}&step=12"), 12),
+        (format!("https://a.org/b/?x=1#{p}"), 0),
+        (format!("https://a.org/?s={p}"), 0),
+        (format!("https://a.org/?s={p}&step=2"), 2),
+        (format!("?lang=de&s={p}&utm=1&step=2"), 2),
+        (format!("https://a.org/?s={p}#top"), 0),
+        (format!("https://a.org/#{p}&utm_source=mail"), 0),
+        (format!("https://a.org/#{p}?forced=1&step=4"), 4),
+        (format!("https://a.org/#{p}%26step%3D4"), 0),
+        (format!("#{p}&step=abc"), 0),
+        (format!("#{p}&step=99999999999999999999"), 999_999),
+        (format!("#{p}/&step=5#x"), 5),
+        (format!("#{p}.&laststep=5"), 0),
+        (format!("https://a.org/?s=1AAAA#{p}"), 0),
+        (format!("file:///x.html#{p}:~:text=abc"), 0),
+    ] {
+        let read = link::decode(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!((&read.document, read.step), (&expected, step), "of {text}");
+        assert!(link::has_payload(&text), "{text} has one");
+    }
+    assert_eq!(link::fragment(&expected, 0), format!("#{p}"));
+    assert_eq!(link::fragment(&expected, 3), format!("#{p}&step=3"));
+}
+
+#[test]
+fn any_text_is_answered() {
+    let mut random = Random(3);
+    let alphabet: Vec<char> = "ABCxyz0123456789-_#?&=s/:.%é🧠\u{0} ".chars().collect();
+    for _ in 0..20_000 {
+        let n = random.below(60);
+        let text: String = (0..n)
+            .map(|_| alphabet[random.below(alphabet.len())])
+            .collect();
+        assert!(link::decode(&text).is_err(), "{text:?} is no link");
+        let _either = Document::from_json(&text);
+        let _either = link::decode(&format!("#1{text}"));
+    }
+}
+
+#[test]
+fn a_bomb_stops_at_the_limit() {
+    // A document of one mebibyte that codes to next to nothing is a document; one byte more is refused before it is
+    // made.
+    let full = |n: usize| format!(r#"{{"fabrica":1,"title":"{}"}}"#, "a".repeat(n - 24));
+    let largest = Document::from_json(&full(MAX_BYTES)).expect("a document of the largest size");
+    assert_eq!(largest.byte_count(), MAX_BYTES);
+    assert!(
+        matches!(
+            Document::from_json(&full(MAX_BYTES + 1)),
+            Err(DocumentError::TooLarge { .. })
+        ),
+        "one more"
+    );
+    let started = Instant::now();
+    let payload = link::encode(&largest);
+    let read = link::decode(&payload)
+        .expect("the largest document")
+        .document;
+    assert_eq!(read, largest, "the largest document survives");
+    println!(
+        "1 MiB in {} characters, both ways in {:?}",
+        payload.len(),
+        started.elapsed()
+    );
+    // Made by hand: a code that says nothing at all runs on and on.
+    let started = Instant::now();
+    for code in [
+        "",
+        "AAAA",
+        "____",
+        "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA",
+        "QUFB_w",
+    ] {
+        let result = link::decode(&with_envelope(code));
+        let whole = result.map(|link| link.document.byte_count());
+        assert!(
+            whole.as_ref().map_or(true, |bytes| *bytes <= MAX_BYTES),
+            "{code} gave {whole:?}"
+        );
+    }
+    assert!(
+        started.elapsed() < Duration::from_secs(60),
+        "took {:?}",
+        started.elapsed()
+    );
+}
+
+/// A payload of version 1 around any code, with length and checksum as they should be.
+fn with_envelope(code: &str) -> String {
+    let alphabet = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+    assert!(code.len() < 1024, "two groups of length");
+    let mut text = "1".to_owned();
+    if code.len() >= 32 {
+        text.push(char::from(alphabet[(code.len() & 31) | 32]));
+        text.push(char::from(alphabet[code.len() >> 5]));
+    } else {
+        text.push(char::from(alphabet[code.len()]));
+    }
+    text.push_str(code);
+    let mut crc = 0x3fff_ffff_u32;
+    for bit in text
+        .bytes()
+        .flat_map(|byte| (0..8).rev().map(move |i| u32::from(byte >> i) & 1))
+    {
+        let top = crc >> 29 & 1;
+        crc = crc << 1 & 0x3fff_ffff;
+        if top != bit {
+            crc ^= 0x2030_b9c7;
+        }
+    }
+    crc ^= 0x3fff_ffff;
+    text.extend((0..5).map(|i| char::from(alphabet[(crc >> (24 - 6 * i)) as usize & 63])));
+    text
+}
+
+#[test]
+fn random_codes_with_right_checksums_are_answered() {
+    let mut random = Random(17);
+    let alphabet: Vec<char> = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"
+        .chars()
+        .collect();
+    let mut documents = 0;
+    for _ in 0..300 {
+        let n = random.below(80);
+        let code: String = (0..n).map(|_| alphabet[random.below(64)]).collect();
+        if let Ok(link) = link::decode(&with_envelope(&code)) {
+            documents += 1;
+            assert_eq!(
+                Document::from_json(&link.document.to_json()).as_ref(),
+                Ok(&link.document),
+                "whatever it is, it is whole"
+            );
+        }
+    }
+    println!("{documents} of 300 random codes are documents");
+}
+
+/// Every link that a release made, one per line: payload, tab, the document's canonical JSON. Lines are never deleted
+/// or changed. `FABRICA_BLESS=links` appends what the list below adds.
+#[test]
+fn golden_links_open_for_ever() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/links/v1.txt");
+    let mut text = std::fs::read_to_string(&path).expect("the golden links are part of the tests");
+    let mut wanted: Vec<Value> = vec![json!({ "fabrica": 1 })];
+    for kind in TemplateKind::ALL {
+        wanted.push(json!({ "fabrica": 1, "subject": { "builtin": "bar" }, "templates": [{ "kind": kind.spec().name, "at": [0.1, -0.2, 0.3] }] }));
+    }
+    wanted.push(json!({ "fabrica": 1, "subject": { "builtin": "bar" }, "templates": [{ "kind": "rbf", "params": { "points": [
+        { "at": [0.2, 0.5, 0.5], "move": [0.1, 0, -0.05] }, { "at": [0.8, 0.5, 0.5] }], "cut": [[0.5, 0], [0.55, 1]], "extrude": true, "edge": 0.2 } }] }));
+    wanted.push(json!({ "fabrica": 1, "templates": [{ "kind": "field", "params": { "sha256": "b".repeat(64), "name": "Warp", "units": "subject" } }] }));
+    wanted.push(json!({ "fabrica": 1, "templates": [{ "kind": "peel", "size": [0.5, 0.4, 0.2], "curve": { "points": [[0, 0.4], [0.5, 1], [1, 0.55]] } },
+        { "kind": "poke", "curve": { "points": [[0, 1], [0.5, 1.2], [1, 1]], "spline": false } }] }));
+    wanted.push(lesson(&mut Random(2026)));
+    wanted.push(Random(1543).document());
+    wanted.push(json!({ "fabrica": 1, "title": "Дом 家 🧠", "x-unknown": { "deep": [null, true, 1e-7, -2.5e300, 18_446_744_073_709_551_615_u64] } }));
+    wanted.push(json!({ "fabrica": 1, "subject": { "sha256": "a".repeat(64), "name": "CT head" }, "look": { "transfer": [{ "value": 40, "color": "#c88a6a", "opacity": 0.2 }], "background": "none" } }));
+    if std::env::var("FABRICA_BLESS").as_deref() == Ok("links") {
+        for value in wanted.clone() {
+            let document = document(value);
+            let line = format!(
+                "{}\t{}\n",
+                link::encode(&document),
+                document.to_json_compact()
+            );
+            if !text.contains(&line) {
+                text.push_str(&line);
+            }
+        }
+        std::fs::write(&path, &text).expect("the golden links are written");
+    }
+    for (i, line) in text.lines().enumerate() {
+        let (payload, json) = line.split_once('\t').expect("payload, tab, JSON");
+        let read = link::decode(payload).unwrap_or_else(|error| panic!("line {}: {error}", i + 1));
+        assert_eq!(read.document.to_json_compact(), json, "line {}", i + 1);
+    }
+    for value in wanted {
+        let payload = link::encode(&document(value));
+        assert!(
+            text.contains(&format!("{payload}\t")),
+            "the coder changed: {payload} is not in the golden file"
+        );
+    }
+}
+
+#[test]
+fn an_edited_document_has_a_short_link() {
+    let mut history = History::new(Document::new());
+    let placement = fabrica::math::Placement {
+        at: glam::Vec3::new(0.123_456_7, 0.2, -0.3),
+        ..fabrica::math::Placement::DOCUMENT_DEFAULT
+    };
+    history
+        .apply(&Edit::AddTemplate {
+            index: 0,
+            kind: TemplateKind::Peel,
+            placement,
+        })
+        .expect("a peel");
+    history
+        .apply(&Edit::SetParam {
+            template: 0,
+            param: "progress",
+            value: ParamValue::Number(0.712_345_6),
+        })
+        .expect("opened");
+    assert_eq!(
+        history.document().to_json_compact(),
+        r#"{"fabrica":1,"templates":[{"kind":"peel","at":[0.1235,0.2,-0.3],"params":{"progress":0.7123}}]}"#
+    );
+    assert!(
+        link::encode(history.document()).len() < 50,
+        "rounding keeps links short"
+    );
+}

@@ -1,0 +1,22 @@
+//! Tests that need no GPU and no page: documents, links, readers, built-in subjects, and the text of the source itself.
+
+#[path = "../support/data.rs"]
+mod data;
+mod features;
+mod gallery;
+#[path = "../../src/bin/xtask/house.rs"]
+mod house;
+#[path = "../../src/bin/xtask/imports.rs"]
+mod imports;
+mod layers;
+mod layout;
+mod links;
+mod load;
+mod load_dicom;
+mod load_formats;
+mod load_hostile;
+mod prose;
+#[path = "../support/scans.rs"]
+mod scans;
+mod shaders;
+mod subjects;

@@ -1,0 +1,257 @@
+//! Every shader program parses and validates with what browsers have, and keeps the rules of the house.
+
+use fabrica::document::TemplateKind;
+use fabrica::render::programs::{self, Assembled, PROGRAMS, Stage};
+use std::collections::BTreeSet;
+use wgpu::naga;
+
+/// What naga's default capabilities add to none is sample-rate shading and cube arrays; WebGPU has both and we use
+/// neither.
+fn browser_capabilities() -> naga::valid::Capabilities {
+    naga::valid::Capabilities::empty()
+}
+
+fn check(source: &str) -> Result<naga::Module, (Option<usize>, String)> {
+    let module = naga::front::wgsl::parse_str(source).map_err(|error| {
+        let line = error.location(source).map(|at| at.line_number as usize);
+        (line, error.emit_to_string(source))
+    })?;
+    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), browser_capabilities())
+        .validate(&module)
+        .map_err(|error| {
+            let line = error.location(source).map(|at| at.line_number as usize);
+            (line, error.emit_to_string(source))
+        })?;
+    Ok(module)
+}
+
+#[test]
+fn every_program_validates() {
+    for program in PROGRAMS {
+        let text = Assembled::new(program);
+        let module = check(&text.source).unwrap_or_else(|(line, message)| {
+            let place = line.map_or_else(String::new, |line| text.place(line));
+            panic!("{} at {place}: {message}", program.name)
+        });
+        let found: BTreeSet<(String, naga::ShaderStage)> = module
+            .entry_points
+            .iter()
+            .map(|entry| (entry.name.clone(), entry.stage))
+            .collect();
+        let declared = program
+            .entries
+            .iter()
+            .map(|(name, stage)| {
+                let stage = match stage {
+                    Stage::Vertex => naga::ShaderStage::Vertex,
+                    Stage::Fragment => naga::ShaderStage::Fragment,
+                    Stage::Compute => naga::ShaderStage::Compute,
+                };
+                ((*name).to_owned(), stage)
+            })
+            .collect();
+        assert_eq!(found, declared, "entry points of {}", program.name);
+    }
+}
+
+/// Where a folder is named, the programs are left there as the GPU gets them, each line with the file and line it came
+/// from.
+#[test]
+fn programs_are_written_where_a_folder_is_named() {
+    let scratch = tempfile::tempdir().expect("a folder");
+    let folder = std::env::var_os("FABRICA_DUMP_SHADERS")
+        .map_or_else(|| scratch.path().to_owned(), std::path::PathBuf::from);
+    std::fs::create_dir_all(&folder).expect("the folder");
+    for program in PROGRAMS {
+        let text = Assembled::new(program);
+        std::fs::write(folder.join(format!("{}.wgsl", program.name)), &text.source)
+            .expect("the program");
+        let map: String = (1..=text.source.lines().count())
+            .map(|line| format!("{line}\t{}\n", text.place(line)))
+            .collect();
+        assert!(
+            map.ends_with(&format!("{}\n", text.place(text.source.lines().count())))
+                && map.starts_with("1\t"),
+            "{} has a line map",
+            program.name
+        );
+        std::fs::write(folder.join(format!("{}.lines", program.name)), map).expect("the line map");
+    }
+}
+
+/// The picture needs only what WebGL2 also has: no storage buffers or textures in programs that draw.
+#[test]
+fn drawing_uses_no_storage() {
+    for program in PROGRAMS {
+        if program
+            .entries
+            .iter()
+            .any(|(_, stage)| *stage == Stage::Compute)
+        {
+            continue;
+        }
+        let module = check(&Assembled::new(program).source).expect("validated above");
+        for (_, global) in module.global_variables.iter() {
+            let name = global.name.as_deref().unwrap_or_default();
+            assert!(
+                !matches!(global.space, naga::AddressSpace::Storage { .. }),
+                "{}: {name} is a storage buffer",
+                program.name
+            );
+            if let naga::TypeInner::Image { class, .. } = module.types[global.ty].inner {
+                assert!(
+                    !matches!(class, naga::ImageClass::Storage { .. }),
+                    "{}: {name} is a storage texture",
+                    program.name
+                );
+            }
+        }
+    }
+}
+
+/// What the `needs:` lines of a file name, with what those files need, is all that it takes names from; and every file
+/// is used.
+#[test]
+fn needs_lines_hold() {
+    let mut used = BTreeSet::new();
+    for program in PROGRAMS {
+        used.extend(program.files().iter().map(|file| file.path));
+    }
+    for file in programs::FILES {
+        assert!(used.contains(file.path), "no program uses {}", file.path);
+        assert!(!file.needs.is_empty(), "{} has no needs line", file.path);
+        let needs = programs::needs(file);
+        for path in needs.iter().flat_map(|need| need.split('|')) {
+            let known = programs::file(path);
+            assert!(
+                known.is_some(),
+                "{} needs {path}, which is not there",
+                file.path
+            );
+        }
+        let all = programs::files_of(file.path, None).into_iter();
+        let choice = all
+            .flat_map(programs::needs)
+            .find(|need| need.contains('|'));
+        let choices: Vec<_> = match choice {
+            Some(paths) => paths.split('|').map(Some).collect(),
+            None => vec![None],
+        };
+        for stand_in in choices {
+            let text = Assembled::of(&programs::files_of(file.path, stand_in));
+            check(&text.source).unwrap_or_else(|(line, message)| {
+                let place = line.map_or_else(String::new, |line| text.place(line));
+                panic!("{} with what it needs, at {place}: {message}", file.path)
+            });
+        }
+    }
+}
+
+/// Negative control: a file that is missing in a `needs:` line, and a choice that a program does not make, are seen.
+#[test]
+fn a_missing_need_is_seen() {
+    let undecided = programs::files_of("pass/raycast.wgsl", None);
+    assert!(
+        check(&Assembled::of(&undecided).source).is_err(),
+        "somebody has to choose"
+    );
+    let alone = programs::file("march/value.wgsl").expect("embedded");
+    assert!(check(alone.source).is_err(), "it needs the subject");
+}
+
+/// A kind has its file and is called in compose.wgsl under its own name and bit.
+#[test]
+fn every_kind_has_its_place_in_the_shaders() {
+    let compose = programs::file("displace/compose.wgsl")
+        .expect("embedded")
+        .source;
+    let kinds = programs::file("kinds.wgsl").expect("made").source;
+    for kind in TemplateKind::ALL {
+        let name = kind.spec().name;
+        let (path, upper) = (format!("displace/{name}.wgsl"), name.to_uppercase());
+        let file = programs::file(&path).unwrap_or_else(|| panic!("{path} is not embedded"));
+        let function = format!("fn displace_{name}(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f");
+        assert!(file.source.contains(&function), "{path} has no {function}");
+        let case = compose.split(&format!("case KIND_{upper}: {{")).nth(1);
+        let case = case.unwrap_or_else(|| panic!("compose.wgsl does not know {name}"));
+        let case = case.split("case KIND_").next().unwrap_or_default();
+        assert!(
+            case.contains(&format!("(drawn_kinds & DRAWN_{upper}) != 0u")),
+            "bit of {name}"
+        );
+        assert!(
+            case.contains(&format!("d = displace_{name}(")),
+            "call of {name}"
+        );
+        let number = kind as u32;
+        for line in [
+            format!("const KIND_{upper}: u32 = {number}u;"),
+            format!("const DRAWN_{upper}: u32 = {:#x}u;", 1u32 << number),
+        ] {
+            assert!(kinds.contains(&line), "{line}");
+        }
+    }
+}
+
+/// Library files hold no bindings and no entry points, so that they run unchanged in a pass and in a probe.
+#[test]
+fn library_files_hold_no_bindings() {
+    for file in programs::FILES {
+        let is_library = !file.path.starts_with("bind/") && !file.path.starts_with("pass/");
+        if is_library {
+            for word in ["@group", "@fragment", "@vertex", "@compute"] {
+                let code = file
+                    .source
+                    .lines()
+                    .map(|line| line.split("//").next().unwrap_or_default());
+                assert!(
+                    code.into_iter().all(|line| !line.contains(word)),
+                    "{} holds {word}",
+                    file.path
+                );
+            }
+        }
+    }
+}
+
+/// Each binding says what it is.
+#[test]
+fn bindings_have_comments() {
+    for file in programs::FILES {
+        let lines: Vec<&str> = file.source.lines().collect();
+        for (i, line) in lines.iter().enumerate() {
+            if line.contains("@binding(") && !line.trim_start().starts_with("//") {
+                assert!(
+                    i > 0 && lines[i - 1].trim_start().starts_with("///"),
+                    "{}:{} has no comment",
+                    file.path,
+                    i + 1
+                );
+            }
+        }
+    }
+}
+
+/// Negative control and the line map: an error planted in a file in the middle is named with that file and its line.
+#[test]
+fn an_error_names_its_file_and_line() {
+    let program = programs::ProgramId::Raycast.program();
+    let text = Assembled::new(program);
+    let planted = "let half_dir = normalize(KEY_DIR + to_eye);";
+    let broken = text
+        .source
+        .replace(planted, "let half_dir = normalize(KEY_DIR + to_moon);");
+    assert_ne!(broken, text.source, "the error is planted");
+    let (line, _) = check(&broken).expect_err("an unknown name must not validate");
+    let file = programs::file("march/shade.wgsl").expect("embedded");
+    let expected = file
+        .source
+        .lines()
+        .position(|line| line.contains(planted))
+        .expect("it is there")
+        + 1;
+    assert_eq!(
+        text.place(line.expect("naga says where")),
+        format!("march/shade.wgsl:{expected}")
+    );
+}

@@ -1,0 +1,895 @@
+//! Kept tissue: what the object has at a point when templates leave tissue alone, against a plain recursive reading of
+//! spec/contract.md ("Meaning" of `align`); distances against brute force.
+
+use crate::firm::{BOUND, as_reference, difference, firm};
+use crate::gpu::{builtin, gpu};
+use crate::reference::Placed;
+use crate::scatter::{Random, defaults, placed};
+use fabrica::data::{Grid, Segment, Segmentation, Turns, Volume, Voxels, segment};
+use fabrica::document::{
+    Align, Constrain, ConstrainBy, Illustration, PlacedTemplate, TemplateKind, TemplateMode,
+};
+use fabrica::math::Placement;
+use fabrica::render::{Sample, Studio};
+use glam::{DAffine3, DMat3, DVec3, Quat, UVec3, Vec3};
+
+fn illustration(templates: Vec<PlacedTemplate>) -> Illustration {
+    let mut illustration = Illustration::document_default();
+    illustration.templates = templates;
+    illustration
+}
+
+fn probe(studio: &Studio, templates: &[PlacedTemplate], points: &[Vec3]) -> Vec<Sample> {
+    let scene = illustration(templates.to_vec());
+    pollster::block_on(studio.probe_object(&scene, points)).expect("samples")
+}
+
+/// Labels at points of rest space, the nearest voxel's; 0 outside.
+struct Labels<'a> {
+    volume: &'a Segmentation,
+    voxel_from_rest: DAffine3,
+}
+
+impl<'a> Labels<'a> {
+    fn new(volume: &'a Volume) -> Self {
+        let labels = volume.segmentation.as_ref().expect("a subject with labels");
+        let world = volume.grid.world_from_voxel * volume.grid.subject_from_voxel().inverse();
+        Self {
+            volume: labels,
+            voxel_from_rest: labels.grid.world_from_voxel.inverse() * world,
+        }
+    }
+
+    fn at_voxel(&self, voxel: DVec3) -> u8 {
+        let dims = self.volume.grid.dims;
+        if voxel.cmplt(DVec3::ZERO).any() || voxel.cmpge(dims.as_dvec3()).any() {
+            return 0;
+        }
+        let v = voxel.as_u64vec3();
+        let index = v.x + u64::from(dims.x) * (v.y + u64::from(dims.y) * v.z);
+        self.volume.labels[index as usize]
+    }
+
+    fn at(&self, rest: DVec3) -> u8 {
+        self.at_voxel((self.voxel_from_rest.transform_point3(rest) + 0.5).floor())
+    }
+
+    /// The label, if it is the same all around as far as positions may be off.
+    fn firm_at(&self, rest: DVec3) -> Option<u8> {
+        let label = self.at(rest);
+        let corners = (0..8u32)
+            .map(|i| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)));
+        let mut around = corners.map(|c| self.at(rest + (c * 2.0 - 1.0) * BOUND));
+        around.all(|l| l == label).then_some(label)
+    }
+
+    fn number(&self, name: &str) -> u8 {
+        let segment = self.volume.segments.iter().find(|s| s.name == name);
+        segment.expect("a segment of that name").label as u8
+    }
+}
+
+/// The depth under the outer surface as the GPU made it (held against brute force by itself), read between voxels.
+struct Depths {
+    dims: UVec3,
+    values: Vec<f64>,
+    voxel_from_rest: DAffine3,
+}
+
+impl Depths {
+    fn new(studio: &Studio, volume: &Volume) -> Self {
+        let template = peel(Align::Surface {
+            depth: 0.1,
+            thickness: 0.01,
+        });
+        let scene = illustration(vec![template]);
+        let (size, texels) = pollster::block_on(studio.distances(&scene)).expect("distances");
+        let dims = UVec3::new(size[0], size[1], size[2] / 2);
+        assert_eq!(dims, volume.grid.dims, "small enough for full resolution");
+        let behind = texels.len() / 2;
+        Self {
+            dims,
+            values: texels[behind..].iter().map(|t| f64::from(t[0])).collect(),
+            voxel_from_rest: volume.grid.subject_from_voxel().inverse(),
+        }
+    }
+
+    fn at(&self, rest: DVec3) -> Option<f64> {
+        let at = self.voxel_from_rest.transform_point3(rest);
+        let last = self.dims.as_dvec3() - 1.0;
+        if at.cmplt(DVec3::splat(-0.5)).any() || at.cmpgt(last + 0.5).any() {
+            return None;
+        }
+        let at = at.clamp(DVec3::ZERO, last);
+        let (low, part) = (at.floor(), at.fract());
+        let mut sum = 0.0;
+        for i in 0..8u32 {
+            let corner = DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
+            let weight = (corner * part + (1.0 - corner) * (1.0 - part)).element_product();
+            let v = (low + corner).min(last).as_uvec3();
+            sum += weight * self.values[(v.x + self.dims.x * (v.y + self.dims.y * v.z)) as usize];
+        }
+        Some(sum)
+    }
+}
+
+/// One group: what is composed and the adds to it.
+struct Group {
+    templates: Vec<Placed>,
+    kept: Vec<u8>,
+    depth: Option<f64>,
+}
+
+/// Rounding decides here: the point says nothing.
+#[derive(Debug)]
+struct Unsure;
+
+/// The contract's words, read plainly.
+struct Reading<'a> {
+    groups: Vec<Group>,
+    labels: &'a Labels<'a>,
+    depths: &'a Depths,
+}
+
+impl<'a> Reading<'a> {
+    fn new(list: &[PlacedTemplate], labels: &'a Labels<'a>, depths: &'a Depths) -> Self {
+        let mut groups: Vec<Group> = Vec::new();
+        for (template, plain) in list.iter().zip(as_reference(list)) {
+            if !plain.is_added || groups.is_empty() {
+                groups.push(Group {
+                    templates: Vec::new(),
+                    kept: Vec::new(),
+                    depth: None,
+                });
+            }
+            let group = groups.last_mut().expect("just pushed");
+            group.templates.push(plain);
+            match &template.align {
+                Align::Axis => {}
+                Align::Surface { depth, .. } => group.depth = Some(f64::from(*depth)),
+                Align::Segment { keep, .. } => {
+                    group.kept = keep.iter().map(|name| labels.number(name)).collect();
+                }
+            }
+        }
+        Self {
+            groups,
+            labels,
+            depths,
+        }
+    }
+
+    fn is_kept(&self, group: &Group, rest: DVec3) -> Result<bool, Unsure> {
+        if !group.kept.is_empty()
+            && group
+                .kept
+                .contains(&self.labels.firm_at(rest).ok_or(Unsure)?)
+        {
+            return Ok(true);
+        }
+        let (Some(wanted), Some(depth)) = (group.depth, self.depths.at(rest)) else {
+            return Ok(false);
+        };
+        // Distances are smooth to one, and kept as half floats.
+        if (depth - wanted).abs() < 2.0 * BOUND {
+            return Err(Unsure);
+        }
+        Ok(depth >= wanted)
+    }
+
+    /// What the object has at a point after the first `n` groups: where it was at rest.
+    fn object(&self, n: usize, pos: DVec3) -> Result<Option<DVec3>, Unsure> {
+        let Some(group) = n.checked_sub(1).map(|i| &self.groups[i]) else {
+            return Ok(Some(pos));
+        };
+        let before = self.object(n - 1, pos)?;
+        if let Some(rest) = before
+            && self.is_kept(group, rest)?
+        {
+            return Ok(before);
+        }
+        let (source, continuity) = firm(&group.templates, pos).ok_or(Unsure)?;
+        if continuity < 0.0 {
+            return Ok(None);
+        }
+        match self.object(n - 1, source)? {
+            Some(rest) if self.is_kept(group, rest)? => Ok(None),
+            found => Ok(found),
+        }
+    }
+}
+
+/// Some way to leave tissue alone.
+fn alignment(random: &mut Random, choices: usize) -> Align {
+    let keep = |names: &[&str]| Align::Segment {
+        keep: names.iter().map(|&n| n.to_owned()).collect(),
+        thickness: 0.01,
+    };
+    match random.index(choices) {
+        0 => keep(&["bone", "brain"]),
+        1 => Align::Surface {
+            depth: random.between(0.02, 0.12),
+            thickness: 0.01,
+        },
+        2 => Align::Axis,
+        _ => keep(&["muscle"]),
+    }
+}
+
+/// Templates whose places lie in the head.
+fn list(random: &mut Random, count: usize, choices: usize) -> Vec<PlacedTemplate> {
+    let kinds = TemplateKind::FORMULAS;
+    let mut list: Vec<PlacedTemplate> = (0..count)
+        .map(|_| {
+            let kind = kinds[random.index(kinds.len())];
+            let mut template = random.template(kind);
+            template.placement.at *= 0.7;
+            template.align = alignment(random, choices);
+            if random.unit() < 0.3 {
+                template.curve = Some(random.curve(template.placement.size));
+            }
+            template
+        })
+        .collect();
+    if count > 1 && random.unit() < 0.2 {
+        list[1].mode = TemplateMode::Add;
+        list[1].align = list[0].align.clone();
+    }
+    list
+}
+
+#[derive(Default, Debug)]
+struct Tally {
+    compared: usize,
+    left_out: usize,
+    stayed: usize,
+    moved: usize,
+    nothing: usize,
+    wrong: Vec<String>,
+}
+
+impl Tally {
+    fn compare(
+        &mut self,
+        studio: &Studio,
+        reading: &Reading<'_>,
+        list: &[PlacedTemplate],
+        points: &[Vec3],
+    ) {
+        for (point, sample) in points.iter().zip(probe(studio, list, points)) {
+            let pos = point.as_dvec3();
+            let Ok(expected) = reading.object(reading.groups.len(), pos) else {
+                self.left_out += 1;
+                continue;
+            };
+            let found = (sample.continuity >= 0.0).then_some(sample.pos_in_rest.as_dvec3());
+            // Nothing and a place outside the scan look alike.
+            let label_of = |rest: Option<DVec3>| match rest {
+                Some(rest) => reading.labels.firm_at(rest),
+                None => Some(0),
+            };
+            let (Some(expected_label), Some(found_label)) = (label_of(expected), label_of(found))
+            else {
+                self.left_out += 1;
+                continue;
+            };
+            self.compared += 1;
+            let is_right = match (expected, found) {
+                (Some(a), Some(b)) => {
+                    difference((a, 1.0), (b, 1.0)) < 4.0 * BOUND && expected_label == found_label
+                }
+                (None, None) => true,
+                _ => false,
+            };
+            match expected {
+                None => self.nothing += 1,
+                Some(rest) if rest == pos => self.stayed += 1,
+                Some(_) => self.moved += 1,
+            }
+            if !is_right {
+                self.wrong.push(format!("{list:?}\n at {point:?}: expected {expected:?} (label {expected_label}), got {sample:?} (label {found_label})"));
+            }
+        }
+    }
+
+    fn check(&self, what: &str) {
+        println!(
+            "{what}: {} compared, {} left out, {} stayed, {} moved, {} nothing, {} wrong",
+            self.compared,
+            self.left_out,
+            self.stayed,
+            self.moved,
+            self.nothing,
+            self.wrong.len()
+        );
+        assert!(
+            self.wrong.is_empty(),
+            "{what}: {} wrong, such as {}",
+            self.wrong.len(),
+            self.wrong[0]
+        );
+        assert!(
+            self.left_out * 4 < self.compared,
+            "{what}: {} of {} left out",
+            self.left_out,
+            self.compared + self.left_out
+        );
+        for count in [self.stayed, self.moved, self.nothing] {
+            assert!(
+                count * 50 > self.compared,
+                "{what}: all three cases occur: {self:?}"
+            );
+        }
+    }
+}
+
+/// Lists of one to four templates, each with its own alignment, at random points.
+#[test]
+fn the_object_is_what_the_contract_says() {
+    let volume = builtin("head", 64);
+    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let labels = Labels::new(&volume);
+    let depths = Depths::new(&studio, &volume);
+    let mut random = Random(0x5eed_0a11_9e00_0001);
+    // One set at the bottom (a chain); several, mixed with templates that keep nothing (asking back).
+    for (what, choices) in [("one set", 1), ("mixed", 4)] {
+        let mut tally = Tally::default();
+        for round in 0..16 {
+            let list = list(&mut random, 1 + round % 4, choices);
+            let points: Vec<Vec3> = (0..150).map(|_| random.point(&list)).collect();
+            let reading = Reading::new(&list, &labels, &depths);
+            tally.compare(&studio, &reading, &list, &points);
+        }
+        tally.check(what);
+    }
+}
+
+/// Negative control: a reading that forgets what is kept is caught.
+#[test]
+fn a_wrong_reading_is_caught() {
+    let volume = builtin("head", 64);
+    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let labels = Labels::new(&volume);
+    let depths = Depths::new(&studio, &volume);
+    let mut random = Random(77);
+    let list = vec![peel(Align::Segment {
+        keep: vec!["bone".to_owned(), "brain".to_owned()],
+        thickness: 0.01,
+    })];
+    let points: Vec<Vec3> = (0..4000).map(|_| random.point(&list)).collect();
+    let mut reading = Reading::new(&list, &labels, &depths);
+    let mut tally = Tally::default();
+    tally.compare(&studio, &reading, &list, &points);
+    assert!(tally.wrong.is_empty(), "{}", tally.wrong[0]);
+    reading.groups[0].kept.clear();
+    tally.compare(&studio, &reading, &list, &points);
+    assert!(
+        tally.wrong.len() > 5,
+        "only {} differ where nothing is kept",
+        tally.wrong.len()
+    );
+}
+
+/// A peel that opens the front of the head.
+fn peel(align: Align) -> PlacedTemplate {
+    let placement = Placement {
+        at: Vec3::new(0.0, 0.2, 0.2),
+        rotate: Quat::from_rotation_x(-0.6),
+        size: Vec3::new(0.5, 0.5, 0.4),
+    };
+    let mut template = placed(TemplateKind::Peel, placement, defaults(TemplateKind::Peel));
+    template.align = align;
+    template
+}
+
+/// The head with a feature made of its values, which overlaps its own segments.
+fn head_with_feature() -> Volume {
+    let recipe = r#"[{"name":"made","from":{"threshold":[-150,20]},"clean":[{"largest":2},{"grow":4},{"smooth":3}]}]"#;
+    let text = format!(r#"{{"fabrica":1,"subject":{{"features":{recipe}}}}}"#);
+    let document = fabrica::document::Document::from_json(&text).expect("a document");
+    let recipes = document.illustration().recipes.clone();
+    let mut volume = builtin("head", 64);
+    let whole = std::sync::Arc::new(volume.clone());
+    let made = pollster::block_on(segment(whole, Vec::new(), recipes, Turns::endless()));
+    let labels = made.segmentation.expect("labels");
+    volume.segmentation = Some(Segmentation::clone(&labels));
+    volume
+}
+
+/// No point of a kept segment changes, whatever the template, wherever it stands; segments made here included.
+#[test]
+fn kept_tissue_is_untouched() {
+    let volume = head_with_feature();
+    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let labels = Labels::new(&volume);
+    let depths = Depths::new(&studio, &volume);
+    let mut random = Random(0x1ead_5afe);
+    let keep = ["bone", "brain", "made"].map(str::to_owned).to_vec();
+    let is_kept = |segment: &&Segment| keep.contains(&segment.name);
+    let kept: Vec<u8> = labels
+        .volume
+        .segments
+        .iter()
+        .filter(is_kept)
+        .map(|s| s.label as u8)
+        .collect();
+    assert!(
+        kept.len() > 3,
+        "some of it lies in other segments: {kept:?}"
+    );
+    let rest_from_voxel = volume.grid.subject_from_voxel();
+    let (mut in_segment, mut in_depth) = (Vec::new(), Vec::new());
+    while in_segment.len() < 300 || in_depth.len() < 300 {
+        let dims = volume.grid.dims;
+        let voxel = UVec3::new(
+            random.index(dims.x as usize) as u32,
+            random.index(dims.y as usize) as u32,
+            random.index(dims.z as usize) as u32,
+        );
+        let pos = rest_from_voxel.transform_point3(voxel.as_dvec3());
+        if kept.contains(&labels.at(pos)) {
+            in_segment.push(pos.as_vec3());
+        }
+        if depths.at(pos).is_some_and(|d| d > 0.05 + BOUND) {
+            in_depth.push(pos.as_vec3());
+        }
+    }
+    let (mut moved_without, mut count) = (0, 0);
+    for kind in TemplateKind::FORMULAS {
+        for round in 0..2 {
+            let mut template = random.template(kind);
+            template.placement.at *= 0.6;
+            if round == 1 {
+                template.curve = Some(random.curve(template.placement.size));
+            }
+            moved_without += probe(&studio, &[template.clone()], &in_segment)
+                .iter()
+                .zip(&in_segment)
+                .filter(|(s, p)| s.pos_in_rest.distance(**p) > 1e-3)
+                .count();
+            let aligned = |align: Align| {
+                let mut template = template.clone();
+                template.align = align;
+                template
+            };
+            let segment = aligned(Align::Segment {
+                keep: keep.clone(),
+                thickness: 0.01,
+            });
+            let surface = aligned(Align::Surface {
+                depth: 0.05,
+                thickness: 0.01,
+            });
+            let mut constrained = template.clone();
+            constrained.constrain = Some(Constrain {
+                by: ConstrainBy::Displacement,
+                keep: keep.clone(),
+            });
+            let mut by_coordinate = constrained.clone();
+            by_coordinate.constrain = Some(Constrain {
+                by: ConstrainBy::Coordinate,
+                keep: keep.clone(),
+            });
+            for (template, points) in [
+                (segment, &in_segment),
+                (surface, &in_depth),
+                (constrained, &in_segment),
+                (by_coordinate, &in_segment),
+            ] {
+                let template = [template];
+                for (sample, point) in probe(&studio, &template, points).iter().zip(points) {
+                    assert!(
+                        sample.pos_in_rest == *point && sample.continuity >= 0.0,
+                        "{template:?} moves {point:?}: {sample:?}"
+                    );
+                    count += 1;
+                }
+            }
+        }
+    }
+    println!("{count} points of kept tissue, {moved_without} of them move where nothing is kept");
+    assert!(
+        moved_without > 1000,
+        "the templates reach kept tissue: {moved_without}"
+    );
+}
+
+/// A volume with labels strewn about it, in air; voxels are not cubes.
+fn strewn(dims: UVec3) -> Volume {
+    let mut random = Random(0xd157_a9ce);
+    let balls: Vec<(Vec3, f32)> = (0..6)
+        .map(|_| (random.vector(0.2, 0.8), random.between(0.05, 0.2)))
+        .collect();
+    let (mut values, mut labels) = (Vec::new(), Vec::new());
+    for z in 0..dims.z {
+        for y in 0..dims.y {
+            for x in 0..dims.x {
+                let p = (UVec3::new(x, y, z).as_vec3() + 0.5) / dims.as_vec3();
+                let which = balls.iter().position(|(c, r)| c.distance(p) < *r);
+                // A hollow that is shut, and one that is not.
+                let from_middle = p.distance(Vec3::splat(0.5));
+                let is_body = (0.2..0.4).contains(&from_middle)
+                    && !(p.x < 0.5 && (p.y - 0.5).abs() < 0.06 && (p.z - 0.5).abs() < 0.06);
+                labels.push(which.map_or(0, |i| 1 + i as u8 % 2));
+                values.push(if is_body || which.is_some() { 200u8 } else { 0 });
+            }
+        }
+    }
+    let grid = Grid {
+        dims,
+        world_from_voxel: DAffine3::from_mat3(
+            DMat3::from_rotation_z(0.3) * DMat3::from_diagonal(DVec3::new(1.0, 1.4, 0.8)),
+        ),
+    };
+    let segment = |label: u16, name: &str| Segment {
+        label,
+        name: name.to_owned(),
+        color_srgb: None,
+    };
+    Volume {
+        grid,
+        voxels: Voxels::U8(values),
+        slope: 1.0,
+        intercept: 0.0,
+        value_range: [0.0, 200.0],
+        segmentation: Some(Segmentation {
+            grid,
+            labels,
+            segments: vec![segment(1, "odd"), segment(2, "even")],
+        }),
+    }
+}
+
+/// Way from a place to the nearest face of a voxel of a kind (subject units), all of them tried.
+fn nearest(volume: &Volume, at: DVec3, is_member: &dyn Fn(usize) -> bool) -> f64 {
+    let dims = volume.grid.dims;
+    let spacing = volume.grid.spacing_mm() / volume.grid.mm_per_unit();
+    let mut best = f64::INFINITY;
+    for i in 0..volume.grid.voxel_count() {
+        if is_member(i) {
+            let i = i as u32;
+            let voxel =
+                UVec3::new(i % dims.x, i / dims.x % dims.y, i / (dims.x * dims.y)).as_dvec3();
+            let way = ((at - voxel).abs() - 0.5).max(DVec3::ZERO) * spacing;
+            best = best.min(way.length());
+        }
+    }
+    best
+}
+
+/// What is less than the threshold and connected with a side, voxel by voxel through faces.
+fn outside(volume: &Volume) -> Vec<bool> {
+    let dims = volume.grid.dims;
+    let Voxels::U8(values) = &volume.voxels else {
+        panic!("bytes")
+    };
+    let mut is_out = vec![false; values.len()];
+    let index = |v: UVec3| (v.x + dims.x * (v.y + dims.y * v.z)) as usize;
+    loop {
+        let mut changed = false;
+        for i in 0..values.len() as u32 {
+            let v = UVec3::new(i % dims.x, i / dims.x % dims.y, i / (dims.x * dims.y));
+            if is_out[index(v)] || values[index(v)] != 0 {
+                continue;
+            }
+            // The sides, not the ends at head and foot.
+            let is_side = v.x == 0 || v.y == 0 || v.x + 1 == dims.x || v.y + 1 == dims.y;
+            let steps = [UVec3::X, UVec3::Y, UVec3::Z];
+            let touches = steps.iter().any(|&s| {
+                let up = v + s;
+                (up.cmplt(dims).all() && is_out[index(up)])
+                    || (v.cmpge(s).all() && is_out[index(v - s)])
+            });
+            if is_side || touches {
+                is_out[index(v)] = true;
+                changed = true;
+            }
+        }
+        if !changed {
+            return is_out;
+        }
+    }
+}
+
+/// Distances to two sets and the depth under the outer surface, at every voxel, to half a voxel.
+#[test]
+fn distances_agree_with_brute_force() {
+    let volume = strewn(UVec3::new(22, 18, 26));
+    let dims = volume.grid.dims;
+    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let constrain = |name: &str| {
+        let mut template = peel(Align::Axis);
+        template.constrain = Some(Constrain {
+            by: ConstrainBy::Displacement,
+            keep: vec![name.to_owned()],
+        });
+        template
+    };
+    let mut deep = constrain("even");
+    deep.align = Align::Surface {
+        depth: 0.1,
+        thickness: 0.01,
+    };
+    let scene = illustration(vec![constrain("odd"), deep]);
+    let (size, texels) = pollster::block_on(studio.distances(&scene)).expect("distances");
+    assert_eq!(size, [dims.x, dims.y, 3 * dims.z], "smooth, exact, depth");
+    let labels = &volume.segmentation.as_ref().expect("labels").labels;
+    let is_out = outside(&volume);
+    let spacing = volume.grid.spacing_mm() / volume.grid.mm_per_unit();
+    let half_voxel = 0.5 * spacing.max_element();
+    let count = volume.grid.voxel_count();
+    let mut worst = [0.0f64; 3];
+    let mut worst_smooth = 0.0f64;
+    let mut wrong_set = 0.0f64;
+    for i in 0..count {
+        let n = i as u32;
+        let at = UVec3::new(n % dims.x, n / dims.x % dims.y, n / (dims.x * dims.y)).as_dvec3();
+        let signed = |is_member: &dyn Fn(usize) -> bool| {
+            if is_member(i) {
+                -nearest(&volume, at, &|k| !is_member(k))
+            } else {
+                nearest(&volume, at, is_member)
+            }
+        };
+        let odd = signed(&|k| labels[k] == 1);
+        let even = signed(&|k| labels[k] == 2);
+        let depth = signed(&|k| is_out[k]);
+        let found = [
+            texels[count + i][0],
+            texels[count + i][1],
+            texels[2 * count + i][0],
+        ]
+        .map(f64::from);
+        for (k, expected) in [odd, even, depth].into_iter().enumerate() {
+            worst[k] = worst[k].max((found[k] - expected).abs());
+        }
+        worst_smooth = worst_smooth.max((f64::from(texels[i][0]) - odd).abs());
+        wrong_set = wrong_set.max((found[0] - even).abs());
+    }
+    let worst = worst.map(|w| w / half_voxel);
+    println!(
+        "worst, in half voxels: {worst:.2?}; smoothed {:.2}",
+        worst_smooth / half_voxel
+    );
+    for w in worst {
+        assert!(w <= 1.0, "more than half a voxel off: {worst:?}");
+    }
+    assert!(
+        worst_smooth / half_voxel < 4.0,
+        "smoothing moves surfaces by voxels"
+    );
+    assert!(
+        wrong_set / half_voxel > 4.0,
+        "the comparison tells sets apart"
+    );
+}
+
+/// The knee: bones stay, and soft tissue comes from where the way to it is free of bone.
+#[test]
+fn nothing_is_drawn_through_bone() {
+    let volume = builtin("knee", 64);
+    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let labels = Labels::new(&volume);
+    let keep: Vec<String> = ["femur", "tibia", "fibula", "patella"]
+        .map(str::to_owned)
+        .to_vec();
+    let bones: Vec<u8> = keep.iter().map(|name| labels.number(name)).collect();
+    let mut random = Random(0x0b01_e5ea);
+    for kind in [TemplateKind::Bend, TemplateKind::Twist, TemplateKind::Poke] {
+        let placement = Placement {
+            at: Vec3::new(0.0, 0.0, 0.0),
+            rotate: Quat::IDENTITY,
+            size: Vec3::new(0.5, 0.5, 0.9),
+        };
+        let free = placed(kind, placement, defaults(kind));
+        let points: Vec<Vec3> = (0..600).map(|_| random.vector(-0.4, 0.4)).collect();
+        let passed_bone = |template: &PlacedTemplate| {
+            let (mut passed, mut moved) = (0, 0);
+            for (sample, point) in probe(&studio, std::slice::from_ref(template), &points)
+                .iter()
+                .zip(&points)
+            {
+                let (from, to) = (point.as_dvec3(), sample.pos_in_rest.as_dvec3());
+                let is_bone = bones.contains(&labels.at(from));
+                moved += usize::from(from.distance(to) > 1e-3);
+                let mut way = (1..=24).map(|i| from.lerp(to, f64::from(i) / 24.0));
+                let meets = way.any(|at| labels.firm_at(at).is_some_and(|l| bones.contains(&l)));
+                passed += usize::from(if is_bone { from != to } else { meets });
+            }
+            (passed, moved)
+        };
+        let (unconstrained, _) = passed_bone(&free);
+        for by in [ConstrainBy::Displacement, ConstrainBy::Coordinate] {
+            let mut template = free.clone();
+            let keep = keep.clone();
+            template.constrain = Some(Constrain { by, keep });
+            let (passed, moved) = passed_bone(&template);
+            println!(
+                "{kind:?} {by:?}: {moved} moved, {passed} through bone, {unconstrained} without a constraint"
+            );
+            assert_eq!(passed, 0, "{kind:?} {by:?}");
+            assert!(moved > 30, "{kind:?} {by:?} moves {moved} points only");
+        }
+        assert!(unconstrained > 5, "{kind:?} reaches bone: {unconstrained}");
+    }
+}
+
+/// A segment that moves as a whole: it is all there once, as rigid as it was, has moved, and nothing else is drawn from
+/// it.
+#[test]
+fn rigid_segments_move_as_a_whole() {
+    let volume = builtin("knee", 64);
+    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let labels = Labels::new(&volume);
+    let keep = vec!["tibia".to_owned(), "fibula".to_owned()];
+    let bones: Vec<u8> = keep.iter().map(|name| labels.number(name)).collect();
+    let mut random = Random(0x0b01_e5eb);
+    let knee = Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2);
+    for (kind, rotate) in [
+        (TemplateKind::Bend, knee),
+        (
+            TemplateKind::Twist,
+            Quat::from_rotation_x(std::f32::consts::PI),
+        ),
+        (TemplateKind::Pull, Quat::IDENTITY),
+    ] {
+        let placement = Placement {
+            at: Vec3::ZERO,
+            rotate,
+            size: Vec3::new(0.9, 0.9, 0.9),
+        };
+        let free = placed(kind, placement, defaults(kind));
+        let mut rigid = free.clone();
+        rigid.constrain = Some(Constrain {
+            by: ConstrainBy::Rigid,
+            keep: keep.clone(),
+        });
+        let points: Vec<Vec3> = (0..60_000).map(|_| random.vector(-0.6, 0.6)).collect();
+        let bone = |template: &PlacedTemplate| -> Vec<(DVec3, DVec3)> {
+            probe(&studio, std::slice::from_ref(template), &points)
+                .iter()
+                .zip(&points)
+                .filter(|(s, _)| s.continuity >= 0.0)
+                .map(|(s, p)| (p.as_dvec3(), s.pos_in_rest.as_dvec3()))
+                .filter(|(_, rest)| bones.contains(&labels.at(*rest)))
+                .collect()
+        };
+        // Lengths between places and between where they come from, and how much of the bone there is against the bone
+        // at rest.
+        let strain = |pairs: &[(DVec3, DVec3)]| {
+            let ways = pairs.iter().zip(pairs.iter().skip(pairs.len() / 2));
+            ways.map(|(a, b)| (a.0.distance(b.0) - a.1.distance(b.1)).abs())
+                .fold(0.0, f64::max)
+        };
+        let (one, other) = (bone(&rigid), bone(&free));
+        let way = one.iter().map(|(p, r)| p.distance(*r)).fold(0.0, f64::max);
+        let (own, unconstrained) = (strain(&one), strain(&other));
+        println!(
+            "{kind:?}: {} places of bone, moved up to {way:.3}, strained {own:.1e}, else {unconstrained:.1e}",
+            one.len()
+        );
+        assert!(one.len() > 300, "{kind:?}: bone is there");
+        assert!(way > 0.03, "{kind:?}: it moves");
+        assert!(own < 1e-4, "{kind:?}: bone is strained by {own}");
+        assert!(
+            unconstrained > 1e-2,
+            "{kind:?}: negative control, {unconstrained}"
+        );
+    }
+}
+
+/// Draws a template with and without the grid, and fails if the grid hides something.
+fn assert_nothing_is_hidden(volume: &Volume, template: &PlacedTemplate) {
+    const SIZE: [u32; 2] = [80, 80];
+    let studio = Studio::new(gpu(), volume, true).expect("fits");
+    let draw = |studio: &Studio| {
+        let picture = studio.render_image(&illustration(vec![template.clone()]), SIZE, 1);
+        pollster::block_on(picture).expect("a picture").rgba
+    };
+    let (with, without) = (draw(&studio), draw(&studio.with_grid(false)));
+    let lost = |from: &[u8], by: &[u8]| {
+        let pairs = from.chunks_exact(4).zip(by.chunks_exact(4));
+        pairs
+            .filter(|(a, b)| a.iter().any(|c| *c < 223) && b.iter().all(|c| *c == 255))
+            .count()
+    };
+    let drawn = without
+        .chunks_exact(4)
+        .filter(|p| p.iter().any(|c| *c < 223));
+    assert!(drawn.count() > 400, "there is something");
+    let (by_grid, by_none) = (lost(&without, &with), lost(&with, &without));
+    println!("{by_grid} pixels are lost by the grid, {by_none} without it");
+    assert!(
+        by_grid <= 6 + 2 * by_none,
+        "the grid hides {by_grid} pixels"
+    );
+}
+
+/// The grid leaps over nothing that a segment's own motion brings or takes: pictures with and without it agree.
+#[test]
+fn the_grid_follows_rigid_segments() {
+    let placement = Placement {
+        at: Vec3::ZERO,
+        rotate: Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2),
+        size: Vec3::splat(0.9),
+    };
+    let mut template = placed(TemplateKind::Bend, placement, defaults(TemplateKind::Bend));
+    template.constrain = Some(Constrain {
+        by: ConstrainBy::Rigid,
+        keep: vec!["tibia".to_owned(), "fibula".to_owned()],
+    });
+    assert_nothing_is_hidden(&builtin("knee", 64), &template);
+}
+
+/// Slices 24 times as thick as their voxels are wide, and kept tissue one slice thick, with all else cut away.
+#[test]
+fn the_grid_finds_kept_tissue_between_thick_slices() {
+    let dims = UVec3::new(120, 120, 5);
+    let plane = (dims.x * dims.y) as usize;
+    let is_kept = |i: usize| i / plane == 2;
+    let count = plane * dims.z as usize;
+    let grid = Grid {
+        dims,
+        world_from_voxel: DAffine3::from_scale(DVec3::new(1.0, 1.0, 24.0)),
+    };
+    let volume = Volume {
+        grid,
+        voxels: Voxels::U8(vec![200; count]),
+        slope: 1.0,
+        intercept: 0.0,
+        value_range: [0.0, 200.0],
+        segmentation: Some(Segmentation {
+            grid,
+            labels: (0..count).map(|i| u8::from(is_kept(i))).collect(),
+            segments: vec![Segment {
+                label: 1,
+                name: "plate".to_owned(),
+                color_srgb: None,
+            }],
+        }),
+    };
+    let placement = Placement {
+        at: Vec3::ZERO,
+        rotate: Quat::IDENTITY,
+        size: Vec3::splat(1.2),
+    };
+    let mut template = placed(TemplateKind::Cut, placement, defaults(TemplateKind::Cut));
+    template.align = Align::Segment {
+        keep: vec!["plate".to_owned()],
+        thickness: 0.01,
+    };
+    assert_nothing_is_hidden(&volume, &template);
+}
+
+/// Figure 5.11: a bar that twists from an anchor on, and one whose end turns as a whole.
+#[test]
+fn a_twist_has_an_anchor_and_a_rigid_end() {
+    let text = include_str!("../../web/gallery/anchored-twist.json");
+    let document = fabrica::document::Document::from_json(text).expect("a document");
+    let volume = builtin("bar", 32);
+    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let mut random = Random(0x51_1511);
+    let points: Vec<Vec3> = (0..4000)
+        .map(|_| random.vector(-0.48, 0.48) * Vec3::new(0.3, 1.0, 0.3))
+        .collect();
+    let full = std::f32::consts::PI;
+    for (step, turned) in [
+        (2, &(|y: f32| full * (y + 0.5)) as &dyn Fn(f32) -> f32),
+        (3, &|y: f32| full * (2.0 * (y + 0.5)).min(1.0)),
+    ] {
+        let shown = document.at_step(step).expect("a step");
+        let samples = pollster::block_on(studio.probe_object(shown.illustration(), &points));
+        let mut farthest = 0.0_f32;
+        for (sample, pos) in samples.expect("samples").iter().zip(&points) {
+            let source = sample.pos_in_rest;
+            let around = |p: Vec3| glam::Vec2::new(p.x, p.z);
+            // Which way it turns is the template's business; how far, and that it stays in its slice, is asked here.
+            let way = 2.0 * around(*pos).length() * (0.5 * turned(pos.y)).sin();
+            farthest = farthest
+                .max((pos.distance(source) - way.abs()).abs())
+                .max((pos.y - source.y).abs());
+        }
+        println!("step {step}: wrong by {farthest:.1e} at most");
+        assert!(farthest < 1e-4, "step {step}: wrong by {farthest}");
+    }
+}

@@ -1,0 +1,847 @@
+//! The program as people call it: every command, its results, its errors and its exit status.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use serde_json::{Value, json};
+use sha2::{Digest as _, Sha256};
+use tempfile::TempDir;
+
+use crate::segment_files;
+
+struct Outcome {
+    status: i32,
+    out: String,
+    err: String,
+}
+
+impl Outcome {
+    #[track_caller]
+    fn ok(self) -> Self {
+        assert_eq!(self.status, 0, "standard error: {}", self.err);
+        for line in self.err.lines() {
+            assert!(
+                line.starts_with("notice: "),
+                "only notices with exit 0: {line}"
+            );
+        }
+        self
+    }
+
+    /// One line that says what and where, exit status 1, nothing on standard output.
+    #[track_caller]
+    fn failed(self, what: &[&str]) {
+        assert_eq!(self.status, 1, "out: {} err: {}", self.out, self.err);
+        assert_eq!(self.out, "", "nothing is printed when it fails");
+        let lines: Vec<&str> = self
+            .err
+            .lines()
+            .filter(|line| !line.starts_with("notice: "))
+            .collect();
+        assert_eq!(lines.len(), 1, "one line: {}", self.err);
+        assert!(lines[0].starts_with("error: "), "{}", lines[0]);
+        for part in what {
+            assert!(lines[0].contains(part), "“{part}” is not in: {}", lines[0]);
+        }
+    }
+}
+
+fn fabrica_with(folder: &Path, args: &[&str], input: &[u8]) -> Outcome {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_fabrica"))
+        .args(args)
+        .current_dir(folder)
+        .env("XDG_RUNTIME_DIR", folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    // A program that stops early closes its end.
+    let _closed = child.stdin.take().expect("a pipe").write_all(input);
+    let output = child.wait_with_output().expect("the program ends");
+    Outcome {
+        status: output.status.code().expect("no signal"),
+        out: String::from_utf8(output.stdout).expect("text"),
+        err: String::from_utf8(output.stderr)
+            .expect("text")
+            .lines()
+            // Said by the driver's loader, not by the program.
+            .filter(|line| !line.contains("XDG_RUNTIME_DIR"))
+            .map(|line| format!("{line}\n"))
+            .collect(),
+    }
+}
+
+fn fabrica(args: &[&str]) -> Outcome {
+    fabrica_with(Path::new(env!("CARGO_MANIFEST_DIR")), args, b"")
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn write(folder: &TempDir, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
+    let path = folder.path().join(name);
+    std::fs::write(&path, bytes).expect("a file");
+    path
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("a plain path")
+}
+
+const PEEL: &str = r#"{"fabrica":1,"subject":{"builtin":"bar"},"templates":[{"kind":"peel","params":{"progress":0.8}}]}"#;
+
+/// A NIfTI-1 volume of 16-bit numbers with voxels of 1 mm.
+fn nifti(dims: [u16; 3], value: impl Fn(u16, u16, u16) -> i16) -> Vec<u8> {
+    let mut bytes = vec![0_u8; 352];
+    let mut put = |at: usize, data: &[u8]| bytes[at..at + data.len()].copy_from_slice(data);
+    put(0, &348_i32.to_le_bytes());
+    for (i, n) in [3, dims[0], dims[1], dims[2], 1, 1, 1, 1]
+        .into_iter()
+        .enumerate()
+    {
+        put(40 + 2 * i, &n.to_le_bytes());
+    }
+    put(70, &4_i16.to_le_bytes());
+    put(72, &16_i16.to_le_bytes());
+    for i in 0..8 {
+        put(76 + 4 * i, &1_f32.to_le_bytes());
+    }
+    put(108, &352_f32.to_le_bytes());
+    put(112, &1_f32.to_le_bytes());
+    put(254, &1_i16.to_le_bytes());
+    for (row, n) in dims.into_iter().enumerate() {
+        put(280 + 20 * row, &1_f32.to_le_bytes());
+        put(292 + 16 * row, &(-0.5 * (f32::from(n) - 1.0)).to_le_bytes());
+    }
+    put(344, b"n+1\0");
+    for z in 0..dims[2] {
+        for y in 0..dims[1] {
+            for x in 0..dims[0] {
+                bytes.extend(value(x, y, z).to_le_bytes());
+            }
+        }
+    }
+    bytes
+}
+
+fn scan() -> Vec<u8> {
+    nifti([16, 12, 8], |x, y, z| (x * 50 + y + z) as i16)
+}
+
+fn hash(bytes: &[u8]) -> String {
+    Sha256::digest(bytes)
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
+}
+
+#[test]
+fn link_and_doc_are_inverse() {
+    let folder = folder();
+    let path = write(&folder, "peel.json", PEEL);
+    let link = fabrica(&["link", text(&path)]).ok().out;
+    assert!(
+        link.starts_with('#') && link.ends_with('\n') && link.lines().count() == 1,
+        "{link}"
+    );
+    assert!(
+        link.trim()[1..]
+            .bytes()
+            .all(|b| b.is_ascii_alphanumeric() || b == b'-' || b == b'_'),
+        "{link}"
+    );
+    let canonical = fabrica(&["doc", text(&path)]).ok().out;
+    assert_eq!(
+        serde_json::from_str::<Value>(&canonical).expect("JSON"),
+        serde_json::from_str::<Value>(PEEL).expect("JSON")
+    );
+    for doc in [
+        link.trim(),
+        &link.trim()[1..],
+        &format!("https://example.org/a?b=c{}&step=3", link.trim()),
+        &format!("https://example.org/?s={}", &link.trim()[1..]),
+    ] {
+        assert_eq!(fabrica(&["doc", doc]).ok().out, canonical, "of {doc}");
+    }
+    assert_eq!(
+        fabrica_with(folder.path(), &["doc", "-"], PEEL.as_bytes())
+            .ok()
+            .out,
+        canonical
+    );
+    assert_eq!(
+        fabrica_with(folder.path(), &["doc", "peel.json"], b"")
+            .ok()
+            .out,
+        canonical
+    );
+    let page = fabrica(&["link", text(&path), "--page", "https://example.org/v/"])
+        .ok()
+        .out;
+    assert_eq!(page, format!("https://example.org/v/{link}"));
+    let with_step = format!("{}&step=2", link.trim());
+    assert_eq!(fabrica(&["link", &with_step]).ok().out.trim(), with_step);
+    assert_eq!(
+        fabrica_with(
+            folder.path(),
+            &["doc", text(&write(&folder, "a.txt", link))],
+            b""
+        )
+        .ok()
+        .out,
+        canonical,
+        "a file that holds a link"
+    );
+}
+
+#[test]
+fn notices_are_lines_with_exit_0() {
+    let odd = r#"{"fabrica":1,"x":1,"templates":[{"kind":"peel","params":{"progress":3,"colour":1}},{"kind":"unknown"},{"kind":"rbf","params":{"points":[POINTS]}}]}"#;
+    let odd = odd.replace("POINTS", &vec!["{}"; 65].join(","));
+    let outcome = fabrica_with(Path::new("."), &["doc", "-"], odd.as_bytes()).ok();
+    for part in [
+        "/x:",
+        "/templates/0/params/progress: 3 is outside",
+        "/templates/0/params/colour",
+        "“unknown”",
+        "/templates/2/params/points: 65 is outside the range; the first 64 is drawn",
+    ] {
+        assert!(
+            outcome.err.contains(part),
+            "“{part}” is not in {}",
+            outcome.err
+        );
+    }
+    assert_eq!(outcome.err.lines().count(), 5, "{}", outcome.err);
+    for part in [
+        "\"x\": 1",
+        "\"progress\": 3",
+        "\"colour\": 1",
+        "\"unknown\"",
+        "\"rbf\"",
+    ] {
+        assert!(
+            outcome.out.contains(part),
+            "{part} is kept: {}",
+            outcome.out
+        );
+    }
+    // Nothing in a document steers the terminal.
+    let hostile = "{\"fabrica\":1,\"\\u001b[2J\\nerror: x\":1}";
+    let outcome = fabrica_with(Path::new("."), &["doc", "-"], hostile.as_bytes()).ok();
+    assert!(
+        !outcome.err.contains('\u{1b}') && outcome.err.lines().count() == 1,
+        "{:?}",
+        outcome.err
+    );
+}
+
+#[test]
+fn wrong_documents_are_named() {
+    for (document, parts) in [
+        ("", &["standard input", "line 1, column 1"][..]),
+        ("{\"fabrica\":1,}", &["line 1, column 14"]),
+        ("[]", &["expected an object"]),
+        ("{}", &["/fabrica", "missing"]),
+        ("{\"fabrica\":2}", &["/fabrica", "2", "newer release"]),
+        (
+            "{\"fabrica\":1,\"camera\":{\"fov\":1e999}}",
+            &["/camera/fov", "1e999", "finite"],
+        ),
+        (
+            "{\"fabrica\":1,\"camera\":{\"fov\":NaN}}",
+            &["/camera/fov", "NaN"],
+        ),
+        (
+            "{\"fabrica\":1,\"camera\":{\"fov\":\"wide\"}}",
+            &["/camera/fov", "a number", "wide"],
+        ),
+        (
+            "{\"fabrica\":1,\"templates\":[{\"kind\":\"peel\",\"at\":[0,0]}]}",
+            &["/templates/0/at", "three numbers"],
+        ),
+        (
+            "{\"fabrica\":1,\"templates\":[{\"kind\":\"cut\",\"rotate\":[0,0,0,0]}]}",
+            &["/templates/0/rotate"],
+        ),
+        (
+            "{\"fabrica\":1,\"title\":1,\"title\":2}",
+            &["/title", "twice"],
+        ),
+        (
+            "{\"fabrica\":1,\"steps\":[{\"set\":{\"/subject\":{}}}]}",
+            &["/steps/0/set/~1subject", "may not be set"],
+        ),
+    ] {
+        fabrica_with(Path::new("."), &["doc", "-"], document.as_bytes()).failed(parts);
+    }
+    let many = format!(
+        "{{\"fabrica\":1,\"templates\":[{}]}}",
+        vec!["{\"kind\":\"cut\"}"; 33].join(",")
+    );
+    fabrica_with(Path::new("."), &["link", "-"], many.as_bytes()).failed(&[
+        "/templates",
+        "33",
+        "32",
+    ]);
+    fabrica_with(Path::new("."), &["link", "-"], &vec![b' '; 3 << 20])
+        .failed(&["standard input", "1048576"]);
+    fabrica_with(Path::new("."), &["link", "-"], b"\xff\xfe").failed(&["UTF-8"]);
+}
+
+#[test]
+fn wrong_links_are_named() {
+    let link = fabrica_with(Path::new("."), &["link", "-"], PEEL.as_bytes())
+        .ok()
+        .out;
+    let link = link.trim();
+    fabrica(&["doc", &link[..link.len() - 3]]).failed(&["cut off"]);
+    let mut swapped = link.to_owned().into_bytes();
+    swapped.swap(4, 5);
+    fabrica(&["doc", std::str::from_utf8(&swapped).expect("ASCII")]).failed(&["damaged"]);
+    fabrica(&["doc", "#top"]).failed(&["not a Fabrica link", "top"]);
+    fabrica(&["doc", "no/such/file.json"]).failed(&["no/such/file.json", "there is no file"]);
+    fabrica(&["doc", "https://example.org/"]).failed(&["empty"]);
+    fabrica(&["doc", "."]).failed(&["."]);
+}
+
+#[test]
+fn bad_usage_is_2() {
+    for args in [
+        &["unknown"][..],
+        &["render"],
+        &["render", "x"],
+        &["render", "x", "-o", "a.png", "--size", "0x3"],
+        &["render", "x", "-o", "a.png", "--size", "big"],
+        &["render", "x", "-o", "a.png", "--samples", "0"],
+        &["render", "x", "-o", "a.png", "--time", "NaN"],
+        &["doc"],
+        &["templates", "--xml"],
+        &["probe"],
+        &["probe", "-"],
+        &["link", "a", "b"],
+    ] {
+        let outcome = fabrica(args);
+        assert_eq!(outcome.status, 2, "{args:?}: {}", outcome.err);
+        assert_eq!(outcome.out, "", "{args:?}");
+    }
+    assert_eq!(fabrica(&["--help"]).status, 0);
+    assert!(
+        fabrica(&["--version"]).out.starts_with("fabrica "),
+        "its version"
+    );
+}
+
+#[test]
+fn the_catalogue_is_listed() {
+    let catalogue: Value =
+        serde_json::from_str(&fabrica(&["templates", "--json"]).ok().out).expect("JSON");
+    let kinds = catalogue.as_array().expect("a list");
+    assert_eq!(kinds.len(), 20);
+    let param = |kind: &str, name: &str| {
+        let kind = kinds.iter().find(|k| k["kind"] == kind).expect("the kind");
+        let params = kind["params"].as_array().expect("params");
+        params
+            .iter()
+            .find(|p| p["name"] == name)
+            .expect("the parameter")
+            .clone()
+    };
+    let progress = param("peel", "progress");
+    assert_eq!(
+        (&progress["default"], &progress["min"], &progress["max"]),
+        (&json!(0.5), &json!(0.0), &json!(1.0))
+    );
+    assert_eq!(
+        param("cut", "shape")["choices"],
+        json!(["box", "sphere", "cylinder", "halfspace"])
+    );
+    assert_eq!(param("pull", "offset")["default"], json!([0.0, 0.0, 0.25]));
+    assert_eq!(param("split", "wedge")["default"], json!(true));
+    let text = fabrica(&["templates"]).ok().out;
+    for kind in kinds {
+        assert!(
+            text.contains(&format!("{}: ", kind["kind"].as_str().expect("a name"))),
+            "{kind} is listed"
+        );
+    }
+}
+
+#[test]
+fn info_says_what_a_file_holds() {
+    let folder = folder();
+    let path = write(&folder, "scan.nii", scan());
+    let out = fabrica(&["info", text(&path)]).ok().out;
+    for part in ["NIfTI", "16", "12", "8"] {
+        assert!(out.contains(part), "“{part}” is not in {out}");
+    }
+    let bytes = scan();
+    fabrica(&[
+        "info",
+        text(&write(&folder, "short.nii", &bytes[..bytes.len() / 2])),
+    ])
+    .failed(&["short.nii"]);
+    fabrica(&["info", text(&write(&folder, "page.html", "<html>"))]).failed(&["page.html"]);
+    fabrica(&["info", "nothing.nii"]).failed(&["nothing.nii"]);
+}
+
+#[test]
+fn probing_follows_the_material() {
+    let lines = |outcome: Outcome| -> Vec<Vec<f64>> {
+        outcome
+            .ok()
+            .out
+            .lines()
+            .map(|line| {
+                line.split(',')
+                    .map(|n| n.parse().expect("a number"))
+                    .collect()
+            })
+            .collect()
+    };
+    let folder = folder();
+    let bare = write(&folder, "bare.json", r#"{"fabrica":1}"#);
+    let points = b"0.1,0.2,0.3\n\n# a remark\n -0.5 , 0, 1e-3\r\n";
+    let found = lines(fabrica_with(folder.path(), &["probe", text(&bare)], points));
+    assert_eq!(found.len(), 2, "{found:?}");
+    for row in &found {
+        for axis in 0..3 {
+            assert!(
+                (row[axis] - row[axis + 3]).abs() < 1e-6,
+                "no template is the identity: {row:?}"
+            );
+        }
+        assert_eq!(row[6], 1.0, "and all is whole: {row:?}");
+    }
+    // A hole of radius 0.25 in a unit box: its middle is a gap, beside it material was pushed aside.
+    let hole = write(
+        &folder,
+        "hole.json",
+        r#"{"fabrica":1,"templates":[{"kind":"hole","size":[1,1,1]}],"steps":[{"set":{"/templates/0/params/amount":0}}]}"#,
+    );
+    let file = write(&folder, "points.csv", "0,0,0\n0.375,0,0\n");
+    for args in [
+        vec!["probe", text(&hole), "--points", text(&file)],
+        vec!["probe", text(&hole), "--points", "-"],
+    ] {
+        let found = lines(fabrica_with(folder.path(), &args, b"0,0,0\n0.375,0,0\n"));
+        assert!(
+            (found[0][6] + 0.25).abs() < 1e-5,
+            "A is -0.25 in the middle: {:?}",
+            found[0]
+        );
+        assert!(
+            (found[1][3] - 0.25).abs() < 1e-5,
+            "half way between rim and edge comes from the middle: {:?}",
+            found[1]
+        );
+        assert!((found[1][6] - 0.125).abs() < 1e-5, "{:?}", found[1]);
+    }
+    let closed = lines(fabrica_with(
+        folder.path(),
+        &["probe", text(&hole), "--step", "1"],
+        b"0.375,0,0\n",
+    ));
+    assert!(
+        (closed[0][3] - 0.375).abs() < 1e-6,
+        "step 1 closes it: {closed:?}"
+    );
+    let half = lines(fabrica_with(
+        folder.path(),
+        &["probe", text(&hole), "--step", "1", "--time", "0.5"],
+        b"0,0,0\n",
+    ));
+    assert!(
+        (half[0][6] + 0.125).abs() < 1e-5,
+        "half way there: {half:?}"
+    );
+    fabrica_with(folder.path(), &["probe", text(&hole)], b"0,0,0\n0,nan,0\n")
+        .failed(&["standard input, line 2", "0,nan,0"]);
+    fabrica_with(folder.path(), &["probe", text(&hole)], b"0,0\n").failed(&["line 1"]);
+    fabrica_with(
+        folder.path(),
+        &["probe", text(&hole), "--points", "none.csv"],
+        b"",
+    )
+    .failed(&["none.csv"]);
+    fabrica_with(
+        folder.path(),
+        &["probe", text(&hole), "--step", "2"],
+        b"0,0,0\n",
+    )
+    .failed(&["no step 2"]);
+}
+
+#[test]
+fn probing_the_object_reads_the_scan() {
+    let folder = folder();
+    let bytes = scan();
+    write(&folder, "scan.nii", &bytes);
+    write(
+        &folder,
+        "parts.nii",
+        nifti([16, 12, 8], |x, _, _| i16::from(x >= 8)),
+    );
+    let document = json!({ "fabrica": 1, "subject": { "src": "scan.nii", "sha256": hash(&bytes), "segments": { "src": "parts.nii", "names": { "1": "right, half" } } },
+        "templates": [{ "kind": "cut", "at": [0.4, 0, 0], "size": [0.1, 1, 1] }] });
+    let path = write(&folder, "scan.json", document.to_string());
+    // 16 voxels are one unit; the centre of voxel (4, 6, 4) lies at ((4 − 7.5)/16, 0.5/16, 0.5/16).
+    let out = fabrica_with(
+        Path::new("/"),
+        &["probe", text(&path), "--object"],
+        b"-0.21875,0.03125,0.03125\n0.21875,0.03125,0.03125\n0.4,0,0\n2,0,0\n",
+    )
+    .ok()
+    .out;
+    let rows: Vec<&str> = out.lines().collect();
+    assert!(
+        rows[0].ends_with(",210,"),
+        "value 4·50 + 6 + 4, no segment: {}",
+        rows[0]
+    );
+    assert!(
+        rows[1].ends_with(",560,\"right, half\""),
+        "value 11·50 + 6 + 4 in the named half: {}",
+        rows[1]
+    );
+    assert!(rows[2].ends_with(",,"), "the cut is empty: {}", rows[2]);
+    assert!(
+        rows[3].ends_with(",,"),
+        "and so is the outside: {}",
+        rows[3]
+    );
+}
+
+#[test]
+fn subjects_are_found_or_named() {
+    let folder = folder();
+    let bytes = scan();
+    let scan = write(&folder, "my scan.nii", &bytes);
+    let probe = |document: Value, more: &[&str]| {
+        let path = write(&folder, "d.json", document.to_string());
+        let args: Vec<&str> = ["probe", text(&path), "--object"]
+            .iter()
+            .chain(more)
+            .copied()
+            .collect();
+        fabrica_with(Path::new("/"), &args, b"0,0,0\n")
+    };
+    let value = "0,0,0,0,0,0,1,384,";
+    for src in ["my scan.nii", "my%20scan.nii", text(&scan)] {
+        assert_eq!(
+            probe(json!({ "fabrica": 1, "subject": { "src": src } }), &[])
+                .ok()
+                .out
+                .trim(),
+            value,
+            "{src}"
+        );
+    }
+    probe(
+        json!({ "fabrica": 1, "subject": { "src": "my scan.nii", "sha256": "0".repeat(64) } }),
+        &[],
+    )
+    .failed(&["another file", &hash(&bytes)]);
+    probe(
+        json!({ "fabrica": 1, "subject": { "src": "https://example.org/a.nii" } }),
+        &[],
+    )
+    .failed(&["https://example.org/a.nii", "--subject"]);
+    probe(
+        json!({ "fabrica": 1, "subject": { "src": "missing.nii" } }),
+        &[],
+    )
+    .failed(&["missing.nii"]);
+    let wanted = json!({ "fabrica": 1, "subject": { "sha256": hash(&bytes), "name": "CT head" } });
+    probe(wanted.clone(), &[]).failed(&["CT head", "--subject"]);
+    assert_eq!(
+        probe(wanted, &["--subject", text(&scan)]).ok().out.trim(),
+        value
+    );
+    let other = probe(
+        json!({ "fabrica": 1, "subject": { "sha256": "1".repeat(64) } }),
+        &["--subject", text(&scan)],
+    )
+    .ok();
+    assert!(other.err.contains("another file"), "{}", other.err);
+    probe(
+        json!({ "fabrica": 1, "subject": { "builtin": "unicorn" } }),
+        &[],
+    )
+    .failed(&["unicorn"]);
+    assert_eq!(
+        probe(
+            json!({ "fabrica": 1, "subject": { "builtin": "unicorn" } }),
+            &["--subject", text(&scan)]
+        )
+        .out
+        .trim(),
+        value
+    );
+}
+
+/// The same as in the window (tests/app/assets.rs) and on the page (tests/browser/assets.rs).
+#[test]
+fn label_volumes_open_as_in_the_window() {
+    let folder = folder();
+    for (name, bytes) in segment_files::files() {
+        write(&folder, name, bytes);
+    }
+    for case in segment_files::cases() {
+        let keep: Vec<&str> = [case.segments, case.absent].concat();
+        let document = json!({ "fabrica": 1, "subject": case.subject, "templates": [
+            { "kind": "peel", "align": { "to": "segment", "keep": keep } }] });
+        let path = write(&folder, "d.json", document.to_string());
+        let args = ["probe", text(&path), "--object"];
+        let outcome = fabrica_with(Path::new("/"), &args, b"0,0,0\n");
+        if case.is_error {
+            let says: Vec<&str> = case.says.iter().map(String::as_str).collect();
+            outcome.failed(&says);
+            continue;
+        }
+        let err = outcome.ok().err;
+        let is_there = |name: &str| !err.contains(&format!("no segment “{name}”"));
+        for name in case.segments {
+            assert!(is_there(name), "{}: no “{name}”: {err}", case.name);
+        }
+        for name in case.absent {
+            assert!(!is_there(name), "{}: “{name}”: {err}", case.name);
+        }
+        let is_said = |line: &str| case.says.iter().all(|part| line.contains(part));
+        assert!(
+            case.says.is_empty() || err.lines().any(is_said),
+            "{}: {err}",
+            case.name
+        );
+    }
+}
+
+/// A file given for the document's subject is taken all the same, one given beside it is an addition.
+#[test]
+fn given_files_are_taken_with_a_notice() {
+    let folder = folder();
+    let [(_, scan), (_, parts)] = segment_files::files();
+    let scan_path = write(&folder, "mine.nii", &scan);
+    let parts_path = write(&folder, "mine_parts.nii", &parts);
+    let wanted = "1".repeat(64);
+    let document =
+        json!({ "fabrica": 1, "subject": { "sha256": wanted, "segments": { "sha256": wanted } } });
+    let path = write(&folder, "d.json", document.to_string());
+    let outcome = fabrica_with(
+        Path::new("/"),
+        &[
+            "probe",
+            text(&path),
+            "--object",
+            "--subject",
+            text(&scan_path),
+            "--segments",
+            text(&parts_path),
+        ],
+        b"0.4,0,0\n",
+    )
+    .ok();
+    let names_both = |line: &str| line.contains(&wanted) && line.contains(&hash(&scan));
+    assert!(outcome.err.lines().any(names_both), "{}", outcome.err);
+    assert!(outcome.err.contains("--segments FILE"), "{}", outcome.err);
+    assert!(outcome.out.trim().ends_with("segment 2"), "{}", outcome.out);
+}
+
+#[test]
+fn what_a_file_leaves_open_is_said() {
+    let folder = folder();
+    // Bare voxels, of which the ramp along x shows that the sizes were taken in order.
+    let bytes: Vec<u8> = (0..24u8).flat_map(|i| [0, i % 4]).collect();
+    let bare = write(&folder, "bare.raw", [&[9u8; 7][..], &bytes].concat());
+    let out = fabrica(&["info", text(&bare)]);
+    assert_eq!(out.status, 1, "nothing is said of it");
+    assert!(out.err.contains("--raw"), "{}", out.err);
+    let layout = "4x3x2,int16,big,1x1x2.5,skip=7";
+    let out = fabrica(&["info", text(&bare), "--raw", layout]);
+    assert_eq!(out.status, 0, "{}", out.err);
+    for line in [
+        "size: 4 × 3 × 2 voxels",
+        "spacing: 1 × 1 × 2.5 mm",
+        "values: 0 to 3",
+    ] {
+        assert!(out.out.contains(line), "{line}: {}", out.out);
+    }
+    let out = fabrica(&["info", text(&bare), "--raw", "5x3x2,int16"]);
+    assert_eq!(out.status, 1, "too short for this");
+    let out = fabrica(&["info", text(&bare), "--raw", "4x3x2"]);
+    assert_eq!(out.status, 2, "no type");
+
+    // Two volumes in one file: the document says which, the flag goes before it.
+    let mut series = scan();
+    let header: Vec<u8> = series.drain(..352).collect();
+    let twice = series.iter().map(|byte| byte ^ 1).collect::<Vec<u8>>();
+    let mut header = header;
+    header[40] = 4;
+    header[48] = 2;
+    let file = write(&folder, "series.nii", [header, series, twice].concat());
+    let values = |args: &[&str]| {
+        let out = fabrica(&[&["info", text(&file)], args].concat());
+        (out.status, out.out, out.err)
+    };
+    let (first, second) = (values(&["--frame", "1"]), values(&["--frame", "2"]));
+    assert_eq!((first.0, second.0), (0, 0), "{} {}", first.2, second.2);
+    assert_ne!(first.1, second.1, "another volume");
+    assert_eq!(values(&[]).1, first.1, "the first unless said");
+    let third = values(&["--frame", "3"]);
+    assert_eq!(third.0, 1);
+    assert!(
+        third.2.contains("volume 3 was asked for, the file has 2"),
+        "{}",
+        third.2
+    );
+    assert_eq!(values(&["--frame", "0"]).0, 2, "counted from 1");
+}
+
+#[test]
+fn pictures_are_whole_or_not_there() {
+    let folder = folder();
+    write(
+        &folder,
+        "scan.nii",
+        nifti([24, 24, 24], |x, y, z| {
+            let r = [x, y, z]
+                .iter()
+                .map(|v| (f32::from(*v) - 11.5).powi(2))
+                .sum::<f32>()
+                .sqrt();
+            if r < 9.0 { 300 } else { -1000 }
+        }),
+    );
+    let document = json!({ "fabrica": 1, "subject": { "src": "scan.nii" },
+        "look": { "transfer": [{ "value": 0, "opacity": 0 }, { "value": 100, "color": "#cc4433", "opacity": 1 }], "background": "#002244" },
+        "templates": [{ "kind": "split", "size": [1, 1, 1], "params": { "amount": 0, "wedge": false } }],
+        "steps": [{ "set": { "/templates/0/params/amount": 0.3 } }] });
+    let path = write(&folder, "ball.json", document.to_string());
+    let draw = |name: &str, more: &[&str]| {
+        let args: Vec<&str> = [
+            "render",
+            text(&path),
+            "-o",
+            name,
+            "--size",
+            "64x48",
+            "--samples",
+            "1",
+        ]
+        .iter()
+        .chain(more)
+        .copied()
+        .collect();
+        fabrica_with(folder.path(), &args, b"").ok();
+        image::open(folder.path().join(name))
+            .expect("a PNG")
+            .to_rgba8()
+    };
+    let whole = draw("whole.png", &[]);
+    assert_eq!(whole.dimensions(), (64, 48));
+    let middle = |image: &image::RgbaImage| image.get_pixel(32, 24).0;
+    assert_eq!(
+        whole.get_pixel(0, 0).0,
+        [0, 0x22, 0x44, 255],
+        "the background"
+    );
+    assert!(
+        middle(&whole)[0] > middle(&whole)[2],
+        "the red ball: {:?}",
+        middle(&whole)
+    );
+    let open = draw("open.png", &["--step", "1"]);
+    assert_eq!(
+        middle(&open),
+        [0, 0x22, 0x44, 255],
+        "step 1 shows the background between the halves"
+    );
+    let under_way = draw("half.png", &["--step", "1", "--time", "0"]);
+    assert_eq!(under_way, whole, "at second 0 it looks as before");
+    let again = draw("again.png", &["--step", "1"]);
+    assert_eq!(again, open, "the same twice");
+
+    let outcome = fabrica_with(
+        folder.path(),
+        &["render", text(&path), "-o", "no/where.png"],
+        b"",
+    );
+    outcome.failed(&["no/where.png", "nothing was written"]);
+    fabrica_with(
+        folder.path(),
+        &[
+            "render",
+            text(&path),
+            "-o",
+            "x.png",
+            "--adapter",
+            "no such card",
+        ],
+        b"",
+    )
+    .failed(&["no such card"]);
+    fabrica_with(
+        folder.path(),
+        &["render", text(&path), "-o", "x.png", "--step", "9"],
+        b"",
+    )
+    .failed(&["no step 9"]);
+    let mut names: Vec<String> = std::fs::read_dir(folder.path())
+        .expect("the folder")
+        .map(|entry| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    names.retain(|name| name.contains(".p"));
+    names.sort();
+    assert_eq!(
+        names,
+        ["again.png", "half.png", "open.png", "whole.png"],
+        "nothing half-written is left"
+    );
+}
+
+#[test]
+fn the_software_adapter_is_said() {
+    let outcome = fabrica_with(
+        Path::new("."),
+        &[
+            "probe",
+            "-",
+            "--points",
+            "/dev/null",
+            "--adapter",
+            "llvmpipe",
+        ],
+        b"{\"fabrica\":1}",
+    )
+    .ok();
+    assert!(
+        outcome.err.contains("notice: no graphics device in use"),
+        "{}",
+        outcome.err
+    );
+}
+
+#[test]
+fn a_window_without_a_display_is_an_error() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_fabrica"));
+    let output = command
+        .args(["view", "#top"])
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .output()
+        .expect("the program runs");
+    assert_eq!(
+        output.status.code(),
+        Some(1),
+        "a bad link is refused before a window opens"
+    );
+}

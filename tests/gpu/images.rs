@@ -1,0 +1,485 @@
+//! The picture: laws in numbers first, then snapshots of 128 pixels or less, drawn by the software rasteriser.
+//!
+//! `FABRICA_BLESS=name cargo test --test gpu images::` writes a snapshot anew (`all` for every one).
+
+use crate::gpu::{builtin, open_software, software};
+use fabrica::data::{Grid, Volume, Voxels};
+use fabrica::document::{Document, Illustration};
+use fabrica::render::{
+    Image, RenderError, Renderer, Studio, encode_png, render_image, system_clock,
+};
+use glam::{DAffine3, DVec3, UVec3, Vec2, Vec3};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The device that stands for the web: refuses what a browser would.
+/// A cube of `n`³ voxels of one value, 1 unit wide.
+fn uniform_volume(n: u32) -> Volume {
+    Volume {
+        grid: Grid {
+            dims: UVec3::splat(n),
+            world_from_voxel: DAffine3::from_scale(DVec3::splat(100.0 / f64::from(n))),
+        },
+        voxels: Voxels::U8(vec![7; (n * n * n) as usize]),
+        slope: 1.0,
+        intercept: 0.0,
+        value_range: [7.0, 7.0],
+        segmentation: None,
+    }
+}
+
+fn illustration(json: &str) -> Illustration {
+    let document = Document::from_json(json).expect("a valid document");
+    document.illustration().clone()
+}
+
+fn draw(volume: &Volume, json: &str, size: [u32; 2], samples: u32) -> Image {
+    let scene = illustration(json);
+    let picture = render_image(software(), &scene, volume, size, samples);
+    pollster::block_on(picture).expect("a picture")
+}
+
+fn pixel(image: &Image, x: u32, y: u32) -> [u8; 4] {
+    let at = 4 * (y * image.size[0] + x) as usize;
+    image.rgba[at..at + 4].try_into().expect("inside")
+}
+
+/// Largest difference of any channel, and how many pixels differ by more than `bound`.
+fn difference(a: &Image, b: &Image, bound: u8) -> (u8, usize) {
+    assert_eq!(a.size, b.size);
+    let worst = |(x, y): (&[u8], &[u8])| x.iter().zip(y).map(|(p, q)| p.abs_diff(*q)).max();
+    let pixels: Vec<u8> = a
+        .rgba
+        .chunks_exact(4)
+        .zip(b.rgba.chunks_exact(4))
+        .filter_map(worst)
+        .collect();
+    (
+        pixels.iter().copied().max().unwrap_or_default(),
+        pixels.iter().filter(|&&d| d > bound).count(),
+    )
+}
+
+/// Haze of 1 % per 0.01 units.
+const HAZE: &str = r##""look": { "transfer": [{ "value": 0, "color": "#808080", "opacity": 0.01 }, { "value": 9, "color": "#808080", "opacity": 0.01 }], "background": "none" }"##;
+
+/// A ray through the middle of a cube of haze goes 1 unit, so 1 − 0.99^100 of it is stopped (63.4 %, byte 161.7),
+/// whether it takes 10 steps or 200. Bound: the way is known to 2⁻⁷ of a step at each end; 0.1 units · 2⁻⁷ · 2 is 0.16
+/// % of the light, half a level; the rounding to bytes is another half.
+#[test]
+fn haze_does_not_depend_on_the_step() {
+    let json = format!(r#"{{ "fabrica": 1, {HAZE} }}"#);
+    let expected = (255.0 * (1.0 - 0.99f32.powi(100))) as i32;
+    let mut colors = Vec::new();
+    for n in [8, 32, 128] {
+        let image = draw(&uniform_volume(n), &json, [17, 17], 1);
+        let found = pixel(&image, 8, 8);
+        assert!(
+            (i32::from(found[3]) - expected).abs() <= 1,
+            "{n} voxels: alpha {} instead of {expected}",
+            found[3]
+        );
+        colors.push(found);
+    }
+    for channel in 0..4 {
+        let all = colors.iter().map(|c| c[channel]);
+        let (low, high) = (all.clone().min(), all.max());
+        assert!(
+            high.zip(low).is_some_and(|(h, l)| h - l <= 1),
+            "channel {channel} depends on the step: {colors:?}"
+        );
+    }
+    // Negative control: half the way is another colour.
+    let cut = r#""templates": [{ "kind": "cut", "at": [0, 0.5, 0], "size": [4, 1, 4] }]"#;
+    let image = draw(
+        &uniform_volume(32),
+        &format!(r#"{{ "fabrica": 1, {HAZE}, {cut} }}"#),
+        [17, 17],
+        1,
+    );
+    let half = (255.0 * (1.0 - 0.99f32.powi(50))) as i32;
+    let found = i32::from(pixel(&image, 8, 8)[3]);
+    assert!(
+        (found - half).abs() <= 1,
+        "half the way: {found} instead of {half}"
+    );
+    assert!(
+        (found - expected).abs() > 20,
+        "the comparison sees no difference"
+    );
+}
+
+const CUBE: &str = r#""subject": { "builtin": "cube" }, "camera": { "rotate": [0.2, 0.1, 0.3, 0.927], "distance": 3.2 }"#;
+
+/// Without templates, and with ones that are shut or switched off, the same object is seen.
+#[test]
+fn shut_templates_change_nothing() {
+    let volume = builtin("cube", 64);
+    let with = |templates: &str| {
+        let json = format!(r#"{{ "fabrica": 1, {CUBE}, "templates": [{templates}] }}"#);
+        draw(&volume, &json, [64, 64], 1)
+    };
+    let plain = with("");
+    let disabled = with(r#"{ "kind": "peel", "enabled": false }"#);
+    assert_eq!(plain, disabled, "a disabled template is as if not there");
+    // A shut peel goes through the map and its longer loop, so rays are sampled at other places: grazing pixels differ.
+    // Measured: 69 of 4,096.
+    let shut = with(r#"{ "kind": "peel", "params": { "progress": 0 } }"#);
+    let (_, shut_count) = difference(&plain, &shut, 3);
+    assert!(shut_count <= 64 * 64 / 40, "{shut_count} pixels differ");
+    let open = with(r#"{ "kind": "peel", "size": [0.8, 0.6, 0.8], "at": [0, 0, 0.2] }"#);
+    let (worst, open_count) = difference(&plain, &open, 3);
+    assert!(
+        worst > 60 && open_count > 100,
+        "the comparison does not see an open peel: {open_count}"
+    );
+}
+
+/// The edge of a cut lies where the formula says, at any step: a cube cut at x = 0.1 keeps its part towards -x.
+#[test]
+fn cuts_are_where_they_are_at_any_step() {
+    let json = r##"{ "fabrica": 1, "camera": { "distance": 100, "fov": 1 },
+        "look": { "transfer": [{ "value": 0, "color": "#808080", "opacity": 1 }, { "value": 9, "color": "#808080", "opacity": 1 }], "background": "none" },
+        "templates": [{ "kind": "cut", "at": [0.6, 0, 0], "size": [1, 4, 4] }] }"##;
+    // 100 units away with 1 degree the view is 1.7455 units wide; -x is on the right.
+    let units_per_pixel = 2.0 * 100.0 * 0.5f32.to_radians().tan() / 101.0;
+    let expected = (0.5 + 0.1) / units_per_pixel;
+    for n in [8, 64] {
+        let image = draw(&uniform_volume(n), json, [101, 101], 4);
+        let covered: f32 = (0..101)
+            .map(|x| f32::from(pixel(&image, x, 50)[3]) / 255.0)
+            .sum();
+        assert!(
+            (covered - expected).abs() < 0.75,
+            "{n} voxels: {covered} pixels instead of {expected}"
+        );
+    }
+}
+
+/// Picking finds the front face of a cube, its normal, and where it was; beside the object there is nothing.
+#[test]
+fn picking_finds_the_surface() {
+    let volume = builtin("cube", 64);
+    let studio = Studio::new(software(), &volume, true).expect("fits");
+    let scene = illustration(r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#);
+    let pick = |at: Vec2| pollster::block_on(studio.pick(&scene, [100, 100], at)).expect("a pick");
+    let found = pick(Vec2::new(55.3, 48.2)).expect("the cube is there");
+    assert!(found.normal.dot(Vec3::Y) > 0.95, "normal {}", found.normal);
+    assert!((found.pos_in_subject.y - 0.5).abs() < 0.08, "{found:?}");
+    assert!(
+        (found.pos_in_rest - found.pos_in_subject).length() < 1e-6,
+        "{found:?}"
+    );
+    assert!(found.segment.is_some(), "{found:?}");
+    let (eye, dir) =
+        fabrica::render::View::new(&scene.camera, [100, 100]).ray(Vec2::new(55.3, 48.2));
+    assert!(
+        (eye + dir * found.depth - found.pos_in_subject).length() < 1e-4,
+        "{found:?}"
+    );
+    assert_eq!(pick(Vec2::new(1.0, 1.0)), None);
+}
+
+/// The progressive renderer ends in the picture that the one-off renderer draws, then rests; a resize and a lost device
+/// end in the same picture.
+#[test]
+fn progressive_drawing_ends_and_recovers() {
+    let volume = Arc::new(builtin("cube", 32));
+    let scene = illustration(&format!(r#"{{ "fabrica": 1, {CUBE} }}"#));
+    let own = open_software();
+    let device = own.device.clone();
+    let mut renderer = Renderer::new(own, system_clock);
+    renderer.set_subject(Arc::clone(&volume)).expect("fits");
+    renderer.set_illustration(&scene);
+    let settle = |renderer: &mut Renderer, size: [u32; 2]| {
+        for _ in 0..20_000 {
+            let state = renderer.draw(size, 0.05, false).expect("drawn");
+            if state.is_done {
+                assert!(state.has_picture, "done without a picture");
+                return;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(2));
+        }
+        panic!("drawing does not end");
+    };
+    settle(&mut renderer, [60, 44]);
+    let shown = pollster::block_on(renderer.read_output()).expect("read");
+    let expected = draw(
+        &volume,
+        &format!(r#"{{ "fabrica": 1, {CUBE} }}"#),
+        [60, 44],
+        5,
+    );
+    let (worst, count) = difference(&shown, &expected, 1);
+    assert!(count == 0, "{count} pixels differ, by up to {worst}");
+
+    let generation = renderer.output_generation();
+    settle(&mut renderer, [40, 40]);
+    assert!(
+        renderer.output_generation() > generation,
+        "a resize makes a new texture"
+    );
+
+    device.destroy();
+    let lost = renderer.draw([60, 44], 0.05, false);
+    assert!(matches!(lost, Err(RenderError::DeviceLost(_))), "{lost:?}");
+    renderer.recover(open_software()).expect("another device");
+    settle(&mut renderer, [60, 44]);
+    let again = pollster::block_on(renderer.read_output()).expect("read");
+    assert_eq!(shown, again, "the same picture comes back");
+}
+
+/// What cannot be drawn is refused in words.
+#[test]
+fn impossible_sizes_are_refused() {
+    let volume = uniform_volume(4);
+    let scene = illustration(r#"{ "fabrica": 1 }"#);
+    for size in [[0, 10], [10, 1 << 20]] {
+        let refused = pollster::block_on(render_image(software(), &scene, &volume, size, 1));
+        assert!(
+            matches!(refused, Err(RenderError::BadSize { .. })),
+            "{refused:?}"
+        );
+    }
+}
+
+/// Snapshots: name (path under tests/snapshots), subject, rest of the document. One fact each.
+const SNAPSHOTS: &[(&str, &str, &str)] = &[
+    ("cube/untouched", "cube", ""),
+    (
+        "peel/half",
+        "cube",
+        r#", "templates": [{ "kind": "peel", "size": [0.8, 0.6, 0.8], "at": [0, 0, 0.2] }]"#,
+    ),
+    (
+        "peel/along_a_curve",
+        "tomato",
+        r#", "templates": [{ "kind": "peel", "size": [0.9, 0.5, 0.4], "at": [0, 0, 0.24], "curve": { "points": [[0.02, 0], [0.12, 0.55], [0.3, 0.95], [0.7, 0.95], [0.88, 0.55], [0.98, 0]] }, "params": { "depth": 0.2, "progress": 0.6, "radius": 0.12 } }], "camera": { "rotate": [0.1564, 0, 0.1545, 0.9755], "distance": 2.4, "target": [0, 0, 0.3] }"#,
+    ),
+    (
+        "split/wedge",
+        "cube",
+        r#", "templates": [{ "kind": "split", "size": [1, 1.4, 1.2], "at": [0, 0.1, 0.2] }]"#,
+    ),
+    (
+        "retractor/wound",
+        "cube",
+        r#", "templates": [{ "kind": "retractor", "size": [0.9, 0.9, 0.6], "at": [0, 0.1, 0.3] }]"#,
+    ),
+    (
+        "slices/apart",
+        "bar",
+        r#", "templates": [{ "kind": "slices", "size": [0.6, 0.6, 0.6], "rotate": [-0.7071068, 0, 0, 0.7071068] }]"#,
+    ),
+    (
+        "compose/bend_of_twist",
+        "bar",
+        r#", "templates": [{ "kind": "twist", "size": [0.5, 0.5, 1] }, { "kind": "bend", "size": [0.4, 1, 0.4] }]"#,
+    ),
+    // One peel, three alignments (the dissertation's figure 5.4).
+    (
+        "align/axis",
+        "head",
+        r#", "templates": [{ "kind": "peel", "at": [0, 0.04, 0.31], "rotate": [0, 0, -0.7071, 0.7071], "size": [0.5, 0.5, 0.38], "params": { "progress": 0.7, "depth": 0.6, "radius": 0.12, "angle": 2.6 } }], "camera": { "rotate": [0.3177, -0.0704, -0.2047, 0.9231], "distance": 1.5, "target": [0, 0.05, 0.24] }"#,
+    ),
+    (
+        "align/surface",
+        "head",
+        r#", "templates": [{ "kind": "peel", "at": [0, 0.04, 0.31], "rotate": [0, 0, -0.7071, 0.7071], "size": [0.5, 0.5, 0.38], "params": { "progress": 0.7, "depth": 0.6, "radius": 0.12, "angle": 2.6 }, "align": { "to": "surface", "depth": 0.06 } }], "camera": { "rotate": [0.3177, -0.0704, -0.2047, 0.9231], "distance": 1.5, "target": [0, 0.05, 0.24] }"#,
+    ),
+    (
+        "align/segment",
+        "head",
+        r#", "templates": [{ "kind": "peel", "at": [0, 0.04, 0.31], "rotate": [0, 0, -0.7071, 0.7071], "size": [0.5, 0.5, 0.38], "params": { "progress": 0.7, "depth": 0.6, "radius": 0.12, "angle": 2.6 }, "align": { "to": "segment", "keep": ["brain", "white matter", "csf", "ventricles", "veins", "arteries"] } }], "camera": { "rotate": [0.3177, -0.0704, -0.2047, 0.9231], "distance": 1.5, "target": [0, 0.05, 0.24] }"#,
+    ),
+    (
+        "look/glass",
+        "cube",
+        r#", "look": { "transfer": "ct-skin-glass" }"#,
+    ),
+    (
+        "look/edges",
+        "bar",
+        r##", "look": { "gradient": 1, "transfer": [{ "value": -600, "color": "#c8a078", "opacity": 0 }, { "value": 0, "color": "#c8a078", "opacity": 0.3 }, { "value": 900, "color": "#f0e4d0", "opacity": 0.5 }] }, "templates": [{ "kind": "split", "size": [0.6, 1.2, 0.6] }], "camera": { "rotate": [0.2577, 0, 0.2577, 0.9312], "distance": 2 }"##,
+    ),
+    (
+        "look/mass",
+        "cube",
+        r##", "look": { "opacity": "mass", "transfer": [{ "value": -500, "color": "#4060c0", "opacity": 0 }, { "value": 100, "color": "#c06040", "opacity": 0.05 }, { "value": 900, "color": "#ffe0a0", "opacity": 0.8 }] }, "templates": [{ "kind": "squeeze", "size": [1.2, 1.2, 1.2] }]"##,
+    ),
+];
+
+/// Opacity by the gradient (dissertation, section 6.2.5): even tissue is clear but for the faces of the scan and of
+/// cuts, which are as steep as the tissue is dense. Two faces stop a share of the light, so four stop twice that share
+/// of what is left; the bound is a fourteenth, for the layer of a face is met by samples at other places of a step.
+/// Where the value is that of nothing, no cut makes a face.
+#[test]
+fn even_tissue_turns_clear_and_cuts_have_faces() {
+    let look = |low: f32, gradient: f32| {
+        format!(
+            r##""look": {{ "gradient": {gradient}, "background": "none", "transfer": [{{ "value": {low}, "color": "#808080", "opacity": 0.05 }}, {{ "value": 9, "color": "#808080", "opacity": 0.05 }}] }}"##
+        )
+    };
+    let gap = r#""templates": [{ "kind": "cut", "size": [4, 0.3, 4] }]"#;
+    let alpha = |look: &str, rest: &str| {
+        let json = format!(r#"{{ "fabrica": 1, {look}{rest} }}"#);
+        let image = draw(&uniform_volume(32), &json, [65, 65], 8);
+        f32::from(pixel(&image, 32, 32)[3]) / 255.0
+    };
+    let whole = alpha(&look(0.0, 0.0), "");
+    assert!(whole > 0.98, "not modulated it is a block: {whole}");
+    let two = alpha(&look(0.0, 1.0), "");
+    let four = alpha(&look(0.0, 1.0), &format!(", {gap}"));
+    let expected = 1.0 - (1.0 - two).powi(2);
+    assert!((0.05..0.5).contains(&two), "two faces stop {two}");
+    assert!(
+        (four - expected).abs() < 0.07,
+        "four faces stop {four}, not {expected}"
+    );
+    let half = alpha(&look(0.0, 0.5), "");
+    assert!(half > two && half < whole, "half of it: {half}");
+    // Negative control: without the correction a hole and a block would look the same.
+    let hole = alpha(&look(7.0, 1.0), &format!(", {gap}"));
+    assert!(hole < 0.01, "a cut through nothing has no face: {hole}");
+}
+
+const SNAPSHOT_SIZE: [u32; 2] = [96, 96];
+/// A snapshot's file at most, bytes: pictures must not fill the repository.
+const SNAPSHOT_BYTES: usize = 24_000;
+
+#[test]
+fn snapshots_match() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/snapshots");
+    let blessed = std::env::var("FABRICA_BLESS").unwrap_or_default();
+    let adapter = format!("{} {}", software().info.name, software().info.driver_info);
+    let adapter_file = folder.join("adapter.txt");
+    if blessed == "all" {
+        std::fs::create_dir_all(&folder).expect("snapshots folder");
+        std::fs::write(&adapter_file, &adapter).expect("adapter.txt");
+    }
+    let recorded = std::fs::read_to_string(&adapter_file).unwrap_or_default();
+    // Another version of the rasteriser rounds otherwise: silhouettes move by parts of a pixel.
+    let is_recorded_adapter = recorded.trim() == adapter.trim();
+    let mut failures = Vec::new();
+    let studios: Vec<(&str, Studio)> = [("cube", 64), ("bar", 64), ("tomato", 64), ("head", 112)]
+        .into_iter()
+        .map(|(name, resolution)| {
+            (
+                name,
+                Studio::new(software(), &builtin(name, resolution), true).expect("fits"),
+            )
+        })
+        .collect();
+    for (name, subject, rest) in SNAPSHOTS {
+        let camera = if rest.contains("\"camera\"") {
+            ""
+        } else {
+            r#", "camera": { "rotate": [0.2, 0.1, 0.3, 0.927], "distance": 3.2 }"#
+        };
+        let json = format!(
+            r#"{{ "fabrica": 1, "subject": {{ "builtin": "{subject}" }} {camera} {rest} }}"#
+        );
+        let studio = &studios
+            .iter()
+            .find(|(n, _)| n == subject)
+            .expect("made above")
+            .1;
+        let picture = studio.render_image(&illustration(&json), SNAPSHOT_SIZE, 2);
+        let actual = pollster::block_on(picture).expect("a picture");
+        let path = folder.join(format!("{name}.png"));
+        if blessed == "all" || blessed == *name {
+            let bytes = encode_png(&actual).expect("PNG");
+            assert!(
+                bytes.len() <= SNAPSHOT_BYTES,
+                "{name} takes {} bytes",
+                bytes.len()
+            );
+            std::fs::create_dir_all(path.parent().expect("in a folder")).expect("folder");
+            std::fs::write(&path, bytes).expect("snapshot");
+            continue;
+        }
+        let expected = match image::open(&path) {
+            Ok(found) => found.to_rgba8(),
+            Err(error) => {
+                failures.push(format!("{name}: {error}; FABRICA_BLESS={name} writes it"));
+                continue;
+            }
+        };
+        let expected = Image {
+            size: [expected.width(), expected.height()],
+            rgba: expected.into_raw(),
+        };
+        if expected.size != actual.size {
+            failures.push(format!("{name}: the snapshot is {:?}", expected.size));
+            continue;
+        }
+        let allowed = if is_recorded_adapter {
+            (1, 0)
+        } else {
+            (8, 96 * 96 / 50)
+        };
+        let (worst, count) = difference(&expected, &actual, allowed.0);
+        if count > allowed.1 {
+            let sweep: Vec<String> = [1, 2, 4, 8, 16, 32]
+                .iter()
+                .map(|&bound| format!("{} over {bound}", difference(&expected, &actual, bound).1))
+                .collect();
+            let strip = write_strip(name, &expected, &actual);
+            failures.push(format!(
+                "{name}: {count} pixels differ, by up to {worst} ({}); see {}; FABRICA_BLESS={name} accepts",
+                sweep.join(", "),
+                strip.display()
+            ));
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// Expected, difference (eightfold), actual, side by side.
+fn write_strip(name: &str, expected: &Image, actual: &Image) -> PathBuf {
+    let [width, height] = actual.size;
+    let row = 4 * width as usize;
+    let mut rgba = Vec::new();
+    for (e, a) in expected
+        .rgba
+        .chunks_exact(row)
+        .zip(actual.rgba.chunks_exact(row))
+    {
+        rgba.extend_from_slice(e);
+        rgba.extend(e.iter().zip(a).enumerate().map(|(i, (p, q))| {
+            if i % 4 == 3 {
+                255
+            } else {
+                p.abs_diff(*q).saturating_mul(8)
+            }
+        }));
+        rgba.extend_from_slice(a);
+    }
+    let strip = Image {
+        size: [3 * width, height],
+        rgba,
+    };
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("snapshots");
+    let path = folder.join(format!("{}.png", name.replace('/', "_")));
+    std::fs::create_dir_all(&folder).expect("folder");
+    std::fs::write(&path, encode_png(&strip).expect("PNG")).expect("strip");
+    path
+}
+
+/// Negative control: a snapshot comparison that sees a changed template.
+#[test]
+fn snapshots_would_see_another_picture() {
+    let volume = builtin("cube", 32);
+    let with = |progress: f32| {
+        draw(
+            &volume,
+            &format!(
+                r#"{{ "fabrica": 1, {CUBE}, "templates": [{{ "kind": "peel", "size": [0.8, 0.6, 0.8], "at": [0, 0, 0.2], "params": {{ "progress": {progress} }} }}] }}"#
+            ),
+            [48, 48],
+            1,
+        )
+    };
+    let (_, count) = difference(&with(0.5), &with(0.55), 1);
+    assert!(count > 20, "only {count} pixels tell 0.5 from 0.55");
+}

@@ -1,0 +1,27 @@
+//! Tests that ask a GPU (lavapipe is enough) and draw no window.
+
+mod align;
+mod baked;
+mod bodies;
+mod cli;
+mod fields;
+mod grid;
+mod images;
+mod kinds;
+mod labels;
+mod load_memory;
+mod probes;
+mod slices;
+
+#[path = "../support/firm.rs"]
+mod firm;
+#[path = "../support/gpu.rs"]
+mod gpu;
+#[path = "../reference/rbf.rs"]
+mod rbf;
+#[path = "../reference/mod.rs"]
+mod reference;
+#[path = "../support/scatter.rs"]
+mod scatter;
+#[path = "../support/segment_files.rs"]
+mod segment_files;
