@@ -22,6 +22,11 @@ pub trait Services {
     fn expect_segmentations(&mut self, expected: &SegmentationsExpected) {
         _ = expected;
     }
+    /// True while files are read that no load stands for: those that the user opened and that may turn out to be
+    /// documents, fields or scans, and fields that the document names.
+    fn is_reading(&self) -> bool {
+        false
+    }
     /// The reader agreed to fetch from the host that [`Message::AskHost`] named.
     fn allow_host(&mut self, ticket: Ticket);
     /// How the voxels lie in the file that [`LoadEvent::AskRaw`] asked about; its load goes on under the same ticket.

@@ -206,6 +206,7 @@ impl App {
     pub fn is_at_rest(&self) -> bool {
         let is_picture_done = |picture: &Picture| picture.state.is_done && !picture.is_waiting();
         self.session.load.is_none()
+            && !self.services.is_reading()
             && !self.tissue.is_behind(&self.assets, self.session.shown())
             && !self.wants_segments()
             && self.pending.is_empty()
@@ -320,6 +321,7 @@ impl App {
     fn frame(&mut self, ui: &mut Ui) {
         let now = ui.input(|i| i.time);
         self.take_messages();
+        self.session.is_reading = self.services.is_reading();
         self.follow_fields();
         self.advance_tissue(ui);
         if self.session.advance(now) {

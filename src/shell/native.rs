@@ -169,6 +169,8 @@ struct NativeServices {
     dropped: Vec<PathBuf>,
     /// Label volumes that the document names.
     labels: SegmentationsExpected,
+    /// Fields that threads are reading.
+    n_reading: usize,
 }
 
 impl NativeServices {
@@ -189,6 +191,7 @@ impl NativeServices {
             known: Arc::default(),
             dropped: Vec::new(),
             labels: SegmentationsExpected::default(),
+            n_reading: 0,
         }
     }
 
@@ -290,7 +293,8 @@ impl NativeServices {
     }
 
     /// Reads a displacement field in a thread.
-    fn read_field(&self, want: Option<Want>, path: PathBuf) {
+    fn read_field(&mut self, want: Option<Want>, path: PathBuf) {
+        self.n_reading += 1;
         let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
         let known = Arc::clone(&self.known);
         std::thread::spawn(move || {
@@ -487,7 +491,11 @@ impl Services for NativeServices {
         if !dropped.is_empty() {
             self.open_paths(dropped);
         }
-        self.receiver.try_iter().collect()
+        let messages: Vec<Message> = self.receiver.try_iter().collect();
+        let is_field = |message: &&Message| matches!(message, Message::Field { .. });
+        let n_fields = messages.iter().filter(is_field).count();
+        self.n_reading = self.n_reading.saturating_sub(n_fields);
+        messages
     }
 
     fn open_file(&mut self) {
@@ -554,11 +562,16 @@ impl Services for NativeServices {
                 let name = match &want.source {
                     Source::Builtin(name) | Source::File { name, .. } => name,
                 };
+                self.n_reading += 1;
                 let outcome = Box::new(Err(wanted_file(name)));
                 let want = Some(want.clone());
                 self.say(Message::Field { want, outcome });
             }
         }
+    }
+
+    fn is_reading(&self) -> bool {
+        self.n_reading > 0 || !self.dropped.is_empty()
     }
 
     fn expect_segmentations(&mut self, expected: &SegmentationsExpected) {

@@ -48,6 +48,8 @@ pub(super) struct Page {
     known: BTreeMap<String, Vec<(String, Blob)>>,
     /// A file that may be a displacement field: a load only when its part says that it is none.
     opening: Option<(Ticket, WorkerLoad)>,
+    /// Files being looked at, and fields that the document names, which are not there yet.
+    n_reading: usize,
     /// The files of the load under way, until their hash is known.
     opened: Option<(Ticket, Vec<(String, Blob)>)>,
     /// Files dropped since the last frame: those dropped together are opened together.
@@ -74,6 +76,7 @@ impl Page {
             messages: Vec::new(),
             load: None,
             opening: None,
+            n_reading: 0,
             next_ticket: 1,
             asking: BTreeMap::new(),
             allowed_hosts: BTreeSet::new(),
@@ -92,6 +95,15 @@ impl Page {
         if let Some(ctx) = &self.ctx {
             ctx.request_repaint();
         }
+    }
+
+    /// Tells the app what became of a field: one that the document names, or one that the user opened.
+    fn say_field(&mut self, want: Option<Want>, outcome: Result<FieldFile, String>) {
+        if want.is_some() {
+            self.n_reading = self.n_reading.saturating_sub(1);
+        }
+        let outcome = Box::new(outcome);
+        self.say(Message::Field { want, outcome });
     }
 
     /// Ends what is being loaded and names what comes instead.
@@ -172,8 +184,7 @@ impl PageServices {
         if let Ok(field) = &outcome {
             page.known.insert(field.sha256.clone(), files);
         }
-        let outcome = Box::new(outcome);
-        page.say(Message::Field { want, outcome });
+        page.say_field(want, outcome);
     }
 
     /// Reads one file that the reader opened: as a displacement field if it is one, else as a scan, which takes the
@@ -196,7 +207,15 @@ impl PageServices {
                 services.begin(ticket, &files);
                 services.pass(ticket, event);
             }
-            Answer::Field(outcome) => services.take_field(None, files.clone(), *outcome),
+            Answer::Field(outcome) => {
+                let ended = services
+                    .0
+                    .borrow_mut()
+                    .opening
+                    .take_if(|(t, _)| *t == ticket);
+                drop(ended);
+                services.take_field(None, files.clone(), *outcome);
+            }
             Answer::Module(_) => {}
         });
         match started {
@@ -247,11 +266,14 @@ impl PageServices {
     /// Files that the reader picked or dropped together: a document if it reads like one, else a scan.
     pub(super) fn open_files(&self, files: Vec<(String, Blob)>) {
         let services = self.clone();
+        self.0.borrow_mut().n_reading += 1;
         spawn_local(async move {
-            if let [(_, blob)] = files.as_slice()
-                && blob.size() <= MAX_DOCUMENT_BYTES
-                && let Some(text) = document_text(blob).await
-            {
+            let text = match files.as_slice() {
+                [(_, blob)] if blob.size() <= MAX_DOCUMENT_BYTES => document_text(blob).await,
+                _ => None,
+            };
+            services.0.borrow_mut().n_reading -= 1;
+            if let Some(text) = text {
                 services.0.borrow_mut().say(Message::OpenText { text });
                 return;
             }
@@ -490,6 +512,7 @@ impl Services for PageServices {
 
     fn load_field(&mut self, want: &Want) {
         let services = self.clone();
+        self.0.borrow_mut().n_reading += 1;
         let known = want.sha256();
         let known = known.and_then(|hash| self.0.borrow().known.get(hash).cloned());
         let for_want = Some(want.clone());
@@ -516,13 +539,14 @@ impl Services for PageServices {
                     return services.read_field(for_want, name, blob).await;
                 }
             }
-            let outcome = Box::new(Err(missing));
-            let want = for_want;
-            services
-                .0
-                .borrow_mut()
-                .say(Message::Field { want, outcome });
+            let mut page = services.0.borrow_mut();
+            page.say_field(for_want, Err(missing));
         });
+    }
+
+    fn is_reading(&self) -> bool {
+        let page = self.0.borrow();
+        page.n_reading > 0 || page.opening.is_some() || !page.dropped.is_empty()
     }
 
     fn expect_segmentations(&mut self, expected: &SegmentationsExpected) {

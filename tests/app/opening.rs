@@ -380,3 +380,19 @@ fn documents_and_pictures_are_saved() {
     );
     assert_eq!(file.bytes.get(1..4), Some(b"PNG".as_slice()), "a PNG");
 }
+
+/// From the drop of a file to the first answer of its reader, the window is not at rest and says that it loads.
+#[test]
+fn a_file_being_looked_at_is_waited_for() {
+    let mut window = Window::open(DESK, CUBE);
+    assert!(window.harness.state().is_at_rest(), "the cube is shown");
+    assert!(window.harness.query_by_label("Loading").is_none());
+    window.log.0.borrow_mut().is_reading = true;
+    window.steps(2);
+    assert!(!window.harness.state().is_at_rest(), "a file is on its way");
+    window.harness.get_by_label("Loading");
+    window.log.0.borrow_mut().is_reading = false;
+    window.steps(2);
+    assert!(window.harness.state().is_at_rest(), "it was none of ours");
+    assert!(window.harness.query_by_label("Loading").is_none());
+}

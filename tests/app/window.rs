@@ -22,6 +22,8 @@ pub(crate) struct Log {
     pub(crate) next_ticket: u64,
     /// Loads are answered only when a test does it itself.
     pub(crate) is_slow: bool,
+    /// The shell reads a file of which it is not yet known what it is.
+    pub(crate) is_reading: bool,
     /// Files that there are, by their addresses.
     pub(crate) files: Vec<(String, Vec<u8>)>,
     /// A load that was started in place of the document's subject.
@@ -138,6 +140,9 @@ impl Services for Fake {
             log.read(src, want.role, ticket);
         }
         ticket
+    }
+    fn is_reading(&self) -> bool {
+        self.0.borrow().is_reading
     }
     fn allow_host(&mut self, ticket: Ticket) {
         self.0.borrow_mut().allowed.push(ticket);

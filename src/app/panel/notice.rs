@@ -15,7 +15,8 @@ const SHOWN: usize = 3;
 
 /// Over the bottom of the picture: loading, then the newest lines.
 pub(crate) fn ui(ui: &Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
-    if session.load.is_none() && session.notices.shown().next().is_none() {
+    let is_busy = session.load.is_some() || session.is_reading;
+    if !is_busy && session.notices.shown().next().is_none() {
         return;
     }
     let is_narrow = rect.width() < 560.0;
@@ -40,6 +41,8 @@ pub(crate) fn ui(ui: &Ui, rect: Rect, session: &Session, commands: &mut Vec<Comm
         }
         if let Some(load) = &session.load {
             load_ui(ui, load, commands);
+        } else if session.is_reading {
+            card(ui, Palette::get(ui).line, |ui| ui.label(w().loading));
         }
     });
 }

@@ -123,6 +123,8 @@ pub struct Session {
     pub notices: Notices,
     /// The load under way.
     pub load: Option<Load>,
+    /// True while the shell reads files of which it is not yet known what they are, and fields.
+    pub is_reading: bool,
     /// Number of the message of the last load that failed, until one is done.
     pub(super) load_failure: Option<u64>,
     /// What the subject's file leaves to choose.
@@ -194,6 +196,7 @@ impl Session {
             gizmo: GizmoMode::Move,
             notices: Notices::default(),
             load: None,
+            is_reading: false,
             load_failure: None,
             files: FileChoice::default(),
             requested: None,
