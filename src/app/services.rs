@@ -23,7 +23,8 @@ pub trait Services {
         _ = expected;
     }
     /// True while files are read that no load stands for: those that the user opened and that may turn out to be
-    /// documents, fields or scans, and fields that the document names.
+    /// documents, fields or scans, and fields that the document names. Also while there are messages to poll, where that
+    /// can be told.
     fn is_reading(&self) -> bool {
         false
     }

@@ -546,7 +546,9 @@ impl Services for PageServices {
 
     fn is_reading(&self) -> bool {
         let page = self.0.borrow();
-        page.n_reading > 0 || page.opening.is_some() || !page.dropped.is_empty()
+        // What lies here untaken is news to the app: a slow first frame may be seconds away.
+        let has_news = !page.messages.is_empty() || !page.dropped.is_empty();
+        has_news || page.n_reading > 0 || page.opening.is_some()
     }
 
     fn expect_segmentations(&mut self, expected: &SegmentationsExpected) {
