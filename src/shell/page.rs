@@ -25,7 +25,7 @@ const MAX_DOCUMENT_BYTES: f64 = 2e6;
 /// How a viewer is set into its surroundings.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
-    /// Address of worker.js.
+    /// Address of `worker.js`, the script of the workers.
     pub worker: String,
     /// The viewer is the page: it binds the address bar and keeps the session. Not so when embedded.
     pub is_page: bool,
@@ -87,14 +87,14 @@ impl Page {
         }
     }
 
-    pub(super) fn say(&mut self, message: Message) {
+    pub(super) fn send(&mut self, message: Message) {
         self.messages.push(message);
         if let Some(ctx) = &self.ctx {
             ctx.request_repaint();
         }
     }
 
-    /// Ends what is being loaded and names what comes instead.
+    /// Ends the load under way and gives the next one a ticket.
     fn new_ticket(&mut self) -> Ticket {
         self.load = None;
         self.opening = None;
@@ -119,7 +119,7 @@ fn matches_media(query: &str) -> bool {
 pub(super) struct PageServices(pub Rc<RefCell<Page>>);
 
 impl PageServices {
-    /// Starts a task and passes on what its part says of it.
+    /// Starts a task and passes on the answers of its part.
     fn start(&self, ticket: Ticket, task: &Task) {
         let started = self.answered(task, move |services, answer| match answer {
             Answer::Event(event) => services.pass(ticket, event),
@@ -158,7 +158,7 @@ impl PageServices {
         {
             page.known.insert(hash.clone(), files);
         }
-        page.say(Message::Load { ticket, event });
+        page.send(Message::Load { ticket, event });
     }
 
     /// Gives the app a displacement field, or why there is none, and keeps its file by its hash.
@@ -173,7 +173,7 @@ impl PageServices {
             page.known.insert(field.sha256.clone(), files);
         }
         let outcome = Box::new(outcome);
-        page.say(Message::Field { want, outcome });
+        page.send(Message::Field { want, outcome });
     }
 
     /// Reads one file that the reader opened: as a displacement field if it is one, else as a scan, which takes the
@@ -219,7 +219,7 @@ impl PageServices {
         page.load = page.opening.take_if(|(t, _)| *t == ticket);
         page.asking.clear();
         page.opened = Some((ticket, files.to_vec()));
-        page.say(Message::FileStarted { ticket });
+        page.send(Message::FileStarted { ticket });
     }
 
     fn fail(&self, message: String) -> Ticket {
@@ -229,7 +229,7 @@ impl PageServices {
             message,
             details: String::new(),
         };
-        page.say(Message::Load { ticket, event });
+        page.send(Message::Load { ticket, event });
         ticket
     }
 
@@ -252,7 +252,7 @@ impl PageServices {
                 && blob.size() <= MAX_DOCUMENT_BYTES
                 && let Some(text) = document_text(blob).await
             {
-                services.0.borrow_mut().say(Message::OpenText { text });
+                services.0.borrow_mut().send(Message::OpenText { text });
                 return;
             }
             if let [(name, blob)] = files.as_slice() {
@@ -264,7 +264,7 @@ impl PageServices {
                 let mut page = services.0.borrow_mut();
                 let ticket = page.new_ticket();
                 page.opened = Some((ticket, files.clone()));
-                page.say(Message::FileStarted { ticket });
+                page.send(Message::FileStarted { ticket });
                 ticket
             };
             let labels = services.0.borrow().labels.clone();
@@ -302,7 +302,7 @@ fn scan_task(
     })
 }
 
-/// The task to fetch an address and read what comes.
+/// The task to fetch an address and to read the bytes that come.
 fn address_task(address: String, want: &Want) -> Task {
     Task::Scan(ScanTask::Address {
         address,
@@ -362,7 +362,7 @@ fn storage() -> Option<Storage> {
     window()?.local_storage().ok().flatten()
 }
 
-/// What was kept under a key: by this tab, else by any.
+/// The text stored under a key: by this tab, else by any tab.
 fn kept(key: &str) -> Option<String> {
     let key = format!("fabrica.{key}");
     let read = |storage: Storage| storage.get_item(&key).ok().flatten();
@@ -426,7 +426,7 @@ impl Services for PageServices {
             Some(())
         });
         if shown.is_none() {
-            self.0.borrow_mut().say(Message::Notice {
+            self.0.borrow_mut().send(Message::Notice {
                 message: "This browser shows no file dialog: drop the file on the picture"
                     .to_owned(),
                 details: String::new(),
@@ -478,7 +478,7 @@ impl Services for PageServices {
         match foreign_host(&address) {
             Some(host) if !page.allowed_hosts.contains(&host) => {
                 page.asking.insert(ticket, (address, want.clone()));
-                page.say(Message::AskHost { ticket, host });
+                page.send(Message::AskHost { ticket, host });
             }
             _ => {
                 drop(page);
@@ -521,7 +521,7 @@ impl Services for PageServices {
             services
                 .0
                 .borrow_mut()
-                .say(Message::Field { want, outcome });
+                .send(Message::Field { want, outcome });
         });
     }
 
@@ -560,7 +560,7 @@ impl Services for PageServices {
         let was_asking = page.asking.remove(&ticket).is_some();
         let was_loading = page.load.take_if(|(t, _)| *t == ticket).is_some();
         if was_asking || was_loading {
-            page.say(Message::Load {
+            page.send(Message::Load {
                 ticket,
                 event: LoadEvent::Cancelled,
             });
@@ -590,7 +590,7 @@ impl Services for PageServices {
                 Url::revoke_object_url(&address)
             });
         let outcome = saved.map(|()| file.name).map_err(|error| text_of(&error));
-        self.0.borrow_mut().say(Message::Saved(outcome));
+        self.0.borrow_mut().send(Message::Saved(outcome));
     }
 
     fn copy_text(&mut self, text: String) {
@@ -611,7 +611,7 @@ impl Services for PageServices {
                 let _ignored = refused.call1(&JsValue::NULL, &text.into());
                 return;
             }
-            services.0.borrow_mut().say(Message::Copied(outcome));
+            services.0.borrow_mut().send(Message::Copied(outcome));
         });
     }
 
@@ -628,7 +628,7 @@ impl Services for PageServices {
                 Some(reading) => reading.await.ok().and_then(|text| text.as_string()),
                 None => None,
             };
-            services.0.borrow_mut().say(Message::Pasted(text));
+            services.0.borrow_mut().send(Message::Pasted(text));
         });
     }
 
