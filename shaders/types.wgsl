@@ -61,7 +61,7 @@ struct Frame {
     step: f32,
 }
 
-/// The uploaded volume.
+/// The uploaded volume and its segmentation: where they lie and how their texels are read.
 struct Subject {
     /// Rest space to texture space of the volume.
     texture_from_rest: Affine,
@@ -92,7 +92,7 @@ struct Look {
     tint: f32,
     /// Strength of the highlight, 0 to 1.
     specular: f32,
-    /// One of OPACITY_.
+    /// How opacity follows the deformation, one of the constants OPACITY_.
     opacity_mode: u32,
     /// How much opacity follows the steepness of the value, 0 to 1.
     edges: f32,
@@ -124,7 +124,7 @@ struct Grid {
     cell_size: vec4f,
     /// xyz: cells along each axis.
     cells: vec4u,
-    /// 1 if the grid is in use; 0: every cell is visible and every template reaches it.
+    /// 1 if the skip grid is in use; 0: every cell is visible and every template reaches it.
     is_used: u32,
 }
 
@@ -163,7 +163,7 @@ struct Slice {
     /// Grey level = grey_scale * texel + grey_offset, clamped.
     grey_scale: f32,
     grey_offset: f32,
-    /// One of SLICE_.
+    /// Whether grey levels or colours are drawn, one of the constants SLICE_.
     mode: u32,
     /// Samples per pixel along each side.
     samples: u32,
@@ -185,13 +185,13 @@ struct Lattice {
     count: u32,
 }
 
-/// What a template reaches, for the making of the grid. Template space, of the straight box; a side without an end is
-/// at 1e30.
+/// What a template reaches, for the making of the skip grid. Template space, of the straight box; a side without an end
+/// is at 1e30.
 struct GridTemplate {
-    /// First box.
+    /// The first of two boxes in which the template changes something; empty if min > max.
     reach0_min: vec4f,
     reach0_max: vec4f,
-    /// Second box.
+    /// The second of these boxes.
     reach1_min: vec4f,
     reach1_max: vec4f,
     /// First box in the template's own space.
@@ -203,11 +203,11 @@ struct GridTemplate {
     shift_max: vec4f,
     /// Half side of the largest box in which differences tell how the map changes.
     detail: f32,
-    /// How much longer a step can be in the template's own space than in the straight one; 1 without a curve.
+    /// Greatest ratio of a step's length in the template's own space to that in the straight box; 1 without a curve.
     stretch: f32,
-    /// The longest way of any material, subject units, where the template lies along a curve; else 0.
+    /// Longest displacement of any material, subject units, if the template lies along a curve; else 0.
     longest: f32,
-    /// One of MATERIAL_.
+    /// How the template moves material, one of the constants MATERIAL_.
     material: u32,
     /// 1 if the map jumps at the faces of the first box.
     is_torn: u32,
@@ -220,7 +220,7 @@ const MATERIAL_WITHIN: u32 = 1u;
 const MATERIAL_BENT: u32 = 2u;
 const MATERIAL_RIPPLED: u32 = 3u;
 
-/// One making of the grid.
+/// The job of the passes that make the skip grid.
 struct GridJob {
     /// xyz: lowest corner, subject space.
     origin_min: vec4f,
@@ -250,7 +250,7 @@ struct KeptGroup {
     run: u32,
     /// Sets that the displacement gives way to.
     gives_way_to: u32,
-    /// One of CONSTRAIN_.
+    /// What happens at constrained tissue, one of the constants CONSTRAIN_.
     constraint: u32,
     /// Depth under the outer surface from where on tissue is kept, subject units.
     depth: f32,
@@ -319,6 +319,6 @@ struct DistanceJob {
     /// Slab that is written, and the number of sets in it: 0 for the depth.
     slab: u32,
     set_count: u32,
-    /// As in `Kept`.
+    /// Sets of kept tissue that each label belongs to, four bits each; packed as in `Kept`.
     label_sets: array<vec4u, 8>,
 }

@@ -48,7 +48,7 @@ fn turn_of(y: f32, x: f32) -> f32 {
     return select(a, TAU - a, y < 0.0);
 }
 
-/// What `unroll` gives.
+/// A point of template space in the coordinates along an arc, as `unroll` finds them.
 struct Unrolled {
     /// Angle on the arc, radians, 0 to `turn`.
     angle: f32,

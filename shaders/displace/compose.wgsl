@@ -10,8 +10,8 @@
 // Differs from the rule that library files read no globals: 32 templates cannot be passed by value, so the pass
 // declares `templates: Templates` (group 2, binding 0) and this file reads it.
 //
-// `drawn_kinds` is what makes this fast on devices that run both sides of every branch (software rasterisers do): a
-// pipeline made for a document leaves out the kinds that it does not use. All ones, the default, serves every document.
+// `drawn_kinds` saves time on devices that run both sides of every branch, as software rasterisers do: the pipeline of
+// a document leaves out the kinds that the document does not use. All ones, the default, serves every document.
 // needs: types.wgsl affine.wgsl kinds.wgsl bind/templates.wgsl displace/frame.wgsl displace/curve.wgsl
 //   displace/poke.wgsl displace/twist.wgsl displace/wave.wgsl displace/bend.wgsl displace/squeeze.wgsl
 //   displace/dilate.wgsl displace/peel.wgsl displace/flap.wgsl displace/split.wgsl displace/slices.wgsl
@@ -23,7 +23,7 @@ override drawn_kinds: u32 = 0xffffffffu;
 
 /// Where a point of the deformed object came from.
 struct Mapped {
-    /// Rest space.
+    /// Where the material was at rest, rest space.
     pos: vec3f,
     /// The smallest continuity of all templates, not capped; 1 without templates.
     continuity: f32,
@@ -31,11 +31,12 @@ struct Mapped {
 
 /// What the object has at a point.
 struct Material {
-    /// Rest space.
+    /// Where the material was at rest, rest space.
     pos: vec3f,
-    /// As composed; below 0: nothing is here.
+    /// Continuity of the composed map; below 0: there is no material.
     continuity: f32,
-    /// Templates that led here, or may have where no tissue is kept; 0 if it stayed where it was.
+    /// Templates that moved the material, a bit for each; where no tissue is kept, all templates that may have moved
+    /// the material. 0 if the material stayed where it was.
     path: u32,
 }
 
@@ -148,7 +149,8 @@ fn displace(kind: u32, q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -
     return d;
 }
 
-/// What template i does at a point of its straight box: where that came from less where it is, and the continuity.
+/// Displacement (`source` less `q`, in the member `source`) and continuity of template i at a point `q` of its straight
+/// box.
 fn shifted(i: u32, q: vec3f, p0: vec4f) -> Displaced {
     let kind = templates.items[i].kind;
     let size = templates.items[i].size.xyz;
@@ -159,7 +161,7 @@ fn shifted(i: u32, q: vec3f, p0: vec4f) -> Displaced {
         if first != 0u {
             let own = unbend(first, size, q);
             let d = displace(kind, own.xyz, size, p0, p1, held);
-            // What stays where it is stays there exactly.
+            // Without a displacement the result is exactly 0, free of the rounding of `bend`.
             let is_moved = own.w > 0.5 && any(d.source != own.xyz);
             let by = bend(first, size, d.source) - q;
             return Displaced(select(vec3f(0.0), by, is_moved), select(1.0, d.continuity, own.w > 0.5));
@@ -170,7 +172,7 @@ fn shifted(i: u32, q: vec3f, p0: vec4f) -> Displaced {
 }
 
 /// Rest space from subject space. Bit i of `mask`: template i may reach this point; the others are not evaluated (all
-/// ones without a grid). Bits past the last template are ignored.
+/// ones without a skip grid). Bits past the last template are ignored.
 fn rest_from_subject(pos: vec3f, mask: u32) -> Mapped {
     let count = min(templates.count, 32u);
     // A shift by 32 is not defined, hence the two steps.
@@ -183,7 +185,7 @@ fn rest_from_subject(pos: vec3f, mask: u32) -> Mapped {
         let i = firstLeadingBit(left);
         left &= ~(1u << i);
         let head = templates.items[i].group;
-        // A new group starts from where the one after it in the list left off.
+        // The list is walked backwards: a group starts at the point to which the group behind it in the list led.
         if head != group {
             at += sum;
             sum = vec3f(0.0);
@@ -191,7 +193,7 @@ fn rest_from_subject(pos: vec3f, mask: u32) -> Mapped {
         }
         let q = apply_affine(templates.items[i].template_from_subject, at);
         let d = shifted(i, q, templates.items[i].params0);
-        // Going back by the difference keeps an identity exact, however the template is placed.
+        // Only the difference is transformed back: an identity stays exact, however the template is placed.
         let moved = d.source;
         sum += apply_linear(templates.items[i].subject_from_template, moved);
         continuity = min(continuity, d.continuity);

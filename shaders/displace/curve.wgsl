@@ -15,7 +15,8 @@
 // mitre. x and z in subject units from the corner of the straight box.
 // needs: types.wgsl bind/templates.wgsl displace/frame.wgsl
 
-/// As in src/math/bent.rs.
+/// Least length of a segment beside the curve, as a fraction of its length on the curve. This and the next constant
+/// stand in src/math/bent.rs too.
 const LEAST_ROOM: f32 = 0.05;
 const PAST_MITRE: f32 = 1e-4;
 
@@ -52,7 +53,7 @@ fn unbend(first: u32, size: vec3f, q: vec3f) -> vec4f {
     return vec4f(own.x / size.x, q.y, own.y / size.z, select(0.0, 1.0, nearest < NO_END));
 }
 
-/// Back again.
+/// The inverse of `unbend`: from the template's own space, 0 to 1 in its box, to the space of the straight box.
 fn bend(first: u32, size: vec3f, own: vec3f) -> vec3f {
     let head = templates.pool[first];
     let last = u32(head.z);

@@ -11,7 +11,7 @@
 //
 // needs: displace/frame.wgsl displace/squeeze.wgsl
 
-/// p0: strength.
+/// p0: strength, 0 to 0.9. `q` in template space, as in every template.
 fn displace_dilate(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     return displace_squeeze(q, size, -p0, p1);
 }

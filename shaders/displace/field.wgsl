@@ -1,19 +1,20 @@
-// Field: a displacement that was sampled: read from a file. Template space; the samples fill the box from outer edge to
-// outer edge.
+// Field: a displacement that was sampled on a grid and read from a file. Template space; the samples fill the box from
+// face to face.
 // Source: Correa, section 9.3 (regular grids) and 4.3 (displacement textures); spec/templates.md.
 //
 //   +---+---+---+---+
-//   | · | · | · | · |    xyz: displacement, w: continuity; linear between the eight samples around, the outermost
-//   +---+---+---+---+    continued to the faces; at rest beyond them
+//   | · | · | · | · |    xyz: displacement, w: continuity. Linear between the eight samples around a point; the
+//   +---+---+---+---+    outermost samples go on to the faces; at rest beyond the faces
 //   | · | · | · | · |
 //   +---+---+---+---+
 //
-// Linear interpolation is done here: the hardware's weights have eight bits, which would show as steps of the map.
-// In `templates.pool`, at `held`: samples along x, y and z, and the slice of the texture where they begin; no samples:
-// at rest.
+// This function interpolates by itself: the weights of the hardware have eight bits, which would show as steps.
+// `templates.pool[held]` holds the number of samples along x, y and z, and the slice of the texture at which the
+// samples begin (w). Without samples the template is at rest.
 // needs: types.wgsl bind/templates.wgsl displace/frame.wgsl displace/rbf.wgsl
 
-/// p0: strength, -, -, edge. held: index in the pool.
+/// p0.x: strength, a factor of the displacement; p0.w: edge, the distance from the faces over which the displacement
+/// fades in. `held`: index of the field in `templates.pool`.
 fn displace_field(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Displaced {
     let place = templates.pool[held];
     if is_beyond(q, vec3f(0.0), vec3f(1.0)) || place.x < 1.0 || p0.x == 0.0 {

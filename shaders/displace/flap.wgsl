@@ -16,7 +16,7 @@
 /// Both readings of a point of a flap: turned with the door, or where it always was. `displace_flap` decides; the grid
 /// looks at both.
 struct Opened {
-    /// Where it came from if it is in the door, template space.
+    /// Source of the point if the point belongs to the door, template space.
     source: vec3f,
     /// A of the door, subject units.
     door_continuity: f32,
@@ -26,7 +26,7 @@ struct Opened {
 
 /// p0: angle (radians), depth.
 fn opened(q: vec3f, size: vec3f, p0: vec4f) -> Opened {
-    // From the edge that it turns about: x to the right, z up.
+    // Coordinates from the hinge of the door: x to the right, z up.
     let x = q.x * size.x;
     let z = (q.z - 1.0) * size.z;
     let thickness = p0.y * size.z;

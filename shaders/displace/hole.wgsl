@@ -10,7 +10,7 @@
 //
 // needs: displace/frame.wgsl
 
-/// p0: amount, taper.
+/// p0: amount (radius at the top, fraction of the box), taper (radius at the bottom as a fraction of it, 0 to 1).
 fn displace_hole(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     if is_beyond(q, vec3f(0.0, 0.0, -NO_END), vec3f(1.0, 1.0, NO_END)) {
         return at_rest(q);

@@ -10,7 +10,7 @@
 //
 // needs: displace/frame.wgsl
 
-/// p0: strength.
+/// p0: strength, 0 to 0.9: at the middle, the fraction by which the source lies nearer to the middle.
 fn displace_lens(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     let from_middle = q - 0.5;
     let bell = max(0.0, 1.0 - 4.0 * dot(from_middle, from_middle));

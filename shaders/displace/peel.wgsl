@@ -15,9 +15,9 @@
 // needs: displace/frame.wgsl displace/angles.wgsl
 
 /// Both readings of a point of a peel: rolled up with the flap, or lying where it always lay. Which one holds is
-/// decided by `displace_peel`; the grid looks at both.
+/// decided by `displace_peel`; the skip grid looks at both.
 struct Peeled {
-    /// Where it came from if it is in the flap, template space.
+    /// Source of the point if the point belongs to the flap, template space.
     source: vec3f,
     /// A of the flap, subject units.
     flap_continuity: f32,

@@ -13,7 +13,7 @@
 // Carries upwards for x and y, where the formula uses the true z; rest elsewhere.
 // needs: displace/frame.wgsl
 
-/// p0: lift, width.
+/// p0: lift (height of the tip, fraction of the box), width of the tongue (fraction of the box).
 fn displace_peeler(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     if is_beyond(q, vec3f(0.0), vec3f(1.0, 1.0, NO_END)) {
         return at_rest(q);

@@ -11,7 +11,7 @@
 // Differs from the source: the bell is brought to exactly 0 at r = ½, so that nothing tears at the sides.
 // needs: displace/frame.wgsl
 
-/// p0: amount, sigma.
+/// p0: amount (height, fraction of the box; below 0 pushes in), sigma (width of the bell, fraction of the box).
 fn displace_poke(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     if is_beyond(q, vec3f(0.0), vec3f(1.0, 1.0, NO_END)) {
         return at_rest(q);

@@ -10,7 +10,7 @@
 //
 // needs: displace/frame.wgsl
 
-/// p0: offset (xyz).
+/// p0: offset (xyz), fractions of the box, at most 0.3 long.
 fn displace_pull(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     let from_middle = q - 0.5;
     let bell = max(0.0, 1.0 - 4.0 * dot(from_middle, from_middle));

@@ -3,8 +3,8 @@
 //
 //   y     carries both ways
 //   1 +-.---._.---.-+
-//     | '._.' '._.' |      rings about the y axis, displaced along y; rest at the ends of x and z
-//   0 +-------------+      falloff 0 ripples up to the sides and tears there, as meant
+//     | '._.' '._.' |      rings about the middle, displaced along y; at rest beyond the sides in x and z
+//   0 +-------------+      with falloff 0 the ripple reaches the sides and tears there, on purpose
 //     0      ½      1  x (and z)
 //
 // needs: displace/frame.wgsl displace/angles.wgsl

@@ -4,7 +4,7 @@
 // needs: types.wgsl bind/templates.wgsl displace/frame.wgsl displace/compose.wgsl march/kept.wgsl march/constrain.wgsl
 //   march/asked.wgsl march/kept_surface.wgsl
 
-/// True where both sides of the surface of kept tissue are lit by it.
+/// True if both sides of the surface of kept tissue take their normal from that surface.
 const KEEPS_TISSUE: bool = true;
 
 /// Offset of finite differences of the map, subject units: small against every bend, large against the rounding of f32.

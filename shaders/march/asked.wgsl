@@ -90,9 +90,10 @@ fn chained(pos: vec3f, mask: u32) -> Material {
     return at;
 }
 
-/// Align mode 3.
+/// Align mode 3, the general case: a stack of open questions, as the head of this file explains. `pos` in subject
+/// space.
 fn asked(pos: vec3f, mask: u32) -> Material {
-    // Open questions: where to go on, what was on the way so far.
+    // Open questions: the point at which each goes on, and the continuity and the path found on the way so far.
     var open_pos: array<vec4f, 12>;
     var open_continuity: array<f32, 12>;
     var open_path: array<u32, 12>;
@@ -130,7 +131,7 @@ fn asked(pos: vec3f, mask: u32) -> Material {
                 }
             }
         }
-        // Up again with what was found.
+        // Carries the answer back up to the questions that wait for it.
         var goes_down = false;
         while open > 0u && !goes_down {
             let top = open - 1u;

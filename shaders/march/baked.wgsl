@@ -4,7 +4,7 @@
 // Source: Correa, section 4.3 (displacement textures) and 6.2 (their error).
 // needs: types.wgsl bind/subject.wgsl bind/baked.wgsl displace/compose.wgsl march/interface.wgsl
 
-/// True where both sides of the surface of kept tissue are lit by it.
+/// True if both sides of the surface of kept tissue take their normal from that surface.
 const KEEPS_TISSUE: bool = false;
 
 /// Offset of finite differences of the map, subject units: about a texel, for between texels it is a straight line.
@@ -19,7 +19,7 @@ fn object_from_subject(pos: vec3f, mask: u32) -> Mapped {
     return Mapped(pos + moved.xyz, moved.w);
 }
 
-/// The same with the path.
+/// As `object_from_subject`; the path holds all templates of `mask`.
 fn material_at(pos: vec3f, mask: u32) -> Material {
     let mapped = object_from_subject(pos, mask);
     return Material(mapped.pos, mapped.continuity, mask);
@@ -30,7 +30,7 @@ fn map_along(pos: vec3f, path: u32) -> Mapped {
     return object_from_subject(pos, path);
 }
 
-/// None here.
+/// No surface of kept tissue: weight 0.
 fn kept_surface(_rest: vec3f, _path: u32, _jacobian: mat3x3f, to_eye: vec3f) -> KeptSurface {
     return KeptSurface(to_eye, 0.0, vec3f(0.0));
 }

@@ -1,4 +1,4 @@
-// Bodies: segments that take the place of what the values say, by their shares of each place (pass/bodies.wgsl).
+// Bodies: segments that are drawn by their share of each place (pass/bodies.wgsl) instead of by the values.
 // needs: types.wgsl affine.wgsl bind/subject.wgsl bind/bodies.wgsl march/opacity.wgsl
 
 /// Reaches of the central differences that the normal of a body is the mean of, voxels. Labels are yes or no, so they
@@ -30,7 +30,7 @@ fn body_gradient_at(pos: vec3f) -> vec3f {
     var sum = vec3f(0.0);
     for (var i = 0u; i < 3u; i++) {
         let axis = select(vec3f(0.0), vec3f(1.0), vec3u(0u, 1u, 2u) == vec3u(i));
-        // Two reaches: the near one for what is thin, the far one against the stairs of labels.
+        // Two distances: the near one for thin bodies, the far one against the stairs of labels.
         let near = axis * BODY_NEAR * subject.detail;
         let far = axis * BODY_FAR * subject.detail;
         let slope = 0.3 * (body_at(pos + near) - body_at(pos - near)) + 0.7 * (body_at(pos + far) - body_at(pos - far));
@@ -39,7 +39,7 @@ fn body_gradient_at(pos: vec3f) -> vec3f {
     return sum * 0.5;
 }
 
-/// How much of what is seen somewhere is a body's, 0 to 1.
+/// Part of the tissue seen at a place that belongs to bodies, 0 to 1.
 fn body_weight(shares: vec4f) -> f32 {
     return smoothstep(0.1, 0.35, shares.x - shares.w);
 }

@@ -1,10 +1,11 @@
 // Displacements that give way to kept tissue (Correa, section 5.7).
 //
-// With C(x) = min(1, distance of x to the kept set / the group's longest displacement), a displacement becomes C(x)
-// D(x), so that it is never longer than the way to the set (eq. 5.15). By coordinate, the main parameter of each member
-// is taken C(x) times (eq. 5.19: our templates are even along their coordinate, and what a twist does nearer to its
-// anchor is a smaller twist). Kept tissue itself stays. Or kept tissue moves as a whole, by a rigid motion that
-// pass/rigid.wgsl finds.
+// Let C(x) = min(1, distance of x to the kept set / the group's longest displacement). There are three modes:
+// - by displacement: D(x) becomes C(x) D(x), which is never longer than the way to the kept set (eq. 5.15);
+// - by coordinate: the main parameter of each member is multiplied by C(x) (eq. 5.19; the templates here are even along
+//   their coordinate, so that a twist near its anchor is a smaller twist);
+// - rigid: the kept tissue moves as a whole, by a rigid motion that pass/rigid.wgsl finds.
+// In the first two modes kept tissue stays where it is.
 // needs: types.wgsl affine.wgsl kinds.wgsl bind/templates.wgsl bind/kept.wgsl displace/frame.wgsl displace/compose.wgsl
 //   march/kept.wgsl
 
@@ -12,12 +13,12 @@
 /// constant.
 override has_constraints: u32 = 14u;
 
-/// Which of the first four parameters say how much a template of a kind does: 1 for those, 0 for the others.
+/// The main parameters among the first four of a kind, which say how much a template does: 1 for those, 0 for others.
 fn main_parameters(kind: u32) -> vec4f {
     return vec4f((MAIN_PARAMETERS >> vec4u(kind)) & vec4u(1u));
 }
 
-/// As `rest_from_subject` for the members of one group, each doing only a part (0 to 1) of what it is set to.
+/// As `rest_from_subject` for the members of one group, with their main parameters multiplied by `part`, 0 to 1.
 fn group_done_partly(pos: vec3f, bits: u32, part: f32) -> Mapped {
     var left = bits;
     var sum = vec3f(0.0);
@@ -36,8 +37,9 @@ fn group_done_partly(pos: vec3f, bits: u32, part: f32) -> Mapped {
     return Mapped(pos + sum, continuity);
 }
 
-/// Where tissue moves as a whole: the segment by its own rigid motion, what is around it more and more by the template
-/// (`whole`). What the template alone would draw through the segment is taken from beside it.
+/// The map where a segment moves as a whole: the segment by its own rigid motion, the tissue around by a blend that
+/// turns into the map of the templates (`whole`) with the distance. Where the templates alone would move other tissue
+/// through the segment, tissue beside the segment is taken.
 fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     let sets = kept.items[head].gives_way_to;
     let rigid = apply_affine(kept.motions[head], pos);

@@ -1,20 +1,19 @@
-// What march/plain.wgsl, march/align.wgsl and march/baked.wgsl answer with. They stand in for each other and have the
-// same names:
-//   KEEPS_TISSUE                       true where both sides of the surface of kept tissue are lit by it
+// The names that march/plain.wgsl, march/align.wgsl and march/baked.wgsl have in common. A program holds one of these
+// three files.
+//   KEEPS_TISSUE                       true if both sides of the surface of kept tissue take their normal from it
 //   map_step()                         offset of finite differences of the map, subject units
-//   object_from_subject(pos, mask)     where a point of the deformed object was at rest; continuity below 0: nothing is
-//   there
-//   material_at(pos, mask)             that, and the templates on the way
-//   map_along(pos, path)               the map by the templates of a path: smooth wherever material follows that path
-//   kept_surface(rest, path, jacobian, to_eye)    how the surface of kept tissue shows at a point next to it
+//   object_from_subject(pos, mask)     where the material at a point was at rest; continuity below 0: no material
+//   material_at(pos, mask)             as object_from_subject, with the templates that moved the material (the path)
+//   map_along(pos, path)               the map by the templates of a path: smooth wherever material took that path
+//   kept_surface(rest, path, jacobian, to_eye)    how a surface of kept tissue shows in material next to it
 // needs: -
 
-/// How the surface of kept tissue shows in a piece of material next to it.
+/// How the nearest surface of kept tissue shows in material next to that surface.
 struct KeptSurface {
-    /// Subject space, unit.
+    /// Normal of the surface of the kept tissue, subject space, unit length.
     normal: vec3f,
-    /// 0 to 1.
+    /// How much `normal` counts against the material's own normal, 0 (not at all) to 1 (alone).
     weight: f32,
-    /// Rest space: from the place to where it is surely this side's tissue.
+    /// From the material away from the surface, so far that the label there is surely that of this side; rest space.
     inwards: vec3f,
 }

@@ -10,7 +10,7 @@ struct Differential {
     jacobian: mat3x3f,
     /// The continuity at the point.
     continuity: f32,
-    /// Its gradient, subject space.
+    /// Gradient of the continuity, subject space.
     slope: vec3f,
     /// The templates along which differences were taken.
     path: u32,

@@ -1,17 +1,17 @@
-// Kept tissue: whether a point of rest space lies in it, and how far it is from there.
-// Differs from the source (Correa, section 5.4): the mask is not interpolated but the nearest label, so that a boundary
-// lies where the labels say; only normals see a smooth mask.
+// Kept tissue: whether a point of rest space lies in kept tissue, and how far from it.
+// Differs from the source (Correa, section 5.4): membership is read from the nearest label voxel and not interpolated,
+// so that a boundary lies where the labels have it; only normals use a smoothed mask.
 // needs: types.wgsl affine.wgsl bind/subject.wgsl bind/kept.wgsl displace/frame.wgsl
 
-/// How a document keeps tissue. 0: not at all; 1: by the only group of the list; 2: one set, or one depth, by the first
-/// templates of the list; 3: any. A pipeline constant.
+/// How a document keeps tissue. 0: it keeps none. 1: the list is one group. 2: the first templates of the list keep the
+/// same set or depth, the others keep nothing. 3: any other case. A pipeline constant.
 override align_mode: u32 = 3u;
 
-/// What says that tissue is kept. Bit 0: its segment, bit 1: its depth. A pipeline constant, so that a picture asks one
-/// texture where one is enough.
+/// By what tissue is kept. Bit 0: by its segment; bit 1: by its depth under the outer surface. A pipeline constant, so
+/// that a picture reads only the textures that it needs.
 override kept_by: u32 = 3u;
 
-/// Where a point lies in the texture of distances.
+/// Texture coordinates of a rest point in this slab of the texture of distances.
 fn distance_uvw(rest: vec3f, slab: u32) -> vec3f {
     let uvw = apply_affine(kept.distance_from_rest, rest);
     let edge = 0.5 / kept.distance_dims.z;
@@ -24,8 +24,9 @@ fn depth_at(rest: vec3f) -> f32 {
     return textureSampleLevel(distances, linear_sampler, distance_uvw(rest, kept.depth_slab), 0.0).x;
 }
 
-/// True if a rest point lies in tissue that this set of sets holds. Exact by the nearest label. Nothing lies deep where
-/// the scan ends.
+/// True if a rest point lies in one of the sets in `keeps` (a bit for each, and KEEPS_DEEP), by the nearest label
+/// voxel. `depth`: depth under the outer surface from where on KEEPS_DEEP holds, subject units. Points outside the scan
+/// are not deep.
 fn is_kept(rest: vec3f, keeps: u32, depth: f32) -> bool {
     if (kept_by & 2u) != 0u {
         if (keeps & KEEPS_DEEP) != 0u && depth_at(rest) >= depth {
@@ -48,8 +49,8 @@ fn is_kept(rest: vec3f, keeps: u32, depth: f32) -> bool {
     return ((word >> (4u * (label & 7u))) & keeps & 15u) != 0u;
 }
 
-/// Distance of a rest point to the nearest of some sets (positive outside), or how much deeper than `depth` it should
-/// lie to be kept. `slab` 0 is smooth.
+/// Distance of a rest point to the nearest of the sets in `keeps`, subject units: above 0 outside, below 0 inside. For
+/// KEEPS_DEEP: how much deeper the point would have to lie to reach `depth`. The distances of `slab` 0 are smoothed.
 fn distance_to_kept(rest: vec3f, keeps: u32, depth: f32, slab: u32) -> f32 {
     var least = NO_END;
     if (kept_by & 2u) != 0u {

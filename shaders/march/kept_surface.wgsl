@@ -1,9 +1,10 @@
-// The surfaces of kept tissue, as what lies next to them is lit by them (Correa, section 5.4.3).
+// The surfaces of kept tissue, from which the material next to them takes its normal (Correa, section 5.4.3).
 // needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/kept.wgsl march/kept.wgsl march/interface.wgsl
 
-/// The nearest of the surfaces that part material on this path from what stayed, or the other way round (equations 5.13
-/// and 5.14: the weight falls from 1 at the surface to 0 a thickness away on either side, and the gradient is turned
-/// round on the side that moved). `jacobian` takes a step in subject space to one in rest space.
+/// The nearest of the surfaces between kept tissue and the material that moved along `path`, seen from either side
+/// (equations 5.13 and 5.14: the weight falls from 1 at the surface to 0 at the distance of the align's thickness, and
+/// the gradient is reversed on one of the sides). `rest`: the point, rest space. `jacobian` takes a step in subject
+/// space to one in rest space.
 fn kept_surface(rest: vec3f, path: u32, jacobian: mat3x3f, to_eye: vec3f) -> KeptSurface {
     var weight = 0.0;
     var keeps = 0u;

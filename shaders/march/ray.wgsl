@@ -14,8 +14,8 @@ fn ray_in_box(origin: vec3f, inverse_dir: vec3f, box_min: vec3f, box_max: vec3f)
     );
 }
 
-/// The direction with components that are nearly 0 pushed off it (by less than a thousandth of a pixel), so that it can
-/// be inverted.
+/// The direction with components near 0 set to ±1e-6, less than a thousandth of a pixel, so that each component can be
+/// inverted.
 fn without_zeros(dir: vec3f) -> vec3f {
     let least = vec3f(1e-6);
     return select(dir, select(-least, least, dir >= vec3f(0.0)), abs(dir) < least);

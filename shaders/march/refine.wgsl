@@ -45,7 +45,7 @@ fn next_of(search: Bisection, is_last: bool) -> f32 {
     return select(0.5 * (search.low + search.high), search.high + frame.step, is_last);
 }
 
-/// Takes what was found there.
+/// Takes over the sample at the new place.
 fn narrow(search: ptr<function, Bisection>, at: f32, found: Sample, is_last: bool) {
     let is_in = found.opacity > (*search).level;
     if is_last {
@@ -79,8 +79,8 @@ fn refine(ray: Ray, walk: ptr<function, Walk>) -> Crossing {
     search.behind = here;
     let mask = (*walk).mask | (*walk).mask_before;
     // Behind a surface towards nothing the first stretch has always the same length, and so the same share of the
-    // colour. If it had the length that is left of the step, the surface would fade wherever a sample happens to lie
-    // right behind it. One turn more than there are halvings asks what is there.
+    // colour. If that stretch had the remaining length of the step, the surface would fade wherever a sample happens to
+    // lie right behind the surface. One turn of the loop after the halvings takes the sample at its end.
     let has_first_stretch = is_rising && before.opacity <= VISIBLE;
     // Two loops: where no template reaches, a turn costs no map.
     let is_mapped = mask != 0u && drawn_kinds != 0u;

@@ -4,13 +4,13 @@
 
 /// The object at one point of the deformed space.
 struct Sample {
-    /// Rest space.
+    /// Where the material was at rest, rest space.
     pos: vec3f,
     /// Normalised value, 0 to 1.
     texel: f32,
     /// Of 0.01 units; 0 in a gap and outside the volume.
     opacity: f32,
-    /// As composed.
+    /// Continuity of the composed map; below 0 in a gap.
     continuity: f32,
     /// Templates that led here.
     path: u32,
@@ -29,7 +29,7 @@ fn transfer(texel: f32) -> vec4f {
     return textureSampleLevel(lut, linear_sampler, vec2f(texel * look.table_scale + look.table_offset, 0.5), 0.0);
 }
 
-/// What is at a point whose place at rest is known.
+/// The sample at a point whose place at rest is known.
 fn sample_mapped(mapped: Material) -> Sample {
     let uvw = texture_from_rest(mapped.pos);
     let is_inside = all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
@@ -47,7 +47,7 @@ fn sample_mapped(mapped: Material) -> Sample {
     );
 }
 
-/// What is at a point that no template reaches.
+/// The sample at a point that no template reaches.
 fn sample_unmoved(pos: vec3f) -> Sample {
     return sample_mapped(Material(pos, 1.0, 0u));
 }

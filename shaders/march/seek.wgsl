@@ -4,7 +4,7 @@
 // march/ray.wgsl
 //   march/opacity.wgsl march/sample.wgsl
 
-/// A ray through a point of the picture; the same all along.
+/// A ray through a point of the picture; constant while the ray is marched.
 struct Ray {
     /// The eye, subject space.
     origin: vec3f,
@@ -14,19 +14,19 @@ struct Ray {
     inverse_dir: vec3f,
     /// Sign of each component of `dir`.
     forward: vec3f,
-    /// Unit, view space.
+    /// Direction of the ray away from the eye, view space, unit length.
     dir_in_view: vec3f,
     /// Distances from the eye at which the ray enters the box of the object, at least 0, and leaves it.
     t_start: f32,
     t_end: f32,
 }
 
-/// Where a ray stands.
+/// Where the march along a ray has got to.
 struct Walk {
-    /// Distance from the eye of the sample that is looked at, and of the one before it.
+    /// Distances from the eye of the current sample and of the sample before it.
     t: f32,
     t_before: f32,
-    /// Those samples.
+    /// The samples at `t` and at `t_before`.
     here: Sample,
     before: Sample,
     /// Templates that reach their cells. A cut between the two samples may be one of the earlier cell's templates

@@ -3,7 +3,7 @@
 
 /// The 27 label voxels around a point.
 struct Around {
-    /// The middle one.
+    /// Index of the label voxel nearest to the point, the middle of the 27.
     middle: vec3i,
     /// Columns: weights per axis of the voxel before the middle one, of the middle one, of the one after it.
     weights: mat3x3f,

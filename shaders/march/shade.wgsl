@@ -43,8 +43,7 @@ fn shade_surface(albedo: vec3f, normal: vec3f, to_eye: vec3f, specular: f32) -> 
     return lit;
 }
 
-/// Light from a sample with no surface in it (haze): what a matte sphere sends on average, so that it fits beside
-/// surfaces.
+/// Light from a sample without a surface (haze): the mean light of a matte sphere, so that haze fits beside surfaces.
 fn shade_medium(albedo: vec3f) -> Lit {
     var lit: Lit;
     lit.key = albedo * KEY_COLOR * 0.55;

@@ -1,4 +1,5 @@
-// The surface at a sample: its normal and what it is a surface of (Correa, sections 4.5.2 and 4.5.3).
+// The surface at a sample: its normal, and whether it is a surface of tissue, of a cut or of kept tissue (Correa,
+// sections 4.5.2 and 4.5.3).
 // needs: types.wgsl affine.wgsl bind/subject.wgsl bind/look.wgsl march/overrides.wgsl march/value.wgsl
 // march/bodies.wgsl
 //   march/sample.wgsl march/jacobian.wgsl march/interface.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
@@ -70,7 +71,7 @@ fn surface_at(edge: Sample, uvw: vec3f, map: Differential, cut: Cut, to_eye: vec
     var gradient = gradient_at(uvw);
     var body_share = 0.0;
     if has_bodies != 0u {
-        // The surface of a body is that of its segment, whatever the values do there.
+        // The surface of a body is the surface of its segment, whatever the values there are.
         let own = body_gradient_at(edge.pos);
         gradient = mix(gradient, own / look.table_scale, smoothstep(0.03, 0.15, length(own)));
         body_share = body_weight(body_at(edge.pos));

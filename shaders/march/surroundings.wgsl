@@ -1,4 +1,4 @@
-// What stands in the light of a surface: ambient occlusion and the shadow of the key light, by taps of the opacity.
+// Obstacles in the light of a surface: ambient occlusion and the shadow of the key light, by taps of the opacity.
 // needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/look.wgsl displace/compose.wgsl march/overrides.wgsl
 //   march/opacity.wgsl march/bodies.wgsl march/value.wgsl march/sample.wgsl march/seek.wgsl
 
@@ -11,12 +11,12 @@ fn spread(k: u32, n: u32, turn: f32) -> vec3f {
 }
 
 /// Even noise over the pixels (interleaved gradient noise, Jimenez 2014), 0 to 1: hides the spacing of the shadow's
-/// taps. The same for the same pixel always, so pictures stay repeatable.
+/// taps. Depends on the pixel alone, so that pictures are repeatable.
 fn pixel_noise(pixel: vec2f) -> f32 {
     return fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
 }
 
-/// The opacity of what was sampled for a test of light: by the gradient at rest, whatever the deformation makes of it.
+/// Opacity of a sample in a test of light. Edges are found by the gradient at rest, without the deformation.
 fn shading_opacity(found: Sample) -> f32 {
     if has_edges == 0u {
         return found.opacity;

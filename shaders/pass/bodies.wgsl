@@ -4,7 +4,7 @@
 
 /// How each segment is drawn.
 @group(3) @binding(0) var<uniform> body_looks: Bodies;
-/// As `body_shares`.
+/// Shares of segments drawn as bodies, 0 to 1, in the layout that `body_shares` is read in.
 @group(3) @binding(1) var shares_out: texture_storage_3d<rgba8unorm, write>;
 
 /// One voxel: the labels around it, weighted 1 2 1 along each axis.

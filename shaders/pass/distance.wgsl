@@ -1,5 +1,5 @@
-// Signed Euclidean distances to sets of kept tissue, and to what lies around the object. Compute only; made anew when a
-// document names other sets or another subject is shown.
+// Signed Euclidean distances to sets of kept tissue, and to the outside of the object. Compute only; computed anew when
+// a document names other sets or another subject is shown.
 //
 //   fine voxels of one line          along x          along y            along z
 //   . . # # # . . . #        -->   two sweeps   -->  outward search -->  outward search   -->  smoothing, texture
@@ -9,24 +9,24 @@
 //
 // Exact: the squared distance is the smallest sum of squares along the three axes, taken axis by axis (Felzenszwalb and
 // Huttenlocher 2012, with a search that ends as soon as nothing nearer can come in place of the envelope of parabolas:
-// near a surface, where distances are used most, it is over after a few steps). It is taken to fine voxels, at coarse
-// samples: what is coarser is only where it is asked for. The signed distance is (way to the set - half a voxel)
+// near a surface, where distances are used most, the search ends after a few steps). Distances are measured to fine
+// voxels and stored at coarse samples. The signed distance is (way to the set - half a voxel)
 // outside, less (way out of it - half a voxel) inside, so that its zero lies on the faces of voxels. Anisotropic
 // spacing counts; axes are taken as perpendicular (a sheared grid, from a tilted gantry, is off by the cosine of its
 // shear).
 //
 // Source of the use: Correa, sections 5.4.2 and 5.7 (distance field after a background segmentation).
-// The outside of the object: what is less than a threshold, belongs to no segment, and is connected with a side face of
-// the grid. Not with the faces at the head and foot ends of a scan: a windpipe that ends there would let the outside
-// into the lungs.
+// The outside of the object: voxels below a threshold that belong to no segment and are connected with a side face of
+// the grid. Connections with the faces at the head and foot ends of a scan do not count: a windpipe that ends there
+// would let the outside into the lungs.
 // needs: types.wgsl affine.wgsl bind/subject.wgsl
 
-/// What to do (see types.wgsl).
+/// The job: sizes, sets and axis (see types.wgsl).
 @group(3) @binding(0) var<uniform> job: DistanceJob;
 /// Per coarse x, fine y, slice of the part: way to the nearest voxel of the set, and to the nearest outside it, along
 /// x.
 @group(3) @binding(1) var<storage, read_write> line_ways: array<vec2f>;
-/// Per coarse x, coarse y, fine z: squares of the same, along x and y.
+/// Per coarse x, coarse y, fine z: squares of these two ways in the plane of x and y.
 @group(3) @binding(2) var<storage, read_write> plane_squares: array<vec2f>;
 /// Per channel and coarse voxel: signed distance.
 @group(3) @binding(3) var<storage, read_write> fields: array<f32>;
@@ -42,7 +42,7 @@ const FAR: f32 = 1e4;
 const FILLED: u32 = 0u;
 const OPEN: u32 = 1u;
 const OUTSIDE: u32 = 2u;
-/// Channel of the outside.
+/// Channel of the signed distance to the outside of the object, after the four sets.
 const CHANNEL_OUTSIDE: u32 = 4u;
 
 /// Label of a fine voxel.
@@ -184,7 +184,7 @@ fn along_x(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-/// Along y.
+/// Distances in planes of x and y, from those along x: one thread for each coarse x and y of a slice.
 @compute @workgroup_size(8, 8, 1)
 fn along_y(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= job.coarse.xy) || id.z >= job.slice_count {

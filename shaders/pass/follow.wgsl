@@ -1,7 +1,7 @@
-// Follow: where points of the rest are in the deformed object, for what is fastened to tissue (labels). The map leads
-// the other way and jumps at cuts. So the deformed object is looked through on a lattice first; from the nearest that
-// is found in each part of it, Newton's method goes along the map's own path, which is smooth, and the best of all ends
-// counts.
+// Follow: finds where points of rest space are in the deformed object, for captions, which are fastened to tissue. The
+// map leads from the deformed object to rest space and jumps at cuts. So the deformed object is first searched on a
+// lattice; from the nearest cell of each block, Newton's method follows the map along the path of that cell, where the
+// map is smooth. The best of all results counts.
 //
 //   search   one invocation per cell of the lattice: for each point and block of cells, the cell whose material lay
 //   nearest at rest
@@ -19,7 +19,7 @@ const FARTHEST: f32 = 8.0;
 
 /// Where is looked, and how many points are followed.
 @group(3) @binding(0) var<uniform> lattice: Lattice;
-/// xyz: rest space.
+/// xyz: the points of tissue that are followed, rest space.
 @group(3) @binding(1) var<storage, read> followed: array<vec4f>;
 /// Of each point in each block: distance at rest and cell, packed; all ones where the block has nothing.
 @group(3) @binding(2) var<storage, read_write> nearest: array<atomic<u32>>;

@@ -1,5 +1,5 @@
-// Grid over the deformed space: per cell, which templates may reach it and whether anything visible may map into it.
-// Compute only; made anew when a template, the transfer function or the subject changes.
+// The skip grid over the deformed space: per cell, which templates may reach it and whether anything visible may map
+// into it. Compute only; made anew when a template, the transfer function or the subject changes.
 //
 //   deformed space, one cell          template i                     rest space, bricks
 //   +---+                                                            +--+--+--+--+
@@ -26,7 +26,7 @@ override has_kept: u32 = 1u;
 @group(3) @binding(2) var<storage, read_write> cell_masks: array<u32>;
 /// Per cell: 0 visible, else the way to the nearest visible one, as far as is known.
 @group(3) @binding(3) var<storage, read_write> cell_ways: array<u32>;
-/// The same, read by one pass and written by the one before.
+/// Distances in the other buffer: one pass reads the buffer that the pass before has written.
 @group(3) @binding(4) var<storage, read_write> cell_ways_before: array<u32>;
 /// Masks, read by one pass and written by the one before.
 @group(3) @binding(6) var<storage, read_write> cell_masks_before: array<u32>;
@@ -41,9 +41,9 @@ const CONTINUITY_SAFETY: f32 = 1.5;
 
 /// A box on its way back through the list, subject space.
 struct Walk {
-    /// Centre.
+    /// Centre of the box.
     at: vec3f,
-    /// Half the sides.
+    /// Half the length of each side of the box.
     half: vec3f,
     /// Displacement of the group so far.
     sum: vec3f,
@@ -91,7 +91,7 @@ fn is_curved(i: u32) -> bool {
     return (drawn_kinds & DRAWN_CURVES) != 0u && templates.items[i].curve != 0u;
 }
 
-/// The moved reading.
+/// Displacement and continuity of template i at `q`, in the space of its straight box, along its curve if it has one.
 fn moved_reading(i: u32, q: vec3f) -> Reading {
     if !is_curved(i) {
         return own_reading(i, q);
@@ -124,7 +124,7 @@ fn is_folded(i: u32, q: vec3f, walk: Walk) -> bool {
     return !is_whole;
 }
 
-/// The same in the template's own space. Templates that tear at a face are read as if the point lay inside.
+/// The same reading in the template's own space. Templates that tear at a face are read as if the point lay inside.
 fn own_reading(i: u32, q: vec3f) -> Reading {
     let size = templates.items[i].size.xyz;
     let p0 = templates.items[i].params0;
@@ -149,8 +149,8 @@ fn own_reading(i: u32, q: vec3f) -> Reading {
     return Reading(d.source - at, d.continuity);
 }
 
-/// A of the reading that the point never moved. For templates of one reading 1 where they are torn from what is around
-/// them, else -1.
+/// Continuity of the reading that the point never moved. For templates with one reading: 1 where the template is torn
+/// from the tissue around it, else -1.
 fn rest_continuity(i: u32, seen: vec3f, half: vec3f) -> f32 {
     var q = seen;
     if is_curved(i) {
@@ -333,7 +333,7 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
             let across = apply_to_extent(templates.items[i].template_from_subject, walk.half);
             let meets0 = all(q + across >= job.items[i].reach0_min.xyz) && all(q - across <= job.items[i].reach0_max.xyz);
             let meets1 = all(q + across >= job.items[i].reach1_min.xyz) && all(q - across <= job.items[i].reach1_max.xyz);
-            // A segment that moves as a whole takes what is around with it, past the template's box.
+            // A segment that moves as a whole takes the tissue around it along, beyond the template's box too.
             mask |= select(0u, 1u << i, walk.is_rigid);
             if !meets0 && !meets1 {
                 continue;
@@ -353,7 +353,7 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
             }
             let rest = rest_continuity(i, q, across);
             let has_rest = folds || rest + margin >= 0.0 || (is_coarse && is_within) || may_stay(i, walk.at, walk.half);
-            // Near kept tissue a constrained template does anything between nothing and all of what it is set to.
+            // Near kept tissue a constrained template acts with any part of its parameters, from none to all.
             let is_partial = has_kept != 0u && constraint_of(i) != CONSTRAIN_NOTHING && constraint_of(i) != CONSTRAIN_RIGID;
 
             var next = walk;
@@ -400,7 +400,7 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
                 let most = middle.continuity + max(CONTINUITY_SAFETY * change, select(0.0, margin, is_within));
                 has_moved = most >= 0.0;
                 if is_coarse && job.items[i].material == MATERIAL_RIPPLED {
-                    // Finer than the box, but never far from what is seen from afar.
+                    // The map changes within the box, but departs from its differences by a bounded shift.
                     next.spread += to_subject_extent(i, job.items[i].shift_max.xyz);
                     has_moved = true;
                 }

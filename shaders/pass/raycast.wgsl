@@ -1,5 +1,5 @@
-// The picture: marches the deformed space along each pixel's ray and asks at every sample where it came from.
-// Fragment shaders, uniform buffers and sampled textures only, so that WebGL2 could follow.
+// The picture: marches the deformed space along each pixel's ray and finds at every sample where the material came
+// from. Fragment shaders, uniform buffers and sampled textures only, so that WebGL2 could follow.
 // Source: Correa, section 4.5 (pipeline, normals, compositing) and section 7.5.2 (adaptive sampling).
 //
 //   eye --o--o--o-----[empty cells]-----o--o-x====      o sample, x crossing found by bisection, = opaque
@@ -8,7 +8,7 @@
 // crossings of A = 0 and of jumps in opacity are found by bisection; shadow and ambient occlusion.
 //
 // Written for devices that run both sides of every branch (software rasterisers): work is put behind loops that end
-// early, not behind `if`; what is needed once per ray (occlusion, shadow) comes after the loop.
+// early, not behind `if`; work that is done once per ray (occlusion, shadow) comes after the loop.
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/look.wgsl displace/compose.wgsl
 //   march/overrides.wgsl march/value.wgsl march/opacity.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl
 //   march/refine.wgsl march/jacobian.wgsl march/surface.wgsl march/edges.wgsl march/color.wgsl march/surroundings.wgsl
@@ -23,13 +23,13 @@ const SURFACE_WEIGHT: f32 = 0.3;
 
 /// What a ray found.
 struct Marched {
-    /// Linear premultiplied.
+    /// Linear premultiplied RGBA, 0 to 1.
     color: vec4f,
     /// The ray's surface: distance from the eye, below 0 if there is none.
     surface_t: f32,
     /// Unit normal towards the eye, subject space.
     surface_normal: vec3f,
-    /// Rest space.
+    /// The tissue at the ray's surface, rest space.
     surface_rest: vec3f,
 }
 
@@ -138,13 +138,13 @@ fn draw(@builtin(position) at: vec4f) -> @location(0) vec4f {
     return march(floor(at.xy) + frame.jitter).color;
 }
 
-/// What is at one pixel, four texels wide: position and distance (below 0: nothing); normal and segment; rest position
-/// and value; accumulated opacity.
+/// The surface at one pixel, as four texels: position and distance from the eye (below 0: no surface); normal and
+/// segment; rest position and value; accumulated opacity.
 @fragment
 fn pick(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let found = march(frame.pick);
     let pos = apply_affine(frame.subject_from_view, dir_in_view_of(frame.pick) * found.surface_t);
-    // On the surface itself half of the voxels are air: a little deeper along the ray it is told what this is.
+    // On the surface itself half of the voxels are air: a little deeper along the ray segment and value are read.
     let dir = normalize(pos - offset_of(frame.subject_from_view));
     var segment = 0.0;
     var value = 0.0;

@@ -2,11 +2,11 @@
 // quick small picture that is shown while anything moves.
 // needs: types.wgsl
 
-/// Where the source lies and what is behind it.
+/// Where the source lies in its texture, and the background behind the picture.
 @group(3) @binding(0) var<uniform> resolve: Resolve;
-/// The accumulated picture.
+/// The accumulated picture, linear premultiplied RGBA.
 @group(3) @binding(1) var source: texture_2d<f32>;
-/// Linear, clamped.
+/// Linear filter, clamped at the edges of the picture.
 @group(3) @binding(2) var source_sampler: sampler;
 
 /// sRGB from linear, per channel (IEC 61966-2-1).
@@ -18,7 +18,7 @@ fn srgb_from_linear(linear: vec3f) -> vec3f {
 /// Light above this is rolled off instead of cut, so that highlights keep their colour; below it nothing changes.
 const SHOULDER: f32 = 0.75;
 
-/// Rolls off what is brighter than SHOULDER; slope 1 at SHOULDER, never above 1.
+/// Rolls off values brighter than SHOULDER: the slope is 1 at SHOULDER, and the result is never above 1.
 fn roll_off(c: vec3f) -> vec3f {
     let over = max(c - SHOULDER, vec3f(0.0)) / (1.0 - SHOULDER);
     return min(c, vec3f(SHOULDER)) + (1.0 - SHOULDER) * (over / (1.0 + over));

@@ -1,5 +1,5 @@
-// A flat cut through the deformed object: at each pixel of a plane the same question as in the picture, where does this
-// come from, and what is there. Nothing is marched, so a slice costs about as much as one step of the picture.
+// A flat cut through the deformed object: finds at each pixel of a plane, as the picture does at a sample, where the
+// material came from, its value and its label. Without a march a slice costs about as much as one step of the picture.
 //
 //   pixel --> subject space --> object_from_subject --> value, label --> grey by the window, or colours of the look
 //
@@ -17,7 +17,7 @@ const SLICE_OPACITY_LENGTH: f32 = 0.01;
 
 /// What the object has at a point.
 struct Here {
-    /// Rest space.
+    /// Where the material was at rest, rest space.
     pos: vec3f,
     /// Normalised value, 0 to 1.
     texel: f32,
@@ -52,7 +52,7 @@ fn subject_from_pixel(pixel: vec2f) -> vec3f {
     return apply_affine(slice.subject_from_pixel, vec3f(pixel, 0.0));
 }
 
-/// Linear RGB of what is shown at a place.
+/// Linear RGB of the object at a place, over the background.
 fn color_at(pixel: vec2f) -> vec3f {
     let here = object_at(subject_from_pixel(pixel));
     if !here.is_there {

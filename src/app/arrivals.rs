@@ -1,4 +1,4 @@
-//! What the shell hands in: files, loads piece by piece, answers to what was asked of it.
+//! Takes in everything that the shell hands over: opened files, loads piece by piece, answers to requests.
 
 use std::sync::Arc;
 
@@ -248,7 +248,7 @@ impl App {
         self.has_said_labels.clear();
     }
 
-    /// Throws away what has come of a load that ends. A label volume is not asked for again.
+    /// Throws away the pieces of a load that ends early. A label volume is not asked for again.
     fn drop_incoming(&mut self) {
         self.incoming = None;
         self.incoming_labels.clear();
@@ -263,7 +263,7 @@ impl App {
         self.session.refuse_load(message, details);
     }
 
-    /// What has come is whole: it is shown.
+    /// Shows the volume of a load whose pieces are all there.
     fn show_incoming(&mut self) {
         let Some(builder) = self.incoming.take() else {
             return;

@@ -10,7 +10,8 @@ use crate::document::{Edit, TemplateData};
 use crate::load::{FieldFile, FieldUse};
 
 impl App {
-    /// Asks for what the document shows and is not there, and lays what came over the subject.
+    /// Asks the shell for fields that the document shows and that are missing, and lays fields that arrived over the
+    /// subject.
     pub(crate) fn follow_fields(&mut self) {
         for want in self.assets.missing(self.session.shown()) {
             if want.role == Role::Field && !self.fields_asked.contains(&want) {
@@ -61,7 +62,8 @@ impl App {
         if is_named {
             return self.assets.give(Data::Field(file));
         }
-        // New to the document: where the file says, so that it can be taken hold of.
+        // A file that is new to the document gets a template at the place that the file gives, so that it can be
+        // grabbed.
         let mut value = json!({ "kind": "field", "params": { "sha256": hash } });
         if let Some(subject) = self.assets.grid() {
             let given = FieldUse {

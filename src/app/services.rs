@@ -12,10 +12,10 @@ pub trait Services {
     fn poll(&mut self) -> Vec<Message>;
     /// Shows a dialog for a scan or a document.
     fn open_file(&mut self);
-    /// Opens what was dropped on the window: a scan or a document.
+    /// Opens a file that was dropped on the window: a scan or a document.
     fn drop_file(&mut self, file: egui::DroppedFileHandle);
-    /// Starts to load a subject or a label volume, and ends any load before it. What comes is not yet compared with the
-    /// hash that the document gives.
+    /// Starts to load a subject or a label volume, and ends any load before it. The hash of the
+    /// bytes is not yet compared with that in the document.
     fn load(&mut self, want: &Want) -> Ticket;
     /// Which label volumes the document names, by the hash of their files, and whether the scan that they would go with
     /// is shown: then files that are opened are taken as segments of it where they are labels.
@@ -62,27 +62,27 @@ pub trait Services {
     fn wants_contrast(&self) -> bool {
         false
     }
-    /// What was kept.
+    /// The text that was last given to [`Services::store`] under this key; `None` if there is none.
     fn stored(&self, key: &str) -> Option<String>;
 
-    /// Says a line to whoever cannot see the picture, where the surroundings have a way: a page has no accessibility
-    /// tree of the app's own.
+    /// Has a screen reader speak a line, where the shell has a way to do so: a page has no accessibility tree of the
+    /// app's own.
     fn announce(&mut self, text: &str) {
         _ = text;
     }
 }
 
-/// What arrives.
+/// What the shell tells the app: results of the calls of [`Services`], and what the user opened.
 #[derive(Debug)]
 pub enum Message {
     /// A document as JSON, or a link: from a file, an argument or the address bar.
     OpenText {
-        /// All of it.
+        /// The whole text, a document or a link.
         text: String,
     },
     /// A scan that the user opened has begun to load; it becomes the document's subject when it is done.
     FileStarted {
-        /// Its load.
+        /// Names the load in later messages.
         ticket: Ticket,
     },
     /// A displacement field was read, or why not.
@@ -96,7 +96,7 @@ pub enum Message {
     Load {
         /// The load that goes on.
         ticket: Ticket,
-        /// What happened.
+        /// What happened to the load since the last message.
         event: LoadEvent,
     },
     /// A file lies on another host than the page: fetch it?
@@ -108,12 +108,12 @@ pub enum Message {
     },
     /// The clipboard has the text, or why not.
     Copied(Result<(), String>),
-    /// What is on the clipboard; `None` where it may not be read.
+    /// The text on the clipboard; `None` where the clipboard may not be read.
     Pasted(Option<String>),
     /// The name under which the file was saved, or why it was not; an empty reason means that the user thought better
     /// of it.
     Saved(Result<String, String>),
-    /// A shader file was changed; only debug builds ever say so.
+    /// A shader file was changed. Sent by debug builds only.
     #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
     ShadersChanged,
     /// Something to tell the user.

@@ -27,7 +27,7 @@ pub(crate) struct TissueWork {
     pub(crate) counts: Vec<u64>,
 }
 
-/// What segments are made of: what the document says of label volumes that are here, and its recipes.
+/// Inputs of the segments: the label volumes of the document that have arrived, and the recipes.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Wanted {
     segments: Vec<SegmentsRef>,
@@ -120,7 +120,7 @@ impl TissueWork {
         let turns = Turns::until(move || clock() > deadline.get());
         let (resources, mut notices) = assets.segment_resources(illustration);
         if self.made_of.as_ref().map(|made| &made.segments) == Some(&wanted.segments) {
-            // They were said when the names came.
+            // Their notices were shown when the names arrived.
             notices.clear();
         }
         let files = resources.segmentations;

@@ -59,9 +59,9 @@ pub struct App {
     pub(crate) picture: Option<Picture>,
     icons: CatalogueIcons,
     viewport: Viewport,
-    /// A message has told that the device was lost.
+    /// A message about the lost device has been shown.
     has_told_loss: bool,
-    /// What commands want done in the window, once the frame is drawn.
+    /// Effects of commands that are carried out in the window once the frame is drawn.
     pending: Vec<Effect>,
     /// The control that takes the keyboard when it is shown next.
     focus: Option<Focus>,
@@ -70,13 +70,13 @@ pub struct App {
     wants_shown_size: bool,
     /// Title and credit are written into the picture that is being made.
     is_lettering: bool,
-    /// Panels are drawers.
+    /// The window is narrow: panels open as drawers over the picture.
     is_narrow: bool,
     /// Fingers point first, so that controls are large in a wide window too.
     has_fingers: bool,
     /// The volume that is arriving.
     pub(crate) incoming: Option<VolumeBuilder>,
-    /// What has come of the files that documents named.
+    /// Files that documents wanted and that have arrived.
     pub(crate) assets: Assets,
     /// The document, by its number, whose addresses `assets` knows.
     pub(crate) opened: u64,
@@ -84,7 +84,7 @@ pub struct App {
     pub(crate) fields_asked: Vec<Want>,
     /// Fields as they are laid over the subject that is shown.
     pub(crate) resources: Resources,
-    /// Its values, counted as they arrive.
+    /// Statistics of the values of the arriving volume.
     pub(crate) statistics: Statistics,
     /// The plot of the transfer function.
     pub(crate) transfer: transfer::Editor,
@@ -94,9 +94,9 @@ pub struct App {
     pub(crate) tissue: tissue_work::TissueWork,
     /// Label volumes of the load under way.
     pub(crate) incoming_labels: Vec<LabelFile>,
-    /// What the shell was told last of label volumes.
+    /// The label volumes that the shell was last told to expect.
     pub(crate) labels_expected: SegmentationsExpected,
-    /// That a label volume is missing has been said of this document.
+    /// Label volumes of the document that a message has named as missing.
     pub(crate) has_said_labels: Vec<SegmentsRef>,
 }
 
@@ -142,7 +142,7 @@ impl App {
             (Some(text), _) => session.open_text(&text),
             (None, Some(document)) => session.open_document(document, 0),
             (None, None) => {
-                // What was kept is a convenience: a broken one is not worth a message.
+                // A stored document that cannot be read is ignored without a message: storing is a convenience.
                 let kept = services
                     .stored(STORED_DOCUMENT)
                     .and_then(|text| crate::link::decode(&text).ok());
@@ -312,7 +312,7 @@ impl App {
         let is_as_shown = std::mem::take(&mut self.wants_shown_size);
         let size = if is_as_shown { size } else { file_size(size) };
         picture.start_file(&self.session.shown_as_seen(), size);
-        // What a script asks for is the picture as it is shown.
+        // A script asks for the picture as the window shows it, without lettering.
         self.is_lettering = self.session.is_lettering && !is_as_shown;
     }
 
@@ -337,7 +337,7 @@ impl App {
         self.session.is_alone = ui.input(|i| i.modifiers.shift);
         let mut commands = Vec::new();
         self.keys(ui, &mut commands);
-        // Set anew by the panel, if it is shown in this frame.
+        // The panel sets this anew if it is shown in this frame.
         self.transfer.has_keyboard = false;
 
         self.is_narrow = ui.available_width() < NARROW;
@@ -456,7 +456,7 @@ impl App {
         let ctx = ui.ctx();
         if let Some(picture) = &mut self.picture {
             for notice in picture.take_notices() {
-                // What is not there yet may be on its way.
+                // A file that is not there yet may be on its way.
                 let is_early = self.tissue.is_behind(&self.assets, self.session.shown());
                 if !(is_early && notice.starts_with("keep: ")) {
                     self.session.notify(Gravity::Warning, notice, "");
@@ -792,8 +792,8 @@ impl eframe::App for App {
     }
 }
 
-/// Takes the key of the search and what lies before it out of a frame's events, and leaves what was typed after it;
-/// false if that key was not pressed.
+/// Removes the key of the search and all events before that key from the events of a frame; text that was typed after
+/// the key stays. False if the key was not pressed.
 fn take_slash(events: &mut Vec<egui::Event>) -> bool {
     let is_slash = |event: &egui::Event| match event {
         egui::Event::Key {

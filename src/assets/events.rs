@@ -1,4 +1,4 @@
-//! What a load says on its way, from whatever thread or worker it runs in.
+//! Events of a load on its way, from whatever thread or worker it runs in.
 
 use crate::data::{Volume, Voxels};
 use crate::document::RawVoxels;
@@ -25,19 +25,19 @@ pub enum LoadEvent {
     SegmentLabels(Vec<u8>),
     /// How far it is.
     Progress {
-        /// 0 to 1.
+        /// Part of the work that is done, 0 to 1.
         fraction: f32,
-        /// `Reading`, `Generating`.
+        /// What is being done: `Reading` or `Generating`.
         what: String,
     },
-    /// What has come makes a whole coarse volume: show it. A finer `Begin` follows.
+    /// The pieces so far make a whole coarse volume, which may be shown. A finer `Begin` follows.
     Coarse,
     /// A label volume that was wanted, opened beside the scan, or opened for the one that is shown. It comes before the
     /// scan's `Begin`.
     LabelFile(Box<LabelFile>),
     /// The file holds several volumes, of which the wanted one comes. Told before `Done`.
     Frames {
-        /// How many.
+        /// Number of volumes in the file.
         count: u64,
     },
     /// The file does not say how its voxels lie. The load waits for the answer.
@@ -60,12 +60,12 @@ pub enum LoadEvent {
     Cancelled,
 }
 
-/// What is known of a file that may hold bare voxels.
+/// A file that may hold bare voxels, as far as its name and length tell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawQuestion {
     /// Its length in bytes, if that is known.
     pub byte_len: Option<u64>,
-    /// It is packed by gzip, so that its length says nothing.
+    /// The file is packed by gzip, so that its length does not tell the number of voxels.
     pub is_packed: bool,
     /// A guess from its name and length.
     pub guess: Option<RawVoxels>,

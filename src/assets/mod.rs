@@ -1,9 +1,9 @@
-//! Layer 4: what a document needs from outside, and what has come of it. No files, no network and no GPU: the shell
-//! fetches and reads, the app and the renderer use.
+//! Layer 5: the files that a document needs from outside, and those that have arrived. No files, no network and no GPU
+//! here: the shell fetches and reads, the app and the renderer use the result.
 //!
-//! [`Wanted::of`] lists the subject, the label volumes and the displacement fields that an illustration names. Whoever
-//! meets a want hands what came to [`Assets::take`], which refuses a file of another hash. What is drawn comes out
-//! again as [`Resources`](crate::data::Resources). The window, the page and the commands all go this way, so that a
+//! [`Wanted::of`] lists the subject, the label volumes and the displacement fields that an illustration names. The
+//! shell hands the data for a want to [`Assets::take`], which refuses a file of another hash. The renderer gets them as
+//! [`Resources`](crate::data::Resources). The window, the page and the commands all go this way, so that a
 //! document opens alike in each of them.
 //!
 //! ```

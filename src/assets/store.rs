@@ -11,19 +11,19 @@ use crate::load::{FieldFile, FieldUse, LabelFile};
 pub enum Data {
     /// A subject. `sha256` is that of its file; a built-in one has none.
     Subject {
-        /// All of it.
+        /// The volume with all its voxels, labels and segments.
         volume: Arc<Volume>,
-        /// Lower-case hex.
+        /// SHA-256 of the file, lower-case hex.
         sha256: Option<String>,
     },
-    /// A label volume.
+    /// A label volume, from a file of its own.
     Segments(LabelFile),
-    /// A displacement field.
+    /// The samples of a displacement field.
     Field(FieldFile),
 }
 
 impl Data {
-    /// SHA-256 of the file that it came from, lower-case hex.
+    /// SHA-256 of the file with these data, lower-case hex; `None` for a built-in subject.
     pub fn sha256(&self) -> Option<&str> {
         match self {
             Self::Subject { sha256, .. } => sha256.as_deref(),
@@ -33,7 +33,7 @@ impl Data {
     }
 }
 
-/// A file that came: found by the hash of its bytes, and by the address that it was fetched from.
+/// A file that has arrived; found again by the hash of its bytes or by the address that it was fetched from.
 #[derive(Clone, Debug)]
 struct Held<T> {
     src: Option<String>,
@@ -49,7 +49,7 @@ fn find<'a, T>(held: &'a [Held<T>], want: &Want) -> Option<&'a Arc<T>> {
     held.iter().find(is_it).map(|one| &one.file)
 }
 
-/// What has come of all that documents wanted. Files stay, so that undo finds them again.
+/// Files that documents wanted and that have arrived. Files of earlier documents stay, so that undo finds them again.
 #[derive(Debug, Default)]
 pub struct Assets {
     volume: Option<Arc<Volume>>,
@@ -57,7 +57,7 @@ pub struct Assets {
     grid: Option<Grid>,
     segments: Vec<Held<LabelFile>>,
     fields: Vec<Held<FieldFile>>,
-    /// Label volumes that no document names, behind those that it does.
+    /// Label volumes that no document names; they come after those that the document names.
     added: Vec<Arc<Segmentation>>,
     /// Wants that cannot be met.
     refused: Vec<Want>,
@@ -68,7 +68,7 @@ pub struct Assets {
 }
 
 impl Assets {
-    /// Takes what was fetched or supplied for a want.
+    /// Takes the file that was fetched or supplied for a want.
     ///
     /// # Errors
     /// [`OtherFile`] if the document means a file of another hash. The want counts as refused then, and nothing is
@@ -147,7 +147,7 @@ impl Assets {
         self.fields.iter_mut().for_each(|one| one.src = None);
     }
 
-    /// True if what is wanted has come. Of subjects only one is held, whichever it is.
+    /// True if the file of this want has arrived. Only one subject is held at a time.
     pub fn has(&self, want: &Want) -> bool {
         match want.role {
             Role::Subject => self.volume.is_some(),
@@ -236,8 +236,8 @@ impl Assets {
         (resources, notices)
     }
 
-    /// The fields of templates that act, laid over the subject, and what there is to say about those that were not laid
-    /// over it before. Nothing before there is a subject.
+    /// The fields of templates that act, laid over the subject, and news about fields that were laid over the subject
+    /// for the first time. Both are empty before there is a subject.
     pub fn field_resources(&mut self, illustration: &Illustration) -> (Resources, Vec<FieldNews>) {
         let (mut resources, mut news) = (Resources::default(), Vec::new());
         let Some(grid) = self.grid else {
@@ -285,12 +285,12 @@ impl Assets {
     }
 }
 
-/// What there is to say about a field that is laid over a subject, with the index of its template in the document.
+/// News about a field that was laid over a subject, with the index of its template in the document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FieldNews {
-    /// It is drawn, but not quite as its file has it.
+    /// The field is drawn, but not quite as its file has it; a line for the user.
     Notice(usize, String),
-    /// It cannot be used with this subject.
+    /// The field cannot be used with this subject; the reason for the user.
     Refused(usize, String),
 }
 

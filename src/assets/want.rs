@@ -1,9 +1,9 @@
 use crate::document::{FieldRef, Illustration, Reading, SegmentsRef, SubjectRef, TemplateData};
 
-/// What a file is to a document.
+/// The use that a document makes of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// What is cut open.
+    /// The subject of the document.
     Subject,
     /// A label volume beside the subject.
     Segments,
@@ -11,7 +11,7 @@ pub enum Role {
     Field,
 }
 
-/// Where something comes from.
+/// Where the data for a want come from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// Made by the program, by name.
@@ -22,23 +22,23 @@ pub enum Source {
         src: Option<String>,
         /// SHA-256 of its bytes, lower-case hex.
         sha256: Option<String>,
-        /// What the author called it, or empty.
+        /// The author's name for the file; may be empty.
         name: String,
     },
 }
 
-/// One thing that a document needs from outside.
+/// One file or built-in subject that a document needs from outside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Want {
-    /// What it is for.
+    /// The use that the document makes of the file.
     pub role: Role,
-    /// Where it comes from.
+    /// Where the file or the subject comes from.
     pub source: Source,
-    /// Which volume of the file is meant and how bare voxels lie; nothing special but for a subject.
+    /// Which volume of the file is meant and how bare voxels lie; the default for all but a subject.
     pub reading: Reading,
 }
 
-/// A file that came is not the one that the document means.
+/// The hash of an arrived file is not the one in the document.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("another file than the document means: its SHA-256 is {found}, wanted is {wanted}")]
 pub struct OtherFile {

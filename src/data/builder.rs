@@ -1,13 +1,13 @@
 use super::{Histogram, Statistics, Volume, VolumeSink, Voxels};
 
-/// First allocation for voxels. Nothing larger is made before that much has come.
+/// Bytes of the first allocation for voxels. A larger one is made only after as many bytes have arrived.
 const FIRST_BYTES: usize = 1024 * 1024;
 
-/// Collects what a reader or generator gives into a [`Volume`]. Built once per subject.
+/// Collects the pieces of a volume from a reader or a generator into a [`Volume`]. Built once per subject.
 ///
-/// Memory grows with what comes, not with what a header promises: to twice what is held until a quarter is there, then
-/// to the whole at once. At the last step a quarter and the whole are held together, so the peak is 1.25 times the
-/// voxels' bytes, plus the slab in hand.
+/// Memory grows with the pieces that arrive, not with the promise of a header: it doubles until a quarter of the voxels
+/// is there, then grows to the whole at once. At the last step a quarter and the whole are held together, so the peak
+/// is 1.25 times the voxels' bytes, plus the slab in hand.
 #[derive(Debug, Default)]
 pub struct VolumeBuilder<P = fn(f32) -> bool> {
     volume: Option<Volume>,
@@ -17,7 +17,7 @@ pub struct VolumeBuilder<P = fn(f32) -> bool> {
     on_progress: Option<P>,
 }
 
-/// Why no volume came of what was collected.
+/// Why the collected pieces make no volume.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
     /// No header was given.
@@ -32,11 +32,11 @@ pub enum BuildError {
     /// Fewer or more voxels or labels than the header said, or of another type.
     #[error("{found} {what} came where {expected} were announced")]
     Miscounted {
-        /// Voxels or labels.
+        /// What was counted, for the message: “voxels” or “labels”.
         what: &'static str,
-        /// Announced.
+        /// How many the header announced.
         expected: usize,
-        /// Came.
+        /// How many came.
         found: usize,
     },
 }

@@ -1,8 +1,8 @@
-//! Sets of voxels, and what is done to them: parts that hang together, growing and shrinking by millimetres, smoothing.
+//! Sets of voxels and operations on them: connected parts, growing and shrinking by millimetres, smoothing.
 //!
 //! Everything here is the same bit for bit on every machine: whole numbers, or floats by additions, products and
-//! comparisons in a fixed order. It runs slice by slice and lets others have their turn in between ([`Turns`]);
-//! besides the set itself it holds a few slices.
+//! comparisons in a fixed order. An operation works slice by slice and gives way in between when its time slice
+//! is over ([`Turns`]); besides the set itself it holds a few slices.
 
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -14,7 +14,8 @@ use std::task::{Context, Poll};
 
 use glam::UVec3;
 
-/// Lets long work stand aside: between two slices it asks whether its time is up, and says how far it is.
+/// Cooperative time slices for a long computation: between two slices of the volume the computation asks whether its
+/// time slice is over and, if so, gives way (its future is pending until it is polled again). Holds the progress too.
 #[derive(Clone)]
 pub struct Turns {
     is_up: Rc<dyn Fn() -> bool>,
@@ -30,12 +31,12 @@ impl fmt::Debug for Turns {
 }
 
 impl Turns {
-    /// Work that nobody waits for.
+    /// One time slice without an end: the computation runs through.
     pub fn endless() -> Self {
         Self::until(|| false)
     }
 
-    /// Work that stands aside when the function says so; polled again, it goes on.
+    /// Time slices that are over when `is_up` returns true; polled again, the computation goes on.
     pub fn until(is_up: impl Fn() -> bool + 'static) -> Self {
         Self {
             is_up: Rc::new(is_up),
@@ -52,7 +53,7 @@ impl Turns {
         self.progress.set(fraction);
     }
 
-    /// Stands aside once if the time is up.
+    /// Gives way once if the time slice is over.
     pub(super) fn pass(&self) -> Pass {
         Pass {
             is_due: (self.is_up)(),
@@ -111,7 +112,7 @@ impl Parts {
 
     fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.shortened(a), self.shortened(b));
-        // The earlier one stays, so that the order of parts is that of the file.
+        // The earlier part keeps its number, so that parts are numbered in the order of the file.
         let (first, second) = (a.min(b), a.max(b));
         self.runs[second as usize].parent = first;
     }
@@ -260,7 +261,7 @@ impl Mask {
             .await;
     }
 
-    /// Adds what is closed in on all sides: parts of the rest that do not come to an end of the grid.
+    /// Adds every enclosed hole: parts of the rest that touch no end of the grid.
     pub async fn fill(&mut self, turns: &Turns) {
         let parts = self.parts(0, turns).await;
         let (height, rows) = (self.dims.y as usize, parts.rows.len() - 1);
@@ -279,8 +280,9 @@ impl Mask {
             .await;
     }
 
-    /// Adds every voxel whose centre is at most `reach` from that of one in the set, by plain distance; or, where
-    /// `wanted` is 0, takes away those as near to one outside the set. What lies beyond the grid is neither.
+    /// For `wanted` 1: adds every voxel whose centre is at most `reach_mm` from the centre of a voxel in the set
+    /// (Euclidean distance). For 0: removes every voxel that is as near to a voxel outside the set. Places beyond the
+    /// grid are neither in the set nor outside.
     ///
     /// The squared distance is found axis by axis (Saito and Toriwaki 1994); only slices within reach are held.
     pub async fn spread(&mut self, wanted: u8, spacing_mm: [f32; 3], reach_mm: f32, turns: &Turns) {
@@ -360,8 +362,8 @@ impl Mask {
         }
     }
 
-    /// Smooths the outline: the set's voxels as 1 and the others as 0, blurred by a Gaussian, and what is then at
-    /// least one half. What lies beyond the grid is as its nearest voxel.
+    /// Smooths the outline: blurs the set (1 inside, 0 outside) by a Gaussian and keeps the voxels with at least one
+    /// half. A place beyond the grid has the value of its nearest voxel.
     pub async fn smooth(&mut self, spacing_mm: [f32; 3], sigma_mm: f32, turns: &Turns) {
         let (width, length, slices) = (self.row_length(), self.slice_length(), self.slices());
         let kernels = spacing_mm.map(|spacing| kernel(sigma_mm / spacing.max(1e-6)));
@@ -471,7 +473,7 @@ fn falling(t: f64) -> f64 {
 
 fn blur_row(row: &[u8], kernel: &[u32], out: &mut [u16]) {
     let last = row.len() - 1;
-    // Where a row is of one kind all along, so is what comes out.
+    // Where a whole row is of one kind, so is the result.
     if row.iter().all(|&bit| bit == row[0]) {
         out.fill(if row[0] == 1 { u16::MAX } else { 0 });
         return;

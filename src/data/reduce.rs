@@ -9,7 +9,7 @@ use super::{Grid, Volume, VolumeSink, Voxels};
 pub struct VolumeLimits {
     /// Voxels along one axis (the device's largest 3D texture).
     pub max_dim: u32,
-    /// Voxels in all.
+    /// Voxels in all, the product of the three axes.
     pub max_voxels: u64,
 }
 
@@ -18,7 +18,7 @@ pub struct VolumeLimits {
 pub struct Reduction {
     /// Voxels of the file.
     pub from: UVec3,
-    /// Voxels kept.
+    /// Voxels that are kept along each axis.
     pub to: UVec3,
 }
 
@@ -78,7 +78,7 @@ pub fn dims_that_fit(grid: &Grid, limits: VolumeLimits) -> UVec3 {
     dims_at(fits)
 }
 
-/// The grid with other dims over the same box: subject space stays that of the full grid, whatever the factor.
+/// A grid with these dims over the box of `grid`, so that both have one subject space.
 pub fn resized(grid: &Grid, dims: UVec3) -> Grid {
     let factor = grid.dims.as_dvec3() / dims.as_dvec3();
     Grid {
@@ -89,9 +89,9 @@ pub fn resized(grid: &Grid, dims: UVec3) -> Grid {
     }
 }
 
-/// A sink in front of another that makes what is too large coarser on its way, so that the full volume is never held:
-/// one coarse slice is. Scalars become the mean over the box that a coarse voxel covers (of fractional size, edges
-/// weighted), labels the one with the largest share in it.
+/// A sink in front of another sink that makes a volume coarser if it is too large. It holds one coarse slice and never
+/// the full volume. Scalars become the mean over the box that a coarse voxel covers (of fractional size, edges
+/// weighted), labels become the one with the largest share in that box.
 pub struct Reducer<'a> {
     inner: &'a mut dyn VolumeSink,
     limits: VolumeLimits,
@@ -110,7 +110,7 @@ impl fmt::Debug for Reducer<'_> {
 }
 
 impl<'a> Reducer<'a> {
-    /// In front of `inner`; what fits passes untouched.
+    /// A reducer in front of `inner`; a volume within `limits` passes unchanged.
     pub fn new(inner: &'a mut dyn VolumeSink, limits: VolumeLimits) -> Self {
         Self {
             inner,
@@ -121,7 +121,7 @@ impl<'a> Reducer<'a> {
         }
     }
 
-    /// What was done to the scalars, once the header has come; `None` if they fit. Its text is the notice.
+    /// The reduction of the scalars, known once the header has arrived; `None` if they fit. Its text is a notice.
     pub fn reduction(&self) -> Option<Reduction> {
         self.reduction
     }
@@ -129,7 +129,8 @@ impl<'a> Reducer<'a> {
 
 /// The fine indices that one coarse index covers along an axis, with the weight of each (they sum to the factor).
 struct Axis {
-    /// Per fine index: the coarse index that it begins in, and its share there; the rest is the next one's.
+    /// Per fine index: the coarse index in which it begins, and its share of that; the rest belongs to the next coarse
+    /// index.
     shares: Vec<(u32, f32)>,
     factor: f64,
 }
@@ -373,7 +374,7 @@ impl VolumeSink for Reducer<'_> {
         let Some(axes) = &mut self.scalars else {
             return self.inner.scalars(next);
         };
-        // A mean lies between what it is of, so that rounding stays in the type.
+        // A mean lies between the values that it is taken of, so that rounding stays in the type.
         let coarse = match next {
             Voxels::U8(v) => Voxels::U8(axes.push(&v, f32::from, |x| x.round() as u8)),
             Voxels::I16(v) => Voxels::I16(axes.push(&v, f32::from, |x| x.round() as i16)),

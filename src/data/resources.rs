@@ -5,8 +5,8 @@ use crate::document::{
     FieldSamples, Illustration, ParamValue, PlacedTemplate, SampledField, TemplateData,
 };
 
-/// What has come of the files that a document names. It stands beside the [`Illustration`], which only names them:
-/// whoever draws or measures takes both. Cheap to clone.
+/// The data of the files that a document names, as far as they have arrived. An [`Illustration`] only names the files,
+/// so drawing and measuring take both. Cheap to clone.
 #[derive(Clone, Debug, Default)]
 pub struct Resources {
     /// The subject, with the segments of its own file under the author's names.
@@ -17,7 +17,7 @@ pub struct Resources {
     pub fields: Vec<(FieldKey, Arc<SampledField>)>,
 }
 
-/// What tells the samples of one `field` from those of another: the file, and how the template reads its vectors.
+/// The key of a field's samples: the file, and how the template reads its vectors.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FieldKey {
     /// `FieldRef::key` of the template.
@@ -29,7 +29,7 @@ pub struct FieldKey {
 }
 
 impl FieldKey {
-    /// Of a template that names the file of a field; `None` for any other.
+    /// The key for a template that names the file of a field; `None` for any other template.
     pub fn of(template: &PlacedTemplate) -> Option<Self> {
         let TemplateData::Field(field) = &template.data else {
             return None;
@@ -47,7 +47,7 @@ impl FieldKey {
 }
 
 impl Resources {
-    /// The samples of a `field`, if they are there.
+    /// The samples for a `field` template, if they have arrived.
     pub fn field(&self, template: &PlacedTemplate) -> Option<&Arc<SampledField>> {
         if self.fields.is_empty() {
             return None;
@@ -63,7 +63,8 @@ impl Resources {
         self.fields.push((key, samples));
     }
 
-    /// Gives each `field` its samples, and puts it where its file says that it lies if the document gives it no place.
+    /// Gives each `field` template its samples; a template without a placement in the document is placed as the file
+    /// says.
     pub fn attach_fields(&self, illustration: &mut Illustration) {
         for template in &mut illustration.templates {
             let Some(samples) = self.field(template).cloned() else {
@@ -79,7 +80,7 @@ impl Resources {
     }
 }
 
-/// The same things, not things that are alike: what is shared is never compared voxel by voxel.
+/// Two values are equal if they share volumes, labels and samples in memory; the contents are never compared.
 impl PartialEq for Resources {
     fn eq(&self, other: &Self) -> bool {
         let is_same_volume = match (&self.volume, &other.volume) {

@@ -46,14 +46,14 @@ fn natural_color(name: &str, label: u8) -> [u8; 3] {
 /// Voxels of the labels at most where label volumes are finer than the scan.
 const MOST_LABELS: u64 = 1 << 28;
 
-/// The segments of a subject, those of its files and those made here, and what there is to say about it.
+/// The segments of a subject, from its files and from recipes, and the notices about them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segmented {
-    /// All of them; `None` if there is none.
+    /// All segments; `None` if there is none.
     pub segmentation: Option<Arc<Segmentation>>,
     /// Voxels of each recipe, in order.
     pub counts: Vec<u64>,
-    /// Lines for the reader, led by the JSON pointer of the recipe.
+    /// Lines for the user; each begins with the JSON pointer of the recipe.
     pub notices: Vec<String>,
 }
 
@@ -61,7 +61,7 @@ pub struct Segmented {
 /// `volume` and of label volumes that lie beside it (on any grid). Where segments overlap, a label of its own stands
 /// for the overlap.
 ///
-/// The same bit for bit on every machine. Holds a byte per voxel besides the result.
+/// The result is the same bit for bit on every machine. Holds a byte per voxel besides the result.
 pub async fn segment(
     volume: Arc<Volume>,
     files: Vec<Arc<Segmentation>>,
@@ -79,7 +79,7 @@ pub async fn segment(
     }
     let grid = grid_of_labels(&volume, &files);
     let mut join = Join::new(grid);
-    // Own labels first, so that they depend on what is listed and not on what overlaps.
+    // The segments' own labels first, so that their numbers depend on the list alone and not on overlaps.
     let mut sources = Vec::new();
     for labels in own.into_iter().chain(files.iter().map(Arc::as_ref)) {
         sources.push((labels, join.list_file(labels, &mut notices, &turns).await));
@@ -439,13 +439,13 @@ impl Join {
     }
 }
 
-/// Labels of overlaps, by what was there and what came.
+/// Labels of overlaps, by the label that a voxel had and the label that was added.
 #[derive(Default)]
 struct OverlapTable {
     known: Vec<((u8, u8), Option<u8>)>,
 }
 
-/// The voxel of one grid that is nearest to that of another.
+/// Finds the voxel of one grid that is nearest to a voxel of another grid.
 struct Nearest {
     is_same: bool,
     to: glam::DAffine3,

@@ -63,7 +63,7 @@ pub struct Statistics {
 
 #[derive(Clone, Debug)]
 enum Counts {
-    /// No voxel yet.
+    /// No voxel was counted yet.
     Empty,
     /// One counter per stored number, which is `index + first`.
     Whole { first: i32, counts: Vec<u64> },
@@ -84,15 +84,15 @@ impl Default for Statistics {
 }
 
 impl Statistics {
-    /// Nothing counted yet.
+    /// Statistics of no voxels: the start of a count.
     pub fn new() -> Self {
         Self {
             counts: Counts::Empty,
         }
     }
 
-    /// Counts stored numbers (before slope and intercept). What is not finite is passed over. All calls must bring the
-    /// same type; another starts anew.
+    /// Counts stored numbers (before slope and intercept). Numbers that are not finite are left out. All calls must
+    /// bring one type; another type starts a new count.
     pub fn add(&mut self, voxels: &Voxels) {
         match voxels {
             Voxels::U8(v) => {
@@ -164,7 +164,7 @@ impl Statistics {
         *min = min.min(low);
         *max = max.max(high);
         while f64::from(low) < *start {
-            // Twice as wide towards below: what was there moves to the upper half.
+            // Twice as wide towards lower values: the counts so far move to the upper half.
             *start -= *width * FLOAT_BINS as f64;
             *width *= 2.0;
             let merged = halve(counts);

@@ -13,7 +13,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Number of voxels.
+    /// Number of voxels, the product of the three dimensions.
     pub fn voxel_count(&self) -> usize {
         self.dims.as_u64vec3().element_product() as usize
     }
@@ -94,11 +94,11 @@ impl Grid {
 /// Scalars in the type they are kept in. Other file types are converted to the next that holds them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Voxels {
-    /// 8-bit.
+    /// Unsigned 8-bit numbers.
     U8(Vec<u8>),
-    /// 16-bit signed.
+    /// Signed 16-bit numbers.
     I16(Vec<i16>),
-    /// 16-bit unsigned.
+    /// Unsigned 16-bit numbers.
     U16(Vec<u16>),
     /// Anything wider or scaled to fractions.
     F32(Vec<f32>),
@@ -142,16 +142,16 @@ pub struct Segment {
     pub color_srgb: Option<[u8; 3]>,
 }
 
-/// Which segment each voxel belongs to; 0 is none. On its own grid.
+/// Which segment each voxel belongs to, by its label; label 0 is no segment. Has its own grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segmentation {
-    /// Its grid; often but not always that of the scan.
+    /// Grid of the labels; often but not always that of the scan.
     pub grid: Grid,
     /// One label per voxel, x fastest.
     pub labels: Vec<u8>,
-    /// Named segments, those of files in label order. A name may stand under several labels: where segments overlap,
-    /// a label of its own stands for the overlap, and is listed once for each of them, in their order; the first
-    /// gives the color.
+    /// Named segments, those of files in label order. A name may have several labels: where segments overlap,
+    /// the overlap has a label of its own, which is listed once for each of these segments, in their order; the first
+    /// one gives the colour.
     pub segments: Vec<Segment>,
 }
 
@@ -162,7 +162,7 @@ pub struct Volume {
     pub grid: Grid,
     /// Scalars as stored, x fastest, `grid.voxel_count()` of them.
     pub voxels: Voxels,
-    /// Scale from stored number to value.
+    /// Factor from stored number to value.
     pub slope: f32,
     /// Value of the stored number 0.
     pub intercept: f32,
@@ -191,7 +191,7 @@ impl Volume {
 /// pieces, a browser's worker posts them to the page.
 pub trait VolumeSink {
     /// Once, first: an empty volume with everything but voxels (their type given by the empty variant) and
-    /// `value_range`. The sink refuses what is too large by returning a message.
+    /// `value_range`. The sink refuses a volume that is too large by returning a message.
     fn begin(&mut self, header: &Volume) -> Result<(), String>;
     /// Scalars that follow the ones given before, always of the type announced, in whole z slices.
     fn scalars(&mut self, next: Voxels);

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 /// Floats of the parameters that have a bit for each kind in `MAIN_PARAMETERS`.
 const MAIN_FLOATS: usize = 4;
 
-/// The file `kinds.wgsl`.
+/// The text of `shaders/displace/kinds.wgsl`: numbers and masks of kinds, generated from the catalogue.
 pub fn shader_constants() -> String {
     let mut text = String::from(
         "/// Bit of templates along curves in `drawn_kinds`.\nconst DRAWN_CURVES: u32 = 0x1u;\n",

@@ -1,11 +1,11 @@
-//! The form in which the file of a kind says what is known of it.
+//! The facts about a kind of template, in the form in which the file of each kind gives them.
 
 use super::points::ControlPoints;
 use super::spec::{MAX_PARAM_FLOATS, TemplateSpec};
 use crate::math::Aabb;
 use glam::{Vec2, Vec3};
 
-/// No end on this side.
+/// Stands for a side of a box without an end.
 pub(super) const INF: f32 = f32::INFINITY;
 
 /// Where a template changes anything, template space. Conservative: outside of both boxes source = q and A ≥ 0.
@@ -19,20 +19,20 @@ pub struct Reach {
     /// Half side of the largest box (template units) in which differences across the box still tell how the map changes
     /// in it.
     pub detail: f32,
-    /// True if the map jumps at a face of the first box, where it meets what is at rest.
+    /// True if the map jumps at a face of the first box, between displaced material and material at rest.
     pub is_torn: bool,
 }
 
 /// Where the material that a template moves can be afterwards, template space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Material {
-    /// It is only removed.
+    /// Material stays in place or is removed.
     Stays,
     /// Moved by no less than `min` and no more than `max` on each axis (forwards, so the negative of D).
     Shifted(Aabb),
-    /// It comes from the unit cube and ends in this box.
+    /// Material of the unit cube ends in this box.
     Within(Aabb),
-    /// Rolled about an axis along x: what lies beyond the arc follows it, however far away.
+    /// Rolled about an axis along x: material beyond the arc follows, however far away.
     Bent(Arc),
 }
 
@@ -52,7 +52,7 @@ pub struct Arc {
 }
 
 impl Reach {
-    /// Nothing is changed.
+    /// The reach of a template that changes nothing.
     pub const NONE: Self = Self {
         boxes: [Aabb::EMPTY; 2],
         material: Material::Stays,
@@ -78,12 +78,12 @@ impl Reach {
         }
     }
 
-    /// With this `detail`.
+    /// This reach with another `detail`.
     pub(super) fn with_detail(self, detail: f32) -> Self {
         Self { detail, ..self }
     }
 
-    /// Torn from what is around it.
+    /// This reach, torn at the faces of its first box.
     pub(super) fn torn(self) -> Self {
         Self {
             is_torn: true,
@@ -137,9 +137,9 @@ pub struct Samples {
 pub struct Facts {
     /// Name, meaning and parameters.
     pub spec: TemplateSpec,
-    /// True if its parameters do not say all: it holds control points or a file.
+    /// True if the parameters are not all of the template: it holds control points or a file.
     pub holds_data: bool,
-    /// What it reaches.
+    /// Finds what the template reaches with the given parameters and data.
     pub reach: fn(&Given) -> Reach,
     /// Where it is grabbed.
     pub grip: Grip,
@@ -165,7 +165,7 @@ pub struct Mirror {
 }
 
 impl Mirror {
-    /// Symmetric in x.
+    /// Symmetric in x: the mirrored template has the same parameters.
     pub(super) const ACROSS_X: Self = Self {
         axis: 0,
         handed: &[],
@@ -180,13 +180,13 @@ impl Mirror {
 /// Groups in which the catalogue is shown: what one wants to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// Open something up.
+    /// Kinds that open something up: peel, retractor and their like.
     OpenUp,
-    /// Take something apart.
+    /// Kinds that take something apart: split, slices and their like.
     TakeApart,
-    /// Carve and shape.
+    /// Kinds that carve and shape: poke, squeeze and their like.
     Carve,
-    /// Bend and twist.
+    /// Kinds that bend and twist the tissue.
     Bend,
 }
 
@@ -240,7 +240,7 @@ pub enum Grip {
 pub struct Icon {
     /// Centre of the template's box.
     pub at: [f32; 3],
-    /// Its size.
+    /// Side lengths of the template's box, subject units.
     pub size: [f32; 3],
     /// Parameters that differ from their defaults.
     pub params: &'static [(&'static str, f32)],

@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 /// Control points of an `rbf`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ControlPoints {
-    /// At most `document::MAX_POINTS`.
+    /// The pairs of points, at most `document::MAX_POINTS`.
     pub points: Vec<ControlPoint>,
     /// A line in the x-y plane of the box that divides it in two; its ends go straight on. Fewer than two points divide
     /// nothing. At most `document::MAX_CUT` points.

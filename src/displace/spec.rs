@@ -31,25 +31,25 @@ pub struct ParamSpec {
 pub enum ParamKind {
     /// A number in a closed range.
     Number {
-        /// If the document says nothing.
+        /// The value if the document gives none.
         default: f32,
-        /// Lowest.
+        /// Lowest value; smaller ones are raised to this.
         min: f32,
-        /// Highest.
+        /// Highest value; larger ones are lowered to this.
         max: f32,
     },
     /// A whole number in a closed range; fractions are rounded, halves up.
     Count {
-        /// If the document says nothing.
+        /// The value if the document gives none.
         default: f32,
-        /// Lowest.
+        /// Lowest value; smaller ones are raised to this.
         min: f32,
-        /// Highest.
+        /// Highest value; larger ones are lowered to this.
         max: f32,
     },
-    /// Yes or no.
+    /// A switch, true or false.
     Flag {
-        /// If the document says nothing.
+        /// The value if the document gives none.
         default: bool,
     },
     /// One of several names; packed as the index.
@@ -57,9 +57,9 @@ pub enum ParamKind {
         /// The names; the first is the default.
         names: &'static [&'static str],
     },
-    /// A vector.
+    /// Three numbers that belong together.
     Vector {
-        /// If the document says nothing.
+        /// The value if the document gives none.
         default: [f32; 3],
         /// Range of each component.
         min: f32,
@@ -72,18 +72,18 @@ pub enum ParamKind {
     Rotation,
 }
 
-/// A parameter's value.
+/// The value of a parameter, inside the range that its [`ParamKind`] gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ParamValue {
     /// Of [`ParamKind::Number`] and [`ParamKind::Count`].
     Number(f32),
-    /// Of [`ParamKind::Flag`].
+    /// Value of a [`ParamKind::Flag`].
     Flag(bool),
     /// Of [`ParamKind::Choice`]: the index.
     Choice(u32),
-    /// Of [`ParamKind::Vector`].
+    /// Value of a [`ParamKind::Vector`].
     Vector(Vec3),
-    /// Of [`ParamKind::Rotation`].
+    /// Value of a [`ParamKind::Rotation`], of unit length.
     Rotation(Quat),
 }
 
@@ -91,7 +91,7 @@ pub enum ParamValue {
 pub const MAX_PARAM_FLOATS: usize = 8;
 
 impl ParamKind {
-    /// What it is if the document says nothing.
+    /// The value if the document does not give one.
     pub fn default_value(&self) -> ParamValue {
         match *self {
             Self::Number { default, .. } | Self::Count { default, .. } => {

@@ -22,7 +22,7 @@ pub enum Plane {
 }
 
 impl Plane {
-    /// The three planes.
+    /// All planes, in the order of the axes x, y, z that are normal to them.
     pub const ALL: [Self; 3] = [Self::Sagittal, Self::Coronal, Self::Axial];
 
     /// Index of the axis of subject space that is normal to the plane.

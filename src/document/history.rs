@@ -37,7 +37,7 @@ impl History {
         }
     }
 
-    /// The current document.
+    /// The document after all edits that were not undone.
     pub fn document(&self) -> &Document {
         &self.document
     }

@@ -124,7 +124,7 @@ fn values(kind: Kind) -> String {
     }
 }
 
-/// What a missing key means, where the kind alone says it.
+/// The meaning of a missing key, where its kind alone tells.
 fn default(kind: Kind) -> Option<String> {
     Some(match kind {
         Kind::Builtin => format!("`{}`", super::DEFAULT_SUBJECT),

@@ -44,7 +44,7 @@ pub(crate) struct Key {
 /// When a key is left out in canonical form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LeftOut {
-    /// At its default.
+    /// Left out where its value is the default.
     AtDefault,
     /// At its default, if no other key stands beside it.
     Alone,
@@ -81,7 +81,7 @@ pub(crate) enum Kind {
     Transfer(&'static [Key]),
     /// `auto` (the default) or the lowest and the highest value.
     Window,
-    /// True or false.
+    /// A JSON boolean.
     Flag {
         /// The value of a missing key.
         default: bool,
@@ -92,9 +92,9 @@ pub(crate) enum Kind {
     Number {
         /// The value of a missing key.
         default: f64,
-        /// Lowest value.
+        /// Lowest value; smaller ones are raised to this.
         min: f64,
-        /// Highest value.
+        /// Highest value; larger ones are lowered to this.
         max: f64,
     },
     /// One number, a lower end, or two, the ends of a range.
@@ -117,7 +117,7 @@ pub(crate) enum Kind {
     },
     /// A list of three numbers each; more than `most` are refused.
     Vectors {
-        /// Most entries.
+        /// Number of entries at most.
         most: usize,
         /// The entries' name in a message.
         what: &'static str,
@@ -136,7 +136,7 @@ pub(crate) enum Kind {
     List {
         /// Keys of an entry.
         of: &'static [Key],
-        /// Most entries.
+        /// Number of entries at most.
         most: usize,
         /// The entries' name in a message.
         what: &'static str,
@@ -152,12 +152,12 @@ pub(crate) enum Kind {
     OneOrMore {
         /// Keys of an object.
         of: &'static [Key],
-        /// Most entries.
+        /// Number of entries at most.
         most: usize,
         /// The entries' name in a message.
         what: &'static str,
     },
-    /// The parameters of a template; its kind says which.
+    /// The parameters of a template; they depend on its kind.
     Params,
     /// For each JSON pointer a value.
     Set,
@@ -201,7 +201,7 @@ impl Key {
         self
     }
 
-    /// This key, left out only where `left_out` says.
+    /// This key, left out in the cases of `left_out` only.
     const fn leaves(mut self, left_out: LeftOut) -> Self {
         self.left_out = left_out;
         self
@@ -246,7 +246,7 @@ pub(crate) const ROOT: &[Key] = &[
     key(70, "templates", Kind::List { of: TEMPLATE, most: MAX_TEMPLATES, what: "templates" }, "deformations, in the order in which they act on the subject"),
     key(80, "look", Kind::Object(LOOK), "colours, opacity and background"),
     key(90, "camera", Kind::Object(CAMERA), "a perspective camera"),
-    key(100, "labels", Kind::List { of: LABEL, most: MAX_LABELS, what: "labels" }, "texts that follow the tissue that they are fastened to"),
+    key(100, "labels", Kind::List { of: CAPTION, most: MAX_LABELS, what: "labels" }, "texts that follow the tissue that they are fastened to"),
     key(110, "steps", Kind::List { of: STEP, most: MAX_STEPS, what: "steps" }, "the steps of a lesson; step 0 is the document itself, each further step changes the one before it").fixed(),
 ];
 
@@ -260,8 +260,8 @@ pub(crate) const SUBJECT: &[Key] = &[
     key(250, "name", Kind::Text, "the author's name for the file"),
     key(270, "frame", Kind::Whole, "which volume of a file that holds several, counted from 0"),
     key(280, "raw", Kind::Object(RAW), "the layout of the voxels in a file that does not describe it").optional().unmade(),
-    key(290, "segments", Kind::OneOrMore { of: LABELS, most: MAX_LABEL_FILES, what: "label volumes" }, "label volumes beside the subject, or names for its own labels"),
-    key(310, "features", Kind::List { of: FEATURE, most: MAX_RECIPES, what: "features" }, "recipes of segments that are made from the values of the subject"),
+    key(290, "segments", Kind::OneOrMore { of: SEGMENTATION, most: MAX_LABEL_FILES, what: "label volumes" }, "label volumes beside the subject, or names for its own labels"),
+    key(310, "features", Kind::List { of: RECIPE, most: MAX_RECIPES, what: "features" }, "recipes of segments that are made from the values of the subject"),
 ];
 
 /// Keys of `/subject/raw`.
@@ -276,7 +276,7 @@ pub(crate) const RAW: &[Key] = &[
 
 /// Keys of a label volume in `/subject/segments`.
 #[rustfmt::skip]
-pub(crate) const LABELS: &[Key] = &[
+pub(crate) const SEGMENTATION: &[Key] = &[
     key(230, "src", Kind::Address, "address of the label volume").optional(),
     key(240, "sha256", Kind::Hash, "hash of its bytes; without `src` the reader supplies the file that has it").optional(),
     key(300, "names", Kind::Labels, "names of its segments, by label number: `{ \"1\": \"bone\" }`"),
@@ -284,7 +284,7 @@ pub(crate) const LABELS: &[Key] = &[
 
 /// Keys of a recipe in `/subject/features`.
 #[rustfmt::skip]
-pub(crate) const FEATURE: &[Key] = &[
+pub(crate) const RECIPE: &[Key] = &[
     key(250, "name", Kind::Text, "name of the segment; without it `feature 1` and so on"),
     key(520, "color", Kind::Color, "colour of the segment; without it one that the program picks").optional(),
     key(530, "from", Kind::Object(FROM), "the first draft of the segment").stays().unmade(),
@@ -417,7 +417,7 @@ pub(crate) const CAMERA: &[Key] = &[
 
 /// Keys of an entry of `/labels`.
 #[rustfmt::skip]
-pub(crate) const LABEL: &[Key] = &[
+pub(crate) const CAPTION: &[Key] = &[
     key(320, "at", vector(ORIGIN, -FAR, FAR), "the point of tissue that the text is fastened to, in the undeformed subject"),
     key(670, "text", Kind::Text, "the text"),
 ];

@@ -133,7 +133,7 @@ impl Document {
         text
     }
 
-    /// Bytes of [`Document::to_json_compact`].
+    /// Length of [`Document::to_json_compact`] in UTF-8, bytes.
     pub fn byte_count(&self) -> usize {
         self.inner.bytes
     }

@@ -1,17 +1,17 @@
-//! Addresses: where a payload stands in them, and which version reads it.
+//! Addresses: finds the payload in an address, and the version that reads the payload.
 
 use super::error::LinkError;
 use super::payload::is_whole;
 use super::v1;
 use crate::document::Document;
 
-/// Above this many characters the app advises a document file: some programs cut longer addresses.
+/// Characters above which the app advises a document file instead of a link: some programs cut longer addresses.
 pub const ADVISED_LENGTH: usize = 2000;
 
 /// The content of an address.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// The illustration.
+    /// The document that the payload holds.
     pub document: Document,
     /// The step to open it at, from `&step=`; 0 if there is none. May be larger than the number of steps.
     pub step: usize,

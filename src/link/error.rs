@@ -13,7 +13,7 @@ pub enum LinkError {
     /// The text was not made by this program, or is damaged at its beginning.
     #[error("this is not a Fabrica link: “{found}”")]
     Foreign {
-        /// Its first characters.
+        /// The first characters of the text.
         found: String,
     },
     /// The link was made by a later release.
@@ -30,13 +30,13 @@ pub enum LinkError {
         /// Number of characters that the payload says it has.
         expected: usize,
     },
-    /// A character is not the one that was written.
+    /// A character was changed on the way.
     #[error("the link is damaged: its checksum does not fit")]
     Damaged,
     /// The payload decodes to more bytes than a document may have.
     #[error("the link holds more than {limit} bytes, which no document has")]
     TooLarge {
-        /// Most bytes of a document.
+        /// Bytes that a document may have.
         limit: usize,
     },
     /// The payload is whole, but it holds no valid document.

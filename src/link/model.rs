@@ -1,10 +1,11 @@
 //! Format version 1's coder: an adaptive model of illustration documents drives a binary arithmetic coder.
 //!
 //! A short text gains little from deflate, which has to see a string before it can refer to it. Here several
-//! predictors, each keyed by another part of what came before (the last bytes, the word, the place in the JSON tree),
-//! guess the next bit; a small online-trained mixer weighs them, and the arithmetic coder spends only what the mixture
-//! did not expect (the scheme of PAQ: Mahoney, *Adaptive weighing of context models for lossless data compression*,
-//! 2005). Before the first byte the model reads a fixed text of typical documents, so it starts as one that knows them.
+//! predictors guess the next bit, each from another part of the text so far (the last bytes, the word, the place in the
+//! JSON tree). A small mixer, trained on the way, weighs their guesses, and the arithmetic coder spends the fewer bits
+//! the better the mixture was (the scheme of PAQ: Mahoney, *Adaptive weighing of context models for lossless data
+//! compression*, 2005). Before the first byte the model reads a fixed text of typical documents, so that it starts with
+//! their statistics.
 //!
 //! Everything is whole-number arithmetic: the same bits on every machine, for ever. **Any change of a constant, of the
 //! contexts or of the priming text changes the format**, and belongs into a new version.
@@ -17,7 +18,7 @@ pub(super) const OPENING: &str = "{\"fabrica\":1";
 
 /// Entries of one predictor's table, as a power of two.
 const TABLE_BITS: u32 = 17;
-/// Number of predictors.
+/// Number of predictors, each with a table and a context of its own.
 const N: usize = 11;
 /// Inputs of the mixer: one per predictor and a bias.
 const INPUTS: usize = N + 1;
@@ -55,20 +56,20 @@ fn stretch_table() -> Vec<i16> {
     table
 }
 
-/// What has been read of the JSON text, as far as predictors want to know.
+/// The place in the JSON text, as far as the predictors use it.
 #[derive(Clone)]
 struct Place {
     /// The last eight bytes, newest lowest.
     last: u64,
     /// Hash of the letters since the last other byte, and of the word before.
     word: u32,
-    /// The word before that.
+    /// Hash of the word before `word`.
     word_before: u32,
     is_in_string: bool,
     is_escaped: bool,
     /// Hash of the key whose value is read, per open array or object; `index` counts entries.
     open: Vec<Level>,
-    /// Hash of the string that is read or was read last.
+    /// Hash of the string that is being read, or else of the last one.
     string: u32,
     /// Bytes since the value began.
     since: u32,
@@ -123,7 +124,8 @@ impl Place {
                 self.is_in_string = false;
                 return false;
             }
-            // A pointer in a step's `set` is a path; its digits say which template, not what.
+            // A pointer in a step's `set` is a path; its digits are indices of templates and say nothing about the
+            // value.
             if !byte.is_ascii_digit() {
                 self.string = hash(self.string, u32::from(byte));
             }
@@ -203,10 +205,11 @@ impl Place {
     }
 }
 
-/// The adaptive model.
+/// The adaptive model: tables of all predictors, the mixer's weights, and the place in the text.
 #[derive(Clone)]
 pub(super) struct Model {
-    /// Per predictor and hashed context: probability of a 1 in 2²²ths, and how often it was seen.
+    /// Per predictor and hashed context: probability of a 1 (upper 22 bits), and how often the context was seen (lower
+    /// 10).
     tables: Vec<u32>,
     weights: Vec<[i32; INPUTS]>,
     weights_2: Vec<[i32; INPUTS]>,
@@ -217,7 +220,7 @@ pub(super) struct Model {
     contexts: [u32; N],
     /// Bits of the byte so far, with a leading 1.
     partial: u32,
-    // What was looked up for the coming bit.
+    // Found by `predict` for the coming bit, and used by `update`.
     slots: [usize; N],
     inputs: [i32; INPUTS],
     set: usize,
@@ -226,13 +229,13 @@ pub(super) struct Model {
     p_2: u32,
 }
 
-/// How often a context is counted before its rate stays.
+/// Number of times seen at which the rate of adaptation of a context stays constant.
 const COUNT_LIMIT: u32 = 255;
 /// Speed of the mixer's training.
 const MIXER_RATE: i32 = 14;
 /// Weight of each predictor before training, of 65536.
 const FIRST_WEIGHT: i32 = 8000;
-/// Trust in a prediction seen that often, of 64: a context seen once may be chance.
+/// Weight of a prediction by how often its context was seen, in 64ths; a context that was never seen has none.
 const TRUST: [i32; 8] = [0, 72, 68, 66, 64, 64, 64, 64];
 
 impl Model {
@@ -347,7 +350,7 @@ impl Model {
 }
 
 /// Codes the rest of a document whose [`OPENING`] the model has read. The text must end where its outermost brace
-/// closes; what follows would not be read back.
+/// closes; text after that brace would be lost.
 pub(super) fn compress(mut model: Model, rest: &[u8]) -> Vec<u8> {
     let (mut low, mut high) = (0_u32, u32::MAX);
     let mut out = Vec::new();
@@ -391,9 +394,9 @@ fn split(low: u32, high: u32, p: u32) -> u32 {
     low + ((u64::from(high - low) * u64::from(p)) >> 16) as u32
 }
 
-/// What [`decompress`] found instead of a document.
+/// Why [`decompress`] found no document.
 pub(super) enum Broken {
-    /// No end within that many bytes.
+    /// The document does not end within `limit` bytes.
     TooLarge,
     /// The code ended before the document did.
     Short,

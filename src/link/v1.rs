@@ -19,7 +19,7 @@ static PRIMED: LazyLock<model::Model> = LazyLock::new(model::Model::new);
 
 pub(super) fn encode(document: &Document) -> String {
     let text = document.to_json_compact();
-    // A document of format 1 begins so; see the order of keys in `document::schema`.
+    // Every document of format 1 begins with the opening; see the order of keys in `document::schema`.
     let rest = text.strip_prefix(model::OPENING).unwrap_or("}");
     let code = URL_SAFE_NO_PAD.encode(model::compress(PRIMED.clone(), rest.as_bytes()));
     let mut payload = String::with_capacity(code.len() + 12);
@@ -54,7 +54,7 @@ pub(super) fn decode(payload: &str) -> Result<Document, LinkError> {
     Ok(Document::from_json(&format!("{}{rest}", model::OPENING))?)
 }
 
-/// The code between length and checksum, both of which fit.
+/// The code between the length and the checksum, after both were checked.
 fn code_of(payload: &str) -> Result<&str, LinkError> {
     let bytes = payload.as_bytes();
     let cut_off = |expected| LinkError::CutOff {
@@ -71,7 +71,7 @@ fn code_of(payload: &str) -> Result<&str, LinkError> {
             .iter()
             .position(|letter| letter == byte)
             .ok_or(LinkError::Damaged)?;
-        // Five groups say more than a document ever takes.
+        // Five groups of five bits hold a larger number than the length of any document.
         if at > 5 {
             return Err(LinkError::Damaged);
         }

@@ -18,11 +18,11 @@ pub struct Description {
     pub header: Volume,
     /// Segments in the file with the voxels of each, in label order; empty if it is no label volume.
     pub segments: Vec<(Segment, u64)>,
-    /// Everything else.
+    /// Warnings and hash, as the reader reported them.
     pub report: LoadReport,
 }
 
-/// Reads a file through and says what it holds, without keeping its voxels.
+/// Reads a file through and describes its content, without keeping its voxels.
 ///
 /// # Errors
 /// As [`read_volume`].
@@ -34,7 +34,7 @@ pub fn describe(
     describe_by(|sink, report| read_volume(files, name, options, sink, report))
 }
 
-/// Reads a file of bare voxels through and says what it holds.
+/// Reads a file of bare voxels through and describes its content.
 ///
 /// # Errors
 /// As [`read_raw`].
@@ -90,7 +90,7 @@ pub(super) fn segments_there(statistics: &Statistics, named: &[Segment]) -> Vec<
         .collect()
 }
 
-/// Counts what comes and keeps none of it.
+/// A sink that counts values and labels and keeps none of them.
 struct Counter {
     header: Option<Volume>,
     statistics: Statistics,

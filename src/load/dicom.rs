@@ -23,7 +23,7 @@ pub(crate) use super::dicom_data::is_header;
 
 /// Bytes of a file that are looked at first; a header that is longer doubles them.
 const HEADER_BYTES: usize = 64 * 1024;
-/// What is said of directories, reports, contours.
+/// Message about files that hold directories, reports or contours.
 const NO_PIXELS: &str = "a DICOM file without pixels";
 /// Images of all files together.
 const MAX_FRAMES: usize = 1 << 18;
@@ -78,7 +78,7 @@ pub(crate) fn read(
         sink,
         report,
     )?;
-    // What is not shown belongs to the same files and is part of their hash.
+    // Files that are not shown belong to the series all the same, and are part of its hash.
     for (source, hash) in sources.iter().zip(&mut hashes) {
         if hash.is_none() {
             let loaded = load(files, &source.name, name)?;
@@ -154,7 +154,7 @@ fn survey(
                     survey.frames.extend(frames);
                 }
             }
-            // Only what is an image by its header and still cannot be read is worth a word.
+            // Only a file that is an image by its header and still cannot be read gets a warning.
             Err(error @ LoadError::Unsupported { .. }) if is_all => {
                 let is_image =
                     !matches!(&error, LoadError::Unsupported { what, .. } if what == NO_PIXELS);
@@ -234,7 +234,7 @@ fn one(
                 continue;
             }
             Err(error) => return Err(fault(name, error, &bytes)),
-            // A data set without pixels has been read to the end of what there is: there may be more.
+            // A data set without pixels was read to the end of the bytes so far: more bytes may bring more elements.
             Ok(parsed) if parsed.pixels.tag == 0 && !is_end => {
                 len *= 2;
                 continue;

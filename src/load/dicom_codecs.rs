@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// Longest message of a library that is passed on, characters.
 const MOST_WORDS: usize = 120;
 
-/// What the header of a file says of each of its frames.
+/// The layout of each frame, from the header of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Image {
     /// Pixels in a row.

@@ -258,7 +258,7 @@ pub(crate) struct Pixels {
 /// A file understood so far.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Parsed {
-    /// Its data set.
+    /// The data set of the file: the wanted elements, with their sequences.
     pub(crate) root: Item,
     /// UID of the transfer syntax; empty if it was guessed.
     pub(crate) syntax_uid: String,
@@ -304,7 +304,7 @@ pub(crate) fn unpack(bytes: &[u8], is_whole: bool) -> Result<Cow<'_, [u8]>, Faul
             offset: start,
             what: "its deflated data set is damaged",
         }),
-        // What came before the damage or the end of a part is of use.
+        // Elements before the damage, or before the end of a part, are used.
         _ => Ok(Cow::Owned(out)),
     }
 }
@@ -391,7 +391,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Counts what is kept, so that a file of nothing but empty elements asks for no memory.
+    /// Counts the elements that are kept, so that a file of nothing but empty elements does not fill the memory.
     fn keep(&mut self) -> Result<(), Fault> {
         self.kept += 1;
         if self.kept > MAX_KEPT {

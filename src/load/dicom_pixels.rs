@@ -28,11 +28,11 @@ pub(crate) struct PixelFormat {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Color {
     Gray,
-    /// Red, green, blue.
+    /// Red, green and blue samples.
     Rgb,
     /// Brightness and two differences of colour.
     Ybr,
-    /// The same with half the columns for the differences.
+    /// As `Ybr`, with half the columns for the differences.
     Ybr422,
     /// Numbers of colours: the brightness of each, and the first number.
     Palette(Vec<u8>, u16),
@@ -90,7 +90,7 @@ fn packing(uid: &str) -> Result<Packing, String> {
 }
 
 impl PixelFormat {
-    /// From a data set; an error says in words what cannot be drawn.
+    /// Reads the layout from a data set; an error tells in words what cannot be drawn.
     pub(crate) fn of(parsed: &Parsed) -> Result<Self, String> {
         let root = &parsed.root;
         let packing = packing(&parsed.syntax_uid)?;
@@ -469,7 +469,7 @@ fn palette(root: &Item) -> Result<Color, String> {
 pub(crate) enum FrameFault {
     /// Bytes of pixels are missing.
     Short { expected: u64, found: u64 },
-    /// In words.
+    /// Any other fault, in plain words.
     Other(String),
 }
 

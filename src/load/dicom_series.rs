@@ -27,7 +27,7 @@ pub(crate) struct Frame {
     /// Position of its file in the list of files, and its own in the file.
     pub(crate) file: usize,
     pub(crate) index: u64,
-    /// Centre of the first pixel, mm, LPS; if it is told.
+    /// Centre of the first pixel, mm, LPS; `None` if the file does not tell.
     position: Option<DVec3>,
     /// Directions of a row and of a column, LPS.
     row: DVec3,
@@ -40,7 +40,7 @@ pub(crate) struct Frame {
     pub(crate) intercept: f64,
     /// What parts images at the same place: time, echo, number.
     order: [f64; 6],
-    /// Number of its segment, if it is a segmentation.
+    /// Number of the segment, if the file is a segmentation.
     pub(crate) segment: Option<u16>,
 }
 
@@ -70,7 +70,7 @@ fn vector(numbers: &[f64]) -> Option<DVec3> {
     numbers.first_chunk::<3>().map(|&v| DVec3::from(v))
 }
 
-/// The frames of one file. An error says in words why it has none.
+/// The frames of one file. An error tells in words why the file has none.
 pub(crate) fn frames(
     parsed: &Parsed,
     name: &str,
@@ -97,7 +97,7 @@ pub(crate) fn frames(
     let mut list = Vec::new();
     for index in 0..count {
         let group = groups.get(index as usize);
-        // What a frame says goes before what all share, and that before the file.
+        // A frame's own elements go before those that all frames share, and these before the elements of the file.
         let within = |sequence: u32, wanted: u32| -> Option<&Item> {
             [group, shared]
                 .into_iter()
@@ -241,7 +241,7 @@ pub(crate) fn stacks(sources: &[Source], frames: Vec<Frame>) -> Vec<Stack> {
         let first = stack.slices.iter().flatten().next();
         first.is_some_and(|frame| frame.segment.is_some())
     };
-    // Scans before what was drawn on them.
+    // Scans come before overlays that were drawn on them.
     stacks.sort_by(|a, b| {
         let order = |stack: &Stack| {
             stack

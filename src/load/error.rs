@@ -1,4 +1,5 @@
-/// Why a file gave no volume: what was expected, what came, and where. One line each, plain words, file name last.
+/// Why a file gave no volume: what was expected, what was found, and where. One line each, in plain words, file name
+/// last.
 ///
 /// No variant holds text out of the file's descriptive fields, where patients' names stand.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -14,17 +15,17 @@ pub enum LoadError {
     /// The file could not be opened or read.
     #[error("cannot read at byte {offset}: {message} ({name})")]
     Io {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
         /// Bytes read before, unpacked if the file is packed.
         offset: u64,
-        /// The system's words.
+        /// The message of the operating system.
         message: String,
     },
     /// Nothing in the file.
     #[error("the file is empty ({name})")]
     Empty {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
     },
     /// Neither content nor name is one of the formats known.
@@ -32,7 +33,7 @@ pub enum LoadError {
         "not a volume file that Fabrica knows (NIfTI, NRRD, MetaImage, DICOM): it begins with {begins} ({name})"
     )]
     UnknownFormat {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
         /// Its first bytes, as hexadecimal.
         begins: String,
@@ -40,23 +41,23 @@ pub enum LoadError {
     /// A format, or a part of one, that is known and not read.
     #[error("{what} ({name})")]
     Unsupported {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
-        /// What it is and what may be done instead.
+        /// What the file is, and what the user may do instead.
         what: String,
     },
     /// A header field holds something that cannot be.
     #[error("{field} at byte {offset} of the header should be {expected}, but is {found} ({name})")]
     Header {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
         /// The field, by the name that the format gives it.
         field: &'static str,
         /// Where it stands, bytes from the start.
         offset: u64,
-        /// What was expected.
+        /// What the field should hold, in plain words.
         expected: String,
-        /// What came.
+        /// What the field holds, in plain words.
         found: String,
     },
     /// A line of a text header cannot be understood.
@@ -64,27 +65,27 @@ pub enum LoadError {
         "line {line} of the header: \"{field}\" should be {expected}, but is \"{found}\" ({name})"
     )]
     HeaderLine {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
         /// Line number from 1; 0 if the field is missing.
         line: usize,
-        /// The field.
+        /// Name of the field in the header.
         field: String,
-        /// What was expected.
+        /// What the field should hold, in plain words.
         expected: String,
-        /// What came, shortened.
+        /// What the field holds, shortened.
         found: String,
     },
     /// The packed data are damaged.
     #[error("the {codec} data are damaged after {offset} unpacked bytes: {message} ({name})")]
     Damaged {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
         /// gzip, zlib or bzip2.
         codec: &'static str,
         /// Bytes unpacked before the damage was noticed.
         offset: u64,
-        /// The decoder's words.
+        /// The message of the decoder.
         message: String,
     },
     /// The file ends before its voxels do.
@@ -92,7 +93,7 @@ pub enum LoadError {
         "the file ends too early: its header promises {expected} bytes, {found} are there ({name})"
     )]
     Truncated {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
         /// Bytes that the header asks for, unpacked.
         expected: u64,
@@ -104,7 +105,7 @@ pub enum LoadError {
         "at least {extra} bytes more than the header explains: the voxels would be shifted ({name})"
     )]
     TooLong {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
         /// Bytes left over (at least).
         extra: u64,
@@ -112,29 +113,29 @@ pub enum LoadError {
     /// The header asks for more voxels than the limit of [`super::ReadOptions`].
     #[error("{voxels} voxels are more than the {limit} that can be opened ({name})")]
     TooLarge {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
         /// Voxels asked for, capped at `u64::MAX`.
         voxels: u64,
-        /// The limit.
+        /// Voxels that can be opened.
         limit: u64,
     },
     /// The asked frame of a series is not there.
     #[error("volume {} was asked for, the file has {count} ({name})", .asked.saturating_add(1))]
     NoSuchFrame {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
         /// Frame asked for, from 0.
         asked: u64,
-        /// Frames there are.
+        /// Number of frames in the file.
         count: u64,
     },
     /// The receiver cannot take the volume.
     #[error("{message} ({name})")]
     Refused {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
-        /// The receiver's words.
+        /// The message of the receiver.
         message: String,
     },
     /// The user stopped it, or the receiver gave up.
@@ -143,15 +144,15 @@ pub enum LoadError {
     /// A file that is no displacement field.
     #[error("not a displacement field: {what} ({name})")]
     NotField {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
-        /// What is wrong with it.
+        /// What is wrong with the file.
         what: String,
     },
     /// A label volume holds something that is no label.
     #[error("not a label volume: {what} ({name})")]
     NotLabels {
-        /// The file.
+        /// Name of the file, as given.
         name: String,
         /// What it holds instead.
         what: String,

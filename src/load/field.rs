@@ -22,7 +22,7 @@ const MAX_SIDE: u32 = 128;
 const MAX_SAMPLES: u64 = 1 << 28;
 /// Axes further from square than this are no box.
 const MAX_SKEW: f64 = 2e-3;
-/// Largest displacement in boxes; what is beyond is a mistake of units.
+/// Largest displacement, in sides of the box; a larger one is taken for a mistake of units.
 const MAX_BOXES: f64 = 50.0;
 
 /// A displacement field as it stands in a file.
@@ -42,7 +42,7 @@ pub struct FieldFile {
     pub notices: Vec<String>,
 }
 
-/// What a template says of its file, and what it is laid over.
+/// How a template reads its file, and the subject that the field is laid over.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldUse<'a> {
     /// The vectors are in subject units and not in millimetres.
@@ -53,7 +53,7 @@ pub struct FieldUse<'a> {
     pub subject: &'a Grid,
 }
 
-/// True if a file says that it holds vectors, or is a table of nodes: a displacement field rather than a scan.
+/// True for the header of a file of vectors and for the name of a table of nodes: a displacement field, not a scan.
 pub fn is_field(files: &mut dyn FileSet, name: &str) -> bool {
     nodes::has_ending(name)
         || read_header(files, name, &ReadOptions::default())

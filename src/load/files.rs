@@ -16,7 +16,7 @@ const MAX_FILES: u64 = 100_000;
 pub struct FileHandle<'a> {
     /// The bytes, from the first. Read in large pieces; no buffer is needed.
     pub read: Box<dyn Read + 'a>,
-    /// The file's length.
+    /// Length of the file, bytes; `None` if it is not known.
     pub byte_len: Option<u64>,
 }
 

@@ -28,7 +28,7 @@ pub(crate) fn is_usable(world_from_voxel: &DAffine3) -> bool {
         && world_from_voxel.translation.abs().max_element() <= MAX_ORIGIN_MM
 }
 
-/// Axes along the grid, first voxel at 0, for a file that says nothing of orientation.
+/// Axes along the grid, first voxel at 0, for a file without an orientation.
 pub(crate) fn unoriented(spacing_mm: DVec3) -> DAffine3 {
     DAffine3::from_mat3_translation(DMat3::from_diagonal(spacing_mm), DVec3::ZERO)
 }

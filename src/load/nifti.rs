@@ -33,7 +33,7 @@ pub(crate) fn is_header(start: &[u8]) -> bool {
             }))
 }
 
-/// A header, checked and understood: what is needed to read the voxels.
+/// A header, checked: all that is needed to read the voxels.
 pub(crate) struct Header {
     volume: Volume,
     layout: Layout,

@@ -1,7 +1,7 @@
 //! Nodal displacements as simulations give them: a table of x, y, z and the forward displacement of each node,
 //! regularised onto a grid (dissertation, section 9.3).
 //!
-//! What is wanted is the inverse: a node that went from x to x + u says that what is at x + u came from there, so its
+//! A field holds the inverse map: a node that went from x to x + u tells that the material at x + u came from x, so its
 //! sample lies at x + u and is −u. Between samples Shepard's interpolation over the nearest ones (Franke and Little's
 //! weights), which runs through every node and needs no mesh.
 
@@ -15,9 +15,9 @@ use super::files::open;
 use super::{FileSet, LoadError};
 use crate::data::Grid;
 
-/// Nodes at most.
+/// Nodes that a table may have.
 const MAX_NODES: usize = 1 << 20;
-/// Longest line, bytes.
+/// Bytes that a line may have.
 const MAX_LINE_BYTES: usize = 4096;
 /// Samples of the regular grid along its longest side.
 const SIDE: f64 = 48.0;
@@ -32,7 +32,7 @@ pub(crate) fn has_ending(name: &str) -> bool {
     lower.ends_with(".csv") || lower.ends_with(".tsv")
 }
 
-/// A table, regularised.
+/// A table of displacements at scattered nodes, sampled anew on a regular grid.
 pub(crate) struct Nodes {
     pub(crate) grid: Grid,
     pub(crate) samples: Vec<[f32; 4]>,

@@ -20,7 +20,7 @@ const MAX_LINE_BYTES: usize = 1 << 20;
 /// Lines and bytes of a header in all.
 const MAX_LINES: usize = 100_000;
 const MAX_HEADER_BYTES: usize = 16 << 20;
-/// NRRD's own limit.
+/// Axes that an NRRD may have, by its definition.
 const MAX_AXES: usize = 16;
 
 /// True if the bytes begin as a NRRD header does.
@@ -518,7 +518,7 @@ fn per_axis(fields: &Fields, field: &str, rank: usize) -> Vec<f64> {
     }
 }
 
-/// Millimetres in the header's unit, where it says one.
+/// Millimetres in one unit of the header.
 fn unit_mm(fields: &Fields) -> f64 {
     let text = fields
         .get("spaceunits")

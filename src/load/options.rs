@@ -1,4 +1,4 @@
-/// What is wanted of a file.
+/// Options of reading a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReadOptions {
     /// Which volume of a file that holds several, from 0.

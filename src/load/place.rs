@@ -18,7 +18,7 @@ const MAX_COUNTED_EXTRA: u64 = 64 * 1024 * 1024;
 pub(crate) enum Encoding {
     Raw,
     Gzip,
-    /// zlib, or gzip where the bytes say so.
+    /// zlib, or gzip where the first bytes are those of gzip.
     Zlib,
     Bzip2,
     Ascii,
@@ -45,7 +45,7 @@ pub(crate) struct Place {
     /// Volumes one after the other, and the one that is wanted.
     pub(crate) frame_count: u64,
     pub(crate) frame: u64,
-    /// True where bytes left over mean that the voxels are not where the header says.
+    /// True where bytes left over mean that the voxels are not at the place that the header gives.
     pub(crate) is_exact: bool,
 }
 
@@ -113,7 +113,7 @@ pub(crate) fn read(
         } => {
             let file_count = names.len() as u64;
             let mut ends = Vec::new();
-            // The sink is begun once the first file has shown that it can hold its part.
+            // The sink gets its header once the first file has shown that it can hold its part of the voxels.
             let Some(first) = names.first() else {
                 return Err(unsupported(
                     &header_name,
@@ -408,7 +408,7 @@ fn skip_exactly(
     Ok(())
 }
 
-/// One of several files: its own fraction says nothing of the whole.
+/// One of several files: its own fraction is not the progress of the whole.
 struct Part<'a, 'b> {
     stream: &'a mut Stream<'b>,
 }

@@ -13,7 +13,7 @@ use super::{ElementType, FileSet, Format, LoadError, LoadReport, ReadOptions, Wa
 use crate::data::VolumeSink;
 use crate::document::RawVoxels;
 
-/// What a file of bare voxels does not say of itself.
+/// The layout of a file of bare voxels, which the file itself does not hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RawLayout {
     /// Voxels along each axis, x fastest.
@@ -147,7 +147,7 @@ fn element_in_name(name: &str) -> (Option<ElementType>, bool) {
     )
 }
 
-/// Reads bare voxels as the user says they lie. gzip is unpacked by itself.
+/// Reads bare voxels in the layout that the user gave. gzip is unpacked without being asked for.
 ///
 /// # Errors
 /// As [`super::read_volume`].

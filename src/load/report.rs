@@ -14,45 +14,45 @@ pub enum Warning {
     BadOrientation {
         /// The part that cannot be used.
         field: &'static str,
-        /// What was taken instead.
+        /// The orientation that was taken instead.
         instead: &'static str,
     },
     /// A voxel size is 0, negative or no number, and was repaired.
     BadSpacing {
         /// Grid axis, 0 to 2.
         axis: usize,
-        /// What stands there.
+        /// The voxel size in the file.
         found: f32,
-        /// What was taken, mm.
+        /// The size that was taken instead, mm.
         instead: f32,
     },
     /// Slope 0 with an intercept: by the standard neither is applied.
     SlopeZero,
     /// Slope or intercept is no usable number; values are taken as stored.
     BadScale {
-        /// The slope.
+        /// Factor of the stored values, as the file gives it.
         slope: f32,
-        /// The intercept.
+        /// Offset of the stored values, as the file gives it.
         intercept: f32,
     },
     /// Voxels that were NaN or infinite and are now 0.
     NotFinite {
-        /// How many.
+        /// Number of such voxels.
         count: u64,
     },
     /// Voxels too large for what the picture can show, taken as the largest possible.
     Clipped {
-        /// How many.
+        /// Number of such voxels.
         count: u64,
     },
     /// Whole numbers beyond 2²⁴, rounded to 24 bits.
     Rounded {
-        /// How many.
+        /// Number of such voxels.
         count: u64,
     },
     /// All voxels of the volume are equal: there is nothing to see.
     Constant {
-        /// Their value.
+        /// The value that all voxels have.
         value: f32,
     },
     /// Bytes after the last voxel that the header does not explain.
@@ -70,7 +70,7 @@ pub enum Warning {
     Luminance,
     /// DICOM: slices are missing between others; their neighbours are shown there.
     MissingSlices {
-        /// How many.
+        /// Number of missing slices.
         count: u64,
     },
     /// DICOM: more than one image at the same place; the first is shown.
@@ -82,31 +82,31 @@ pub enum Warning {
     UnevenSlices {
         /// The smallest distance, mm.
         smallest_mm: f64,
-        /// The largest, mm.
+        /// The largest distance of neighbours, mm.
         largest_mm: f64,
     },
     /// DICOM: slices do not lie square on each other, as the gantry was tilted.
     Tilted {
-        /// By how much.
+        /// Tilt of the gantry, degrees.
         degrees: f64,
     },
     /// DICOM: nothing says how large a pixel is.
     NoPixelSpacing,
     /// DICOM: images that are left out because they cannot be read.
     LeftOut {
-        /// How many.
+        /// Number of images that are left out.
         count: u64,
     },
     /// Voxels that belong to several segments; the last is shown.
     OverlappingSegments {
-        /// How many.
+        /// Number of such voxels.
         count: u64,
     },
     /// A header field is out of order but could be read around.
     Repaired {
-        /// The field.
+        /// Name of the field, as the format has it.
         field: &'static str,
-        /// What is wrong and what was done.
+        /// What is wrong with the field, and how the reader went on.
         what: String,
     },
     /// Label names in the file could not be understood.
@@ -238,9 +238,9 @@ pub struct LoadReport {
     pub frame_count: u64,
     /// Names and colours of labels that the file brings.
     pub segments: Vec<Segment>,
-    /// True if the header says that the voxels are labels.
+    /// True if the voxels are labels by the header.
     pub is_labels: bool,
-    /// The header says that its components are a vector.
+    /// The components of a voxel are a vector by the header.
     pub is_vectors: bool,
     /// What takes the file's vectors to RAS+, if it holds vectors (see [`super::read_field`]).
     pub vector_signs: [i8; 3],

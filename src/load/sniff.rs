@@ -3,7 +3,7 @@ use super::{dicom, metaimage, nifti, nrrd};
 /// Bytes looked at to tell what a file is.
 pub(super) const SNIFF_BYTES: usize = 1024;
 
-/// What the start and the name of a file say that it is.
+/// The format of a file, by its first bytes and its name.
 pub(super) enum Kind {
     Dicom,
     Nifti,
@@ -15,7 +15,7 @@ pub(super) enum Kind {
     Unknown,
 }
 
-/// Tells the kind of a file by its first bytes (unpacked), and by its name where they say nothing.
+/// Tells the format of a file by its first bytes (unpacked), or by its name where the bytes are not clear.
 pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
     let lower = name.to_lowercase();
     let named = |ending: &str| {

@@ -151,7 +151,7 @@ impl Read for Members<'_> {
 /// How a file's bytes are packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Packing {
-    /// Not at all.
+    /// The bytes are not packed.
     Plain,
     /// gzip, any number of members.
     Gzip,
@@ -173,7 +173,7 @@ pub(crate) struct Stream<'a> {
 }
 
 impl<'a> Stream<'a> {
-    /// Starts on a file; `hash` takes what is read.
+    /// Starts to read a file; `hash` takes all bytes that are read.
     pub(crate) fn new(
         name: &str,
         read: Box<dyn Read + 'a>,
@@ -193,7 +193,7 @@ impl<'a> Stream<'a> {
         }
     }
 
-    /// The file's name.
+    /// Name of the file, for messages.
     pub(crate) fn name(&self) -> &str {
         &self.name
     }

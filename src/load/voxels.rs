@@ -18,25 +18,25 @@ const EXACT_LIMIT: u64 = 1 << 24;
 /// Scalar types that files have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementType {
-    /// 8-bit unsigned.
+    /// Unsigned 8-bit number.
     U8,
-    /// 8-bit signed.
+    /// Signed 8-bit number.
     I8,
-    /// 16-bit unsigned.
+    /// Unsigned 16-bit number.
     U16,
-    /// 16-bit signed.
+    /// Signed 16-bit number.
     I16,
-    /// 32-bit unsigned.
+    /// Unsigned 32-bit number.
     U32,
-    /// 32-bit signed.
+    /// Signed 32-bit number.
     I32,
-    /// 64-bit unsigned.
+    /// Unsigned 64-bit number.
     U64,
-    /// 64-bit signed.
+    /// Signed 64-bit number.
     I64,
-    /// 32-bit float.
+    /// Floating-point number of 32 bits.
     F32,
-    /// 64-bit float.
+    /// Floating-point number of 64 bits.
     F64,
     /// Two 32-bit floats; read as their magnitude.
     C64,
@@ -159,7 +159,7 @@ pub(crate) trait VoxelSource {
     fn fill(&mut self, buf: &mut [u8]) -> Result<usize, LoadError>;
     /// Part that was read, if that is known.
     fn fraction(&mut self) -> Option<f32>;
-    /// For messages.
+    /// Name of the file, for messages.
     fn name(&self) -> String;
 }
 
@@ -177,7 +177,7 @@ impl VoxelSource for Stream<'_> {
     }
 }
 
-/// What was changed on the way.
+/// What was changed in values on the way.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
     not_finite: u64,
@@ -252,7 +252,7 @@ impl<'a> Slabs<'a> {
         }
     }
 
-    /// Takes so many voxels from a source, or what is still missing.
+    /// Takes this many voxels from a source, or as many as the volume still lacks.
     pub(crate) fn pull(
         &mut self,
         source: &mut dyn VoxelSource,
@@ -308,7 +308,7 @@ impl<'a> Slabs<'a> {
             .progress((self.done as f64 / self.total as f64) as f32)
     }
 
-    /// Reports what was changed on the way.
+    /// Reports what was changed in values on the way.
     pub(crate) fn finish(self, header: &Volume, report: &mut LoadReport) {
         let tally = self.tally;
         for (count, warning) in [

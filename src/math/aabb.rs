@@ -3,9 +3,9 @@ use glam::Vec3;
 /// An axis-aligned box, closed. `min <= max` on every axis, or it is [`Aabb::EMPTY`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
-    /// Lowest corner.
+    /// Lowest corner; +infinity in [`Aabb::EMPTY`].
     pub min: Vec3,
-    /// Highest corner.
+    /// Highest corner; -infinity in [`Aabb::EMPTY`].
     pub max: Vec3,
 }
 

@@ -14,7 +14,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// What a template has when the document says nothing (contract, "Defaults").
+    /// The placement of a template without one in the document (contract, "Defaults").
     pub const DOCUMENT_DEFAULT: Self = Self {
         at: Vec3::ZERO,
         rotate: Quat::IDENTITY,

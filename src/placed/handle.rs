@@ -10,7 +10,8 @@ pub struct Handle {
     pub param: usize,
     /// Where it is now, subject space (deformed).
     pub at: Vec3,
-    /// Direction in which the value grows, unit length, subject space; `None` if it is dragged in any direction.
+    /// Direction in which the value grows, unit length, subject space; `None` if the handle is dragged in any
+    /// direction.
     pub along: Option<Vec3>,
 }
 

@@ -21,16 +21,16 @@ use crate::render::stage::skip_grid::{GridInput, SkipGrid};
 use crate::render::stage::templates::TemplateBuffer;
 use crate::render::subject::volume::SubjectTextures;
 
-/// One formula or two are as fast as a texture.
+/// Kinds of templates from which on the baked map is used: one formula or two are as fast as a texture.
 const LEAST_BAKED_KINDS: u32 = 3;
 
-/// An illustration on the GPU, for one subject. Brought up to date per document edit; says what changed.
+/// An illustration on the GPU, for one subject. Brought up to date after each edit of the document.
 ///
-/// Each stage compares the stamps of its inputs with those that it was made from, and makes itself anew where they
+/// Each stage compares the stamps of its inputs with the stamps from its last update, and updates itself if they
 /// differ.
 #[derive(Debug)]
 pub(crate) struct Scene {
-    /// Group 2.
+    /// Bind group 2: templates, look and kept tissue.
     pub bindings: wgpu::BindGroup,
     /// Output texture that a whole picture of this scene was last drawn into.
     pub drawn_generation: u64,
@@ -45,7 +45,7 @@ pub(crate) struct Scene {
     bodies: BodyTextures,
     look: LookTable,
     grid: Option<SkipGrid>,
-    /// Bound where there is no grid.
+    /// Bound where there is no skip grid.
     no_grid: (wgpu::Buffer, wgpu::TextureView),
     baked: Option<BakedTexture>,
     baked_from: MadeFrom<3>,
@@ -93,7 +93,7 @@ impl Scene {
         }
     }
 
-    /// What is to be said about the document since the last call.
+    /// Messages about the document since the last call.
     pub(crate) fn take_notices(&mut self) -> Vec<String> {
         self.inputs.take_notices()
     }
@@ -165,7 +165,7 @@ impl Scene {
         }
     }
 
-    /// The grid over the deformed space, read back; `None` without one.
+    /// The skip grid; `None` for a scene that draws without one.
     pub(crate) fn grid(&self) -> Option<&SkipGrid> {
         self.grid.as_ref()
     }
@@ -202,7 +202,7 @@ impl Scene {
         &self.templates.uniform
     }
 
-    /// Sampled displacements.
+    /// The displacements of all `field` templates, sampled.
     pub(crate) fn fields(&self) -> &wgpu::TextureView {
         &self.fields.view
     }

@@ -22,7 +22,7 @@ const PROGRESS_STEP: f32 = 0.01;
 
 /// Passes events on. Returns false when no one wants more of them.
 pub trait Post {
-    /// One event.
+    /// Passes one event on.
     fn post(&mut self, event: LoadEvent) -> bool;
 }
 
@@ -111,7 +111,7 @@ pub fn slabs_in_turn(
 /// Endings of files that may hold bare voxels.
 const RAW_ENDINGS: [&str; 7] = [".raw", ".bin", ".dat", ".vol", ".img", ".data", ".zraw"];
 
-/// Words in the names of files that hold labels, where their headers do not say so.
+/// Words in the names of files that hold labels although their headers do not tell.
 const LABEL_WORDS: [&str; 4] = ["label", "seg", "mask", "atlas"];
 /// More files than this are a series of slices, with DICOM segmentations at most, not a scan with its label volumes.
 const MOST_WITH_LABELS: usize = 12;
@@ -209,7 +209,7 @@ pub fn read_segments(files: &mut dyn FileSet, name: &str, post: &mut dyn Post) {
     post.post(event);
 }
 
-/// Reads a scan.
+/// Reads a scan and posts its header, its voxels and how the load ended.
 pub fn read_file(
     files: &mut dyn FileSet,
     name: &str,
@@ -285,7 +285,7 @@ pub fn read_scan(
     }
 }
 
-/// What is said where a document asks for a file of the reader's own. `name` is what the author called it.
+/// The message for a document that asks for a file of the reader's own. `name` is the author's name for the file.
 pub fn wanted_file(name: &str) -> String {
     let called = if name.is_empty() {
         String::new()

@@ -1,4 +1,4 @@
-//! The window: files by path and dialog, loads in a thread, what is kept in a folder of the user's.
+//! The native window: files by path and dialog, loads in a thread, a folder for what is stored between runs.
 
 use std::collections::BTreeMap;
 use std::io::Read as _;
@@ -27,13 +27,13 @@ const MAX_DOCUMENT_BYTES: u64 = 2 * 1024 * 1024;
 /// What a window opens with.
 #[derive(Clone, Debug, Default)]
 pub struct Opening {
-    /// The document; with none, what was kept from the last time.
+    /// The document to open; without it, the one stored by the last run.
     pub document: Option<Document>,
     /// Folder that the document's relative addresses start from; the working folder if none is given.
     pub folder: Option<PathBuf>,
     /// A file that takes the place of the document's subject.
     pub subject: Option<PathBuf>,
-    /// How that file is read, before what the document says.
+    /// How that file is read; goes before the reading in the document.
     pub reading: ReadingFlags,
     /// Part of the name of the adapter to draw with.
     pub adapter: Option<String>,
@@ -92,8 +92,8 @@ pub fn view(opening: Opening) -> Result<(), WindowError> {
         #[cfg(debug_assertions)]
         services.watch_shaders();
         let document = opening.document.as_ref();
-        let said = document.and_then(|document| document.illustration().subject.reading());
-        let reading = opening.reading.over(said);
+        let in_document = document.and_then(|document| document.illustration().subject.reading());
+        let reading = opening.reading.over(in_document);
         let subject = opening
             .subject
             .map(|path| services.start_file(path, true, reading));
@@ -206,7 +206,7 @@ impl NativeServices {
         });
     }
 
-    fn say(&self, message: Message) {
+    fn send(&self, message: Message) {
         send(&self.sender, &self.ctx, message);
     }
 
@@ -230,7 +230,7 @@ impl NativeServices {
             message,
             details: String::new(),
         };
-        self.say(Message::Load { ticket, event });
+        self.send(Message::Load { ticket, event });
         ticket
     }
 
@@ -238,7 +238,7 @@ impl NativeServices {
         let (ticket, is_wanted) = self.new_ticket();
         if !is_asked {
             // The ticket is announced before any event of the load.
-            self.say(Message::FileStarted { ticket });
+            self.send(Message::FileStarted { ticket });
         }
         self.opened = Some((ticket, path.clone()));
         self.read(ticket, is_wanted, path, reading);
@@ -317,7 +317,7 @@ impl NativeServices {
                 if let Some(folder) = path.parent() {
                     self.folder = folder.to_path_buf();
                 }
-                self.say(Message::OpenText { text });
+                self.send(Message::OpenText { text });
                 return;
             }
             if path.is_file() && is_field_file(path) {
@@ -335,7 +335,7 @@ impl NativeServices {
     /// Reads a scan, and as segments what of the files holds labels.
     fn start_files(&mut self, paths: Vec<PathBuf>, reading: Reading) -> Ticket {
         let (ticket, is_wanted) = self.new_ticket();
-        self.say(Message::FileStarted { ticket });
+        self.send(Message::FileStarted { ticket });
         self.opened = paths.first().map(|path| (ticket, path.clone()));
         let (sender, ctx, limits) = (self.sender.clone(), self.ctx.clone(), self.limits);
         let (known, labels) = (Arc::clone(&self.known), self.labels.clone());
@@ -444,7 +444,7 @@ fn document_text(path: &Path) -> Option<String> {
     text.trim_start().starts_with('{').then_some(text)
 }
 
-/// Folder for what is kept between runs.
+/// Folder for texts that are stored between runs.
 fn store_folder() -> Option<PathBuf> {
     let from = |name: &str| {
         std::env::var_os(name)
@@ -565,7 +565,7 @@ impl Services for NativeServices {
                 self.n_reading += 1;
                 let outcome = Box::new(Err(wanted_file(name)));
                 let want = Some(want.clone());
-                self.say(Message::Field { want, outcome });
+                self.send(Message::Field { want, outcome });
             }
         }
     }
@@ -596,7 +596,7 @@ impl Services for NativeServices {
     fn cancel_load(&mut self, ticket: Ticket) {
         if let Some(load) = self.load.take_if(|load| load.ticket == ticket) {
             load.is_wanted.store(false, Ordering::Relaxed);
-            self.say(Message::Load {
+            self.send(Message::Load {
                 ticket,
                 event: LoadEvent::Cancelled,
             });
@@ -621,7 +621,7 @@ impl Services for NativeServices {
 
     fn copy_text(&mut self, text: String) {
         self.ctx.copy_text(text);
-        self.say(Message::Copied(Ok(())));
+        self.send(Message::Copied(Ok(())));
     }
 
     fn paste_text(&mut self) {
@@ -631,7 +631,7 @@ impl Services for NativeServices {
     }
 
     fn page_address(&self) -> String {
-        // A window has no page of its own; who publishes one can say where it is.
+        // A window has no page of its own; an author who publishes one can name its address.
         std::env::var("FABRICA_PAGE").unwrap_or_default()
     }
 
@@ -649,7 +649,7 @@ impl Services for NativeServices {
     }
 
     fn languages(&self) -> Vec<String> {
-        // The order in which the C library looks; what is set but empty does not count.
+        // The order in which the C library looks; a variable that is set but empty does not count.
         let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
         let first = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().find_map(set);
         let list = set("LANGUAGE").unwrap_or_default();

@@ -25,7 +25,7 @@ const MAX_DOCUMENT_BYTES: f64 = 2e6;
 /// How a viewer is set into its surroundings.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
-    /// Address of worker.js.
+    /// Address of `worker.js`, the script of the workers.
     pub worker: String,
     /// The viewer is the page: it binds the address bar and keeps the session. Not so when embedded.
     pub is_page: bool,
@@ -90,7 +90,7 @@ impl Page {
         }
     }
 
-    pub(super) fn say(&mut self, message: Message) {
+    pub(super) fn send(&mut self, message: Message) {
         self.messages.push(message);
         if let Some(ctx) = &self.ctx {
             ctx.request_repaint();
@@ -98,15 +98,15 @@ impl Page {
     }
 
     /// Tells the app what became of a field: one that the document names, or one that the user opened.
-    fn say_field(&mut self, want: Option<Want>, outcome: Result<FieldFile, String>) {
+    fn send_field(&mut self, want: Option<Want>, outcome: Result<FieldFile, String>) {
         if want.is_some() {
             self.n_reading = self.n_reading.saturating_sub(1);
         }
         let outcome = Box::new(outcome);
-        self.say(Message::Field { want, outcome });
+        self.send(Message::Field { want, outcome });
     }
 
-    /// Ends what is being loaded and names what comes instead.
+    /// Ends the load under way and gives the next one a ticket.
     fn new_ticket(&mut self) -> Ticket {
         self.load = None;
         self.opening = None;
@@ -131,7 +131,7 @@ fn matches_media(query: &str) -> bool {
 pub(super) struct PageServices(pub Rc<RefCell<Page>>);
 
 impl PageServices {
-    /// Starts a task and passes on what its part says of it.
+    /// Starts a task and passes on the answers of its part.
     fn start(&self, ticket: Ticket, task: &Task) {
         let started = self.answered(task, move |services, answer| match answer {
             Answer::Event(event) => services.pass(ticket, event),
@@ -170,7 +170,7 @@ impl PageServices {
         {
             page.known.insert(hash.clone(), files);
         }
-        page.say(Message::Load { ticket, event });
+        page.send(Message::Load { ticket, event });
     }
 
     /// Gives the app a displacement field, or why there is none, and keeps its file by its hash.
@@ -184,7 +184,7 @@ impl PageServices {
         if let Ok(field) = &outcome {
             page.known.insert(field.sha256.clone(), files);
         }
-        page.say_field(want, outcome);
+        page.send_field(want, outcome);
     }
 
     /// Reads one file that the reader opened: as a displacement field if it is one, else as a scan, which takes the
@@ -238,7 +238,7 @@ impl PageServices {
         page.load = page.opening.take_if(|(t, _)| *t == ticket);
         page.asking.clear();
         page.opened = Some((ticket, files.to_vec()));
-        page.say(Message::FileStarted { ticket });
+        page.send(Message::FileStarted { ticket });
     }
 
     fn fail(&self, message: String) -> Ticket {
@@ -248,7 +248,7 @@ impl PageServices {
             message,
             details: String::new(),
         };
-        page.say(Message::Load { ticket, event });
+        page.send(Message::Load { ticket, event });
         ticket
     }
 
@@ -274,7 +274,7 @@ impl PageServices {
             };
             services.0.borrow_mut().n_reading -= 1;
             if let Some(text) = text {
-                services.0.borrow_mut().say(Message::OpenText { text });
+                services.0.borrow_mut().send(Message::OpenText { text });
                 return;
             }
             if let [(name, blob)] = files.as_slice() {
@@ -286,7 +286,7 @@ impl PageServices {
                 let mut page = services.0.borrow_mut();
                 let ticket = page.new_ticket();
                 page.opened = Some((ticket, files.clone()));
-                page.say(Message::FileStarted { ticket });
+                page.send(Message::FileStarted { ticket });
                 ticket
             };
             let labels = services.0.borrow().labels.clone();
@@ -324,7 +324,7 @@ fn scan_task(
     })
 }
 
-/// The task to fetch an address and read what comes.
+/// The task to fetch an address and to read the bytes that come.
 fn address_task(address: String, want: &Want) -> Task {
     Task::Scan(ScanTask::Address {
         address,
@@ -384,7 +384,7 @@ fn storage() -> Option<Storage> {
     window()?.local_storage().ok().flatten()
 }
 
-/// What was kept under a key: by this tab, else by any.
+/// The text stored under a key: by this tab, else by any tab.
 fn kept(key: &str) -> Option<String> {
     let key = format!("fabrica.{key}");
     let read = |storage: Storage| storage.get_item(&key).ok().flatten();
@@ -448,7 +448,7 @@ impl Services for PageServices {
             Some(())
         });
         if shown.is_none() {
-            self.0.borrow_mut().say(Message::Notice {
+            self.0.borrow_mut().send(Message::Notice {
                 message: "This browser shows no file dialog: drop the file on the picture"
                     .to_owned(),
                 details: String::new(),
@@ -500,7 +500,7 @@ impl Services for PageServices {
         match foreign_host(&address) {
             Some(host) if !page.allowed_hosts.contains(&host) => {
                 page.asking.insert(ticket, (address, want.clone()));
-                page.say(Message::AskHost { ticket, host });
+                page.send(Message::AskHost { ticket, host });
             }
             _ => {
                 drop(page);
@@ -540,7 +540,7 @@ impl Services for PageServices {
                 }
             }
             let mut page = services.0.borrow_mut();
-            page.say_field(for_want, Err(missing));
+            page.send_field(for_want, Err(missing));
         });
     }
 
@@ -586,7 +586,7 @@ impl Services for PageServices {
         let was_asking = page.asking.remove(&ticket).is_some();
         let was_loading = page.load.take_if(|(t, _)| *t == ticket).is_some();
         if was_asking || was_loading {
-            page.say(Message::Load {
+            page.send(Message::Load {
                 ticket,
                 event: LoadEvent::Cancelled,
             });
@@ -616,7 +616,7 @@ impl Services for PageServices {
                 Url::revoke_object_url(&address)
             });
         let outcome = saved.map(|()| file.name).map_err(|error| text_of(&error));
-        self.0.borrow_mut().say(Message::Saved(outcome));
+        self.0.borrow_mut().send(Message::Saved(outcome));
     }
 
     fn copy_text(&mut self, text: String) {
@@ -637,7 +637,7 @@ impl Services for PageServices {
                 let _ignored = refused.call1(&JsValue::NULL, &text.into());
                 return;
             }
-            services.0.borrow_mut().say(Message::Copied(outcome));
+            services.0.borrow_mut().send(Message::Copied(outcome));
         });
     }
 
@@ -654,7 +654,7 @@ impl Services for PageServices {
                 Some(reading) => reading.await.ok().and_then(|text| text.as_string()),
                 None => None,
             };
-            services.0.borrow_mut().say(Message::Pasted(text));
+            services.0.borrow_mut().send(Message::Pasted(text));
         });
     }
 

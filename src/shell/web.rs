@@ -26,7 +26,7 @@ pub struct Viewer {
     runner: eframe::WebRunner,
     canvas: HtmlCanvasElement,
     page: Rc<RefCell<Page>>,
-    /// What it opens with in place of what the address says.
+    /// Text of a link or a document to open in place of the one in the address.
     text: RefCell<Option<String>>,
     _on_pop: Option<Closure<dyn FnMut()>>,
 }
@@ -52,7 +52,7 @@ impl Viewer {
                 let text = address_text().unwrap_or_else(|| EMPTY.to_owned());
                 let mut page = page.borrow_mut();
                 page.payload.clear();
-                page.say(Message::OpenText { text });
+                page.send(Message::OpenText { text });
             });
             if let Some(window) = web_sys::window() {
                 window.set_onpopstate(Some(closure.as_ref().unchecked_ref()));
@@ -75,7 +75,7 @@ impl Viewer {
         }
     }
 
-    /// Starts drawing what the address (of a page) or [`Viewer::set_link`] says.
+    /// Starts to draw the document of the address (of a page) or of [`Viewer::set_link`].
     ///
     /// # Errors
     /// If there is no WebGPU device for the canvas.
@@ -165,7 +165,7 @@ impl Viewer {
             self.text.replace(Some(text));
         } else {
             page.payload.clear();
-            page.say(Message::OpenText { text });
+            page.send(Message::OpenText { text });
         }
     }
 
@@ -174,7 +174,7 @@ impl Viewer {
         self.page.borrow_mut().place.base = address;
     }
 
-    /// Payload of the link to what is shown now, and `&step=N` if a step is.
+    /// Payload of the link to the illustration shown now, and `&step=N` if a step is shown.
     pub fn get_link(&self) -> String {
         self.runner
             .app_mut::<Shown>()
@@ -321,7 +321,7 @@ impl eframe::App for Shown {
 
 /// Whether the page must not also act on an event. Keys that belong to the browser (reload, tools, full screen, what
 /// goes with Ctrl and is no shortcut of ours) stay with it; the wheel scrolls the page around an embedded viewer unless
-/// Ctrl says that zooming is meant.
+/// Ctrl is held, which means zooming.
 fn is_ours(event: &egui::Event, is_page: bool) -> bool {
     use egui::{Event, Key};
     match event {
@@ -419,7 +419,7 @@ pub fn first_part(text: &str, base: &str) -> Option<String> {
     Some(part.name().to_owned())
 }
 
-/// [`first_part`] of what the page's address says, or of what was kept from an earlier visit.
+/// [`first_part`] for the page's address, or for what was stored on an earlier visit.
 #[wasm_bindgen]
 pub fn part_of_address() -> Option<String> {
     if document_address().is_some() {
@@ -429,10 +429,10 @@ pub fn part_of_address() -> Option<String> {
     first_part(&text, &here()?.href())
 }
 
-/// Title, caption and steps of the document in a link or JSON, as lines of text, for where no picture can be drawn.
+/// Title, legend and steps of the document in a link or JSON, as lines of text, for where no picture can be drawn.
 ///
 /// # Errors
-/// What is wrong with the link or document.
+/// What is wrong with the link or the document.
 #[wasm_bindgen]
 pub fn describe(text: &str) -> Result<String, JsValue> {
     let illustration = open(text)?.illustration().clone();
@@ -447,7 +447,7 @@ pub fn describe(text: &str) -> Result<String, JsValue> {
 /// The document of a link, a payload or JSON, as JSON.
 ///
 /// # Errors
-/// What is wrong with it.
+/// What is wrong with the link or the document.
 #[wasm_bindgen]
 pub fn to_document(text: &str) -> Result<String, JsValue> {
     Ok(open(text)?.to_json_compact())

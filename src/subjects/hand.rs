@@ -299,7 +299,7 @@ fn bones(fingers: &[Finger]) -> (Field, Field) {
     let mut carpals = Field::default();
     for (at, radii, tilt) in wrist {
         let shape = ellipsoid(at, radii).turned(0.0, tilt, 0.0);
-        // What is there already keeps its place, but for a gap.
+        // Bones that are there already keep their place, but for a gap.
         carpals.carve(
             0.6,
             ellipsoid(at, radii.map(|r| r + 0.9)).turned(0.0, tilt, 0.0),

@@ -10,7 +10,7 @@ use super::shape::turn_deg;
 pub(super) struct Finger {
     /// Base and head of the metacarpal, the two joints of the finger, end of the last bone.
     pub(super) joints: [Vec3; 5],
-    /// Across the finger.
+    /// Unit vector across the finger.
     pub(super) across: Vec3,
     /// Out of the palmar side, by bone.
     pub(super) palmar: [Vec3; 4],

@@ -13,7 +13,7 @@ use super::lanes::Lanes;
 use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, border_width, segment};
 use super::shape::{Field, Near, Places, smooth_min};
 
-/// Segments by label.
+/// Segments of the head; the number of each is its label.
 #[derive(Clone, Copy)]
 #[repr(u8)]
 enum Tissue {

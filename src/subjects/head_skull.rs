@@ -328,7 +328,7 @@ pub(super) fn sinuses() -> Field {
     f
 }
 
-/// Jaw bone.
+/// Shape of the mandible.
 pub(super) fn mandible() -> Field {
     let mut f = Field::default();
     f.join(

@@ -234,7 +234,7 @@ pub(super) fn facial_muscles() -> Field {
     f
 }
 
-/// The tongue.
+/// Shape of the tongue.
 pub(super) fn tongue() -> Field {
     let mut f = Field::default();
     f.join(0.0, ellipsoid([0.0, 64.0, -52.5], [20.5, 25.0, 13.0]));
@@ -247,7 +247,7 @@ pub(super) fn tongue() -> Field {
     f
 }
 
-/// Glands.
+/// Shape of the glands together.
 pub(super) fn glands() -> Field {
     let mut f = Field::default();
     // Parotid, submandibular, sublingual, lacrimal, thyroid, pituitary.

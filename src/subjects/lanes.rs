@@ -11,7 +11,7 @@ use wide::f32x8;
 /// Voxels in a row of a block, and rows and layers of a block.
 pub(super) const LANES: usize = 8;
 
-/// Eight floats.
+/// Eight numbers that are computed at once: a row of voxels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lanes(f32x8);
 
@@ -23,7 +23,7 @@ impl From<[f32; LANES]> for Lanes {
 }
 
 impl Lanes {
-    /// The same number in every lane.
+    /// This number in every lane.
     #[inline(always)]
     pub(super) fn splat(value: f32) -> Self {
         Self(f32x8::splat(value))
@@ -35,13 +35,13 @@ impl Lanes {
         Self::from([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]) * step + start
     }
 
-    /// Square root.
+    /// Square root of each number.
     #[inline(always)]
     pub(super) fn sqrt(self) -> Self {
         Self(self.0.sqrt())
     }
 
-    /// Magnitude.
+    /// Absolute value of each number.
     #[inline(always)]
     pub(super) fn abs(self) -> Self {
         Self(self.0.abs())
@@ -59,7 +59,7 @@ impl Lanes {
         Self(self.0.fast_max(other.0))
     }
 
-    /// Between two numbers.
+    /// Each number brought into the range from `low` to `high`.
     #[inline(always)]
     pub(super) fn clamp(self, low: f32, high: f32) -> Self {
         self.max(Self::splat(low)).min(Self::splat(high))
@@ -71,7 +71,7 @@ impl Lanes {
         self + (other - self) * t
     }
 
-    /// Smallest lane.
+    /// The smallest of the eight numbers.
     pub(super) fn lowest(self) -> f32 {
         (0..LANES).fold(
             f32::INFINITY,
@@ -79,7 +79,7 @@ impl Lanes {
         )
     }
 
-    /// Largest lane.
+    /// The largest of the eight numbers.
     pub(super) fn highest(self) -> f32 {
         (0..LANES).fold(f32::NEG_INFINITY, |high, i| {
             if self[i] > high { self[i] } else { high }
@@ -149,13 +149,13 @@ impl Neg for Lanes {
     }
 }
 
-/// Eight points.
+/// Eight points, coordinate by coordinate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Points {
-    /// x of each.
+    /// x of each point.
     pub(super) x: Lanes,
-    /// y of each.
+    /// y of each point.
     pub(super) y: Lanes,
-    /// z of each.
+    /// z of each point.
     pub(super) z: Lanes,
 }

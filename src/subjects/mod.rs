@@ -117,7 +117,7 @@ fn model(name: &str) -> Option<Box<dyn Model>> {
 /// Some whole z slices of a subject.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Slab {
-    /// Values, x fastest.
+    /// Values of the voxels, x fastest, Hounsfield units.
     pub values: Vec<i16>,
     /// Labels, in the same order.
     pub labels: Vec<u8>,

@@ -15,7 +15,7 @@ pub(super) trait Model: Send + Sync {
     fn segments(&self) -> &'static [SegmentSpec];
     /// Lowest and highest value that can occur.
     fn value_range(&self) -> [f32; 2];
-    /// Paints one block.
+    /// Fills in values and labels of one block of voxels.
     fn paint(&self, block: &Block, out: &mut Canvas);
 }
 
@@ -23,11 +23,11 @@ pub(super) trait Model: Send + Sync {
 pub(super) struct SegmentSpec {
     /// As used in `keep`.
     pub(super) name: &'static str,
-    /// sRGB bytes.
+    /// Natural colour: red, green and blue in sRGB, 0 to 255.
     pub(super) color_srgb: [u8; 3],
 }
 
-/// Shorthand for tables.
+/// A segment of this name and colour; shorter to write in tables.
 pub(super) const fn segment(name: &'static str, color_srgb: [u8; 3]) -> SegmentSpec {
     SegmentSpec { name, color_srgb }
 }
@@ -41,7 +41,7 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// The middle, mm.
+    /// Middle of the block, mm.
     pub(super) fn center(&self) -> Vec3 {
         self.origin + Vec3::splat(0.5 * (LANES - 1) as f32 * self.spacing)
     }

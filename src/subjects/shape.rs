@@ -91,7 +91,7 @@ pub(super) const fn at(p: [f32; 3]) -> Vec3 {
     Vec3::new(p[0], p[1], p[2])
 }
 
-/// A ball.
+/// A ball of this centre and radius, mm.
 pub(super) fn ball(center: [f32; 3], radius: f32) -> Shape {
     ellipsoid(center, [radius; 3])
 }
@@ -394,7 +394,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// Of eight points.
+    /// Keeps the points and folds them over to the right side.
     #[inline(always)]
     pub(super) fn new(plain: Points) -> Self {
         let folded = Points {
@@ -409,7 +409,7 @@ impl Places {
 enum Op {
     /// Smooth union over so many mm.
     Join(f32),
-    /// Smooth difference.
+    /// Smooth difference over so many mm.
     Carve(f32),
     /// Moves the surface outwards by so many mm where the shape is, most in its middle.
     Raise(f32),
@@ -424,7 +424,7 @@ pub(super) struct Field {
     rounding: Vec<f32>,
 }
 
-/// "Nowhere near", mm.
+/// Distance that stands for “nowhere near”, mm.
 pub(super) const FAR: f32 = 1e3;
 
 /// A point and the radius there, mm.
@@ -595,7 +595,7 @@ impl Field {
 /// The steps of a field that matter in one block; kept between blocks to spare the allocation.
 #[derive(Default)]
 pub(super) struct Near<'a> {
-    /// What is done with how many of the next shapes.
+    /// An operation, and the number of the next shapes that it takes.
     steps: Vec<(Op, usize)>,
     shapes: Vec<&'a Shape>,
 }
@@ -625,7 +625,7 @@ impl Near<'_> {
         (first, second)
     }
 
-    /// Signed distance, mm.
+    /// Signed distance of each point, mm; below 0 inside.
     #[inline]
     pub(super) fn distance(&self, p: &Places) -> Lanes {
         self.onto(p, Lanes::splat(FAR))

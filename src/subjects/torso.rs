@@ -14,7 +14,7 @@ use super::torso_chest::{self, Heart};
 use super::torso_frame::{self, Spine};
 use super::torso_wall::{self, ARM_END_MM, BOTTOM_MM, Outside, TOP_MM};
 
-/// Segments by label.
+/// Segments of the torso; the number of each is its label.
 #[derive(Clone, Copy)]
 #[repr(u8)]
 enum Tissue {

@@ -4,7 +4,7 @@ use super::*;
 use fabrica::app::Command;
 use fabrica::assets::Role;
 
-/// Little is drawn: what is looked at are the panels and the messages.
+/// The pictures are small: the tests look at the panels and the messages.
 const SMALL: Vec2 = Vec2::new(780.0, 360.0);
 
 /// A window over files that are there.
@@ -21,7 +21,7 @@ fn files() -> Vec<(String, Vec<u8>)> {
         .collect()
 }
 
-fn says(window: &Window, part: &str) -> bool {
+fn shows(window: &Window, part: &str) -> bool {
     let mut found = window.harness.query_all_by_label_contains(part);
     found.next().is_some()
 }
@@ -34,7 +34,7 @@ fn has_told(window: &mut Window, parts: &[&str]) -> bool {
         window.steps(3);
     };
     toggle(window);
-    let is_told = parts.iter().all(|part| says(window, part));
+    let is_told = parts.iter().all(|part| shows(window, part));
     toggle(window);
     is_told
 }
@@ -54,9 +54,9 @@ fn label_volumes_open_as_in_a_command() {
         let parts: Vec<&str> = case.says.iter().map(String::as_str).collect();
         assert!(has_told(&mut window, &parts), "{}: {parts:?}", case.name);
         // An error stays over the picture, with the hashes behind a button.
-        assert_eq!(says(&window, "Details"), case.is_error, "{}", case.name);
+        assert_eq!(shows(&window, "Details"), case.is_error, "{}", case.name);
         window.click("Panel: Tissues");
-        let is_there = |name: &str| says(&window, &format!("Show {name} alone"));
+        let is_there = |name: &str| shows(&window, &format!("Show {name} alone"));
         for name in case.segments {
             assert!(is_there(name), "{}: no “{name}”", case.name);
         }
@@ -71,7 +71,7 @@ fn label_volumes_open_as_in_a_command() {
         let queue = |message| window.log.0.borrow_mut().queue.push(message);
         queue(Message::OpenText { text });
         window.settle();
-        assert!(says(&window, "Show top alone"), "{}", case.name);
+        assert!(shows(&window, "Show top alone"), "{}", case.name);
     }
 }
 
@@ -115,7 +115,7 @@ fn another_file_than_the_one_waited_for_is_an_error() {
         window.click("Panel: Tissues");
         assert!(window.harness.state().is_at_rest(), "{name}: it goes on");
     }
-    assert!(!says(&window, "another file"), "it is there");
+    assert!(!shows(&window, "another file"), "it is there");
 }
 
 /// The file of `view --subject` takes the subject's place whatever its hash; that is a notice, and label volumes stay.
@@ -139,5 +139,5 @@ fn a_file_in_place_of_the_subject_is_taken_with_a_notice() {
     let told = ["another file", &wanted, &segment_files::hash(&scan)];
     assert!(has_told(&mut window, &told), "it is a notice");
     window.click("Panel: Tissues");
-    assert!(says(&window, "Show segment 2 alone"), "its label volume");
+    assert!(shows(&window, "Show segment 2 alone"), "its label volume");
 }

@@ -42,7 +42,7 @@ fn from_the_first_click_to_the_link() {
             .harness
             .query_by_label_contains("clipboard")
             .is_some(),
-        "and it is said"
+        "and a message tells"
     );
 }
 

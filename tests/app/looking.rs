@@ -219,15 +219,15 @@ fn slice_rect(window: &Window, name: &str) -> egui::Rect {
         .rect()
 }
 
-/// What a label says.
-fn said(node: &egui_kittest::kittest::AccessKitNode<'_>) -> String {
+/// The text of a node for screen readers.
+fn text_of(node: &egui_kittest::kittest::AccessKitNode<'_>) -> String {
     node.value().or(node.label()).unwrap_or_default()
 }
 
-/// What is said of the point under the crosshair or the pointer.
+/// The line about the point under the crosshair or the pointer.
 fn readout(window: &Window) -> String {
     let node = window.harness.get_by_label_contains(" mm · ");
-    said(&node.accesskit_node())
+    text_of(&node.accesskit_node())
 }
 
 #[test]
@@ -389,7 +389,7 @@ fn distances_are_measured_on_the_surface_and_in_slices() {
     window.settle();
     let text = |window: &Window| {
         let node = window.harness.get_by_label_contains("Distance 1:");
-        said(&node.accesskit_node())
+        text_of(&node.accesskit_node())
     };
     let on_surface = text(&window);
     assert!(on_surface.contains(" mm · 0."), "{on_surface}");

@@ -2,8 +2,8 @@
 
 mod assets;
 mod authoring;
+mod captions;
 mod comfort;
-mod labels;
 mod looking;
 mod making;
 mod opening;

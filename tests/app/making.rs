@@ -39,7 +39,7 @@ fn templates_go_from_one_document_to_another() {
         from.harness
             .query_by_label_contains("On the clipboard: 1")
             .is_some(),
-        "it is said"
+        "a message names it"
     );
     assert_eq!(names(&from), ["skin", "poke"], "copying changes nothing");
 
@@ -66,7 +66,7 @@ fn templates_go_from_one_document_to_another() {
         to.harness
             .query_by_label_contains("cannot be pasted")
             .is_some(),
-        "what is wrong is said"
+        "a message names the fault"
     );
 }
 
@@ -319,10 +319,10 @@ fn a_displacement_field_that_is_opened_becomes_a_template() {
     send(&mut window, Ok(field));
     send(&mut window, Err("it has 2 numbers per sample".to_owned()));
     assert_eq!(window.document().illustration().templates.len(), 1);
-    let said = "The displacement field cannot be used";
+    let message = "The displacement field cannot be used";
     assert!(
-        window.harness.query_by_label_contains(said).is_some(),
-        "{said}"
+        window.harness.query_by_label_contains(message).is_some(),
+        "{message}"
     );
     window.press_with(Modifiers::COMMAND, Key::Z);
     assert!(

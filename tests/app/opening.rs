@@ -1,4 +1,4 @@
-//! What is opened, fetched, stopped and saved, and what the address says of it.
+//! Opening, fetching, stopping and saving, and the address bar's part in them.
 
 use super::*;
 use fabrica::assets::Source;
@@ -119,7 +119,7 @@ fn a_broken_link_is_said_and_leaves_a_working_viewer() {
             .harness
             .query_by_label_contains("cannot be opened")
             .is_some(),
-        "what is wrong is said"
+        "a message names the fault"
     );
     assert!(
         window.log.0.borrow().links.is_empty(),
@@ -159,7 +159,7 @@ fn loading_shows_its_progress_and_is_stopped() {
     window.steps(3);
     assert!(
         window.harness.query_by_label_contains("stopped").is_some(),
-        "and it is said"
+        "and a message tells"
     );
     let late = LoadEvent::Failed {
         message: "late".to_owned(),
@@ -288,7 +288,7 @@ fn bare_voxels_are_opened_by_what_one_says_of_them() {
     window.steps(2);
     let answered = log.0.borrow().answered_raw.clone();
     assert_eq!(answered.len(), 1, "one answer");
-    assert!(answered[0].1.big_endian, "as it was said");
+    assert!(answered[0].1.big_endian, "as the answer was");
     file_arrives(&log, ticket, None);
     window.settle();
     let subject = window.document().illustration().subject.clone();

@@ -6,7 +6,7 @@ use fabrica::document::{Align, CleanStep, Recipe, RecipeSource};
 use fabrica::load::{LabelFile, LabelSource, LoadReport, ReadOptions, read_subject};
 
 impl Window {
-    fn features(&self) -> Vec<Recipe> {
+    fn recipes(&self) -> Vec<Recipe> {
         self.document().illustration().recipes.clone()
     }
 
@@ -47,7 +47,7 @@ fn a_tissue_is_made_cleaned_up_and_kept_by_a_template() {
     window.click("Panel: Tissues");
     window.click("Make a tissue");
     window.settle();
-    let made = window.features();
+    let made = window.recipes();
     assert_eq!(made.len(), 1);
     assert!(
         matches!(made[0].from, RecipeSource::Threshold { .. }),
@@ -75,7 +75,7 @@ fn a_tissue_is_made_cleaned_up_and_kept_by_a_template() {
     let center = window.picture_center();
     window.click_at(center);
     window.settle();
-    match &window.features()[0].from {
+    match &window.recipes()[0].from {
         RecipeSource::Grow { seeds, .. } => assert_eq!(seeds.len(), 1, "one click, one point"),
         other => panic!("{other:?}"),
     }
@@ -85,10 +85,10 @@ fn a_tissue_is_made_cleaned_up_and_kept_by_a_template() {
         window.press_with(Modifiers::COMMAND, Key::Z);
     }
     window.settle();
-    assert_eq!(window.features(), made, "as it was made");
+    assert_eq!(window.recipes(), made, "as it was made");
     window.click(&format!("Remove {}", title.to_lowercase()));
     window.settle();
-    assert!(window.features().is_empty(), "removed");
+    assert!(window.recipes().is_empty(), "removed");
     window.settle();
 }
 
@@ -126,7 +126,7 @@ fn bone_of_a_scan_to_look_at() {
 /// Label volumes come with the scan or after it; the document names them, and a link to it asks for them.
 #[test]
 fn label_files_become_tissues_of_the_scan() {
-    // Little is drawn: what is looked at are the panels.
+    // The pictures are small: the tests look at the panels.
     const SMALL: Vec2 = Vec2::new(780.0, 360.0);
     let mut window = Window::open(SMALL, CUBE);
     let dropped = |window: &mut Window, has_scan: bool, labels: &[(&str, u8)]| {

@@ -248,7 +248,7 @@ impl Window {
 
     /// Goes on until the picture is complete and the link is renewed.
     pub(crate) fn settle(&mut self) {
-        // What is never answered is not waited for.
+        // Waits for no answer that never comes.
         let patience = clock()
             + if self.log.0.borrow().is_slow {
                 0.2

@@ -66,7 +66,7 @@ pub(crate) fn jacobian(list: &[Placed], pos: DVec3) -> DMat3 {
 pub(crate) enum Object {
     /// An ellipsoid of these radii. Its distance is exact to first order at the surface.
     Egg(DVec3),
-    /// Half sides.
+    /// A box about the origin with these half sides.
     Block(DVec3),
 }
 
@@ -84,7 +84,7 @@ impl Object {
         }
     }
 
-    /// Unit, outwards.
+    /// Normal of the surface nearest to `p`, outwards, unit length.
     pub(crate) fn normal(self, p: DVec3) -> DVec3 {
         match self {
             Self::Egg(radii) => (p / (radii * radii)).normalize(),

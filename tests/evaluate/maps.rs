@@ -1,4 +1,4 @@
-//! Sections 6.2.1 to 6.2.3: what is lost where a map is baked into a texture, and what a texture of its Jacobian loses.
+//! Sections 6.2.1 to 6.2.3: the errors of a map that is baked into a texture, and of a texture of its Jacobian.
 
 use super::bench::{jacobian, plain, probe};
 use crate::reference::{self, Placed};
@@ -6,7 +6,7 @@ use fabrica::document::PlacedTemplate;
 use glam::{DMat3, DVec3, UVec3};
 use half::f16;
 
-/// Kept per component.
+/// Type in which each component of a baked map is kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Precision {
     Single,
@@ -23,7 +23,7 @@ impl Precision {
         (Self::Single, "32-bit float"),
     ];
 
-    /// A value as it comes back; `range` is that of its component.
+    /// A value after it was kept in this type; the range is that of its component.
     fn kept(self, value: f64, [low, high]: [f64; 2]) -> f64 {
         let levels = match self {
             Self::Single => return f64::from(value as f32),

@@ -16,7 +16,7 @@ const CENTRAL: u32 = 2u;
 const SOBEL: u32 = 3u;
 const DOT_PRODUCT: u32 = 4u;
 const JACOBIAN_OF_SOBEL: u32 = 5u;
-/// Which of them.
+/// Which of these methods is evaluated.
 override method: u32 = 1u;
 /// Offset of finite differences of the map, subject units; as in the program.
 override map_step: f32 = 0.0005;

@@ -11,7 +11,7 @@ pub(crate) struct Surface {
     places: Vec<(DVec3, DVec3)>,
 }
 
-/// Signed distance at rest of what is at a place of the deformed object; outside in a gap.
+/// Signed distance at rest of the material at a place of the deformed object; outside in a gap.
 fn distance(object: Object, list: &[Placed], pos: DVec3) -> f64 {
     let (rest, a) = reference::map(list, pos);
     if a < 0.0 { 1.0 } else { object.distance(rest) }

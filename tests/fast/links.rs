@@ -60,7 +60,7 @@ impl Random {
             .collect()
     }
 
-    /// Any JSON.
+    /// A random JSON value, nested at most `depth` deep.
     fn value(&mut self, depth: usize) -> Value {
         match self.below(if depth == 0 { 5 } else { 7 }) {
             0 => Value::Null,

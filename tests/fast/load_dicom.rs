@@ -376,13 +376,13 @@ fn patients_names_are_never_said() {
     let mut files = folder(&slices);
     let described =
         load::describe(&mut files, ALL_FILES, &ReadOptions::default()).expect("a series");
-    let mut said = format!("{described} {described:?}");
+    let mut all_words = format!("{described} {described:?}");
     let whole = slices[0].bytes();
     for len in (0..whole.len()).step_by(3) {
         let cut = MemoryFiles::new([("a.dcm", whole[..len].to_vec())]);
         let mut cut = cut;
         if let Err(error) = read(&mut cut, "a.dcm", 0) {
-            said += &format!("{error} {error:?}");
+            all_words += &format!("{error} {error:?}");
         }
     }
     assert!(
@@ -392,7 +392,7 @@ fn patients_names_are_never_said() {
         "it is there"
     );
     for part in ["Doe", "Jane", "ZQXJ"] {
-        assert!(!said.contains(part), "{part}");
+        assert!(!all_words.contains(part), "{part}");
     }
 }
 
@@ -625,18 +625,18 @@ fn odd_and_broken_files_load_or_say_why() {
             "a.dcm"
         };
         let found = read(&mut MemoryFiles::new([(file, bytes)]), file, 0);
-        let said = match &found {
+        let result = match &found {
             Ok((volume, report)) => format!("{} {:?}", volume.grid.dims, report.notices()),
             Err(error) => error.to_string(),
         };
-        println!("{name}: {said}");
+        println!("{name}: {result}");
         let is_right = match (&found, expected) {
             (Ok((volume, _)), Ok(dims)) => volume.grid.dims.to_array() == dims,
             (Err(error), Err(words)) => error.to_string().contains(words),
             _ => false,
         };
         if !is_right {
-            wrong.push(format!("{name}: expected {expected:?}, came {said}"));
+            wrong.push(format!("{name}: expected {expected:?}, came {result}"));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

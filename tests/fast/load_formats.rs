@@ -410,7 +410,7 @@ fn axes_out_of_space_are_components_or_frames() {
         "type: uchar\ndimension: 4\nsizes: 3 2 2 4\nkinds: RGB-color domain domain domain\nencoding: raw\n",
         &voxels,
     );
-    // Colours: their brightness (ITU-R BT.709), and it is said.
+    // Colours: their brightness is read (ITU-R BT.709), with a warning.
     let (volume, report) = load("a.nrrd", colour).expect("colour");
     assert!(report.warnings.contains(&Warning::Luminance));
     let luma = |i: usize| {

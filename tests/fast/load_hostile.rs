@@ -499,7 +499,8 @@ impl Random {
     }
 }
 
-/// Counts what it is given, and fails the test if that is more than the bytes that came can have held.
+/// Counts the voxels and labels that it is given, and fails the test if they are more than the bytes read can have
+/// held.
 struct Bounded {
     voxels: u64,
     limit: u64,

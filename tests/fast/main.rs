@@ -2,7 +2,6 @@
 
 #[path = "../support/data.rs"]
 mod data;
-mod features;
 mod gallery;
 #[path = "../../src/bin/xtask/house.rs"]
 mod house;
@@ -16,6 +15,7 @@ mod load_dicom;
 mod load_formats;
 mod load_hostile;
 mod prose;
+mod recipes;
 #[path = "../support/scans.rs"]
 mod scans;
 mod shaders;

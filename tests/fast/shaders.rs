@@ -214,7 +214,7 @@ fn library_files_hold_no_bindings() {
     }
 }
 
-/// Each binding says what it is.
+/// Each binding has a comment.
 #[test]
 fn bindings_have_comments() {
     for file in programs::FILES {

@@ -7,7 +7,7 @@ use fabrica::load::{
     self, ElementType, FileSet, LoadReport, MemoryFiles, RawLayout, ReadOptions,
 };
 
-/// Counts what comes, looks at its header, keeps nothing.
+/// A sink that looks at the header, counts voxels and labels, and keeps nothing.
 #[derive(Default)]
 struct Counter {
     expected: u64,
@@ -154,7 +154,7 @@ pub fn link(data: &[u8]) {
     }
 }
 
-/// Documents in JSON.
+/// Reads the bytes as a document in JSON; what is read must survive a round trip.
 pub fn document(data: &[u8]) {
     let text = String::from_utf8_lossy(data);
     if let Ok(document) = Document::from_json(&text) {

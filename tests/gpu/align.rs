@@ -54,7 +54,7 @@ impl<'a> Labels<'a> {
         self.at_voxel((self.voxel_from_rest.transform_point3(rest) + 0.5).floor())
     }
 
-    /// The label, if it is the same all around as far as positions may be off.
+    /// The label, if all labels within the error of the position agree.
     fn firm_at(&self, rest: DVec3) -> Option<u8> {
         let label = self.at(rest);
         let corners = (0..8u32)
@@ -113,7 +113,7 @@ impl Depths {
     }
 }
 
-/// One group: what is composed and the adds to it.
+/// One group: a composed template and those added to it.
 struct Group {
     templates: Vec<Placed>,
     kept: Vec<u8>,
@@ -382,8 +382,8 @@ fn peel(align: Align) -> PlacedTemplate {
     template
 }
 
-/// The head with a feature made of its values, which overlaps its own segments.
-fn head_with_feature() -> Volume {
+/// The head with a segment made from its values by a recipe; the segment overlaps the head's own ones.
+fn head_with_recipe() -> Volume {
     let recipe = r#"[{"name":"made","from":{"threshold":[-150,20]},"clean":[{"largest":2},{"grow":4},{"smooth":3}]}]"#;
     let text = format!(r#"{{"fabrica":1,"subject":{{"features":{recipe}}}}}"#);
     let document = fabrica::document::Document::from_json(&text).expect("a document");
@@ -399,7 +399,7 @@ fn head_with_feature() -> Volume {
 /// No point of a kept segment changes, whatever the template, wherever it stands; segments made here included.
 #[test]
 fn kept_tissue_is_untouched() {
-    let volume = head_with_feature();
+    let volume = head_with_recipe();
     let studio = Studio::new(gpu(), &volume, false).expect("fits");
     let labels = Labels::new(&volume);
     let depths = Depths::new(&studio, &volume);
@@ -557,7 +557,7 @@ fn nearest(volume: &Volume, at: DVec3, is_member: &dyn Fn(usize) -> bool) -> f64
     best
 }
 
-/// What is less than the threshold and connected with a side, voxel by voxel through faces.
+/// Voxels below the threshold that are connected with a side, voxel by voxel through faces.
 fn outside(volume: &Volume) -> Vec<bool> {
     let dims = volume.grid.dims;
     let Voxels::U8(values) = &volume.voxels else {

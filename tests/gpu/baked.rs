@@ -15,7 +15,7 @@ const SMOOTH: &str = r#"
     { "kind": "lens", "at": [0.15, 0.2, 0.1], "size": [0.5, 0.5, 0.5] },
     { "kind": "pull", "at": [-0.2, 0, 0.2], "size": [0.6, 0.6, 0.6] }"#;
 
-/// Templates that cut.
+/// Templates that cut: the map jumps at their openings.
 const TORN: &str = r#"
     { "kind": "peel", "at": [0, 0.15, 0.3], "size": [0.4, 0.4, 0.3] },
     { "kind": "retractor", "at": [0.1, 0.3, 0.1], "size": [0.3, 0.3, 0.3] },

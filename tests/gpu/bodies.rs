@@ -130,8 +130,8 @@ fn looks_of_segments_survive_the_link() {
     assert_eq!(found, [("a/b", 0.25), ("core", 0.5), ("shell", 0.0)]);
     // Hostile: wrong types name their place, numbers are brought into their range and said.
     let wrong = Document::from_json(r#"{"fabrica":1,"look":{"segments":{"core":"solid"}}}"#);
-    let said = wrong.expect_err("no number").to_string();
-    assert!(said.contains("/look/segments/core"), "{said}");
+    let message = wrong.expect_err("no number").to_string();
+    assert!(message.contains("/look/segments/core"), "{message}");
     let much = Document::from_json(r#"{"fabrica":1,"look":{"segments":{"core":7}}}"#);
     let much = much.expect("clamped");
     assert_eq!(much.illustration().look.segments[0].opacity, 1.0);

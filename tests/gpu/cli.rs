@@ -657,7 +657,7 @@ fn what_a_file_leaves_open_is_said() {
     let bytes: Vec<u8> = (0..24u8).flat_map(|i| [0, i % 4]).collect();
     let bare = write(&folder, "bare.raw", [&[9u8; 7][..], &bytes].concat());
     let out = fabrica(&["info", text(&bare)]);
-    assert_eq!(out.status, 1, "nothing is said of it");
+    assert_eq!(out.status, 1, "without a layout the file is refused");
     assert!(out.err.contains("--raw"), "{}", out.err);
     let layout = "4x3x2,int16,big,1x1x2.5,skip=7";
     let out = fabrica(&["info", text(&bare), "--raw", layout]);
@@ -689,7 +689,7 @@ fn what_a_file_leaves_open_is_said() {
     let (first, second) = (values(&["--frame", "1"]), values(&["--frame", "2"]));
     assert_eq!((first.0, second.0), (0, 0), "{} {}", first.2, second.2);
     assert_ne!(first.1, second.1, "another volume");
-    assert_eq!(values(&[]).1, first.1, "the first unless said");
+    assert_eq!(values(&[]).1, first.1, "the first by default");
     let third = values(&["--frame", "3"]);
     assert_eq!(third.0, 1);
     assert!(

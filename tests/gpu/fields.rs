@@ -92,7 +92,7 @@ fn rbf(random: &mut Random, with_cut: bool) -> (PlacedTemplate, Rbf) {
     let left = |p: &&(DVec3, DVec3)| plain.is_left(p.0.truncate());
     let n_left = plain.points.iter().filter(left).count();
     if with_cut && (n_left < 5 || n_left + 5 > plain.points.len()) {
-        // Too few points of one side do not determine its polynomial; what is drawn then is no matter of the source.
+        // Too few points on one side do not determine its polynomial; the source does not tell what to draw then.
         return rbf(random, with_cut);
     }
     template.data = TemplateData::Points(ControlPoints { points, cut });
@@ -156,7 +156,7 @@ fn control_points_agree_with_the_reference() {
             gaps += in_gaps;
             left_out += out;
             count += at.len();
-            // What is wrong must be seen: points moved elsewhere.
+            // Negative control: points that are moved elsewhere must be seen as wrong.
             let mut wrong = plain.clone();
             wrong.points.iter_mut().for_each(|p| p.1 += 0.1);
             let (off, ..) = compare(&template, &wrong, &at, &got);
@@ -450,13 +450,16 @@ fn what_is_wrong_with_a_field_is_said() {
         ("text.csv", vec![b'x'; 1 << 16], "line"),
         ("bytes.csv", vec![0; 100], "0 nodes"),
     ] {
-        let said = field(name, bytes).expect_err(name);
-        assert!(said.contains(part) && said.contains(name), "{name}: {said}");
+        let message = field(name, bytes).expect_err(name);
+        assert!(
+            message.contains(part) && message.contains(name),
+            "{name}: {message}"
+        );
     }
     let refused = |bytes: Vec<u8>, part: &str| {
         let file = field("f.nrrd", bytes).expect("read");
-        let said = file.fit(&used(&grid)).expect_err(part);
-        assert!(said.contains(part), "{said}");
+        let message = file.fit(&used(&grid)).expect_err(part);
+        assert!(message.contains(part), "{message}");
     };
     let text = |from: &str, to: &str| {
         let bytes = nrrd(3, plain);

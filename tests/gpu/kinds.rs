@@ -1,4 +1,4 @@
-//! What is known of each kind besides its formula, held against the formula: the main parameter, as constraints by
+//! The facts about each kind, compared with its formula: the main parameter, as constraints by
 //! coordinate scale it, and the mirror image.
 
 use crate::firm::as_reference;

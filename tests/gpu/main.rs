@@ -3,12 +3,12 @@
 mod align;
 mod baked;
 mod bodies;
+mod captions;
 mod cli;
 mod fields;
 mod grid;
 mod images;
 mod kinds;
-mod labels;
 mod load_memory;
 mod probes;
 mod slices;

@@ -12,15 +12,15 @@ use std::f64::consts::TAU;
 pub(crate) struct Placed {
     /// Name in the catalogue.
     pub(crate) kind: &'static str,
-    /// Centre, subject space.
+    /// Centre of the box, subject space.
     pub(crate) at: DVec3,
     /// Template axes to subject axes.
     pub(crate) rotate: DQuat,
     /// Side lengths, subject units.
     pub(crate) size: DVec3,
-    /// In catalogue order.
+    /// Parameters in the order of the catalogue, as plain numbers.
     pub(crate) params: Vec<f64>,
-    /// `"mode": "add"`.
+    /// True for `"mode": "add"`.
     pub(crate) is_added: bool,
     /// `"curve"`: its points and whether it is a spline.
     pub(crate) curve: Option<(Vec<DVec2>, bool)>,
@@ -94,7 +94,7 @@ fn rests(q: DVec3, carry: [bool; 6]) -> bool {
         .any(|axis| (q[axis] < 0.0 && !carry[2 * axis]) || (q[axis] > 1.0 && !carry[2 * axis + 1]))
 }
 
-/// (theta, u', v')
+/// Angle and the two coordinates (theta, u', v') of a point in the arc's frame.
 fn unroll(u: f64, v: f64, phi: f64) -> (f64, f64, f64) {
     let mut hat = u.atan2(v);
     if hat < 0.0 {

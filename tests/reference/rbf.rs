@@ -23,7 +23,7 @@ fn smoothstep(t: f64) -> f64 {
 }
 
 impl Rbf {
-    /// `source(q)` and `A(q)`.
+    /// Source point and continuity of the point `q` of template space: `source(q)` and `A(q)`.
     pub(crate) fn source(&self, q: DVec3) -> (DVec3, f64) {
         if q.cmplt(DVec3::ZERO).any() || q.cmpgt(DVec3::ONE).any() {
             return (q, 1.0);

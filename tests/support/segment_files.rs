@@ -11,9 +11,9 @@ pub(crate) const PARTS: &str = "parts.nii";
 
 /// What must come of a document.
 pub(crate) struct Case {
-    /// What is looked at.
+    /// Name of the case, for messages.
     pub(crate) name: &'static str,
-    /// The document's subject.
+    /// Value of the document's `subject`.
     pub(crate) subject: Value,
     /// The segments that there are.
     pub(crate) segments: &'static [&'static str],
@@ -72,7 +72,7 @@ pub(crate) fn hash(bytes: &[u8]) -> String {
     digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// All cases.
+/// Documents that name label volumes, with what must come of each.
 pub(crate) fn cases() -> Vec<Case> {
     let [scan, parts] = files().map(|(_, bytes)| hash(&bytes));
     let other = "0".repeat(64);

@@ -51,7 +51,7 @@ pub(crate) fn arranged(points: &[Pos2], sizes: &[Vec2], gap: f32, area: Rect) ->
             tops.push(top);
             next = top + sizes[i].y + gap;
         }
-        // What would hang out below moves up, and what is above it in its way.
+        // A text that would hang out below moves up, and moves the texts above that are in its way.
         let mut floor = area.bottom();
         for (&i, top) in column.iter().zip(&mut tops).rev() {
             *top = top.min(floor - sizes[i].y);

@@ -33,7 +33,7 @@ struct Cause {
     recipes: Vec<Recipe>,
     segments: usize,
     templates: Vec<PlacedTemplate>,
-    /// Rest space.
+    /// Points of tissue that are followed, rest space: one per caption.
     points: Vec<Vec3>,
 }
 
@@ -48,7 +48,7 @@ impl Cause {
         }
     }
 
-    /// True if it is what [`Cause::of`] would be; copies nothing, since it is asked every frame.
+    /// True if [`Cause::of`] would give an equal value. Copies nothing, since this is asked in every frame.
     fn is_of(&self, shown: &Illustration, segments: usize) -> bool {
         self.segments == segments
             && self.subject == shown.subject
@@ -61,7 +61,8 @@ impl Cause {
     }
 }
 
-/// True if what is seen so far from the eye lies before a caption's place; nothing seen: nothing does.
+/// True if the surface that is seen there, `seen_depth` from the eye, lies in front of a caption's place. False if
+/// nothing is seen.
 fn is_behind(place: Vec3, seen_depth: Option<f32>, eye: Vec3) -> bool {
     seen_depth.is_some_and(|depth| depth + SKIN < place.distance(eye))
 }
@@ -153,7 +154,8 @@ impl Followed {
         !self.sights.is_empty()
     }
 
-    /// Takes what is seen where captions are: something nearer to the eye than the tissue hides it.
+    /// Takes answers about the surface in front of captions: a surface nearer to the eye than the tissue hides the
+    /// caption.
     fn take_sights(&mut self, camera: &Camera) {
         let eye = camera.target + camera::axes(camera.rotate)[2] * camera.distance;
         let (places, hidden) = (&self.places, &mut self.hidden);
@@ -238,7 +240,7 @@ impl Followed {
             }
             painter.rect_filled(rect.expand2(vec2(4.0, 2.0)), 4.0, ground);
             painter.galley(rect.min, galley, ink);
-            let id = ui.scope_id().with(("label in the picture", index));
+            let id = ui.scope_id().with(("caption in the picture", index));
             let response = ui.interact(rect.expand(3.0), id, Sense::click());
             response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &texts[i]));
             if response.clicked() {
@@ -282,7 +284,7 @@ pub async fn caption_places(
     Ok(captions)
 }
 
-/// Of letters and of what is behind them, as the background wants it.
+/// Colours of the letters and of the halo behind them, chosen for the background.
 fn colors(background: &Background) -> (Color32, Color32) {
     if is_dark(*background) {
         (Color32::WHITE, Color32::from_black_alpha(190))

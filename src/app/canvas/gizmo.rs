@@ -34,7 +34,7 @@ const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 /// What can be held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Part {
-    /// The main parameter.
+    /// The handle of the main parameter.
     Main,
     /// In the plane of the picture.
     Free,
@@ -42,7 +42,7 @@ pub(crate) enum Part {
     Axis(usize),
     /// In the plane across an axis.
     Plane(usize),
-    /// About an axis.
+    /// The ring that turns about an axis of the template, 0 to 2.
     Ring(usize),
     /// A face of the box: axis, and whether it is the one at 1.
     Face(usize, bool),
@@ -64,7 +64,7 @@ impl Part {
     }
 }
 
-/// What is held, and how things were when it was taken.
+/// The part that is dragged, and the state of the template and of the pointer when the drag began.
 #[derive(Clone, Debug)]
 struct Hold {
     part: Part,
@@ -84,7 +84,7 @@ pub(crate) struct Gizmo {
 }
 
 impl Gizmo {
-    /// Something is held.
+    /// True while a handle is dragged.
     pub(crate) fn is_held(&self) -> bool {
         self.hold.is_some()
     }
@@ -94,7 +94,7 @@ impl Gizmo {
         self.hot.is_some() || self.hold.is_some()
     }
 
-    /// Lets go.
+    /// Forgets the part that is held and the one under the pointer.
     pub(crate) fn release(&mut self) {
         self.hold = None;
         self.hot = None;
@@ -155,7 +155,7 @@ impl Gizmo {
             self.hot = Some(hold.part);
             if pos != hold.start || picture.dragged() {
                 let modifiers = ui.input(|i| i.modifiers);
-                // The key does the other of what is set.
+                // The key reverses the setting while it is held.
                 let snap = session.is_snapping != modifiers.command;
                 edit = hold.drag(pos, template, snap, modifiers.alt);
             }
@@ -255,7 +255,8 @@ impl Hold {
     fn drag_main(&self, pos: Pos2, template: &PlacedTemplate, snap: bool) -> Option<Edit> {
         let index = template.kind.spec().main_param?;
         let ray = self.view.ray(pos + self.offset);
-        // The template as it is now, not as it was: what goes around may go around more than once.
+        // Starts from the template as it is now, not as it was when the drag began: an angle may go around more than
+        // once.
         let value = placed::dragged_along_ray(template, self.view.eye, ray)?;
         let value = match (value, template.kind.spec().params[index].kind) {
             (
@@ -296,7 +297,7 @@ fn knob(at: Pos2, center: Pos2) -> Pos2 {
     at + direction * STEM
 }
 
-/// A point on a ring.
+/// A point of a ring: its place in subject space and in the window, and whether it lies on the half towards the eye.
 struct RingPoint {
     pos: Vec3,
     seen: Pos2,
@@ -393,7 +394,7 @@ impl<'a> Handles<'a> {
         (facing > 0.25).then(|| center + 0.36 * (a - center) + 0.36 * (b - center))
     }
 
-    /// What is under a place, the most particular first.
+    /// The part under a place of the window, within `reach` points; where several overlap, the most specific.
     fn hit(&self, pos: Pos2, reach: f32) -> Option<Part> {
         let near = |handle: Option<Pos2>, extra: f32| {
             handle.is_some_and(|handle| handle.distance(pos) <= reach + extra)

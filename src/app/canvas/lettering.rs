@@ -15,8 +15,8 @@ use crate::render::{Image, View};
 const TITLE: f32 = 0.045;
 const CREDIT: f32 = 0.024;
 /// Height of a caption's letters, of the picture's shorter side; and its greatest width, of the picture's width.
-const LABEL: f32 = 0.03;
-const LABEL_WIDTH: f32 = 0.24;
+const CAPTION: f32 = 0.03;
+const CAPTION_WIDTH: f32 = 0.24;
 /// Pixels of letters at least: below nobody reads them.
 const LEAST: f32 = 9.0;
 /// Distance from the edges, of the shorter side.
@@ -84,7 +84,7 @@ pub(crate) fn letter_with(
         mask.lay(image, letters, ink, halo);
     }
     let view = View::new(&illustration.camera, image.size);
-    let letters = (LABEL * short).max(LEAST);
+    let letters = (CAPTION * short).max(LEAST);
     let mut mask = Mask::new(image.size);
     let (mut points, mut texts) = (Vec::new(), Vec::new());
     for (caption, place) in illustration.captions.iter().zip(captions) {
@@ -96,7 +96,7 @@ pub(crate) fn letter_with(
         if !Rect::from_min_size(Pos2::ZERO, vec2(width, height)).contains(at) {
             continue;
         }
-        let room = LABEL_WIDTH * width;
+        let room = CAPTION_WIDTH * width;
         let (galley, size, lacking) =
             laid_out(ctx, &caption.text, "", letters, room, caption_layout::ROWS);
         missing += &lacking;
@@ -120,8 +120,8 @@ pub(crate) fn letter_with(
     missing
 }
 
-/// A text of a height in pixels, wrapped: as it is laid out, its size in pixels, and the characters that its font
-/// lacks.
+/// Lays a text out, wrapped, with letters of a height in pixels. Returns the layout, its size in pixels, and the
+/// characters that the font lacks.
 fn laid_out(
     ctx: &Context,
     text: &str,
@@ -164,7 +164,7 @@ impl Mask {
         }
     }
 
-    /// Lays what is covered over the picture, with a halo around it.
+    /// Lays the letters over the picture, by their coverage, with a halo around them.
     fn lay(&self, image: &mut Image, letters_px: f32, ink: [u8; 3], halo: [u8; 3]) {
         let wide = self.widened((HALO * letters_px).max(1.0));
         blend(image, &wide, halo, 0.8);

@@ -17,7 +17,7 @@ use crate::app::words::{fill, slices::w};
 pub(crate) struct Distances<'a> {
     /// Both ends of each, subject space.
     pub lines: &'a [[Vec3; 2]],
-    /// The active tool.
+    /// The active tool; `Tool::Measure` holds the first point of the distance under way.
     pub tool: Tool,
 }
 
@@ -30,7 +30,7 @@ impl<'a> Distances<'a> {
         }
     }
 
-    /// Draws what there is. `ui_from_subject` gives `None` where a point is not seen; `nearness` 0 to 1 fades.
+    /// Draws the distances. `ui_from_subject` gives `None` where a point is not seen; `nearness` 0 to 1 fades.
     pub(crate) fn paint(
         &self,
         painter: &Painter,

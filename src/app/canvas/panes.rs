@@ -16,7 +16,7 @@ use crate::app::session::{Command, Pane, See, ViewState};
 use crate::app::words;
 use crate::app::words::slices::w;
 
-/// Points between panes.
+/// Gap between two panes, points.
 const GAP: f32 = 2.0;
 /// Height of the row of tabs where there is room for one pane only.
 const TABS: f32 = 40.0;

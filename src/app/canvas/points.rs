@@ -159,7 +159,7 @@ pub(crate) fn ui(
 }
 
 pub(crate) enum Moved {
-    /// Subject space.
+    /// Where the point goes, subject space.
     To(Vec3),
     Removed,
 }

@@ -45,7 +45,7 @@ impl Projection {
         }
     }
 
-    /// Towards the eye.
+    /// Unit vector towards the eye, subject space.
     pub(crate) fn back(&self) -> Vec3 {
         self.back
     }

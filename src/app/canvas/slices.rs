@@ -36,7 +36,7 @@ const NOTHING_SRGB: [u8; 3] = [26, 30, 34];
 /// How near a press must be to a template's dot, points.
 const REACH: f32 = 14.0;
 
-/// What is held in a pane.
+/// The thing that is dragged in a pane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Held {
     Crosshair,
@@ -66,12 +66,12 @@ impl Default for PaneView {
 /// A question about a point: where, and for which document and volume.
 type Asked = (Vec3, u64, u64);
 
-/// The three slices.
+/// The three slices beside the picture: what each pane shows, and the value under the pointer.
 #[derive(Default)]
 pub(crate) struct Slices {
     panes: [PaneView; 3],
     reading: Option<(Asked, PendingSlice)>,
-    /// The last answer.
+    /// The last answer about a point, and the question that it answers.
     read: Option<(Asked, SliceTexel)>,
     /// A pane has the keyboard: page up and down are for it.
     pub(crate) has_keyboard: bool,
@@ -172,7 +172,7 @@ impl Slices {
         edges(&painter, axes, rect, letters);
         paint_crosshair(&painter, axes, &map, *cross);
         self.templates_ui(ui, &painter, i, &map, session);
-        // What lies in the slice is bright, what is a tenth of the object away is faint.
+        // Lines in the slice are bright, lines a tenth of the object away are faint.
         let nearness = |pos: Vec3| (1.0 - 10.0 * map.height(pos).abs()).max(0.0);
         let seen = |pos: Vec3| Some(map.ui(pos));
         let distances = Distances::of(session);
@@ -638,7 +638,7 @@ impl Slices {
 }
 
 impl PaneView {
-    /// What is under a place stays there.
+    /// Zooms by a factor; the point of the slice under `at` stays there.
     fn zoom_about(&mut self, factor: f32, at: Pos2, map: &Map<'_>) {
         if !(factor.is_finite() && factor > 0.0) {
             return;

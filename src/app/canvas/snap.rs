@@ -7,7 +7,7 @@ pub(crate) const LENGTH: f32 = 0.05;
 /// Part of the range of a main parameter.
 pub(crate) const PARAM: f32 = 0.05;
 
-/// The nearest step.
+/// The multiple of `step` that is nearest to `value`.
 pub(crate) fn nearest(value: f32, step: f32) -> f32 {
     (value / step).round() * step
 }

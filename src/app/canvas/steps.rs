@@ -1,4 +1,4 @@
-//! The bar of a lesson at the foot of the picture: the step that is shown, its caption, back and forth.
+//! The bar of a lesson at the foot of the picture: the step that is shown, its legend, back and forth.
 
 use egui::{FontId, Rect, Role, Ui, UiBuilder, WidgetInfo, vec2};
 
@@ -15,7 +15,7 @@ use crate::app::words::keys::w;
 const BESIDE_THE_BALL: f32 = 148.0;
 const ABOVE_THE_BALL: f32 = 112.0;
 
-/// Title and caption of the step that is shown.
+/// Title and legend of the step that is shown.
 fn texts(session: &Session) -> (&str, &str) {
     let illustration = session.document().illustration();
     let step = session.step().checked_sub(1);
@@ -25,7 +25,8 @@ fn texts(session: &Session) -> (&str, &str) {
     }
 }
 
-fn label(number: usize, count: usize, title: &str) -> String {
+/// Number of the step, number of steps, and the title where there is one.
+fn heading(number: usize, count: usize, title: &str) -> String {
     if title.is_empty() {
         format!("{number} / {count}")
     } else {
@@ -36,11 +37,11 @@ fn label(number: usize, count: usize, title: &str) -> String {
 /// The step that is shown, for readers who cannot see it. Nothing without steps.
 pub(crate) fn spoken(session: &Session) -> Option<String> {
     let count = session.document().step_count();
-    let (title, caption) = texts(session);
-    (count > 0).then(|| format!("{}. {caption}", label(session.step(), count, title)))
+    let (title, legend) = texts(session);
+    (count > 0).then(|| format!("{}. {legend}", heading(session.step(), count, title)))
 }
 
-/// The bar at the foot of the picture: back, number and title, forth, and the caption. Nothing without steps.
+/// The bar at the foot of the picture: back, number and title, forth, and the legend. Nothing without steps.
 pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut Vec<Command>) {
     let steps = &session.document().illustration().steps;
     if steps.is_empty() || picture.height() < 220.0 {
@@ -48,7 +49,7 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut V
     }
     let palette = Palette::get(ui);
     let number = session.step();
-    let (title, caption) = texts(session);
+    let (title, legend) = texts(session);
     // Beside the ball of axes where there is room for both, else above it.
     let free = if picture.width() > 620.0 {
         picture.with_min_x(picture.left() + BESIDE_THE_BALL)
@@ -58,16 +59,16 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut V
     let free = free.with_max_x(free.right() - view_bar::column_width(picture));
     let width = (free.width() - 16.0).min(560.0);
     let text_width = width - 28.0;
-    let caption = (!caption.is_empty()).then(|| {
+    let legend = (!legend.is_empty()).then(|| {
         ui.painter().layout(
-            caption.to_owned(),
+            legend.to_owned(),
             FontId::proportional(14.0),
             palette.text,
             text_width,
         )
     });
-    let caption_height = caption.as_ref().map_or(0.0, |galley| galley.size().y + 6.0);
-    let height = 44.0 + caption_height.min(0.3 * picture.height());
+    let legend_height = legend.as_ref().map_or(0.0, |galley| galley.size().y + 6.0);
+    let height = 44.0 + legend_height.min(0.3 * picture.height());
     let bar = Rect::from_min_size(
         free.center_bottom() - vec2(0.5 * width, height + 14.0),
         vec2(width, height),
@@ -84,12 +85,12 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut V
     if back.clicked() {
         commands.push(Command::GoToStep(number.saturating_sub(1)));
     }
-    let label = label(number, steps.len(), title);
+    let heading = heading(number, steps.len(), title);
     inner.allocate_ui(vec2(row.width() - 76.0, row.height()), |ui| {
         ui.centered_and_justified(|ui| {
-            let response = ui.add(egui::Label::new(theme::strong(label.clone())).truncate());
+            let response = ui.add(egui::Label::new(theme::strong(heading.clone())).truncate());
             // Read out when the step changes.
-            response.widget_info(|| WidgetInfo::labeled(Role::Status, true, &label));
+            response.widget_info(|| WidgetInfo::labeled(Role::Status, true, &heading));
         });
     });
     inner.with_layout(widget::against(), |ui| {
@@ -98,7 +99,7 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut V
             commands.push(Command::GoToStep(number + 1));
         }
     });
-    if let Some(galley) = caption {
+    if let Some(galley) = legend {
         let at = bar.left_top() + vec2(14.0, 42.0);
         ui.painter_at(bar).galley(at, galley, palette.text);
     }

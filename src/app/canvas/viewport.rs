@@ -49,7 +49,7 @@ pub(crate) struct Viewport {
     preview: Option<Placement>,
     /// Where the pointer was when the preview was asked for.
     preview_at: Option<Pos2>,
-    /// What is seen there, on its way.
+    /// The answer about the place under the pointer, on its way.
     preview_pick: Option<PendingPick>,
     /// Questions of the session that wait for the next frame.
     questions: Vec<Question>,
@@ -270,7 +270,7 @@ impl Viewport {
             }
         }
         if response.clicked() {
-            // Keys go to the picture from now on, without a ring around what was only clicked on.
+            // Keys go to the picture from now on, without a ring around a control that was only clicked.
             ui.memory_mut(|memory| {
                 if let Some(focused) = memory.focused() {
                     memory.surrender_focus(focused);
@@ -472,7 +472,7 @@ impl Viewport {
         }
     }
 
-    /// What is shown while a template is being placed.
+    /// The interface while a template is being placed.
     fn placing_ui(
         &mut self,
         ui: &mut Ui,
@@ -682,7 +682,7 @@ fn paint_preview(ui: &Ui, rect: Rect, view: &Projection, placement: &Placement) 
     }
 }
 
-/// Hands over what is to be seen: the illustration, or one tissue of it alone.
+/// Hands the illustration to the picture: as the document has it, or with one tissue alone.
 fn set_seen(picture: &mut Picture, session: &Session, camera: &Camera) {
     match session.tissues.alone_in(session.shown()) {
         Some(alone) => picture.set(&alone, camera),

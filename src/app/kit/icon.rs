@@ -50,13 +50,13 @@ pub(crate) enum Icon {
 
 /// A piece of an icon, on the grid of 24.
 enum Part {
-    /// An open line.
+    /// An open polyline through these points.
     Line(&'static [(f32, f32)]),
-    /// A closed line.
+    /// A closed polyline through these points.
     Ring(&'static [(f32, f32)]),
     /// A circle: centre and radius.
     Circle(f32, f32, f32),
-    /// A filled circle.
+    /// A filled circle: centre and radius.
     Dot(f32, f32, f32),
     /// A filled half circle, its right half.
     Half(f32, f32, f32),

@@ -1,4 +1,4 @@
-//! Rows of menus.
+//! One row of a menu: an icon and a text.
 
 use egui::{CornerRadius, Ui};
 

@@ -77,11 +77,11 @@ pub(crate) fn menu_entries(session: &Session) -> Vec<MenuEntry> {
 
 /// An entry of the menu of a template.
 pub(crate) struct MenuEntry {
-    /// At its left.
+    /// Drawn at the left of the row.
     pub icon: Icon,
-    /// Its text.
+    /// What the row says, in the language of the interface.
     pub text: &'static str,
-    /// What it makes.
+    /// The command of the row.
     pub command: Command,
 }
 

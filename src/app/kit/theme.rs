@@ -26,25 +26,25 @@ pub(crate) struct Palette {
     pub raised: Color32,
     /// A step down: tracks, wells, text fields.
     pub sunken: Color32,
-    /// Hair lines.
+    /// Hair lines that separate and frame.
     pub line: Color32,
-    /// Ordinary text.
+    /// Ordinary text on `panel` and `raised`.
     pub text: Color32,
     /// Text of second rank; still 4.5:1 on `panel`.
     pub weak: Color32,
-    /// What is chosen, and the one main button.
+    /// The chosen entry, and the one main button.
     pub accent: Color32,
     /// `accent` under the pointer.
     pub accent_hover: Color32,
-    /// Text on `accent`.
+    /// Text and icons on `accent`.
     pub on_accent: Color32,
-    /// A wash of `accent` behind what is chosen.
+    /// A wash of `accent` behind a chosen entry.
     pub accent_wash: Color32,
-    /// Under the pointer.
+    /// Behind a row or a button under the pointer.
     pub hover: Color32,
-    /// Warnings.
+    /// Text and marks of warnings.
     pub warning: Color32,
-    /// Errors, deleting.
+    /// Text and marks of errors, and buttons that delete.
     pub danger: Color32,
     /// Behind text that floats over the picture.
     pub float: Color32,
@@ -89,7 +89,7 @@ const DARK: Palette = Palette {
     float: Color32::from_rgba_premultiplied(28, 31, 33, 240),
 };
 
-/// High contrast: text 7:1 and more on what is behind it, lines 3:1, nothing told by a tint alone.
+/// High contrast: text 7:1 and more on its background, lines 3:1, nothing told by a tint alone.
 const LIGHT_CONTRAST: Palette = Palette {
     panel: rgb(0xffffff),
     raised: rgb(0xffffff),
@@ -161,11 +161,11 @@ pub(crate) mod over_picture {
     use super::{Color32, rgb};
     /// Along the template's x axis.
     pub(crate) const X: Color32 = rgb(0xd8433b);
-    /// Along y.
+    /// Along the template's y axis.
     pub(crate) const Y: Color32 = rgb(0x3f9a3a);
-    /// Along z.
+    /// Along the template's z axis.
     pub(crate) const Z: Color32 = rgb(0x2c6fd6);
-    /// The template's box.
+    /// Edges of the template's box.
     pub(crate) const BOX: Color32 = rgb(0x0f6f6a);
     /// The handle of the main parameter.
     pub(crate) const HANDLE: Color32 = rgb(0xf2a900);
@@ -173,7 +173,7 @@ pub(crate) mod over_picture {
     pub(crate) const HOT: Color32 = rgb(0xffd34d);
     /// Around lines and letters, so that they read on flesh, bone, white and black.
     pub(crate) const HALO_LIGHT: Color32 = Color32::from_rgba_premultiplied(215, 215, 215, 215);
-    /// The dark counterpart.
+    /// A dark halo, for the same purpose as `HALO_LIGHT`.
     pub(crate) const HALO_DARK: Color32 = Color32::from_rgba_premultiplied(0, 0, 0, 150);
 }
 

@@ -19,12 +19,12 @@ use crate::document::Edit;
 pub(crate) enum Change<T> {
     /// A step of a drag; the drag as a whole is one step of undo.
     Drag(T),
-    /// Set at once.
+    /// A value that was typed or chosen: one step of undo by itself.
     Set(T),
 }
 
 impl<T> Change<T> {
-    /// What it is now.
+    /// The new value.
     pub(crate) fn value(&self) -> &T {
         match self {
             Self::Drag(value) | Self::Set(value) => value,
@@ -60,7 +60,7 @@ pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, enabled: bool) ->
     icon_button_sized(ui, icon, name, enabled, false, control_height())
 }
 
-/// The same with a state and a side in points.
+/// As [`icon_button`], with a state (pressed or not) and a side in points.
 pub(crate) fn icon_button_sized(
     ui: &mut Ui,
     icon: Icon,
@@ -329,7 +329,7 @@ pub(crate) fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
     galley.size().x
 }
 
-/// A choice of a few, side by side. Returns what was chosen.
+/// A choice among a few entries, side by side. Returns the entry that was chosen in this frame.
 pub(crate) fn segmented<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,
@@ -423,7 +423,7 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
 pub(crate) struct NumberRow<'a> {
     /// Shown at the left.
     pub name: &'a str,
-    /// Tooltip.
+    /// Shown as a tooltip over the row.
     pub summary: &'a str,
     /// As it stands, in shown units.
     pub value: f64,

@@ -9,7 +9,7 @@ use crate::app::session::{Command, Focus, Session};
 use crate::app::words::{captions::w, fill};
 use crate::document::{Caption, Edit};
 
-/// The list.
+/// Draws the list of captions, a row each, with buttons to add and to remove one.
 pub(crate) fn ui(
     ui: &mut Ui,
     session: &Session,
@@ -29,11 +29,11 @@ pub(crate) fn ui(
         ui.add(egui::Label::new(hint).wrap());
     }
     for (index, caption) in captions.iter().enumerate() {
-        ui.push_id(("label", index), |ui| {
+        ui.push_id(("caption", index), |ui| {
             widget::row(ui, |ui| {
                 let mut text = caption.text.clone();
-                let id = egui::Id::unique(("text of label", index));
-                // Before the field is shown, so that it speaks its name.
+                let id = egui::Id::unique(("text of caption", index));
+                // Asked for before the field is shown, so that a screen reader speaks the field's name.
                 let wants_focus = *focus == Some(Focus::Caption(index));
                 if wants_focus {
                     *focus = None;
@@ -69,7 +69,7 @@ pub(crate) fn ui(
     ui.add_space(6.0);
 }
 
-/// What is typed next replaces the text.
+/// The next letter that is typed replaces the whole text.
 fn select_all(ui: &Ui, id: egui::Id, text: &str) {
     let mut edit = egui::widgets::text_edit::TextEditState::load(ui.ctx(), id).unwrap_or_default();
     let end = egui::text::CCursor::new(text.chars().count());

@@ -104,7 +104,8 @@ fn search_ui(ui: &mut Ui, session: &Session, wants_focus: bool, commands: &mut V
             .align(egui::Align2::LEFT_CENTER)
             .char_limit(40)
             .id(id);
-        // Before the field is shown: it takes what is typed in this very frame, and tells its name.
+        // Asked for before the field is shown: the field then takes letters typed in this very frame, and tells its
+        // name.
         if wants_focus {
             ui.memory_mut(|memory| memory.request_focus(id));
         }

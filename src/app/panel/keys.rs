@@ -26,7 +26,7 @@ fn gestures() -> [(&'static str, &'static str); 9] {
     ]
 }
 
-/// The sheet over everything. Returns true if it is to be closed.
+/// The sheet of keys over everything. Returns true if the sheet is to be closed.
 pub(crate) fn ui(ui: &Ui, commands: &mut Vec<Command>) {
     let content = ui.ctx().content_rect().size();
     let frame = egui::Frame::window(ui.style());

@@ -28,7 +28,7 @@ const BACKGROUNDS: [Named; 5] = [
     ([0, 0, 0], |w| w.black),
 ];
 
-/// The panel. `info` is what is known of the volume shown.
+/// Draws the panel. `info` describes the values of the volume shown.
 pub(crate) fn ui(
     ui: &mut Ui,
     session: &Session,
@@ -40,7 +40,7 @@ pub(crate) fn ui(
     widget::heading(ui, w().heading, |_| {});
     let auto = info.map(|info| auto_preset(&session.illustration().subject, info));
     transfer_ui(ui, &look.transfer, info, auto, commands);
-    // Listed points ignore the window; what it is then is for the grey of slices.
+    // Listed points ignore the window, which then only sets the grey of slices.
     let name = match &look.transfer {
         Transfer::Preset(name) => Some(name.as_str()),
         Transfer::Auto | Transfer::Points(_) => auto,

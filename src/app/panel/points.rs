@@ -29,7 +29,7 @@ pub(crate) fn ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comm
         if widget::icon_button(ui, Icon::Plus, w().add, points.points.len() < MAX_POINTS).clicked()
         {
             let mut new = points.clone();
-            // Beside the ones before it, so that it can be taken hold of.
+            // Beside the point added last, so that the new one can be grabbed.
             let turn = new.points.len() as f32 * 2.4;
             let at = Vec3::new(0.5 + 0.2 * turn.cos(), 0.5 + 0.2 * turn.sin(), 0.5);
             new.points.push(ControlPoint {

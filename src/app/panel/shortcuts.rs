@@ -8,9 +8,9 @@ use crate::document::Plane;
 
 /// A key, its command, and its line in the sheet of keys.
 pub(crate) struct Shortcut {
-    /// Which keys.
+    /// The key and the modifiers held with it.
     pub keys: KeyboardShortcut,
-    /// What it does.
+    /// The command that the key runs.
     pub command: Command,
     /// As in the sheet; an empty text is not listed (a second key for the same).
     pub text: &'static str,
@@ -23,7 +23,7 @@ const COMMAND: Modifiers = Modifiers::COMMAND;
 /// Radians by which an arrow key turns the camera.
 const KEY_ORBIT: f32 = 0.13;
 
-/// True for what comes as an event of the clipboard instead of as a key.
+/// True for commands whose keys arrive as an event of the clipboard.
 pub(crate) fn is_of_clipboard(command: &Command) -> bool {
     matches!(command, Command::Copy | Command::Cut | Command::Paste)
 }

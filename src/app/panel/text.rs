@@ -11,7 +11,7 @@ use crate::app::session::{Focus, Session};
 use crate::app::words::text::w;
 use crate::document::{Edit, SubjectRef};
 
-/// The panel.
+/// Draws the panel: title, text, credit and captions of the document.
 pub(crate) fn ui(
     ui: &mut Ui,
     session: &Session,

@@ -1,6 +1,6 @@
 //! Tissues: the segments that the subject came with and those made here, by a range of values or by growing from
-//! points, then cleaned up. Each can be shown alone; those made here are edited in place, and what comes out is seen
-//! as it is found.
+//! points, then cleaned up. Each can be shown alone; those made here are edited in place, and the picture shows
+//! the result as soon as it is found.
 
 use egui::{Color32, Label, RichText, Sense, Stroke, TextEdit, Ui, vec2};
 use serde_json::Value;
@@ -58,7 +58,7 @@ pub(crate) fn ui(
         ui.add(Label::new(RichText::new(w().none).color(weak)).wrap());
     }
     let mut rows = |ui: &mut Ui| {
-        // A feature that is being found has a row already.
+        // A segment that a recipe is being run for has a row already.
         for recipe in recipes {
             let color = RECIPE_COLORS_SRGB[recipe.index % RECIPE_COLORS_SRGB.len()];
             let color = recipe.color_srgb.unwrap_or(color);

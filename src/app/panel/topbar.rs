@@ -1,4 +1,4 @@
-//! The bar along the top: what is shown, undo, files, and the link.
+//! The bar along the top: name of the subject, undo, files, and the link.
 
 use egui::Ui;
 
@@ -76,7 +76,7 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut
     });
 }
 
-/// How long the link is, and what to do if it is long.
+/// The length of the link, and advice if the link is long.
 fn link_length_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let length = session.payload.len();
     let palette = Palette::get(ui);

@@ -9,8 +9,8 @@
 //!   −1000   0   1000
 //! ```
 //!
-//! What is shown of a preset are its points at the values that they have in the window. The first change writes them
-//! down as listed points, which are absolute (contract, "Transfer functions").
+//! A preset is shown by its points, at the values that they have in the window. The first change of a point turns them
+//! into listed points, which are absolute (contract, "Transfer functions").
 
 use egui::{
     CornerRadius, CursorIcon, DragValue, EventFilter, Key, Modifiers, Pos2, Rect, Response, Role,
@@ -69,7 +69,7 @@ pub(crate) struct Editor {
     pub(crate) has_keyboard: bool,
 }
 
-/// The transfer function as it is shown.
+/// The transfer function that the picture shows.
 struct Shown<'a> {
     points: Vec<TransferPoint>,
     tint: f32,
@@ -306,13 +306,13 @@ impl Editor {
         self.zoomed = (!is_whole).then_some([low, low + width]);
     }
 
-    /// What is under a place, the most particular first.
+    /// The part of the plot under a place; where several overlap, the most specific.
     fn grip_at(&self, pos: Pos2, axis: &Axis, shown: &Shown<'_>) -> Option<Grip> {
         let nearest = |i: &usize| {
             axis.place(shown.points[*i].value, shown.points[*i].opacity)
                 .distance(pos)
         };
-        // The selected one goes first, so that of two at one place the one that is meant is held.
+        // The selected point goes first, so that of two points at one place the selected one is dragged.
         if let Some(i) = self
             .selected
             .filter(|i| *i < shown.points.len() && nearest(i) <= 0.7 * REACH)

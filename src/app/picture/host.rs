@@ -1,5 +1,5 @@
-//! The picture in the middle: the renderer, the texture that egui shows, and what is asked of the GPU meanwhile. The
-//! one file of this room that touches wgpu.
+//! The picture in the middle: the renderer, the texture that egui shows, and the questions to the GPU that wait
+//! for an answer. The only file of this room that uses wgpu.
 
 use std::sync::Arc;
 
@@ -91,17 +91,17 @@ impl Picture {
         self.renderer.set_segmentation(labels)
     }
 
-    /// What there is to say about the volume shown, once.
+    /// Messages about the volume shown; each is returned once.
     pub(crate) fn take_notices(&mut self) -> Vec<String> {
         self.renderer.take_notices()
     }
 
-    /// Value range, window and preset of what is shown.
+    /// Value range, window and preset of the volume shown.
     pub(crate) fn subject_info(&self) -> Option<SubjectInfo> {
         self.renderer.subject_info()
     }
 
-    /// The named segments of what is shown.
+    /// The named segments of the volume shown.
     pub(crate) fn segments(&self) -> &[Segment] {
         self.renderer.segments()
     }
@@ -213,7 +213,7 @@ impl Picture {
         self.ghost = None;
     }
 
-    /// Asks what is seen at a pixel of the picture, for who looks after the answer.
+    /// Asks for the surface at a pixel of the picture; the caller polls the answer.
     pub(crate) fn pick(
         &mut self,
         pos_px: [f32; 2],
@@ -222,8 +222,8 @@ impl Picture {
         self.renderer.pick(Vec2::from_array(pos_px), size_px)
     }
 
-    /// Asks a question about the picture as it is shown, `size_px` pixels large, or about the view of its own that it
-    /// names. After such a view the caller sets its own again.
+    /// Asks a question about the picture in the window, `size_px` pixels large, or about the view that the question
+    /// brings along. After such a view the caller has to set the picture's own view again.
     pub(crate) fn ask(&mut self, question: Question, size_px: [u32; 2]) -> Result<(), RenderError> {
         let [width, height] = size_px.map(|side| side as f32);
         self.questions
@@ -282,7 +282,7 @@ impl Picture {
     }
 }
 
-/// The texture as egui knows it, made known anew if it is another than before.
+/// The texture under egui's name; made known anew if the texture is another than in the frame before.
 fn registered(
     render_state: &RenderState,
     view: &wgpu::TextureView,

@@ -12,17 +12,17 @@ const DISTANCE_RANGE: (f32, f32) = (0.08, 20.0);
 /// A direction from which anatomists look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StandardView {
-    /// From anterior.
+    /// From anterior: the face of a head.
     Front,
-    /// From posterior.
+    /// From posterior: the back of a head.
     Back,
     /// From the patient's right.
     Right,
     /// From the patient's left.
     Left,
-    /// From superior.
+    /// From superior: the crown of a head.
     Top,
-    /// From inferior.
+    /// From inferior: the chin of a head.
     Bottom,
 }
 

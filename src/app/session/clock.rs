@@ -3,7 +3,7 @@
 use super::link::LINK_DELAY;
 use super::session::Session;
 
-/// Seconds for which the button of the link tells that it was copied.
+/// Seconds for which the button of the link says “Copied”.
 const COPIED_SECONDS: f64 = 2.0;
 
 impl Session {

@@ -22,7 +22,8 @@ pub enum Command {
     Apply(Edit),
     /// Changes the document as part of a drag: the drag is one step of undo.
     Drag(Edit),
-    /// Starts placing a template of a kind: the next click on the object says where. The same kind again ends it.
+    /// Starts placing a template of a kind: the next click on the object is its place. Choosing the same kind again
+    /// cancels.
     StartPlacing(TemplateKind),
     /// Uses the active tool on what the middle of the picture shows.
     PlaceInMiddle,
@@ -30,7 +31,7 @@ pub enum Command {
     ToggleCaptioning,
     /// Uses the active tool at a pixel of the picture.
     UseToolAt([f32; 2]),
-    /// Turns the look to what is seen at a pixel of the picture.
+    /// Moves the camera's target to the surface at a pixel of the picture.
     LookAtPixel([f32; 2]),
     /// Places the template being placed on the surface that was found.
     PlaceOn(Option<Found>),
@@ -38,7 +39,7 @@ pub enum Command {
     PlaceOnOrAtTarget(Option<Found>),
     /// Places the template being placed at a point of subject space, its z axis along a normal.
     PlaceAt {
-        /// Subject space.
+        /// The point, subject space.
         pos: Vec3,
         /// Out of the object, any length but zero.
         normal: Vec3,
@@ -57,7 +58,7 @@ pub enum Command {
     LayOn(usize, Option<Found>),
     /// Takes one of the places of the surface along the template that is to follow it.
     Trace(usize, Option<Found>),
-    /// Drops what is being done: a sheet, the tool, a search, at last the selection.
+    /// Closes or ends the topmost of these: a sheet, the tool, a search, the selection.
     Escape,
     /// Selects a template by its index in the document.
     Select(Option<usize>),
@@ -71,7 +72,7 @@ pub enum Command {
     Copy,
     /// Puts the selected template, with its group, on the clipboard and takes it out of the document.
     Cut,
-    /// Takes what is on the clipboard: templates, a link, a document.
+    /// Takes the content of the clipboard: templates, a link or a document.
     Paste,
     /// Mirrors the selected template, with its group, across a middle plane of the subject: as a copy, or where it is.
     Mirror(Plane, bool),
@@ -123,7 +124,7 @@ pub enum Command {
     SaveDocument,
     /// Saves the picture as a PNG.
     SavePicture,
-    /// Stops loading.
+    /// Stops the load under way; what was shown before stays.
     CancelLoad,
     /// Fetches from the host that was asked about.
     AllowHost,
@@ -143,7 +144,7 @@ pub enum Command {
     EditCaption(usize),
     /// Shows or hides the choice among the volumes of the subject's file.
     ToggleFrames,
-    /// Light, dark.
+    /// Turns from the light theme to the dark one, or back.
     ToggleTheme,
     /// Turns to the next panel and gives it the keyboard, or with `false` to the one before.
     NextPanel(bool),
@@ -171,13 +172,13 @@ pub enum GizmoMode {
     /// Along the axes, in the planes between them, freely.
     #[default]
     Move,
-    /// About the axes.
+    /// Turns about the axes of the template.
     Turn,
     /// The faces of the box.
     Size,
 }
 
 impl GizmoMode {
-    /// All of them.
+    /// All modes, in the order of the buttons.
     pub const ALL: [Self; 3] = [Self::Move, Self::Turn, Self::Size];
 }

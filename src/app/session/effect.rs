@@ -9,9 +9,9 @@ use crate::document::{RawVoxels, SubjectRef};
 pub struct SaveFile {
     /// Proposed file name with its ending.
     pub name: String,
-    /// Media type: `image/png`.
+    /// Media type of the file, such as `image/png`.
     pub mime: &'static str,
-    /// What is in it.
+    /// Content of the file.
     pub bytes: Vec<u8>,
 }
 
@@ -40,9 +40,9 @@ pub enum Focus {
 pub enum Effect {
     /// Start loading a subject, and tell the session by `load_started`.
     LoadSubject(SubjectRef),
-    /// Stop a load.
+    /// Stop the load of this ticket.
     CancelLoad(Ticket),
-    /// Let a load fetch from the host that it asked about.
+    /// Let a load fetch from the host that the user was asked about.
     AllowHost(Ticket),
     /// Say how the voxels of the file lie that a load asked about.
     AnswerRaw(Ticket, RawVoxels),
@@ -56,13 +56,13 @@ pub enum Effect {
     Copy(String),
     /// Put the link on the clipboard; the text goes behind the `#` of the page's address.
     CopyLink(String),
-    /// Read the clipboard.
+    /// Read the clipboard, for templates to paste.
     Paste,
     /// Show a link in the address bar; the text goes behind its `#`.
     SetLink(String, LinkChange),
     /// Keep a text under a key for the next start.
     Store(&'static str, String),
-    /// Ask the picture.
+    /// Ask the picture a question; its answer is a command.
     Ask(Question),
     /// Give a control the keyboard.
     Focus(Focus),

@@ -29,7 +29,7 @@ pub struct RawDraft {
     pub ticket: Ticket,
     /// Length of the file in bytes, if that is known.
     pub byte_len: Option<u64>,
-    /// The file is packed, so that its length says nothing.
+    /// The file is packed, so that its length does not tell the number of voxels.
     pub is_packed: bool,
     /// The answer so far.
     pub voxels: RawVoxels,
@@ -38,11 +38,11 @@ pub struct RawDraft {
 /// What the user does with the question how bare voxels lie.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RawCommand {
-    /// Changes the answer.
+    /// Replaces the answer so far.
     Change(RawVoxels),
     /// Opens the file as the answer says.
     Open,
-    /// Stops the load.
+    /// Stops the load that waits for the answer.
     Cancel,
 }
 
@@ -56,7 +56,7 @@ impl RawDraft {
 /// How the bytes that the voxels take compare with those that the file has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
-    /// As many.
+    /// The file has just as many bytes as the voxels take.
     Exact,
     /// So many bytes are left over.
     Over(u64),

@@ -44,7 +44,7 @@ impl Session {
         self.effect(Effect::CopyLink(self.link_tail()));
     }
 
-    /// The clipboard has what was copied, or refused it.
+    /// Tells the user that the clipboard took the copy, or refused it.
     pub fn copied(&mut self, outcome: Result<(), String>) {
         let w = messages::w();
         match (outcome, self.clipboard.last) {

@@ -26,14 +26,14 @@ impl Measures {
         self.lines.push(line);
     }
 
-    /// Drops one distance.
+    /// Removes the distance of this index; without one nothing happens.
     pub fn remove(&mut self, index: usize) {
         if index < self.lines.len() {
             self.lines.remove(index);
         }
     }
 
-    /// Drops all.
+    /// Removes all distances.
     pub fn clear(&mut self) {
         self.lines.clear();
     }

@@ -1,6 +1,6 @@
-//! What the viewer knows and what can be done with it, without a window and without a device.
+//! The state of the viewer and its commands, without a window and without a device.
 //!
-//! Input makes [`Command`]s. [`Session::run`] runs one and returns [`Effect`]s: what is to be done outside. A
+//! Input makes [`Command`]s. [`Session::run`] runs one and returns [`Effect`]s, which the app carries out. A
 //! [`Question`] goes to the picture, and its answer is a command again. One [`Tool`] is active at a time; [`Mode`]
 //! tells the author from the lesson.
 //!

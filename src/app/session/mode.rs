@@ -3,7 +3,7 @@
 use super::walk::Walk;
 use crate::document::{Camera, Document, Illustration};
 
-/// Who looks: the author at the document, or a student at the steps of its lesson.
+/// Who uses the viewer: the author of the document, or a student who walks through the steps of its lesson.
 #[derive(Debug, Default)]
 pub enum Mode {
     /// The document as it stands is shown and edited.
@@ -22,7 +22,7 @@ impl Mode {
         }
     }
 
-    /// The step that is shown or under way to; 0 is the document as it stands.
+    /// Number of the step that is shown, or that a passage leads to; 0 is the document as it stands.
     pub fn step(&self) -> usize {
         match self {
             Self::Author => 0,
@@ -35,7 +35,7 @@ impl Mode {
         matches!(self, Self::Lesson(walk) if walk.is_moving())
     }
 
-    /// What the picture shows: the document, or the state of its lesson.
+    /// The illustration that the picture shows: the document's, or its state at the step of the lesson.
     pub fn shown<'a>(&'a self, document: &'a Document) -> &'a Illustration {
         match self {
             Self::Author => document.illustration(),
@@ -43,7 +43,8 @@ impl Mode {
         }
     }
 
-    /// Goes to a step, from a camera. Returns the camera that is taken at once.
+    /// Goes to a step, by a passage that starts at the time `now` (seconds) and at the camera `from`. A step that is no
+    /// neighbour is shown at once; its camera is returned if it differs from that of the step before.
     pub fn go(
         &mut self,
         document: &Document,
@@ -60,7 +61,7 @@ impl Mode {
         camera
     }
 
-    /// Goes on with a passage; returns its camera, if it has one.
+    /// Advances a passage to the time `now`, seconds. Returns the camera of that time if the passage moves the camera.
     pub fn advance(&mut self, document: &Document, now: f64) -> Option<Camera> {
         match std::mem::take(self) {
             Self::Author => None,
@@ -72,7 +73,7 @@ impl Mode {
         }
     }
 
-    /// Back at the document as it stands, the lesson is over.
+    /// Stays in the lesson while a step or a passage is shown; at rest on step 0 the author's mode is back.
     fn settle(&mut self, walk: Walk) {
         if walk.step() > 0 || walk.is_moving() {
             *self = Self::Lesson(walk);

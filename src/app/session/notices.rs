@@ -6,9 +6,9 @@ const MOST: usize = 200;
 /// How grave a message is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gravity {
-    /// Something was done.
+    /// Something that the user asked for was done.
     Success,
-    /// Something to know.
+    /// Something to know; nothing is wrong.
     Info,
     /// Something is not as written.
     Warning,
@@ -28,12 +28,12 @@ impl Gravity {
     }
 }
 
-/// One message.
+/// One message to the user; kept when it is no longer shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Notice {
     /// Number in the order of the messages.
     pub id: u64,
-    /// How grave.
+    /// How grave the message is, which decides how long it is shown.
     pub gravity: Gravity,
     /// One line in plain words.
     pub message: String,

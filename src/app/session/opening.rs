@@ -156,7 +156,7 @@ impl Session {
         if matches!(load.of, LoadOf::Segments(_)) {
             return;
         }
-        // The message that it is missing is no longer true.
+        // A message that the load failed is no longer true.
         if let Some(failure) = self.load_failure.take() {
             self.notices.dismiss(failure);
         }

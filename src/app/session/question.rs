@@ -8,10 +8,10 @@ use super::command::Command;
 use super::found::Found;
 use crate::document::{Camera, Illustration};
 
-/// Asks what is seen at a place.
+/// Asks what surface is seen at a place.
 #[derive(Clone, Debug)]
 pub struct Question {
-    /// Where to look.
+    /// The place in the picture or in space that is asked about.
     pub place: Place,
     /// Handed to `reply`, for questions that are asked several at a time.
     pub index: usize,
@@ -22,9 +22,9 @@ pub struct Question {
 /// Where a question looks.
 #[derive(Clone, Debug)]
 pub enum Place {
-    /// Pixels from the upper left corner of the picture as it is shown.
+    /// Pixels from the upper left corner of the picture in the window.
     Pixel([f32; 2]),
-    /// The middle of the picture as it is shown.
+    /// The middle of the picture in the window.
     Middle,
     /// Where a point of subject space is seen in a view of its own.
     Beside(Arc<Sight>, Vec3),
@@ -33,9 +33,9 @@ pub enum Place {
 /// A view that is drawn for questions only.
 #[derive(Debug)]
 pub struct Sight {
-    /// What is seen.
+    /// The illustration that is drawn; it need not be the one in the window.
     pub illustration: Illustration,
-    /// From where.
+    /// The camera from which `illustration` is drawn.
     pub camera: Camera,
 }
 

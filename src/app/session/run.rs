@@ -1,4 +1,4 @@
-//! Running commands.
+//! Runs commands: each changes the session and may return effects.
 
 use glam::{Vec2, Vec3};
 
@@ -19,7 +19,8 @@ pub const STORED_HINT: &str = "hint";
 pub const STORED_LETTERING: &str = "lettering";
 
 impl Session {
-    /// Runs a command at a time, seconds on the clock of the interface. Returns what is to be done outside, in order.
+    /// Runs a command at the time `now`, seconds on the clock of the interface. Returns the effects for the app, in
+    /// order.
     /// A message tells why where something cannot be done.
     pub fn run(&mut self, command: Command, now: f64) -> Vec<Effect> {
         self.now = now;
@@ -204,7 +205,7 @@ impl Session {
         }
     }
 
-    /// Drops what is being done: the topmost thing first.
+    /// Closes or ends the topmost thing: one at a time.
     fn escape(&mut self) {
         if self.is_keys_sheet_open || self.is_messages_open {
             self.is_keys_sheet_open = false;

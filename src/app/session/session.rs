@@ -29,7 +29,7 @@ const GLIDE_SECONDS: f64 = 0.3;
 /// What a load brings.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LoadOf {
-    /// The document's subject.
+    /// The subject that the document names.
     Subject,
     /// A file that the user opened. It becomes the document's subject.
     File,
@@ -42,15 +42,15 @@ pub enum LoadOf {
 /// A load under way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Load {
-    /// Its name.
+    /// Tells this load from others in messages and effects.
     pub ticket: Ticket,
     /// How much of it is done, 0 to 1.
     pub fraction: f32,
-    /// What is being done: `Reading`.
+    /// The work under way, as the message names it: `Reading`.
     pub what: String,
-    /// What it brings.
+    /// What the load brings, and what becomes of it.
     pub of: LoadOf,
-    /// The host that it wants to fetch from, while it waits for leave.
+    /// The host that the load wants to fetch from, while the user is asked.
     pub host: Option<String>,
     /// How the file is read.
     pub reading: Reading,
@@ -81,9 +81,9 @@ impl Load {
 /// The camera on its way to a standard view or to a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Glide {
-    /// Where it began.
+    /// The camera at the start of the glide.
     pub from: Camera,
-    /// Where it ends.
+    /// The camera at the end of the glide.
     pub to: Camera,
     /// When it began, seconds on the clock of the interface.
     pub since: f64,
@@ -92,13 +92,13 @@ pub(super) struct Glide {
 /// A panel that is open, beside the picture or as a drawer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tab {
-    /// The catalogue.
+    /// The catalogue of templates.
     Add,
     /// The list of templates and the selected one.
     Templates,
     /// Segments, and the recipes of those made here.
     Tissues,
-    /// Colours and background.
+    /// Transfer function, colours and background.
     Look,
     /// Title, text, credit, captions.
     Text,
@@ -119,7 +119,7 @@ pub struct Session {
     pub selected: Option<usize>,
     /// What the handles in the picture do.
     pub gizmo: GizmoMode,
-    /// Every message.
+    /// Messages to the user, oldest first.
     pub notices: Notices,
     /// The load under way.
     pub load: Option<Load>,
@@ -143,7 +143,7 @@ pub struct Session {
     pub are_drawers: bool,
     /// The picture is shown alone.
     pub are_panels_hidden: bool,
-    /// The sheet of keys is open.
+    /// True while the sheet of keys lies over the window.
     pub is_keys_sheet_open: bool,
     /// The list of all messages is open.
     pub is_messages_open: bool,
@@ -170,13 +170,13 @@ pub struct Session {
     pub(super) tracing: Option<Tracing>,
     /// Seconds on the clock of the interface.
     pub now: f64,
-    /// Rises with every change of what is shown.
+    /// Grows with every change of the illustration that is shown.
     pub revision: u64,
-    /// How one looks besides the camera.
+    /// Settings of the view besides the camera: panes, slices, measures.
     pub view: ViewState,
-    /// What of the tissues is edited or shown.
+    /// Which recipe is edited and which tissue is shown alone.
     pub tissues: Tissues,
-    /// What is to be done outside, in order.
+    /// Effects that wait for the app, in order.
     pub(super) effects: Vec<Effect>,
 }
 
@@ -265,12 +265,12 @@ impl Session {
         self.mode.step()
     }
 
-    /// The selected template, if it is of a kind that can be drawn.
+    /// The selected template, if its kind can be drawn.
     pub fn selected_template(&self) -> Option<&PlacedTemplate> {
         self.template(self.selected?)
     }
 
-    /// The template of this index in the document, if it is of a kind that can be drawn.
+    /// The template of this index in the document, if its kind can be drawn.
     pub fn template(&self, index: usize) -> Option<&PlacedTemplate> {
         let mut templates = self.illustration().templates.iter();
         templates.find(|template| template.index == index)
@@ -293,7 +293,7 @@ impl Session {
 
     // ------------------------------------------------------------------------------------------------ effects
 
-    /// What is to be done outside since the last call, in order.
+    /// The effects since the last call, in order.
     pub fn take_effects(&mut self) -> Vec<Effect> {
         std::mem::take(&mut self.effects)
     }
@@ -321,7 +321,7 @@ impl Session {
 
     // ------------------------------------------------------------------------------------------------ the tool
 
-    /// The active tool.
+    /// The active tool; there is always exactly one.
     pub fn tool(&self) -> Tool {
         self.tool
     }
@@ -361,7 +361,7 @@ impl Session {
         self.touch_link(LinkChange::Push);
     }
 
-    /// Back from the lesson to the document as it stands, which is what is edited.
+    /// Leaves the lesson and shows the document as it stands, which is the state that is edited.
     pub(super) fn leave_lesson(&mut self) {
         if matches!(self.mode, Mode::Lesson(_)) {
             self.mode = Mode::Author;
@@ -404,7 +404,7 @@ impl Session {
 
     // ------------------------------------------------------------------------------------------------ changes
 
-    /// The link is older than what is shown from now on.
+    /// Notes that the link no longer describes the picture.
     pub(super) fn touch_link(&mut self, change: LinkChange) {
         if self.link_stale_since.is_none() {
             self.link_change = LinkChange::Replace;

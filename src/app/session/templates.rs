@@ -89,7 +89,8 @@ impl Session {
         true
     }
 
-    /// What a tap on “Paste” found. Where the clipboard may not be read, what was copied in this window is taken.
+    /// Takes the text that “Paste” found on the clipboard. `None` if the clipboard may not be read: then templates that
+    /// were copied in this window are pasted.
     pub fn take_pasted(&mut self, text: Option<String>) {
         let is_refused = text.is_none();
         let text = text.or_else(|| self.clipboard.templates.clone());

@@ -17,7 +17,7 @@ pub(super) struct Tracing {
     template: usize,
     /// Answers that have not come.
     open: usize,
-    /// Subject space.
+    /// Points found on the surface, subject space, in the order of [`places`].
     found: [Option<Vec3>; PLACES],
 }
 

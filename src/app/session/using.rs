@@ -95,7 +95,7 @@ impl Session {
         let index = self.illustration().captions.len();
         let caption = Caption {
             at: found.pos_in_rest,
-            text: fill(captions::w().label_n, &[&(index + 1)]),
+            text: fill(captions::w().caption_n, &[&(index + 1)]),
         };
         if self.apply(&Edit::AddCaption(caption), false) {
             self.are_panels_hidden = false;

@@ -12,7 +12,7 @@ use crate::math::Aabb;
 /// A part of the window in which the object is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pane {
-    /// The picture.
+    /// The picture in space.
     Picture,
     /// The slice across z.
     Axial,

@@ -1,7 +1,7 @@
 //! The top bar, its menu, and the names of the panels.
 
 words! {
-    /// The top bar.
+    /// Texts of the top bar, its menu and the tabs of the panels.
     Bar {
         open: "Open", "Öffnen", "Abrir", "打开";
         open_hint: "Open a scan (NIfTI) or a document. It stays on this machine.", "Einen Scan (NIfTI) oder ein Dokument öffnen. Es bleibt auf diesem Gerät.", "Abrir un estudio (NIfTI) o un documento. No sale de este equipo.", "打开扫描（NIfTI）或文档。文件只留在本机。";

@@ -1,7 +1,7 @@
 //! A template along a curve.
 
 words! {
-    /// A template's curve.
+    /// Texts of the curve along which a template lies.
     Curved {
         curve: "Along", "Verlauf", "Trazado", "走向";
         hint: "The template is bent along its length and keeps its thickness", "Die Vorlage biegt sich der Länge nach und bleibt gleich dick", "La plantilla se curva a lo largo y conserva su grosor", "模板沿长度弯曲，厚度不变";

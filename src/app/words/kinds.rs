@@ -7,7 +7,7 @@ use crate::document::TemplateKind;
 /// German, Spanish, Chinese; English stands in the catalogue.
 type Line = [&'static str; Lang::COUNT - 1];
 
-/// A kind's texts.
+/// Texts of one kind of template.
 struct Kind {
     title: [&'static str; Lang::COUNT],
     summary: Line,

@@ -55,12 +55,12 @@ pub(crate) mod transfer;
 /// A language of the interface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lang {
-    /// en
+    /// Language tag `en`.
     #[default]
     English,
-    /// de
+    /// Language tag `de`.
     German,
-    /// es
+    /// Language tag `es`.
     Spanish,
     /// zh, in simplified characters
     Chinese,
@@ -131,7 +131,7 @@ impl Lang {
         self == Self::Mirrored
     }
 
-    /// Decimal sign.
+    /// The sign between a number's whole part and its fraction.
     fn decimal(self) -> char {
         match self {
             Self::German | Self::Spanish => ',',
@@ -177,7 +177,7 @@ pub(crate) fn of(line: [&'static str; Lang::COUNT]) -> &'static str {
     line[lang().column()]
 }
 
-/// A text with `{0}`, `{1}` … filled in. What is filled in is not read again.
+/// A text with `{0}`, `{1}` … replaced by values. Braces in a value are not replaced again.
 pub(crate) fn fill(text: &str, values: &[&dyn std::fmt::Display]) -> String {
     let mut filled = String::with_capacity(text.len() + 16);
     let mut rest = text;
@@ -232,7 +232,7 @@ pub(crate) fn in_sentence(name: &str) -> String {
     }
 }
 
-/// `progress` to `Progress`.
+/// The word with its first letter in upper case: `progress` to `Progress`.
 pub(crate) fn capitalized(word: &str) -> String {
     let mut letters = word.chars();
     match letters.next() {

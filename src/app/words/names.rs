@@ -1,5 +1,5 @@
-//! Names that lower rooms give in English: subjects, presets, steps of undo, what a loader is at. What is not known
-//! here stays as it is.
+//! Names that lower rooms give in English: subjects, presets, steps of undo, the work of a loader. A name that
+//! is not known here stays English.
 
 use super::{Lang, bar, capitalized, fill, kinds, lang, of};
 use crate::document::{PlacedTemplate, SubjectRef, TemplateKind};
@@ -116,9 +116,9 @@ pub(crate) fn edit_title(name: &str) -> String {
             "Ajustar a la superficie",
             "贴合表面",
         ],
-        "Add label" => ["", "Beschriftung hinzufügen", "Añadir etiqueta", "添加标注"],
-        "Change label" => ["", "Beschriftung ändern", "Cambiar etiqueta", "更改标注"],
-        "Remove label" => ["", "Beschriftung entfernen", "Quitar etiqueta", "移除标注"],
+        "Add label" => ["", "Beschriftung hinzufügen", "Añadir rótulo", "添加标注"],
+        "Change label" => ["", "Beschriftung ändern", "Cambiar rótulo", "更改标注"],
+        "Remove label" => ["", "Beschriftung entfernen", "Quitar rótulo", "移除标注"],
         "Add step" => ["", "Schritt hinzufügen", "Añadir paso", "添加步骤"],
         "Remove step" => ["", "Schritt entfernen", "Quitar paso", "移除步骤"],
         "Reorder steps" => ["", "Schritte umordnen", "Reordenar pasos", "调整步骤顺序"],

@@ -1,7 +1,7 @@
 //! Control points and the cut between them.
 
 words! {
-    /// Control points.
+    /// Texts of control points and of the cut between them.
     Points {
         count: "{0} points", "{0} Punkte", "{0} puntos", "{0} 个控制点";
         how: "Drag a dot: the tissue goes along. Double-click adds one, Delete takes one away.", "Einen Punkt ziehen: das Gewebe geht mit. Doppelklick fügt einen hinzu, Entf nimmt einen weg.", "Arrastre un punto: el tejido lo sigue. Doble clic añade uno, Supr lo quita.", "拖动圆点，组织随之移动。双击添加，Delete 键删除。";

@@ -1,7 +1,7 @@
 //! The transfer function over the histogram.
 
 words! {
-    /// The transfer function.
+    /// Texts of the editor of the transfer function.
     Transfer {
         plot: "Opacity and colour over value", "Deckkraft und Farbe über dem Wert", "Opacidad y color según el valor", "不透明度和颜色随数值的变化";
         point_is: "Point {0}: value {1}, opacity {2}", "Punkt {0}: Wert {1}, Deckkraft {2}", "Punto {0}: valor {1}, opacidad {2}", "点 {0}：数值 {1}，不透明度 {2}";

@@ -1,11 +1,11 @@
-//! What a change must pass before its tests: format, lints, docs. Also what is written from the source: the assembled
-//! shaders and the graph of imports.
+//! What a change must pass before its tests: format, lints, docs. Also writes the files that are generated from the
+//! source: the assembled shaders and the graph of imports.
 
 use crate::house;
 use crate::imports;
 use crate::run::{Outcome, cargo, root, run};
 
-/// The checks, fast to slow: what is checked, and the arguments of cargo. Lints are errors here.
+/// The checks, fast to slow: a name, and the arguments of cargo. Lints are errors here.
 const CHECKS: [(&str, &[&str]); 9] = [
     ("format", &["fmt", "--check"]),
     (

@@ -13,7 +13,7 @@ use std::process::Stdio;
 
 use fabrica::document::Document;
 
-use crate::run::{Outcome, program, root, say};
+use crate::run::{Outcome, program, report, root};
 
 /// Pictures are drawn this large: each takes a second or two on a software GPU, and there are some hundred of them.
 const SIZE: &str = "120x90";
@@ -42,7 +42,7 @@ pub(crate) fn compare(args: &[String]) -> Outcome {
         _ => return Err("compare takes two programs or two folders, not one of each".to_owned()),
     };
     if differences.is_empty() {
-        say("nothing differs");
+        report("nothing differs");
         return Ok(());
     }
     Err(format!(
@@ -73,10 +73,10 @@ fn programs(old: &Path, new: &Path) -> Result<Vec<String>, String> {
             },
             _ => text_difference(&one, &other),
         };
-        say(&format!("{}: {how}", question.name));
+        report(&format!("{}: {how}", question.name));
         differences.push(format!("{}: {how}", question.name));
     }
-    say(&format!(
+    report(&format!(
         "{answers} answers and {pictures} pictures were compared"
     ));
     Ok(differences)
@@ -199,7 +199,7 @@ fn points(name: &str) -> String {
     text
 }
 
-/// What a program answers: its output, or the picture that it writes; or its complaint.
+/// The answer of a program to a question: its output, the picture that it wrote, or its error.
 fn answer(fabrica: &Path, question: &Question) -> Result<Result<Vec<u8>, String>, String> {
     let folder = root().join("target/compare");
     let picture = folder.join("picture.png");
@@ -231,7 +231,7 @@ fn answer(fabrica: &Path, question: &Question) -> Result<Result<Vec<u8>, String>
             .map(Ok)
             .map_err(|error| format!("{}: {error}", picture.display()));
     }
-    // Notices are part of what a program says.
+    // Notices are part of the output that is compared.
     Ok(Ok([done.stdout, done.stderr].concat()))
 }
 
@@ -341,6 +341,6 @@ fn folders(old: &Path, new: &Path) -> Result<Vec<String>, String> {
     }
     let added = other.keys().filter(|name| !one.contains_key(*name));
     differences.extend(added.map(|name| format!("{name} is new")));
-    say(&format!("{} pictures were compared", one.len()));
+    report(&format!("{} pictures were compared", one.len()));
     Ok(differences)
 }

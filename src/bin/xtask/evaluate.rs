@@ -1,6 +1,6 @@
 //! `cargo xtask evaluate`: the dissertation's chapter 6 with ground truth, as a page of tables and plots.
 
-use crate::run::{Outcome, root, run, say};
+use crate::run::{Outcome, report, root, run};
 use crate::setup;
 use crate::test::tests;
 
@@ -11,6 +11,6 @@ pub(crate) fn evaluate() -> Outcome {
     let mut command = tests(&["--test", "evaluate", "--", "--ignored", "--nocapture"]);
     run("evaluate", &mut command)?;
     let page = root().join("target/evaluation/index.html");
-    say(&format!("look at {}", page.display()));
+    report(&format!("look at {}", page.display()));
     Ok(())
 }

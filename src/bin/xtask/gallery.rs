@@ -13,7 +13,7 @@ use fabrica::link;
 use fabrica::subjects::{self, Generator};
 use serde_json::{Value, json};
 
-use crate::run::{Outcome, cargo, program, root, run, say};
+use crate::run::{Outcome, cargo, program, report, root, run};
 
 /// Where `cargo xtask serve` shows the page.
 const PAGE: &str = "http://127.0.0.1:8080/";
@@ -26,7 +26,7 @@ const SIDES: [(&str, f32); 4] = [
     ("right", 270.0),
 ];
 
-/// What is asked for.
+/// What the page of the gallery shall hold.
 struct Wish {
     program: Option<PathBuf>,
     size_px: u32,
@@ -66,7 +66,7 @@ pub(crate) fn gallery(args: &[String]) -> Outcome {
     page.push_str("</html>\n");
     let index = folder.join("index.html");
     fs::write(&index, page).map_err(|error| format!("{}: {error}", index.display()))?;
-    say(&format!("look at {}", index.display()));
+    report(&format!("look at {}", index.display()));
     Ok(())
 }
 
@@ -116,9 +116,9 @@ fn documents() -> Result<Vec<(String, Document)>, String> {
     files
         .into_iter()
         .map(|path| {
-            let said = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-            let text = fs::read_to_string(&path).map_err(|error| said(&error))?;
-            let document = Document::from_json(&text).map_err(|error| said(&error))?;
+            let located = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+            let text = fs::read_to_string(&path).map_err(|error| located(&error))?;
+            let document = Document::from_json(&text).map_err(|error| located(&error))?;
             let stem = path.file_stem().unwrap_or_default();
             Ok((stem.to_string_lossy().into_owned(), document))
         })
@@ -236,7 +236,7 @@ fn sheet(page: &mut String, name: &str, fabrica: &Path, folder: &Path, wish: &Wi
     Ok(())
 }
 
-/// What is peeled off a subject.
+/// The tissue that is peeled off a subject.
 fn wrapping(name: &str) -> &'static [&'static str] {
     match name {
         "bar" => &["shell"],
@@ -250,7 +250,7 @@ fn wrapping(name: &str) -> &'static [&'static str] {
     }
 }
 
-/// What is left when a subject is laid bare.
+/// The tissue that is left when a subject is laid bare.
 fn core(name: &str) -> &'static [&'static str] {
     match name {
         "bar" => &["core"],
@@ -285,7 +285,7 @@ fn core(name: &str) -> &'static [&'static str] {
 
 /// One side opened as a door over most of its width, with `kept` left standing.
 fn peel(name: &str, angle_deg: f32, width: f32, height: f32, depth: f32, kept: &[&str]) -> Value {
-    // Far towards the middle: what comes off ends where something is kept. A door, for so thick a layer rolls badly.
+    // Far towards the middle: the part that comes off ends at kept tissue. A door, for so thick a layer rolls badly.
     let layer = depth * if name == "hand" { 0.9 } else { 0.62 };
     let out = depth * 1.04 - layer / 2.0;
     // Of the hand, what lies before its fingers bend forward.

@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) struct Source {
     /// Path below `src`, with `/`.
     pub(crate) path: String,
-    /// Its text.
+    /// The file's whole text.
     pub(crate) text: String,
 }
 
@@ -23,11 +23,11 @@ pub(crate) struct Source {
 pub(crate) struct Import {
     /// The importing file, below `src`.
     pub(crate) from: String,
-    /// The file that defines what is imported.
+    /// The file that defines the imported name.
     pub(crate) to: String,
     /// Line of the importing file, from 1.
     pub(crate) line: usize,
-    /// The path as it is written, groups expanded.
+    /// The imported path as written, groups expanded.
     pub(crate) written: String,
 }
 
@@ -60,7 +60,7 @@ pub(crate) struct Graph {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Word {
     Name(String),
-    /// `::`
+    /// The sign `::` between two names of a path.
     Path,
     Sign(char),
 }
@@ -224,7 +224,7 @@ struct Written {
 /// One leaf of a `use` tree.
 struct Use {
     names: Vec<String>,
-    /// What it is called here; nothing for `*` and `as _`.
+    /// Name in the importing file; `None` for `*` and `as _`.
     alias: Option<String>,
     is_glob: bool,
     is_public: bool,

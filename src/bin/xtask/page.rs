@@ -1,6 +1,6 @@
 //! The page: built by Trunk, weighed, served.
 
-use crate::run::{Outcome, cargo, find, program, root, run, say};
+use crate::run::{Outcome, cargo, find, program, report, root, run};
 use crate::setup;
 
 /// Builds the page into dist/.
@@ -20,7 +20,7 @@ pub(crate) fn serve(args: &[String]) -> Outcome {
         _ => return Err("serve takes --port NUMBER and nothing else".to_owned()),
     };
     build()?;
-    say(&format!(
+    report(&format!(
         "the page: http://127.0.0.1:{port}/ (it is built again when a file changes; Ctrl+C ends)"
     ));
     trunk("serve the page", &["serve", "--port", port])

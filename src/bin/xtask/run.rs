@@ -1,4 +1,4 @@
-//! Running other programs: every step says what it does and how long it took.
+//! Running other programs: each step prints what it does and how long it took.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -13,8 +13,8 @@ pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Says what comes next.
-pub(crate) fn say(what: &str) {
+/// Prints a line about the work of the command.
+pub(crate) fn report(what: &str) {
     println!("xtask: {what}");
 }
 
@@ -42,14 +42,14 @@ pub(crate) fn cargo() -> Command {
 
 /// Runs to the end with its output shown.
 pub(crate) fn run(what: &str, command: &mut Command) -> Outcome {
-    say(what);
+    report(what);
     let start = Instant::now();
     let status = command
         .status()
         .map_err(|error| format!("{what}: {} could not be started: {error}", shown(command)))?;
     let seconds = start.elapsed().as_secs_f32();
     if status.success() {
-        say(&format!("{what}: done in {seconds:.0} s"));
+        report(&format!("{what}: done in {seconds:.0} s"));
         Ok(())
     } else {
         Err(format!(

@@ -1,9 +1,9 @@
-//! Finds or installs what the page and the tests need. What is there already is not touched.
+//! Finds or installs what the page and the tests need. Programs that are there already are not touched.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::run::{Outcome, cargo, cargo_bin, find, output, program, root, run, say};
+use crate::run::{Outcome, cargo, cargo_bin, find, output, program, report, root, run};
 
 /// The newest that the pinned compiler builds.
 const TRUNK: &str = "0.21.14";
@@ -80,7 +80,7 @@ fn wasm_target() -> Outcome {
     {
         return wasm_target_works();
     }
-    say("rustup could not add the target; building std from the compiler's own source");
+    report("rustup could not add the target; building std from the compiler's own source");
     wasm_std_from_source()?;
     wasm_target_works()
 }
@@ -167,7 +167,7 @@ fn wasm_std_from_source() -> Outcome {
                 .map_err(|error| format!("{}: {error}", to.display()))?;
         }
     }
-    // What was built with another std does not go together with this one.
+    // Code that was built with another std cannot be linked with this one.
     let _nothing_there = std::fs::remove_dir_all(root().join("target").join(TARGET));
     Ok(())
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::check;
 use crate::page;
-use crate::run::{Outcome, cargo, root, run, say};
+use crate::run::{Outcome, cargo, report, root, run};
 use crate::setup;
 
 /// The test binaries, fast to slow.
@@ -87,7 +87,7 @@ fn all_ran(list: &Path) -> Outcome {
     match std::env::var("FABRICA_TEST_DATA") {
         Ok(folder) if folder != "none" => Err(message),
         _ => {
-            say(&format!(
+            report(&format!(
                 "{message} (FABRICA_TEST_DATA names no folder of scans)"
             ));
             Ok(())
@@ -114,7 +114,7 @@ fn close(start: Instant, outcomes: Vec<Outcome>) -> Outcome {
     let total = outcomes.len();
     let failures: Vec<String> = outcomes.into_iter().filter_map(Result::err).collect();
     if failures.is_empty() {
-        say(&format!("all {total} steps passed in {minutes:.1} minutes"));
+        report(&format!("all {total} steps passed in {minutes:.1} minutes"));
         return Ok(());
     }
     Err(format!(
@@ -150,6 +150,6 @@ pub(crate) fn look(names: &[String]) -> Outcome {
     ]);
     command.env("FABRICA_LOOK_AT", &folder);
     run("draw windows to look at", &mut command)?;
-    say(&format!("look into {}", folder.display()));
+    report(&format!("look into {}", folder.display()));
     Ok(())
 }

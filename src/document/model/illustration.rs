@@ -10,7 +10,7 @@ use glam::{Quat, Vec3};
 /// What a document means: every default filled in, every value inside its range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Illustration {
-    /// Title, or empty.
+    /// Title of the illustration; may be empty.
     pub title: String,
     /// The text under the picture (`caption` in a document), or empty.
     pub legend: String,
@@ -18,7 +18,7 @@ pub struct Illustration {
     pub credit: String,
     /// BCP 47 language of the texts, or empty.
     pub lang: String,
-    /// What is cut open.
+    /// The subject that is illustrated.
     pub subject: SubjectRef,
     /// Revision of a built-in subject that was improved since; `None` is the first.
     pub subject_revision: Option<u32>,
@@ -29,9 +29,9 @@ pub struct Illustration {
     /// Templates in the order in which they act, switched off ones included. Unknown kinds are left out; a notice names
     /// each.
     pub templates: Vec<PlacedTemplate>,
-    /// Colours, opacity, background.
+    /// Transfer function, opacity, light and background.
     pub look: Look,
-    /// The camera.
+    /// The view that the document opens with.
     pub camera: Camera,
     /// Texts that follow the tissue that they are fastened to (`labels` in a document).
     pub captions: Vec<Caption>,
@@ -98,14 +98,14 @@ impl Camera {
 pub struct Caption {
     /// The point of tissue, rest space.
     pub at: Vec3,
-    /// The text.
+    /// The text beside the point; any script, one line.
     pub text: String,
 }
 
 /// One step of a lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// Title, or empty.
+    /// Title of the step; may be empty.
     pub title: String,
     /// The text under the picture (`caption` in a document), or empty.
     pub legend: String,

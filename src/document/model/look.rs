@@ -16,7 +16,7 @@ pub struct Look {
     pub gradient: f32,
     /// Segments that are drawn as bodies of their own, whatever the transfer function says.
     pub segments: Vec<SegmentLook>,
-    /// What is behind the object.
+    /// The background behind the object.
     pub background: Background,
 }
 
@@ -52,7 +52,7 @@ pub enum Transfer {
 pub struct TransferPoint {
     /// Absolute value; in a preset the position in the window, 0 to 1.
     pub value: f32,
-    /// sRGB bytes.
+    /// Red, green and blue in sRGB, 0 to 255.
     pub color_srgb: [u8; 3],
     /// Opacity of 0.01 subject units, 0 to 1.
     pub opacity: f32,
@@ -74,7 +74,7 @@ pub enum OpacityMode {
     Constancy,
     /// Exponent |det J|: particles are conserved.
     Mass,
-    /// No adjustment.
+    /// Opacity is not adjusted to the deformation.
     None,
 }
 
@@ -85,7 +85,7 @@ impl OpacityMode {
     pub(crate) const NAMES: [&'static str; 3] = ["constancy", "mass", "none"];
 }
 
-/// What is behind the object.
+/// The background behind the object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Background {
     /// Nothing: the picture is transparent there.

@@ -1,4 +1,4 @@
-//! The named looks.
+//! The named looks that a document's `look.transfer` may name.
 
 use super::look::TransferPoint;
 
@@ -7,9 +7,9 @@ use super::look::TransferPoint;
 pub struct Preset {
     /// As written in documents.
     pub name: &'static str,
-    /// As shown.
+    /// English name that the interface shows.
     pub title: &'static str,
-    /// What it is made for.
+    /// The kind of values that the preset is made for.
     pub subject: PresetSubject,
     /// Window in the subject's own values if the document says "auto"; `None`: from the histogram.
     pub window: Option<[f32; 2]>,
@@ -26,7 +26,7 @@ pub struct Preset {
 pub enum PresetSubject {
     /// Built-in subjects with named segments in CT-like values.
     Builtin,
-    /// Hounsfield units.
+    /// Computed tomography in Hounsfield units.
     Ct,
     /// Magnetic resonance: no unit.
     Mri,
@@ -190,7 +190,7 @@ pub const PRESETS: &[Preset] = &[
     },
 ];
 
-/// Every preset.
+/// All presets that a document may name.
 pub fn presets() -> &'static [Preset] {
     PRESETS
 }

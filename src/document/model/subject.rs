@@ -19,7 +19,7 @@ pub enum SubjectRef {
         /// How the file is read.
         reading: Reading,
     },
-    /// A file that the reader supplies; its hash says which.
+    /// A file that the reader supplies; its hash tells which file.
     Supplied {
         /// SHA-256 of its bytes, lower-case hex.
         sha256: String,

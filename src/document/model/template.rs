@@ -17,7 +17,7 @@ pub struct PlacedTemplate {
     pub name: String,
     /// Where its cube lies in subject space.
     pub placement: Placement,
-    /// The line that its top lies along; `None` if it is straight.
+    /// The line that the top of the template lies along; `None` if the template is straight.
     pub curve: Option<Curve>,
     /// One value per entry of `kind.spec().params`, in that order.
     pub params: Vec<ParamValue>,
@@ -27,7 +27,7 @@ pub struct PlacedTemplate {
     pub enabled: bool,
     /// How it joins the template before it.
     pub mode: TemplateMode,
-    /// The tissue that it leaves where it is.
+    /// The tissue that the template leaves where it is.
     pub align: Align,
     /// The tissue towards which its displacement fades, if any.
     pub constrain: Option<Constrain>,
@@ -108,7 +108,7 @@ impl PlacedTemplate {
 pub enum TemplateMode {
     /// Deforms what the templates before it left.
     Compose,
-    /// Its displacement is added to that of the template before it.
+    /// The displacement is added to that of the template before this one.
     Add,
 }
 
@@ -155,12 +155,12 @@ pub enum Align {
     Axis,
     /// Tissue that lies deeper than `depth` under the outer surface.
     Surface {
-        /// Subject units.
+        /// Depth under the outer surface from where on tissue is kept, subject units.
         depth: f32,
         /// Width of the blend between moved and kept tissue, subject units.
         thickness: f32,
     },
-    /// The named segments.
+    /// Tissue of the segments that `keep` names.
     Segment {
         /// Segment names, or label numbers written as text.
         keep: Vec<String>,
@@ -179,7 +179,7 @@ impl Align {
 }
 
 impl PlacedTemplate {
-    /// The bent space that the template acts in; `None` if it is straight.
+    /// The bent space that the template acts in; `None` if the template is straight.
     pub fn bent(&self) -> Option<Bent> {
         self.curve.as_ref()?.bent(self.placement.size).ok()
     }
@@ -202,7 +202,7 @@ impl PlacedTemplate {
 /// What a template holds besides its parameters.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum TemplateData {
-    /// Nothing: the parameters say all.
+    /// No data: the parameters are all.
     #[default]
     None,
     /// The control points of an `rbf`.
@@ -220,7 +220,7 @@ pub struct FieldRef {
     pub sha256: Option<String>,
     /// The author's name for it, or empty.
     pub name: String,
-    /// True: the document says where the box lies. False: the file does.
+    /// True if the document places the box; false if the file does.
     pub is_placed: bool,
     /// The samples of the file. A document never has them: whoever draws puts them in.
     pub samples: Option<FieldSamples>,
@@ -247,7 +247,7 @@ pub struct SampledField {
     pub texels: Vec<u16>,
     /// Least and greatest displacement along each axis, template space.
     pub shift: [Vec3; 2],
-    /// Where the file says that the box lies, subject space.
+    /// Placement of the box by the file, subject space.
     pub placement: Placement,
 }
 

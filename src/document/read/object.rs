@@ -27,9 +27,9 @@ pub(crate) fn wrong(pointer: &str, expected: &'static str, found: &Value) -> Doc
 pub(crate) struct Object<'a> {
     /// JSON pointer to it.
     pub(crate) pointer: String,
-    /// What the document says.
+    /// The keys that the document gives, with their values.
     pub(crate) map: &'a Map<String, Value>,
-    /// The keys that it may have.
+    /// The keys that the object may have.
     pub(crate) keys: &'static [Key],
 }
 
@@ -59,7 +59,7 @@ impl<'a> Object<'a> {
         found.map_or(Kind::Text, |key| key.kind)
     }
 
-    /// The object under a key, with every key at its default if it is missing.
+    /// The object under a key. If the key is missing, every key of the object is at its default.
     pub(crate) fn child(&self, key: &str) -> Result<Self, DocumentError> {
         let (pointer, keys) = (self.at(key), self.kind(key).keys());
         match self.map.get(key) {
@@ -99,7 +99,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// The text under a key; empty if it is missing.
+    /// The text under a key; empty if the key is missing.
     pub(crate) fn string(&self, key: &str) -> Result<String, DocumentError> {
         Ok(self.text(key)?.unwrap_or_default().to_owned())
     }
@@ -119,7 +119,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// True or false under a key; the schema's default if it is missing.
+    /// The boolean under a key; the schema's default if the key is missing.
     pub(crate) fn flag(&self, key: &str) -> Result<bool, DocumentError> {
         let default = matches!(self.kind(key), Kind::Flag { default: true });
         Ok(self.flag_if_any(key)?.unwrap_or(default))
@@ -134,7 +134,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// The whole number under a key; 0 if it is missing.
+    /// The whole number under a key; 0 if the key is missing.
     pub(crate) fn whole(&self, key: &str) -> Result<u64, DocumentError> {
         match self.map.get(key) {
             None => Ok(0),
@@ -152,7 +152,7 @@ impl<'a> Object<'a> {
             .transpose()
     }
 
-    /// The list under a key; empty if it is missing.
+    /// The list under a key; empty if the key is missing.
     pub(crate) fn list(&self, key: &str) -> Result<&'a [Value], DocumentError> {
         match self.map.get(key) {
             None => Ok(&[]),
@@ -212,7 +212,7 @@ pub(crate) fn numbers<const N: usize>(
     }
 }
 
-/// A finite number.
+/// Reads a finite number. Anything else is an error that names the pointer.
 pub(crate) fn number(pointer: &str, value: &Value) -> Result<f64, DocumentError> {
     match value {
         Value::Number(number) => match number.as_f64() {

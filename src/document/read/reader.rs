@@ -183,7 +183,7 @@ impl Reader {
         Ok(found.unwrap_or(0))
     }
 
-    /// A colour. For a text that is none `instead` says in the notice what is drawn.
+    /// Reads a colour. If the text is none, `instead` is the colour that the notice names as drawn.
     pub(super) fn color(
         &mut self,
         object: &Object<'_>,

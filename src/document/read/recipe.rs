@@ -1,4 +1,4 @@
-//! Reading of recipes.
+//! Reads recipes: the entries of `subject.features`.
 
 use super::object::{Object, numbers, wrong};
 use super::reader::Reader;
@@ -13,12 +13,12 @@ impl Reader {
     pub(super) fn recipes(&mut self, subject: &Object<'_>) -> Result<Vec<Recipe>, DocumentError> {
         let mut recipes = Vec::new();
         for (index, object) in subject.children("features")?.enumerate() {
-            recipes.extend(self.feature(index, &object?)?);
+            recipes.extend(self.recipe(index, &object?)?);
         }
         Ok(recipes)
     }
 
-    fn feature(
+    fn recipe(
         &mut self,
         index: usize,
         object: &Object<'_>,

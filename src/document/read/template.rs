@@ -1,4 +1,4 @@
-//! Reading of templates.
+//! Reads templates: the entries of `templates`.
 
 use super::object::Object;
 use super::reader::Reader;

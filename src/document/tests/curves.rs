@@ -9,7 +9,7 @@ fn a_curve_is_read_kept_and_bounded() {
         ))
     };
     let drawn = |curve: &str| with(curve).expect(curve).illustration().templates[0].clone();
-    let said = |curve: &str| {
+    let lines = |curve: &str| {
         let document = with(curve).expect(curve);
         let notices = document.notices().iter();
         notices.map(ToString::to_string).collect::<Vec<_>>()
@@ -65,9 +65,9 @@ fn a_curve_is_read_kept_and_bounded() {
         (many.as_str(), "first 9"),
         (r#"{"points":[[0,1],[1e30,-1e30]]}"#, "outside the range"),
     ] {
-        let said = said(curve).join("; ");
-        assert!(said.contains(word), "{said}");
-        assert!(said.contains("/templates/0/curve/points"), "{said}");
+        let lines = lines(curve).join("; ");
+        assert!(lines.contains(word), "{lines}");
+        assert!(lines.contains("/templates/0/curve/points"), "{lines}");
         let template = drawn(curve);
         assert!(template.subject_from_template(Vec3::splat(0.3)).is_finite());
     }
@@ -77,12 +77,12 @@ fn a_curve_is_read_kept_and_bounded() {
             .is_none()
     );
     let gentle = r#"{"points":[[0,0.9],[0.5,1],[1,0.9]]}"#;
-    assert!(said(gentle).is_empty(), "{:?}", said(gentle));
+    assert!(lines(gentle).is_empty(), "{:?}", lines(gentle));
     let folded = r#"{"points":[[0.45,0.2],[0.5,1],[0.55,0.2]]}"#;
     assert!(
-        said(folded)[0].contains("more sharply"),
+        lines(folded)[0].contains("more sharply"),
         "{:?}",
-        said(folded)
+        lines(folded)
     );
 }
 

@@ -108,7 +108,7 @@ fn values_are_clamped_in_what_is_drawn_only() {
         (drawn.templates[3].placement.rotate - Quat::from_xyzw(0.0, 0.0, 0.6, 0.8)).length() < 1e-6
     );
     assert_eq!(drawn.look.window, Window::Range([-200.0, 600.0]));
-    let said = notices(&document);
+    let lines = notices(&document);
     for at in [
         "/camera/fov",
         "/look/window",
@@ -120,11 +120,15 @@ fn values_are_clamped_in_what_is_drawn_only() {
         "/templates/3/rotate",
     ] {
         assert!(
-            said.iter().any(|line| line.starts_with(at)),
-            "{at} in {said:?}"
+            lines.iter().any(|line| line.starts_with(at)),
+            "{at} in {lines:?}"
         );
     }
-    assert_eq!(said.len(), 8, "and nothing else (2π is in range): {said:?}");
+    assert_eq!(
+        lines.len(),
+        8,
+        "and nothing else (2π is in range): {lines:?}"
+    );
     assert_eq!(
         document.get("/templates/0/params/progress"),
         Some(&json!(1.5))
@@ -522,7 +526,7 @@ fn how_a_file_is_read_is_kept() {
     let subject = document.illustration().subject.clone();
     let reading = subject.reading().cloned().expect("a file");
     assert_eq!(reading.frame, 3);
-    let raw = reading.raw.clone().expect("it is said");
+    let raw = reading.raw.clone().expect("the raw layout of the document");
     assert_eq!((raw.size, raw.element), ([4, 3, 2], "int16"));
     assert!(raw.big_endian && raw.skip_bytes == 7);
     assert_eq!(document.to_json_compact(), text, "written as read");

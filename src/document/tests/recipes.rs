@@ -3,9 +3,9 @@ use crate::document::{
 };
 use serde_json::Value;
 
-fn read(features: &str) -> Result<Document, DocumentError> {
+fn read(recipes: &str) -> Result<Document, DocumentError> {
     Document::from_json(&format!(
-        r#"{{"fabrica":1,"subject":{{"builtin":"knee","features":{features}}}}}"#
+        r#"{{"fabrica":1,"subject":{{"builtin":"knee","features":{recipes}}}}}"#
     ))
 }
 
@@ -14,15 +14,15 @@ fn recipes_are_read_and_written_as_they_are() {
     let text = r##"[{"name":"bone","color":"#eadfc4","from":{"threshold":[200]},"clean":[{"largest":2},{"close":2},{"fill":true},{"smooth":1.5},{"grow":1},{"shrink":0.5}]},{"name":"vessel","from":{"grow":{"seeds":[[0.1,-0.2,0.3]],"range":[150,400]}}}]"##;
     let document = read(text).expect("a document");
     assert_eq!(document.notices(), &[], "nothing to say");
-    let features = &document.illustration().recipes;
-    assert_eq!(features.len(), 2);
-    assert_eq!(features[0].clean.len(), 6);
-    assert_eq!(features[0].clean[3], CleanStep::Smooth(1.5));
+    let recipes = &document.illustration().recipes;
+    assert_eq!(recipes.len(), 2);
+    assert_eq!(recipes[0].clean.len(), 6);
+    assert_eq!(recipes[0].clean[3], CleanStep::Smooth(1.5));
     assert!(
-        features[0].from.range()[1] > 1e30,
+        recipes[0].from.range()[1] > 1e30,
         "one number has no upper end"
     );
-    let written: Vec<Value> = features.iter().map(Recipe::to_value).collect();
+    let written: Vec<Value> = recipes.iter().map(Recipe::to_value).collect();
     let whole = document.to_json_compact();
     let again = read(&Value::from(written).to_string()).expect("as written");
     assert_eq!(again.to_json_compact(), whole);
@@ -37,8 +37,8 @@ fn recipes_are_read_and_written_as_they_are() {
 
 #[test]
 fn hostile_recipes_are_refused_or_clamped_in_words() {
-    let refused = |features: &str, pointer: &str| {
-        let error = read(features).expect_err(features).to_string();
+    let refused = |recipes: &str, pointer: &str| {
+        let error = read(recipes).expect_err(recipes).to_string();
         assert!(error.starts_with(pointer), "{error}");
     };
     refused("{}", "/subject/features: expected a list");
@@ -86,7 +86,7 @@ fn hostile_recipes_are_refused_or_clamped_in_words() {
         r#"[{"from":{"threshold":[9,3]},"clean":[{"grow":1e9},{"largest":0},{"sharpen":1},{"smooth":-1}]},{"name":"x"}]"#,
     )
     .expect("clamped");
-    let said: Vec<String> = odd.notices().iter().map(ToString::to_string).collect();
+    let lines: Vec<String> = odd.notices().iter().map(ToString::to_string).collect();
     for part in [
         "/subject/features/0/from/threshold: [9, 3]",
         "/subject/features/0/clean/0/grow: 1000000000",
@@ -96,16 +96,16 @@ fn hostile_recipes_are_refused_or_clamped_in_words() {
         "/subject/features/1/from: features are found by threshold or grow",
     ] {
         assert!(
-            said.iter().any(|line| line.starts_with(part)),
-            "{part}: {said:#?}"
+            lines.iter().any(|line| line.starts_with(part)),
+            "{part}: {lines:#?}"
         );
     }
-    let features = &odd.illustration().recipes;
-    assert_eq!(features.len(), 1, "the one that is known");
-    assert_eq!(features[0].name, "feature 1");
-    assert_eq!(features[0].from.range(), [3.0, 9.0]);
+    let recipes = &odd.illustration().recipes;
+    assert_eq!(recipes.len(), 1, "the one that is known");
+    assert_eq!(recipes[0].name, "feature 1");
+    assert_eq!(recipes[0].from.range(), [3.0, 9.0]);
     assert_eq!(
-        features[0].clean,
+        recipes[0].clean,
         [
             CleanStep::Grow(MAX_CLEAN_MM),
             CleanStep::Largest(1),

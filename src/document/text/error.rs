@@ -16,7 +16,7 @@ pub enum DocumentError {
         column: usize,
         /// JSON pointer to the value that was being read.
         pointer: String,
-        /// What was expected, or what stood there.
+        /// What the parser expected, or what it found instead.
         problem: &'static str,
     },
     /// NaN, an infinity, or a number that no 64-bit float holds.
@@ -24,7 +24,7 @@ pub enum DocumentError {
     NotFinite {
         /// JSON pointer to the place.
         pointer: String,
-        /// As written, shortened.
+        /// The number as the document has it, shortened.
         found: String,
     },
     /// A value of the wrong type or shape.
@@ -37,7 +37,7 @@ pub enum DocumentError {
         /// Description of the value that was found.
         found: String,
     },
-    /// An object names a key twice, so that it could be read in two ways.
+    /// An object names a key twice, so that its meaning is not clear.
     #[error("{pointer}: the key is there twice")]
     DuplicateKey {
         /// JSON pointer to the place.
@@ -70,29 +70,29 @@ pub enum DocumentError {
         what: &'static str,
         /// Number of entries that the document has.
         found: usize,
-        /// Number of entries that it may have.
+        /// Number of entries that the list may have.
         limit: usize,
     },
     /// Longer than a document may be.
     #[error("the document has {found} bytes, at most {limit} are allowed")]
     TooLarge {
-        /// Bytes of JSON.
+        /// Bytes of the document as JSON.
         found: usize,
-        /// Bytes allowed.
+        /// Bytes that a document may have.
         limit: usize,
     },
     /// Nested deeper than a document may be.
     #[error("{}: nested deeper than {limit} levels", place(.pointer))]
     TooDeep {
-        /// Where, shortened.
+        /// JSON pointer to the place, shortened.
         pointer: String,
-        /// Levels allowed.
+        /// Levels that a document may have.
         limit: usize,
     },
     /// A text that is no JSON pointer.
     #[error("“{pointer}” is not a JSON pointer (it starts with / and writes ~ as ~0)")]
     BadPointer {
-        /// The text, shortened.
+        /// The text that is no pointer, shortened.
         pointer: String,
     },
     /// A pointer that may not be set.

@@ -320,7 +320,7 @@ impl Reader<'_> {
     }
 }
 
-/// `-?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][+-]?[0-9]+)?`
+/// True for a number as JSON has it: `-?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][+-]?[0-9]+)?`
 fn is_number(word: &str) -> bool {
     fn digits(s: &str) -> (usize, &str) {
         let n = s.bytes().take_while(u8::is_ascii_digit).count();

@@ -1,4 +1,4 @@
-//! What is said about a document that is valid but not drawn as written.
+//! Notices: remarks on a document that is valid but not drawn as written.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use std::fmt;
 pub struct Notice {
     /// JSON pointer to the value.
     pub pointer: String,
-    /// What is said about it.
+    /// What is wrong with the value, and what is drawn in its place.
     pub kind: NoticeKind,
 }
 
@@ -18,12 +18,12 @@ pub enum NoticeKind {
     UnknownKey,
     /// A template without a kind, or of a kind that this version does not know.
     UnknownTemplate {
-        /// The kind, or empty.
+        /// The kind as the document writes it; empty if there is none.
         kind: String,
     },
     /// A parameter that the kind of the template does not have.
     UnknownParam {
-        /// The template's kind.
+        /// Name of the template's kind.
         kind: &'static str,
     },
     /// A name that this version does not know, where one of several is expected.
@@ -49,7 +49,7 @@ pub enum NoticeKind {
     },
     /// A value that this version knows but does not draw.
     NotDrawn {
-        /// What is not drawn, in plain words.
+        /// The thing that is not drawn, in plain words.
         what: &'static str,
     },
     /// A step sets a value in a place that the document does not have.
@@ -59,7 +59,7 @@ pub enum NoticeKind {
     },
     /// There are more notices, which are not listed.
     More,
-    /// A curve that is not drawn, or not all of it.
+    /// A curve that is not drawn, or only in part.
     Curve {
         /// The reason, and what is drawn, in plain words.
         what: &'static str,

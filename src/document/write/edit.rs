@@ -18,7 +18,7 @@ pub enum Edit {
     Set {
         /// JSON pointer to the value.
         pointer: String,
-        /// The new value.
+        /// The value that is set; it replaces the one that stands there.
         value: Value,
         /// Name of the edit in the menu, such as “Set key”.
         name: String,
@@ -34,12 +34,12 @@ pub enum Edit {
     AddTemplate {
         /// Its index afterwards; larger than the number of templates means last.
         index: usize,
-        /// Its kind.
+        /// Kind of the new template, with the defaults of its parameters.
         kind: TemplateKind,
         /// Where its cube lies.
         placement: Placement,
     },
-    /// Removes a template.
+    /// Removes a template. Pointers of steps to later templates follow.
     RemoveTemplate {
         /// Index of the template.
         template: usize,
@@ -53,10 +53,10 @@ pub enum Edit {
     MoveTemplate {
         /// Index of the template.
         from: usize,
-        /// Its index afterwards.
+        /// Index of the template after the edit.
         to: usize,
     },
-    /// Sets a parameter.
+    /// Sets one parameter of a template.
     SetParam {
         /// Index of the template.
         template: usize,
@@ -104,14 +104,14 @@ pub enum Edit {
     SetMode {
         /// Index of the template.
         template: usize,
-        /// Composed or added.
+        /// Whether the template is composed with the one before or added to it.
         mode: TemplateMode,
     },
     /// Sets the tissue that a template leaves where it is.
     SetAlign {
         /// Index of the template.
         template: usize,
-        /// The kept tissue.
+        /// The tissue that the template leaves where it is.
         align: Align,
     },
     /// Sets the tissue towards which a template's displacement fades.
@@ -162,11 +162,11 @@ pub enum Edit {
     SetWindow(Window),
     /// Sets how opacity follows the deformation.
     SetOpacity(OpacityMode),
-    /// Sets what is behind the object.
+    /// Sets the background behind the object.
     SetBackground(Background),
-    /// Sets the camera.
+    /// Sets the view that the document opens with.
     SetCamera(Camera),
-    /// Sets the title.
+    /// Sets the title; empty for none.
     SetTitle(String),
     /// Sets the text under the picture (`caption` in a document).
     SetLegend(String),
@@ -178,16 +178,16 @@ pub enum Edit {
     SetSubject(SubjectRef),
     /// Adds a caption at the end of `labels`.
     AddCaption(Caption),
-    /// Changes a caption.
+    /// Replaces a caption by another one.
     ReplaceCaption {
-        /// Index in `labels`.
+        /// Index of the caption in `labels`, from 0.
         caption: usize,
-        /// The caption afterwards.
+        /// The caption that takes its place.
         value: Caption,
     },
-    /// Removes a caption.
+    /// Removes a caption. Pointers of steps to later captions follow.
     RemoveCaption {
-        /// Index in `labels`.
+        /// Index of the caption in `labels`, from 0.
         caption: usize,
     },
     /// Adds a step before the one of that index, counted from 0 for the first after step 0.
@@ -197,7 +197,7 @@ pub enum Edit {
         /// The step as JSON: `title`, `caption`, `set`, `seconds`.
         step: Value,
     },
-    /// Removes a step.
+    /// Removes a step; later steps come one earlier.
     RemoveStep {
         /// Index of the step, from 0 for the first after step 0.
         step: usize,
@@ -206,7 +206,7 @@ pub enum Edit {
     MoveStep {
         /// Index of the step, from 0 for the first after step 0.
         from: usize,
-        /// Its index afterwards.
+        /// Index of the step after the edit.
         to: usize,
     },
 }

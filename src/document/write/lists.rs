@@ -4,7 +4,7 @@ use crate::document::text::DocumentError;
 use crate::document::text::pointer::{self, join};
 use serde_json::{Map, Value, json};
 
-/// A list of the document; made if it is missing.
+/// A list of the document; created if the key is missing.
 pub(super) fn list<'a>(
     root: &'a mut Value,
     key: &'static str,

@@ -1,4 +1,4 @@
-//! What is bound to programs.
+//! Bindings: buffers, textures and samplers as entries of bind groups.
 
 use super::gpu::Gpu;
 

@@ -1,13 +1,13 @@
 /// What can go wrong between the program and the GPU.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
-    /// No adapter at all.
+    /// The machine has no GPU that can be used, not even in software.
     #[error("no GPU found (a software one such as lavapipe is enough): {0}")]
     NoAdapter(String),
     /// No adapter of the name asked for.
     #[error("no GPU is called \"{wanted}\"; there are: {found}")]
     NoSuchAdapter {
-        /// As asked for.
+        /// The name that was asked for.
         wanted: String,
         /// Names of all adapters, separated by commas.
         found: String,
@@ -15,9 +15,9 @@ pub enum RenderError {
     /// The adapter refused a device.
     #[error("the GPU {adapter} gives no device: {source}")]
     NoDevice {
-        /// Its name.
+        /// Name of the adapter.
         adapter: String,
-        /// What the adapter said.
+        /// The error of the adapter.
         source: wgpu::RequestDeviceError,
     },
     /// The device went away; everything on it is gone.
@@ -36,7 +36,7 @@ pub enum RenderError {
     Refused {
         /// Which pass or resource.
         pass: &'static str,
-        /// As wgpu says it.
+        /// The message of wgpu.
         message: String,
     },
     /// The volume does not fit, even reduced.
@@ -48,11 +48,11 @@ pub enum RenderError {
     /// A picture of no pixels or too many was asked for.
     #[error("a picture of {width} × {height} pixels cannot be drawn here (each side 1 to {max})")]
     BadSize {
-        /// Pixels.
+        /// Width that was asked for, pixels.
         width: u32,
-        /// Pixels.
+        /// Height that was asked for, pixels.
         height: u32,
-        /// Largest side.
+        /// The longest side that this device draws, pixels.
         max: u32,
     },
     /// The PNG encoder failed.

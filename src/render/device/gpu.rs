@@ -14,9 +14,9 @@ pub struct GpuOptions {
 /// A device with its queue and what is known about it. Cheap to clone; built once per program (and again after a loss).
 #[derive(Clone, Debug)]
 pub struct Gpu {
-    /// Makes resources.
+    /// Makes buffers, textures and pipelines.
     pub device: wgpu::Device,
-    /// Takes work.
+    /// Takes commands and copies data to the GPU.
     pub queue: wgpu::Queue,
     /// Name, kind and driver.
     pub info: wgpu::AdapterInfo,

@@ -13,11 +13,11 @@ pub struct Kernel {
 /// One resource of a [`Kernel`] call.
 #[derive(Debug)]
 pub struct Binding<'a> {
-    /// `@group`.
+    /// Number in `@group`.
     pub group: u32,
-    /// `@binding`.
+    /// Number in `@binding`, within the group.
     pub binding: u32,
-    /// What is bound.
+    /// The buffer or texture that is bound there.
     pub resource: wgpu::BindingResource<'a>,
 }
 

@@ -20,7 +20,7 @@ enum Holds {
     Uniform,
     /// Numbers that are interpolated.
     Texture(wgpu::TextureViewDimension),
-    /// Whole numbers.
+    /// Whole numbers, which are not interpolated.
     Numbers(wgpu::TextureViewDimension),
     Sampler,
 }

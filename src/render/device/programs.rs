@@ -12,9 +12,9 @@ use std::sync::LazyLock;
 /// An embedded WGSL file.
 #[derive(Debug)]
 pub struct ShaderFile {
-    /// Path under `shaders/`.
+    /// Path of the file under `shaders/`.
     pub path: &'static str,
-    /// Its text.
+    /// The file's text, as embedded in the program.
     pub source: &'static str,
     /// Its `needs:` lines: the files that it takes names from.
     pub needs: &'static str,
@@ -23,9 +23,9 @@ pub struct ShaderFile {
 /// What runs an entry point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// Vertex shader.
+    /// Vertex shader: places the corners of a triangle.
     Vertex,
-    /// Fragment shader.
+    /// Fragment shader: colours a pixel.
     Fragment,
     /// Compute shader: preparation only, never the picture.
     Compute,
@@ -46,17 +46,17 @@ pub enum ProgramId {
     Distance,
     /// Shares of the segments that are drawn as bodies.
     Bodies,
-    /// The skip grid.
+    /// The skip grid over the deformed space.
     Grid,
-    /// The picture.
+    /// The picture, where no tissue is kept.
     Raycast,
-    /// The baked map.
+    /// The baked map: the composed map of the document, sampled on a grid.
     Bake,
     /// The picture, by the baked map.
     RaycastBaked,
     /// The picture, where tissue is kept.
     RaycastAligned,
-    /// Slices.
+    /// Slices, where no tissue is kept.
     Slice,
     /// Slices, where tissue is kept.
     SliceAligned,
@@ -113,7 +113,7 @@ const fn is_same(a: &[u8], b: &[u8]) -> bool {
 /// A program: a pass, with all that it takes names from, and its entry points.
 #[derive(Debug)]
 pub struct Program {
-    /// Which one it is.
+    /// Tells the program from the others.
     pub id: ProgramId,
     /// Its name in messages and tests.
     pub name: &'static str,
@@ -121,12 +121,12 @@ pub struct Program {
     pub pass: &'static str,
     /// The file that is taken where a `needs:` line names several that stand in for each other.
     pub stand_in: Option<&'static str>,
-    /// Its entry points.
+    /// Names of its entry points, and what runs each.
     pub entries: &'static [(&'static str, Stage)],
 }
 
 impl Program {
-    /// Its files, each behind those that it needs.
+    /// The files of the program, each after the files that it needs.
     pub fn files(&self) -> Vec<&'static ShaderFile> {
         files_of(self.pass, self.stand_in)
     }
@@ -463,7 +463,7 @@ pub fn needs(file: &ShaderFile) -> Vec<&'static str> {
 /// A program's text, put together.
 #[derive(Debug)]
 pub struct Assembled {
-    /// Concatenated source.
+    /// The texts of all files, one after the other.
     pub source: String,
     /// First line (from 1) of each file in `source`, in order.
     starts: Vec<(usize, &'static str)>,
@@ -475,7 +475,7 @@ impl Assembled {
         Self::of(&program.files())
     }
 
-    /// Puts files together.
+    /// Puts files together in the order given.
     pub fn of(files: &[&'static ShaderFile]) -> Self {
         let (mut source, mut starts, mut line) = (String::new(), Vec::new(), 1);
         for file in files {
@@ -544,7 +544,7 @@ fn module_of(gpu: &Gpu, program: &Program, assembled: &Assembled) -> wgpu::Shade
         })
 }
 
-/// Says what is wrong with the programs as they stand, with `file.wgsl:line`.
+/// Checks the programs as they stand; an error names `file.wgsl:line`.
 ///
 /// # Errors
 /// [`RenderError::Shader`] for the first that does not parse or validate.

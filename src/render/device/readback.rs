@@ -129,7 +129,7 @@ struct WorkState {
 }
 
 impl WorkDone {
-    /// Of what was submitted before this call.
+    /// Starts to watch the work that was submitted before this call.
     pub fn start(gpu: &Gpu) -> Self {
         let state = Arc::new(Mutex::new(WorkState::default()));
         let on_done = Arc::clone(&state);

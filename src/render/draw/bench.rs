@@ -13,20 +13,20 @@ use glam::Vec3;
 /// One line of `fabrica bench`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BenchRow {
-    /// What was drawn.
+    /// Name of the scene that was drawn.
     pub name: &'static str,
-    /// Templates in it.
+    /// Number of templates in the scene.
     pub template_count: usize,
-    /// Drawn with the grid over the deformed space.
+    /// Drawn with the skip grid.
     pub has_grid: bool,
     /// Median time of a frame, seconds: a ready scene drawn and read back.
     pub seconds: f64,
     /// Median time to make the scene ready, seconds: the grid, mostly. Once per edit of a template or of the look,
     /// nothing while only the camera moves.
     pub making_seconds: f64,
-    /// To the undeformed frame with the grid.
+    /// Ratio to the time of the undeformed frame with the skip grid.
     pub ratio: f64,
-    /// Time without the grid over time with it (on rows with the grid).
+    /// Time without the skip grid divided by the time with it (on rows with the skip grid).
     pub grid_gain: Option<f64>,
 }
 

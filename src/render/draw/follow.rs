@@ -63,7 +63,7 @@ fn read(bytes: &[u8]) -> Vec<Option<Vec3>> {
 }
 
 impl Follower {
-    /// Starts looking for points (rest space) in the object as it is scene. There has to be one at least.
+    /// Starts to look for points (rest space) in the deformed object of a scene. There has to be at least one point.
     pub(crate) fn find(
         &mut self,
         gpu: &Gpu,

@@ -4,7 +4,7 @@ use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::textures::read_texture;
 
-/// A finished picture.
+/// A finished picture in main memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
     /// Width and height, pixels.

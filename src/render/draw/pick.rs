@@ -1,4 +1,4 @@
-//! What is under a pixel.
+//! The surface, the tissue and the segment under a pixel.
 
 use super::passes::Passes;
 use super::raycast::{March, encode_march, frame_group};
@@ -14,7 +14,7 @@ use crate::render::scene::Scene;
 use crate::render::subject::volume::SubjectTextures;
 use glam::{Vec2, Vec3};
 
-/// What is under a pixel.
+/// The surface, the tissue and the segment under a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pick {
     /// Where the surface is, subject space (deformed).

@@ -15,7 +15,7 @@ use glam::Vec3;
 /// from being asked for seconds at a time.
 const CHUNK: usize = 1 << 18;
 
-/// What the map says about one point.
+/// The result of the map at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Where the material was before any template acted, rest space.

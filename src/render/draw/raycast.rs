@@ -1,4 +1,4 @@
-//! The ray march: the pass that draws the picture, and that asks what is under a pixel.
+//! The ray march: the pass that draws the picture, or finds what lies under one pixel.
 
 use crate::render::device::bindings::entry;
 use crate::render::device::buffers::uniform_buffer;
@@ -15,9 +15,9 @@ use std::sync::OnceLock;
 #[derive(Debug)]
 pub(crate) struct RaycastPasses {
     plain: wgpu::ShaderModule,
-    /// For documents that keep tissue; compiled when the first one comes.
+    /// For documents that keep tissue; compiled when the first such document is drawn.
     aligned: OnceLock<wgpu::ShaderModule>,
-    /// For pictures of the baked map; compiled when the first one comes.
+    /// For pictures by the baked map; compiled when the first such picture is drawn.
     baked: OnceLock<wgpu::ShaderModule>,
     layout: wgpu::PipelineLayout,
     baked_layout: wgpu::PipelineLayout,
@@ -71,7 +71,7 @@ impl RaycastPasses {
         } else {
             &self.layout
         };
-        // Sample k counts 1/(k + 1): the mean so far.
+        // Sample k, from 0, has the weight 1/(k + 1), so that the target holds the mean of all samples so far.
         let (entry, format, blend) = if key.is_pick {
             ("pick", PICK_FORMAT, None)
         } else {
@@ -101,7 +101,7 @@ const MEAN: wgpu::BlendState = wgpu::BlendState {
     alpha: MEAN_PART,
 };
 
-/// Group 0 of one frame.
+/// Bind group 0: camera and sampling of one frame.
 pub(crate) fn frame_group(gpu: &Gpu, layouts: &Layouts, frame: &Frame) -> wgpu::BindGroup {
     let buffer = uniform_buffer(gpu, "frame", frame);
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -120,7 +120,7 @@ pub(crate) struct March<'a> {
     pub scene: &'a wgpu::BindGroup,
     /// For pipelines that draw from the baked map.
     pub baked: Option<&'a wgpu::BindGroup>,
-    /// Pixels of the target in use, from its top left.
+    /// Width and height of the used part of the target, pixels from its top left corner.
     pub viewport: [u32; 2],
     pub tiles: &'a [[u32; 4]],
     /// Weight against what the target holds: 1 overwrites.

@@ -86,7 +86,7 @@ pub struct Renderer {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stage {
-    /// What is shown is not what should be.
+    /// The picture that is shown is not yet the one that should be.
     Stale,
     /// The quick picture is out; sample `sample` is drawn from tile `tile` on.
     Refining {
@@ -319,7 +319,7 @@ impl Renderer {
         self.targets.as_ref().map(|t| t.size)
     }
 
-    /// Reads what is shown at this moment (premultiplied where the background is transparent).
+    /// Reads the picture that is shown at this moment (premultiplied where the background is transparent).
     ///
     /// # Errors
     /// [`RenderError::NoSubject`] before the first picture, [`RenderError::DeviceLost`].
@@ -351,7 +351,7 @@ impl Renderer {
         std::mem::take(&mut self.notices)
     }
 
-    /// What is under a pixel of the picture as it is set now (origin top left, of a picture of `size_px`).
+    /// The surface under a pixel of the picture with the present settings (origin top left, of a picture of `size_px`).
     ///
     /// # Errors
     /// [`RenderError::NoSubject`], [`RenderError::DeviceLost`].
@@ -374,7 +374,7 @@ impl Renderer {
         }
     }
 
-    /// Where points of the rest are in the object as it is set now.
+    /// Where points of rest space are in the object with the present settings.
     ///
     /// # Errors
     /// [`RenderError::NoSubject`], [`RenderError::DeviceLost`], [`RenderError::Refused`].
@@ -393,8 +393,8 @@ impl Renderer {
         }
     }
 
-    /// Brings the slice of a slot (0, 1, …; each has its own texture) up to date with what was set last; nothing is
-    /// drawn where nothing changed. True if [`Renderer::slice_view`] has a picture of it.
+    /// Brings the slice of a slot (0, 1, …; each has its own texture) up to date with the last settings; nothing is
+    /// drawn if nothing changed. True if [`Renderer::slice_view`] has a picture of it.
     ///
     /// # Errors
     /// [`RenderError::BadSize`], [`RenderError::DeviceLost`].
@@ -458,8 +458,8 @@ impl Renderer {
         Ok(true)
     }
 
-    /// A finished picture of the subject that is on the GPU, beside what is shown: for PNG export and icons. The future
-    /// owns what it needs and may be polled once per frame.
+    /// A finished picture of the subject on the GPU, independent of the picture in the window: for PNG export and
+    /// icons. The future owns its resources and may be polled once per frame.
     pub fn render_image(
         &self,
         illustration: &Illustration,
@@ -622,7 +622,7 @@ impl Renderer {
             return;
         };
         let [width, height] = targets.size.map(|side| side as f32);
-        // The baked map if it is there and faster on this device, as far as was seen.
+        // The baked map, if there is one and the frame times so far show that it is faster on this device.
         let is_faster = self.pace.cost(Work::QuickBaked) < self.pace.cost(Work::Quick);
         let baked = scene.baked().filter(|_| is_faster);
         let (work, key) = match baked {

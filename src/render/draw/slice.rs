@@ -51,11 +51,11 @@ pub enum SliceColors {
 /// A slice to be shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliceView {
-    /// Where it lies.
+    /// The plane that is cut.
     pub plane: SlicePlane,
     /// Width and height, pixels.
     pub size_px: [u32; 2],
-    /// Grey or colours.
+    /// Whether grey levels or colours are drawn.
     pub colors: SliceColors,
     /// Where nothing is, sRGB bytes.
     pub background_srgb: [u8; 3],

@@ -49,7 +49,7 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Uploads the volume. `wants_grid` false draws without the grid over the deformed space, to measure what it gains.
+    /// Uploads the volume. `wants_grid` false draws without the skip grid, to measure its gain.
     ///
     /// # Errors
     /// [`RenderError::TooLarge`].
@@ -102,7 +102,7 @@ impl Studio {
         self.subject.info
     }
 
-    /// The same volume, drawn with or without the grid.
+    /// This studio, drawing with or without the skip grid.
     pub fn with_grid(&self, wants_grid: bool) -> Self {
         Self {
             wants_grid,
@@ -124,8 +124,9 @@ impl Studio {
         async move { job?.draw(samples.max(1)).await }
     }
 
-    /// Draws one picture from the baked map, with so many texels along its longest side: what is shown while the
-    /// camera moves, where that is faster. Alignment and constraints are not in it. The future owns what it needs.
+    /// Draws one picture from the baked map, with so many texels along its longest side, as the viewer does
+    /// while the camera moves, where that is faster. The baked map holds no alignment and no constraints. The future
+    /// owns its resources.
     ///
     /// # Errors
     /// As [`Studio::render_image`].
@@ -162,7 +163,7 @@ impl Studio {
         }
     }
 
-    /// The grid over the deformed space of an illustration, as the ray march will read it; `None` for a studio
+    /// The skip grid of an illustration, as the ray march will read it; `None` for a studio
     /// without one.
     ///
     /// # Errors
@@ -178,7 +179,7 @@ impl Studio {
         }
     }
 
-    /// Its named segments.
+    /// Named segments of the subject.
     pub fn segments(&self) -> &[Segment] {
         &self.subject.segments
     }
@@ -232,7 +233,7 @@ impl Studio {
         scene.kept_textures().read(&self.gpu).await
     }
 
-    /// What is at a point of the picture (pixels, origin top left). The future owns what it needs.
+    /// The surface at a point of the picture (pixels, origin top left). The future owns its resources.
     pub fn pick(
         &self,
         illustration: &Illustration,

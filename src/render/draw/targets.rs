@@ -33,11 +33,11 @@ pub(crate) struct Shot<'a> {
     pub viewport: [u32; 2],
     /// What of it is drawn.
     pub tiles: &'a [[u32; 4]],
-    /// Weight against what is there: 1 overwrites.
+    /// Weight against the content of the target: 1 overwrites.
     pub weight: f32,
-    /// As in [`Resolve`].
+    /// From an output pixel to the texture coordinate, as in [`Resolve`].
     pub scale: [f32; 2],
-    /// As in [`Resolve`].
+    /// Largest texture coordinate in use, as in [`Resolve`].
     pub end: [f32; 2],
     /// What of the shown picture is drawn.
     pub shown: &'a [[u32; 4]],

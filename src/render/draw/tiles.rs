@@ -1,7 +1,7 @@
 /// Side of the squares a picture is drawn in, pixels: short enough that a weak GPU answers in time.
 pub(crate) const TILE: u32 = 64;
 
-/// Tiles (x, y, width, height) that cover a picture, from its middle outwards: what is looked at comes first.
+/// Tiles (x, y, width, height) that cover a picture, from its middle outwards, since people look at the middle first.
 pub(crate) fn tiles_of(size: [u32; 2]) -> Vec<[u32; 4]> {
     let mut tiles = Vec::new();
     for y in (0..size[1]).step_by(TILE as usize) {

@@ -9,7 +9,8 @@ use crate::math::Aabb;
 const STEP_AT_REST: f32 = 0.75;
 /// Step while anything moves.
 const STEP_MOVING: f32 = 1.25;
-/// Steps are never longer than this, subject units, but for subjects of few voxels: the grid is made for it.
+/// Steps are never longer than this, subject units, but for subjects of few voxels: the skip grid is made for steps of
+/// this length.
 const LONGEST_STEP: f32 = 0.009;
 
 /// The longest step that any ray takes through a subject whose finest detail has this length.

@@ -12,18 +12,18 @@ pub const TABLE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
 /// Templates of one document at most (spec/contract.md, "Limits").
 pub const MAX_TEMPLATES: usize = 32;
-/// Entries of [`Templates::pool`].
+/// Entries of [`Templates::pool`], for the control points and curves of all templates together.
 pub const POOL: usize = 640;
 
 /// An affine map, by the rows of its matrix: three factors and the offset of each coordinate of the result.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Affine {
-    /// Of x.
+    /// Factors of x, y, z and offset of the result's x.
     pub row0: [f32; 4],
-    /// Of y.
+    /// Factors of x, y, z and offset of the result's y.
     pub row1: [f32; 4],
-    /// Of z.
+    /// Factors of x, y, z and offset of the result's z.
     pub row2: [f32; 4],
 }
 
@@ -48,7 +48,7 @@ impl From<Affine3A> for Affine {
     }
 }
 
-/// One placed template.
+/// One placed template: where it lies, its parameters, and the group that it belongs to.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Template {
@@ -62,7 +62,7 @@ pub struct Template {
     pub params0: [f32; 4],
     /// Parameters 4 to 7.
     pub params1: [f32; 4],
-    /// `TemplateKind as u32`.
+    /// Kind of the template, as `TemplateKind as u32`.
     pub kind: u32,
     /// Index of the composing template that heads its `add` group (its own if it composes).
     pub group: u32,
@@ -78,7 +78,7 @@ pub struct Template {
 pub struct Templates {
     /// The first `count` count.
     pub items: [Template; MAX_TEMPLATES],
-    /// How many count.
+    /// Number of templates in `items`.
     pub count: u32,
     /// To the next row of four.
     pub padding: [u32; 3],
@@ -235,7 +235,7 @@ pub struct KeptGroup {
     pub run: u32,
     /// Sets that the displacement gives way to.
     pub gives_way_to: u32,
-    /// One of `CONSTRAIN_`.
+    /// What happens at constrained tissue, one of the constants `CONSTRAIN_`.
     pub constraint: u32,
     /// Depth under the outer surface from where on tissue is kept, subject units.
     pub depth: f32,
@@ -265,7 +265,7 @@ pub struct Kept {
     pub depth_slab: u32,
     /// Sets of each label, four bits each.
     pub label_sets: [[u32; 4]; 8],
-    /// As in [`Templates`].
+    /// What each template keeps, in the order of [`Templates::items`].
     pub items: [KeptGroup; MAX_TEMPLATES],
     /// Rigid motions (subject space to rest space) of segments that move as a whole; only heads of groups count.
     /// Written on the GPU.
@@ -278,9 +278,9 @@ pub struct Kept {
 pub struct DistanceJob {
     /// Fine voxels to texture space of the volume.
     pub volume_from_voxel: Affine,
-    /// xyz: fine voxels.
+    /// xyz: number of fine voxels.
     pub fine: [u32; 4],
-    /// xyz: coarse voxels.
+    /// xyz: number of coarse voxels.
     pub coarse: [u32; 4],
     /// xyz: spacing of fine voxels, subject units.
     pub spacing: [f32; 4],
@@ -304,7 +304,7 @@ pub struct DistanceJob {
     pub set_count: u32,
     /// To the next row of four.
     pub padding: [u32; 3],
-    /// As in [`Kept`].
+    /// Sets of kept tissue that each label belongs to, packed as in [`Kept`].
     pub label_sets: [[u32; 4]; 8],
 }
 
@@ -326,7 +326,7 @@ pub struct Frame {
     pub occlusion_turn: f32,
     /// Box of the deformed object, lowest corner.
     pub bounds_min: [f32; 4],
-    /// Highest corner.
+    /// Box of the deformed object, highest corner.
     pub bounds_max: [f32; 4],
     /// Pick pass only: the pixel.
     pub pick: [f32; 2],
@@ -336,7 +336,7 @@ pub struct Frame {
     pub padding: u32,
 }
 
-/// The uploaded volume.
+/// The uploaded volume and its segmentation: where they lie and how their texels are read.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Subject {
@@ -344,7 +344,7 @@ pub struct Subject {
     pub texture_from_rest: Affine,
     /// Rest space to texture space of the segmentation.
     pub label_from_rest: Affine,
-    /// xyz: voxels.
+    /// xyz: number of voxels of the volume.
     pub dims: [f32; 4],
     /// xyz: voxels of the segmentation.
     pub label_dims: [f32; 4],
@@ -372,7 +372,7 @@ pub struct Look {
     pub tint: f32,
     /// Strength of the highlight, 0 to 1.
     pub specular: f32,
-    /// One of `OPACITY_`.
+    /// How opacity follows the deformation, one of the constants `OPACITY_`.
     pub opacity_mode: u32,
     /// How much opacity follows the gradient, 0 to 1.
     pub edges: f32,
@@ -387,7 +387,7 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// No segment is.
+    /// No segment is drawn as a body.
     pub const NONE: Self = Self {
         items: [[0.0, 0.0, 0.0, -1.0]; 256],
     };
@@ -404,7 +404,7 @@ pub const BODY_HIDDEN: f32 = 0.005;
 pub const OPACITY_CONSTANCY: u32 = 0;
 /// [`Look::opacity_mode`]: particles are conserved.
 pub const OPACITY_MASS: u32 = 1;
-/// [`Look::opacity_mode`]: no adjustment.
+/// [`Look::opacity_mode`]: opacity is not adjusted.
 pub const OPACITY_NONE: u32 = 2;
 
 /// The skip grid: the grid over the deformed space.
@@ -469,7 +469,7 @@ pub struct Slice {
     pub grey_scale: f32,
     /// Grey level of a texel of 0.
     pub grey_offset: f32,
-    /// One of `SLICE_`.
+    /// Whether grey levels or colours are drawn, one of the constants `SLICE_`.
     pub mode: u32,
     /// Samples per pixel along each side.
     pub samples: u32,
@@ -496,7 +496,7 @@ pub struct Lattice {
     pub padding: [u32; 2],
 }
 
-/// What a template reaches, for the making of the grid.
+/// What a template reaches, for the making of the skip grid.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct GridTemplate {
@@ -510,19 +510,19 @@ pub struct GridTemplate {
     pub reach1_max: [f32; 4],
     /// First box in the template's own space, lowest corner.
     pub own_min: [f32; 4],
-    /// Highest corner.
+    /// First box in the template's own space, highest corner.
     pub own_max: [f32; 4],
-    /// Least shift.
+    /// Least shift of material along each axis of the template.
     pub shift_min: [f32; 4],
-    /// Greatest shift.
+    /// Greatest shift of material along each axis, or how far the map departs from its differences (rippled).
     pub shift_max: [f32; 4],
     /// Half side of the largest box in which differences tell how the map changes.
     pub detail: f32,
-    /// How much longer a step can be along a curve; 1 without one.
+    /// Greatest ratio of a step's length in the template's own space to that in the straight box; 1 without a curve.
     pub stretch: f32,
-    /// The longest way along a curve, subject units; 0 without one.
+    /// Longest displacement of any material, subject units, if the template lies along a curve; else 0.
     pub longest: f32,
-    /// One of `MATERIAL_`.
+    /// How the template moves material, one of the constants `MATERIAL_`.
     pub material: u32,
     /// 1 if the map jumps at the faces of the first box.
     pub is_torn: u32,
@@ -539,7 +539,7 @@ pub const MATERIAL_BENT: u32 = 2;
 /// [`GridTemplate::material`]: moved by a bounded shift that may change faster than differences tell.
 pub const MATERIAL_RIPPLED: u32 = 3;
 
-/// One making of the grid.
+/// The job of the passes that make the skip grid.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct GridJob {

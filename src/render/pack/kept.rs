@@ -20,7 +20,7 @@ const RIGID_REACH: f32 = 0.3;
 pub struct KeptTissue {
     /// Sets of each label, four bits each, as the shaders take it.
     pub label_sets: [[u32; 4]; 8],
-    /// Number of sets.
+    /// Number of different `keep` sets, at most `document::MAX_KEEP_SETS`.
     pub set_count: u32,
     /// Some template keeps what lies deep under the outer surface.
     pub keeps_deep: bool,

@@ -6,7 +6,7 @@ pub(crate) struct RaycastKey {
     pub drawn_kinds: u32,
     /// The subject has labels and the look tints by them.
     pub has_labels: bool,
-    /// There is a grid to leap with.
+    /// The ray march leaps by the skip grid.
     pub has_grid: bool,
     /// How kept tissue is found: 0 nothing is kept, 1 by one group, 2 by a chain, 3 by asking back.
     pub align_mode: u32,

@@ -19,7 +19,7 @@ impl<T: PartialEq> Stamped<T> {
         Self { value, stamp: 0 }
     }
 
-    /// Takes over a value. The stamp grows if it is another one.
+    /// Takes over a value. The stamp grows if the value differs.
     pub(crate) fn set(&mut self, value: T) {
         if self.value != value {
             self.value = value;
@@ -27,12 +27,12 @@ impl<T: PartialEq> Stamped<T> {
         }
     }
 
-    /// The value.
+    /// The value as last set.
     pub(crate) fn get(&self) -> &T {
         &self.value
     }
 
-    /// The stamp.
+    /// The stamp of the value: larger after each change.
     pub(crate) fn stamp(&self) -> Stamp {
         self.stamp
     }

@@ -64,7 +64,7 @@ impl Normalise {
         }
     }
 
-    /// 0 to 1; what is no number counts as the smallest value.
+    /// The stored number as a texel, 0 to 1; a value that is no number counts as the smallest.
     pub(crate) fn apply(self, stored: f32) -> f32 {
         let n = stored * self.slope + self.offset;
         if n > 0.0 { n.min(1.0) } else { 0.0 }

@@ -8,7 +8,7 @@ pub struct View {
     pub subject_from_view: Affine3A,
     /// Tangents of half the field of view across width and height.
     pub lens: Vec2,
-    /// Pixels.
+    /// Width and height of the picture, pixels.
     pub size_px: Vec2,
 }
 

@@ -27,7 +27,7 @@ const MOST_TEXELS: u32 = 320;
 /// Offset of finite differences, texels: between texels the map is a straight line, so less would show its facets.
 const DIFFERENCE_TEXELS: f32 = 0.75;
 
-/// The program that bakes.
+/// The compute program that samples the composed map.
 #[derive(Debug)]
 pub(crate) struct BakePrograms {
     module: wgpu::ShaderModule,
@@ -180,7 +180,7 @@ impl BakedTexture {
         4 * groups * per_layer
     }
 
-    /// Reads it back.
+    /// Copies the baked map to main memory.
     pub(crate) async fn read(&self, gpu: &Gpu) -> Result<BakedMap, RenderError> {
         let [width, height, depth, _] = self.place.texels;
         let pitch = (8 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);

@@ -40,7 +40,7 @@ pub(crate) struct BodyTextures {
 }
 
 impl BodyTextures {
-    /// No bodies.
+    /// Textures that draw no segment as a body.
     pub(crate) fn new(gpu: &Gpu) -> Self {
         Self {
             uniform: uniform_buffer(gpu, "bodies", &Bodies::NONE),

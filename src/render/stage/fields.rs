@@ -29,7 +29,7 @@ pub(crate) struct FieldTexture {
 }
 
 impl FieldTexture {
-    /// Of no field.
+    /// The texture of a document without fields.
     pub(crate) fn new(gpu: &Gpu) -> Self {
         Self::of(gpu, &[])
     }

@@ -31,7 +31,7 @@ pub(crate) struct Inputs {
     /// Linear RGB; w: 1 if there is a background.
     pub background: Stamped<[f32; 4]>,
     bounds_from: MadeFrom<4>,
-    /// Names that mean no segment, as far as a notice said so.
+    /// Names of no segment that a notice has been made for.
     said: Vec<String>,
     notices: Vec<String>,
 }
@@ -54,7 +54,7 @@ impl Inputs {
         }
     }
 
-    /// Takes over what an illustration says about a subject.
+    /// Takes over an illustration for a subject; each input that differs gets a new stamp.
     pub(crate) fn update(&mut self, illustration: &Illustration, subject: &SubjectTextures) {
         let placed = &illustration.templates;
         self.subject = subject.stamp;
@@ -108,24 +108,24 @@ impl Inputs {
         self.kept.get().as_ref()
     }
 
-    /// The transfer function.
+    /// The transfer function; `None` until a document was taken in.
     pub(crate) fn table(&self) -> Option<&TransferTable> {
         self.look.get().as_ref().map(|(table, _)| table)
     }
 
-    /// What is to be said about the document since the last call.
+    /// Messages about the document since the last call.
     pub(crate) fn take_notices(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notices)
     }
 
-    /// How far segments that move as a whole may go, subject units; `None` if there are none.
+    /// Longest way of segments that move as a whole, subject units; `None` if there are none.
     fn rigid_reach(&self) -> Option<f32> {
         let kept = self.kept().filter(|kept| kept.has_rigid())?;
         let longest = kept.items.iter().map(|item| item.longest);
         Some(longest.fold(0.0, f32::max))
     }
 
-    /// Says each name that means no segment once.
+    /// Adds a notice for each name of no segment, once per name.
     fn say(&mut self, names: &[String], notice: fn(&str) -> String) {
         for name in names {
             if !self.said.contains(name) {

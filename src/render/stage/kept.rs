@@ -15,8 +15,8 @@ use crate::render::subject::volume::{SubjectTextures, VoxelFrame};
 use glam::{DAffine3, UVec3, Vec3};
 use std::sync::OnceLock;
 
-/// Voxels of the distances at most: 128³, 16 MiB of texture. Surfaces stay exact to the fine voxels; what is coarser
-/// is where the distance is asked for, and it is interpolated between.
+/// Voxels of the distances at most: 128³, 16 MiB of texture. Distances are measured to the fine voxels, so
+/// that surfaces stay exact; only the points at which they are stored are coarser, with interpolation in between.
 const MOST_VOXELS: u64 = 1 << 21;
 
 /// Bytes of the lines that are worked on at a time.
@@ -89,7 +89,7 @@ struct Plan {
     factor: u32,
     spacing: Vec3,
     reads_labels: bool,
-    /// As in [`Kept`].
+    /// Slabs in the texture of distances, one behind the other along z.
     slab_count: u32,
     exact_slab: u32,
     depth_slab: u32,

@@ -1,4 +1,4 @@
-//! What is made on the GPU before a picture can be drawn, each from its own inputs and by its own programs.
+//! Preparations on the GPU before a picture can be drawn, each with its own inputs and its own programs.
 
 pub(crate) mod baked;
 pub(crate) mod bodies;

@@ -14,10 +14,10 @@ use crate::render::subject::volume::SubjectTextures;
 use std::mem::offset_of;
 use std::sync::OnceLock;
 
-/// Bytes of the motions of all groups.
+/// Bytes of the motions: an affine map of 48 bytes for each template.
 const BYTES: u64 = 48 * MAX_TEMPLATES as u64;
 
-/// The program, compiled when the first document asks for it; one pipeline per set of template kinds.
+/// The program, compiled when the first document with such a segment is drawn; one pipeline per set of template kinds.
 #[derive(Debug, Default)]
 pub(crate) struct RigidPrograms {
     module: OnceLock<wgpu::ShaderModule>,
@@ -33,13 +33,13 @@ impl RigidPrograms {
     }
 }
 
-/// The motions of one document's segments, behind its other kept tissue on the GPU.
+/// Stamps of the inputs from which the motions of a document were found last. The motions themselves lie on the GPU, in
+/// [`Kept::motions`].
 #[derive(Debug, Default)]
 pub(crate) struct RigidMotions(MadeFrom<4>);
 
 impl RigidMotions {
-    /// Finds the motions anew where something has changed. On its way to the GPU when this returns; nothing is read
-    /// back.
+    /// Finds the motions anew if an input has changed. The work is submitted when this returns; nothing is read back.
     pub(crate) fn update(
         &mut self,
         gpu: &Gpu,

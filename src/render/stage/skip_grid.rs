@@ -1,4 +1,4 @@
-//! The grid over the deformed space: which templates reach a cell, and whether anything visible may map into it.
+//! The skip grid over the deformed space: which templates reach a cell, and whether anything visible may map into it.
 
 use super::inputs::Inputs;
 use super::kept::KeptTextures;
@@ -27,13 +27,14 @@ use crate::render::subject::volume::SubjectTextures;
 use glam::{UVec3, Vec3};
 use wgpu::util::DeviceExt as _;
 
-/// Cells along the longest side of the box. More leap closer to the surface and cost their cube to make.
+/// Cells along the longest side of the box. With more cells rays leap closer to the surface, and
+/// building the grid costs the cube of their number.
 const CELLS: u32 = 64;
 
-/// The same on a software GPU, where the making is felt while a template is dragged.
+/// Cells along the longest side on a software GPU, where making the grid slows the dragging of a template.
 const CELLS_SOFTWARE: u32 = 48;
 
-/// Cells that one leap clears at most. More cost reading time in the making; what is farther takes a few leaps.
+/// Cells that one leap clears at most. A larger number makes the grid slower to build; longer ways take a few leaps.
 const FARTHEST_WAY: u32 = 10;
 
 /// Opacity of 0.01 units up to which the ray march sees nothing, less the rounding of half floats.
@@ -90,8 +91,8 @@ fn pipeline(
     compute_pipeline(gpu, module, entry, &constants)
 }
 
-/// The grid of one illustration on one subject. Its texture and uniform stay the same objects; what they hold is made
-/// anew when templates, transfer function or subject change.
+/// The skip grid of one illustration on one subject. Its texture and uniform stay the same objects; what they hold is
+/// made anew when templates, transfer function or subject change.
 #[derive(Debug)]
 pub(crate) struct SkipGrid {
     uniform: wgpu::Buffer,
@@ -107,7 +108,7 @@ pub(crate) struct SkipGrid {
     grid_from: MadeFrom<5>,
 }
 
-/// What the grid is made from.
+/// Inputs of the skip grid.
 pub(crate) struct GridInput<'a> {
     /// All that has a stamp.
     pub inputs: &'a Inputs,
@@ -117,9 +118,9 @@ pub(crate) struct GridInput<'a> {
     pub templates: &'a wgpu::Buffer,
     /// What templates leave alone.
     pub kept_textures: &'a KeptTextures,
-    /// Sampled displacements.
+    /// The displacements of all `field` templates, sampled.
     pub fields: &'a wgpu::TextureView,
-    /// The subject.
+    /// The subject on the GPU, with its value ranges by brick.
     pub subject: &'a SubjectTextures,
     /// The largest step of a ray that will read it, subject units.
     pub step: f32,
@@ -153,7 +154,7 @@ impl SkipGrid {
         }
     }
 
-    /// What is bound where there is no grid.
+    /// A buffer and a texture to bind where there is no skip grid.
     pub(crate) fn none(gpu: &Gpu) -> (wgpu::Buffer, wgpu::TextureView) {
         let (format, usage) = (wgpu::TextureFormat::Rg32Uint, wgpu::TextureUsages::empty());
         let cells = volume_texture(gpu, "no grid", UVec3::ONE, format, usage);
@@ -168,7 +169,7 @@ impl SkipGrid {
         (&self.uniform, &self.view)
     }
 
-    /// Makes anew what is stale: which bricks can be seen, and the grid. The work is on its way to the GPU when this
+    /// Updates the table of visible bricks and the grid if their inputs changed. The work is submitted when this
     /// returns; nothing is read back.
     pub(crate) fn update(&mut self, gpu: &Gpu, programs: &GridPrograms, input: &GridInput<'_>) {
         let inputs = input.inputs;
@@ -338,7 +339,7 @@ impl SkipGrid {
     }
 }
 
-/// The grid as the ray march reads it; for tests and whoever wants to look.
+/// The skip grid as the ray march reads it, in main memory; for tests and inspection.
 #[derive(Clone, Debug)]
 pub struct GridCells {
     /// Lowest corner, subject space.
@@ -366,7 +367,7 @@ impl GridCells {
     }
 }
 
-/// Where the grid lies and what is to be done.
+/// The uniforms: where the skip grid lies, and the job of the passes that make it.
 fn plan(input: &GridInput<'_>, along: u32) -> (Grid, GridJob) {
     // No smaller than what a ray marches through: outside there are no cells to leap from.
     let bounds = input

@@ -14,7 +14,7 @@ pub(crate) struct TemplateBuffer {
 }
 
 impl TemplateBuffer {
-    /// Of no template.
+    /// The buffer of a document without templates.
     pub(crate) fn new(gpu: &Gpu) -> Self {
         Self {
             uniform: uniform_buffer(gpu, "templates", &Templates::NONE),

@@ -1,4 +1,4 @@
-//! Bricks: blocks of voxels, and what is in each.
+//! Bricks: blocks of voxels, with the range of values and the labels in each.
 
 use crate::data::Segmentation;
 use glam::UVec3;

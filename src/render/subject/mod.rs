@@ -1,4 +1,4 @@
-//! What is illustrated, on the GPU: one file for each kind.
+//! The subject on the GPU: one file for each kind of subject.
 
 pub(crate) mod bricks;
 pub(crate) mod reduce;

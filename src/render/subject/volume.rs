@@ -22,11 +22,11 @@ pub(crate) const SLAB_BYTES: usize = 2 << 20;
 pub(crate) struct SubjectTextures {
     /// Of this subject alone, above 0; later ones have larger stamps.
     pub stamp: Stamp,
-    /// Group 1.
+    /// Bind group 1: volume, labels and their uniform.
     pub bind_group: wgpu::BindGroup,
-    /// Normalised value ranges.
+    /// Value ranges by brick, of values normalised to 0 to 1.
     pub bricks: Bricks,
-    /// What it is.
+    /// The window that presets take by default, and the span of the values.
     pub info: SubjectInfo,
     /// Labels by brick, where they lie on the grid of the values.
     pub label_bricks: Option<Vec<LabelSet>>,
@@ -34,7 +34,7 @@ pub(crate) struct SubjectTextures {
     pub frame: SubjectFrame,
     /// The uniform, as uploaded.
     pub uniform: Subject,
-    /// The uniform's buffer.
+    /// The buffer that holds `uniform` on the GPU.
     pub buffer: wgpu::Buffer,
     /// Scalars, labels and how the scalars are read: what is made from them by computing.
     pub volume_view: wgpu::TextureView,
@@ -46,7 +46,7 @@ pub(crate) struct SubjectTextures {
     pub label_voxels: Option<VoxelFrame>,
     /// Axis of the volume's grid that runs from foot to head.
     pub foot_axis: u32,
-    /// Named segments.
+    /// Named segments of the subject.
     pub segments: Vec<Segment>,
 }
 
@@ -80,7 +80,7 @@ impl VoxelFrame {
 }
 
 impl SubjectTextures {
-    /// The same volume with other segments. `volume` is the one that was uploaded.
+    /// The same values with other segments. `volume` is the one that was uploaded.
     ///
     /// # Errors
     /// [`RenderError::TooLarge`] if the device does not take so many labels along an axis, or they are not whole.

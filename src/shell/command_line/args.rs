@@ -38,14 +38,14 @@ pub(super) struct Common {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Opens a window.
+    /// Opens a window to view and edit an illustration.
     View {
         /// What to open; without it, what was open the last time.
         doc: Option<String>,
     },
     /// Draws without a window.
     Render {
-        /// What to draw.
+        /// Document, link or payload to draw; - for a document on standard input.
         doc: String,
         /// The PNG file to write.
         #[arg(short, long, value_name = "FILE")]
@@ -64,7 +64,7 @@ pub(super) enum Command {
     },
     /// Says where the material at a point comes from: reads x,y,z lines, prints x,y,z,sx,sy,sz,a lines.
     Probe {
-        /// What to probe.
+        /// Document, link or payload to probe; - for a document on standard input.
         doc: String,
         /// Lines of x,y,z in the deformed subject; standard input without it, or for -.
         #[arg(long, value_name = "FILE")]
@@ -78,7 +78,7 @@ pub(super) enum Command {
     /// Writes the composed map of a document as a displacement field: NRRD, millimetres from output to input, and
     /// continuity.
     ExportField {
-        /// What to export.
+        /// Document, link or payload whose map is written; - for a document on standard input.
         doc: String,
         /// The NRRD file to write.
         #[arg(short, long, value_name = "FILE")]
@@ -91,7 +91,7 @@ pub(super) enum Command {
     },
     /// Prints the link of a document.
     Link {
-        /// What to link to.
+        /// Document, link or payload to link to; - for a document on standard input.
         doc: String,
         /// The page in front of the link.
         #[arg(long, value_name = "URL")]
@@ -99,23 +99,23 @@ pub(super) enum Command {
     },
     /// Prints the document of a link, as canonical JSON.
     Doc {
-        /// What to print.
+        /// Document, link or payload to print; - for a document on standard input.
         doc: String,
     },
     /// Says what a data file holds.
     Info {
-        /// A scan.
+        /// The data file: NIfTI, NRRD, MetaImage or DICOM.
         file: PathBuf,
     },
     /// Lists the displacement templates with parameters, defaults and ranges.
     Templates {
-        /// As JSON.
+        /// Prints JSON instead of text.
         #[arg(long)]
         json: bool,
     },
     /// Measures frame times on this adapter, as ratios to the undeformed frame.
     Bench {
-        /// As JSON.
+        /// Prints JSON instead of text.
         #[arg(long)]
         json: bool,
     },

@@ -68,7 +68,7 @@ pub(super) enum MissingSubject {
     Wanted {
         /// What the author called it.
         name: String,
-        /// Of its bytes.
+        /// SHA-256 of the file's bytes, lower-case hex.
         sha256: String,
     },
     /// A label volume at an address that is no local file.
@@ -82,9 +82,9 @@ pub(super) enum MissingSubject {
     /// Another file than the document means.
     #[error("{path} is {other}")]
     OtherFile {
-        /// The file.
+        /// Path of the file that was given.
         path: String,
-        /// Both hashes.
+        /// The hash that the document wants, and the one that the file has.
         other: OtherFile,
     },
     /// No such built-in subject in this version.
@@ -93,17 +93,17 @@ pub(super) enum MissingSubject {
     /// The file cannot be read.
     #[error("{source} [{path}]")]
     File {
-        /// The file.
+        /// Path of the file.
         path: String,
-        /// What the reader said.
+        /// The error of the reader.
         source: LoadError,
     },
-    /// What was read is no volume.
+    /// The file was read but holds no volume.
     #[error("{source} [{path}]")]
     Build {
         /// The file or subject.
         path: String,
-        /// What is missing or wrong in it.
+        /// What is missing or wrong in the file.
         source: BuildError,
     },
 }

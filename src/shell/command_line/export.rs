@@ -28,7 +28,7 @@ pub(super) fn export_field(
     let (min, side) = (bounds.min.as_dvec3(), (bounds.max - bounds.min).as_dvec3());
     let step = side.max_element() / f64::from(size);
     let dims = (side / step - 1e-6).ceil().max(DVec3::ONE).as_uvec3();
-    // In the middle of the box, as it is a little smaller than whole samples.
+    // In the middle of the box, since the box is a little smaller than whole samples.
     let first = min + 0.5 * (side - dims.as_dvec3() * step) + 0.5 * step;
     let mut points = Vec::with_capacity(dims.element_product() as usize);
     for z in 0..dims.z {

@@ -14,7 +14,7 @@ pub(super) fn one_line(message: &dyn fmt::Display) -> String {
         .filter(|line| !line.is_empty())
         .collect();
     let text = lines.join("; ");
-    // What came from a file or a link goes to a terminal: nothing in it may steer that.
+    // Text from a file or a link goes to a terminal: no control character in it may reach the terminal.
     text.chars()
         .map(|c| if c.is_control() { '\u{fffd}' } else { c })
         .collect()

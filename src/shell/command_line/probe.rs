@@ -14,7 +14,7 @@ use super::subject::{say_kept, subject_of};
 use crate::data::{Volume, VolumeLimits};
 use crate::render::{Probe, Sample, Studio};
 
-/// Prints where each point came from, and with `with_object` what is there.
+/// Prints the source of each point, and with `with_object` value and segment there.
 pub(super) fn probe(
     common: &Common,
     opened: &Opened,

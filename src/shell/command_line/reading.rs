@@ -1,4 +1,4 @@
-//! How the command line says what a file leaves open: which of its volumes, and how bare voxels lie.
+//! The flags that tell what a file leaves open: which of its volumes, and how bare voxels lie.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use crate::load::{Description, LoadError, RawLayout, ReadOptions, describe, desc
 use crate::shell::files::Folder;
 use crate::shell::loading::may_be_raw;
 
-/// Flags that go before what the document says.
+/// Flags that go before the reading in the document.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct ReadingFlags {
     /// Which volume of a scan that holds several (time points, components), counted from 1.
@@ -20,7 +20,7 @@ pub struct ReadingFlags {
 }
 
 impl ReadingFlags {
-    /// What the document says, but for what the flags say.
+    /// The reading in the document, but for the keys that flags give.
     pub fn over(&self, document: Option<&Reading>) -> Reading {
         let document = document.cloned().unwrap_or_default();
         Reading {
@@ -29,7 +29,7 @@ impl ReadingFlags {
         }
     }
 
-    /// What a data file holds, read as the flags say.
+    /// Describes a data file, read by the flags.
     ///
     /// # Errors
     /// As [`describe`].

@@ -15,7 +15,7 @@ use crate::render::{Studio, encode_png};
 pub(super) struct Paper {
     /// Width and height, pixels.
     pub(super) size: [u32; 2],
-    /// Per pixel.
+    /// Samples per pixel, 1 to 1,024.
     pub(super) samples: u32,
     /// With title, credit and labels.
     pub(super) lettering: bool,

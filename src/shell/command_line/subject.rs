@@ -206,7 +206,7 @@ pub(super) fn generate(name: &str) -> Result<Volume, MissingSubject> {
     })
 }
 
-/// A scan.
+/// Reads a scan, reduced to these limits.
 fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, MissingSubject> {
     let mut builder = VolumeBuilder::new();
     let mut reducer = Reducer::new(&mut builder, limits);

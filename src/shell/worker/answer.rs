@@ -49,7 +49,7 @@ impl Answer {
         }
     }
 
-    /// True if the worker says no more after this.
+    /// True for the last answer of the worker.
     pub fn is_last(&self) -> bool {
         match self {
             Self::Module(_) => false,
@@ -107,7 +107,7 @@ pub mod post {
         }
     }
 
-    /// Posts what a load says. Samples are moved to the page, not copied.
+    /// Posts the events of a load. Samples are moved to the page, not copied.
     ///
     /// # Errors
     /// If the page cannot take the message.
@@ -203,7 +203,7 @@ fn event_of(message: &Array) -> Option<LoadEvent> {
         {
             Some(header) => LoadEvent::Begin(Box::new(header)),
             None => LoadEvent::Failed {
-                message: "The background thread said something that the page does not understand"
+                message: "The background thread sent a message that the page does not understand"
                     .to_owned(),
                 details:
                     "fabrica.js and worker.js may be of different versions: load the page again."

@@ -12,7 +12,7 @@ use crate::load::{FileHandle, FileSet};
 /// Bytes of a file that are in memory at a time.
 const CHUNK_BYTES: usize = 4 << 20;
 
-/// Files by name.
+/// Files that the page holds as blobs, with their names.
 pub(super) struct BlobFiles(pub(super) Vec<(String, Blob)>);
 
 impl FileSet for BlobFiles {

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::data::{Grid, Segment, Segmentation, Volume, Voxels};
 use crate::load::FieldFile;
 
-/// A grid as JSON.
+/// A grid as JSON: its `dims` and, by columns, its `world_from_voxel`.
 fn json_of_grid(grid: &Grid) -> Value {
     json!({ "dims": grid.dims.to_array(), "world_from_voxel": grid.world_from_voxel.to_cols_array() })
 }

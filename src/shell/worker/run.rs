@@ -64,7 +64,7 @@ fn end(worker: &Worker) {
 }
 
 /// Starts a task in a worker of its own; `on_answer` is called with each answer but the part's module, which is kept.
-/// `address` is that of worker.js.
+/// `address` is the address of `worker.js`.
 ///
 /// # Errors
 /// If the browser starts no workers.

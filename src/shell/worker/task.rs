@@ -45,7 +45,7 @@ impl Part {
 pub enum Task {
     /// Make a built-in subject: coarse and then fine, or once with this many voxels along its longest side.
     Subject(String, Option<u32>),
-    /// Read files.
+    /// Read files: a scan, labels or a displacement field.
     Scan(ScanTask),
 }
 
@@ -63,7 +63,7 @@ pub enum ScanTask {
         /// A single file that the reader opened, which is read as a displacement field if it says that it is one.
         may_be_field: bool,
     },
-    /// Fetch an address and read what comes.
+    /// Fetch an address and read the bytes that come.
     Address {
         /// Absolute; the reader agreed to its host.
         address: String,
@@ -76,7 +76,7 @@ pub enum ScanTask {
     Field {
         /// Name of the file, which tells its format.
         name: String,
-        /// The file.
+        /// The bytes of the file.
         file: Blob,
     },
 }
@@ -90,7 +90,7 @@ impl Task {
         }
     }
 
-    /// The message for the worker. `module` is the part's compiled module, if it is there.
+    /// The message for the worker. `module` is the compiled module of the part, if the page has it.
     ///
     /// # Errors
     /// If the browser refuses to set a field of a new object.

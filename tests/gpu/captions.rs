@@ -1,5 +1,5 @@
-//! Labels follow their tissue: points of the rest are found in the deformed object, by asking the object what it has
-//! there.
+//! Captions follow their tissue: points of rest space are found in the deformed object, by asking the object what it
+//! has there.
 
 use crate::gpu::{builtin, gpu};
 use fabrica::document::Document;

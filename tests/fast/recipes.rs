@@ -276,17 +276,17 @@ fn scan(random: &mut Random, dims: UVec3) -> Volume {
     builder.finish().expect("whole")
 }
 
-fn recipes(features: &str) -> Vec<Recipe> {
-    let text = format!(r#"{{"fabrica":1,"subject":{{"features":{features}}}}}"#);
+fn recipes(text: &str) -> Vec<Recipe> {
+    let text = format!(r#"{{"fabrica":1,"subject":{{"features":{text}}}}}"#);
     let document = Document::from_json(&text).expect("a document");
     document.illustration().recipes.clone()
 }
 
-fn segmented(volume: &Volume, files: &[Segmentation], features: &str, turns: Turns) -> Segmented {
+fn segmented(volume: &Volume, files: &[Segmentation], text: &str, turns: Turns) -> Segmented {
     done(segment(
         Arc::new(volume.clone()),
         files.iter().cloned().map(Arc::new).collect(),
-        recipes(features),
+        recipes(text),
         turns,
     ))
 }
@@ -329,7 +329,7 @@ fn names_at(labels: &Segmentation, i: usize) -> Vec<String> {
 }
 
 #[test]
-fn segments_of_several_files_and_features_are_joined() {
+fn segments_of_several_files_and_recipes_are_joined() {
     let mut random = Random(12);
     let dims = UVec3::new(12, 10, 8);
     let volume = scan(&mut random, dims);
@@ -361,8 +361,8 @@ fn segments_of_several_files_and_features_are_joined() {
         segments: vec![label(1, "segment 1"), label(2, "brain")],
     };
     let files = [first, second];
-    let features = r#"[{"name":"high","from":{"threshold":[100,9999]}}]"#;
-    let made = segmented(&volume, &files, features, Turns::endless());
+    let text = r#"[{"name":"high","from":{"threshold":[100,9999]}}]"#;
+    let made = segmented(&volume, &files, text, Turns::endless());
     assert_eq!(made.notices, Vec::<String>::new());
     let labels = made.segmentation.expect("labels");
     assert_eq!(labels.grid, volume.grid);
@@ -421,8 +421,8 @@ fn finer_labels_stay_fine_and_one_file_stays_as_it_is() {
     assert_eq!(alone.labels, files[0].labels, "on its own grid");
     assert_eq!(alone.segments[0].name, "fifth");
     assert!(alone.segments[0].color_srgb.is_some(), "a color of ours");
-    let features = r#"[{"name":"all","from":{"threshold":[-9999]}}]"#;
-    let made = segmented(&volume, &files, features, Turns::endless());
+    let text = r#"[{"name":"all","from":{"threshold":[-9999]}}]"#;
+    let made = segmented(&volume, &files, text, Turns::endless());
     let joined = made.segmentation.expect("labels");
     assert_eq!(joined.grid.dims, fine.dims);
     assert!(
@@ -442,7 +442,7 @@ fn finer_labels_stay_fine_and_one_file_stays_as_it_is() {
 }
 
 #[test]
-fn nothing_and_everything_are_features_too() {
+fn nothing_and_everything_are_segments_too() {
     let mut volume = scan(&mut Random(14), UVec3::new(5, 4, 3));
     let made = segmented(
         &volume,
