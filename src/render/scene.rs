@@ -19,7 +19,7 @@ use crate::render::stage::programs::StagePrograms;
 use crate::render::stage::rigid::RigidMotions;
 use crate::render::stage::skip_grid::{GridInput, SkipGrid};
 use crate::render::stage::templates::TemplateBuffer;
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 
 /// One formula or two are as fast as a texture.
 const LEAST_BAKED_KINDS: u32 = 3;

@@ -14,7 +14,7 @@ use crate::render::pack::gpu_types::{Affine, SLICE_COLORS, SLICE_GREY, Slice};
 use crate::render::pack::look::linear_color;
 use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::scene::Scene;
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 use glam::{Vec2, Vec3};
 use std::sync::OnceLock;
 

@@ -11,7 +11,7 @@ use crate::render::device::textures::volume_texture;
 use crate::render::pack::gpu_types::{DistanceJob, Kept};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
-use crate::render::subject::volume::{SubjectTextures, VoxelFrame};
+use crate::render::subject::textures::{SubjectTextures, VoxelFrame};
 use glam::{DAffine3, UVec3, Vec3};
 use std::sync::OnceLock;
 

@@ -1,6 +1,8 @@
 //! What is illustrated, on the GPU: one file for each kind.
 
 pub(crate) mod bricks;
-pub(crate) mod reduce;
+mod reduce;
+pub(crate) mod textures;
 pub(crate) mod upload;
-pub(crate) mod volume;
+mod volume;
+mod volume_upload;

@@ -1,7 +1,8 @@
 //! A volume on the GPU: values, labels and their colours, and where they lie.
 
-use super::bricks::{BRICK, Bricks, LabelSet, labels_in_bricks};
-use crate::data::{Segment, Segmentation, SubjectFrame, Volume};
+use super::bricks::{BRICK, Bricks, labels_in_bricks};
+use super::textures::{SubjectTextures, VoxelFrame, next_stamp};
+use crate::data::{Segmentation, Volume};
 use crate::render::device::bindings::entry;
 use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::error::RenderError;
@@ -9,114 +10,46 @@ use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
 use crate::render::device::textures::{extent, volume_texture, write_slices};
 use crate::render::pack::gpu_types::Subject;
-use crate::render::pack::stamps::Stamp;
 use crate::render::pack::values::{SubjectInfo, span};
-use glam::{Affine3A, DAffine3, DVec3, UVec3, Vec3};
-use std::sync::atomic::{AtomicU64, Ordering};
+use glam::{Affine3A, DAffine3, UVec3};
 
 /// Bytes converted and handed to the GPU at a time: small enough that a frame is not missed.
 pub(crate) const SLAB_BYTES: usize = 2 << 20;
 
-/// A volume on the GPU. Built once per subject.
-#[derive(Debug)]
-pub(crate) struct SubjectTextures {
-    /// Of this subject alone, above 0; later ones have larger stamps.
-    pub stamp: Stamp,
-    /// Group 1.
-    pub bind_group: wgpu::BindGroup,
-    /// Normalised value ranges.
-    pub bricks: Bricks,
-    /// What it is.
-    pub info: SubjectInfo,
-    /// Labels by brick, where they lie on the grid of the values.
-    pub label_bricks: Option<Vec<LabelSet>>,
-    /// Where the untouched subject lies, and how fine it is.
-    pub frame: SubjectFrame,
-    /// The uniform, as uploaded.
-    pub uniform: Subject,
-    /// The uniform's buffer.
-    pub buffer: wgpu::Buffer,
-    /// Scalars, labels and how the scalars are read: what is made from them by computing.
-    pub volume_view: wgpu::TextureView,
-    pub label_view: wgpu::TextureView,
-    pub sampler: wgpu::Sampler,
-    /// Where the voxels of the scalars lie.
-    pub voxels: VoxelFrame,
-    /// Where the voxels of the labels lie.
-    pub label_voxels: Option<VoxelFrame>,
-    /// Axis of the volume's grid that runs from foot to head.
-    pub foot_axis: u32,
-    /// Named segments.
-    pub segments: Vec<Segment>,
-}
-
-/// Where the voxels of a grid lie.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct VoxelFrame {
-    /// Voxels along each axis.
-    pub dims: UVec3,
-    /// Between their centres along each axis, subject units.
-    pub spacing: Vec3,
-    /// Rest space from voxel indices.
-    pub rest_from_voxel: DAffine3,
-}
-
-impl VoxelFrame {
-    fn new(dims: UVec3, rest_from_voxel: DAffine3) -> Self {
-        let m = rest_from_voxel.matrix3;
-        Self {
-            dims,
-            spacing: DVec3::new(m.x_axis.length(), m.y_axis.length(), m.z_axis.length()).as_vec3(),
-            rest_from_voxel,
+/// The same volume with other segments, around the textures that hold it. `volume` is the one that was uploaded.
+///
+/// # Errors
+/// [`RenderError::TooLarge`] if the device does not take so many labels along an axis, or they are not whole.
+pub(crate) fn with_labels(
+    textures: &SubjectTextures,
+    gpu: &Gpu,
+    layouts: &Layouts,
+    volume: &Volume,
+    labels: Option<&Segmentation>,
+) -> Result<SubjectTextures, RenderError> {
+    let dims = labels.map_or(UVec3::ONE, |labels| labels.grid.dims);
+    let most = gpu.device.limits().max_texture_dimension_3d;
+    if dims.max_element() > most || labels.is_some_and(|l| l.labels.len() != l.grid.voxel_count()) {
+        return Err(RenderError::TooLarge(format!(
+            "{} × {} × {} labels do not fit on this device",
+            dims.x, dims.y, dims.z
+        )));
+    }
+    let texture = label_texture(gpu, dims);
+    if let Some(labels) = labels {
+        let slice = dims.x as usize * dims.y as usize;
+        let at_once = (SLAB_BYTES / slice.max(1)).max(1);
+        for (i, part) in labels.labels.chunks(at_once * slice).enumerate() {
+            let slices = (part.len() / slice) as u32;
+            write_slices(gpu, &texture, (i * at_once) as u32, slices, 1, part);
         }
     }
-
-    /// Texture space (outer edges at 0 and 1) from rest space.
-    pub(crate) fn texture_from_rest(&self) -> DAffine3 {
-        DAffine3::from_scale(self.dims.as_dvec3().recip())
-            * DAffine3::from_translation(DVec3::splat(0.5))
-            * self.rest_from_voxel.inverse()
-    }
-}
-
-impl SubjectTextures {
-    /// The same volume with other segments. `volume` is the one that was uploaded.
-    ///
-    /// # Errors
-    /// [`RenderError::TooLarge`] if the device does not take so many labels along an axis, or they are not whole.
-    pub(crate) fn with_labels(
-        &self,
-        gpu: &Gpu,
-        layouts: &Layouts,
-        volume: &Volume,
-        labels: Option<&Segmentation>,
-    ) -> Result<Self, RenderError> {
-        let dims = labels.map_or(UVec3::ONE, |labels| labels.grid.dims);
-        let most = gpu.device.limits().max_texture_dimension_3d;
-        if dims.max_element() > most
-            || labels.is_some_and(|l| l.labels.len() != l.grid.voxel_count())
-        {
-            return Err(RenderError::TooLarge(format!(
-                "{} × {} × {} labels do not fit on this device",
-                dims.x, dims.y, dims.z
-            )));
-        }
-        let texture = label_texture(gpu, dims);
-        if let Some(labels) = labels {
-            let slice = dims.x as usize * dims.y as usize;
-            let at_once = (SLAB_BYTES / slice.max(1)).max(1);
-            for (i, part) in labels.labels.chunks(at_once * slice).enumerate() {
-                let slices = (part.len() / slice) as u32;
-                write_slices(gpu, &texture, (i * at_once) as u32, slices, 1, part);
-            }
-        }
-        let views = [
-            self.volume_view.clone(),
-            texture.create_view(&Default::default()),
-        ];
-        let (bricks, info) = (self.bricks.clone(), self.info);
-        Ok(assemble(gpu, layouts, volume, labels, views, bricks, info))
-    }
+    let views = [
+        textures.volume_view.clone(),
+        texture.create_view(&Default::default()),
+    ];
+    let (bricks, info) = (textures.bricks.clone(), textures.info);
+    Ok(assemble(gpu, layouts, volume, labels, views, bricks, info))
 }
 
 pub(crate) fn label_texture(gpu: &Gpu, dims: UVec3) -> wgpu::Texture {
@@ -198,9 +131,8 @@ pub(crate) fn assemble(
     let up = subject_from_world.inverse().matrix3 * grid.subject_from_voxel().matrix3;
     let rises = [up.x_axis, up.y_axis, up.z_axis].map(|axis| (axis.z / axis.length()).abs());
     let foot_axis = (0..3).fold(0, |best, i| if rises[i] > rises[best] { i } else { best });
-    static SUBJECTS: AtomicU64 = AtomicU64::new(0);
     SubjectTextures {
-        stamp: 1 + SUBJECTS.fetch_add(1, Ordering::Relaxed),
+        stamp: next_stamp(),
         buffer,
         volume_view,
         label_view,

@@ -1,0 +1,77 @@
+//! What every pass takes of a subject, whatever its kind.
+
+use super::bricks::{Bricks, LabelSet};
+use crate::data::{Segment, SubjectFrame};
+use crate::render::pack::gpu_types::Subject;
+use crate::render::pack::stamps::Stamp;
+use crate::render::pack::values::SubjectInfo;
+use glam::{DAffine3, DVec3, UVec3, Vec3};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A subject on the GPU, as every pass takes it. Built once per subject.
+#[derive(Debug)]
+pub(crate) struct SubjectTextures {
+    /// Of this subject alone, above 0; later ones have larger stamps.
+    pub stamp: Stamp,
+    /// Group 1.
+    pub bind_group: wgpu::BindGroup,
+    /// Normalised value ranges.
+    pub bricks: Bricks,
+    /// What it is.
+    pub info: SubjectInfo,
+    /// Labels by brick, where they lie on the grid of the values.
+    pub label_bricks: Option<Vec<LabelSet>>,
+    /// Where the untouched subject lies, and how fine it is.
+    pub frame: SubjectFrame,
+    /// The uniform, as uploaded.
+    pub uniform: Subject,
+    /// The uniform's buffer.
+    pub buffer: wgpu::Buffer,
+    /// Scalars, labels and how the scalars are read: what passes make from them by computing.
+    pub volume_view: wgpu::TextureView,
+    pub label_view: wgpu::TextureView,
+    pub sampler: wgpu::Sampler,
+    /// Where the voxels of the scalars lie. On these voxels, or on `label_voxels`, distances to kept tissue are made.
+    pub voxels: VoxelFrame,
+    /// Where the voxels of the labels lie.
+    pub label_voxels: Option<VoxelFrame>,
+    /// Axis of `voxels` that runs from foot to head.
+    pub foot_axis: u32,
+    /// Named segments.
+    pub segments: Vec<Segment>,
+}
+
+/// Where the voxels of a grid lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct VoxelFrame {
+    /// Voxels along each axis.
+    pub dims: UVec3,
+    /// Between their centres along each axis, subject units.
+    pub spacing: Vec3,
+    /// Rest space from voxel indices.
+    pub rest_from_voxel: DAffine3,
+}
+
+impl VoxelFrame {
+    pub(crate) fn new(dims: UVec3, rest_from_voxel: DAffine3) -> Self {
+        let m = rest_from_voxel.matrix3;
+        Self {
+            dims,
+            spacing: DVec3::new(m.x_axis.length(), m.y_axis.length(), m.z_axis.length()).as_vec3(),
+            rest_from_voxel,
+        }
+    }
+
+    /// Texture space (outer edges at 0 and 1) from rest space.
+    pub(crate) fn texture_from_rest(&self) -> DAffine3 {
+        DAffine3::from_scale(self.dims.as_dvec3().recip())
+            * DAffine3::from_translation(DVec3::splat(0.5))
+            * self.rest_from_voxel.inverse()
+    }
+}
+
+/// A stamp that no subject has had.
+pub(crate) fn next_stamp() -> Stamp {
+    static SUBJECTS: AtomicU64 = AtomicU64::new(0);
+    1 + SUBJECTS.fetch_add(1, Ordering::Relaxed)
+}
