@@ -1,7 +1,7 @@
 // Kept tissue: whether a point of rest space lies in it, and how far it is from there.
 // Differs from the source (Correa, section 5.4): the mask is not interpolated but the nearest label, so that a boundary
 // lies where the labels say; only normals see a smooth mask.
-// needs: types.wgsl affine.wgsl bind/subject.wgsl bind/kept.wgsl displace/frame.wgsl
+// needs: types.wgsl affine.wgsl bind/subject.wgsl subject/place.wgsl bind/kept.wgsl displace/frame.wgsl
 
 /// How a document keeps tissue. 0: not at all; 1: by the only group of the list; 2: one set, or one depth, by the first
 /// templates of the list; 3: any. A pipeline constant.
@@ -29,8 +29,7 @@ fn depth_at(rest: vec3f) -> f32 {
 fn is_kept(rest: vec3f, keeps: u32, depth: f32) -> bool {
     if (kept_by & 2u) != 0u {
         if (keeps & KEEPS_DEEP) != 0u && depth_at(rest) >= depth {
-            let uvw = apply_affine(subject.texture_from_rest, rest);
-            return all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
+            return is_in_subject(texture_from_rest(rest));
         }
     }
     if (kept_by & 1u) == 0u {

@@ -1,7 +1,7 @@
 use super::builder::{BuildError, VolumeBuilder};
 use super::statistics::Histogram;
 use super::subject::Subject;
-use super::volume::{Volume, VolumeSink as _, Voxels};
+use super::volume::{Volume, VolumeSink, Voxels};
 
 /// A piece of a subject on its way from a reader or a generator to whoever shows it.
 #[derive(Clone, Debug)]
@@ -34,16 +34,8 @@ impl SubjectBuilder {
                 builder.begin(&header)?;
                 self.volume = Some(builder);
             }
-            SubjectPart::Scalars(scalars) => {
-                if let Some(builder) = &mut self.volume {
-                    builder.scalars(scalars);
-                }
-            }
-            SubjectPart::Labels(labels) => {
-                if let Some(builder) = &mut self.volume {
-                    builder.labels(labels);
-                }
-            }
+            SubjectPart::Scalars(scalars) => self.scalars(scalars),
+            SubjectPart::Labels(labels) => self.labels(labels),
         }
         Ok(())
     }
@@ -55,6 +47,29 @@ impl SubjectBuilder {
     pub fn finish(self) -> Option<Result<(Subject, Option<Histogram>), BuildError>> {
         let whole = self.volume?.finish_with_histogram();
         Some(whole.map(|(volume, histogram)| (Subject::from(volume), Some(histogram))))
+    }
+}
+
+impl VolumeSink for SubjectBuilder {
+    fn begin(&mut self, header: &Volume) -> Result<(), String> {
+        self.take(SubjectPart::Volume(Box::new(header.clone())))
+    }
+
+    fn scalars(&mut self, next: Voxels) {
+        if let Some(builder) = &mut self.volume {
+            builder.scalars(next);
+        }
+    }
+
+    fn labels(&mut self, next: Vec<u8>) {
+        if let Some(builder) = &mut self.volume {
+            builder.labels(next);
+        }
+    }
+
+    fn progress(&mut self, fraction: f32) -> bool {
+        let builder = self.volume.as_mut();
+        builder.is_none_or(|builder| builder.progress(fraction))
     }
 }
 

@@ -2,6 +2,12 @@
 
 use super::bricks::{Bricks, LabelSet};
 use crate::data::{Segment, SubjectFrame};
+use crate::render::device::bindings::entry;
+use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::gpu::Gpu;
+use crate::render::device::layouts::Layouts;
+use crate::render::device::programs::SubjectShader;
+use crate::render::device::textures::{extent, write_slices};
 use crate::render::pack::gpu_types::Subject;
 use crate::render::pack::stamps::Stamp;
 use crate::render::pack::values::SubjectInfo;
@@ -13,6 +19,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(crate) struct SubjectTextures {
     /// Of this subject alone, above 0; later ones have larger stamps.
     pub stamp: Stamp,
+    /// What says in the programs what it has at a place.
+    pub shader: SubjectShader,
     /// Group 1.
     pub bind_group: wgpu::BindGroup,
     /// Normalised value ranges.
@@ -74,4 +82,69 @@ impl VoxelFrame {
 pub(crate) fn next_stamp() -> Stamp {
     static SUBJECTS: AtomicU64 = AtomicU64::new(0);
     1 + SUBJECTS.fetch_add(1, Ordering::Relaxed)
+}
+
+/// What group 1 holds of a subject of any kind, around textures that are filled.
+pub(crate) struct Bound {
+    /// The uniform's buffer.
+    pub buffer: wgpu::Buffer,
+    /// Group 1.
+    pub bind_group: wgpu::BindGroup,
+    /// A segment has a colour.
+    pub has_colors: bool,
+}
+
+impl Bound {
+    /// Of the uniform, the textures of scalars and of labels, and the segments, whose colours are looked up by label.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        layouts: &Layouts,
+        uniform: &Subject,
+        [volume_view, label_view]: [&wgpu::TextureView; 2],
+        segments: &[Segment],
+    ) -> Self {
+        let mut colors = [[0u8; 4]; 256];
+        let mut has_colors = false;
+        for segment in segments {
+            if let (Some(slot), Some([r, g, b])) = (
+                colors.get_mut(usize::from(segment.label)),
+                segment.color_srgb,
+            ) {
+                // Of segments that overlap, the first that is listed gives its color.
+                if *slot == [0; 4] {
+                    *slot = [r, g, b, 255];
+                }
+                has_colors = true;
+            }
+        }
+        let palette = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("palette"),
+            size: extent(UVec3::new(256, 1, 1)),
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba8UnormSrgb,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        write_slices(gpu, &palette, 0, 1, 4, bytemuck::cast_slice(&colors));
+        let buffer = uniform_buffer(gpu, "subject", uniform);
+        let palette_view = palette.create_view(&Default::default());
+        let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("subject"),
+            layout: &layouts.subject,
+            entries: &[
+                entry(0, buffer.as_entire_binding()),
+                entry(1, wgpu::BindingResource::TextureView(volume_view)),
+                entry(2, wgpu::BindingResource::Sampler(&layouts.linear_sampler)),
+                entry(3, wgpu::BindingResource::TextureView(label_view)),
+                entry(4, wgpu::BindingResource::TextureView(&palette_view)),
+            ],
+        });
+        Self {
+            buffer,
+            bind_group,
+            has_colors,
+        }
+    }
 }

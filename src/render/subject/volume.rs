@@ -1,14 +1,13 @@
 //! A volume on the GPU: values, labels and their colours, and where they lie.
 
 use super::bricks::{BRICK, Bricks, labels_in_bricks};
-use super::textures::{SubjectTextures, VoxelFrame, next_stamp};
+use super::textures::{Bound, SubjectTextures, VoxelFrame, next_stamp};
 use crate::data::{Segmentation, Volume};
-use crate::render::device::bindings::entry;
-use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
-use crate::render::device::textures::{extent, volume_texture, write_slices};
+use crate::render::device::programs::SubjectShader;
+use crate::render::device::textures::{volume_texture, write_slices};
 use crate::render::pack::gpu_types::Subject;
 use crate::render::pack::values::{SubjectInfo, span};
 use glam::{Affine3A, DAffine3, UVec3};
@@ -89,51 +88,22 @@ pub(crate) fn assemble(
         detail: frame.detail,
         has_labels: u32::from(labels.is_some()),
     };
-    let mut colors = [[0u8; 4]; 256];
-    let mut has_segments = false;
-    for segment in labels.into_iter().flat_map(|l| &l.segments) {
-        if let (Some(slot), Some([r, g, b])) = (
-            colors.get_mut(usize::from(segment.label)),
-            segment.color_srgb,
-        ) {
-            // Of segments that overlap, the first that is listed gives its color.
-            if *slot == [0; 4] {
-                *slot = [r, g, b, 255];
-            }
-            has_segments = true;
-        }
-    }
-    let palette = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("palette"),
-        size: extent(UVec3::new(256, 1, 1)),
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba8UnormSrgb,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    write_slices(gpu, &palette, 0, 1, 4, bytemuck::cast_slice(&colors));
-    let buffer = uniform_buffer(gpu, "subject", &uniform);
-    let palette_view = palette.create_view(&Default::default());
-    let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("subject"),
-        layout: &layouts.subject,
-        entries: &[
-            entry(0, buffer.as_entire_binding()),
-            entry(1, wgpu::BindingResource::TextureView(&volume_view)),
-            entry(2, wgpu::BindingResource::Sampler(&layouts.linear_sampler)),
-            entry(3, wgpu::BindingResource::TextureView(&label_view)),
-            entry(4, wgpu::BindingResource::TextureView(&palette_view)),
-        ],
-    });
-    info.has_segments = has_segments;
+    let segments = labels.map(|l| l.segments.clone()).unwrap_or_default();
+    let bound = Bound::new(
+        gpu,
+        layouts,
+        &uniform,
+        [&volume_view, &label_view],
+        &segments,
+    );
+    info.has_segments = bound.has_colors;
     let up = subject_from_world.inverse().matrix3 * grid.subject_from_voxel().matrix3;
     let rises = [up.x_axis, up.y_axis, up.z_axis].map(|axis| (axis.z / axis.length()).abs());
     let foot_axis = (0..3).fold(0, |best, i| if rises[i] > rises[best] { i } else { best });
     SubjectTextures {
         stamp: next_stamp(),
-        buffer,
+        shader: SubjectShader::Volume,
+        buffer: bound.buffer,
         volume_view,
         label_view,
         sampler: layouts.linear_sampler.clone(),
@@ -141,8 +111,8 @@ pub(crate) fn assemble(
         label_voxels: labels
             .map(|l| VoxelFrame::new(l.grid.dims, subject_from_world * l.grid.world_from_voxel)),
         foot_axis: foot_axis as u32,
-        segments: labels.map(|l| l.segments.clone()).unwrap_or_default(),
-        bind_group,
+        segments,
+        bind_group: bound.bind_group,
         bricks,
         label_bricks: labels
             .filter(|labels| labels.grid == *grid)

@@ -10,7 +10,8 @@ use super::output::notice;
 use super::reading::hint;
 use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
 use crate::data::{
-    Reducer, Subject, Turns, VolumeBuilder, VolumeLimits, VolumeSink, Voxels, segment,
+    BuildError, Reducer, Subject, SubjectBuilder, Turns, VolumeBuilder, VolumeLimits, VolumeSink,
+    Voxels, segment,
 };
 use crate::document::{Illustration, Reading};
 use crate::load::{LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
@@ -206,9 +207,9 @@ fn generate(name: &str) -> Result<Subject, MissingSubject> {
     Ok(Subject::from(volume?))
 }
 
-/// A scan.
+/// A subject from a file.
 fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, MissingSubject> {
-    let mut builder = VolumeBuilder::new();
+    let mut builder = SubjectBuilder::default();
     let mut reducer = Reducer::new(&mut builder, limits);
     let mut report = LoadReport::default();
     let shown = path.display().to_string();
@@ -228,11 +229,12 @@ fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, Mi
         path: shown.clone(),
         source,
     };
+    let finish = |builder: SubjectBuilder| builder.finish().unwrap_or(Err(BuildError::Nothing));
     match result {
         Ok(()) => {}
         // The builder stopped it and knows why.
         Err(LoadError::Cancelled) => {
-            let why = builder.finish().err();
+            let why = finish(builder).err();
             return Err(why.map_or_else(|| failed(LoadError::Cancelled), build));
         }
         Err(source) => {
@@ -242,8 +244,9 @@ fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, Mi
             return Err(failed(source));
         }
     }
+    let (subject, _) = finish(builder).map_err(build)?;
     Ok(Data::Subject {
-        subject: Subject::from(builder.finish().map_err(build)?),
+        subject,
         sha256: report.sha256_hex(),
     })
 }
