@@ -2,9 +2,9 @@
 //!
 //! [`Subject`] is what is illustrated, whatever its kind. A reader or generator pushes the pieces of a volume into a
 //! [`VolumeSink`]: [`VolumeBuilder`] collects them into a [`Volume`]; a browser's worker posts them to the page as
-//! [`SubjectPart`]s, of which [`SubjectBuilder`] makes a [`Subject`]. [`Statistics`] counts as they pass; a [`Reducer`] in between makes what
-//! is too large coarser. [`segment`] finds the segments that the recipes of a document describe, and joins them with
-//! the segments of label volumes.
+//! [`SubjectPart`]s, of which [`SubjectBuilder`] makes a [`Subject`]. [`Statistics`] counts as they pass; a [`Reducer`]
+//! in between makes what is too large coarser. [`segment`] finds the segments that the recipes of a document describe,
+//! and joins them with the segments of label volumes.
 
 mod builder;
 mod frame;

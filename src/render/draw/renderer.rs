@@ -142,8 +142,8 @@ impl Renderer {
         &self.gpu
     }
 
-    /// Shows another subject as soon as it is on the GPU ([`Renderer::draw`] brings it there piece by piece); until then
-    /// the old one stays. The subject is kept, so that a lost device can be recovered from.
+    /// Shows another subject as soon as it is on the GPU ([`Renderer::draw`] brings it there piece by piece); until
+    /// then the old one stays. The subject is kept, so that a lost device can be recovered from.
     ///
     /// # Errors
     /// [`RenderError::TooLarge`] if the subject is not whole.

@@ -48,7 +48,8 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Uploads the subject. `wants_grid` false draws without the grid over the deformed space, to measure what it gains.
+    /// Uploads the subject. `wants_grid` false draws without the grid over the deformed space, to measure what it
+    /// gains.
     ///
     /// # Errors
     /// [`RenderError::TooLarge`].
