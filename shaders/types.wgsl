@@ -61,7 +61,7 @@ struct Frame {
     step: f32,
 }
 
-/// The uploaded volume and its segmentation: where they lie and how their texels are read.
+/// The uploaded subject: where its values and segments lie and how their texels are read.
 struct Subject {
     /// Rest space to texture space of the volume.
     texture_from_rest: Affine,
@@ -77,7 +77,7 @@ struct Subject {
     value_low: f32,
     /// Values from 0 to 1 in the texture: the value is value_low + value_range * texel.
     value_range: f32,
-    /// Smallest voxel spacing, subject units: the finest detail that the subject has.
+    /// Length of the subject's finest detail, subject units; of a volume its smallest voxel spacing.
     detail: f32,
     /// 1 if there is a segmentation, else 0.
     has_labels: u32,

@@ -8,8 +8,8 @@
 //! | [`displace`] | 1 | the kinds of templates and all that is known of each; the formulas are WGSL |
 //! | [`document`] | 2 | the illustration: plain data, edits, validity, undo |
 //! | [`link`] | 3 | document to URL fragment and back |
-//! | [`data`] | 3 | volumes: voxels, spacing, orientation, statistics |
-//! | [`load`] | 4 | files in, volumes out |
+//! | [`data`] | 3 | subjects: voxels, spacing, orientation, segments, statistics |
+//! | [`load`] | 4 | files in, subjects out |
 //! | [`subjects`] | 4 | the built-in subjects, generated |
 //! | [`placed`] | 4 | what a placed template reaches, where it is grabbed, its icon |
 //! | [`assets`] | 5 | what a document needs from outside, and what has come of it |

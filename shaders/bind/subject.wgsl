@@ -1,4 +1,4 @@
-// Group 1: the uploaded volume.
+// Group 1: the uploaded subject.
 // needs: types.wgsl
 
 /// Where the textures lie and what their numbers mean.

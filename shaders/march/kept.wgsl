@@ -1,7 +1,7 @@
 // Kept tissue: whether a point of rest space lies in kept tissue, and how far from it.
 // Differs from the source (Correa, section 5.4): membership is read from the nearest label voxel and not interpolated,
 // so that a boundary lies where the labels have it; only normals use a smoothed mask.
-// needs: types.wgsl affine.wgsl bind/subject.wgsl bind/kept.wgsl displace/frame.wgsl
+// needs: types.wgsl affine.wgsl bind/subject.wgsl subject/place.wgsl bind/kept.wgsl displace/frame.wgsl
 
 /// How a document keeps tissue. 0: it keeps none. 1: the list is one group. 2: the first templates of the list keep the
 /// same set or depth, the others keep nothing. 3: any other case. A pipeline constant.
@@ -30,8 +30,7 @@ fn depth_at(rest: vec3f) -> f32 {
 fn is_kept(rest: vec3f, keeps: u32, depth: f32) -> bool {
     if (kept_by & 2u) != 0u {
         if (keeps & KEEPS_DEEP) != 0u && depth_at(rest) >= depth {
-            let uvw = apply_affine(subject.texture_from_rest, rest);
-            return all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
+            return is_in_subject(texture_from_rest(rest));
         }
     }
     if (kept_by & 1u) == 0u {

@@ -32,7 +32,7 @@ fn transfer(texel: f32) -> vec4f {
 /// The sample at a point whose place at rest is known.
 fn sample_mapped(mapped: Material) -> Sample {
     let uvw = texture_from_rest(mapped.pos);
-    let is_inside = all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
+    let is_inside = is_in_subject(uvw);
     let texel = texel_at(uvw);
     var opacity = transfer(texel).a;
     if has_bodies != 0u {

@@ -52,20 +52,19 @@ struct Tap {
 
 /// Tap k: first those of occlusion, then those towards the key light.
 fn tap_at(k: u32, pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Tap {
-    let voxel = subject.detail;
     if k < occlusion_taps {
         let up = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.y) < 0.9);
         let tangent = normalize(cross(up, normal));
         let bitangent = cross(normal, tangent);
         let way = spread(k, occlusion_taps, frame.occlusion_turn + noise * 6.2831853);
         // Near taps find creases, far ones the hollow under a flap.
-        let reach = mix(0.010, 0.045, f32((k * 5u) % occlusion_taps) / f32(occlusion_taps)) + voxel;
-        let at = pos + normal * (0.5 * voxel) + (tangent * way.x + bitangent * way.y + normal * way.z) * reach;
+        let reach = mix(0.010, 0.045, f32((k * 5u) % occlusion_taps) / f32(occlusion_taps)) + subject.detail;
+        let at = pos + normal * (0.5 * subject.detail) + (tangent * way.x + bitangent * way.y + normal * way.z) * reach;
         return Tap(at, way.z, 0.0);
     }
     // Closer together near the surface, where a shadow has its edge.
     let part = (f32(k - occlusion_taps) + 0.3 + 0.7 * fract(frame.first_step + noise)) / f32(shadow_taps);
-    let at = pos + normal * (1.5 * voxel) + key_dir * (0.006 + 0.30 * part * part);
+    let at = pos + normal * (1.5 * subject.detail) + key_dir * (0.006 + 0.30 * part * part);
     // Farther occluders dim less: a large soft lamp.
     return Tap(at, 0.0, mix(0.62, 0.30, part));
 }

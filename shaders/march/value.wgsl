@@ -1,19 +1,10 @@
-// The scan at a point of rest space: its value and the gradient of it.
-// needs: types.wgsl bind/subject.wgsl affine.wgsl
+// The gradient of the subject's value at a point of rest space.
+// needs: types.wgsl bind/subject.wgsl affine.wgsl subject/place.wgsl subject/volume.wgsl
 
 /// Reaches of the two central differences that a gradient is the mean of, voxels. One of 1 alone shows the voxels as
 /// terraces.
 const GRADIENT_NEAR: f32 = 1.0;
 const GRADIENT_FAR: f32 = 2.2;
-
-/// Texture space of the volume.
-fn texture_from_rest(pos: vec3f) -> vec3f {
-    return apply_affine(subject.texture_from_rest, pos);
-}
-
-fn texel_at(uvw: vec3f) -> f32 {
-    return textureSampleLevel(volume, linear_sampler, uvw, 0.0).x;
-}
 
 /// Gradient of the normalised value in rest space, per voxel spacing: central differences of two reaches along the
 /// voxel axes.

@@ -19,7 +19,7 @@
 // The outside of the object: voxels below a threshold that belong to no segment and are connected with a side face of
 // the grid. Connections with the faces at the head and foot ends of a scan do not count: a windpipe that ends there
 // would let the outside into the lungs.
-// needs: types.wgsl affine.wgsl bind/subject.wgsl
+// needs: types.wgsl affine.wgsl bind/subject.wgsl subject/volume.wgsl
 
 /// The job: sizes, sets and axis (see types.wgsl).
 @group(3) @binding(0) var<uniform> job: DistanceJob;
@@ -54,7 +54,7 @@ fn label_of(voxel: vec3i) -> u32 {
 fn texel_of(voxel: vec3i) -> f32 {
     let uvw = apply_affine(job.volume_from_voxel, vec3f(voxel));
     let is_inside = all(uvw >= vec3f(0.0)) && all(uvw <= vec3f(1.0));
-    return select(-1.0, textureSampleLevel(volume, linear_sampler, uvw, 0.0).x, is_inside);
+    return select(-1.0, texel_at(uvw), is_inside);
 }
 
 /// True if there is nothing in a fine voxel.

@@ -4,7 +4,7 @@
 //   pixel --> subject space --> object_from_subject --> value, label --> grey by the window, or colours of the look
 //
 // needs: types.wgsl bind/subject.wgsl bind/templates.wgsl bind/look.wgsl bind/bodies.wgsl affine.wgsl
-// displace/compose.wgsl
+// displace/compose.wgsl subject/place.wgsl subject/volume.wgsl
 //   march/plain.wgsl|march/align.wgsl
 
 /// The plane and how it is shown.
@@ -32,15 +32,15 @@ struct Here {
 /// What the deformed object has at a point of subject space.
 fn object_at(pos: vec3f) -> Here {
     let mapped = object_from_subject(pos, 0xffffffffu);
-    let uvw = apply_affine(subject.texture_from_rest, mapped.pos);
-    let is_inside = all(uvw >= vec3f(0.0)) && all(uvw <= subject.texture_end.xyz);
+    let uvw = texture_from_rest(mapped.pos);
+    let is_inside = is_in_subject(uvw);
     let voxel = floor(apply_affine(subject.label_from_rest, mapped.pos) * subject.label_dims.xyz);
     let has_label = subject.has_labels != 0u && all(voxel >= vec3f(0.0)) && all(voxel < subject.label_dims.xyz);
     let last = vec3i(subject.label_dims.xyz) - 1;
     let label = textureLoad(labels, clamp(vec3i(voxel), vec3i(0), last), 0).x;
     return Here(
         mapped.pos,
-        textureSampleLevel(volume, linear_sampler, uvw, 0.0).x,
+        texel_at(uvw),
         mapped.continuity,
         select(0u, label, has_label),
         is_inside && mapped.continuity >= 0.0,

@@ -1,13 +1,11 @@
 //! Takes in everything that the shell hands over: opened files, loads piece by piece, answers to requests.
 
-use std::sync::Arc;
-
 use crate::app::services::Message;
 use crate::app::session::{Gravity, LoadOf};
 use crate::app::window::App;
 use crate::app::words::{self, fill};
 use crate::assets::{Data, LoadEvent, Role, SegmentationsExpected, Want};
-use crate::data::{Statistics, VolumeBuilder, VolumeSink as _};
+use crate::data::SubjectBuilder;
 use crate::document::{SegmentsRef, SubjectRef};
 
 impl App {
@@ -83,25 +81,9 @@ impl App {
 
     fn take_load_event(&mut self, event: LoadEvent) {
         match event {
-            LoadEvent::Begin(header) => {
-                let mut builder = VolumeBuilder::new();
-                match builder.begin(&header) {
-                    Ok(()) => {
-                        self.incoming = Some(builder);
-                        self.statistics = Statistics::new();
-                    }
-                    Err(why) => self.refuse(words::messages::w().cannot_be_held, why),
-                }
-            }
-            LoadEvent::Scalars(scalars) => {
-                if let Some(builder) = &mut self.incoming {
-                    self.statistics.add(&scalars);
-                    builder.scalars(scalars);
-                }
-            }
-            LoadEvent::SegmentLabels(labels) => {
-                if let Some(builder) = &mut self.incoming {
-                    builder.labels(labels);
+            LoadEvent::Part(part) => {
+                if let Err(why) = self.incoming.take(part) {
+                    self.refuse(words::messages::w().cannot_be_held, why);
                 }
             }
             LoadEvent::Progress { fraction, what } => {
@@ -250,14 +232,14 @@ impl App {
 
     /// Throws away the pieces of a load that ends early. A label volume is not asked for again.
     fn drop_incoming(&mut self) {
-        self.incoming = None;
+        self.incoming = SubjectBuilder::default();
         self.incoming_labels.clear();
         if let Some(LoadOf::Segments(want)) = self.session.load.as_ref().map(|load| &load.of) {
             self.assets.refuse(want);
         }
     }
 
-    /// There will be no volume of this load.
+    /// There will be no subject of this load.
     fn refuse(&mut self, message: &str, details: String) {
         self.drop_incoming();
         self.session.refuse_load(message, details);
@@ -265,24 +247,22 @@ impl App {
 
     /// Shows the volume of a load whose pieces are all there.
     fn show_incoming(&mut self) {
-        let Some(builder) = self.incoming.take() else {
+        let Some(whole) = std::mem::take(&mut self.incoming).finish() else {
             return;
         };
-        match builder.finish() {
-            Ok(volume) => {
-                let histogram = self.statistics.histogram(volume.slope, volume.intercept);
+        match whole {
+            Ok((subject, histogram)) => {
                 self.transfer.set_histogram(histogram);
-                self.session.set_subject(&volume);
-                let volume = Arc::new(volume);
+                self.session.set_subject(&subject);
                 self.assets.give(Data::Subject {
-                    volume: Arc::clone(&volume),
+                    subject: subject.clone(),
                     sha256: None,
                 });
                 self.tissue.restart();
                 let shown = self
                     .picture
                     .as_mut()
-                    .map(|picture| picture.set_subject(volume));
+                    .map(|picture| picture.set_subject(subject));
                 if let Some(Err(error)) = shown {
                     self.refuse(words::messages::w().does_not_fit, error.to_string());
                 }

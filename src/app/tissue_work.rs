@@ -7,6 +7,7 @@
 
 use std::cell::Cell;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use crate::app::picture::pending::{Pending, poll_once};
 use crate::assets::Assets;
@@ -43,6 +44,11 @@ impl Wanted {
     }
 }
 
+/// Segments are made of values: a subject without them keeps the ones that it came with.
+fn has_values(assets: &Assets) -> bool {
+    assets.subject().is_some_and(|s| s.values().is_some())
+}
+
 struct Job {
     wanted: Wanted,
     /// Of the author's names.
@@ -62,7 +68,7 @@ impl TissueWork {
         }
     }
 
-    /// Another volume is shown, with the segments that it came with.
+    /// Another subject is shown, with the segments that it came with.
     pub(crate) fn restart(&mut self) {
         self.job = None;
         self.made_of = Some(Wanted::default());
@@ -71,8 +77,7 @@ impl TissueWork {
 
     /// True while the segments that are shown are not yet those that the document describes.
     pub(crate) fn is_behind(&self, assets: &Assets, illustration: &Illustration) -> bool {
-        assets.volume().is_some()
-            && self.made_of.as_ref() != Some(&Wanted::of(assets, illustration))
+        has_values(assets) && self.made_of.as_ref() != Some(&Wanted::of(assets, illustration))
     }
 
     /// How far the work under way is, 0 to 1.
@@ -88,7 +93,9 @@ impl TissueWork {
         illustration: &Illustration,
         is_dragging: bool,
     ) -> Option<Segmented> {
-        assets.volume()?;
+        if !has_values(assets) {
+            return None;
+        }
         let wanted = Wanted::of(assets, illustration);
         if !is_dragging && self.job.as_ref().is_some_and(|job| job.wanted != wanted) {
             self.job = None;
@@ -123,13 +130,9 @@ impl TissueWork {
             // Their notices were shown when the names arrived.
             notices.clear();
         }
+        let volume = Arc::clone(resources.subject.as_ref()?.values()?);
         let files = resources.segmentations;
-        let work = segment(
-            resources.volume?,
-            files,
-            wanted.recipes.clone(),
-            turns.clone(),
-        );
+        let work = segment(volume, files, wanted.recipes.clone(), turns.clone());
         Some(Job {
             wanted,
             notices,

@@ -25,7 +25,7 @@ use crate::app::session::{
 use crate::app::tissue_work;
 use crate::app::words::{self, Lang};
 use crate::assets::{Assets, SegmentationsExpected, Want};
-use crate::data::{Resources, Statistics, VolumeBuilder};
+use crate::data::{Resources, SubjectBuilder};
 use crate::document::{Document, SegmentsRef};
 use crate::load::LabelFile;
 use crate::render::{Clock, encode_png};
@@ -74,8 +74,8 @@ pub struct App {
     is_narrow: bool,
     /// Fingers point first, so that controls are large in a wide window too.
     has_fingers: bool,
-    /// The volume that is arriving.
-    pub(crate) incoming: Option<VolumeBuilder>,
+    /// The subject that is arriving.
+    pub(crate) incoming: SubjectBuilder,
     /// Files that documents wanted and that have arrived.
     pub(crate) assets: Assets,
     /// The document, by its number, whose addresses `assets` knows.
@@ -84,8 +84,6 @@ pub struct App {
     pub(crate) fields_asked: Vec<Want>,
     /// Fields as they are laid over the subject that is shown.
     pub(crate) resources: Resources,
-    /// Statistics of the values of the arriving volume.
-    pub(crate) statistics: Statistics,
     /// The plot of the transfer function.
     pub(crate) transfer: transfer::Editor,
     /// The slices beside the picture.
@@ -170,12 +168,11 @@ impl App {
             wants_shown_size: false,
             is_lettering: false,
             is_narrow: false,
-            incoming: None,
+            incoming: SubjectBuilder::default(),
             assets: Assets::default(),
             opened: 0,
             fields_asked: Vec::new(),
             resources: Resources::default(),
-            statistics: Statistics::new(),
             transfer: transfer::Editor::default(),
             slices: Slices::default(),
             tissue: tissue_work::TissueWork::new(start.clock),

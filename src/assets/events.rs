@@ -1,6 +1,6 @@
 //! Events of a load on its way, from whatever thread or worker it runs in.
 
-use crate::data::{Volume, Voxels};
+use crate::data::SubjectPart;
 use crate::document::RawVoxels;
 use crate::load::LabelFile;
 
@@ -14,15 +14,11 @@ pub struct SegmentationsExpected {
     pub has_scan: bool,
 }
 
-/// What happens to a load, in this order; `Begin` to `Coarse` may repeat, each time finer.
+/// What happens to a load, in this order; `Part` to `Coarse` may repeat, each time finer.
 #[derive(Debug)]
 pub enum LoadEvent {
-    /// A volume without its voxels; see `VolumeSink::begin`.
-    Begin(Box<Volume>),
-    /// Scalars that follow the ones before.
-    Scalars(Voxels),
-    /// Labels that follow the ones before.
-    SegmentLabels(Vec<u8>),
+    /// A piece of the subject.
+    Part(SubjectPart),
     /// How far it is.
     Progress {
         /// Part of the work that is done, 0 to 1.
@@ -30,10 +26,10 @@ pub enum LoadEvent {
         /// What is being done: `Reading` or `Generating`.
         what: String,
     },
-    /// The pieces so far make a whole coarse volume, which may be shown. A finer `Begin` follows.
+    /// The pieces so far make a whole coarse subject, which may be shown. The pieces of a finer one follow.
     Coarse,
     /// A label volume that was wanted, opened beside the scan, or opened for the one that is shown. It comes before the
-    /// scan's `Begin`.
+    /// pieces of the scan.
     LabelFile(Box<LabelFile>),
     /// The file holds several volumes, of which the wanted one comes. Told before `Done`.
     Frames {
@@ -42,14 +38,14 @@ pub enum LoadEvent {
     },
     /// The file does not say how its voxels lie. The load waits for the answer.
     AskRaw(RawQuestion),
-    /// The volume is whole.
+    /// The subject is whole.
     Done {
         /// Of the file's bytes, lower-case hex; `None` for a built-in subject.
         sha256: Option<String>,
     },
-    /// Something was not as expected but the volume is usable.
+    /// Something was not as expected but the subject is usable.
     Notice(String),
-    /// There will be no volume.
+    /// There will be no subject.
     Failed {
         /// One line in plain words.
         message: String,

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use super::naming::rename;
 use super::want::{OtherFile, Role, Want, Wanted};
-use crate::data::{FieldKey, Grid, Resources, Segment, Segmentation, Volume};
+use crate::data::{FieldKey, Grid, Resources, Segment, Segmentation, Subject};
 use crate::document::{Illustration, SampledField, SegmentsRef, TemplateData};
 use crate::load::{FieldFile, FieldUse, LabelFile};
 
@@ -11,8 +11,8 @@ use crate::load::{FieldFile, FieldUse, LabelFile};
 pub enum Data {
     /// A subject. `sha256` is that of its file; a built-in one has none.
     Subject {
-        /// The volume with all its voxels, labels and segments.
-        volume: Arc<Volume>,
+        /// The subject with all its values and segments.
+        subject: Subject,
         /// SHA-256 of the file, lower-case hex.
         sha256: Option<String>,
     },
@@ -52,7 +52,7 @@ fn find<'a, T>(held: &'a [Held<T>], want: &Want) -> Option<&'a Arc<T>> {
 /// Files that documents wanted and that have arrived. Files of earlier documents stay, so that undo finds them again.
 #[derive(Debug, Default)]
 pub struct Assets {
-    volume: Option<Arc<Volume>>,
+    subject: Option<Subject>,
     /// Where the subject's voxels lie.
     grid: Option<Grid>,
     segments: Vec<Held<LabelFile>>,
@@ -103,9 +103,9 @@ impl Assets {
             held.push(Held { src, sha256, file });
         }
         match data {
-            Data::Subject { volume, .. } => {
-                self.set_grid(volume.grid);
-                self.volume = Some(volume);
+            Data::Subject { subject, .. } => {
+                self.place(subject.values().map(|volume| volume.grid));
+                self.subject = Some(subject);
             }
             Data::Segments(file) => {
                 self.named.clear();
@@ -120,8 +120,12 @@ impl Assets {
 
     /// Says where the voxels of the subject lie, for fields where the subject itself is not needed.
     pub fn set_grid(&mut self, grid: Grid) {
-        if self.grid != Some(grid) {
-            self.grid = Some(grid);
+        self.place(Some(grid));
+    }
+
+    fn place(&mut self, grid: Option<Grid>) {
+        if self.grid != grid {
+            self.grid = grid;
             self.fitted.clear();
         }
     }
@@ -150,7 +154,7 @@ impl Assets {
     /// True if the file of this want has arrived. Only one subject is held at a time.
     pub fn has(&self, want: &Want) -> bool {
         match want.role {
-            Role::Subject => self.volume.is_some(),
+            Role::Subject => self.subject.is_some(),
             Role::Segments => find(&self.segments, want).is_some(),
             Role::Field => find(&self.fields, want).is_some(),
         }
@@ -164,11 +168,11 @@ impl Assets {
     }
 
     /// The subject that is held.
-    pub fn volume(&self) -> Option<&Arc<Volume>> {
-        self.volume.as_ref()
+    pub fn subject(&self) -> Option<&Subject> {
+        self.subject.as_ref()
     }
 
-    /// Where the voxels of the subject lie, once that is known.
+    /// Where the voxels of the subject lie, once that is known; `None` too if the subject has none.
     pub fn grid(&self) -> Option<&Grid> {
         self.grid.as_ref()
     }
@@ -188,7 +192,7 @@ impl Assets {
     /// number that does not occur. What has not come is left out; fields are attached by whoever draws.
     pub fn segment_resources(&mut self, illustration: &Illustration) -> (Resources, Vec<String>) {
         let mut notices = Vec::new();
-        let mut volume = self.volume.clone();
+        let mut subject = self.subject.clone();
         let mut segmentations = Vec::new();
         for (index, named) in illustration.segments.iter().enumerate() {
             // A document may hold one by itself, as the first versions wrote it.
@@ -197,13 +201,9 @@ impl Assets {
                 _ => format!("/subject/segments/{index}"),
             };
             let Some(want) = Want::segments(named) else {
-                if let Some(volume) = volume.as_mut().filter(|_| !named.names.is_empty()) {
-                    let mut nothing = Vec::new();
-                    let segments = match &mut Arc::make_mut(volume).segmentation {
-                        Some(own) => &mut own.segments,
-                        None => &mut nothing,
-                    };
+                if let Some(subject) = subject.as_mut().filter(|_| !named.names.is_empty()) {
                     let number_of = |_: usize, segment: &_| number_of_own(segment);
+                    let segments = subject.segments_mut();
                     notices.extend(rename(segments, number_of, &named.names, &pointer));
                 }
                 continue;
@@ -229,7 +229,7 @@ impl Assets {
         }
         segmentations.extend(self.added.iter().cloned());
         let resources = Resources {
-            volume,
+            subject,
             segmentations,
             ..Resources::default()
         };

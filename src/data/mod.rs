@@ -1,24 +1,31 @@
-//! Layer 2: volumes as values. No files, no GPU.
+//! Layer 2: subjects as values. No files, no GPU.
 //!
-//! A reader or generator pushes pieces into a [`VolumeSink`]: [`VolumeBuilder`] collects them into a [`Volume`]; a
-//! browser's worker posts them to the page. [`Statistics`] counts as they pass; a [`Reducer`] in between makes what
-//! is too large coarser. [`segment`] finds the segments that the recipes of a document describe, and joins them with
-//! the segments of label volumes.
+//! [`Subject`] is what is illustrated, whatever its kind. A reader or generator pushes the pieces of a volume into a
+//! [`VolumeSink`]: [`VolumeBuilder`] collects them into a [`Volume`]; a browser's worker posts them to the page as
+//! [`SubjectPart`]s, of which [`SubjectBuilder`] makes a [`Subject`]. [`Statistics`] counts as they pass; a [`Reducer`]
+//! in between makes what is too large coarser. [`segment`] finds the segments that the recipes of a document describe,
+//! and joins them with the segments of label volumes.
 
 mod builder;
 mod frame;
 mod mask;
+mod material;
+mod parts;
 mod reduce;
 mod resources;
 mod segmented;
 mod statistics;
+mod subject;
 mod volume;
 
 pub use builder::{BuildError, VolumeBuilder};
 pub use frame::SubjectFrame;
 pub use mask::{Mask, Turns};
+pub use material::Material;
+pub use parts::{SubjectBuilder, SubjectPart};
 pub use reduce::{Reducer, Reduction, VolumeLimits, dims_that_fit, resized};
 pub use resources::{FieldKey, Resources};
 pub use segmented::{RECIPE_COLORS_SRGB, Segmented, segment};
 pub use statistics::{Histogram, Statistics};
+pub use subject::{Space, Subject};
 pub use volume::{Grid, Segment, Segmentation, Volume, VolumeSink, Voxels};

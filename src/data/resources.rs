@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use super::{Segmentation, Volume};
+use super::{Segmentation, Subject};
 use crate::document::{
     FieldSamples, Illustration, ParamValue, PlacedTemplate, SampledField, TemplateData,
 };
@@ -10,7 +10,7 @@ use crate::document::{
 #[derive(Clone, Debug, Default)]
 pub struct Resources {
     /// The subject, with the segments of its own file under the author's names.
-    pub volume: Option<Arc<Volume>>,
+    pub subject: Option<Subject>,
     /// Label volumes beside the subject, in the order of the document, under the author's names.
     pub segmentations: Vec<Arc<Segmentation>>,
     /// Samples of displacement fields, by file and reading.
@@ -83,13 +83,13 @@ impl Resources {
 /// Two values are equal if they share volumes, labels and samples in memory; the contents are never compared.
 impl PartialEq for Resources {
     fn eq(&self, other: &Self) -> bool {
-        let is_same_volume = match (&self.volume, &other.volume) {
-            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        let is_same_subject = match (&self.subject, &other.subject) {
+            (Some(a), Some(b)) => a.is_same(b),
             (a, b) => a.is_none() && b.is_none(),
         };
         let segmentations = self.segmentations.iter().zip(&other.segmentations);
         let fields = self.fields.iter().zip(&other.fields);
-        is_same_volume
+        is_same_subject
             && self.segmentations.len() == other.segmentations.len()
             && self.fields.len() == other.fields.len()
             && segmentations.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))

@@ -1,4 +1,4 @@
-//! Layer 3: files in, volumes out. Bytes come through a [`FileSet`], voxels leave through a
+//! Layer 3: files in, subjects out. Bytes come through a [`FileSet`], voxels leave through a
 //! [`VolumeSink`](crate::data::VolumeSink) slab by slab, so nothing is held twice; what had to be decided or repaired
 //! stands in a [`LoadReport`].
 //!
@@ -47,6 +47,7 @@ mod read;
 mod report;
 mod sniff;
 mod stream;
+mod subject;
 mod voxels;
 
 pub use describe::{Description, describe, describe_raw};
@@ -55,10 +56,11 @@ pub use error::LoadError;
 pub use field::{FieldFile, FieldUse, is_field, read_field};
 pub use files::{ALL_FILES, FileHandle, FileSet, MemoryFiles, OneFile};
 pub use geometry::orientation_code;
-pub use labels::{LabelFile, LabelSource, read_header, read_label_file, read_labels, read_subject};
+pub use labels::{LabelFile, read_header, read_label_file, read_labels};
 
 pub use options::ReadOptions;
 pub use raw::{RawLayout, read_raw};
 pub use read::read_volume;
 pub use report::{Format, LoadReport, Warning};
+pub use subject::{LabelSource, read_subject};
 pub use voxels::ElementType;

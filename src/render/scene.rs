@@ -5,6 +5,7 @@ use crate::math::Aabb;
 use crate::render::device::bindings::entry;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
+use crate::render::device::programs::SubjectShader;
 use crate::render::pack::frame::longest_step;
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::raycast_key::RaycastKey;
@@ -19,7 +20,7 @@ use crate::render::stage::programs::StagePrograms;
 use crate::render::stage::rigid::RigidMotions;
 use crate::render::stage::skip_grid::{GridInput, SkipGrid};
 use crate::render::stage::templates::TemplateBuffer;
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 
 /// Kinds of templates from which on the baked map is used: one formula or two are as fast as a texture.
 const LEAST_BAKED_KINDS: u32 = 3;
@@ -37,6 +38,7 @@ pub(crate) struct Scene {
     /// Grows with every change.
     pub revision: u64,
     inputs: Inputs,
+    subject: SubjectShader,
     has_segments: bool,
     templates: TemplateBuffer,
     fields: FieldTexture,
@@ -78,6 +80,7 @@ impl Scene {
             drawn_generation: 0,
             revision: 0,
             inputs: Inputs::new(),
+            subject: SubjectShader::Volume,
             has_segments: false,
             templates,
             fields,
@@ -109,6 +112,7 @@ impl Scene {
     ) -> bool {
         self.inputs.update(illustration, subject);
         self.has_segments = subject.info.has_segments;
+        self.subject = subject.shader;
         let inputs = &self.inputs;
         self.templates.update(gpu, &inputs.templates);
         self.fields.update(gpu, &inputs.fields);
@@ -174,6 +178,7 @@ impl Scene {
     pub(crate) fn key(&self, is_pick: bool) -> RaycastKey {
         let (kept, table) = (self.inputs.kept(), self.inputs.table());
         RaycastKey {
+            subject: self.subject,
             drawn_kinds: self.inputs.templates.get().drawn_kinds(),
             has_labels: self.has_segments && table.is_some_and(|table| table.tint > 0.0),
             has_grid: self.grid.is_some(),

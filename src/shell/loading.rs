@@ -6,7 +6,7 @@ use std::io::Read as _;
 use sha2::{Digest as _, Sha256};
 
 use crate::assets::{LoadEvent, RawQuestion, SegmentationsExpected};
-use crate::data::{Reducer, Volume, VolumeLimits, VolumeSink, Voxels};
+use crate::data::{Reducer, SubjectPart, Volume, VolumeLimits, VolumeSink, Voxels};
 use crate::document::Reading;
 use crate::load::{
     FileSet, LabelSource, LoadError, LoadReport, RawLayout, ReadOptions, Warning, is_segmentation,
@@ -57,7 +57,8 @@ pub fn make_subject(
                 return;
             }
         };
-        if !post.post(LoadEvent::Begin(Box::new(generator.header()))) {
+        let header = SubjectPart::Volume(Box::new(generator.header()));
+        if !post.post(LoadEvent::Part(header)) {
             return;
         }
         let dims = generator.header().grid.dims;
@@ -72,8 +73,9 @@ pub fn make_subject(
                 fraction: done as f32 / total as f32,
                 what: "Generating".to_owned(),
             };
-            post.post(LoadEvent::Scalars(Voxels::I16(slab.values)))
-                && post.post(LoadEvent::SegmentLabels(slab.labels))
+            let scalars = SubjectPart::Scalars(Voxels::I16(slab.values));
+            post.post(LoadEvent::Part(scalars))
+                && post.post(LoadEvent::Part(SubjectPart::Labels(slab.labels)))
                 && (!is_last || post.post(progress))
         });
         if !goes_on {
@@ -209,7 +211,7 @@ pub fn read_segments(files: &mut dyn FileSet, name: &str, post: &mut dyn Post) {
     post.post(event);
 }
 
-/// Reads a scan and posts its header, its voxels and how the load ended.
+/// Reads a subject from a file and posts its pieces and how the load ended.
 pub fn read_file(
     files: &mut dyn FileSet,
     name: &str,
@@ -261,7 +263,7 @@ pub fn read_file(
     }
 }
 
-/// Reads a scan as its document says. A file that says that it holds labels brings its segments.
+/// Reads a subject as its document says. A file that says that it holds labels brings its segments.
 ///
 /// # Errors
 /// As [`read_subject`] and [`read_raw`].
@@ -333,11 +335,15 @@ impl PostingSink<'_> {
         self.is_stopped = self.is_stopped || !self.post.post(event);
         !self.is_stopped
     }
+
+    fn pass_part(&mut self, part: SubjectPart) -> bool {
+        self.pass(LoadEvent::Part(part))
+    }
 }
 
 impl VolumeSink for PostingSink<'_> {
     fn begin(&mut self, header: &Volume) -> Result<(), String> {
-        if self.pass(LoadEvent::Begin(Box::new(header.clone()))) {
+        if self.pass_part(SubjectPart::Volume(Box::new(header.clone()))) {
             Ok(())
         } else {
             Err("stopped".to_owned())
@@ -345,11 +351,11 @@ impl VolumeSink for PostingSink<'_> {
     }
 
     fn scalars(&mut self, next: Voxels) {
-        self.pass(LoadEvent::Scalars(next));
+        self.pass_part(SubjectPart::Scalars(next));
     }
 
     fn labels(&mut self, next: Vec<u8>) {
-        self.pass(LoadEvent::SegmentLabels(next));
+        self.pass_part(SubjectPart::Labels(next));
     }
 
     fn progress(&mut self, fraction: f32) -> bool {
@@ -384,18 +390,18 @@ mod tests {
             slabs_in_turn,
             &mut |event: LoadEvent| {
                 match event {
-                    LoadEvent::Begin(header) => {
+                    LoadEvent::Part(SubjectPart::Volume(header)) => {
                         counts.push((header.grid.voxel_count(), 0));
                         kinds.push('b');
                     }
-                    LoadEvent::Scalars(voxels) => {
+                    LoadEvent::Part(SubjectPart::Scalars(voxels)) => {
                         if let Some(last) = counts.last_mut() {
                             last.1 += voxels.len();
                         }
                     }
                     LoadEvent::Coarse => kinds.push('c'),
                     LoadEvent::Done { sha256: None } => kinds.push('d'),
-                    LoadEvent::SegmentLabels(_) | LoadEvent::Progress { .. } => {}
+                    LoadEvent::Part(SubjectPart::Labels(_)) | LoadEvent::Progress { .. } => {}
                     other => panic!("unexpected: {other:?}"),
                 }
                 true

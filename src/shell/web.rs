@@ -547,8 +547,8 @@ pub async fn render_png(
     let studio = match held.filter(|(n, r, _)| n == name && *r == resolution) {
         Some((_, _, studio)) => studio,
         None => {
-            let volume = run::make_volume(&worker_address(), name, resolution).await?;
-            let studio = Studio::new(&gpu, &volume, true).map_err(|e| words(&e))?;
+            let subject = run::make_subject(&worker_address(), name, resolution).await?;
+            let studio = Studio::new(&gpu, &subject, true).map_err(|e| words(&e))?;
             STUDIO.set(Some((name.clone(), resolution, studio.clone())));
             studio
         }

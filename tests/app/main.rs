@@ -24,6 +24,6 @@ use egui_kittest::{Harness, wgpu::WgpuTestRenderer};
 use fabrica::app::{
     App, LinkChange, LoadEvent, Message, RawQuestion, SaveFile, Services, Start, Ticket,
 };
-use fabrica::data::{Volume, VolumeSink, Voxels};
+use fabrica::data::{SubjectPart, Volume, VolumeSink, Voxels};
 use fabrica::document::{Document, ParamValue, RawVoxels, SubjectRef, TemplateMode};
 use window::{CUBE, DESK, Fake, Queue, RESOLUTION, Window, clock};

@@ -89,14 +89,16 @@ impl Queue<'_> {
 
 impl VolumeSink for Queue<'_> {
     fn begin(&mut self, header: &Volume) -> Result<(), String> {
-        self.push(LoadEvent::Begin(Box::new(header.clone())));
+        self.push(LoadEvent::Part(SubjectPart::Volume(Box::new(
+            header.clone(),
+        ))));
         Ok(())
     }
     fn scalars(&mut self, next: Voxels) {
-        self.push(LoadEvent::Scalars(next));
+        self.push(LoadEvent::Part(SubjectPart::Scalars(next)));
     }
     fn labels(&mut self, next: Vec<u8>) {
-        self.push(LoadEvent::SegmentLabels(next));
+        self.push(LoadEvent::Part(SubjectPart::Labels(next)));
     }
     fn progress(&mut self, _: f32) -> bool {
         true

@@ -53,7 +53,7 @@ fn browser_draws_what_the_native_program_draws() {
                 let mut builder = fabrica::data::VolumeBuilder::new();
                 fabrica::subjects::generate(subject, RESOLUTION, &mut builder).expect("a subject");
                 let volume = builder.finish().expect("a whole volume");
-                let made = Studio::new(&gpu, &volume, true).expect("the subject fits");
+                let made = Studio::new(&gpu, &volume.into(), true).expect("the subject fits");
                 studio = Some((subject, made));
             }
             let (_, held) = studio.as_ref().expect("just made");

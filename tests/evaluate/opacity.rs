@@ -2,7 +2,7 @@
 //! the ray.
 
 use super::bench::{jacobian, plain};
-use crate::gpu::gpu;
+use crate::gpu::{gpu, studio_of};
 use crate::reference;
 use fabrica::data::{Grid, Volume, Voxels};
 use fabrica::document::{
@@ -34,7 +34,7 @@ pub(crate) fn haze() -> Studio {
         value_range: [7.0, 7.0],
         segmentation: None,
     };
-    Studio::new(gpu(), &volume, true).expect("a studio")
+    studio_of(gpu(), &volume, true)
 }
 
 fn scene(list: &[PlacedTemplate], mode: OpacityMode) -> Illustration {

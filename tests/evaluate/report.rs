@@ -6,10 +6,10 @@ use super::normals::{Relief, Surface, normal_errors, picture};
 use super::opacity::{MODES, haze, stopped};
 use super::page::{Page, figures};
 use super::{BLOCK, EGG, PEEL, POKE, TWIST, WAVE, templates};
-use crate::gpu::gpu;
-use fabrica::data::VolumeBuilder;
+use crate::gpu::{gpu, studio_of};
+use fabrica::data::{Subject, VolumeBuilder};
 use fabrica::document::{PlacedTemplate, SubjectRef};
-use fabrica::render::{self, Image, Studio, encode_png};
+use fabrica::render::{self, Image, encode_png};
 use fabrica::subjects;
 use glam::{UVec3, Vec3};
 use std::path::PathBuf;
@@ -354,7 +354,7 @@ fn cost(page: &mut Page) {
     subjects::generate("head", 96, &mut builder).expect("the head");
     let volume = builder.finish().expect("a whole volume");
     page.text("<b>Adjusting opacity</b> (figure 6.21): the program’s own frames of the head, 160 × 120 pixels, under a split; ratio to no adjustment.");
-    let studio = Studio::new(gpu(), &volume, true).expect("a studio");
+    let studio = studio_of(gpu(), &volume, true);
     let mut scene = fabrica::document::Illustration::document_default();
     scene.templates = templates(
         r#"{ "kind": "split", "at": [0, 0, 0.2], "size": [0.8, 1, 0.6], "params": { "amount": 0.15 } }"#,
@@ -384,17 +384,11 @@ fn cost(page: &mut Page) {
     page.table(&["opacity", "ratio"], &rows);
 
     page.text("<b>Alignment</b> (table 6.3): as <code>fabrica bench</code>, 160 × 120 pixels of the head under one peel; ratio to the same peel that moves everything. (The dissertation: 1.12 to 1.29 for the surface, 1.14 for segments.) A frame is what moving the camera costs; what is made once per edit is beside it.");
-    let subject = SubjectRef::Builtin {
+    let named = SubjectRef::Builtin {
         name: "head".to_owned(),
     };
-    let bench = render::bench(
-        gpu(),
-        &volume,
-        &subject,
-        [160, 120],
-        5,
-        render::system_clock,
-    );
+    let subject = Subject::from(volume);
+    let bench = render::bench(gpu(), &subject, &named, [160, 120], 5, render::system_clock);
     let bench = pollster::block_on(bench).expect("a bench");
     let peel = bench
         .iter()

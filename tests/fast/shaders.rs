@@ -1,7 +1,7 @@
 //! Every shader program parses and validates with what browsers have, and keeps the rules of the house.
 
 use fabrica::document::TemplateKind;
-use fabrica::render::programs::{self, Assembled, PROGRAMS, Stage};
+use fabrica::render::programs::{self, Assembled, PROGRAMS, Program, Stage, SubjectShader};
 use std::collections::BTreeSet;
 use wgpu::naga;
 
@@ -25,10 +25,16 @@ fn check(source: &str) -> Result<naga::Module, (Option<usize>, String)> {
     Ok(module)
 }
 
+/// Every program for every kind of subject.
+fn programs_of_kinds() -> impl Iterator<Item = (&'static Program, SubjectShader)> {
+    let each = |program| SubjectShader::ALL.iter().map(move |kind| (program, *kind));
+    PROGRAMS.iter().flat_map(each)
+}
+
 #[test]
 fn every_program_validates() {
-    for program in PROGRAMS {
-        let text = Assembled::new(program);
+    for (program, kind) in programs_of_kinds() {
+        let text = Assembled::new(program, kind);
         let module = check(&text.source).unwrap_or_else(|(line, message)| {
             let place = line.map_or_else(String::new, |line| text.place(line));
             panic!("{} at {place}: {message}", program.name)
@@ -63,7 +69,7 @@ fn programs_are_written_where_a_folder_is_named() {
         .map_or_else(|| scratch.path().to_owned(), std::path::PathBuf::from);
     std::fs::create_dir_all(&folder).expect("the folder");
     for program in PROGRAMS {
-        let text = Assembled::new(program);
+        let text = Assembled::new(program, SubjectShader::Volume);
         std::fs::write(folder.join(format!("{}.wgsl", program.name)), &text.source)
             .expect("the program");
         let map: String = (1..=text.source.lines().count())
@@ -82,7 +88,7 @@ fn programs_are_written_where_a_folder_is_named() {
 /// The picture needs only what WebGL2 also has: no storage buffers or textures in programs that draw.
 #[test]
 fn drawing_uses_no_storage() {
-    for program in PROGRAMS {
+    for (program, kind) in programs_of_kinds() {
         if program
             .entries
             .iter()
@@ -90,7 +96,7 @@ fn drawing_uses_no_storage() {
         {
             continue;
         }
-        let module = check(&Assembled::new(program).source).expect("validated above");
+        let module = check(&Assembled::new(program, kind).source).expect("validated above");
         for (_, global) in module.global_variables.iter() {
             let name = global.name.as_deref().unwrap_or_default();
             assert!(
@@ -114,8 +120,8 @@ fn drawing_uses_no_storage() {
 #[test]
 fn needs_lines_hold() {
     let mut used = BTreeSet::new();
-    for program in PROGRAMS {
-        used.extend(program.files().iter().map(|file| file.path));
+    for (program, kind) in programs_of_kinds() {
+        used.extend(program.files(kind).iter().map(|file| file.path));
     }
     for file in programs::FILES {
         assert!(used.contains(file.path), "no program uses {}", file.path);
@@ -129,16 +135,20 @@ fn needs_lines_hold() {
                 file.path
             );
         }
-        let all = programs::files_of(file.path, None).into_iter();
-        let choice = all
-            .flat_map(programs::needs)
-            .find(|need| need.contains('|'));
-        let choices: Vec<_> = match choice {
-            Some(paths) => paths.split('|').map(Some).collect(),
-            None => vec![None],
-        };
-        for stand_in in choices {
-            let text = Assembled::of(&programs::files_of(file.path, stand_in));
+        // A choice of the map, and one of the kind of subject.
+        let all = programs::files_of(file.path, &[]).into_iter();
+        let mut choices: Vec<Vec<&str>> = vec![Vec::new()];
+        let needed: BTreeSet<&str> = all.flat_map(programs::needs).collect();
+        for need in needed.into_iter().filter(|need| need.contains('|')) {
+            let with = |path| {
+                choices
+                    .iter()
+                    .map(move |made| [made.as_slice(), &[path]].concat())
+            };
+            choices = need.split('|').flat_map(with).collect();
+        }
+        for stand_ins in choices {
+            let text = Assembled::of(&programs::files_of(file.path, &stand_ins));
             check(&text.source).unwrap_or_else(|(line, message)| {
                 let place = line.map_or_else(String::new, |line| text.place(line));
                 panic!("{} with what it needs, at {place}: {message}", file.path)
@@ -150,7 +160,7 @@ fn needs_lines_hold() {
 /// Negative control: a file that is missing in a `needs:` line, and a choice that a program does not make, are seen.
 #[test]
 fn a_missing_need_is_seen() {
-    let undecided = programs::files_of("pass/raycast.wgsl", None);
+    let undecided = programs::files_of("pass/raycast.wgsl", &[]);
     assert!(
         check(&Assembled::of(&undecided).source).is_err(),
         "somebody has to choose"
@@ -236,7 +246,7 @@ fn bindings_have_comments() {
 #[test]
 fn an_error_names_its_file_and_line() {
     let program = programs::ProgramId::Raycast.program();
-    let text = Assembled::new(program);
+    let text = Assembled::new(program, SubjectShader::Volume);
     let planted = "let half_dir = normalize(KEY_DIR + to_eye);";
     let broken = text
         .source

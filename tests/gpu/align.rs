@@ -2,7 +2,7 @@
 //! spec/contract.md ("Meaning" of `align`); distances against brute force.
 
 use crate::firm::{BOUND, as_reference, difference, firm};
-use crate::gpu::{builtin, gpu};
+use crate::gpu::{builtin, gpu, studio_of};
 use crate::reference::Placed;
 use crate::scatter::{Random, defaults, placed};
 use fabrica::data::{Grid, Segment, Segmentation, Turns, Volume, Voxels, segment};
@@ -327,7 +327,7 @@ impl Tally {
 #[test]
 fn the_object_is_what_the_contract_says() {
     let volume = builtin("head", 64);
-    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let studio = studio_of(gpu(), &volume, false);
     let labels = Labels::new(&volume);
     let depths = Depths::new(&studio, &volume);
     let mut random = Random(0x5eed_0a11_9e00_0001);
@@ -348,7 +348,7 @@ fn the_object_is_what_the_contract_says() {
 #[test]
 fn a_wrong_reading_is_caught() {
     let volume = builtin("head", 64);
-    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let studio = studio_of(gpu(), &volume, false);
     let labels = Labels::new(&volume);
     let depths = Depths::new(&studio, &volume);
     let mut random = Random(77);
@@ -400,7 +400,7 @@ fn head_with_recipe() -> Volume {
 #[test]
 fn kept_tissue_is_untouched() {
     let volume = head_with_recipe();
-    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let studio = studio_of(gpu(), &volume, false);
     let labels = Labels::new(&volume);
     let depths = Depths::new(&studio, &volume);
     let mut random = Random(0x1ead_5afe);
@@ -596,7 +596,7 @@ fn outside(volume: &Volume) -> Vec<bool> {
 fn distances_agree_with_brute_force() {
     let volume = strewn(UVec3::new(22, 18, 26));
     let dims = volume.grid.dims;
-    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let studio = studio_of(gpu(), &volume, false);
     let constrain = |name: &str| {
         let mut template = peel(Align::Axis);
         template.constrain = Some(Constrain {
@@ -668,7 +668,7 @@ fn distances_agree_with_brute_force() {
 #[test]
 fn nothing_is_drawn_through_bone() {
     let volume = builtin("knee", 64);
-    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let studio = studio_of(gpu(), &volume, false);
     let labels = Labels::new(&volume);
     let keep: Vec<String> = ["femur", "tibia", "fibula", "patella"]
         .map(str::to_owned)
@@ -719,7 +719,7 @@ fn nothing_is_drawn_through_bone() {
 #[test]
 fn rigid_segments_move_as_a_whole() {
     let volume = builtin("knee", 64);
-    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let studio = studio_of(gpu(), &volume, false);
     let labels = Labels::new(&volume);
     let keep = vec!["tibia".to_owned(), "fibula".to_owned()];
     let bones: Vec<u8> = keep.iter().map(|name| labels.number(name)).collect();
@@ -781,7 +781,7 @@ fn rigid_segments_move_as_a_whole() {
 /// Draws a template with and without the grid, and fails if the grid hides something.
 fn assert_nothing_is_hidden(volume: &Volume, template: &PlacedTemplate) {
     const SIZE: [u32; 2] = [80, 80];
-    let studio = Studio::new(gpu(), volume, true).expect("fits");
+    let studio = studio_of(gpu(), volume, true);
     let draw = |studio: &Studio| {
         let picture = studio.render_image(&illustration(vec![template.clone()]), SIZE, 1);
         pollster::block_on(picture).expect("a picture").rgba
@@ -867,7 +867,7 @@ fn a_twist_has_an_anchor_and_a_rigid_end() {
     let text = include_str!("../../web/gallery/anchored-twist.json");
     let document = fabrica::document::Document::from_json(text).expect("a document");
     let volume = builtin("bar", 32);
-    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let studio = studio_of(gpu(), &volume, false);
     let mut random = Random(0x51_1511);
     let points: Vec<Vec3> = (0..4000)
         .map(|_| random.vector(-0.48, 0.48) * Vec3::new(0.3, 1.0, 0.3))

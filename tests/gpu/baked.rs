@@ -1,12 +1,12 @@
 //! The baked map: how far it is from the exact one, and the picture that is drawn from it.
 
-use crate::gpu::{builtin, gpu};
+use crate::gpu::{builtin, gpu, studio_of};
 use crate::scatter::Random;
+use fabrica::data::Subject;
 use fabrica::document::{Document, Illustration};
 use fabrica::render::gpu_types::Templates;
-use fabrica::render::{BakedMap, Probe, Renderer, Studio, system_clock};
+use fabrica::render::{BakedMap, Probe, Renderer, system_clock};
 use glam::{UVec3, Vec3};
-use std::sync::Arc;
 
 /// Templates that only bend space, without a jump.
 const SMOOTH: &str = r#"
@@ -34,7 +34,7 @@ fn illustration(subject: &str, templates: &str) -> Illustration {
 /// The baked map, and points of its box with their exact displacement.
 fn baked_and_exact(templates: &str, texels: u32) -> (BakedMap, Vec<(Vec3, Vec3)>) {
     let gpu = gpu();
-    let studio = Studio::new(gpu, &builtin("cube", 16), false).expect("a small volume");
+    let studio = studio_of(gpu, &builtin("cube", 16), false);
     let scene = illustration("cube", templates);
     let map = pollster::block_on(studio.bake(&scene, Some(texels))).expect("a baked map");
     assert_eq!(map.texels.max_element(), texels);
@@ -138,7 +138,7 @@ fn finer_texels_err_less() {
 #[test]
 fn the_baked_picture_is_close() {
     let gpu = gpu();
-    let studio = Studio::new(gpu, &builtin("head", 64), true).expect("a small volume");
+    let studio = studio_of(gpu, &builtin("head", 64), true);
     let scene = illustration("head", TORN);
     let size = [160, 160];
     let exact = pollster::block_on(studio.render_image(&scene, size, 1)).expect("a picture");
@@ -184,7 +184,7 @@ fn the_picture_at_rest_is_exact() {
     let mut scene = illustration("head", TORN);
     let mut renderer = Renderer::new(gpu.clone(), system_clock);
     renderer
-        .set_subject(Arc::new(volume.clone()))
+        .set_subject(Subject::from(volume.clone()))
         .expect("fits");
     let size = [96, 96];
     let until_done = |renderer: &mut Renderer| {
@@ -212,7 +212,7 @@ fn the_picture_at_rest_is_exact() {
     until_done(&mut renderer);
     let after = pollster::block_on(renderer.read_output()).expect("a picture");
     let mut fresh = Renderer::new(gpu.clone(), system_clock);
-    fresh.set_subject(Arc::new(volume)).expect("fits");
+    fresh.set_subject(Subject::from(volume)).expect("fits");
     fresh.set_illustration(&scene);
     until_done(&mut fresh);
     let before = pollster::block_on(fresh.read_output()).expect("a picture");

@@ -1,6 +1,6 @@
 //! Segments drawn as bodies of their own: solid, hidden, seen through; with the grid as without it, and from links.
 
-use crate::gpu::{builtin, gpu};
+use crate::gpu::{builtin, gpu, studio_of};
 use fabrica::document::Document;
 use fabrica::link;
 use fabrica::render::{Gpu, Image, Studio};
@@ -9,7 +9,7 @@ const SIZE: [u32; 2] = [96, 96];
 
 fn studios(gpu: &Gpu) -> [Studio; 2] {
     let volume = builtin("bar", 48);
-    [true, false].map(|grid| Studio::new(gpu, &volume, grid).expect("a small volume"))
+    [true, false].map(|grid| studio_of(gpu, &volume, grid))
 }
 
 /// The bar with this look of its segments; its values alone show nothing if `is_clear`.

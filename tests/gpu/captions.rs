@@ -1,13 +1,13 @@
 //! Captions follow their tissue: points of rest space are found in the deformed object, by asking the object what it
 //! has there.
 
-use crate::gpu::{builtin, gpu};
+use crate::gpu::{builtin, gpu, studio_of};
 use fabrica::document::Document;
 use fabrica::render::Studio;
 use glam::Vec3;
 
 fn studio(name: &str) -> Studio {
-    Studio::new(gpu(), &builtin(name, 48), false).expect("fits")
+    studio_of(gpu(), &builtin(name, 48), false)
 }
 
 fn document(templates: &str) -> Document {

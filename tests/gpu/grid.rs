@@ -1,7 +1,7 @@
 //! The grid over the deformed space never hides anything: where a point can be seen its cell says so, and a cell's mask
 //! names every template that matters at any point of it.
 
-use crate::gpu::gpu;
+use crate::gpu::{gpu, studio_of};
 use crate::scatter::{Random, defaults, placed};
 use fabrica::data::{Grid, Volume, Voxels};
 use fabrica::document::{
@@ -226,7 +226,7 @@ impl Tally {
 fn nothing_is_hidden_by_one_template() {
     let gpu = gpu();
     let volume = volume();
-    let studio = Studio::new(gpu, &volume, true).expect("a studio");
+    let studio = studio_of(gpu, &volume, true);
     let probe = pollster::block_on(Probe::new(gpu)).expect("the probe");
     let mut failed = Vec::new();
     for kind in TemplateKind::FORMULAS {
@@ -268,7 +268,7 @@ fn nothing_is_hidden_by_one_template() {
 fn nothing_is_hidden_along_curves() {
     let gpu = gpu();
     let volume = volume();
-    let studio = Studio::new(gpu, &volume, true).expect("a studio");
+    let studio = studio_of(gpu, &volume, true);
     let probe = pollster::block_on(Probe::new(gpu)).expect("the probe");
     let mut failed = Vec::new();
     for kind in TemplateKind::FORMULAS {
@@ -305,7 +305,7 @@ fn nothing_is_hidden_along_curves() {
 fn nothing_is_hidden_by_lists_and_groups() {
     let gpu = gpu();
     let volume = volume();
-    let studio = Studio::new(gpu, &volume, true).expect("a studio");
+    let studio = studio_of(gpu, &volume, true);
     let probe = pollster::block_on(Probe::new(gpu)).expect("the probe");
     let mut random = Random(0x6121D);
     let mut tally = Tally::default();
@@ -331,7 +331,7 @@ fn nothing_is_hidden_by_lists_and_groups() {
 fn an_untouched_subject_is_mostly_leapt_over() {
     let gpu = gpu();
     let volume = volume();
-    let studio = Studio::new(gpu, &volume, true).expect("a studio");
+    let studio = studio_of(gpu, &volume, true);
     let probe = pollster::block_on(Probe::new(gpu)).expect("the probe");
     let mut tally = Tally::default();
     check(
@@ -367,7 +367,7 @@ fn pictures_with_and_without_the_grid_agree() {
     const SIZE: [u32; 2] = [96, 96];
     let gpu = gpu();
     let volume = volume();
-    let studio = Studio::new(gpu, &volume, true).expect("a studio");
+    let studio = studio_of(gpu, &volume, true);
     let plain = studio.with_grid(false);
     let draw = |studio: &Studio, templates: Vec<PlacedTemplate>| {
         let picture = studio.render_image(&illustration(templates), SIZE, 1);

@@ -2,15 +2,14 @@
 //!
 //! `FABRICA_BLESS=name cargo test --test gpu images::` writes a snapshot anew (`all` for every one).
 
-use crate::gpu::{builtin, open_software, software};
-use fabrica::data::{Grid, Volume, Voxels};
+use crate::gpu::{builtin, open_software, software, studio_of};
+use fabrica::data::{Grid, Subject, Volume, Voxels};
 use fabrica::document::{Document, Illustration};
 use fabrica::render::{
     Image, RenderError, Renderer, Studio, encode_png, render_image, system_clock,
 };
 use glam::{DAffine3, DVec3, UVec3, Vec2, Vec3};
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// The device that stands for the web: refuses what a browser would.
 /// A cube of `n`³ voxels of one value, 1 unit wide.
@@ -35,7 +34,8 @@ fn illustration(json: &str) -> Illustration {
 
 fn draw(volume: &Volume, json: &str, size: [u32; 2], samples: u32) -> Image {
     let scene = illustration(json);
-    let picture = render_image(software(), &scene, volume, size, samples);
+    let subject = Subject::from(volume.clone());
+    let picture = render_image(software(), &scene, &subject, size, samples);
     pollster::block_on(picture).expect("a picture")
 }
 
@@ -160,7 +160,7 @@ fn cuts_are_where_they_are_at_any_step() {
 #[test]
 fn picking_finds_the_surface() {
     let volume = builtin("cube", 64);
-    let studio = Studio::new(software(), &volume, true).expect("fits");
+    let studio = studio_of(software(), &volume, true);
     let scene = illustration(r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#);
     let pick = |at: Vec2| pollster::block_on(studio.pick(&scene, [100, 100], at)).expect("a pick");
     let found = pick(Vec2::new(55.3, 48.2)).expect("the cube is there");
@@ -184,12 +184,13 @@ fn picking_finds_the_surface() {
 /// end in the same picture.
 #[test]
 fn progressive_drawing_ends_and_recovers() {
-    let volume = Arc::new(builtin("cube", 32));
+    let volume = builtin("cube", 32);
     let scene = illustration(&format!(r#"{{ "fabrica": 1, {CUBE} }}"#));
     let own = open_software();
     let device = own.device.clone();
     let mut renderer = Renderer::new(own, system_clock);
-    renderer.set_subject(Arc::clone(&volume)).expect("fits");
+    let subject = Subject::from(volume.clone());
+    renderer.set_subject(subject).expect("fits");
     renderer.set_illustration(&scene);
     let settle = |renderer: &mut Renderer, size: [u32; 2]| {
         for _ in 0..20_000 {
@@ -232,10 +233,10 @@ fn progressive_drawing_ends_and_recovers() {
 /// What cannot be drawn is refused in words.
 #[test]
 fn impossible_sizes_are_refused() {
-    let volume = uniform_volume(4);
+    let subject = Subject::from(uniform_volume(4));
     let scene = illustration(r#"{ "fabrica": 1 }"#);
     for size in [[0, 10], [10, 1 << 20]] {
-        let refused = pollster::block_on(render_image(software(), &scene, &volume, size, 1));
+        let refused = pollster::block_on(render_image(software(), &scene, &subject, size, 1));
         assert!(
             matches!(refused, Err(RenderError::BadSize { .. })),
             "{refused:?}"
@@ -366,7 +367,7 @@ fn snapshots_match() {
         .map(|(name, resolution)| {
             (
                 name,
-                Studio::new(software(), &builtin(name, resolution), true).expect("fits"),
+                studio_of(software(), &builtin(name, resolution), true),
             )
         })
         .collect();

@@ -2,7 +2,7 @@
 //! coordinate scale it, and the mirror image.
 
 use crate::firm::as_reference;
-use crate::gpu::{builtin, gpu};
+use crate::gpu::{builtin, gpu, studio_of};
 use crate::reference;
 use crate::scatter::{Random, defaults, placed};
 use fabrica::document::{
@@ -11,7 +11,7 @@ use fabrica::document::{
 use fabrica::math::Placement;
 use fabrica::placed::max_displacement;
 use fabrica::render::gpu_types::Templates;
-use fabrica::render::{Probe, Sample, Studio};
+use fabrica::render::{Probe, Sample};
 use glam::{DVec3, Quat, Vec3};
 use std::ops::Range;
 
@@ -43,7 +43,7 @@ fn done_partly(template: &PlacedTemplate, main: Range<usize>, part: f64, pos: DV
 #[test]
 fn constraints_by_coordinate_scale_the_main_parameter() {
     let volume = builtin("knee", 64);
-    let studio = Studio::new(gpu(), &volume, false).expect("fits");
+    let studio = studio_of(gpu(), &volume, false);
     let bounds = volume.grid.subject_bounds();
     let keep: Vec<String> = ["femur", "tibia"].map(str::to_owned).to_vec();
     let mut random = Random(0x0b01_e5ec);

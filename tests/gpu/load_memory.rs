@@ -6,7 +6,7 @@ use std::io::{BufWriter, Write as _};
 use std::path::Path;
 use std::process::Command;
 
-use fabrica::data::VolumeBuilder;
+use fabrica::data::{Subject, VolumeBuilder};
 use fabrica::document::Document;
 use fabrica::load::{LoadReport, OneFile, ReadOptions, read_volume};
 use fabrica::render::{Gpu, GpuOptions, Studio};
@@ -176,8 +176,8 @@ fn allocated_on_gpu(path: &Path) -> u64 {
         &mut LoadReport::default(),
     )
     .expect("it was read before");
-    let volume = builder.finish().expect("whole");
-    let studio = Studio::new(&gpu, &volume, true).expect("it fits");
+    let subject = Subject::from(builder.finish().expect("whole"));
+    let studio = Studio::new(&gpu, &subject, true).expect("it fits");
     let document = Document::new();
     pollster::block_on(studio.render_image(document.illustration(), [32, 32], 1))
         .expect("a picture");

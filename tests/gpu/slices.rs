@@ -7,11 +7,11 @@ use std::process::{Command, Stdio};
 
 use fabrica::data::Volume;
 use fabrica::document::{Document, Illustration};
-use fabrica::render::{Image, SliceColors, SlicePlane, SliceView, Studio, encode_png};
+use fabrica::render::{Image, SliceColors, SlicePlane, SliceView, encode_png};
 use fabrica::subjects::FINE_RESOLUTION;
 use glam::{DVec3, Vec2, Vec3};
 
-use crate::gpu::{builtin, software};
+use crate::gpu::{builtin, software, studio_of};
 use crate::scatter::Random;
 
 /// Pixels along a side of each random slice.
@@ -136,7 +136,7 @@ fn agree(document: &str, slices: usize, least: (u32, u32, u32)) {
         .flat_map(|labels| &labels.segments)
         .map(|segment| (segment.label, segment.name.clone()))
         .collect();
-    let studio = Studio::new(software(), &volume, true).expect("uploaded");
+    let studio = studio_of(software(), &volume, true);
     let illustration = illustration(document);
     let mut random = Random(20_261_121);
     let planes = planes(&mut random, slices);
@@ -247,7 +247,7 @@ fn axial(z: f32, side: u32, colors: SliceColors) -> SliceView {
 #[test]
 fn a_slice_shows_what_it_reads() {
     let subject = builtin("head", 96);
-    let studio = Studio::new(software(), &subject, true).expect("uploaded");
+    let studio = studio_of(software(), &subject, true);
     let illustration = illustration(DEFORMED);
     let window = [-200.0, 300.0];
     let view = axial(0.15, 160, SliceColors::Grey { window });
@@ -281,7 +281,7 @@ fn a_slice_shows_what_it_reads() {
 #[test]
 fn a_slice_of_no_size_is_refused() {
     let subject = builtin("bar", 16);
-    let studio = Studio::new(software(), &subject, true).expect("uploaded");
+    let studio = studio_of(software(), &subject, true);
     let illustration = illustration(r#"{ "fabrica": 1 }"#);
     for size_px in [[0, 8], [8, 0], [u32::MAX, 8], [1 << 14, 8]] {
         let view = axial(0.0, 8, SliceColors::Look);

@@ -4,8 +4,8 @@
 
 use std::sync::OnceLock;
 
-use fabrica::data::{Volume, VolumeBuilder};
-use fabrica::render::{Gpu, GpuOptions};
+use fabrica::data::{Subject, Volume, VolumeBuilder};
+use fabrica::render::{Gpu, GpuOptions, Studio};
 use fabrica::subjects;
 
 fn open(adapter: Option<&str>) -> Gpu {
@@ -45,4 +45,10 @@ pub(crate) fn builtin(name: &str, resolution: u32) -> Volume {
     let mut builder = VolumeBuilder::new();
     subjects::generate(name, resolution, &mut builder).expect("a built-in subject");
     builder.finish().expect("a whole volume")
+}
+
+/// A device with a volume on it.
+pub(crate) fn studio_of(gpu: &Gpu, volume: &Volume, wants_grid: bool) -> Studio {
+    let subject = Subject::from(volume.clone());
+    Studio::new(gpu, &subject, wants_grid).expect("the volume fits")
 }

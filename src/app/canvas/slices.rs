@@ -63,7 +63,7 @@ impl Default for PaneView {
     }
 }
 
-/// A question about a point: where, and for which document and volume.
+/// A question about a point: where, and for which document and subject.
 type Asked = (Vec3, u64, u64);
 
 /// The three slices beside the picture: what each pane shows, and the value under the pointer.
@@ -253,7 +253,7 @@ impl Slices {
                 let at = response.hover_pos().unwrap_or(map.rect.center());
                 pane.zoom_about(zoom, at, map);
             } else if wheel != 0.0 {
-                let by = axes.normal * (wheel / WHEEL_PER_VOXEL * facts.voxel);
+                let by = axes.normal * (wheel / WHEEL_PER_VOXEL * facts.detail);
                 *cross += by;
             }
         }
@@ -342,7 +342,7 @@ impl Slices {
             }
         });
         if by != Vec3::ZERO {
-            *cross += by * facts.voxel;
+            *cross += by * facts.detail;
         }
     }
 

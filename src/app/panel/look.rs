@@ -28,8 +28,42 @@ const BACKGROUNDS: [Named; 5] = [
     ([0, 0, 0], |w| w.black),
 ];
 
-/// Draws the panel. `info` describes the values of the volume shown.
+/// Draws the panel. `info` describes the values shown; `None` for a subject without values.
 pub(crate) fn ui(
+    ui: &mut Ui,
+    session: &Session,
+    info: Option<&SubjectInfo>,
+    editor: &mut Editor,
+    commands: &mut Vec<Command>,
+) {
+    let look = &session.illustration().look;
+    if session.view.has_values() {
+        values_ui(ui, session, info, editor, commands);
+        widget::divider(ui);
+    }
+    widget::heading(ui, w().opacity_heading, |_| {});
+    let options = [
+        (OpacityMode::Constancy, w().surfaces),
+        (OpacityMode::Mass, w().mass),
+        (OpacityMode::None, w().as_it_is),
+    ];
+    if let Some(mode) = widget::segmented(ui, w().opacity, &options, look.opacity) {
+        commands.push(Command::Apply(Edit::SetOpacity(mode)));
+    }
+    let hint = match look.opacity {
+        OpacityMode::Constancy => w().surfaces_hint,
+        OpacityMode::Mass => w().mass_hint,
+        OpacityMode::None => w().as_it_is_hint,
+    };
+    let weak = Palette::get(ui).weak;
+    ui.add(egui::Label::new(egui::RichText::new(hint).small().color(weak)).wrap());
+    edges_ui(ui, look, commands);
+    widget::divider(ui);
+    background_ui(ui, look.background, commands);
+}
+
+/// The transfer function and the window: how values look.
+fn values_ui(
     ui: &mut Ui,
     session: &Session,
     info: Option<&SubjectInfo>,
@@ -55,26 +89,6 @@ pub(crate) fn ui(
             tint_ui(ui, look, stretched, commands);
         }
     }
-    widget::divider(ui);
-    widget::heading(ui, w().opacity_heading, |_| {});
-    let options = [
-        (OpacityMode::Constancy, w().surfaces),
-        (OpacityMode::Mass, w().mass),
-        (OpacityMode::None, w().as_it_is),
-    ];
-    if let Some(mode) = widget::segmented(ui, w().opacity, &options, look.opacity) {
-        commands.push(Command::Apply(Edit::SetOpacity(mode)));
-    }
-    let hint = match look.opacity {
-        OpacityMode::Constancy => w().surfaces_hint,
-        OpacityMode::Mass => w().mass_hint,
-        OpacityMode::None => w().as_it_is_hint,
-    };
-    let weak = Palette::get(ui).weak;
-    ui.add(egui::Label::new(egui::RichText::new(hint).small().color(weak)).wrap());
-    edges_ui(ui, look, commands);
-    widget::divider(ui);
-    background_ui(ui, look.background, commands);
 }
 
 fn transfer_ui(

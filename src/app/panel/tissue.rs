@@ -44,6 +44,8 @@ pub(crate) fn ui(
     commands: &mut Vec<Command>,
 ) {
     let recipes = &session.illustration().recipes;
+    // Recipes find tissue by values.
+    let has_values = session.view.has_values();
     let can_add = info.is_some() && recipes.len() < MAX_RECIPES;
     widget::heading(ui, w().heading, |ui| {
         if session.tissues.alone.is_some()
@@ -86,12 +88,14 @@ pub(crate) fn ui(
             recipe_ui(ui, session, recipe, info, commands);
         });
     }
-    ui.add_space(4.0);
-    let add = widget::labelled_button(ui, Icon::Plus, w().add, false, can_add);
-    if add.on_hover_text(w().add_hint).clicked()
-        && let Some(info) = info
-    {
-        add_recipe(session, info, commands);
+    if has_values {
+        ui.add_space(4.0);
+        let add = widget::labelled_button(ui, Icon::Plus, w().add, false, can_add);
+        if add.on_hover_text(w().add_hint).clicked()
+            && let Some(info) = info
+        {
+            add_recipe(session, info, commands);
+        }
     }
     if let Some(fraction) = session.tissues.progress {
         let bar = egui::ProgressBar::new(fraction).desired_height(4.0);
@@ -401,11 +405,15 @@ fn recipe_ui(
         seeds_ui(ui, session, recipe, seeds, commands);
     }
     clean_ui(ui, recipe, commands);
-    if let Some(&count) = session.tissues.counts.get(position(session, recipe)) {
+    let voxel_cm3 = session.view.subject.as_ref().and_then(|s| s.voxel_cm3);
+    if let (Some(&count), Some(voxel_cm3)) = (
+        session.tissues.counts.get(position(session, recipe)),
+        voxel_cm3,
+    ) {
         let text = if count == 0 {
             w().nothing.to_owned()
         } else {
-            let volume = count as f64 * session.tissues.voxel_cm3;
+            let volume = count as f64 * voxel_cm3;
             let decimals = if volume < 10.0 { 2 } else { 0 };
             fill(w().volume, &[&widget::plain(volume, decimals)])
         };

@@ -57,7 +57,7 @@ struct Held {
 /// What of the editor lives from frame to frame. The document holds the rest.
 #[derive(Debug, Default)]
 pub(crate) struct Editor {
-    /// How often which values occur in the volume that is shown.
+    /// How often which values occur in the subject that is shown.
     histogram: Option<Histogram>,
     /// Part of the axis that is shown; none for all of it.
     zoomed: Option<[f32; 2]>,
@@ -79,9 +79,9 @@ struct Shown<'a> {
 }
 
 impl Editor {
-    /// Another volume is shown.
-    pub(crate) fn set_histogram(&mut self, histogram: Histogram) {
-        self.histogram = Some(histogram);
+    /// Another subject is shown, with these values if it has any.
+    pub(crate) fn set_histogram(&mut self, histogram: Option<Histogram>) {
+        self.histogram = histogram;
         self.zoomed = None;
         self.held = None;
     }
@@ -116,7 +116,7 @@ impl Editor {
         self.point_ui(ui, &shown, info, commands);
     }
 
-    /// All of the axis: the volume's values and every point.
+    /// All of the axis: the subject's values and every point.
     fn whole(&self, shown: &Shown<'_>, info: &SubjectInfo) -> [f32; 2] {
         let [mut low, mut high] = info.value_range;
         // A held point does not drag the axis along.

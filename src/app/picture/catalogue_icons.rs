@@ -5,7 +5,7 @@ use egui::{ColorImage, TextureHandle, TextureOptions};
 
 use super::host::Picture;
 use super::pending::{Pending, poll_once};
-use crate::data::VolumeBuilder;
+use crate::data::{Subject, VolumeBuilder};
 use crate::document::{Background, Document, Illustration, TemplateKind};
 use crate::render::{Image, RenderError, Studio};
 
@@ -92,7 +92,8 @@ impl CatalogueIcons {
 fn cube_studio(picture: &Picture) -> Option<Studio> {
     let mut cube = VolumeBuilder::new();
     crate::subjects::generate_cube(RESOLUTION, &mut cube).ok()?;
-    Studio::new(picture.gpu(), &cube.finish().ok()?, true).ok()
+    let cube = Subject::from(cube.finish().ok()?);
+    Studio::new(picture.gpu(), &cube, true).ok()
 }
 
 /// The cube with one template, without anything behind it.

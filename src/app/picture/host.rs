@@ -8,7 +8,7 @@ use glam::{Vec2, Vec3};
 
 use super::pending::{Pending, poll_once};
 use crate::app::session::{Command, Found, Place, Question};
-use crate::data::{Resources, Segment, Segmentation, Volume};
+use crate::data::{Resources, Segment, Segmentation, Subject};
 use crate::document::{Background, Camera, Illustration};
 use crate::render::{
     Clock, DrawState, Gpu, Image, PendingPick, PendingPlaces, PendingSlice, Pick, RenderError,
@@ -76,13 +76,13 @@ impl Picture {
         self.renderer.gpu()
     }
 
-    /// Shows another volume; it is uploaded while the old one stays.
-    pub(crate) fn set_subject(&mut self, volume: Arc<Volume>) -> Result<(), RenderError> {
+    /// Shows another subject; it is uploaded while the old one stays.
+    pub(crate) fn set_subject(&mut self, subject: Subject) -> Result<(), RenderError> {
         self.state.is_done = false;
-        self.renderer.set_subject(volume)
+        self.renderer.set_subject(subject)
     }
 
-    /// Shows the same volume with other segments.
+    /// Shows the same subject with other segments.
     pub(crate) fn set_segmentation(
         &mut self,
         labels: Option<Arc<Segmentation>>,
@@ -91,7 +91,7 @@ impl Picture {
         self.renderer.set_segmentation(labels)
     }
 
-    /// Messages about the volume shown; each is returned once.
+    /// Messages about the subject shown; each is returned once.
     pub(crate) fn take_notices(&mut self) -> Vec<String> {
         self.renderer.take_notices()
     }
@@ -177,7 +177,7 @@ impl Picture {
         self.renderer.read_slice(plane, size_px)
     }
 
-    /// Draws the untouched object as seen by a camera, on a clear background. It shares the volume with the picture.
+    /// Draws the untouched object as seen by a camera, on a clear background. It shares the subject with the picture.
     pub(crate) fn draw_ghost(
         &mut self,
         illustration: &Illustration,

@@ -14,7 +14,7 @@ use super::tool::Tool;
 use super::tracing::Tracing;
 use super::view::ViewState;
 use crate::assets::Want;
-use crate::data::Volume;
+use crate::data::Subject;
 use crate::document::{
     Camera, Document, Edit, History, Illustration, PlacedTemplate, Reading, SubjectRef,
 };
@@ -458,12 +458,11 @@ impl Session {
 
     // ------------------------------------------------------------------------------------------------ the subject
 
-    /// Another volume is shown. Distances and the crosshair stay where it fills the same box.
-    pub fn set_subject(&mut self, volume: &Volume) {
-        if !self.view.set_subject(volume) && self.tool.is_measuring() {
+    /// Another subject is shown. Distances and the crosshair stay where it fills the same box.
+    pub fn set_subject(&mut self, subject: &Subject) {
+        if !self.view.set_subject(subject) && self.tool.is_measuring() {
             self.tool = Tool::Measure(None);
         }
-        self.tissues.voxel_cm3 = volume.grid.spacing_mm().element_product() / 1000.0;
     }
 }
 

@@ -21,8 +21,6 @@ pub struct Tissues {
     pub counts: Vec<u64>,
     /// How far the work under way is, 0 to 1.
     pub progress: Option<f32>,
-    /// Volume of a voxel of the scan, cubic centimetres.
-    pub voxel_cm3: f64,
 }
 
 /// Something done with tissues that is no change of the document.

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use glam::{DVec3, Vec3};
 
 use super::measures::Measures;
-use crate::data::{Segment, Volume};
+use crate::data::{Grid, Segment, Subject};
 use crate::math::Aabb;
 
 /// A part of the window in which the object is seen.
@@ -48,7 +48,7 @@ pub enum See {
     RemoveMeasure(usize),
 }
 
-/// What panels want to know of the volume that is shown.
+/// What panels want to know of the subject that is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SubjectFacts {
     /// Millimetres in one subject unit.
@@ -57,22 +57,26 @@ pub struct SubjectFacts {
     pub middle_mm: DVec3,
     /// Box of the untouched subject, subject space.
     pub bounds: Aabb,
-    /// Smallest spacing of its voxels, subject units.
-    pub voxel: f32,
+    /// Length of its finest detail, subject units.
+    pub detail: f32,
+    /// Volume of one of its voxels, cubic centimetres; `None` if the subject has no values. Then windows, thresholds
+    /// and recipes mean nothing, and panels do not offer them.
+    pub voxel_cm3: Option<f64>,
     /// Names of its segments by label.
     pub segments: BTreeMap<u16, String>,
 }
 
 impl SubjectFacts {
-    fn new(volume: &Volume) -> Self {
-        let frame = volume.grid.frame();
-        let segments = volume.segmentation.as_ref();
+    fn new(subject: &Subject) -> Self {
+        let frame = subject.frame();
+        let volume_of_voxel = |grid: &Grid| grid.spacing_mm().element_product() / 1000.0;
         Self {
             mm_per_unit: frame.mm_per_unit as f32,
             middle_mm: frame.middle_mm,
             bounds: frame.bounds,
-            voxel: frame.detail,
-            segments: segments.map_or_else(BTreeMap::new, |labels| names_of(&labels.segments)),
+            detail: frame.detail,
+            voxel_cm3: subject.values().map(|volume| volume_of_voxel(&volume.grid)),
+            segments: names_of(subject.segments()),
         }
     }
 
@@ -106,7 +110,7 @@ pub struct ViewState {
     pub has_slice_colors: bool,
     /// Where the slices cross, subject space.
     pub cross: Vec3,
-    /// The volume that is shown.
+    /// The subject that is shown.
     pub subject: Option<SubjectFacts>,
     /// What the crosshair lies on: where that was at rest, and its value.
     pub cross_read: Option<(Vec3, f32)>,
@@ -114,15 +118,15 @@ pub struct ViewState {
     pub has_ghost: bool,
     /// Distances in the picture.
     pub measures: Measures,
-    /// Rises with every volume.
+    /// Rises with every subject.
     pub subject_revision: u64,
 }
 
 impl ViewState {
-    /// Takes the facts of another volume. Distances and the crosshair stay where it fills the same box; true if it
+    /// Takes the facts of another subject. Distances and the crosshair stay where it fills the same box; true if it
     /// does.
-    pub fn set_subject(&mut self, volume: &Volume) -> bool {
-        let facts = SubjectFacts::new(volume);
+    pub fn set_subject(&mut self, subject: &Subject) -> bool {
+        let facts = SubjectFacts::new(subject);
         let is_same_place = self
             .subject
             .as_ref()
@@ -136,7 +140,7 @@ impl ViewState {
         is_same_place
     }
 
-    /// The volume has other segments now.
+    /// The subject has other segments now.
     pub fn set_segments(&mut self, segments: &[Segment]) {
         let Some(facts) = &mut self.subject else {
             return;
@@ -152,8 +156,13 @@ impl ViewState {
         }
     }
 
-    /// Millimetres in one subject unit, once a volume is there.
+    /// Millimetres in one subject unit, once a subject is there.
     pub fn mm_per_unit(&self) -> Option<f32> {
         self.subject.as_ref().map(|subject| subject.mm_per_unit)
+    }
+    /// False if a subject is shown that has no values: panels leave out what is about values.
+    pub fn has_values(&self) -> bool {
+        let subject = self.subject.as_ref();
+        subject.is_none_or(|subject| subject.voxel_cm3.is_some())
     }
 }

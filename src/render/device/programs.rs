@@ -110,6 +110,26 @@ const fn is_same(a: &[u8], b: &[u8]) -> bool {
     true
 }
 
+/// The file that says what a subject has at a place. The files of all kinds stand in for each other, so that programs
+/// which ask a subject are compiled once for each kind that is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SubjectShader {
+    /// A volume.
+    Volume,
+}
+
+impl SubjectShader {
+    /// All of them.
+    pub const ALL: &[Self] = &[Self::Volume];
+
+    /// Path of the file.
+    pub fn path(self) -> &'static str {
+        match self {
+            Self::Volume => "subject/volume.wgsl",
+        }
+    }
+}
+
 /// A program: a pass, with all that it takes names from, and its entry points.
 #[derive(Debug)]
 pub struct Program {
@@ -126,28 +146,30 @@ pub struct Program {
 }
 
 impl Program {
-    /// The files of the program, each after the files that it needs.
-    pub fn files(&self) -> Vec<&'static ShaderFile> {
-        files_of(self.pass, self.stand_in)
+    /// The files of the program for a kind of subject, each after the files that it needs.
+    pub fn files(&self, subject: SubjectShader) -> Vec<&'static ShaderFile> {
+        let mut stand_ins = vec![subject.path()];
+        stand_ins.extend(self.stand_in);
+        files_of(self.pass, &stand_ins)
     }
 }
 
 /// A file and all that it needs, each behind those that it needs itself. What no file fits is left out: the compiler
 /// then names what is missing, and tests/shaders.rs the line.
-pub fn files_of(path: &str, stand_in: Option<&str>) -> Vec<&'static ShaderFile> {
+pub fn files_of(path: &str, stand_ins: &[&str]) -> Vec<&'static ShaderFile> {
     let mut files = Vec::new();
-    add_files(path, stand_in, &mut files);
+    add_files(path, stand_ins, &mut files);
     files
 }
 
-fn add_files(path: &str, stand_in: Option<&str>, files: &mut Vec<&'static ShaderFile>) {
-    let ours = stand_in.filter(|ours| path.split('|').any(|path| path == *ours));
+fn add_files(path: &str, stand_ins: &[&str], files: &mut Vec<&'static ShaderFile>) {
+    let ours = path.split('|').find(|path| stand_ins.contains(path));
     let Some(file) = file(ours.unwrap_or(path)) else {
         return;
     };
     if !files.iter().any(|known| known.path == file.path) {
         for need in needs(file) {
-            add_files(need, stand_in, files);
+            add_files(need, stand_ins, files);
         }
         files.push(file);
     }
@@ -299,6 +321,8 @@ shader_files![
     "march/surface.wgsl",
     "march/surroundings.wgsl",
     "march/value.wgsl",
+    "subject/place.wgsl",
+    "subject/volume.wgsl",
     "pass/bake.wgsl",
     "pass/bodies.wgsl",
     "pass/distance.wgsl",
@@ -471,8 +495,8 @@ pub struct Assembled {
 
 impl Assembled {
     /// Puts a program's files together.
-    pub fn new(program: &Program) -> Self {
-        Self::of(&program.files())
+    pub fn new(program: &Program, subject: SubjectShader) -> Self {
+        Self::of(&program.files(subject))
     }
 
     /// Puts files together in the order given.
@@ -503,9 +527,17 @@ impl Assembled {
 /// Makes a program's module at once. What the compiler has to say arrives later in [`Gpu::take_errors`];
 /// tests/shaders.rs sees to it that it has nothing to say.
 pub fn module(gpu: &Gpu, id: ProgramId) -> wgpu::ShaderModule {
-    let program = id.program();
-    module_of(gpu, program, &Assembled::new(program))
+    module_for(gpu, id, ANY_SUBJECT)
 }
+
+/// As [`module`], of a program that asks a subject of this kind what it has at a place.
+pub fn module_for(gpu: &Gpu, id: ProgramId, subject: SubjectShader) -> wgpu::ShaderModule {
+    let program = id.program();
+    module_of(gpu, program, &Assembled::new(program, subject))
+}
+
+/// For programs that do not ask the subject what it has at a place.
+const ANY_SUBJECT: SubjectShader = SubjectShader::Volume;
 
 /// Compiles a program.
 ///
@@ -513,7 +545,7 @@ pub fn module(gpu: &Gpu, id: ProgramId) -> wgpu::ShaderModule {
 /// [`RenderError::Shader`] with `file.wgsl:line` for each message.
 pub async fn compile(gpu: &Gpu, id: ProgramId) -> Result<wgpu::ShaderModule, RenderError> {
     let program = id.program();
-    let assembled = Assembled::new(program);
+    let assembled = Assembled::new(program, ANY_SUBJECT);
     let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
     let module = module_of(gpu, program, &assembled);
     if let Some(error) = scope.pop().await {
@@ -551,8 +583,9 @@ fn module_of(gpu: &Gpu, program: &Program, assembled: &Assembled) -> wgpu::Shade
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 pub(crate) fn check_programs() -> Result<(), RenderError> {
     use wgpu::naga;
-    for program in PROGRAMS {
-        let text = Assembled::new(program);
+    let each = |program| SubjectShader::ALL.iter().map(move |kind| (program, *kind));
+    for (program, kind) in PROGRAMS.iter().flat_map(each) {
+        let text = Assembled::new(program, kind);
         let fault = |line: Option<usize>, message: String| {
             let place = line.map_or_else(String::new, |line| text.place(line));
             RenderError::Shader {
@@ -575,15 +608,16 @@ pub(crate) fn check_programs() -> Result<(), RenderError> {
 
 #[cfg(test)]
 mod tests {
-    use super::PROGRAMS;
+    use super::{PROGRAMS, Program, SubjectShader};
     use crate::render::device::bare::{length, strip};
 
     /// The program that visitors get is the one that is tested.
     #[test]
     fn every_program_validates_without_its_comments() {
-        for program in PROGRAMS {
+        let each = |program: &'static Program| SubjectShader::ALL.iter().map(|k| program.files(*k));
+        for files in PROGRAMS.iter().flat_map(each) {
             let mut text = String::new();
-            for file in program.files() {
+            for file in files {
                 let mut bare = vec![0; length(file.source)];
                 strip(file.source.as_bytes(), &mut bare);
                 assert_eq!(
@@ -594,9 +628,8 @@ mod tests {
                 );
                 text.push_str(std::str::from_utf8(&bare).expect("still text"));
             }
-            wgpu::naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| {
-                panic!("{}: {}", program.name, error.emit_to_string(&text))
-            });
+            wgpu::naga::front::wgsl::parse_str(&text)
+                .unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));
         }
     }
 }

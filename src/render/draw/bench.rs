@@ -1,6 +1,6 @@
 use super::clock::Clock;
 use super::studio::Studio;
-use crate::data::Volume;
+use crate::data::Subject;
 use crate::document::{Align, Illustration, PlacedTemplate, TemplateMode};
 use crate::document::{Document, SubjectRef, TemplateKind};
 use crate::math::Placement;
@@ -62,27 +62,27 @@ const CASES: [(&str, usize); 6] = [
     (BAKED, 8),
 ];
 
-/// Times frames (one sample per pixel at rest quality, read back) of a subject: undeformed, one peel, eight
-/// templates, a peel aligned to the surface and to segments, each with and without the grid. After a frame of each
-/// that warms up come `repeats` rounds of a frame of each; the median counts. What is made once per edit, before a
-/// frame, is timed apart.
+/// Times frames (one sample per pixel at rest quality, read back) of a subject, which documents name as `named`:
+/// undeformed, one peel, eight templates, a peel aligned to the surface and to segments, each with and without the
+/// grid. After a frame of each that warms up come `repeats` rounds of a frame of each; the median counts. What is made
+/// once per edit, before a frame, is timed apart.
 ///
 /// # Errors
 /// As [`Studio::render_image`].
 pub async fn bench(
     gpu: &Gpu,
-    volume: &Volume,
-    subject: &SubjectRef,
+    subject: &Subject,
+    named: &SubjectRef,
     size_px: [u32; 2],
     repeats: usize,
     clock: Clock,
 ) -> Result<Vec<BenchRow>, RenderError> {
-    let studio = Studio::new(gpu, volume, true)?;
+    let studio = Studio::new(gpu, subject, true)?;
     let mut cases = Vec::new();
     for has_grid in [true, false] {
         let studio = studio.with_grid(has_grid);
         for (name, template_count) in CASES {
-            let illustration = aligned_case(subject, name, template_count);
+            let illustration = aligned_case(named, name, template_count);
             // Compiles, and fills caches.
             if name == BAKED {
                 studio.render_baked(&illustration, size_px, 1, None).await?;

@@ -10,7 +10,7 @@ use crate::render::device::readback::Readback;
 use crate::render::pack::gpu_types::Lattice;
 use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::scene::Scene;
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 use glam::Vec3;
 
 /// Cells along the longest side of the lattice; with all three sides as long it is less than the 2^17 that the

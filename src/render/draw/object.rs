@@ -6,7 +6,7 @@ use crate::render::device::gpu::Gpu;
 use crate::render::device::programs::{ProgramId, compile};
 use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::scene::Scene;
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 use glam::Vec3;
 
 /// Points of one dispatch, as in the plain probe.

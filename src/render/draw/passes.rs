@@ -5,7 +5,7 @@ use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
 use crate::render::scene::Scene;
 use crate::render::stage::programs::StagePrograms;
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 
 /// Layouts and programs. Built once per device and shared by everything that draws on it.
 #[derive(Debug)]

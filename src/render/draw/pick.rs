@@ -11,7 +11,7 @@ use crate::render::pack::frame::frame_of;
 use crate::render::pack::gpu_types::Frame;
 use crate::render::pack::view::View;
 use crate::render::scene::Scene;
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 use glam::{Vec2, Vec3};
 
 /// The surface, the tissue and the segment under a pixel.

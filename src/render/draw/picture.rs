@@ -11,7 +11,7 @@ use crate::render::pack::frame::frame_of;
 use crate::render::pack::gpu_types::Resolve;
 use crate::render::pack::view::View;
 use crate::render::scene::Scene;
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 use std::sync::Arc;
 
 /// Pixels handed to the GPU before it is waited for: seconds at most on a software GPU.

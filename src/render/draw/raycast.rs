@@ -5,20 +5,16 @@ use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::{Layouts, pipeline_layout};
 use crate::render::device::pipelines::{PipelineParts, Pipelines, render_pass, render_pipeline};
-use crate::render::device::programs::{ProgramId, module};
+use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
 use crate::render::device::textures::{LINEAR_FORMAT, PICK_FORMAT};
 use crate::render::pack::gpu_types::Frame;
 use crate::render::pack::raycast_key::RaycastKey;
-use std::sync::OnceLock;
 
 /// The programs of the ray march. Built once per device.
 #[derive(Debug)]
 pub(crate) struct RaycastPasses {
-    plain: wgpu::ShaderModule,
-    /// For documents that keep tissue; compiled when the first such document is drawn.
-    aligned: OnceLock<wgpu::ShaderModule>,
-    /// For pictures by the baked map; compiled when the first such picture is drawn.
-    baked: OnceLock<wgpu::ShaderModule>,
+    /// The modules by program and kind of subject; each is compiled when it first draws a picture.
+    modules: Pipelines<(ProgramId, SubjectShader), wgpu::ShaderModule>,
     layout: wgpu::PipelineLayout,
     baked_layout: wgpu::PipelineLayout,
     pipelines: Pipelines<RaycastKey, wgpu::RenderPipeline>,
@@ -33,9 +29,7 @@ impl RaycastPasses {
             &layouts.baked,
         ];
         Self {
-            plain: module(gpu, ProgramId::Raycast),
-            aligned: OnceLock::new(),
-            baked: OnceLock::new(),
+            modules: Pipelines::default(),
             layout: pipeline_layout(gpu, "raycast", &groups[..3]),
             baked_layout: pipeline_layout(gpu, "raycast", &groups),
             pipelines: Pipelines::default(),
@@ -56,16 +50,16 @@ impl RaycastPasses {
             ("has_edges", number(key.has_edges)),
             ("has_bodies", number(key.has_bodies)),
         ];
-        let module = if key.is_baked {
-            self.baked
-                .get_or_init(|| module(gpu, ProgramId::RaycastBaked))
+        let program = if key.is_baked {
+            ProgramId::RaycastBaked
         } else if key.keeps_tissue() {
             constants.extend(key.align_constants());
-            self.aligned
-                .get_or_init(|| module(gpu, ProgramId::RaycastAligned))
+            ProgramId::RaycastAligned
         } else {
-            &self.plain
+            ProgramId::Raycast
         };
+        let make = || module_for(gpu, program, key.subject);
+        let module = self.modules.get((program, key.subject), make);
         let layout = if key.is_baked {
             &self.baked_layout
         } else {
@@ -80,7 +74,7 @@ impl RaycastPasses {
         let parts = PipelineParts {
             label: "raycast",
             layout,
-            module,
+            module: &module,
             entry,
             constants: &constants,
             format,

@@ -7,7 +7,7 @@ use super::pick::{PendingPick, encode_pick};
 use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
-use crate::data::{Segment, Segmentation, Volume};
+use crate::data::{Segment, Segmentation, Subject};
 use crate::document::{Camera, Illustration};
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
@@ -17,8 +17,7 @@ use crate::render::pack::frame::frame_of;
 use crate::render::pack::values::SubjectInfo;
 use crate::render::pack::view::View;
 use crate::render::scene::Scene;
-use crate::render::subject::reduce::reduced_to_fit;
-use crate::render::subject::upload::Upload;
+use crate::render::subject::upload::{Upload, fitting, with_segmentation};
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
 
@@ -48,7 +47,7 @@ pub struct DrawState {
     pub progress: f32,
     /// There is a picture in [`Renderer::output_view`].
     pub has_picture: bool,
-    /// A volume is on its way to the GPU: fraction done.
+    /// A subject is on its way to the GPU: fraction done.
     pub uploading: Option<f32>,
 }
 
@@ -62,12 +61,12 @@ pub struct Renderer {
     clock: Clock,
     passes: Option<Arc<Passes>>,
     studio: Option<Studio>,
-    volume: Option<Arc<Volume>>,
-    upload: Option<(Upload, Arc<Volume>)>,
-    /// Shown in place of the segments that the volume came with.
+    subject: Option<Subject>,
+    upload: Option<(Upload, Subject)>,
+    /// Shown in place of the segments that the subject came with.
     labels: Option<Option<Arc<Segmentation>>>,
     /// What the device has, made smaller where it was too large.
-    fitting: Option<Arc<Volume>>,
+    fitting: Option<Subject>,
     notices: Vec<String>,
     illustration: Option<Illustration>,
     scene: Option<Scene>,
@@ -118,7 +117,7 @@ impl Renderer {
             clock,
             passes: None,
             studio: None,
-            volume: None,
+            subject: None,
             upload: None,
             labels: None,
             fitting: None,
@@ -143,28 +142,23 @@ impl Renderer {
         &self.gpu
     }
 
-    /// Shows another volume as soon as it is on the GPU ([`Renderer::draw`] brings it there piece by piece); until then
-    /// the old one stays. The volume is kept, so that a lost device can be recovered from.
+    /// Shows another subject as soon as it is on the GPU ([`Renderer::draw`] brings it there piece by piece); until
+    /// then the old one stays. The subject is kept, so that a lost device can be recovered from.
     ///
     /// # Errors
-    /// [`RenderError::TooLarge`] if the volume is not whole.
-    pub fn set_subject(&mut self, volume: Arc<Volume>) -> Result<(), RenderError> {
+    /// [`RenderError::TooLarge`] if the subject is not whole.
+    pub fn set_subject(&mut self, subject: Subject) -> Result<(), RenderError> {
         self.gpu.check()?;
-        let fitting = match reduced_to_fit(&self.gpu, &volume)? {
-            Some((small, notice)) => {
-                self.notices.push(notice);
-                Arc::new(small)
-            }
-            None => Arc::clone(&volume),
-        };
+        let (fitting, notice) = fitting(&self.gpu, &subject)?;
+        self.notices.extend(notice);
         self.upload = Some((Upload::new(&self.gpu, &fitting)?, fitting));
-        self.volume = Some(volume);
+        self.subject = Some(subject);
         self.labels = None;
         Ok(())
     }
 
-    /// Shows the volume with other segments than it came with, from when it is on the GPU on; for
-    /// [`Renderer::set_subject`]'s last volume.
+    /// Shows the subject with other segments than it came with, from when it is on the GPU on; for
+    /// [`Renderer::set_subject`]'s last subject.
     ///
     /// # Errors
     /// [`RenderError::TooLarge`] if the device does not take them.
@@ -181,13 +175,12 @@ impl Renderer {
 
     fn take_segmentations(&mut self) -> Result<(), RenderError> {
         let passes = self.passes();
-        if let (Some(labels), Some(studio), Some(volume)) =
+        if let (Some(labels), Some(studio), Some(fitting)) =
             (&self.labels, &mut self.studio, &self.fitting)
         {
             let labels = labels.as_deref();
-            let subject = studio
-                .subject
-                .with_labels(&self.gpu, &passes.layouts, volume, labels)?;
+            let (gpu, layouts) = (&self.gpu, &passes.layouts);
+            let subject = with_segmentation(&studio.subject, gpu, layouts, fitting, labels)?;
             studio.subject = Arc::new(subject);
             self.scene = None;
             self.slices.forget();
@@ -196,7 +189,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Shows the subject that another renderer on the same device shows; the volume is on the device once.
+    /// Shows the subject that another renderer on the same device shows; the subject is on the device once.
     pub fn share_subject(&mut self, other: &Self) {
         let is_same = match (&self.studio, &other.studio) {
             (Some(mine), Some(theirs)) => Arc::ptr_eq(&mine.subject, &theirs.subject),
@@ -346,7 +339,7 @@ impl Renderer {
         self.studio.as_ref().map_or(&[], |s| s.segments())
     }
 
-    /// Notices since the last call (a volume was made coarser, …).
+    /// Notices since the last call (a subject was made coarser, …).
     pub fn take_notices(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notices)
     }
@@ -478,13 +471,13 @@ impl Renderer {
         }
     }
 
-    /// Goes on with another device after the old one was lost: the kept volume is uploaded again, and the same picture
+    /// Goes on with another device after the old one was lost: the kept subject is uploaded again, and the same picture
     /// comes back.
     ///
     /// # Errors
     /// [`RenderError::TooLarge`] if the new device takes less.
     pub fn recover(&mut self, gpu: Gpu) -> Result<(), RenderError> {
-        let volume = self.volume.take();
+        let subject = self.subject.take();
         let labels = self.labels.take();
         let illustration = self.illustration.take();
         let generation = self.generation;
@@ -493,9 +486,9 @@ impl Renderer {
             illustration,
             ..Self::new(gpu, self.clock)
         };
-        match volume {
-            Some(volume) => {
-                self.set_subject(volume)?;
+        match subject {
+            Some(subject) => {
+                self.set_subject(subject)?;
                 self.labels = labels;
                 Ok(())
             }
@@ -503,23 +496,23 @@ impl Renderer {
         }
     }
 
-    /// Brings the next slabs to the GPU.
+    /// Brings the next pieces of a subject to the GPU.
     fn advance_upload(&mut self, budget: f64) -> Result<(), RenderError> {
-        let Some((mut upload, volume)) = self.upload.take() else {
+        let Some((mut upload, fitting)) = self.upload.take() else {
             return Ok(());
         };
         let start = (self.clock)();
         loop {
-            if upload.advance(&self.gpu, &volume) {
+            if upload.advance(&self.gpu) {
                 let passes = self.passes();
-                let subject = upload.finish(&self.gpu, &passes.layouts, &volume);
+                let subject = upload.finish(&self.gpu, &passes.layouts);
                 self.studio = Some(Studio {
                     gpu: self.gpu.clone(),
                     passes,
                     subject: Arc::new(subject),
                     wants_grid: true,
                 });
-                self.fitting = Some(volume);
+                self.fitting = Some(fitting);
                 self.scene = None;
                 self.slices.forget();
                 self.touch();
@@ -528,7 +521,7 @@ impl Renderer {
             if (self.clock)() - start > budget {
                 // Hands over what has piled up.
                 self.gpu.queue.submit([]);
-                self.upload = Some((upload, volume));
+                self.upload = Some((upload, fitting));
                 return Ok(());
             }
         }

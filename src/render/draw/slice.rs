@@ -7,16 +7,15 @@ use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::{Layouts, pipeline_layout};
 use crate::render::device::pipelines::{PipelineParts, Pipelines, render_pass, render_pipeline};
-use crate::render::device::programs::{ProgramId, module};
+use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
 use crate::render::device::readback::Readback;
 use crate::render::device::textures::{OUTPUT_FORMAT, PICK_FORMAT, Target, read_texture};
 use crate::render::pack::gpu_types::{Affine, SLICE_COLORS, SLICE_GREY, Slice};
 use crate::render::pack::look::linear_color;
 use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::scene::Scene;
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 use glam::{Vec2, Vec3};
-use std::sync::OnceLock;
 
 /// Where a slice lies: subject space from pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,9 +144,8 @@ struct SliceKey {
 pub(crate) struct SlicePasses {
     layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
-    plain: wgpu::ShaderModule,
-    /// For documents that keep tissue; made for the first of them.
-    aligned: OnceLock<wgpu::ShaderModule>,
+    /// Each is compiled when the first slice comes that is drawn by it.
+    modules: Pipelines<(ProgramId, SubjectShader), wgpu::ShaderModule>,
     pipelines: Pipelines<SliceKey, wgpu::RenderPipeline>,
 }
 
@@ -160,8 +158,7 @@ impl SlicePasses {
             &layouts.slice,
         ];
         Self {
-            plain: module(gpu, ProgramId::Slice),
-            aligned: OnceLock::new(),
+            modules: Pipelines::default(),
             layout: layouts.slice.clone(),
             pipeline_layout: pipeline_layout(gpu, "slice", &groups),
             pipelines: Pipelines::default(),
@@ -174,13 +171,14 @@ impl SlicePasses {
 
     fn make(&self, gpu: &Gpu, key: SliceKey) -> wgpu::RenderPipeline {
         let mut constants = vec![("drawn_kinds", f64::from(key.drawn.drawn_kinds))];
-        let mut program = &self.plain;
+        let mut program = ProgramId::Slice;
         if key.drawn.keeps_tissue() {
             constants.extend(key.drawn.align_constants());
-            program = self
-                .aligned
-                .get_or_init(|| module(gpu, ProgramId::SliceAligned));
+            program = ProgramId::SliceAligned;
         }
+        let subject = key.drawn.subject;
+        let make = || module_for(gpu, program, subject);
+        let module = self.modules.get((program, subject), make);
         let (entry, format) = if key.is_read {
             ("read", PICK_FORMAT)
         } else {
@@ -189,7 +187,7 @@ impl SlicePasses {
         let parts = PipelineParts {
             label: "slice",
             layout: &self.pipeline_layout,
-            module: program,
+            module: &module,
             entry,
             constants: &constants,
             format,

@@ -8,7 +8,7 @@ use super::pick::{PendingPick, Pick, encode_pick};
 use super::picture::PictureJob;
 use super::probe::Sample;
 use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
-use crate::data::{Segment, Volume};
+use crate::data::{Segment, Subject};
 use crate::document::Illustration;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -17,13 +17,12 @@ use crate::render::pack::view::View;
 use crate::render::scene::Scene;
 use crate::render::stage::baked::BakedMap;
 use crate::render::stage::skip_grid::GridCells;
-use crate::render::subject::reduce::reduced_to_fit;
-use crate::render::subject::upload::Upload;
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
+use crate::render::subject::upload::{Upload, fitting};
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
 
-/// Draws one picture without a window: uploads the volume, draws every sample, reads back. Deterministic on one
+/// Draws one picture without a window: uploads the subject, draws every sample, reads back. Deterministic on one
 /// adapter.
 ///
 /// # Errors
@@ -31,15 +30,15 @@ use std::sync::Arc;
 pub async fn render_image(
     gpu: &Gpu,
     illustration: &Illustration,
-    volume: &Volume,
+    subject: &Subject,
     size_px: [u32; 2],
     samples: u32,
 ) -> Result<Image, RenderError> {
-    let studio = Studio::new(gpu, volume, true)?;
+    let studio = Studio::new(gpu, subject, true)?;
     studio.render_image(illustration, size_px, samples).await
 }
 
-/// A device with a volume on it, ready for pictures. What [`render_image`] makes each time, kept for several.
+/// A device with a subject on it, ready for pictures. What [`render_image`] makes each time, kept for several.
 #[derive(Clone, Debug)]
 pub struct Studio {
     pub(crate) gpu: Gpu,
@@ -49,20 +48,19 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Uploads the volume. `wants_grid` false draws without the skip grid, to measure its gain.
+    /// Uploads the subject. `wants_grid` false draws without the skip grid, to measure its gain.
     ///
     /// # Errors
     /// [`RenderError::TooLarge`].
-    pub fn new(gpu: &Gpu, volume: &Volume, wants_grid: bool) -> Result<Self, RenderError> {
+    pub fn new(gpu: &Gpu, subject: &Subject, wants_grid: bool) -> Result<Self, RenderError> {
         let passes = Passes::new(gpu);
-        let smaller = reduced_to_fit(gpu, volume)?;
-        let volume = smaller.as_ref().map_or(volume, |(small, _)| small);
-        let mut upload = Upload::new(gpu, volume)?;
-        while !upload.advance(gpu, volume) {
-            // Hands the slabs over now and then, so that they do not pile up.
+        let (fitting, _) = fitting(gpu, subject)?;
+        let mut upload = Upload::new(gpu, &fitting)?;
+        while !upload.advance(gpu) {
+            // Hands the pieces over now and then, so that they do not pile up.
             gpu.queue.submit([]);
         }
-        let subject = upload.finish(gpu, &passes.layouts, volume);
+        let subject = upload.finish(gpu, &passes.layouts);
         Ok(Self {
             gpu: gpu.clone(),
             passes: Arc::new(passes),
@@ -97,7 +95,7 @@ impl Studio {
         })
     }
 
-    /// What the volume is.
+    /// What the subject is.
     pub fn info(&self) -> SubjectInfo {
         self.subject.info
     }

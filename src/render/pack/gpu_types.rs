@@ -336,7 +336,7 @@ pub struct Frame {
     pub padding: u32,
 }
 
-/// The uploaded volume and its segmentation: where they lie and how their texels are read.
+/// The uploaded subject: where its values and segments lie and how their texels are read.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Subject {
@@ -354,7 +354,7 @@ pub struct Subject {
     pub value_low: f32,
     /// Values from texel 0 to texel 1.
     pub value_range: f32,
-    /// Smallest voxel spacing, subject units.
+    /// Length of the finest detail, subject units; of a volume its smallest voxel spacing.
     pub detail: f32,
     /// 1 if there is a segmentation.
     pub has_labels: u32,

@@ -1,7 +1,11 @@
+use crate::render::device::programs::SubjectShader;
+
 /// What a ray march pipeline is made for. Few of them per document: software GPUs run every branch, so what a document
 /// does not use is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct RaycastKey {
+    /// What says what the subject has at a place.
+    pub subject: SubjectShader,
     /// Bit k: templates of kind k occur.
     pub drawn_kinds: u32,
     /// The subject has labels and the look tints by them.

@@ -8,7 +8,7 @@ use crate::render::device::programs::{ProgramId, module};
 use crate::render::device::textures::volume_texture;
 use crate::render::pack::gpu_types::Bodies;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 use glam::UVec3;
 use std::sync::OnceLock;
 

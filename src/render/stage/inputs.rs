@@ -9,7 +9,7 @@ use crate::render::pack::gpu_types::{Bodies, Templates};
 use crate::render::pack::kept::{KeptTissue, kept_notice};
 use crate::render::pack::look::{TransferTable, background_uniform};
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 
 /// What of an illustration and its subject the stages are made from, each with a stamp.
 #[derive(Debug)]

@@ -4,16 +4,16 @@ use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
-use crate::render::device::pipelines::compute_pipeline;
-use crate::render::device::programs::{ProgramId, module};
+use crate::render::device::pipelines::{Pipelines, compute_pipeline};
+use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
 use crate::render::device::readback::Readback;
 use crate::render::device::textures::volume_texture;
 use crate::render::pack::gpu_types::{DistanceJob, Kept};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
-use crate::render::subject::volume::{SubjectTextures, VoxelFrame};
+use crate::render::subject::textures::{SubjectTextures, VoxelFrame};
 use glam::{DAffine3, UVec3, Vec3};
-use std::sync::OnceLock;
+use std::sync::Arc;
 
 /// Voxels of the distances at most: 128³, 16 MiB of texture. Distances are measured to the fine voxels, so
 /// that surfaces stay exact; only the points at which they are stored are coarser, with interpolation in between.
@@ -37,7 +37,7 @@ const DARK_PART: f32 = 0.12;
 
 /// The compute programs that make distances; compiled when the first document keeps something.
 #[derive(Debug, Default)]
-pub(crate) struct DistancePrograms(OnceLock<DistancePipelines>);
+pub(crate) struct DistancePrograms(Pipelines<SubjectShader, Arc<DistancePipelines>>);
 
 #[derive(Debug)]
 struct DistancePipelines {
@@ -49,17 +49,17 @@ struct DistancePipelines {
 }
 
 impl DistancePrograms {
-    fn get(&self, gpu: &Gpu) -> &DistancePipelines {
-        self.0.get_or_init(|| {
-            let module = module(gpu, ProgramId::Distance);
+    fn get(&self, gpu: &Gpu, subject: SubjectShader) -> Arc<DistancePipelines> {
+        self.0.get(subject, || {
+            let module = module_for(gpu, ProgramId::Distance, subject);
             let pipeline = |entry: &str| compute_pipeline(gpu, &module, entry, &[]);
-            DistancePipelines {
+            Arc::new(DistancePipelines {
                 open_blocks: pipeline("open_blocks"),
                 sweep: pipeline("sweep"),
                 along: ["along_x", "along_y", "along_z"].map(pipeline),
                 smooth: ["smooth_out", "smooth_back"].map(pipeline),
                 write: pipeline("write_texture"),
-            }
+            })
         })
     }
 }
@@ -160,7 +160,7 @@ impl KeptTextures {
                 kept.constraints != 0,
             );
             if self.made_for != Some(made_for) {
-                self.make(gpu, programs.get(gpu), subject, kept);
+                self.make(gpu, &programs.get(gpu, subject.shader), subject, kept);
                 self.made_for = Some(made_for);
             }
         }

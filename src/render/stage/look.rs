@@ -6,7 +6,7 @@ use crate::render::device::gpu::Gpu;
 use crate::render::pack::gpu_types::{Look, TABLE_FORMAT};
 use crate::render::pack::look::{TABLE_SIZE, TransferTable};
 use crate::render::pack::stamps::{MadeFrom, Stamped};
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 
 /// Uniform and table of the transfer function.
 #[derive(Debug)]

@@ -10,7 +10,7 @@ use crate::render::device::programs::{ProgramId, module};
 use crate::render::pack::gpu_types::{Kept, MAX_TEMPLATES};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::stamps::MadeFrom;
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 use std::mem::offset_of;
 use std::sync::OnceLock;
 

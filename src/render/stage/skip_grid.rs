@@ -23,7 +23,7 @@ use crate::render::pack::look::TransferTable;
 use crate::render::pack::stamps::MadeFrom;
 use crate::render::pack::values::SubjectInfo;
 use crate::render::subject::bricks::{BRICK, LabelSet};
-use crate::render::subject::volume::SubjectTextures;
+use crate::render::subject::textures::SubjectTextures;
 use glam::{UVec3, Vec3};
 use wgpu::util::DeviceExt as _;
 

@@ -1,6 +1,8 @@
 //! The subject on the GPU: one file for each kind of subject.
 
 pub(crate) mod bricks;
-pub(crate) mod reduce;
+mod reduce;
+pub(crate) mod textures;
 pub(crate) mod upload;
-pub(crate) mod volume;
+mod volume;
+mod volume_upload;

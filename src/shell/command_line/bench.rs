@@ -19,16 +19,16 @@ const BENCH_REPEATS: usize = 7;
 pub(super) fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
     let gpu = open_gpu(common)?;
     let illustration = Document::new().illustration().clone();
-    let volume = subject_of(&illustration, common, Path::new("."), gpu.volume_limits())?;
+    let subject = subject_of(&illustration, common, Path::new("."), gpu.volume_limits())?;
     let rows = pollster::block_on(crate::render::bench(
         &gpu,
-        &volume,
+        &subject,
         &illustration.subject,
         BENCH_SIZE,
         BENCH_REPEATS,
         crate::render::system_clock,
     ))?;
-    let dims = volume.grid.dims.to_array();
+    let dims = subject.values().map_or([0; 3], |v| v.grid.dims.to_array());
     if as_json {
         let rows: Vec<Value> = rows
             .iter()

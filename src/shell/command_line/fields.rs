@@ -113,5 +113,11 @@ pub(super) fn subject_grid(
         max_dim: u32::MAX,
         max_voxels: u64::MAX,
     };
-    Ok(subject_of(illustration, common, folder, limits)?.grid)
+    let subject = subject_of(illustration, common, folder, limits)?;
+    let volume = subject.values();
+    volume.map(|volume| volume.grid).ok_or_else(|| {
+        CliError::Field(
+            "the subject has no voxels that a displacement field could lie over".to_owned(),
+        )
+    })
 }

@@ -3,7 +3,7 @@
 use std::io::{self, BufRead, Read as _, Write as _};
 use std::path::Path;
 
-use glam::{DVec3, UVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 use super::args::{Common, Moment};
 use super::device::open_gpu;
@@ -11,7 +11,7 @@ use super::error::CliError;
 use super::opening::Opened;
 use super::output::shortened;
 use super::subject::{say_kept, subject_of};
-use crate::data::{Volume, VolumeLimits};
+use crate::data::{Subject, VolumeLimits};
 use crate::render::{Probe, Sample, Studio};
 
 /// Prints the source of each point, and with `with_object` value and segment there.
@@ -35,7 +35,7 @@ pub(super) fn probe(
         None => read_points(io::stdin().lock(), "standard input")?,
     };
     let gpu = open_gpu(common)?;
-    let volume = if with_object {
+    let subject = if with_object {
         let limits = VolumeLimits {
             max_dim: u32::MAX,
             max_voxels: u64::MAX,
@@ -48,10 +48,10 @@ pub(super) fn probe(
         .iter()
         .map(|p| DVec3::from_array(*p).as_vec3())
         .collect();
-    let samples = match &volume {
-        Some(volume) => {
-            say_kept(&illustration, volume);
-            let studio = Studio::new(&gpu, volume, false)?;
+    let samples = match &subject {
+        Some(subject) => {
+            say_kept(&illustration, subject);
+            let studio = Studio::new(&gpu, subject, false)?;
             pollster::block_on(studio.probe_object(&illustration, &positions))?
         }
         None => pollster::block_on(async {
@@ -70,8 +70,8 @@ pub(super) fn probe(
         },
     ) in points.iter().zip(&samples)
     {
-        let end = match &volume {
-            Some(volume) => format!(",{}", object_at(volume, *s, *continuity)),
+        let end = match &subject {
+            Some(subject) => format!(",{}", object_at(subject, *s, *continuity)),
             None => String::new(),
         };
         writeln!(out, "{x},{y},{z},{},{},{},{continuity}{end}", s.x, s.y, s.z)
@@ -122,65 +122,17 @@ fn parse_point(text: &str) -> Option<[f64; 3]> {
     numbers.next().is_none().then_some(point)
 }
 
-/// Value and segment of the material that came from a place; nothing where a gap is or the scan ends.
-fn object_at(volume: &Volume, pos_in_rest: Vec3, continuity: f32) -> String {
-    let pos = volume
-        .grid
-        .subject_from_voxel()
-        .inverse()
-        .transform_point3(pos_in_rest.as_dvec3());
-    let dims = volume.grid.dims.as_dvec3();
-    let is_inside = pos.cmpge(DVec3::splat(-0.5)).all() && pos.cmple(dims - 0.5).all();
-    if continuity < 0.0 || !is_inside {
+/// Value and segment of the material that came from a place, the segment quoted where a comma would break the line;
+/// nothing where a gap is or the subject ends.
+fn object_at(subject: &Subject, pos_in_rest: Vec3, continuity: f32) -> String {
+    let material = subject.material_at(pos_in_rest);
+    let Some(material) = material.filter(|_| continuity >= 0.0) else {
         return ",".to_owned();
-    }
-    // Linear between the eight voxels around, the outermost continued to the edge, as the picture has it.
-    let pos = pos.clamp(DVec3::ZERO, dims - 1.0);
-    let low = pos.floor();
-    let part = pos - low;
-    let low = low.as_uvec3();
-    let mut value = 0.0_f64;
-    for corner in 0..8_u32 {
-        let step = UVec3::new(corner & 1, corner >> 1 & 1, corner >> 2);
-        let weight =
-            DVec3::select(step.cmpeq(UVec3::ONE), part, DVec3::ONE - part).element_product();
-        let voxel = (low + step).min(volume.grid.dims - 1);
-        value += weight * f64::from(volume.value_at(voxel).unwrap_or(0.0));
-    }
-    format!("{},{}", value as f32, segment_at(volume, pos_in_rest))
-}
-
-/// Name of the segment at a place (its number if it has no name), quoted where a comma would break the line.
-fn segment_at(volume: &Volume, pos_in_rest: Vec3) -> String {
-    let Some(labels) = &volume.segmentation else {
-        return String::new();
     };
-    // Labels may lie on their own grid; both lie in the scanner's space.
-    let world = (volume.grid.world_from_voxel * volume.grid.subject_from_voxel().inverse())
-        .transform_point3(pos_in_rest.as_dvec3());
-    let voxel = labels
-        .grid
-        .world_from_voxel
-        .inverse()
-        .transform_point3(world)
-        .round();
-    if voxel.cmplt(DVec3::ZERO).any() || voxel.cmpge(labels.grid.dims.as_dvec3()).any() {
-        return String::new();
+    let value = material.value.map(|value| value.to_string());
+    let mut segment = material.segment.unwrap_or_default();
+    if segment.contains([',', '"', '\n']) {
+        segment = format!("\"{}\"", segment.replace('"', "\"\"").replace('\n', " "));
     }
-    let (v, dims) = (voxel.as_u64vec3(), labels.grid.dims.as_u64vec3());
-    let index = v.x + dims.x * (v.y + dims.y * v.z);
-    let label = labels.labels.get(index as usize).copied().unwrap_or(0);
-    if label == 0 {
-        return String::new();
-    }
-    match labels.segments.iter().find(|s| s.label == u16::from(label)) {
-        Some(segment) if segment.name.contains([',', '"', '\n']) => {
-            format!(
-                "\"{}\"",
-                segment.name.replace('"', "\"\"").replace('\n', " ")
-            )
-        }
-        Some(segment) => segment.name.clone(),
-        None => label.to_string(),
-    }
+    format!("{},{segment}", value.unwrap_or_default())
 }

@@ -44,9 +44,9 @@ pub(super) fn render(
         });
     }
     let gpu = open_gpu(common)?;
-    let volume = subject_of(&illustration, common, &opened.folder, gpu.volume_limits())?;
-    say_kept(&illustration, &volume);
-    let studio = Studio::new(&gpu, &volume, true)?;
+    let subject = subject_of(&illustration, common, &opened.folder, gpu.volume_limits())?;
+    say_kept(&illustration, &subject);
+    let studio = Studio::new(&gpu, &subject, true)?;
     let drawing = studio.render_image(&illustration, paper.size, paper.samples);
     let mut image = pollster::block_on(drawing)?;
     if paper.lettering {

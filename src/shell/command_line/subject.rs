@@ -10,7 +10,8 @@ use super::output::notice;
 use super::reading::hint;
 use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
 use crate::data::{
-    Reducer, Turns, Volume, VolumeBuilder, VolumeLimits, VolumeSink, Voxels, segment,
+    BuildError, Reducer, Subject, SubjectBuilder, Turns, VolumeBuilder, VolumeLimits, VolumeSink,
+    Voxels, segment,
 };
 use crate::document::{Illustration, Reading};
 use crate::load::{LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
@@ -30,7 +31,7 @@ pub(super) fn subject_of(
     common: &Common,
     folder: &Path,
     limits: VolumeLimits,
-) -> Result<Volume, CliError> {
+) -> Result<Subject, CliError> {
     let mut assets = Assets::default();
     let mut given = Vec::new();
     for path in &common.segments {
@@ -53,25 +54,24 @@ pub(super) fn subject_of(
     drop(assets);
     notices.iter().for_each(notice);
     // A document has a subject, and it was brought.
-    let Some(volume) = resources.volume else {
+    let Some(subject) = resources.subject else {
         return Err(CliError::from(MissingSubject::Wanted {
             name: "without a name".to_owned(),
             sha256: String::new(),
         }));
     };
-    if resources.segmentations.is_empty() && illustration.recipes.is_empty() {
-        return Ok(Arc::unwrap_or_clone(volume));
-    }
+    let has_more = !resources.segmentations.is_empty() || !illustration.recipes.is_empty();
+    let Some(volume) = subject.values().filter(|_| has_more) else {
+        return Ok(subject);
+    };
     let made = pollster::block_on(segment(
-        Arc::clone(&volume),
+        Arc::clone(volume),
         resources.segmentations,
         illustration.recipes.clone(),
         Turns::endless(),
     ));
     made.notices.iter().for_each(notice);
-    let mut volume = Arc::unwrap_or_clone(volume);
-    volume.segmentation = made.segmentation.map(Arc::unwrap_or_clone);
-    Ok(volume)
+    Ok(subject.with_segmentation(made.segmentation.map(Arc::unwrap_or_clone)))
 }
 
 /// Brings the subject. The file of `--subject` takes the place of the document's, and only a notice says that it is
@@ -101,7 +101,7 @@ fn take_subject(
                 ));
             }
             assets.give(Data::Subject {
-                volume: Arc::new(generate(name)?),
+                subject: generate(name)?,
                 sha256: None,
             });
             Ok(())
@@ -165,7 +165,7 @@ fn read_segments(path: &Path) -> Result<LabelFile, MissingSubject> {
 ///
 /// # Errors
 /// [`SubjectError::UnknownName`].
-pub(super) fn generate(name: &str) -> Result<Volume, MissingSubject> {
+fn generate(name: &str) -> Result<Subject, MissingSubject> {
     let generator = Generator::new(name, FINE_RESOLUTION)?;
     let mut builder = VolumeBuilder::new();
     builder
@@ -200,15 +200,16 @@ pub(super) fn generate(name: &str) -> Result<Volume, MissingSubject> {
             }
         }
     });
-    builder.finish().map_err(|source| MissingSubject::Build {
+    let volume = builder.finish().map_err(|source| MissingSubject::Build {
         path: name.to_owned(),
         source,
-    })
+    });
+    Ok(Subject::from(volume?))
 }
 
-/// Reads a scan, reduced to these limits.
+/// Reads a subject from a file, reduced to these limits.
 fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, MissingSubject> {
-    let mut builder = VolumeBuilder::new();
+    let mut builder = SubjectBuilder::default();
     let mut reducer = Reducer::new(&mut builder, limits);
     let mut report = LoadReport::default();
     let shown = path.display().to_string();
@@ -228,11 +229,12 @@ fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, Mi
         path: shown.clone(),
         source,
     };
+    let finish = |builder: SubjectBuilder| builder.finish().unwrap_or(Err(BuildError::Nothing));
     match result {
         Ok(()) => {}
         // The builder stopped it and knows why.
         Err(LoadError::Cancelled) => {
-            let why = builder.finish().err();
+            let why = finish(builder).err();
             return Err(why.map_or_else(|| failed(LoadError::Cancelled), build));
         }
         Err(source) => {
@@ -242,19 +244,16 @@ fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, Mi
             return Err(failed(source));
         }
     }
+    let (subject, _) = finish(builder).map_err(build)?;
     Ok(Data::Subject {
-        volume: Arc::new(builder.finish().map_err(build)?),
+        subject,
         sha256: report.sha256_hex(),
     })
 }
 
 /// Names what `keep` asks for and the subject has not.
-pub(super) fn say_kept(illustration: &Illustration, volume: &Volume) {
-    let segments = volume
-        .segmentation
-        .as_ref()
-        .map_or(&[][..], |l| &l.segments);
-    let bounds = volume.grid.subject_bounds();
+pub(super) fn say_kept(illustration: &Illustration, subject: &Subject) {
+    let (segments, bounds) = (subject.segments(), subject.frame().bounds);
     for line in KeptTissue::of(&illustration.templates, segments, bounds).notices() {
         notice(line);
     }

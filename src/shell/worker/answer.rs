@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::*;
 use super::header::{field_of, json_of, json_of_field, json_of_labels, labels_of, volume_of};
 use super::task::{reading_of, text_of_reading};
 use crate::assets::{LoadEvent, RawQuestion};
-use crate::data::Voxels;
+use crate::data::{SubjectPart, Voxels};
 use crate::document::Reading;
 use crate::load::{FieldFile, LabelFile};
 
@@ -118,11 +118,11 @@ pub mod post {
         };
         let mut moved: Option<js_sys::ArrayBuffer> = None;
         match event {
-            LoadEvent::Begin(header) => {
+            LoadEvent::Part(SubjectPart::Volume(header)) => {
                 push(&"begin".into());
                 push(&json_of(&header).to_string().into());
             }
-            LoadEvent::Scalars(voxels) => {
+            LoadEvent::Part(SubjectPart::Scalars(voxels)) => {
                 push(&"scalars".into());
                 let array: JsValue = match &voxels {
                     Voxels::U8(v) => Uint8Array::from(v.as_slice()).into(),
@@ -133,7 +133,7 @@ pub mod post {
                 moved = Some(Reflect::get(&array, &"buffer".into())?.unchecked_into());
                 push(&array);
             }
-            LoadEvent::SegmentLabels(labels) => {
+            LoadEvent::Part(SubjectPart::Labels(labels)) => {
                 push(&"labels".into());
                 let array = Uint8Array::from(labels.as_slice());
                 moved = Some(array.buffer());
@@ -201,7 +201,7 @@ fn event_of(message: &Array) -> Option<LoadEvent> {
             .as_ref()
             .and_then(volume_of)
         {
-            Some(header) => LoadEvent::Begin(Box::new(header)),
+            Some(header) => LoadEvent::Part(SubjectPart::Volume(Box::new(header))),
             None => LoadEvent::Failed {
                 message: "The background thread sent a message that the page does not understand"
                     .to_owned(),
@@ -210,8 +210,11 @@ fn event_of(message: &Array) -> Option<LoadEvent> {
                         .to_owned(),
             },
         },
-        "scalars" => LoadEvent::Scalars(voxels_of(&message.get(1))?),
-        "labels" => LoadEvent::SegmentLabels(message.get(1).dyn_ref::<Uint8Array>()?.to_vec()),
+        "scalars" => LoadEvent::Part(SubjectPart::Scalars(voxels_of(&message.get(1))?)),
+        "labels" => {
+            let labels = message.get(1).dyn_ref::<Uint8Array>()?.to_vec();
+            LoadEvent::Part(SubjectPart::Labels(labels))
+        }
         "label-file" => {
             let header: Value = serde_json::from_str(&text(2)).ok()?;
             let mut segmentation = labels_of(&header)?;

@@ -12,7 +12,7 @@ use web_sys::{MessageEvent, Worker, WorkerOptions, WorkerType};
 use super::answer::Answer;
 use super::task::{Part, ScanTask, Task};
 use crate::assets::LoadEvent;
-use crate::data::{Volume, VolumeBuilder, VolumeLimits, VolumeSink as _};
+use crate::data::{BuildError, Subject, SubjectBuilder, VolumeLimits};
 use crate::load::FieldFile;
 
 thread_local! {
@@ -165,24 +165,30 @@ pub async fn read_field(
 ///
 /// # Errors
 /// In words: why there is none.
-pub async fn make_volume(address: &str, name: &str, resolution: u32) -> Result<Volume, String> {
-    let made = Rc::new(RefCell::new((VolumeBuilder::new(), None::<String>)));
+pub async fn make_subject(address: &str, name: &str, resolution: u32) -> Result<Subject, String> {
+    let made = Rc::new(RefCell::new((SubjectBuilder::default(), None::<String>)));
     let for_answer = Rc::clone(&made);
     let task = Task::Subject(name.to_owned(), Some(resolution));
     let run = to_end(address, &task, UNLIMITED, move |answer| {
         let (builder, fault) = &mut *for_answer.borrow_mut();
         match answer {
-            Answer::Event(LoadEvent::Begin(header)) => *fault = builder.begin(&header).err(),
-            Answer::Event(LoadEvent::Scalars(voxels)) => builder.scalars(voxels),
-            Answer::Event(LoadEvent::SegmentLabels(labels)) => builder.labels(labels),
+            Answer::Event(LoadEvent::Part(part)) => {
+                if let Err(why) = builder.take(part) {
+                    *fault = Some(why);
+                }
+            }
             Answer::Event(LoadEvent::Failed { message, .. }) => *fault = Some(message),
             _ => {}
         }
     });
     run.await.map_err(|error| super::fault::text_of(&error))?;
-    let (builder, fault) = made.replace((VolumeBuilder::new(), None));
-    match fault {
-        Some(fault) => Err(fault),
-        None => builder.finish().map_err(|error| error.to_string()),
+    let (builder, fault) = made.replace((SubjectBuilder::default(), None));
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
+    match builder.finish() {
+        Some(Ok((subject, _))) => Ok(subject),
+        Some(Err(error)) => Err(error.to_string()),
+        None => Err(BuildError::Nothing.to_string()),
     }
 }
