@@ -5,10 +5,10 @@ use super::volume::{Segment, Segmentation, Volume};
 
 /// What is illustrated. Cheap to clone.
 ///
-/// Whoever draws, measures or lists asks the methods here and not for the kind: a subject without values or without
-/// segments answers that it has none. Only what makes a subject and what brings one to the GPU matches on the kind.
-/// There is one kind today. It is an enum all the same, since flat figures will be the other: what must tell the two
-/// apart is a pattern that stops compiling on the day the second kind comes, and nothing else is.
+/// Code that draws, measures or lists a subject asks the methods here and never for the kind: a subject without values
+/// or without segments answers that it has none. Only code that makes a subject or brings one to the GPU matches on the
+/// kind. This is an enum although it has one variant: flat figures will be the second, and the compiler then lists the
+/// matches that need another line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Subject {
     /// Lies in space.

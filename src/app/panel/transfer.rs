@@ -1,4 +1,4 @@
-//! The transfer function over the volume's histogram: points are dragged, added, removed and coloured where they act,
+//! The transfer function over the subject's histogram: points are dragged, added, removed and coloured where they act,
 //! and the window has its handles on the same axis.
 //!
 //! ```text

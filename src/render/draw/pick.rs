@@ -23,7 +23,7 @@ pub struct Pick {
     pub normal: Vec3,
     /// Where it was before any template acted.
     pub pos_in_rest: Vec3,
-    /// Value of the volume there.
+    /// Value of the subject there.
     pub value: f32,
     /// Label of the segment there, if the subject has segments and it belongs to one.
     pub segment: Option<u16>,

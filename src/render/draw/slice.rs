@@ -65,13 +65,13 @@ pub struct SliceView {
 /// What the object has at one pixel of a slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliceTexel {
-    /// Value of the volume, interpolated.
+    /// Value of the subject, interpolated.
     pub value: f32,
     /// Label of the nearest voxel of the segments; `None` for none.
     pub segment: Option<u16>,
     /// The composed continuity; below 0 there is a gap.
     pub continuity: f32,
-    /// False in a gap and outside the volume: then value and segment mean nothing.
+    /// False in a gap and outside the subject: then value and segment mean nothing.
     pub is_there: bool,
     /// Where it was before any template acted.
     pub pos_in_rest: Vec3,
