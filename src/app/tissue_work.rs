@@ -45,7 +45,7 @@ impl Wanted {
 
 struct Job {
     wanted: Wanted,
-    /// Of the author's names.
+    /// Notices about the author's names for labels.
     notices: Vec<String>,
     until: Rc<Cell<f64>>,
     turns: Turns,

@@ -20,7 +20,7 @@ pub(crate) const SLAB_BYTES: usize = 2 << 20;
 /// A volume on the GPU. Built once per subject.
 #[derive(Debug)]
 pub(crate) struct SubjectTextures {
-    /// Of this subject alone, above 0; later ones have larger stamps.
+    /// Stamp of this subject alone, above 0; later subjects have larger stamps.
     pub stamp: Stamp,
     /// Bind group 1: volume, labels and their uniform.
     pub bind_group: wgpu::BindGroup,
