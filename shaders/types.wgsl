@@ -100,8 +100,8 @@ struct Look {
 
 /// Segments drawn as bodies of their own.
 struct Bodies {
-    /// Of each label: linear RGB, and in alpha the opacity (see BODY_LAYER). Alpha below 0: the label is no body, its
-    /// values say how it looks.
+    /// For each label: linear RGB, and in alpha the opacity (see BODY_LAYER). Alpha below 0: the label is no body and
+    /// is drawn by its values.
     items: array<vec4f, 256>,
 }
 

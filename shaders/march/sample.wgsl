@@ -8,7 +8,7 @@ struct Sample {
     pos: vec3f,
     /// Normalised value, 0 to 1.
     texel: f32,
-    /// Of 0.01 units; 0 in a gap and outside the volume.
+    /// Opacity of 0.01 subject units, 0 to 1; 0 in a gap and outside the volume.
     opacity: f32,
     /// Continuity of the composed map; below 0 in a gap.
     continuity: f32,

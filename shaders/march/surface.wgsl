@@ -28,10 +28,10 @@ struct Surface {
     surfaceness: f32,
     /// Gradient of the normalised value at rest, per voxel; of the shares where a body is.
     gradient: vec3f,
-    /// Its length, of the whole transfer table, at rest and in subject space.
+    /// Length of the gradient as a part of the whole transfer table: at rest, and in subject space.
     steepness: f32,
     steepness_seen: f32,
-    /// How much of the point is a body's, 0 to 1.
+    /// Part of the tissue at the point that belongs to bodies, 0 to 1.
     body_share: f32,
     /// How much of the point is a cut face that is seen, 0 to 1.
     cut_weight: f32,

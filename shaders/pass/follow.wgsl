@@ -17,11 +17,11 @@ const PARTS: f32 = 256.0;
 /// Cells that a start may be away at rest, in sides: of a thin layer not every cell has a part.
 const FARTHEST: f32 = 8.0;
 
-/// Where is looked, and how many points are followed.
+/// The lattice that is searched, and the number of points that are followed.
 @group(3) @binding(0) var<uniform> lattice: Lattice;
 /// xyz: the points of tissue that are followed, rest space.
 @group(3) @binding(1) var<storage, read> followed: array<vec4f>;
-/// Of each point in each block: distance at rest and cell, packed; all ones where the block has nothing.
+/// For each point and block: the distance at rest and the cell, packed; all ones where the block has no material.
 @group(3) @binding(2) var<storage, read_write> nearest: array<atomic<u32>>;
 /// xyz: subject space; w: how far from the point the material there lay at rest.
 @group(3) @binding(3) var<storage, read_write> places: array<vec4f>;

@@ -51,7 +51,7 @@ fn has_values(assets: &Assets) -> bool {
 
 struct Job {
     wanted: Wanted,
-    /// Of the author's names.
+    /// Notices about the author's names for labels.
     notices: Vec<String>,
     until: Rc<Cell<f64>>,
     turns: Turns,

@@ -40,7 +40,7 @@ pub enum LoadEvent {
     AskRaw(RawQuestion),
     /// The subject is whole.
     Done {
-        /// Of the file's bytes, lower-case hex; `None` for a built-in subject.
+        /// SHA-256 of the file's bytes, lower-case hex; `None` for a built-in subject.
         sha256: Option<String>,
     },
     /// Something was not as expected but the subject is usable.
@@ -59,7 +59,7 @@ pub enum LoadEvent {
 /// A file that may hold bare voxels, as far as its name and length tell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawQuestion {
-    /// Its length in bytes, if that is known.
+    /// Length of the file, bytes; `None` if it is not known.
     pub byte_len: Option<u64>,
     /// The file is packed by gzip, so that its length does not tell the number of voxels.
     pub is_packed: bool,

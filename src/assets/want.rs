@@ -96,7 +96,7 @@ impl Want {
         })
     }
 
-    /// Its address, as written in the document.
+    /// Address of the file, as written in the document; `None` without one.
     pub fn src(&self) -> Option<&str> {
         match &self.source {
             Source::Builtin(_) => None,

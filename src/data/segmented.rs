@@ -221,7 +221,7 @@ struct Join {
     /// own label first.
     stands_for: Vec<Vec<Segment>>,
     is_taken: [bool; 256],
-    /// Of labels that came with the first files.
+    /// Highest label of the first files.
     highest: usize,
 }
 

@@ -43,7 +43,7 @@ pub struct Arc {
     pub start: f32,
     /// Length along the middle plane, subject units.
     pub length: f32,
-    /// Its turn, radians, above 0.
+    /// Angle of the arc, radians, above 0.
     pub turn: f32,
     /// 1: towards -z, -1: towards +z.
     pub side: f32,
@@ -147,7 +147,7 @@ pub struct Facts {
     pub icon: Icon,
     /// How its mirror image is made.
     pub mirror: Mirror,
-    /// Its group in the catalogue and its place in the group, from 0; nothing if it is not offered there.
+    /// Group in the catalogue and place in the group, from 0; `None` for a kind that the catalogue does not offer.
     pub catalogue: Option<(Group, u32)>,
     /// Proportions of a new one.
     pub shape: Shape,

@@ -75,11 +75,11 @@ pub enum ParamKind {
 /// The value of a parameter, inside the range that its [`ParamKind`] gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ParamValue {
-    /// Of [`ParamKind::Number`] and [`ParamKind::Count`].
+    /// Value of a [`ParamKind::Number`] or [`ParamKind::Count`].
     Number(f32),
     /// Value of a [`ParamKind::Flag`].
     Flag(bool),
-    /// Of [`ParamKind::Choice`]: the index.
+    /// Value of a [`ParamKind::Choice`]: the index of the name.
     Choice(u32),
     /// Value of a [`ParamKind::Vector`].
     Vector(Vec3),

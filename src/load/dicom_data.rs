@@ -137,9 +137,9 @@ fn wanted(tag: u32) -> Option<Kind> {
 /// What stops a data set from being read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Fault {
-    /// It goes on beyond the bytes that there are.
+    /// The data set goes on beyond the bytes read so far.
     Short,
-    /// It is no data set, from this byte on.
+    /// The bytes from `offset` on are no data set.
     Wrong { offset: usize, what: &'static str },
 }
 

@@ -35,7 +35,7 @@ pub enum LoadError {
     UnknownFormat {
         /// Name of the file, as given.
         name: String,
-        /// Its first bytes, as hexadecimal.
+        /// The first bytes of the file, as hexadecimal.
         begins: String,
     },
     /// A format, or a part of one, that is known and not read.

@@ -168,7 +168,7 @@ pub(crate) struct Stream<'a> {
     byte_len: Option<u64>,
     /// Unpacked bytes taken so far.
     position: u64,
-    /// Of those, the ones before the packed part.
+    /// Bytes before the packed part, which `position` counts too.
     position_at_unpack: u64,
 }
 

@@ -45,7 +45,7 @@ pub enum ElementType {
 }
 
 impl ElementType {
-    /// Its usual name, as in int16.
+    /// The usual name of the type, such as `int16`.
     pub fn name(self) -> &'static str {
         match self {
             Self::U8 => "uint8",

@@ -47,7 +47,7 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
     (template, camera)
 }
 
-/// Of an rbf: the top drawn up to one side and down on the other.
+/// Control points for the icon of an rbf: the top is drawn up on one side and down on the other.
 fn icon_data(kind: TemplateKind) -> TemplateData {
     if kind != TemplateKind::Rbf {
         return TemplateData::None;

@@ -17,7 +17,7 @@ const MAX_DEPTH: u32 = 5;
 #[derive(Clone, Debug)]
 pub struct Folder {
     path: PathBuf,
-    /// It was opened itself, so that the files in its folders belong to it.
+    /// The folder was opened itself, so that the files in its subfolders belong to it.
     is_whole: bool,
 }
 

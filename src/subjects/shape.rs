@@ -466,7 +466,7 @@ pub(super) fn curve(knots: &[Knot]) -> Vec<Shape> {
         .collect()
 }
 
-/// The same on both sides of x = 0.
+/// Every shape on both sides of x = 0.
 pub(super) fn both(shapes: Vec<Shape>) -> Vec<Shape> {
     shapes.into_iter().map(Shape::both).collect()
 }
@@ -517,7 +517,7 @@ impl Field {
         self.push((Op::Raise(mm), vec![shape]));
     }
 
-    /// The same within several shapes, nowhere twice.
+    /// As [`Field::raise`] within several shapes; where they overlap the surface is raised once.
     pub(super) fn raise_all(&mut self, mm: f32, shapes: Vec<Shape>) {
         self.push((Op::Raise(mm), shapes));
     }
@@ -559,7 +559,7 @@ impl Field {
         }
     }
 
-    /// The same for a field that works on a distance from elsewhere ([`Near::onto`]): its dents count alone.
+    /// As [`Field::near`], for a field that changes a distance from elsewhere ([`Near::onto`]), even if it only dents.
     pub(super) fn near_onto<'a>(&'a self, block: &Block, band: f32) -> Near<'a> {
         let mut near = Near::default();
         self.gather(block, band, &mut near);

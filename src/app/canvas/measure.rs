@@ -22,7 +22,7 @@ pub(crate) struct Distances<'a> {
 }
 
 impl<'a> Distances<'a> {
-    /// Those of a session.
+    /// The distances of a session, and its tool.
     pub(crate) fn of(session: &'a Session) -> Self {
         Self {
             lines: session.view.measures.lines(),
@@ -135,7 +135,7 @@ fn dot(painter: &Painter, at: Pos2, near: f32) {
     painter.circle_filled(at, 3.0, ink::HOT.gamma_multiply(near));
 }
 
-/// Of two points in subject space.
+/// The distance of two points in subject space, in millimetres, as text.
 fn millimetres(a: Vec3, b: Vec3, mm_per_unit: f32) -> String {
     let mm = f64::from(a.distance(b) * mm_per_unit);
     fill(w().mm, &[&widget::plain(mm, 1)])

@@ -16,7 +16,7 @@ pub(crate) fn pan(camera: &mut Camera, view: &Projection, delta: Vec2) {
 /// How subject space lands in a rectangle of the window.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Projection {
-    /// Of the picture, points.
+    /// Rectangle of the picture in the window, points.
     pub rect: Rect,
     /// The eye, subject space.
     pub eye: Vec3,
@@ -31,7 +31,7 @@ pub(crate) struct Projection {
 }
 
 impl Projection {
-    /// Of a camera in a rectangle, points.
+    /// The projection of a camera into a rectangle, points.
     pub(crate) fn new(camera: &Camera, rect: Rect) -> Self {
         let [right, up, back] = axes(camera.rotate);
         let half_fov = 0.5 * camera.fov_deg.to_radians();

@@ -434,7 +434,8 @@ impl Editor {
         }
     }
 
-    /// It gets the keyboard too, once every point has been shown: a click beside where it was would take it away again.
+    /// Selects a point. The point gets the keyboard too, once all points have been shown: before that a click beside
+    /// its old place would take the keyboard away again.
     fn select(&mut self, point: Option<usize>) {
         self.selected = point;
         self.wants_focus = point;

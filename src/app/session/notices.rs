@@ -43,7 +43,7 @@ pub struct Notice {
     pub until: Option<f64>,
     /// Still shown over the picture.
     pub is_shown: bool,
-    /// Its details are unfolded.
+    /// The details are unfolded.
     pub is_unfolded: bool,
 }
 

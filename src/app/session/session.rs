@@ -181,7 +181,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// Of a document that was just opened.
+    /// The session of a document that was just opened.
     pub fn new(document: Document) -> Self {
         let camera = document.illustration().camera;
         let payload = payload_of(&document, &camera);

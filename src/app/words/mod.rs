@@ -73,11 +73,11 @@ impl Lang {
     /// Columns of the tables.
     pub(crate) const COUNT: usize = 4;
 
-    /// Those that are offered.
+    /// The languages that the user can choose.
     pub(crate) const OFFERED: [Self; Self::COUNT] =
         [Self::English, Self::German, Self::Spanish, Self::Chinese];
 
-    /// What its speakers call it.
+    /// Name of the language in that language.
     pub(crate) fn own_name(self) -> &'static str {
         match self {
             Self::English => "English",
@@ -88,7 +88,7 @@ impl Lang {
         }
     }
 
-    /// Its name in letters that every font of the program has.
+    /// Name of the language in letters that every font of the program has.
     pub(crate) fn plain_name(self) -> &'static str {
         match self {
             Self::Chinese => "Chinese",

@@ -36,7 +36,7 @@ pub(crate) struct Import {
 pub(crate) struct Foreign {
     /// The file, below `src`.
     pub(crate) from: String,
-    /// Its line, from 1.
+    /// Line of the path in the file, from 1.
     pub(crate) line: usize,
     /// The whole path, aliases replaced.
     pub(crate) path: String,

@@ -23,7 +23,7 @@ pub struct Look {
 /// How one segment is drawn: as a body of its own, whatever its values are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SegmentLook {
-    /// Its name, or its label number written as text.
+    /// Name of the segment, or its label written as text.
     pub name: String,
     /// 1 is solid, 0 is hidden; between them the opacity of a layer of [`SegmentLook::LAYER`].
     pub opacity: f32,

@@ -32,7 +32,7 @@ pub enum Edit {
     },
     /// Places a new template before the one of that index (or last).
     AddTemplate {
-        /// Its index afterwards; larger than the number of templates means last.
+        /// Index of the new template after the edit; larger than the number of templates means last.
         index: usize,
         /// Kind of the new template, with the defaults of its parameters.
         kind: TemplateKind,
@@ -62,7 +62,7 @@ pub enum Edit {
         template: usize,
         /// Name of the parameter.
         param: &'static str,
-        /// Its value, of the type that the catalogue says.
+        /// The new value, of the type that the catalogue gives.
         value: ParamValue,
     },
     /// Sets the control points and the cut of an `rbf`.
@@ -192,7 +192,7 @@ pub enum Edit {
     },
     /// Adds a step before the one of that index, counted from 0 for the first after step 0.
     AddStep {
-        /// Its index afterwards; larger than the number of steps means last.
+        /// Index of the new step after the edit; larger than the number of steps means last.
         index: usize,
         /// The step as JSON: `title`, `caption`, `set`, `seconds`.
         step: Value,

@@ -16,7 +16,7 @@ pub struct ShaderFile {
     pub path: &'static str,
     /// The file's text, as embedded in the program.
     pub source: &'static str,
-    /// Its `needs:` lines: the files that it takes names from.
+    /// The `needs:` lines: paths of the files that this file takes names from.
     pub needs: &'static str,
 }
 
@@ -65,7 +65,7 @@ pub enum ProgramId {
 }
 
 impl ProgramId {
-    /// Its entry in the table.
+    /// The entry of the program in the table.
     pub fn program(self) -> &'static Program {
         &PROGRAMS[self as usize]
     }
@@ -135,7 +135,7 @@ impl SubjectShader {
 pub struct Program {
     /// Tells the program from the others.
     pub id: ProgramId,
-    /// Its name in messages and tests.
+    /// Name in messages and tests.
     pub name: &'static str,
     /// Path of the file that has the entry points.
     pub pass: &'static str,

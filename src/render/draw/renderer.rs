@@ -38,12 +38,12 @@ const FIRST_COST_HARDWARE: f64 = 3.0e-8;
 /// A pixel of the baked map is taken to cost so much of one of the formulas until it was measured.
 const BAKED_HOPE: f64 = 0.5;
 
-/// What [`Renderer::draw`] left behind.
+/// State of the picture after [`Renderer::draw`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawState {
     /// Nothing is left to do: no repaint is needed until something changes.
     pub is_done: bool,
-    /// Of refinement, 0 to 1.
+    /// Part of the refinement that is done, 0 to 1.
     pub progress: f32,
     /// There is a picture in [`Renderer::output_view`].
     pub has_picture: bool,

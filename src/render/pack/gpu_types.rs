@@ -174,7 +174,7 @@ fn field_place(field: &FieldRef, slice: &mut u32) -> Vec<[f32; 4]> {
 }
 
 impl Template {
-    /// Of one that acts ([`PlacedTemplate::acting`]).
+    /// Packs a template that acts ([`PlacedTemplate::acting`]).
     fn pack(placed: &PlacedTemplate, group: u32) -> Self {
         let p = &placed.placement;
         let rotate = Mat3A::from_quat(p.rotate);
@@ -382,7 +382,7 @@ pub struct Look {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Bodies {
-    /// Of each label: linear RGB and opacity; w below 0: no body.
+    /// For each label: linear RGB and opacity; w below 0: no body.
     pub items: [[f32; 4]; 256],
 }
 

@@ -65,7 +65,7 @@ pub fn absolute_points(preset: &Preset, [low, high]: [f32; 2]) -> Vec<TransferPo
 }
 
 impl TransferTable {
-    /// Of a look on a subject. An unknown preset (kept in the document, named in a notice) counts as "auto".
+    /// The table for a look on a subject. An unknown preset (kept in the document, named in a notice) counts as "auto".
     pub fn new(look: &Look, subject: &SubjectRef, info: &SubjectInfo) -> Self {
         let auto = || preset(auto_preset(subject, info));
         let named = match &look.transfer {
@@ -90,7 +90,8 @@ impl TransferTable {
         }
     }
 
-    /// Of points sorted by value; before the first and after the last the ends go on. No points: nothing is seen.
+    /// The table for points sorted by value; the first and the last point hold for values beyond them. Without points
+    /// nothing is seen.
     pub fn from_points(points: &[TransferPoint], tint: f32, specular: f32) -> Self {
         let low = points.first().map_or(0.0, |p| p.value);
         let high = points.last().map_or(1.0, |p| p.value);

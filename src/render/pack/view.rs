@@ -16,7 +16,7 @@ pub struct View {
 const LEAST_DISTANCE: f32 = 1e-3;
 
 impl View {
-    /// Of a camera and a picture size (each side at least 1 pixel). The field of view spans the shorter side.
+    /// The view of a camera for a picture size (each side at least 1 pixel). The field of view spans the shorter side.
     pub fn new(camera: &Camera, size_px: [u32; 2]) -> Self {
         let size = Vec2::new(size_px[0].max(1) as f32, size_px[1].max(1) as f32);
         let half = (camera.fov_deg.clamp(1.0, 150.0).to_radians() * 0.5).tan();

@@ -42,7 +42,7 @@ impl FieldTexture {
         }
     }
 
-    /// Of these fields, for what asks once.
+    /// The texture of these fields, for a single use.
     pub(crate) fn of(gpu: &Gpu, samples: &[FieldSamples]) -> Self {
         Self {
             view: texture_of(gpu, samples),

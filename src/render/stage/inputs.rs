@@ -37,7 +37,7 @@ pub(crate) struct Inputs {
 }
 
 impl Inputs {
-    /// Of no template and no look, before the first [`Inputs::update`].
+    /// The inputs before the first [`Inputs::update`]: no template and no look.
     pub(crate) fn new() -> Self {
         Self {
             subject: 0,

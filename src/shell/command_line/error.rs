@@ -109,7 +109,7 @@ pub(super) enum MissingSubject {
 }
 
 impl MissingSubject {
-    /// Of an address on the network.
+    /// The error for an address on the network.
     pub(super) fn remote(want: &Want) -> Self {
         let src = want.src().unwrap_or_default().chars().take(200).collect();
         match want.role {
@@ -118,7 +118,7 @@ impl MissingSubject {
         }
     }
 
-    /// Of a file that is not the one that the document means.
+    /// The error for a file with another hash than the one in the document.
     pub(super) fn other(path: &Path, other: OtherFile) -> Self {
         Self::OtherFile {
             path: path.display().to_string(),
