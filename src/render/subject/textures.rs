@@ -17,7 +17,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// A subject on the GPU, as every pass takes it. Built once per subject.
 #[derive(Debug)]
 pub(crate) struct SubjectTextures {
-    /// Of this subject alone, above 0; later ones have larger stamps.
+    /// Stamp of this subject alone, above 0; later subjects have larger stamps.
     pub stamp: Stamp,
     /// The shader file that answers for this kind of subject what lies at a place.
     pub shader: SubjectShader,
