@@ -1,40 +1,48 @@
-//! Displacement fields that a document names: asked for, and laid over the subject that is shown.
+//! Displacement fields that a document names, and what has come of all its files.
 
 use serde_json::json;
 
 use crate::app::session::Gravity;
 use crate::app::window::App;
 use crate::app::words::{fill, messages};
-use crate::assets::{Data, FieldNews, Role, Want};
+use crate::assets::{Data, ResourceNews, Role, Want};
 use crate::document::{Edit, TemplateData};
 use crate::load::{FieldFile, FieldUse};
 
 impl App {
-    /// Asks for what the document shows and is not there, and lays what came over the subject.
-    pub(crate) fn follow_fields(&mut self) {
+    /// Asks for the fields that the document shows and that are not there, and takes over what has come of its files.
+    pub(crate) fn follow_resources(&mut self) {
         for want in self.assets.missing(self.session.shown()) {
             if want.role == Role::Field && !self.fields_asked.contains(&want) {
                 self.services.load_field(&want);
                 self.fields_asked.push(want);
             }
         }
-        let (resources, news) = self.assets.field_resources(self.session.shown());
+        let (resources, news) = self.assets.resources(self.session.shown());
         for news in news {
             match news {
-                FieldNews::Notice(_, line) => self.session.notify(Gravity::Warning, line, ""),
-                FieldNews::Refused(_, why) => {
+                ResourceNews::NoSegment { .. } => {
+                    self.session.notify(Gravity::Warning, news.to_string(), "");
+                }
+                ResourceNews::FieldNotice { line, .. } => {
+                    self.session.notify(Gravity::Warning, line, "");
+                }
+                ResourceNews::FieldRefused { why, .. } => {
                     let text = messages::w().field_refused;
                     self.session.notify(Gravity::Error, text, why);
                 }
             }
         }
-        if resources != self.resources {
-            self.session.revision += 1;
-            if let Some(picture) = &mut self.picture {
-                picture.set_resources(resources.clone());
-            }
-            self.resources = resources;
+        if resources == self.resources {
+            return;
         }
+        if resources.fields != self.resources.fields {
+            self.session.revision += 1;
+        }
+        if let Some(picture) = &mut self.picture {
+            picture.set_resources(resources.clone());
+        }
+        self.resources = resources;
     }
 
     /// A field has come: one that was wanted, or one that the reader opened.

@@ -82,7 +82,7 @@ pub struct App {
     pub(crate) opened: u64,
     /// Fields that the shell was asked for.
     pub(crate) fields_asked: Vec<Want>,
-    /// Fields as they are laid over the subject that is shown.
+    /// What of them the document that is shown names, as it is drawn.
     pub(crate) resources: Resources,
     /// Its values, counted as they arrive.
     pub(crate) statistics: Statistics,
@@ -320,7 +320,7 @@ impl App {
     fn frame(&mut self, ui: &mut Ui) {
         let now = ui.input(|i| i.time);
         self.take_messages();
-        self.follow_fields();
+        self.follow_resources();
         self.advance_tissue(ui);
         if self.session.advance(now) {
             ui.ctx().request_repaint();

@@ -6,6 +6,7 @@
 //! the segments of label volumes.
 
 mod builder;
+mod field;
 mod frame;
 mod mask;
 mod reduce;
@@ -15,6 +16,7 @@ mod statistics;
 mod volume;
 
 pub use builder::{BuildError, VolumeBuilder};
+pub use field::{FieldSamples, SampledField};
 pub use frame::SubjectFrame;
 pub use mask::{Mask, Turns};
 pub use reduce::{Reducer, Reduction, VolumeLimits, dims_that_fit, resized};

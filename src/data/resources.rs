@@ -1,20 +1,22 @@
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::{Segmentation, Volume};
-use crate::document::{
-    FieldSamples, Illustration, ParamValue, PlacedTemplate, SampledField, TemplateData,
-};
+use super::{FieldSamples, Segment, Segmentation, Volume};
+use crate::document::{ParamValue, PlacedTemplate, TemplateData};
 
-/// What has come of the files that a document names. It stands beside the [`Illustration`], which only names them:
-/// whoever draws or measures takes both. Cheap to clone.
+/// What has come of the files that a document names. It stands beside the
+/// [`Illustration`](crate::document::Illustration), which only names them: whoever draws or measures takes both. Cheap
+/// to clone.
 #[derive(Clone, Debug, Default)]
 pub struct Resources {
-    /// The subject, with the segments of its own file under the author's names.
+    /// The subject, as its file has it.
     pub volume: Option<Arc<Volume>>,
+    /// Segments of the subject's own file under the author's names, where the author names any.
+    pub own_segments: Option<Arc<Vec<Segment>>>,
     /// Label volumes beside the subject, in the order of the document, under the author's names.
     pub segmentations: Vec<Arc<Segmentation>>,
     /// Samples of displacement fields, by file and reading.
-    pub fields: Vec<(FieldKey, Arc<SampledField>)>,
+    pub fields: Vec<(FieldKey, FieldSamples)>,
 }
 
 /// What tells the samples of one `field` from those of another: the file, and how the template reads its vectors.
@@ -48,7 +50,7 @@ impl FieldKey {
 
 impl Resources {
     /// The samples of a `field`, if they are there.
-    pub fn field(&self, template: &PlacedTemplate) -> Option<&Arc<SampledField>> {
+    pub fn field(&self, template: &PlacedTemplate) -> Option<&FieldSamples> {
         if self.fields.is_empty() {
             return None;
         }
@@ -58,42 +60,51 @@ impl Resources {
     }
 
     /// Adds the samples of a field.
-    pub fn add_field(&mut self, key: FieldKey, samples: Arc<SampledField>) {
+    pub fn add_field(&mut self, key: FieldKey, samples: FieldSamples) {
         self.fields.retain(|(known, _)| *known != key);
         self.fields.push((key, samples));
     }
 
-    /// Gives each `field` its samples, and puts it where its file says that it lies if the document gives it no place.
-    pub fn attach_fields(&self, illustration: &mut Illustration) {
-        for template in &mut illustration.templates {
-            let Some(samples) = self.field(template).cloned() else {
-                continue;
-            };
-            if let TemplateData::Field(field) = &mut template.data {
-                if !field.is_placed {
-                    template.placement = samples.placement;
-                }
-                field.samples = Some(FieldSamples(samples));
-            }
+    /// The template as it acts ([`PlacedTemplate::acting`]). A `field` that the document gives no place lies where its
+    /// file says.
+    pub fn acting(&self, template: &PlacedTemplate) -> PlacedTemplate {
+        let mut acting = template.acting();
+        if let TemplateData::Field(field) = &template.data
+            && !field.is_placed
+            && let Some(FieldSamples(samples)) = self.field(template)
+        {
+            acting.placement = samples.placement;
         }
+        acting
+    }
+
+    /// The label volume of the subject's own file, under the author's names.
+    pub fn own_segmentation(&self) -> Option<Cow<'_, Segmentation>> {
+        let own = self.volume.as_ref()?.segmentation.as_ref()?;
+        Some(match &self.own_segments {
+            Some(segments) => Cow::Owned(Segmentation {
+                segments: segments.to_vec(),
+                ..own.clone()
+            }),
+            None => Cow::Borrowed(own),
+        })
     }
 }
 
 /// The same things, not things that are alike: what is shared is never compared voxel by voxel.
 impl PartialEq for Resources {
     fn eq(&self, other: &Self) -> bool {
-        let is_same_volume = match (&self.volume, &other.volume) {
-            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
-            (a, b) => a.is_none() && b.is_none(),
-        };
+        fn is_same<T>(a: &Option<Arc<T>>, b: &Option<Arc<T>>) -> bool {
+            match (a, b) {
+                (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+                (a, b) => a.is_none() && b.is_none(),
+            }
+        }
         let segmentations = self.segmentations.iter().zip(&other.segmentations);
-        let fields = self.fields.iter().zip(&other.fields);
-        is_same_volume
+        is_same(&self.volume, &other.volume)
+            && is_same(&self.own_segments, &other.own_segments)
             && self.segmentations.len() == other.segmentations.len()
-            && self.fields.len() == other.fields.len()
             && segmentations.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))
-            && fields
-                .into_iter()
-                .all(|((k, a), (l, b))| k == l && Arc::ptr_eq(a, b))
+            && self.fields == other.fields
     }
 }

@@ -1,5 +1,6 @@
 //! Everything that is ready to be drawn: an illustration on a subject, on the GPU.
 
+use crate::data::Resources;
 use crate::document::Illustration;
 use crate::math::Aabb;
 use crate::render::device::bindings::entry;
@@ -105,9 +106,9 @@ impl Scene {
         layouts: &Layouts,
         programs: &StagePrograms,
         subject: &SubjectTextures,
-        illustration: &Illustration,
+        (illustration, resources): (&Illustration, &Resources),
     ) -> bool {
-        self.inputs.update(illustration, subject);
+        self.inputs.update(illustration, resources, subject);
         self.has_segments = subject.info.has_segments;
         let inputs = &self.inputs;
         self.templates.update(gpu, &inputs.templates);
@@ -125,6 +126,7 @@ impl Scene {
             let input = GridInput {
                 inputs,
                 placed: &illustration.templates,
+                resources,
                 templates,
                 kept_textures: &self.kept_textures,
                 fields: &self.fields.view,

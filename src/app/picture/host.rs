@@ -29,7 +29,6 @@ pub(crate) struct Picture {
     clock: Clock,
     questions: Vec<(Question, PendingPick)>,
     file: Option<Pending<Result<Image, RenderError>>>,
-    resources: Resources,
     /// As of the last frame.
     pub(crate) state: DrawState,
 }
@@ -51,7 +50,6 @@ impl Picture {
             generation: 0,
             slices: Vec::new(),
             ghost: None,
-            resources: Resources::default(),
             ghost_texture: None,
             clock,
             questions: Vec::new(),
@@ -106,16 +104,15 @@ impl Picture {
         self.renderer.segments()
     }
 
-    /// Takes the displacement fields that documents may show.
+    /// Takes what has come of the files that documents name.
     pub(crate) fn set_resources(&mut self, resources: Resources) {
-        self.resources = resources;
+        self.renderer.set_resources(resources);
     }
 
     /// Takes another illustration or camera to be drawn.
     pub(crate) fn set(&mut self, illustration: &Illustration, camera: &Camera) {
         let mut seen = illustration.clone();
         seen.camera = *camera;
-        self.resources.attach_fields(&mut seen);
         self.renderer.set_illustration(&seen);
     }
 
@@ -263,9 +260,9 @@ impl Picture {
 
     /// Starts drawing the picture once more for a file.
     pub(crate) fn start_file(&mut self, illustration: &Illustration, size_px: [u32; 2]) {
-        let mut seen = illustration.clone();
-        self.resources.attach_fields(&mut seen);
-        let future = self.renderer.render_image(&seen, size_px, FILE_SAMPLES);
+        let future = self
+            .renderer
+            .render_image(illustration, size_px, FILE_SAMPLES);
         self.file = Some(Box::pin(future));
     }
 

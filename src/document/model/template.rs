@@ -4,7 +4,6 @@ use super::curve::Curve;
 use crate::displace::{ControlPoints, ParamValue, TemplateKind};
 use crate::math::{Bent, Placement};
 use glam::{Quat, Vec2, Vec3};
-use std::sync::Arc;
 
 /// A template of the document with its place and parameters, ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -222,38 +221,12 @@ pub struct FieldRef {
     pub name: String,
     /// True: the document says where the box lies. False: the file does.
     pub is_placed: bool,
-    /// The samples of the file. A document never has them: whoever draws puts them in.
-    pub samples: Option<FieldSamples>,
 }
 
 impl FieldRef {
     /// The key that tells this file from other files: its hash, else its address.
     pub fn key(&self) -> Option<&str> {
         self.sha256.as_deref().or(self.src.as_deref())
-    }
-}
-
-/// A displacement field on a grid that fills the box of its template, from outer edge to outer edge. Shared and
-/// immutable.
-#[derive(Clone, Debug)]
-pub struct FieldSamples(pub Arc<SampledField>);
-
-/// The content of [`FieldSamples`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct SampledField {
-    /// Samples along each axis, x fastest.
-    pub dims: [u32; 3],
-    /// Displacement (template space) and continuity as 16-bit floats, four per sample.
-    pub texels: Vec<u16>,
-    /// Least and greatest displacement along each axis, template space.
-    pub shift: [Vec3; 2],
-    /// Where the file says that the box lies, subject space.
-    pub placement: Placement,
-}
-
-impl PartialEq for FieldSamples {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
     }
 }
 

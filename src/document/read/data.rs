@@ -22,7 +22,6 @@ impl Reader {
                 is_placed: ["at", "rotate", "size"]
                     .iter()
                     .any(|key| template.map.contains_key(*key)),
-                samples: None,
             }),
             _ => TemplateData::None,
         })

@@ -7,7 +7,7 @@ use super::pick::{PendingPick, encode_pick};
 use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
-use crate::data::{Segment, Segmentation, Volume};
+use crate::data::{Resources, Segment, Segmentation, Volume};
 use crate::document::{Camera, Illustration};
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
@@ -70,6 +70,7 @@ pub struct Renderer {
     fitting: Option<Arc<Volume>>,
     notices: Vec<String>,
     illustration: Option<Illustration>,
+    resources: Resources,
     scene: Option<Scene>,
     targets: Option<Targets>,
     stage: Stage,
@@ -124,6 +125,7 @@ impl Renderer {
             fitting: None,
             notices: Vec::new(),
             illustration: None,
+            resources: Resources::default(),
             scene: None,
             targets: None,
             stage: Stage::Stale,
@@ -224,6 +226,15 @@ impl Renderer {
         }
         self.illustration = Some(illustration.clone());
         self.touch();
+    }
+
+    /// Draws illustrations with what has come of the files that they name, from the next [`Renderer::draw`] on: the
+    /// samples of their fields.
+    pub fn set_resources(&mut self, resources: Resources) {
+        if resources.fields != self.resources.fields {
+            self.touch();
+        }
+        self.resources = resources;
     }
 
     /// Looks from elsewhere than the illustration says, until that is set again.
@@ -469,6 +480,7 @@ impl Renderer {
         let started = self
             .studio
             .as_ref()
+            .map(|studio| studio.clone().with_resources(self.resources.clone()))
             .map(|studio| studio.render_image(illustration, size_px, samples));
         async move {
             match started {
@@ -487,10 +499,12 @@ impl Renderer {
         let volume = self.volume.take();
         let labels = self.labels.take();
         let illustration = self.illustration.take();
+        let resources = std::mem::take(&mut self.resources);
         let generation = self.generation;
         *self = Self {
             generation,
             illustration,
+            resources,
             ..Self::new(gpu, self.clock)
         };
         match volume {
@@ -518,6 +532,7 @@ impl Renderer {
                     passes,
                     subject: Arc::new(subject),
                     wants_grid: true,
+                    resources: Resources::default(),
                 });
                 self.fitting = Some(volume);
                 self.scene = None;
@@ -604,7 +619,8 @@ impl Renderer {
             Scene::new(&self.gpu, &studio.passes.layouts, studio.wants_grid)
         });
         let passes = &studio.passes;
-        if passes.update(&self.gpu, scene, &studio.subject, illustration) {
+        let shown = (illustration, &self.resources);
+        if passes.update(&self.gpu, scene, &studio.subject, shown) {
             self.stage = Stage::Stale;
             self.notices.extend(scene.take_notices());
         }

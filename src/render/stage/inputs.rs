@@ -1,7 +1,8 @@
 //! What the stages of a scene are made from.
 
 use super::fields::acting_fields;
-use crate::document::{FieldSamples, Illustration, OpacityMode};
+use crate::data::{FieldSamples, Resources};
+use crate::document::{Illustration, OpacityMode};
 use crate::math::Aabb;
 use crate::placed::deformed_bounds;
 use crate::render::pack::bodies::{bodies_of, segment_notice};
@@ -54,14 +55,18 @@ impl Inputs {
         }
     }
 
-    /// Takes over what an illustration says about a subject.
-    pub(crate) fn update(&mut self, illustration: &Illustration, subject: &SubjectTextures) {
+    /// Takes over what an illustration, with what has come of its files, says about a subject.
+    pub(crate) fn update(
+        &mut self,
+        illustration: &Illustration,
+        resources: &Resources,
+        subject: &SubjectTextures,
+    ) {
         let placed = &illustration.templates;
         self.subject = subject.stamp;
-        let acting = placed.iter().filter(|t| t.acting().enabled);
-        self.fields.set(acting_fields(acting));
-        self.templates.set(Templates::pack(placed));
-        let kept = KeptTissue::of(placed, &subject.segments, subject.frame.bounds);
+        self.fields.set(acting_fields(placed, resources));
+        self.templates.set(Templates::pack(placed, resources));
+        let kept = KeptTissue::of(placed, resources, &subject.segments, subject.frame.bounds);
         self.say(&kept.unknown, kept_notice);
         self.kept.set(Some(kept));
         let bounds_from = [
@@ -71,7 +76,7 @@ impl Inputs {
             self.kept.stamp(),
         ];
         if self.bounds_from.is_stale(bounds_from) {
-            let bounds = deformed_bounds(placed, subject.frame.bounds);
+            let bounds = deformed_bounds(placed, resources, subject.frame.bounds);
             let around = self
                 .rigid_reach()
                 .map(|far| subject.frame.bounds.expanded(far));

@@ -2,9 +2,9 @@
 
 use super::inputs::Inputs;
 use super::kept::KeptTextures;
+use crate::data::Resources;
 use crate::displace::Material;
-use crate::document::PlacedTemplate;
-use crate::document::{ParamValue, TemplateKind};
+use crate::document::{ParamValue, PlacedTemplate, TemplateKind};
 use crate::math::Aabb;
 use crate::placed::{max_displacement, reach};
 use crate::render::device::bindings::{encoder, entry};
@@ -113,6 +113,8 @@ pub(crate) struct GridInput<'a> {
     pub inputs: &'a Inputs,
     /// Templates as placed; the enabled ones are in the order of the packed ones.
     pub placed: &'a [PlacedTemplate],
+    /// What has come of the files that they name.
+    pub resources: &'a Resources,
     /// The uniform of the templates.
     pub templates: &'a wgpu::Buffer,
     /// What templates leave alone.
@@ -384,10 +386,10 @@ fn plan(input: &GridInput<'_>, along: u32) -> (Grid, GridJob) {
     let cells = cells.as_uvec3();
     let spread = (LONGEST_STEP * input.step / cell_size.min_element()).ceil() as u32;
     let mut items = [GridTemplate::default(); MAX_TEMPLATES];
-    let acting: Vec<PlacedTemplate> = input.placed.iter().map(PlacedTemplate::acting).collect();
-    let enabled = acting.iter().filter(|t| t.enabled);
+    let acting = input.placed.iter().map(|t| input.resources.acting(t));
+    let enabled = acting.filter(|t| t.enabled);
     for (slot, template) in items.iter_mut().zip(enabled) {
-        *slot = item(template, bounds);
+        *slot = item(&template, input.resources, bounds);
     }
     let subject = &input.subject.uniform;
     let bricks = &input.subject.bricks;
@@ -421,8 +423,8 @@ fn plan(input: &GridInput<'_>, along: u32) -> (Grid, GridJob) {
     (grid, job)
 }
 
-fn item(template: &PlacedTemplate, bounds: Aabb) -> GridTemplate {
-    let reach = reach(template);
+fn item(template: &PlacedTemplate, resources: &Resources, bounds: Aabb) -> GridTemplate {
+    let reach = reach(template, resources);
     let (mut boxes, mut detail, mut stretch, mut longest) = (reach.boxes, reach.detail, 1.0, 0.0);
     if let Some(bent) = template.bent() {
         // Where nothing is changed the curve does nothing either.
@@ -431,7 +433,7 @@ fn item(template: &PlacedTemplate, bounds: Aabb) -> GridTemplate {
             [low.min(part.min.z), high.max(part.max.z)]
         });
         stretch = bent.stretch(heights);
-        longest = max_displacement(template, bounds.expanded(0.5));
+        longest = max_displacement(template, resources, bounds.expanded(0.5));
         boxes = boxes.map(|part| bent.bent_box(part));
         detail *= (bent.size().x / template.placement.size.x).min(1.0) / stretch;
     }

@@ -22,7 +22,7 @@ pub(super) fn probe(
     with_object: bool,
     moment: Moment,
 ) -> Result<(), CliError> {
-    let illustration = opened.illustration(moment, common)?;
+    let (illustration, resources) = opened.illustration(moment, common)?;
     let points = match points {
         Some(path) => {
             let shown = path.display().to_string();
@@ -50,14 +50,14 @@ pub(super) fn probe(
         .collect();
     let samples = match &volume {
         Some(volume) => {
-            say_kept(&illustration, volume);
-            let studio = Studio::new(&gpu, volume, false)?;
+            say_kept(&illustration, &resources, volume);
+            let studio = Studio::new(&gpu, volume, false)?.with_resources(resources);
             pollster::block_on(studio.probe_object(&illustration, &positions))?
         }
         None => pollster::block_on(async {
             Probe::new(&gpu)
                 .await?
-                .samples(&illustration, &positions)
+                .samples(&illustration, &resources, &positions)
                 .await
         })?,
     };
