@@ -28,7 +28,7 @@ use crate::assets::{Assets, SegmentationsExpected, Want};
 use crate::data::{Resources, Statistics, VolumeBuilder};
 use crate::document::{Document, SegmentsRef};
 use crate::load::LabelFile;
-use crate::render::{Clock, encode_png};
+use crate::render::{Clock, RenderNotice, encode_png};
 
 /// Width in points below which panels become drawers.
 const NARROW: f32 = 760.0;
@@ -456,8 +456,9 @@ impl App {
             for notice in picture.take_notices() {
                 // What is not there yet may be on its way.
                 let is_early = self.tissue.is_behind(&self.assets, self.session.shown());
-                if !(is_early && notice.starts_with("keep: ")) {
-                    self.session.notify(Gravity::Warning, notice, "");
+                if !(is_early && matches!(notice, RenderNotice::UnknownKept(_))) {
+                    let line = notice.to_string();
+                    self.session.notify(Gravity::Warning, line, "");
                 }
             }
             let file = picture.poll_file().map(|image| {

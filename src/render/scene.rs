@@ -8,6 +8,7 @@ use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
 use crate::render::pack::frame::longest_step;
 use crate::render::pack::kept::KeptTissue;
+use crate::render::pack::notice::RenderNotice;
 use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::pack::stamps::MadeFrom;
 use crate::render::stage::baked::BakedTexture;
@@ -95,7 +96,7 @@ impl Scene {
     }
 
     /// What is to be said about the document since the last call.
-    pub(crate) fn take_notices(&mut self) -> Vec<String> {
+    pub(crate) fn take_notices(&mut self) -> Vec<RenderNotice> {
         self.inputs.take_notices()
     }
 

@@ -12,7 +12,7 @@ use crate::data::{Resources, Segment, Segmentation, Volume};
 use crate::document::{Background, Camera, Illustration};
 use crate::render::{
     Clock, DrawState, Gpu, Image, PendingPick, PendingPlaces, PendingSlice, Pick, RenderError,
-    Renderer, SlicePlane, SliceView, SubjectInfo, View,
+    RenderNotice, Renderer, SlicePlane, SliceView, SubjectInfo, View,
 };
 
 /// The renderer with what the interface needs around it. Built once per window.
@@ -90,7 +90,7 @@ impl Picture {
     }
 
     /// What there is to say about the volume shown, once.
-    pub(crate) fn take_notices(&mut self) -> Vec<String> {
+    pub(crate) fn take_notices(&mut self) -> Vec<RenderNotice> {
         self.renderer.take_notices()
     }
 

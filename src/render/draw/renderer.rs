@@ -14,6 +14,7 @@ use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::readback::WorkDone;
 use crate::render::pack::frame::frame_of;
+use crate::render::pack::notice::RenderNotice;
 use crate::render::pack::values::SubjectInfo;
 use crate::render::pack::view::View;
 use crate::render::scene::Scene;
@@ -68,7 +69,7 @@ pub struct Renderer {
     labels: Option<Option<Arc<Segmentation>>>,
     /// What the device has, made smaller where it was too large.
     fitting: Option<Arc<Volume>>,
-    notices: Vec<String>,
+    notices: Vec<RenderNotice>,
     illustration: Option<Illustration>,
     resources: Resources,
     scene: Option<Scene>,
@@ -153,8 +154,8 @@ impl Renderer {
     pub fn set_subject(&mut self, volume: Arc<Volume>) -> Result<(), RenderError> {
         self.gpu.check()?;
         let fitting = match reduced_to_fit(&self.gpu, &volume)? {
-            Some((small, notice)) => {
-                self.notices.push(notice);
+            Some((small, reduction)) => {
+                self.notices.push(RenderNotice::Reduced(reduction));
                 Arc::new(small)
             }
             None => Arc::clone(&volume),
@@ -358,7 +359,7 @@ impl Renderer {
     }
 
     /// Notices since the last call (a volume was made coarser, …).
-    pub fn take_notices(&mut self) -> Vec<String> {
+    pub fn take_notices(&mut self) -> Vec<RenderNotice> {
         std::mem::take(&mut self.notices)
     }
 

@@ -4,6 +4,7 @@ use super::gpu_types::{
     CONSTRAIN_COORDINATE, CONSTRAIN_DISPLACEMENT, CONSTRAIN_RIGID, KEEPS_DEEP, KeptGroup,
     MAX_TEMPLATES,
 };
+use super::notice::RenderNotice;
 use crate::data::{Resources, Segment};
 use crate::document::{
     Align, ConstrainBy, MAX_KEEP_SETS, PlacedTemplate, TemplateMode, keep_set, keep_sets,
@@ -199,9 +200,10 @@ impl KeptTissue {
         };
     }
 
-    /// One line for each name that the subject has no segment for.
-    pub fn notices(&self) -> Vec<String> {
-        self.unknown.iter().map(|name| kept_notice(name)).collect()
+    /// A notice for each name that the subject has no segment for.
+    pub fn notices(&self) -> Vec<RenderNotice> {
+        let unknown = self.unknown.iter().cloned();
+        unknown.map(RenderNotice::UnknownKept).collect()
     }
 
     /// True if nothing is kept and nothing gives way.
@@ -218,9 +220,4 @@ impl KeptTissue {
     pub fn kept_by(&self) -> u32 {
         u32::from(self.set_count > 0) | u32::from(self.keeps_deep) << 1
     }
-}
-
-/// Says that a name in `keep` means nothing here.
-pub(crate) fn kept_notice(name: &str) -> String {
-    format!("keep: the subject has no segment “{name}”; nothing is kept for it")
 }

@@ -5,10 +5,11 @@ use crate::data::{FieldSamples, Resources};
 use crate::document::{Illustration, OpacityMode};
 use crate::math::Aabb;
 use crate::placed::deformed_bounds;
-use crate::render::pack::bodies::{bodies_of, segment_notice};
+use crate::render::pack::bodies::bodies_of;
 use crate::render::pack::gpu_types::{Bodies, Templates};
-use crate::render::pack::kept::{KeptTissue, kept_notice};
+use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::look::{TransferTable, background_uniform};
+use crate::render::pack::notice::RenderNotice;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::volume::SubjectTextures;
 
@@ -34,7 +35,7 @@ pub(crate) struct Inputs {
     bounds_from: MadeFrom<4>,
     /// Names that mean no segment, as far as a notice said so.
     said: Vec<String>,
-    notices: Vec<String>,
+    notices: Vec<RenderNotice>,
 }
 
 impl Inputs {
@@ -67,7 +68,7 @@ impl Inputs {
         self.fields.set(acting_fields(placed, resources));
         self.templates.set(Templates::pack(placed, resources));
         let kept = KeptTissue::of(placed, resources, &subject.segments, subject.frame.bounds);
-        self.say(&kept.unknown, kept_notice);
+        self.say(&kept.unknown, RenderNotice::UnknownKept);
         self.kept.set(Some(kept));
         let bounds_from = [
             self.subject,
@@ -86,7 +87,7 @@ impl Inputs {
         let mut unknown = Vec::new();
         let look = &illustration.look;
         let bodies = bodies_of(&look.segments, &subject.segments, &mut unknown);
-        self.say(&unknown, segment_notice);
+        self.say(&unknown, RenderNotice::UnknownBody);
         self.bodies.set(bodies);
         let table = TransferTable::new(look, &illustration.subject, &subject.info);
         self.look.set(Some((table, look.opacity)));
@@ -119,7 +120,7 @@ impl Inputs {
     }
 
     /// What is to be said about the document since the last call.
-    pub(crate) fn take_notices(&mut self) -> Vec<String> {
+    pub(crate) fn take_notices(&mut self) -> Vec<RenderNotice> {
         std::mem::take(&mut self.notices)
     }
 
@@ -131,10 +132,10 @@ impl Inputs {
     }
 
     /// Says each name that means no segment once.
-    fn say(&mut self, names: &[String], notice: fn(&str) -> String) {
+    fn say(&mut self, names: &[String], notice: fn(String) -> RenderNotice) {
         for name in names {
             if !self.said.contains(name) {
-                self.notices.push(notice(name));
+                self.notices.push(notice(name.clone()));
                 self.said.push(name.clone());
             }
         }
