@@ -4,7 +4,7 @@ use super::inputs::Inputs;
 use super::kept::KeptTextures;
 use crate::data::Resources;
 use crate::displace::Material;
-use crate::document::{ParamValue, PlacedTemplate, TemplateKind};
+use crate::document::PlacedTemplate;
 use crate::math::Aabb;
 use crate::placed::{max_displacement, reach};
 use crate::render::device::bindings::{encoder, entry};
@@ -442,32 +442,24 @@ fn item(template: &PlacedTemplate, resources: &Resources, bounds: Aabb) -> GridT
             .extend(0.0)
             .to_array()
     };
-    let (material, shift) = match reach.material {
-        // The slabs' edges may be finer than a cell, but a slab is never off by more than one gap and one shift.
-        _ if template.kind == TemplateKind::Slices => {
-            let [_, gap, shift, progress] = [0, 1, 2, 3].map(|i| match template.params.get(i) {
-                Some(ParamValue::Number(v)) => *v,
-                _ => 0.0,
-            });
-            let ripple = Vec3::new(shift.abs(), 0.0, gap) * progress;
-            (
-                MATERIAL_RIPPLED,
-                Aabb {
-                    min: -ripple,
-                    max: ripple,
-                },
-            )
-        }
-        Material::Stays => (
+    let (material, shift) = match (reach.ripple, reach.material) {
+        (Some(ripple), _) => (
+            MATERIAL_RIPPLED,
+            Aabb {
+                min: -ripple,
+                max: ripple,
+            },
+        ),
+        (None, Material::Stays) => (
             MATERIAL_SHIFTED,
             Aabb {
                 min: Vec3::ZERO,
                 max: Vec3::ZERO,
             },
         ),
-        Material::Shifted(shift) => (MATERIAL_SHIFTED, shift),
-        Material::Within(_) => (MATERIAL_WITHIN, Aabb::UNIT),
-        Material::Bent(_) => (MATERIAL_BENT, Aabb::UNIT),
+        (None, Material::Shifted(shift)) => (MATERIAL_SHIFTED, shift),
+        (None, Material::Within(_)) => (MATERIAL_WITHIN, Aabb::UNIT),
+        (None, Material::Bent(_)) => (MATERIAL_BENT, Aabb::UNIT),
     };
     GridTemplate {
         reach0_min: corner(boxes[0].min),
