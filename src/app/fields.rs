@@ -8,6 +8,7 @@ use crate::app::words::{fill, messages};
 use crate::assets::{Data, ResourceNews, Role, Want};
 use crate::document::{Edit, TemplateData};
 use crate::load::{FieldFile, FieldUse};
+use crate::math::round_to;
 
 impl App {
     /// Asks for the fields that the document shows and that are not there, and takes over what has come of its files.
@@ -80,7 +81,7 @@ impl App {
             match file.fit(&given) {
                 Ok((samples, _)) => {
                     let p = samples.placement;
-                    let short = |x: f32| (f64::from(x) * 1e4).round() / 1e4;
+                    let short = |x: f32| round_to(f64::from(x), 4);
                     value["at"] = json!(p.at.to_array().map(short));
                     value["rotate"] = json!(p.rotate.to_array().map(short));
                     value["size"] = json!(p.size.to_array().map(short));

@@ -13,8 +13,7 @@ use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
 use crate::render::device::programs::{ProgramId, module};
-use crate::render::device::readback::Readback;
-use crate::render::device::textures::volume_texture;
+use crate::render::device::textures::{read_texture, row_pitch, volume_texture};
 use crate::render::pack::gpu_types::{
     Affine, Grid, GridJob, GridTemplate, MATERIAL_BENT, MATERIAL_RIPPLED, MATERIAL_SHIFTED,
     MATERIAL_WITHIN, MAX_TEMPLATES,
@@ -304,28 +303,8 @@ impl SkipGrid {
 
     /// Reads the cells back, as made.
     pub(crate) async fn read(&self, gpu: &Gpu) -> Result<GridCells, RenderError> {
-        let bytes_per_row = 8 * CELLS;
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("grid readback"),
-            size: u64::from(bytes_per_row) * u64::from(CELLS).pow(2),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let mut encoder = encoder(gpu);
-        encoder.copy_texture_to_buffer(
-            self.texture.as_image_copy(),
-            wgpu::TexelCopyBufferInfo {
-                buffer: &buffer,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(bytes_per_row),
-                    rows_per_image: Some(CELLS),
-                },
-            },
-            self.texture.size(),
-        );
-        gpu.queue.submit([encoder.finish()]);
-        let bytes = Readback::start(gpu, buffer).await?;
+        let pitch = row_pitch(8 * CELLS);
+        let bytes = read_texture(gpu, encoder(gpu), &self.texture, pitch).await?;
         let all: Vec<[u32; 2]> = bytemuck::pod_collect_to_vec(&bytes);
         let [x, y, z, _] = self.grid.cells;
         let used = (0..z)
