@@ -134,7 +134,9 @@ impl App {
         let is_dragging = ui.input(|i| i.pointer.any_down());
         self.look_after_segments();
         let shown = self.session.shown();
-        let made = self.tissue.advance(&mut self.assets, shown, is_dragging);
+        let made = self
+            .tissue
+            .advance(&self.assets, &self.resources, shown, is_dragging);
         if self.tissue.is_behind(&self.assets, self.session.shown()) {
             ui.ctx().request_repaint();
         }

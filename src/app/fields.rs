@@ -1,41 +1,50 @@
-//! Displacement fields that a document names: asked for, and laid over the subject that is shown.
+//! Displacement fields that a document names, and what has come of all its files.
 
 use serde_json::json;
 
 use crate::app::session::Gravity;
 use crate::app::window::App;
 use crate::app::words::{fill, messages};
-use crate::assets::{Data, FieldNews, Role, Want};
+use crate::assets::{Data, ResourceNews, Role, Want};
 use crate::document::{Edit, TemplateData};
 use crate::load::{FieldFile, FieldUse};
+use crate::math::round_to;
 
 impl App {
-    /// Asks the shell for fields that the document shows and that are missing, and lays fields that arrived over the
-    /// subject.
-    pub(crate) fn follow_fields(&mut self) {
+    /// Asks the shell for fields that the document shows and that are missing, and takes over the data of files that
+    /// arrived.
+    pub(crate) fn follow_resources(&mut self) {
         for want in self.assets.missing(self.session.shown()) {
             if want.role == Role::Field && !self.fields_asked.contains(&want) {
                 self.services.load_field(&want);
                 self.fields_asked.push(want);
             }
         }
-        let (resources, news) = self.assets.field_resources(self.session.shown());
+        let (resources, news) = self.assets.resources(self.session.shown());
         for news in news {
             match news {
-                FieldNews::Notice(_, line) => self.session.notify(Gravity::Warning, line, ""),
-                FieldNews::Refused(_, why) => {
+                ResourceNews::NoSegment { .. } => {
+                    self.session.notify(Gravity::Warning, news.to_string(), "");
+                }
+                ResourceNews::FieldNotice { line, .. } => {
+                    self.session.notify(Gravity::Warning, line, "");
+                }
+                ResourceNews::FieldRefused { why, .. } => {
                     let text = messages::w().field_refused;
                     self.session.notify(Gravity::Error, text, why);
                 }
             }
         }
-        if resources != self.resources {
-            self.session.revision += 1;
-            if let Some(picture) = &mut self.picture {
-                picture.set_resources(resources.clone());
-            }
-            self.resources = resources;
+        if resources == self.resources {
+            return;
         }
+        if resources.fields != self.resources.fields {
+            self.session.revision += 1;
+        }
+        if let Some(picture) = &mut self.picture {
+            picture.set_resources(resources.clone());
+        }
+        self.resources = resources;
     }
 
     /// A field has come: one that was wanted, or one that the reader opened.
@@ -74,7 +83,7 @@ impl App {
             match file.fit(&given) {
                 Ok((samples, _)) => {
                     let p = samples.placement;
-                    let short = |x: f32| (f64::from(x) * 1e4).round() / 1e4;
+                    let short = |x: f32| round_to(f64::from(x), 4);
                     value["at"] = json!(p.at.to_array().map(short));
                     value["rotate"] = json!(p.rotate.to_array().map(short));
                     value["size"] = json!(p.size.to_array().map(short));

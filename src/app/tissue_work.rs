@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use crate::app::picture::pending::{Pending, poll_once};
 use crate::assets::Assets;
-use crate::data::{Segmented, Turns, segment};
+use crate::data::{Resources, Segmented, Turns, segment};
 use crate::document::{Illustration, Recipe, SegmentsRef};
 use crate::render::Clock;
 
@@ -22,7 +22,7 @@ const SHARE: f64 = 0.008;
 pub(crate) struct TissueWork {
     clock: Clock,
     /// What the segments that are shown were made of.
-    made_of: Option<Wanted>,
+    made_of: Option<MadeOf>,
     job: Option<Job>,
     /// Voxels of each recipe, in order, as of the last result.
     pub(crate) counts: Vec<u64>,
@@ -30,12 +30,12 @@ pub(crate) struct TissueWork {
 
 /// Inputs of the segments: the label volumes of the document that have arrived, and the recipes.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Wanted {
+struct MadeOf {
     segments: Vec<SegmentsRef>,
     recipes: Vec<Recipe>,
 }
 
-impl Wanted {
+impl MadeOf {
     fn of(assets: &Assets, illustration: &Illustration) -> Self {
         Self {
             segments: assets.segments_here(illustration),
@@ -50,9 +50,7 @@ fn has_values(assets: &Assets) -> bool {
 }
 
 struct Job {
-    wanted: Wanted,
-    /// Notices about the author's names for labels.
-    notices: Vec<String>,
+    made_of: MadeOf,
     until: Rc<Cell<f64>>,
     turns: Turns,
     work: Pending<Segmented>,
@@ -71,13 +69,13 @@ impl TissueWork {
     /// Another subject is shown, with the segments that it came with.
     pub(crate) fn restart(&mut self) {
         self.job = None;
-        self.made_of = Some(Wanted::default());
+        self.made_of = Some(MadeOf::default());
         self.counts.clear();
     }
 
     /// True while the segments that are shown are not yet those that the document describes.
     pub(crate) fn is_behind(&self, assets: &Assets, illustration: &Illustration) -> bool {
-        has_values(assets) && self.made_of.as_ref() != Some(&Wanted::of(assets, illustration))
+        has_values(assets) && self.made_of.as_ref() != Some(&MadeOf::of(assets, illustration))
     }
 
     /// How far the work under way is, 0 to 1.
@@ -85,60 +83,49 @@ impl TissueWork {
         self.job.as_ref().map(|job| job.turns.progress())
     }
 
-    /// Goes on for its share of a frame. A result is to be shown. `is_dragging`: more changes are about to come; what
-    /// has begun is then ended first, so that something is seen on the way.
+    /// Goes on for its share of a frame. A result is to be shown. `resources` is what has come of the files of the
+    /// illustration. `is_dragging`: more changes are about to come; what has begun is then ended first, so that
+    /// something is seen on the way.
     pub(crate) fn advance(
         &mut self,
-        assets: &mut Assets,
+        assets: &Assets,
+        resources: &Resources,
         illustration: &Illustration,
         is_dragging: bool,
     ) -> Option<Segmented> {
         if !has_values(assets) {
             return None;
         }
-        let wanted = Wanted::of(assets, illustration);
-        if !is_dragging && self.job.as_ref().is_some_and(|job| job.wanted != wanted) {
+        let made_of = MadeOf::of(assets, illustration);
+        if !is_dragging && self.job.as_ref().is_some_and(|job| job.made_of != made_of) {
             self.job = None;
         }
         if self.job.is_none() {
-            if self.made_of.as_ref() == Some(&wanted) {
+            if self.made_of.as_ref() == Some(&made_of) {
                 return None;
             }
-            self.job = self.start(assets, illustration, wanted);
+            self.job = Some(self.start(resources, made_of));
         }
         let job = self.job.as_mut()?;
         job.until.set((self.clock)() + SHARE);
-        let mut made = poll_once(&mut job.work)?;
+        let made = poll_once(&mut job.work)?;
         let job = self.job.take()?;
-        made.notices.splice(0..0, job.notices);
-        self.made_of = Some(job.wanted);
+        self.made_of = Some(job.made_of);
         self.counts.clone_from(&made.counts);
         Some(made)
     }
 
-    fn start(
-        &self,
-        assets: &mut Assets,
-        illustration: &Illustration,
-        wanted: Wanted,
-    ) -> Option<Job> {
+    fn start(&self, resources: &Resources, made_of: MadeOf) -> Job {
         let (clock, until) = (self.clock, Rc::new(Cell::new(0.0)));
         let deadline = Rc::clone(&until);
         let turns = Turns::until(move || clock() > deadline.get());
-        let (resources, mut notices) = assets.segment_resources(illustration);
-        if self.made_of.as_ref().map(|made| &made.segments) == Some(&wanted.segments) {
-            // Their notices were shown when the names arrived.
-            notices.clear();
-        }
-        let volume = Arc::clone(resources.subject.as_ref()?.values()?);
-        let files = resources.segmentations;
-        let work = segment(volume, files, wanted.recipes.clone(), turns.clone());
-        Some(Job {
-            wanted,
-            notices,
+        let recipes = made_of.recipes.clone();
+        let work = segment(resources.clone(), recipes, turns.clone());
+        Job {
+            made_of,
             until,
             turns,
             work: Box::pin(work),
-        })
+        }
     }
 }

@@ -28,7 +28,7 @@ use crate::assets::{Assets, SegmentationsExpected, Want};
 use crate::data::{Resources, SubjectBuilder};
 use crate::document::{Document, SegmentsRef};
 use crate::load::LabelFile;
-use crate::render::{Clock, encode_png};
+use crate::render::{Clock, RenderNotice, encode_png};
 
 /// Width in points below which panels become drawers.
 const NARROW: f32 = 760.0;
@@ -82,7 +82,7 @@ pub struct App {
     pub(crate) opened: u64,
     /// Fields that the shell was asked for.
     pub(crate) fields_asked: Vec<Want>,
-    /// Fields as they are laid over the subject that is shown.
+    /// Data of the files that the shown document names, as the picture has them.
     pub(crate) resources: Resources,
     /// The plot of the transfer function.
     pub(crate) transfer: transfer::Editor,
@@ -319,7 +319,7 @@ impl App {
         let now = ui.input(|i| i.time);
         self.take_messages();
         self.session.is_reading = self.services.is_reading();
-        self.follow_fields();
+        self.follow_resources();
         self.advance_tissue(ui);
         if self.session.advance(now) {
             ui.ctx().request_repaint();
@@ -455,8 +455,9 @@ impl App {
             for notice in picture.take_notices() {
                 // A file that is not there yet may be on its way.
                 let is_early = self.tissue.is_behind(&self.assets, self.session.shown());
-                if !(is_early && notice.starts_with("keep: ")) {
-                    self.session.notify(Gravity::Warning, notice, "");
+                if !(is_early && matches!(notice, RenderNotice::UnknownKept(_))) {
+                    let line = notice.to_string();
+                    self.session.notify(Gravity::Warning, line, "");
                 }
             }
             let file = picture.poll_file().map(|image| {

@@ -19,9 +19,11 @@
 
 mod events;
 mod naming;
+mod news;
 mod store;
 mod want;
 
 pub use events::{LoadEvent, RawQuestion, SegmentationsExpected};
-pub use store::{Assets, Data, FieldNews};
+pub use news::ResourceNews;
+pub use store::{Assets, Data};
 pub use want::{OtherFile, Role, Source, Want, Wanted};

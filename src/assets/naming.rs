@@ -1,3 +1,4 @@
+use super::news::ResourceNews;
 use crate::data::Segment;
 
 /// Gives every segment of a file the name that the author has for its number there. `number_of` says which number the
@@ -8,8 +9,8 @@ pub(super) fn rename(
     number_of: impl Fn(usize, &Segment) -> u32,
     names: &[(u32, String)],
     pointer: &str,
-) -> Vec<String> {
-    let mut notices = Vec::new();
+) -> Vec<ResourceNews> {
+    let mut news = Vec::new();
     for (number, name) in names {
         let mut occurs = false;
         for (index, segment) in segments.iter_mut().enumerate() {
@@ -22,10 +23,12 @@ pub(super) fn rename(
             }
         }
         if !occurs {
-            notices.push(format!(
-                "{pointer}/names/{number}: the file has no segment of this number; “{name}” names nothing"
-            ));
+            news.push(ResourceNews::NoSegment {
+                pointer: pointer.to_owned(),
+                number: *number,
+                name: name.clone(),
+            });
         }
     }
-    notices
+    news
 }

@@ -1,9 +1,10 @@
 use std::sync::Arc;
 
 use super::naming::rename;
+use super::news::ResourceNews;
 use super::want::{OtherFile, Role, Want, Wanted};
-use crate::data::{FieldKey, Grid, Resources, Segment, Segmentation, Subject};
-use crate::document::{Illustration, SampledField, SegmentsRef, TemplateData};
+use crate::data::{FieldKey, FieldSamples, Grid, Resources, Segment, Segmentation, Subject};
+use crate::document::{Illustration, SegmentsRef, TemplateData};
 use crate::load::{FieldFile, FieldUse, LabelFile};
 
 /// What a file turned out to hold.
@@ -63,8 +64,10 @@ pub struct Assets {
     refused: Vec<Want>,
     /// Label volumes under the author's names.
     named: Vec<(SegmentsRef, Arc<Segmentation>)>,
+    /// Segments of the subject's own file, with the names that the author gives them.
+    own_named: Option<(Vec<SegmentsRef>, Arc<Vec<Segment>>)>,
     /// Fields over the present subject; `None` for one that does not fit.
-    fitted: Vec<(FieldKey, Option<Arc<SampledField>>)>,
+    fitted: Vec<(FieldKey, Option<FieldSamples>)>,
 }
 
 impl Assets {
@@ -105,6 +108,7 @@ impl Assets {
         match data {
             Data::Subject { subject, .. } => {
                 self.place(subject.values().map(|volume| volume.grid));
+                self.own_named = None;
                 self.subject = Some(subject);
             }
             Data::Segments(file) => {
@@ -146,6 +150,7 @@ impl Assets {
     pub fn forget_addresses(&mut self) {
         self.refused.clear();
         self.named.clear();
+        self.own_named = None;
         self.fitted.clear();
         self.segments.iter_mut().for_each(|one| one.src = None);
         self.fields.iter_mut().for_each(|one| one.src = None);
@@ -188,11 +193,48 @@ impl Assets {
         named.cloned().collect()
     }
 
-    /// The subject and the label volumes of a document, under the author's names, with a notice for each name of a
-    /// number that does not occur. What has not come is left out; fields are attached by whoever draws.
-    pub fn segment_resources(&mut self, illustration: &Illustration) -> (Resources, Vec<String>) {
-        let mut notices = Vec::new();
-        let mut subject = self.subject.clone();
+    /// The data of the files that a document names: its subject, its label volumes under the author's names, and the
+    /// fields of templates that act, laid over the subject. Files that have not arrived are left out; there are no fields
+    /// before the grid of the subject is known.
+    ///
+    /// The news come once each: when a label volume or a subject is given its names, and when a field is laid over a
+    /// subject. Cheap where nothing has changed.
+    pub fn resources(&mut self, illustration: &Illustration) -> (Resources, Vec<ResourceNews>) {
+        let mut news = Vec::new();
+        let (own_segments, segmentations) = self.named_segments(illustration, &mut news);
+        let resources = Resources {
+            subject: self.subject.clone(),
+            own_segments,
+            segmentations,
+            fields: self.field_samples(illustration, &mut news),
+        };
+        (resources, news)
+    }
+
+    /// The segments of the subject's own file, where the author names any, and the label volumes that are here.
+    fn named_segments(
+        &mut self,
+        illustration: &Illustration,
+        news: &mut Vec<ResourceNews>,
+    ) -> (Option<Arc<Vec<Segment>>>, Vec<Arc<Segmentation>>) {
+        let is_own =
+            |named: &&SegmentsRef| Want::segments(named).is_none() && !named.names.is_empty();
+        let names: Vec<SegmentsRef> = illustration
+            .segments
+            .iter()
+            .filter(is_own)
+            .cloned()
+            .collect();
+        let own_segments = self.subject.as_ref().map(Subject::segments);
+        let is_named = |(known, _): &&(Vec<SegmentsRef>, _)| *known == names;
+        let mut own = match own_segments.filter(|_| !names.is_empty()) {
+            Some(segments) if self.own_named.as_ref().filter(is_named).is_none() => {
+                Some(segments.to_vec())
+            }
+            // Nothing is named, or it is known already.
+            _ => None,
+        };
+        let has_own = own_segments.is_some() && !names.is_empty();
         let mut segmentations = Vec::new();
         for (index, named) in illustration.segments.iter().enumerate() {
             // A document may hold one by itself, as the first versions wrote it.
@@ -200,48 +242,62 @@ impl Assets {
                 1 => "/subject/segments".to_owned(),
                 _ => format!("/subject/segments/{index}"),
             };
-            let Some(want) = Want::segments(named) else {
-                if let Some(subject) = subject.as_mut().filter(|_| !named.names.is_empty()) {
-                    let number_of = |_: usize, segment: &_| number_of_own(segment);
-                    let segments = subject.segments_mut();
-                    notices.extend(rename(segments, number_of, &named.names, &pointer));
+            match (Want::segments(named), &mut own) {
+                (Some(want), _) => {
+                    segmentations.extend(self.named_file(&want, named, &pointer, news));
                 }
-                continue;
-            };
-            let Some(file) = find(&self.segments, &want) else {
-                continue;
-            };
-            let known = self.named.iter().find(|(known, _)| known == named);
-            if let Some((_, segmentation)) = known {
-                segmentations.push(Arc::clone(segmentation));
-                continue;
+                (None, Some(own)) => {
+                    let number_of = |_: usize, segment: &_| number_of_own(segment);
+                    news.extend(rename(own, number_of, &named.names, &pointer));
+                }
+                (None, None) => {}
             }
-            let mut segmentation = file.segmentation.clone();
-            let number_of = |i: usize, segment: &_| {
-                let number = file.numbers.get(i).copied().map(u32::from);
-                number.unwrap_or_else(|| number_of_own(segment))
-            };
-            let segments = &mut segmentation.segments;
-            notices.extend(rename(segments, number_of, &named.names, &pointer));
-            let segmentation = Arc::new(segmentation);
-            self.named.push((named.clone(), Arc::clone(&segmentation)));
-            segmentations.push(segmentation);
         }
         segmentations.extend(self.added.iter().cloned());
-        let resources = Resources {
-            subject,
-            segmentations,
-            ..Resources::default()
-        };
-        (resources, notices)
+        if let Some(own) = own {
+            self.own_named = Some((names, Arc::new(own)));
+        }
+        let own = self.own_named.as_ref().filter(|_| has_own);
+        (own.map(|(_, own)| Arc::clone(own)), segmentations)
     }
 
-    /// The fields of templates that act, laid over the subject, and news about fields that were laid over the subject
-    /// for the first time. Both are empty before there is a subject.
-    pub fn field_resources(&mut self, illustration: &Illustration) -> (Resources, Vec<FieldNews>) {
-        let (mut resources, mut news) = (Resources::default(), Vec::new());
+    /// A label volume under the author's names, if it is here.
+    fn named_file(
+        &mut self,
+        want: &Want,
+        named: &SegmentsRef,
+        pointer: &str,
+        news: &mut Vec<ResourceNews>,
+    ) -> Option<Arc<Segmentation>> {
+        let file = find(&self.segments, want)?;
+        if let Some((_, known)) = self.named.iter().find(|(known, _)| known == named) {
+            return Some(Arc::clone(known));
+        }
+        let mut segmentation = file.segmentation.clone();
+        let number_of = |i: usize, segment: &_| {
+            let number = file.numbers.get(i).copied().map(u32::from);
+            number.unwrap_or_else(|| number_of_own(segment))
+        };
+        news.extend(rename(
+            &mut segmentation.segments,
+            number_of,
+            &named.names,
+            pointer,
+        ));
+        let segmentation = Arc::new(segmentation);
+        self.named.push((named.clone(), Arc::clone(&segmentation)));
+        Some(segmentation)
+    }
+
+    /// The fields of templates that act, laid over the subject.
+    fn field_samples(
+        &mut self,
+        illustration: &Illustration,
+        news: &mut Vec<ResourceNews>,
+    ) -> Vec<(FieldKey, FieldSamples)> {
+        let mut fields = Vec::new();
         let Some(grid) = self.grid else {
-            return (resources, news);
+            return fields;
         };
         for template in illustration.templates.iter().filter(|t| t.enabled) {
             let TemplateData::Field(field) = &template.data else {
@@ -250,48 +306,45 @@ impl Assets {
             let (Some(key), Some(want)) = (FieldKey::of(template), Want::field(field)) else {
                 continue;
             };
+            if fields.iter().any(|(known, _)| *known == key) {
+                continue;
+            }
             let known = self.fitted.iter().find(|(known, _)| *known == key);
-            if let Some((_, samples)) = known {
-                if let Some(samples) = samples {
-                    resources.add_field(key, Arc::clone(samples));
-                }
-                continue;
-            }
-            let Some(file) = find(&self.fields, &want) else {
-                continue;
-            };
-            let fitted = file.fit(&field_use(&key, &grid));
-            let samples = match fitted {
-                Ok((samples, notices)) => {
-                    let template = template.index;
-                    news.extend(
-                        notices
-                            .into_iter()
-                            .map(|line| FieldNews::Notice(template, line)),
-                    );
-                    Some(Arc::new(samples))
-                }
-                Err(why) => {
-                    news.push(FieldNews::Refused(template.index, why));
-                    None
+            let samples = match known {
+                Some((_, samples)) => samples.clone(),
+                None => {
+                    let Some(file) = find(&self.fields, &want) else {
+                        continue;
+                    };
+                    let samples = laid(file, &field_use(&key, &grid), template.index, news);
+                    self.fitted.push((key.clone(), samples.clone()));
+                    samples
                 }
             };
-            self.fitted.push((key.clone(), samples.clone()));
-            if let Some(samples) = samples {
-                resources.add_field(key, samples);
-            }
+            fields.extend(samples.map(|samples| (key, samples)));
         }
-        (resources, news)
+        fields
     }
 }
 
-/// News about a field that was laid over a subject, with the index of its template in the document.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum FieldNews {
-    /// The field is drawn, but not quite as its file has it; a line for the user.
-    Notice(usize, String),
-    /// The field cannot be used with this subject; the reason for the user.
-    Refused(usize, String),
+/// The samples of a field over a subject, for the template of this index; `None` if it does not fit.
+fn laid(
+    file: &FieldFile,
+    field_use: &FieldUse<'_>,
+    template: usize,
+    news: &mut Vec<ResourceNews>,
+) -> Option<FieldSamples> {
+    match file.fit(field_use) {
+        Ok((samples, notices)) => {
+            let notices = notices.into_iter();
+            news.extend(notices.map(|line| ResourceNews::FieldNotice { template, line }));
+            Some(FieldSamples(Arc::new(samples)))
+        }
+        Err(why) => {
+            news.push(ResourceNews::FieldRefused { template, why });
+            None
+        }
+    }
 }
 
 /// How a template reads the vectors of its file over a subject of this grid.
@@ -310,4 +363,85 @@ fn field_use<'a>(key: &FieldKey, subject: &'a Grid) -> FieldUse<'a> {
 /// Number of a segment of the subject's own file, which is its label.
 fn number_of_own(segment: &Segment) -> u32 {
     u32::from(segment.label)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::{VolumeBuilder, VolumeSink as _, Voxels};
+    use crate::document::Document;
+    use glam::{DAffine3, UVec3};
+
+    /// Two voxels, of the segments 1 and 2.
+    fn subject() -> Arc<Volume> {
+        let grid = Grid {
+            dims: UVec3::new(2, 1, 1),
+            world_from_voxel: DAffine3::IDENTITY,
+        };
+        let segment = |label: u16| Segment {
+            label,
+            name: format!("segment {label}"),
+            color_srgb: None,
+        };
+        let header = Volume {
+            grid,
+            voxels: Voxels::U8(Vec::new()),
+            slope: 1.0,
+            intercept: 0.0,
+            value_range: [0.0, 1.0],
+            segmentation: Some(Segmentation {
+                grid,
+                labels: Vec::new(),
+                segments: vec![segment(1), segment(2)],
+            }),
+        };
+        let mut builder = VolumeBuilder::new();
+        builder.begin(&header).expect("a small volume");
+        builder.scalars(Voxels::U8(vec![0, 1]));
+        builder.labels(vec![1, 2]);
+        Arc::new(builder.finish().expect("whole"))
+    }
+
+    #[test]
+    fn own_segments_are_named_and_news_are_told_once() {
+        let text = r#"{ "fabrica": 1, "subject": { "builtin": "cube",
+            "segments": { "names": { "2": "nail", "7": "horn" } } } }"#;
+        let document = Document::from_json(text).expect("a document");
+        let illustration = document.illustration();
+        let mut assets = Assets::default();
+        assert_eq!(assets.resources(illustration).1, [], "nothing has come");
+        let volume = subject();
+        let data = || Data::Subject {
+            subject: Subject::from(Arc::clone(&volume)),
+            sha256: None,
+        };
+        assets.give(data());
+        let (first, news) = assets.resources(illustration);
+        let lines: Vec<String> = news.iter().map(ToString::to_string).collect();
+        assert_eq!(
+            lines,
+            [
+                "/subject/segments/names/7: the file has no segment of this number; “horn” names nothing"
+            ]
+        );
+        let own = first.own_segmentation().expect("its own segments");
+        let names: Vec<&str> = own.segments.iter().map(|s| s.name.as_str()).collect();
+        assert_eq!(names, ["segment 1", "nail"]);
+        assert_eq!(own.labels, [1, 2]);
+        let is_shared = first
+            .subject
+            .as_ref()
+            .is_some_and(|s| s.is_same(&Subject::from(volume)));
+        assert!(is_shared, "voxels are not copied for names");
+        // Nothing has changed: the same things, and no news.
+        let again = assets.resources(illustration);
+        assert_eq!(again, (first, Vec::new()));
+        // Another document does not name them.
+        let plain = Document::new();
+        let (resources, news) = assets.resources(plain.illustration());
+        assert_eq!((resources.own_segments, news), (None, Vec::new()));
+        // A subject that comes anew is named anew.
+        assets.give(data());
+        assert_eq!(assets.resources(illustration).1.len(), 1);
+    }
 }

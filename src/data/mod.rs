@@ -7,6 +7,7 @@
 //! and joins them with the segments of label volumes.
 
 mod builder;
+mod field;
 mod frame;
 mod mask;
 mod material;
@@ -19,6 +20,7 @@ mod subject;
 mod volume;
 
 pub use builder::{BuildError, VolumeBuilder};
+pub use field::{FieldSamples, SampledField};
 pub use frame::SubjectFrame;
 pub use mask::{Mask, Turns};
 pub use material::Material;

@@ -1,20 +1,22 @@
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::{Segmentation, Subject};
-use crate::document::{
-    FieldSamples, Illustration, ParamValue, PlacedTemplate, SampledField, TemplateData,
-};
+use super::{FieldSamples, Segment, Segmentation, Subject};
+use crate::document::{ParamValue, PlacedTemplate, TemplateData};
 
-/// The data of the files that a document names, as far as they have arrived. An [`Illustration`] only names the files,
-/// so drawing and measuring take both. Cheap to clone.
+/// The data of the files that a document names, as far as they have arrived. An
+/// [`Illustration`](crate::document::Illustration) only names the files, so drawing and measuring take both. Cheap to
+/// clone.
 #[derive(Clone, Debug, Default)]
 pub struct Resources {
-    /// The subject, with the segments of its own file under the author's names.
+    /// The subject, as its file has it.
     pub subject: Option<Subject>,
+    /// Segments of the subject's own file under the author's names, where the author names any.
+    pub own_segments: Option<Arc<Vec<Segment>>>,
     /// Label volumes beside the subject, in the order of the document, under the author's names.
     pub segmentations: Vec<Arc<Segmentation>>,
     /// Samples of displacement fields, by file and reading.
-    pub fields: Vec<(FieldKey, Arc<SampledField>)>,
+    pub fields: Vec<(FieldKey, FieldSamples)>,
 }
 
 /// The key of a field's samples: the file, and how the template reads its vectors.
@@ -48,7 +50,7 @@ impl FieldKey {
 
 impl Resources {
     /// The samples for a `field` template, if they have arrived.
-    pub fn field(&self, template: &PlacedTemplate) -> Option<&Arc<SampledField>> {
+    pub fn field(&self, template: &PlacedTemplate) -> Option<&FieldSamples> {
         if self.fields.is_empty() {
             return None;
         }
@@ -58,43 +60,51 @@ impl Resources {
     }
 
     /// Adds the samples of a field.
-    pub fn add_field(&mut self, key: FieldKey, samples: Arc<SampledField>) {
+    pub fn add_field(&mut self, key: FieldKey, samples: FieldSamples) {
         self.fields.retain(|(known, _)| *known != key);
         self.fields.push((key, samples));
     }
 
-    /// Gives each `field` template its samples; a template without a placement in the document is placed as the file
-    /// says.
-    pub fn attach_fields(&self, illustration: &mut Illustration) {
-        for template in &mut illustration.templates {
-            let Some(samples) = self.field(template).cloned() else {
-                continue;
-            };
-            if let TemplateData::Field(field) = &mut template.data {
-                if !field.is_placed {
-                    template.placement = samples.placement;
-                }
-                field.samples = Some(FieldSamples(samples));
-            }
+    /// The template as it acts ([`PlacedTemplate::acting`]). A `field` that the document gives no place lies where its
+    /// file says.
+    pub fn acting(&self, template: &PlacedTemplate) -> PlacedTemplate {
+        let mut acting = template.acting();
+        if let TemplateData::Field(field) = &template.data
+            && !field.is_placed
+            && let Some(FieldSamples(samples)) = self.field(template)
+        {
+            acting.placement = samples.placement;
         }
+        acting
+    }
+
+    /// The label volume of the subject's own file, under the author's names.
+    pub fn own_segmentation(&self) -> Option<Cow<'_, Segmentation>> {
+        let own = self.subject.as_ref()?.values()?.segmentation.as_ref()?;
+        Some(match &self.own_segments {
+            Some(segments) => Cow::Owned(Segmentation {
+                segments: segments.to_vec(),
+                ..own.clone()
+            }),
+            None => Cow::Borrowed(own),
+        })
     }
 }
 
 /// Two values are equal if they share volumes, labels and samples in memory; the contents are never compared.
 impl PartialEq for Resources {
     fn eq(&self, other: &Self) -> bool {
-        let is_same_subject = match (&self.subject, &other.subject) {
-            (Some(a), Some(b)) => a.is_same(b),
-            (a, b) => a.is_none() && b.is_none(),
-        };
+        fn both<T>(a: &Option<T>, b: &Option<T>, is_same: impl Fn(&T, &T) -> bool) -> bool {
+            match (a, b) {
+                (Some(a), Some(b)) => is_same(a, b),
+                (a, b) => a.is_none() && b.is_none(),
+            }
+        }
         let segmentations = self.segmentations.iter().zip(&other.segmentations);
-        let fields = self.fields.iter().zip(&other.fields);
-        is_same_subject
+        both(&self.subject, &other.subject, Subject::is_same)
+            && both(&self.own_segments, &other.own_segments, Arc::ptr_eq)
             && self.segmentations.len() == other.segmentations.len()
-            && self.fields.len() == other.fields.len()
             && segmentations.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))
-            && fields
-                .into_iter()
-                .all(|((k, a), (l, b))| k == l && Arc::ptr_eq(a, b))
+            && self.fields == other.fields
     }
 }

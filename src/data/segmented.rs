@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DVec3, UVec3};
 
 use super::mask::{Mask, Turns};
-use super::{Grid, Segment, Segmentation, Volume, Voxels, resized};
+use super::{Grid, Resources, Segment, Segmentation, Subject, Volume, Voxels, resized};
 use crate::document::{CleanStep, Recipe, RecipeSource};
 
 /// Colours of segments whose recipe names none, in turn; told apart by those who see few colours too (after Okabe and
@@ -58,30 +58,31 @@ pub struct Segmented {
 }
 
 /// Makes the segments of a document's recipes out of the voxels of its subject, and joins them with the segments of
-/// `volume` and of label volumes that lie beside it (on any grid). Where segments overlap, a label of its own stands
-/// for the overlap.
+/// the subject's own file and of label volumes that lie beside it (on any grid). Where segments overlap, a label of its
+/// own stands for the overlap. Without a subject there are none.
 ///
 /// The result is the same bit for bit on every machine. Holds a byte per voxel besides the result.
-pub async fn segment(
-    volume: Arc<Volume>,
-    files: Vec<Arc<Segmentation>>,
-    recipes: Vec<Recipe>,
-    turns: Turns,
-) -> Segmented {
+pub async fn segment(resources: Resources, recipes: Vec<Recipe>, turns: Turns) -> Segmented {
     let mut notices = Vec::new();
-    let own = volume.segmentation.as_ref();
-    if files.is_empty() && recipes.is_empty() {
+    let own = resources.own_segmentation();
+    let files = &resources.segmentations;
+    let volume = resources.subject.as_ref().and_then(Subject::values);
+    let Some(volume) = volume.filter(|_| !files.is_empty() || !recipes.is_empty()) else {
         return Segmented {
-            segmentation: own.map(|labels| Arc::new(labels.clone())),
+            segmentation: own.map(|labels| Arc::new(labels.into_owned())),
             counts: Vec::new(),
             notices,
         };
-    }
-    let grid = grid_of_labels(&volume, &files);
+    };
+    let grid = grid_of_labels(volume, files);
     let mut join = Join::new(grid);
     // The segments' own labels first, so that their numbers depend on the list alone and not on overlaps.
     let mut sources = Vec::new();
-    for labels in own.into_iter().chain(files.iter().map(Arc::as_ref)) {
+    for labels in own
+        .as_deref()
+        .into_iter()
+        .chain(files.iter().map(Arc::as_ref))
+    {
         sources.push((labels, join.list_file(labels, &mut notices, &turns).await));
     }
     let listed: Vec<Option<Segment>> = recipes
@@ -99,7 +100,7 @@ pub async fn segment(
         turns.set_progress(done as f32 / steps.max(1) as f32);
     };
     for (recipe, listed) in recipes.iter().zip(listed) {
-        let mut mask = draft(&volume, recipe, &mut notices, &turns).await;
+        let mut mask = draft(volume, recipe, &mut notices, &turns).await;
         has_done(1);
         let spacing = volume.grid.spacing_mm().as_vec3().to_array();
         for step in &recipe.clean {

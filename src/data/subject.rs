@@ -40,16 +40,6 @@ impl Subject {
         }
     }
 
-    /// The parts of [`Subject::segments`], to be given other names. Copies the subject if somebody else holds it too.
-    pub fn segments_mut(&mut self) -> &mut [Segment] {
-        match self {
-            Self::Space(space) => match &mut Arc::make_mut(&mut space.volume).segmentation {
-                Some(segmentation) => &mut segmentation.segments,
-                None => &mut [],
-            },
-        }
-    }
-
     /// Scalars on a grid, which windows, transfer functions, thresholds and recipes are about; `None` if the subject
     /// has none.
     pub fn values(&self) -> Option<&Arc<Volume>> {

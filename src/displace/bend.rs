@@ -1,5 +1,6 @@
 use super::facts::{
-    Arc, Facts, Given, Grip, Group, INF, Icon, Material, Mirror, Reach, Shape, aabb, on_arc,
+    Amount, Arc, Facts, Given, Grip, Group, Holds, INF, Icon, Material, Mirror, Reach, Shape, aabb,
+    on_arc,
 };
 use super::spec::{TemplateSpec, number};
 use glam::{Vec2, Vec3};
@@ -83,7 +84,8 @@ pub(super) const FACTS: Facts = Facts {
         ],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach: |given| {
         let Some(arc) = arc(given) else {
             return Reach::NONE;

@@ -1,6 +1,11 @@
-use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
-use super::spec::{ParamKind, ParamSpec, TemplateSpec};
+use super::facts::{
+    Amount, Facts, Grip, Group, Holds, INF, Icon, Mirror, Reach, Shape, Shrinking, aabb,
+};
+use super::spec::{ParamKind, ParamSpec, ParamValue, TemplateSpec};
 use crate::math::Aabb;
+
+/// Index of the sphere among the shapes.
+const SPHERE: u32 = 1;
 
 /// All that is known about cut besides its formula. It has no main parameter: it is moved and sized as a whole.
 pub(super) const FACTS: Facts = Facts {
@@ -16,7 +21,11 @@ pub(super) const FACTS: Facts = Facts {
         }],
         main_param: None,
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Box(|params| match params.first() {
+        Some(ParamValue::Choice(SPHERE)) => Shrinking::ToCentre,
+        _ => Shrinking::ToTop,
+    }),
     reach: |given| Reach {
         boxes: [
             if given.p[0] > 2.5 {

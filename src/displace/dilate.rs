@@ -1,4 +1,4 @@
-use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Shape};
+use super::facts::{Amount, Facts, Grip, Group, Holds, INF, Icon, Mirror, Shape};
 use super::spec::{TemplateSpec, number};
 use super::squeeze::reach;
 use glam::Vec3;
@@ -11,7 +11,8 @@ pub(super) const FACTS: Facts = Facts {
         params: &[number("strength", "How wide", 0.5, 0.0, 0.9)],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach,
     // Outside the cube the displacement of its side goes on: x - strength/2 = 1.
     grip: Grip::Number(|given| Vec3::new(1.0 + 0.5 * given.p[0], 0.5, 0.5), INF),

@@ -1,7 +1,7 @@
 //! The facts about a kind of template, in the form in which the file of each kind gives them.
 
-use super::points::ControlPoints;
-use super::spec::{MAX_PARAM_FLOATS, TemplateSpec};
+use super::points::{ControlPoint, ControlPoints};
+use super::spec::{MAX_PARAM_FLOATS, ParamValue, TemplateSpec};
 use crate::math::Aabb;
 use glam::{Vec2, Vec3};
 
@@ -21,6 +21,9 @@ pub struct Reach {
     pub detail: f32,
     /// True if the map jumps at a face of the first box, between displaced material and material at rest.
     pub is_torn: bool,
+    /// Of a map in steps that may be finer than a cell of the skip grid: how far, at most, the displacement at a place
+    /// lies from that of the step beside it, along each axis, template space.
+    pub ripple: Option<Vec3>,
 }
 
 /// Where the material that a template moves can be afterwards, template space.
@@ -58,6 +61,7 @@ impl Reach {
         material: Material::Stays,
         detail: 0.5,
         is_torn: false,
+        ripple: None,
     };
 
     /// One box in which material is shifted by `min` to `max`.
@@ -81,6 +85,14 @@ impl Reach {
     /// This reach with another `detail`.
     pub(super) fn with_detail(self, detail: f32) -> Self {
         Self { detail, ..self }
+    }
+
+    /// This reach for a map in steps, see [`Reach::ripple`].
+    pub(super) fn rippled(self, ripple: Vec3) -> Self {
+        Self {
+            ripple: Some(ripple),
+            ..self
+        }
     }
 
     /// This reach, torn at the faces of its first box.
@@ -137,8 +149,10 @@ pub struct Samples {
 pub struct Facts {
     /// Name, meaning and parameters.
     pub spec: TemplateSpec,
-    /// True if the parameters are not all of the template: it holds control points or a file.
-    pub holds_data: bool,
+    /// What the template holds besides its parameters: control points, a file, or nothing.
+    pub holds: Holds,
+    /// How it is done in part.
+    pub amount: Amount,
     /// Finds what the template reaches with the given parameters and data.
     pub reach: fn(&Given) -> Reach,
     /// Where it is grabbed.
@@ -151,6 +165,36 @@ pub struct Facts {
     pub catalogue: Option<(Group, u32)>,
     /// Proportions of a new one.
     pub shape: Shape,
+}
+
+/// What a template holds besides its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holds {
+    /// Nothing: the parameters say all.
+    Parameters,
+    /// Control points.
+    Points,
+    /// A file with the samples of a displacement field. Such a template cannot be mirrored.
+    File,
+}
+
+/// How a template is done in part, by an amount from 0 (it is the identity) to 1.
+#[derive(Debug)]
+pub enum Amount {
+    /// The main parameter is scaled by the amount, and a rotation turns by that part of its angle.
+    Parameters,
+    /// Its box shrinks, in the way that the parameters (those of its spec, in their order) decide. At 0 it is switched
+    /// off.
+    Box(fn(&[ParamValue]) -> Shrinking),
+}
+
+/// How the box of a template shrinks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shrinking {
+    /// On all sides, towards its centre.
+    ToCentre,
+    /// In its height only, towards its top.
+    ToTop,
 }
 
 /// How the mirror image of a template is made: one axis of its cube is reversed, and parameters that have a hand take
@@ -244,6 +288,8 @@ pub struct Icon {
     pub size: [f32; 3],
     /// Parameters that differ from their defaults.
     pub params: &'static [(&'static str, f32)],
+    /// Control points of a kind that holds any.
+    pub points: &'static [ControlPoint],
     /// Camera: turned about z from the front, and raised, degrees.
     pub yaw_pitch_deg: [f32; 2],
 }
@@ -254,6 +300,7 @@ impl Icon {
         at: [0.0; 3],
         size: [1.0; 3],
         params: &[],
+        points: &[],
         yaw_pitch_deg: [148.0, 28.0],
     };
 }

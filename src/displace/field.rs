@@ -1,4 +1,4 @@
-use super::facts::{Facts, Grip, Icon, Mirror, Reach, Shape};
+use super::facts::{Amount, Facts, Grip, Holds, Icon, Mirror, Reach, Shape};
 use super::spec::{ParamKind, ParamSpec, TemplateSpec, number};
 use crate::math::Aabb;
 use glam::Vec3;
@@ -34,7 +34,8 @@ pub(super) const FACTS: Facts = Facts {
         ],
         main_param: Some(0),
     },
-    holds_data: true,
+    holds: Holds::File,
+    amount: Amount::Parameters,
     reach: |given| {
         let Some(samples) = &given.samples else {
             return Reach::NONE;

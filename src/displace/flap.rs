@@ -1,4 +1,6 @@
-use super::facts::{Facts, Given, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::facts::{
+    Amount, Facts, Given, Grip, Group, Holds, INF, Icon, Mirror, Reach, Shape, aabb,
+};
 use super::spec::{TemplateSpec, number};
 use crate::math::Aabb;
 use glam::Vec3;
@@ -32,7 +34,8 @@ pub(super) const FACTS: Facts = Facts {
         ],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach: |given| {
         if given.p[0] <= 0.0 {
             return Reach::NONE;
@@ -47,6 +50,7 @@ pub(super) const FACTS: Facts = Facts {
         size: [0.8, 0.8, 1.0],
         params: &[("angle", 1.9), ("depth", 0.2)],
         yaw_pitch_deg: [212.0, 32.0],
+        ..Icon::PLAIN
     },
     mirror: Mirror::ACROSS_Y,
     catalogue: Some((Group::OpenUp, 1)),

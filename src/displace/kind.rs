@@ -1,6 +1,6 @@
 //! The kinds of templates: one line each. What is known of a kind stands in the file of its name.
 
-use super::facts::Facts;
+use super::facts::{Facts, Holds};
 use super::spec::TemplateSpec;
 use super::{
     bend, cut, cutquad, dilate, field, flap, hole, lens, r#move, peel, peeler, poke, pull, rbf,
@@ -61,7 +61,7 @@ impl TemplateKind {
         let mut formulas = [Self::Poke; 18];
         let (mut from, mut to) = (0, 0);
         while from < Self::ALL.len() {
-            if !Self::ALL[from].facts().holds_data {
+            if matches!(Self::ALL[from].facts().holds, Holds::Parameters) {
                 formulas[to] = Self::ALL[from];
                 to += 1;
             }
@@ -88,7 +88,7 @@ impl TemplateKind {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::displace::facts::{Grip, Group};
+    use crate::displace::facts::{Amount, Grip, Group};
     use crate::displace::spec::ParamKind;
 
     #[test]
@@ -122,6 +122,8 @@ mod tests {
             }
             assert!(facts.mirror.axis < 3, "{kind:?}");
             let main = facts.spec.main_param.map(|i| facts.spec.params[i].kind);
+            let has_points = facts.holds == Holds::Points;
+            assert_eq!(!facts.icon.points.is_empty(), has_points, "{kind:?}");
             let fits = matches!(
                 (&facts.grip, main),
                 (Grip::None, _)
@@ -129,6 +131,9 @@ mod tests {
                     | (Grip::Vector, Some(ParamKind::Vector { .. }))
             );
             assert!(fits, "{kind:?} is grabbed by its main parameter");
+            // Done by no part, every kind is the identity.
+            let shrinks = matches!(facts.amount, Amount::Box(_));
+            assert_eq!(main.is_none(), shrinks, "{kind:?} can be done in part");
             let Some(main) = main else { continue };
             let has_none = matches!(main, ParamKind::Flag { .. } | ParamKind::Choice { .. });
             assert!(!has_none, "the main parameter of {kind:?} has no part");

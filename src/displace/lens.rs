@@ -1,4 +1,4 @@
-use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape};
+use super::facts::{Amount, Facts, Grip, Group, Holds, INF, Icon, Mirror, Reach, Shape};
 use super::spec::{TemplateSpec, number};
 use crate::math::Aabb;
 use glam::Vec3;
@@ -12,7 +12,8 @@ pub(super) const FACTS: Facts = Facts {
         params: &[number("strength", "How much", 0.5, 0.0, 0.9)],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach: |given| {
         if given.p[0] == 0.0 {
             return Reach::NONE;

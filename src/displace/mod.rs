@@ -20,7 +20,8 @@
 //!            params: &[number("angle", "Turn of the middle, radians", 1.0, -PI, PI)],
 //!            main_param: Some(0),
 //!        },
-//!        holds_data: false,
+//!        holds: Holds::Parameters,
+//!        amount: Amount::Parameters,
 //!        reach: |given| match given.p[0] {
 //!            0.0 => Reach::NONE,
 //!            _ => Reach::shifted(Aabb::UNIT, -Vec3::ONE, Vec3::ONE).with_detail(0.1),
@@ -69,7 +70,10 @@ mod twist;
 mod wave;
 
 pub use constants::shader_constants;
-pub use facts::{Arc, Facts, Given, Grip, Group, Icon, Material, Mirror, Reach, Samples, Shape};
+pub use facts::{
+    Amount, Arc, Facts, Given, Grip, Group, Holds, Icon, Material, Mirror, Reach, Samples, Shape,
+    Shrinking,
+};
 pub use kind::TemplateKind;
 pub use points::{ControlPoint, ControlPoints};
 pub(crate) use rbf::Interpolant;

@@ -1,4 +1,4 @@
-use super::facts::{Facts, Grip, Group, Icon, Mirror, Reach, Shape};
+use super::facts::{Amount, Facts, Grip, Group, Holds, Icon, Mirror, Reach, Shape};
 use super::spec::{ParamKind, ParamSpec, TemplateSpec};
 use crate::math::Aabb;
 use glam::{Quat, Vec3};
@@ -27,7 +27,8 @@ pub(super) const FACTS: Facts = Facts {
         ],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach: |given| {
         let p = given.p;
         let offset = Vec3::new(p[0], p[1], p[2]);
@@ -44,8 +45,7 @@ pub(super) const FACTS: Facts = Facts {
     icon: Icon {
         at: [-0.25, -0.25, 0.25],
         size: [0.5, 0.5, 0.5],
-        params: &[],
-        yaw_pitch_deg: [148.0, 28.0],
+        ..Icon::PLAIN
     },
     mirror: Mirror {
         handed: &["offset", "turn"],

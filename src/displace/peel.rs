@@ -1,4 +1,6 @@
-use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb, sector};
+use super::facts::{
+    Amount, Facts, Grip, Group, Holds, INF, Icon, Mirror, Reach, Shape, aabb, sector,
+};
 use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 use std::f32::consts::{PI, TAU};
@@ -40,7 +42,8 @@ pub(super) const FACTS: Facts = Facts {
         ],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach: |given| {
         let [progress, depth, radius, turn, ..] = given.p;
         if progress <= 0.0 || turn <= 0.0 {

@@ -1,4 +1,4 @@
-use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::facts::{Amount, Facts, Grip, Group, Holds, INF, Icon, Mirror, Reach, Shape, aabb};
 use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 
@@ -13,7 +13,8 @@ pub(super) const FACTS: Facts = Facts {
         ],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach: |given| {
         if given.p[0] == 0.0 {
             return Reach::NONE;
@@ -32,6 +33,7 @@ pub(super) const FACTS: Facts = Facts {
         size: [1.0, 1.0, 0.6],
         params: &[("lift", 0.7)],
         yaw_pitch_deg: [32.0, 28.0],
+        ..Icon::PLAIN
     },
     mirror: Mirror::ACROSS_X,
     catalogue: Some((Group::OpenUp, 4)),

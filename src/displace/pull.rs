@@ -1,4 +1,4 @@
-use super::facts::{Facts, Grip, Group, Icon, Mirror, Reach, Shape};
+use super::facts::{Amount, Facts, Grip, Group, Holds, Icon, Mirror, Reach, Shape};
 use super::spec::{ParamKind, ParamSpec, TemplateSpec};
 use crate::math::Aabb;
 use glam::Vec3;
@@ -20,7 +20,8 @@ pub(super) const FACTS: Facts = Facts {
         }],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach: |given| {
         let offset = Vec3::new(given.p[0], given.p[1], given.p[2]);
         if offset == Vec3::ZERO {

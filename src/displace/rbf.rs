@@ -1,5 +1,5 @@
-use super::facts::{Facts, Given, Grip, Group, Icon, Mirror, Reach, Shape};
-use super::points::ControlPoints;
+use super::facts::{Amount, Facts, Given, Grip, Group, Holds, Icon, Mirror, Reach, Shape};
+use super::points::{ControlPoint, ControlPoints};
 use super::spec::{MAX_PARAM_FLOATS, ParamKind, ParamSpec, TemplateSpec, number};
 use crate::math::Aabb;
 use glam::{DVec2, DVec3, Vec3};
@@ -47,7 +47,8 @@ pub(super) const FACTS: Facts = Facts {
         ],
         main_param: Some(0),
     },
-    holds_data: true,
+    holds: Holds::Points,
+    amount: Amount::Parameters,
     reach: |given| {
         let [least, most] = Interpolant::of(given).shift();
         if least == Vec3::ZERO && most == Vec3::ZERO {
@@ -72,11 +73,30 @@ pub(super) const FACTS: Facts = Facts {
         }
     },
     grip: Grip::None,
-    icon: Icon::PLAIN,
+    // The top is drawn up to one side and down on the other.
+    icon: Icon {
+        points: &[
+            point([0.0, 0.0, 0.0], [0.0, 0.0]),
+            point([1.0, 0.0, 0.0], [0.0, 0.0]),
+            point([0.0, 1.0, 0.0], [0.0, 0.0]),
+            point([1.0, 1.0, 0.0], [0.0, 0.0]),
+            point([0.3, 0.3, 0.8], [-0.1, -0.3]),
+            point([0.75, 0.7, 0.8], [0.1, 0.2]),
+        ],
+        ..Icon::PLAIN
+    },
     mirror: Mirror::ACROSS_X,
     catalogue: Some((Group::Carve, 6)),
     shape: Shape::CUBE,
 };
+
+/// A control point with a shift in x and z.
+const fn point(at: [f32; 3], [x, z]: [f32; 2]) -> ControlPoint {
+    ControlPoint {
+        at: Vec3::from_array(at),
+        shift: Vec3::new(x, 0.0, z),
+    }
+}
 
 /// A point that lies nearer than this to one before it is left out, template units: two different displacements at one
 /// place have no smooth interpolant.

@@ -1,4 +1,4 @@
-use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::facts::{Amount, Facts, Grip, Group, Holds, INF, Icon, Mirror, Reach, Shape, aabb};
 use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 
@@ -14,7 +14,8 @@ pub(super) const FACTS: Facts = Facts {
         ],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach: |given| {
         let [amount, _, reach, ..] = given.p;
         if amount == 0.0 {

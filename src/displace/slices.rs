@@ -1,4 +1,4 @@
-use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::facts::{Amount, Facts, Grip, Group, Holds, INF, Icon, Mirror, Reach, Shape, aabb};
 use super::spec::{ParamKind, ParamSpec, TemplateSpec, number};
 use glam::Vec3;
 
@@ -23,12 +23,15 @@ pub(super) const FACTS: Facts = Facts {
         ],
         main_param: Some(3),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach: |given| {
         let [count, gap, shift, progress, ..] = given.p;
+        // The slabs' edges may be finer than a cell, but a slab is never off by more than one gap and one shift.
+        let ripple = Vec3::new(shift.abs(), 0.0, gap) * progress;
         let (gap, shift) = (gap * progress, shift * progress);
         if count < 1.5 || (gap == 0.0 && shift == 0.0) {
-            return Reach::NONE;
+            return Reach::NONE.rippled(ripple);
         }
         let last = (count + 0.5).floor() - 1.0;
         let sideways = shift * last;
@@ -39,6 +42,7 @@ pub(super) const FACTS: Facts = Facts {
             Vec3::new(sideways.max(0.0), 0.0, gap * last),
         )
         .with_detail(0.4 / (last + 1.0))
+        .rippled(ripple)
     },
     grip: Grip::Number(
         |given| {

@@ -1,4 +1,6 @@
-use super::facts::{Facts, Given, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::facts::{
+    Amount, Facts, Given, Grip, Group, Holds, INF, Icon, Mirror, Reach, Shape, aabb,
+};
 use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 
@@ -20,7 +22,8 @@ pub(super) const FACTS: Facts = Facts {
         params: &[number("strength", "How narrow", 0.5, 0.0, 2.0)],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach,
     grip: Grip::Number(
         |given| Vec3::new(0.5 + 0.5 / (1.0 + given.p[0]), 0.5, 0.5),

@@ -1,4 +1,6 @@
-use super::facts::{Facts, Given, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::facts::{
+    Amount, Facts, Given, Grip, Group, Holds, INF, Icon, Mirror, Reach, Shape, aabb,
+};
 use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 use std::f32::consts::{FRAC_PI_2, TAU};
@@ -36,7 +38,8 @@ pub(super) const FACTS: Facts = Facts {
         ],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach: |given| {
         if given.p[0] == 0.0 {
             return Reach::NONE;

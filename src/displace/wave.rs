@@ -1,4 +1,4 @@
-use super::facts::{Facts, Grip, Group, INF, Icon, Mirror, Reach, Shape, aabb};
+use super::facts::{Amount, Facts, Grip, Group, Holds, INF, Icon, Mirror, Reach, Shape, aabb};
 use super::spec::{TemplateSpec, number};
 use glam::Vec3;
 use std::f32::consts::TAU;
@@ -39,7 +39,8 @@ pub(super) const FACTS: Facts = Facts {
         ],
         main_param: Some(0),
     },
-    holds_data: false,
+    holds: Holds::Parameters,
+    amount: Amount::Parameters,
     reach: |given| {
         let amplitude = given.p[0];
         if amplitude == 0.0 || given.p[1] == 0.0 {

@@ -4,10 +4,11 @@ use glam::{Mat3, Quat, Vec3};
 use serde_json::{Value, json};
 
 use super::limits::{FORMAT, MAX_BYTES};
-use super::model::{ParamValue, PlacedTemplate, TemplateData, TemplateKind};
+use super::model::{ParamValue, PlacedTemplate, TemplateData};
 use super::text::{DocumentError, json as reading};
 use super::tree::Document;
 use super::write::Edit;
+use crate::displace::Holds;
 use crate::math::Placement;
 
 /// A plane through the middle of the subject, by its name in anatomy.
@@ -86,9 +87,9 @@ pub fn mirrored(template: &PlacedTemplate, plane: Plane) -> (Placement, Vec<Para
 
 /// The edits that mirror a template, or a copy of it that is inserted after it.
 ///
-/// There are none for a field: its samples come from a file and cannot be mirrored.
+/// There are none for a template that holds a file: samples from a file cannot be mirrored.
 pub fn mirror(template: &PlacedTemplate, plane: Plane, as_copy: bool) -> Vec<Edit> {
-    if template.kind == TemplateKind::Field {
+    if template.kind.facts().holds == Holds::File {
         return Vec::new();
     }
     let (placement, params) = mirrored(template, plane);
@@ -213,6 +214,7 @@ fn read(text: &str) -> Result<Vec<Value>, DocumentError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::document::model::TemplateKind;
 
     fn placed(json: &str) -> Document {
         Document::from_json(&format!(r#"{{"fabrica":1,"templates":[{json}]}}"#))

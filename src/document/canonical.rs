@@ -3,6 +3,7 @@
 use super::limits::DEFAULT_SUBJECT;
 use super::model::{ParamKind, ParamSpec, TemplateKind};
 use super::schema::{Key, Kind, LeftOut, ROOT, params_of};
+use crate::displace::Holds;
 use serde_json::{Map, Value};
 
 /// Leaves out the keys that stand at their default. The tree has been checked: a value of another shape than the schema
@@ -23,7 +24,7 @@ fn object(map: &mut Map<String, Value>, keys: &'static [Key], kind: Option<Templ
         inside(value, key.kind, kind);
         let is_left_out = match key.left_out {
             LeftOut::AtDefault => true,
-            LeftOut::ExceptField => kind != Some(TemplateKind::Field),
+            LeftOut::ExceptField => kind.is_none_or(|kind| kind.facts().holds != Holds::File),
             LeftOut::Alone | LeftOut::Never | LeftOut::Optional => false,
         };
         if is_left_out && is_default(value, key.kind) {

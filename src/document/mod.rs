@@ -62,11 +62,11 @@ pub use limits::{
 };
 pub use model::{
     Align, Background, Camera, Caption, CleanStep, Constrain, ConstrainBy, ControlPoint,
-    ControlPoints, Curve, FieldRef, FieldSamples, Illustration, Look, MAX_PARAM_FLOATS,
-    OpacityMode, PRESETS, ParamKind, ParamSpec, ParamValue, PlacedTemplate, Preset, PresetSubject,
-    RawVoxels, Reading, Recipe, RecipeSource, SampledField, SegmentLook, SegmentsRef, Step,
-    SubjectRef, TemplateData, TemplateKind, TemplateMode, TemplateSpec, Transfer, TransferPoint,
-    Window, keep_set, keep_sets, preset, presets,
+    ControlPoints, Curve, FieldRef, Illustration, Look, MAX_PARAM_FLOATS, OpacityMode, PRESETS,
+    ParamKind, ParamSpec, ParamValue, PlacedTemplate, Preset, PresetSubject, RawVoxels, Reading,
+    Recipe, RecipeSource, SegmentLook, SegmentsRef, Step, SubjectRef, TemplateData, TemplateKind,
+    TemplateMode, TemplateSpec, Transfer, TransferPoint, Window, keep_set, keep_sets, preset,
+    presets,
 };
 pub use text::{DocumentError, Notice, NoticeKind, pointer};
 pub use tree::Document;

@@ -15,6 +15,7 @@ use super::model::{
     Align, Camera, ConstrainBy, OpacityMode, ParamKind, RawVoxels, TemplateKind, TemplateMode,
 };
 use super::text::{json, pointer};
+use crate::displace::Holds;
 use crate::math::{Placement, plain_f64};
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -441,10 +442,10 @@ const fn plain(value: f32) -> f64 {
 
 /// The fixed keys in the parameters of a kind, besides those of its [`TemplateSpec`](super::TemplateSpec).
 pub(crate) fn params_of(kind: Option<TemplateKind>) -> &'static [Key] {
-    match kind {
-        Some(TemplateKind::Rbf) => RBF,
-        Some(TemplateKind::Field) => FIELD,
-        _ => &[],
+    match kind.map(|kind| kind.facts().holds) {
+        Some(Holds::Points) => RBF,
+        Some(Holds::File) => FIELD,
+        Some(Holds::Parameters) | None => &[],
     }
 }
 

@@ -12,8 +12,7 @@ use half::f16;
 use super::{
     FileSet, LoadError, LoadReport, ReadOptions, Warning, nodes, read_header, read_volume,
 };
-use crate::data::{Grid, Reducer, VolumeBuilder, VolumeLimits};
-use crate::document::SampledField;
+use crate::data::{Grid, Reducer, SampledField, VolumeBuilder, VolumeLimits};
 use crate::math::Placement;
 
 /// Samples along an axis at most; finer fields are averaged. 16 MiB on the device.

@@ -1,4 +1,5 @@
 use super::reach::reach;
+use crate::data::Resources;
 use crate::displace::Material;
 use crate::document::{PlacedTemplate, TemplateMode};
 use crate::math::{Aabb, Bent};
@@ -13,30 +14,30 @@ const FARTHEST: f32 = 64.0;
 ///
 /// Each template's moved part is boxed in its own space and the box of that added in subject space, so that a chain
 /// grows by what is moved, not by the turning of boxes within boxes.
-pub fn deformed_bounds(templates: &[PlacedTemplate], at_rest: Aabb) -> Aabb {
+pub fn deformed_bounds(templates: &[PlacedTemplate], resources: &Resources, at_rest: Aabb) -> Aabb {
     let mut object = at_rest;
     let mut group: Vec<&PlacedTemplate> = Vec::new();
-    let acting: Vec<PlacedTemplate> = templates.iter().map(PlacedTemplate::acting).collect();
+    let acting: Vec<PlacedTemplate> = templates.iter().map(|t| resources.acting(t)).collect();
     for template in acting.iter().filter(|t| t.enabled) {
         if template.mode == TemplateMode::Compose || group.is_empty() {
-            object = after(&group, object);
+            object = after(&group, resources, object);
             group.clear();
         }
         group.push(template);
     }
-    after(&group, object).intersection(Aabb {
+    after(&group, resources, object).intersection(Aabb {
         min: Vec3::splat(-FARTHEST),
         max: Vec3::splat(FARTHEST),
     })
 }
 
 /// An upper bound of how far a template moves any material of a box (subject space), subject units.
-pub fn max_displacement(template: &PlacedTemplate, object: Aabb) -> f32 {
-    let template = template.acting();
+pub fn max_displacement(template: &PlacedTemplate, resources: &Resources, object: Aabb) -> f32 {
+    let template = resources.acting(template);
     if let Some(bent) = template.bent() {
-        return longest_bent(&template, &bent, object);
+        return longest_bent(&template, resources, &bent, object);
     }
-    let shift = shift(&template, object);
+    let shift = shift(&template, resources, object);
     if shift.is_empty() {
         return 0.0;
     }
@@ -45,10 +46,10 @@ pub fn max_displacement(template: &PlacedTemplate, object: Aabb) -> f32 {
 }
 
 /// The object's box after one group (a template and the adds that follow it).
-fn after(group: &[&PlacedTemplate], object: Aabb) -> Aabb {
+fn after(group: &[&PlacedTemplate], resources: &Resources, object: Aabb) -> Aabb {
     match group {
         [] => object,
-        [one] => object.union(moved(one, object)),
+        [one] => object.union(moved(one, resources, object)),
         many => {
             // The displacements are summed at one point: at most the sum of the boxes, each with "none" in it.
             let sum = many.iter().fold(
@@ -58,13 +59,13 @@ fn after(group: &[&PlacedTemplate], object: Aabb) -> Aabb {
                 },
                 |sum, template| {
                     if let Some(bent) = template.bent() {
-                        let any = Vec3::splat(longest_bent(template, &bent, object));
+                        let any = Vec3::splat(longest_bent(template, resources, &bent, object));
                         return Aabb {
                             min: sum.min - any,
                             max: sum.max + any,
                         };
                     }
-                    let shift = shift(template, object);
+                    let shift = shift(template, resources, object);
                     if shift.is_empty() {
                         return sum;
                     }
@@ -101,13 +102,18 @@ fn in_template(template: &PlacedTemplate, object: Aabb) -> Aabb {
 }
 
 /// As [`max_displacement`], of a template along a curve.
-fn longest_bent(template: &PlacedTemplate, bent: &Bent, object: Aabb) -> f32 {
+fn longest_bent(
+    template: &PlacedTemplate,
+    resources: &Resources,
+    bent: &Bent,
+    object: Aabb,
+) -> f32 {
     let material = in_template(template, object);
     let size = template.placement.size;
     // From anywhere in one box to anywhere in another.
     let between =
         |a: Aabb, b: Aabb| (bent.bent_box(a).union(bent.bent_box(b)).size() * size).length();
-    match reach(template).material {
+    match reach(template, resources).material {
         Material::Stays => 0.0,
         Material::Shifted(shift) => {
             let farthest = shift.min.abs().max(shift.max.abs());
@@ -122,9 +128,9 @@ fn longest_bent(template: &PlacedTemplate, bent: &Bent, object: Aabb) -> f32 {
 }
 
 /// Box (subject space) of where a template puts what it moves.
-fn moved(template: &PlacedTemplate, object: Aabb) -> Aabb {
+fn moved(template: &PlacedTemplate, resources: &Resources, object: Aabb) -> Aabb {
     let material = in_template(template, object);
-    let reach = reach(template);
+    let reach = reach(template, resources);
     let to = match reach.material {
         Material::Stays => Aabb::EMPTY,
         Material::Shifted(shift) => {
@@ -151,12 +157,12 @@ fn moved(template: &PlacedTemplate, object: Aabb) -> Aabb {
     let corners = bent.bent_box(to).corners();
     let seen = Aabb::from_points(corners.map(|q| template.placement.subject_from_template(q)));
     // The box of a bent layer holds much that is not: nothing goes farther than the farthest.
-    seen.intersection(object.expanded(longest_bent(template, &bent, object)))
+    seen.intersection(object.expanded(longest_bent(template, resources, &bent, object)))
 }
 
 /// Least and greatest forward displacement of material of the box, template space; empty if nothing moves.
-fn shift(template: &PlacedTemplate, object: Aabb) -> Aabb {
-    match reach(template).material {
+fn shift(template: &PlacedTemplate, resources: &Resources, object: Aabb) -> Aabb {
+    match reach(template, resources).material {
         Material::Stays => Aabb::EMPTY,
         Material::Shifted(shift) => shift,
         // From anywhere in the cube to anywhere in the box.

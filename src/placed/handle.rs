@@ -181,7 +181,7 @@ fn path_point(template: &PlacedTemplate, value: f32) -> Option<Vec3> {
     let Grip::Number(position, _) = &template.kind.facts().grip else {
         return None;
     };
-    let mut given = given(template);
+    let mut given = given(template, None);
     // Every main number so far has only numbers before it, one float each.
     *given.p.get_mut(template.kind.spec().main_param?)? = value;
     Some(template.subject_from_template(position(&given)))

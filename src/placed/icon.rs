@@ -1,6 +1,7 @@
+use crate::displace::Holds;
 use crate::document::{
-    Align, Camera, ControlPoint, ControlPoints, ParamValue, PlacedTemplate, TemplateData,
-    TemplateKind, TemplateMode,
+    Align, Camera, ControlPoints, ParamValue, PlacedTemplate, TemplateData, TemplateKind,
+    TemplateMode,
 };
 use crate::math::Placement;
 use glam::{Quat, Vec3};
@@ -19,6 +20,13 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
             (_, default) => default,
         }
     });
+    let data = match kind.facts().holds {
+        Holds::Points => TemplateData::Points(ControlPoints {
+            points: icon.points.to_vec(),
+            cut: Vec::new(),
+        }),
+        Holds::Parameters | Holds::File => TemplateData::None,
+    };
     let template = PlacedTemplate {
         index: 0,
         kind,
@@ -35,7 +43,7 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
         align: Align::Axis,
         constrain: None,
         curve: None,
-        data: icon_data(kind),
+        data,
     };
     let [yaw, pitch] = icon.yaw_pitch_deg.map(f32::to_radians);
     let camera = Camera {
@@ -45,26 +53,4 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
         fov_deg: 30.0,
     };
     (template, camera)
-}
-
-/// Control points for the icon of an rbf: the top is drawn up on one side and down on the other.
-fn icon_data(kind: TemplateKind) -> TemplateData {
-    if kind != TemplateKind::Rbf {
-        return TemplateData::None;
-    }
-    let point = |x, y, z, dx, dz| ControlPoint {
-        at: Vec3::new(x, y, z),
-        shift: Vec3::new(dx, 0.0, dz),
-    };
-    TemplateData::Points(ControlPoints {
-        points: vec![
-            point(0.0, 0.0, 0.0, 0.0, 0.0),
-            point(1.0, 0.0, 0.0, 0.0, 0.0),
-            point(0.0, 1.0, 0.0, 0.0, 0.0),
-            point(1.0, 1.0, 0.0, 0.0, 0.0),
-            point(0.3, 0.3, 0.8, -0.1, -0.3),
-            point(0.75, 0.7, 0.8, 0.1, 0.2),
-        ],
-        cut: Vec::new(),
-    })
 }

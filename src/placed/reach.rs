@@ -1,23 +1,21 @@
+use crate::data::{FieldSamples, Resources};
 use crate::displace::{Given, Interpolant, MAX_PARAM_FLOATS, Reach, Samples};
 use crate::document::{PlacedTemplate, TemplateData};
 use glam::Vec3;
 
-/// A template as its kind sees it.
-pub(super) fn given(template: &PlacedTemplate) -> Given {
+/// A template as its kind sees it; `samples` are those of a `field`.
+pub(super) fn given(template: &PlacedTemplate, samples: Option<&FieldSamples>) -> Given {
     let mut floats = Vec::with_capacity(MAX_PARAM_FLOATS);
     template.params.iter().for_each(|v| v.pack(&mut floats));
     floats.resize(MAX_PARAM_FLOATS, 0.0);
-    let (mut points, mut samples) = (None, None);
-    match &template.data {
-        TemplateData::None => {}
-        TemplateData::Points(held) => points = Some(held.clone()),
-        TemplateData::Field(field) => {
-            samples = field.samples.as_ref().map(|held| Samples {
-                most: held.0.dims.iter().copied().max().unwrap_or(1),
-                shift: held.0.shift,
-            });
-        }
-    }
+    let points = match &template.data {
+        TemplateData::Points(held) => Some(held.clone()),
+        TemplateData::None | TemplateData::Field(_) => None,
+    };
+    let samples = samples.map(|FieldSamples(held)| Samples {
+        most: held.dims.iter().copied().max().unwrap_or(1),
+        shift: held.shift,
+    });
     Given {
         size: template
             .bent()
@@ -29,20 +27,21 @@ pub(super) fn given(template: &PlacedTemplate) -> Given {
 }
 
 /// What a template reaches with the parameters and the size it has, template space.
-pub fn reach(template: &PlacedTemplate) -> Reach {
-    (template.kind.facts().reach)(&given(&template.acting()))
+pub fn reach(template: &PlacedTemplate, resources: &Resources) -> Reach {
+    let samples = resources.field(template);
+    (template.kind.facts().reach)(&given(&resources.acting(template), samples))
 }
 
 /// What the shader of an `rbf` that acts ([`PlacedTemplate::acting`]) reads besides its parameters
 /// (shaders/displace/rbf.wgsl).
 pub fn solved_points(template: &PlacedTemplate) -> Vec<[f32; 4]> {
-    Interpolant::of(&given(template)).pack()
+    Interpolant::of(&given(template, None)).pack()
 }
 
 /// Lines of a lattice on the tissue of an `rbf`'s middle plane (z = ½), as they lie when it is bent, subject space.
 pub fn bent_lattice(template: &PlacedTemplate) -> Vec<Vec<Vec3>> {
     let template = template.acting();
-    let interpolant = Interpolant::of(&given(&template));
+    let interpolant = Interpolant::of(&given(&template, None));
     let place = |q: Vec3| template.subject_from_template(q);
     let lines = interpolant.bent_lattice().into_iter();
     lines

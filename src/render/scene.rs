@@ -1,5 +1,6 @@
 //! Everything that is ready to be drawn: an illustration on a subject, on the GPU.
 
+use crate::data::Resources;
 use crate::document::Illustration;
 use crate::math::Aabb;
 use crate::render::device::bindings::entry;
@@ -8,6 +9,7 @@ use crate::render::device::layouts::Layouts;
 use crate::render::device::programs::SubjectShader;
 use crate::render::pack::frame::longest_step;
 use crate::render::pack::kept::KeptTissue;
+use crate::render::pack::notice::RenderNotice;
 use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::pack::stamps::MadeFrom;
 use crate::render::stage::baked::BakedTexture;
@@ -96,8 +98,8 @@ impl Scene {
         }
     }
 
-    /// Messages about the document since the last call.
-    pub(crate) fn take_notices(&mut self) -> Vec<String> {
+    /// Notices about the document since the last call.
+    pub(crate) fn take_notices(&mut self) -> Vec<RenderNotice> {
         self.inputs.take_notices()
     }
 
@@ -108,9 +110,9 @@ impl Scene {
         layouts: &Layouts,
         programs: &StagePrograms,
         subject: &SubjectTextures,
-        illustration: &Illustration,
+        (illustration, resources): (&Illustration, &Resources),
     ) -> bool {
-        self.inputs.update(illustration, subject);
+        self.inputs.update(illustration, resources, subject);
         self.has_segments = subject.info.has_segments;
         self.subject = subject.shader;
         let inputs = &self.inputs;
@@ -129,6 +131,7 @@ impl Scene {
             let input = GridInput {
                 inputs,
                 placed: &illustration.templates,
+                resources,
                 templates,
                 kept_textures: &self.kept_textures,
                 fields: &self.fields.view,

@@ -2,6 +2,7 @@
 
 use crate::gpu::gpu;
 use crate::reference::{self, Placed};
+use fabrica::data::Resources;
 use fabrica::document::{PlacedTemplate, TemplateMode};
 use fabrica::render::gpu_types::{Subject, Templates};
 use fabrica::render::programs::files_of;
@@ -29,7 +30,8 @@ pub(crate) const METHODS: [(u32, &str); 6] = [
 /// The exact map at points, by the program's WGSL.
 pub(crate) fn probe(list: &[PlacedTemplate], points: &[Vec3]) -> Vec<Sample> {
     let probe = pollster::block_on(Probe::new(gpu())).expect("the probe program compiles");
-    pollster::block_on(probe.samples_of(&Templates::pack(list), points)).expect("samples")
+    pollster::block_on(probe.samples_of(&Templates::pack(list, &Resources::default()), points))
+        .expect("samples")
 }
 
 /// The same list for the f64 reading of the catalogue.
@@ -209,7 +211,7 @@ impl<'a> Method<'a> {
                 label: Some("methods"),
                 source: wgpu::ShaderSource::Wgsl(source().into()),
             });
-        let packed = Templates::pack(list);
+        let packed = Templates::pack(list, &Resources::default());
         let constants = [
             ("method", f64::from(method)),
             ("full_slope", scan.full_slope),

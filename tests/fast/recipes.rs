@@ -2,7 +2,8 @@
 //! joined.
 
 use fabrica::data::{
-    Grid, Mask, Segment, Segmentation, Segmented, Turns, Volume, VolumeBuilder, Voxels, segment,
+    Grid, Mask, Resources, Segment, Segmentation, Segmented, Turns, Volume, VolumeBuilder, Voxels,
+    segment,
 };
 use fabrica::document::{Document, Recipe};
 use glam::{DAffine3, DMat3, DVec3, IVec3, UVec3, Vec3};
@@ -283,12 +284,12 @@ fn recipes(text: &str) -> Vec<Recipe> {
 }
 
 fn segmented(volume: &Volume, files: &[Segmentation], text: &str, turns: Turns) -> Segmented {
-    done(segment(
-        Arc::new(volume.clone()),
-        files.iter().cloned().map(Arc::new).collect(),
-        recipes(text),
-        turns,
-    ))
+    let resources = Resources {
+        subject: Some(volume.clone().into()),
+        segmentations: files.iter().cloned().map(Arc::new).collect(),
+        ..Resources::default()
+    };
+    done(segment(resources, recipes(text), turns))
 }
 
 const RECIPES: &str = r#"[

@@ -5,7 +5,7 @@ use crate::firm::{BOUND, as_reference, difference, firm};
 use crate::gpu::{builtin, gpu, studio_of};
 use crate::reference::Placed;
 use crate::scatter::{Random, defaults, placed};
-use fabrica::data::{Grid, Segment, Segmentation, Turns, Volume, Voxels, segment};
+use fabrica::data::{Grid, Resources, Segment, Segmentation, Turns, Volume, Voxels, segment};
 use fabrica::document::{
     Align, Constrain, ConstrainBy, Illustration, PlacedTemplate, TemplateKind, TemplateMode,
 };
@@ -389,8 +389,11 @@ fn head_with_recipe() -> Volume {
     let document = fabrica::document::Document::from_json(&text).expect("a document");
     let recipes = document.illustration().recipes.clone();
     let mut volume = builtin("head", 64);
-    let whole = std::sync::Arc::new(volume.clone());
-    let made = pollster::block_on(segment(whole, Vec::new(), recipes, Turns::endless()));
+    let resources = Resources {
+        volume: Some(std::sync::Arc::new(volume.clone())),
+        ..Resources::default()
+    };
+    let made = pollster::block_on(segment(resources, recipes, Turns::endless()));
     let labels = made.segmentation.expect("labels");
     volume.segmentation = Some(Segmentation::clone(&labels));
     volume

@@ -2,7 +2,7 @@
 
 use crate::gpu::{builtin, gpu, studio_of};
 use crate::scatter::Random;
-use fabrica::data::Subject;
+use fabrica::data::{Resources, Subject};
 use fabrica::document::{Document, Illustration};
 use fabrica::render::gpu_types::Templates;
 use fabrica::render::{BakedMap, Probe, Renderer, system_clock};
@@ -44,7 +44,7 @@ fn baked_and_exact(templates: &str, texels: u32) -> (BakedMap, Vec<(Vec3, Vec3)>
         .collect();
     let exact = pollster::block_on(async {
         let probe = Probe::new(gpu).await.expect("the probe");
-        let packed = Templates::pack(&scene.templates);
+        let packed = Templates::pack(&scene.templates, &Resources::default());
         probe.samples_of(&packed, &points).await.expect("samples")
     });
     let pairs = points

@@ -3,10 +3,10 @@
 use crate::gpu::gpu;
 use crate::rbf::Rbf;
 use crate::scatter::{Random, placed};
-use fabrica::data::Grid;
+use fabrica::data::{FieldKey, FieldSamples, Grid, Resources};
 use fabrica::document::{
-    ControlPoint, ControlPoints, Document, FieldRef, FieldSamples, ParamValue, PlacedTemplate,
-    TemplateData, TemplateKind,
+    ControlPoint, ControlPoints, Document, FieldRef, ParamValue, PlacedTemplate, TemplateData,
+    TemplateKind,
 };
 use fabrica::load::{FieldFile, FieldUse, MemoryFiles, read_field};
 use fabrica::math::Placement;
@@ -19,9 +19,18 @@ fn probe() -> Probe {
 }
 
 fn ask(probe: &Probe, list: &[PlacedTemplate], points: &[Vec3]) -> Vec<Sample> {
+    ask_with(probe, list, &Resources::default(), points)
+}
+
+fn ask_with(
+    probe: &Probe,
+    list: &[PlacedTemplate],
+    resources: &Resources,
+    points: &[Vec3],
+) -> Vec<Sample> {
     let mut illustration = Document::new().illustration().clone();
     illustration.templates = list.to_vec();
-    pollster::block_on(probe.samples(&illustration, points)).expect("samples")
+    pollster::block_on(probe.samples(&illustration, resources, points)).expect("samples")
 }
 
 /// Places well apart, with displacements that keep tissue from folding much.
@@ -177,7 +186,7 @@ fn control_points_act_within_what_is_said_of_them() {
     let mut random = Random(0xB0B0);
     for i in 0..40 {
         let (template, _) = rbf(&mut random, i % 2 == 0);
-        let reach = fabrica::placed::reach(&template);
+        let reach = fabrica::placed::reach(&template, &Resources::default());
         let fabrica::displace::Material::Shifted(shift) = reach.material else {
             panic!("an rbf shifts");
         };
@@ -320,16 +329,20 @@ fn field(name: &str, bytes: Vec<u8>) -> Result<FieldFile, String> {
     read_field(&mut MemoryFiles::new([(name, bytes)]), name).map_err(|error| error.to_string())
 }
 
-/// The template that a file makes where it says itself.
-fn laid(file: &FieldFile, given: &FieldUse<'_>) -> (PlacedTemplate, Vec<String>) {
+/// The template that a file makes where it says itself, with its samples.
+fn laid(file: &FieldFile, given: &FieldUse<'_>) -> (PlacedTemplate, Resources, Vec<String>) {
     let (samples, notices) = file.fit(given).expect("it fits");
     let params = crate::scatter::defaults(TemplateKind::Field);
-    let mut template = placed(TemplateKind::Field, samples.placement, params);
+    // The document says nothing of its place.
+    let mut template = placed(TemplateKind::Field, Placement::DOCUMENT_DEFAULT, params);
     template.data = TemplateData::Field(FieldRef {
-        samples: Some(FieldSamples(Arc::new(samples))),
+        sha256: Some(file.sha256.clone()),
         ..FieldRef::default()
     });
-    (template, notices)
+    let mut resources = Resources::default();
+    let key = FieldKey::of(&template).expect("it names a file");
+    resources.add_field(key, FieldSamples(Arc::new(samples)));
+    (template, resources, notices)
 }
 
 #[test]
@@ -347,9 +360,19 @@ fn fields_move_as_their_files_say() {
         nrrd(3, |c, [_, _, z]| [10.0, 0.0, 0.5 * z as f32][c]),
     )
     .expect("read");
-    let (template, notices) = laid(&file, &used(&grid));
+    let (template, resources, notices) = laid(&file, &used(&grid));
     assert_eq!(notices, Vec::<String>::new());
-    for (pos, got) in at.iter().zip(ask(&probe, &[template], &at)) {
+    // Without its samples it is at rest.
+    for (pos, got) in at
+        .iter()
+        .zip(ask(&probe, std::slice::from_ref(&template), &at))
+    {
+        assert_eq!(got.pos_in_rest, *pos);
+    }
+    for (pos, got) in at
+        .iter()
+        .zip(ask_with(&probe, &[template], &resources, &at))
+    {
         // The third lies beyond the field's faces.
         let is_inside = pos.x < 0.4;
         let slice = ((pos.z * 100.0 + 55.0) / 10.0).clamp(0.0, 11.0);
@@ -373,14 +396,15 @@ fn fields_move_as_their_files_say() {
         (1006, Some(true), -1.0),
     ] {
         let file = field("warp.nii", nifti(intent, [5.0, 10.0, 2.0])).expect("read");
-        let (template, _) = laid(
+        let (template, resources, _) = laid(
             &file,
             &FieldUse {
                 is_lps,
                 ..used(&grid)
             },
         );
-        let got = ask(&probe, &[template], &[Vec3::new(0.01, 0.02, 0.03)])[0].pos_in_rest;
+        let at = [Vec3::new(0.01, 0.02, 0.03)];
+        let got = ask_with(&probe, &[template], &resources, &at)[0].pos_in_rest;
         let expected = Vec3::new(0.01 + sign * 0.05, 0.02 + sign * 0.1, 0.05);
         assert!(got.distance(expected) < 2e-4, "{intent} {is_lps:?}: {got}");
     }
@@ -390,10 +414,11 @@ fn fields_move_as_their_files_say() {
         nrrd(4, |c, [x, ..]| if c == 3 { x as f32 - 3.5 } else { 0.0 }),
     )
     .expect("read");
-    let (template, _) = laid(&file, &used(&grid));
-    let got = ask(
+    let (template, resources, _) = laid(&file, &used(&grid));
+    let got = ask_with(
         &probe,
         &[template],
+        &resources,
         &[Vec3::new(-0.05, 0.0, 0.0), Vec3::new(0.05, 0.0, 0.0)],
     );
     assert!(
@@ -481,7 +506,7 @@ fn what_is_wrong_with_a_field_is_said() {
         nrrd(3, |c, [x, ..]| if c == 0 && x == 4 { 25.0 } else { 0.0 }),
     )
     .expect("read");
-    let (_, notices) = laid(&file, &used(&grid));
+    let (_, _, notices) = laid(&file, &used(&grid));
     assert!(
         notices
             .iter()
@@ -506,7 +531,7 @@ fn nodes_of_a_simulation_are_regularised() {
     }
     let grid = subject();
     let file = field("bar.csv", table.into_bytes()).expect("a table");
-    let (template, notices) = laid(&file, &used(&grid));
+    let (template, resources, notices) = laid(&file, &used(&grid));
     assert!(notices[0].starts_with("1000 nodes"), "{notices:?}");
     let mut random = Random(5);
     let at: Vec<Vec3> = (0..200)
@@ -519,7 +544,10 @@ fn nodes_of_a_simulation_are_regularised() {
         })
         .collect();
     let (mut worst, mut mean) = (0.0_f32, 0.0);
-    for (pos, got) in at.iter().zip(ask(&probe(), &[template], &at)) {
+    for (pos, got) in at
+        .iter()
+        .zip(ask_with(&probe(), &[template], &resources, &at))
+    {
         let expected = Vec3::new((pos.x - 0.1) / 2.0, pos.y, pos.z);
         let off = got.pos_in_rest.distance(expected);
         worst = worst.max(off);

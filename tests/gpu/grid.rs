@@ -3,7 +3,7 @@
 
 use crate::gpu::{gpu, studio_of};
 use crate::scatter::{Random, defaults, placed};
-use fabrica::data::{Grid, Volume, Voxels};
+use fabrica::data::{Grid, Resources, Volume, Voxels};
 use fabrica::document::{
     Illustration, PlacedTemplate, TemplateKind, TemplateMode, Transfer, TransferPoint,
 };
@@ -141,7 +141,7 @@ fn check(
             }
         })
         .collect();
-    let packed = Templates::pack(list);
+    let packed = Templates::pack(list, &Resources::default());
     let samples = pollster::block_on(probe.samples_of(&packed, &points)).expect("samples");
     let mut by_mask: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (i, (point, sample)) in points.iter().zip(&samples).enumerate() {

@@ -5,6 +5,7 @@ use crate::firm::as_reference;
 use crate::gpu::{builtin, gpu, studio_of};
 use crate::reference;
 use crate::scatter::{Random, defaults, placed};
+use fabrica::data::Resources;
 use fabrica::document::{
     Constrain, ConstrainBy, Illustration, PlacedTemplate, Plane, TemplateKind, mirrored,
 };
@@ -72,7 +73,7 @@ fn constraints_by_coordinate_scale_the_main_parameter() {
         };
         let by_displacement = constrained(ConstrainBy::Displacement);
         let by_coordinate = constrained(ConstrainBy::Coordinate);
-        let longest = f64::from(max_displacement(&free, bounds));
+        let longest = f64::from(max_displacement(&free, &Resources::default(), bounds));
         let (mut asked, mut wrong, mut wrong_unscaled) = (0, 0, 0);
         for ((point, one), other) in points.iter().zip(&by_displacement).zip(&by_coordinate) {
             let pos = point.as_dvec3();
@@ -107,7 +108,7 @@ fn constraints_by_coordinate_scale_the_main_parameter() {
 }
 
 fn ask(probe: &Probe, template: &PlacedTemplate, points: &[Vec3]) -> Vec<Sample> {
-    let packed = Templates::pack(std::slice::from_ref(template));
+    let packed = Templates::pack(std::slice::from_ref(template), &Resources::default());
     pollster::block_on(probe.samples_of(&packed, points)).expect("samples")
 }
 

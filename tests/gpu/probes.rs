@@ -13,6 +13,7 @@
 use crate::firm::{BOUND, as_reference, difference, firm};
 use crate::gpu::gpu;
 use crate::scatter::{Random, defaults, placed};
+use fabrica::data::Resources;
 use fabrica::document::{Curve, ParamValue, PlacedTemplate, TemplateKind, TemplateMode};
 use fabrica::math::{Aabb, Placement};
 use fabrica::placed;
@@ -27,7 +28,8 @@ fn probe() -> (Gpu, Probe) {
 }
 
 fn ask(probe: &Probe, list: &[PlacedTemplate], points: &[Vec3]) -> Vec<Sample> {
-    pollster::block_on(probe.samples_of(&Templates::pack(list), points)).expect("samples")
+    pollster::block_on(probe.samples_of(&Templates::pack(list, &Resources::default()), points))
+        .expect("samples")
 }
 
 /// What a comparison came to.
@@ -184,7 +186,12 @@ fn lists_along_curves_agree_with_the_reference() {
             template
         })
         .collect();
-    assert!(Templates::pack(&list).items.iter().all(|t| t.curve != 0));
+    assert!(
+        Templates::pack(&list, &Resources::default())
+            .items
+            .iter()
+            .all(|t| t.curve != 0)
+    );
 }
 
 #[test]
@@ -463,7 +470,7 @@ fn outside_its_reach_a_template_changes_nothing() {
         let (mut outside, mut changed_inside) = (0, 0);
         for _ in 0..200 {
             let template = random.template(kind);
-            let reach = placed::reach(&template);
+            let reach = placed::reach(&template, &Resources::default());
             let points: Vec<Vec3> = (0..200)
                 .map(|_| random.point(std::slice::from_ref(&template)))
                 .collect();
@@ -520,8 +527,8 @@ fn no_material_leaves_the_deformed_bounds() {
             }
             list.push(template);
         }
-        let bounds = placed::deformed_bounds(&list, OBJECT);
-        let farthest = placed::max_displacement(&list[0], OBJECT);
+        let bounds = placed::deformed_bounds(&list, &Resources::default(), OBJECT);
+        let farthest = placed::max_displacement(&list[0], &Resources::default(), OBJECT);
         let around = bounds.expanded(0.3 * bounds.size().max_element());
         let points: Vec<Vec3> = (0..300)
             .map(|_| {

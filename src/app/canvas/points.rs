@@ -13,7 +13,7 @@ use crate::app::session::Command;
 use crate::app::words::fill;
 use crate::app::words::points::w;
 use crate::document::{
-    ControlPoint, ControlPoints, Edit, MAX_POINTS, PlacedTemplate, TemplateData, TemplateKind,
+    ControlPoint, ControlPoints, Edit, MAX_POINTS, PlacedTemplate, TemplateData,
 };
 use crate::placed;
 
@@ -50,7 +50,7 @@ pub(crate) fn ui(
     double_click: Option<egui::Pos2>,
     commands: &mut Vec<Command>,
 ) -> bool {
-    let (TemplateKind::Rbf, Some(points)) = (template.kind, points_of(template)) else {
+    let Some(points) = points_of(template) else {
         return false;
     };
     let placement = template.placement;

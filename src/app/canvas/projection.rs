@@ -101,16 +101,6 @@ mod tests {
     use super::*;
     use crate::app::session::camera;
     use egui::{pos2, vec2};
-    use glam::Quat;
-
-    fn camera() -> Camera {
-        Camera {
-            target: Vec3::ZERO,
-            rotate: Quat::IDENTITY,
-            distance: 2.5,
-            fov_deg: 30.0,
-        }
-    }
 
     fn view(camera: &Camera) -> Projection {
         Projection::new(
@@ -121,7 +111,7 @@ mod tests {
 
     #[test]
     fn the_patients_right_is_on_the_left_of_a_picture_from_the_front() {
-        let view = view(&camera());
+        let view = view(&Camera::DOCUMENT_DEFAULT);
         let at = |pos| view.ui_from_subject(pos).expect("in front of the eye");
         assert!(at(Vec3::X * 0.3).x < view.rect.center().x, "right is left");
         assert!(at(Vec3::Z * 0.3).y < view.rect.center().y, "superior is up");
@@ -133,7 +123,7 @@ mod tests {
 
     #[test]
     fn a_ray_goes_through_the_point_it_was_made_from() {
-        let mut camera = camera();
+        let mut camera = Camera::DOCUMENT_DEFAULT;
         camera::orbit(&mut camera, glam::vec2(0.7, 0.4));
         let view = view(&camera);
         let pos = Vec3::new(0.2, -0.1, 0.35);
@@ -151,12 +141,12 @@ mod tests {
 
     #[test]
     fn dragging_turns_the_near_side_with_the_hand() {
-        let mut turned = camera();
+        let mut turned = Camera::DOCUMENT_DEFAULT;
         camera::orbit(&mut turned, glam::vec2(0.1, 0.1));
         let seen = view(&turned)
             .ui_from_subject(Vec3::Y * 0.4)
             .expect("in front");
-        let was = view(&camera())
+        let was = view(&Camera::DOCUMENT_DEFAULT)
             .ui_from_subject(Vec3::Y * 0.4)
             .expect("in front");
         assert!(
@@ -167,7 +157,7 @@ mod tests {
 
     #[test]
     fn panning_moves_the_picture_by_as_many_points() {
-        let mut camera = camera();
+        let mut camera = Camera::DOCUMENT_DEFAULT;
         let before = view(&camera);
         pan(&mut camera, &before, vec2(30.0, -12.0));
         let after = view(&camera).ui_from_subject(Vec3::ZERO).expect("in front");

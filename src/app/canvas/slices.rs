@@ -24,6 +24,7 @@ use crate::app::session::shape::placement_on_surface;
 use crate::app::session::{Command, Gravity, See, Session, SubjectFacts};
 use crate::app::words::names;
 use crate::app::words::{fill, slices::w};
+use crate::data::Resources;
 use crate::document::{Background, Edit, PlacedTemplate};
 use crate::math::{Aabb, Placement};
 use crate::placed::deformed_bounds;
@@ -650,9 +651,10 @@ impl PaneView {
     }
 }
 
-/// The box that slices are laid out for: the object, and what templates draw out of it within reason.
+/// The box that slices are laid out for: the object, and what templates (but fields) draw out of it within reason.
 fn shown_bounds(facts: &SubjectFacts, session: &Session) -> Aabb {
-    let deformed = deformed_bounds(&session.illustration().templates, facts.bounds);
+    let templates = &session.illustration().templates;
+    let deformed = deformed_bounds(templates, &Resources::default(), facts.bounds);
     let size = facts.bounds.max - facts.bounds.min;
     let limit = 0.15 * size.max_element();
     Aabb {

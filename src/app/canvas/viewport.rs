@@ -21,7 +21,8 @@ use crate::app::session::camera;
 use crate::app::session::{Command, Gravity, Place, Question, Session, Tool};
 use crate::app::words::picture::w;
 use crate::app::words::{self, fill, in_sentence, kinds, messages, names};
-use crate::document::{Background, Camera, TemplateKind};
+use crate::displace::Holds;
+use crate::document::{Background, Camera};
 use crate::math::Placement;
 use crate::render::{PendingPick, RenderError};
 
@@ -430,7 +431,7 @@ impl Viewport {
         }
         let is_free = session
             .selected_template()
-            .is_none_or(|template| template.kind != TemplateKind::Rbf)
+            .is_none_or(|template| template.kind.facts().holds != Holds::Points)
             && !self.gizmo.is_hot();
         match clicked {
             Some(pixel) if session.tool() != Tool::Look && response.clicked() => {

@@ -12,7 +12,7 @@ use crate::data::{Resources, Segment, Segmentation, Subject};
 use crate::document::{Background, Camera, Illustration};
 use crate::render::{
     Clock, DrawState, Gpu, Image, PendingPick, PendingPlaces, PendingSlice, Pick, RenderError,
-    Renderer, SlicePlane, SliceView, SubjectInfo, View,
+    RenderNotice, Renderer, SlicePlane, SliceView, SubjectInfo, View,
 };
 
 /// The renderer with what the interface needs around it. Built once per window.
@@ -29,7 +29,6 @@ pub(crate) struct Picture {
     clock: Clock,
     questions: Vec<(Question, PendingPick)>,
     file: Option<Pending<Result<Image, RenderError>>>,
-    resources: Resources,
     /// As of the last frame.
     pub(crate) state: DrawState,
 }
@@ -51,7 +50,6 @@ impl Picture {
             generation: 0,
             slices: Vec::new(),
             ghost: None,
-            resources: Resources::default(),
             ghost_texture: None,
             clock,
             questions: Vec::new(),
@@ -91,8 +89,8 @@ impl Picture {
         self.renderer.set_segmentation(labels)
     }
 
-    /// Messages about the subject shown; each is returned once.
-    pub(crate) fn take_notices(&mut self) -> Vec<String> {
+    /// Notices about the subject and the document shown; each is returned once.
+    pub(crate) fn take_notices(&mut self) -> Vec<RenderNotice> {
         self.renderer.take_notices()
     }
 
@@ -106,16 +104,15 @@ impl Picture {
         self.renderer.segments()
     }
 
-    /// Takes the displacement fields that documents may show.
+    /// Takes what has come of the files that documents name.
     pub(crate) fn set_resources(&mut self, resources: Resources) {
-        self.resources = resources;
+        self.renderer.set_resources(resources);
     }
 
     /// Takes another illustration or camera to be drawn.
     pub(crate) fn set(&mut self, illustration: &Illustration, camera: &Camera) {
         let mut seen = illustration.clone();
         seen.camera = *camera;
-        self.resources.attach_fields(&mut seen);
         self.renderer.set_illustration(&seen);
     }
 
@@ -263,9 +260,9 @@ impl Picture {
 
     /// Starts drawing the picture once more for a file.
     pub(crate) fn start_file(&mut self, illustration: &Illustration, size_px: [u32; 2]) {
-        let mut seen = illustration.clone();
-        self.resources.attach_fields(&mut seen);
-        let future = self.renderer.render_image(&seen, size_px, FILE_SAMPLES);
+        let future = self
+            .renderer
+            .render_image(illustration, size_px, FILE_SAMPLES);
         self.file = Some(Box::pin(future));
     }
 

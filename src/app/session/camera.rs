@@ -136,15 +136,6 @@ mod tests {
     use super::*;
     use glam::vec2;
 
-    fn camera() -> Camera {
-        Camera {
-            target: Vec3::ZERO,
-            rotate: Quat::IDENTITY,
-            distance: 2.5,
-            fov_deg: 30.0,
-        }
-    }
-
     #[test]
     fn each_standard_view_looks_from_its_side() {
         for standard in StandardView::ALL {
@@ -159,7 +150,7 @@ mod tests {
 
     #[test]
     fn orbiting_keeps_the_patient_upright_and_stops_at_the_poles() {
-        let mut camera = camera();
+        let mut camera = Camera::DOCUMENT_DEFAULT;
         orbit(&mut camera, vec2(1.0, 9.0));
         let [_, up, back] = axes(camera.rotate);
         assert!(back.z > 0.999, "above, not beyond: {back}");

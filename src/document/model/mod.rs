@@ -19,6 +19,6 @@ pub use preset::{PRESETS, Preset, PresetSubject, preset, presets};
 pub use recipe::{CleanStep, Recipe, RecipeSource};
 pub use subject::{RawVoxels, Reading, SegmentsRef, SubjectRef};
 pub use template::{
-    Align, Constrain, ConstrainBy, FieldRef, FieldSamples, PlacedTemplate, SampledField,
-    TemplateData, TemplateMode, keep_set, keep_sets,
+    Align, Constrain, ConstrainBy, FieldRef, PlacedTemplate, TemplateData, TemplateMode, keep_set,
+    keep_sets,
 };

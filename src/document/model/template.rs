@@ -1,10 +1,9 @@
 //! A placed template and everything that belongs to it.
 
 use super::curve::Curve;
-use crate::displace::{ControlPoints, ParamValue, TemplateKind};
+use crate::displace::{Amount, ControlPoints, ParamValue, Shrinking, TemplateKind};
 use crate::math::{Bent, Placement};
 use glam::{Quat, Vec2, Vec3};
-use std::sync::Arc;
 
 /// A template of the document with its place and parameters, ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,11 +35,8 @@ pub struct PlacedTemplate {
 }
 
 impl PlacedTemplate {
-    /// This template with its amount worked into its parameters; the amount is 1 then.
-    ///
-    /// The main parameter is scaled by the amount (at 0 every kind is the identity); a move scales its rotation as
-    /// well. A cut has no main parameter, so its box shrinks: a sphere about its centre, the other shapes towards the
-    /// top of the box. At 0 a cut is switched off.
+    /// This template with its amount worked in, as its kind says ([`Amount`]); the amount is 1 then. At 0 every kind is
+    /// the identity or switched off.
     pub fn acting(&self) -> Self {
         let mut acting = self.clone();
         if self.amount >= 1.0 {
@@ -48,49 +44,50 @@ impl PlacedTemplate {
         }
         let part = self.amount.max(0.0);
         acting.amount = 1.0;
-        if let Some(main) = self
-            .kind
-            .spec()
-            .main_param
-            .and_then(|i| acting.params.get_mut(i))
-        {
-            *main = match *main {
-                ParamValue::Number(value) => ParamValue::Number(value * part),
-                ParamValue::Vector(value) => ParamValue::Vector(value * part),
-                other => other,
-            };
-        }
-        match self.kind {
-            TemplateKind::Move => {
-                for value in &mut acting.params {
-                    if let ParamValue::Rotation(turn) = value {
-                        *turn = Quat::IDENTITY.slerp(*turn, part);
-                    }
+        match self.kind.facts().amount {
+            Amount::Parameters => {
+                let main = self.kind.spec().main_param;
+                for (i, value) in acting.params.iter_mut().enumerate() {
+                    *value = match *value {
+                        ParamValue::Number(value) if main == Some(i) => {
+                            ParamValue::Number(value * part)
+                        }
+                        ParamValue::Vector(value) if main == Some(i) => {
+                            ParamValue::Vector(value * part)
+                        }
+                        ParamValue::Rotation(turn) => {
+                            ParamValue::Rotation(Quat::IDENTITY.slerp(turn, part))
+                        }
+                        other => other,
+                    };
                 }
             }
-            TemplateKind::Cut => {
-                const SPHERE: u32 = 1;
+            Amount::Box(shrinking) => {
                 acting.enabled &= part > 0.0;
-                let size = self.placement.size;
                 // A box without a size has no inverse.
-                let part = part.max(1e-3);
-                if self.params.first() == Some(&ParamValue::Choice(SPHERE)) {
-                    acting.placement.size = size * part;
-                    acting.curve = acting
-                        .curve
-                        .map(|curve| curve.in_part(Vec2::splat(part), Vec2::splat(0.5)));
-                } else {
-                    acting.placement.size.z = size.z * part;
-                    acting.curve = acting
-                        .curve
-                        .map(|curve| curve.in_part(Vec2::new(1.0, part), Vec2::ONE));
-                    let down = 0.5 * size.z * (1.0 - part);
-                    acting.placement.at += self.placement.rotate * Vec3::new(0.0, 0.0, down);
-                }
+                acting.shrink(shrinking(&self.params), part.max(1e-3));
             }
-            _ => {}
         }
         acting
+    }
+
+    /// Makes its box smaller, to a part of its size.
+    fn shrink(&mut self, shrinking: Shrinking, part: f32) {
+        let size = self.placement.size;
+        let (scale, towards) = match shrinking {
+            Shrinking::ToCentre => (Vec2::splat(part), Vec2::splat(0.5)),
+            Shrinking::ToTop => (Vec2::new(1.0, part), Vec2::ONE),
+        };
+        let curve = self.curve.take();
+        self.curve = curve.map(|curve| curve.in_part(scale, towards));
+        match shrinking {
+            Shrinking::ToCentre => self.placement.size = size * part,
+            Shrinking::ToTop => {
+                self.placement.size.z = size.z * part;
+                let down = 0.5 * size.z * (1.0 - part);
+                self.placement.at += self.placement.rotate * Vec3::new(0.0, 0.0, down);
+            }
+        }
     }
 
     /// Value of a number parameter by name; 0 if there is none of that name.
@@ -222,38 +219,12 @@ pub struct FieldRef {
     pub name: String,
     /// True if the document places the box; false if the file does.
     pub is_placed: bool,
-    /// The samples of the file. A document never has them: whoever draws puts them in.
-    pub samples: Option<FieldSamples>,
 }
 
 impl FieldRef {
     /// The key that tells this file from other files: its hash, else its address.
     pub fn key(&self) -> Option<&str> {
         self.sha256.as_deref().or(self.src.as_deref())
-    }
-}
-
-/// A displacement field on a grid that fills the box of its template, from outer edge to outer edge. Shared and
-/// immutable.
-#[derive(Clone, Debug)]
-pub struct FieldSamples(pub Arc<SampledField>);
-
-/// The content of [`FieldSamples`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct SampledField {
-    /// Samples along each axis, x fastest.
-    pub dims: [u32; 3],
-    /// Displacement (template space) and continuity as 16-bit floats, four per sample.
-    pub texels: Vec<u16>,
-    /// Least and greatest displacement along each axis, template space.
-    pub shift: [Vec3; 2],
-    /// Placement of the box by the file, subject space.
-    pub placement: Placement,
-}
-
-impl PartialEq for FieldSamples {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::object::Object;
 use super::reader::Reader;
+use crate::displace::Holds;
 use crate::document::model::{ControlPoint, ControlPoints, FieldRef, TemplateData, TemplateKind};
 use crate::document::text::DocumentError;
 use crate::document::text::pointer::join;
@@ -13,18 +14,17 @@ impl Reader {
         template: &Object<'_>,
         params: &Object<'_>,
     ) -> Result<TemplateData, DocumentError> {
-        Ok(match kind {
-            TemplateKind::Rbf => TemplateData::Points(self.control_points(params)?),
-            TemplateKind::Field => TemplateData::Field(FieldRef {
+        Ok(match kind.facts().holds {
+            Holds::Points => TemplateData::Points(self.control_points(params)?),
+            Holds::File => TemplateData::Field(FieldRef {
                 src: params.text("src")?.map(str::to_owned),
                 sha256: params.hash()?,
                 name: params.string("name")?,
                 is_placed: ["at", "rotate", "size"]
                     .iter()
                     .any(|key| template.map.contains_key(*key)),
-                samples: None,
             }),
-            _ => TemplateData::None,
+            Holds::Parameters => TemplateData::None,
         })
     }
 

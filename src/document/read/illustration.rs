@@ -4,7 +4,7 @@ use super::object::{Object, wrong};
 use super::reader::Reader;
 use crate::document::limits::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS};
 use crate::document::model::{
-    Camera, Caption, Illustration, PlacedTemplate, Step, TemplateKind, keep_sets,
+    Camera, Caption, Illustration, PlacedTemplate, Step, TemplateData, keep_sets,
 };
 use crate::document::schema::ROOT;
 use crate::document::text::json::number_text;
@@ -58,7 +58,7 @@ impl Reader {
         for (index, object) in root.children("templates")?.enumerate() {
             templates.extend(self.template(index, &object?)?);
         }
-        let is_field = |t: &&PlacedTemplate| t.kind == TemplateKind::Field && t.enabled;
+        let is_field = |t: &&PlacedTemplate| matches!(t.data, TemplateData::Field(_)) && t.enabled;
         if let Some(over) = templates.iter().filter(is_field).nth(MAX_FIELDS) {
             let what = "more than four fields are";
             self.note(

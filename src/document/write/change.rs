@@ -5,6 +5,7 @@ use super::lists::{insert, list, reorder, take};
 use super::number::{color_text, rotation, rounded, rounded_size, rounded_value, vector};
 use super::set::set;
 use super::value;
+use crate::displace::Holds;
 use crate::document::limits::{MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
 use crate::document::model::{
     Align, Background, Constrain, ConstrainBy, OpacityMode, ParamKind, ParamValue, Reading,
@@ -35,7 +36,7 @@ impl Edit {
                     "rotate": rotation(placement.rotate),
                     "size": placement.size.to_array().map(rounded_size),
                 });
-                if *kind == TemplateKind::Rbf {
+                if kind.facts().holds == Holds::Points {
                     value["params"] = value::fresh_points();
                 }
                 insert(root, "templates", MAX_TEMPLATES, *index, value)

@@ -1,8 +1,11 @@
 //! Textures that programs read and draw into.
 
+use super::bindings::encoder;
+use super::error::RenderError;
 use super::gpu::Gpu;
 use super::readback::Readback;
 use glam::UVec3;
+use half::f16;
 
 /// Format of the accumulated picture: linear light, premultiplied, blendable everywhere.
 pub(crate) const LINEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -105,16 +108,23 @@ impl Target {
     }
 }
 
-/// Starts reading a whole texture after the encoder's work. Rows are `pitch` bytes apart.
+/// Bytes from one row to the next of a texture that is read back, for rows of so many bytes.
+pub(crate) fn row_pitch(row_bytes: u32) -> u32 {
+    row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)
+}
+
+/// Starts reading a whole texture of two or three dimensions after the encoder's work. Rows are `pitch` bytes apart
+/// ([`row_pitch`]), slices follow each other.
 pub(crate) fn read_texture(
     gpu: &Gpu,
     mut encoder: wgpu::CommandEncoder,
     texture: &wgpu::Texture,
     pitch: u32,
 ) -> Readback {
+    let rows = u64::from(texture.height()) * u64::from(texture.depth_or_array_layers());
     let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("picture"),
-        size: u64::from(pitch) * u64::from(texture.height()),
+        label: Some("readback"),
+        size: u64::from(pitch) * rows,
         usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     });
@@ -125,11 +135,29 @@ pub(crate) fn read_texture(
             layout: wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some(pitch),
-                rows_per_image: None,
+                rows_per_image: Some(texture.height()),
             },
         },
         texture.size(),
     );
     gpu.queue.submit([encoder.finish()]);
     Readback::start(gpu, staging)
+}
+
+/// Reads all texels of a texture of four 16-bit floats each, x fastest.
+///
+/// # Errors
+/// [`RenderError::DeviceLost`], [`RenderError::Refused`].
+pub(crate) async fn read_half_texels(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+) -> Result<Vec<[f32; 4]>, RenderError> {
+    let pitch = row_pitch(8 * texture.width());
+    let bytes = read_texture(gpu, encoder(gpu), texture, pitch).await?;
+    let rows = bytes.chunks_exact(pitch as usize);
+    let texels = rows.flat_map(|row| row.as_chunks::<8>().0.iter().take(texture.width() as usize));
+    let half = |low, high| f16::from_le_bytes([low, high]).to_f32();
+    let values =
+        texels.map(|&[a, b, c, d, e, f, g, h]| [half(a, b), half(c, d), half(e, f), half(g, h)]);
+    Ok(values.collect())
 }

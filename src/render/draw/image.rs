@@ -2,7 +2,7 @@
 
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
-use crate::render::device::textures::read_texture;
+use crate::render::device::textures::{read_texture, row_pitch};
 
 /// A finished picture in main memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,7 +36,7 @@ pub(crate) fn read_picture(
     texture: &wgpu::Texture,
 ) -> impl Future<Output = Result<Image, RenderError>> + use<> {
     let size = [texture.width(), texture.height()];
-    let pitch = (size[0] * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let pitch = row_pitch(4 * size[0]);
     let reading = read_texture(gpu, encoder, texture, pitch);
     async move {
         let bytes = reading.await?;

@@ -1,5 +1,6 @@
 use super::raycast::RaycastPasses;
 use super::resolve::ResolvePass;
+use crate::data::Resources;
 use crate::document::Illustration;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
@@ -27,16 +28,16 @@ impl Passes {
         }
     }
 
-    /// A scene of an illustration on a subject. `wants_grid` false draws without the skip grid.
+    /// A scene of an illustration, with what has come of its files, on a subject. `wants_grid` false draws without the skip grid.
     pub(crate) fn scene(
         &self,
         gpu: &Gpu,
         subject: &SubjectTextures,
-        illustration: &Illustration,
+        shown: (&Illustration, &Resources),
         wants_grid: bool,
     ) -> Scene {
         let mut scene = Scene::new(gpu, &self.layouts, wants_grid);
-        self.update(gpu, &mut scene, subject, illustration);
+        self.update(gpu, &mut scene, subject, shown);
         scene
     }
 
@@ -46,9 +47,9 @@ impl Passes {
         gpu: &Gpu,
         scene: &mut Scene,
         subject: &SubjectTextures,
-        illustration: &Illustration,
+        shown: (&Illustration, &Resources),
     ) -> bool {
-        scene.update(gpu, &self.layouts, &self.stages, subject, illustration)
+        scene.update(gpu, &self.layouts, &self.stages, subject, shown)
     }
 
     /// Bakes about so many texels more of a scene's map; see [`Scene::bake`].

@@ -1,3 +1,4 @@
+use crate::data::Resources;
 use crate::document::Illustration;
 use crate::render::device::bindings::encoder;
 use crate::render::device::buffers::{
@@ -45,19 +46,21 @@ impl Probe {
         })
     }
 
-    /// One sample per point (deformed subject space), in order, for any number of points.
+    /// One sample per point (deformed subject space), in order, for any number of points. A field whose samples are not
+    /// among the resources is at rest.
     ///
     /// # Errors
     /// [`RenderError::DeviceLost`], [`RenderError::Refused`].
     pub async fn samples(
         &self,
         illustration: &Illustration,
+        resources: &Resources,
         points: &[Vec3],
     ) -> Result<Vec<Sample>, RenderError> {
         let placed = &illustration.templates;
-        let acting = placed.iter().filter(|t| t.acting().enabled);
-        let fields = FieldTexture::of(&self.gpu, &acting_fields(acting));
-        self.ask(&Templates::pack(placed), &fields, points).await
+        let fields = FieldTexture::of(&self.gpu, &acting_fields(placed, resources));
+        let templates = Templates::pack(placed, resources);
+        self.ask(&templates, &fields, points).await
     }
 
     /// As [`Probe::samples`], for templates that are packed already; fields among them are at rest.

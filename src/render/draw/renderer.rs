@@ -7,13 +7,14 @@ use super::pick::{PendingPick, encode_pick};
 use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
-use crate::data::{Segment, Segmentation, Subject};
+use crate::data::{Resources, Segment, Segmentation, Subject};
 use crate::document::{Camera, Illustration};
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::readback::WorkDone;
 use crate::render::pack::frame::frame_of;
+use crate::render::pack::notice::RenderNotice;
 use crate::render::pack::values::SubjectInfo;
 use crate::render::pack::view::View;
 use crate::render::scene::Scene;
@@ -67,8 +68,9 @@ pub struct Renderer {
     labels: Option<Option<Arc<Segmentation>>>,
     /// What the device has, made smaller where it was too large.
     fitting: Option<Subject>,
-    notices: Vec<String>,
+    notices: Vec<RenderNotice>,
     illustration: Option<Illustration>,
+    resources: Resources,
     scene: Option<Scene>,
     targets: Option<Targets>,
     stage: Stage,
@@ -123,6 +125,7 @@ impl Renderer {
             fitting: None,
             notices: Vec::new(),
             illustration: None,
+            resources: Resources::default(),
             scene: None,
             targets: None,
             stage: Stage::Stale,
@@ -149,8 +152,8 @@ impl Renderer {
     /// [`RenderError::TooLarge`] if the subject is not whole.
     pub fn set_subject(&mut self, subject: Subject) -> Result<(), RenderError> {
         self.gpu.check()?;
-        let (fitting, notice) = fitting(&self.gpu, &subject)?;
-        self.notices.extend(notice);
+        let (fitting, reduction) = fitting(&self.gpu, &subject)?;
+        self.notices.extend(reduction.map(RenderNotice::Reduced));
         self.upload = Some((Upload::new(&self.gpu, &fitting)?, fitting));
         self.subject = Some(subject);
         self.labels = None;
@@ -217,6 +220,15 @@ impl Renderer {
         }
         self.illustration = Some(illustration.clone());
         self.touch();
+    }
+
+    /// Draws illustrations with what has come of the files that they name, from the next [`Renderer::draw`] on: the
+    /// samples of their fields.
+    pub fn set_resources(&mut self, resources: Resources) {
+        if resources.fields != self.resources.fields {
+            self.touch();
+        }
+        self.resources = resources;
     }
 
     /// Looks from elsewhere than the illustration says, until that is set again.
@@ -340,7 +352,7 @@ impl Renderer {
     }
 
     /// Notices since the last call (a subject was made coarser, …).
-    pub fn take_notices(&mut self) -> Vec<String> {
+    pub fn take_notices(&mut self) -> Vec<RenderNotice> {
         std::mem::take(&mut self.notices)
     }
 
@@ -462,6 +474,7 @@ impl Renderer {
         let started = self
             .studio
             .as_ref()
+            .map(|studio| studio.clone().with_resources(self.resources.clone()))
             .map(|studio| studio.render_image(illustration, size_px, samples));
         async move {
             match started {
@@ -480,10 +493,12 @@ impl Renderer {
         let subject = self.subject.take();
         let labels = self.labels.take();
         let illustration = self.illustration.take();
+        let resources = std::mem::take(&mut self.resources);
         let generation = self.generation;
         *self = Self {
             generation,
             illustration,
+            resources,
             ..Self::new(gpu, self.clock)
         };
         match subject {
@@ -511,6 +526,7 @@ impl Renderer {
                     passes,
                     subject: Arc::new(subject),
                     wants_grid: true,
+                    resources: Resources::default(),
                 });
                 self.fitting = Some(fitting);
                 self.scene = None;
@@ -597,7 +613,8 @@ impl Renderer {
             Scene::new(&self.gpu, &studio.passes.layouts, studio.wants_grid)
         });
         let passes = &studio.passes;
-        if passes.update(&self.gpu, scene, &studio.subject, illustration) {
+        let shown = (illustration, &self.resources);
+        if passes.update(&self.gpu, scene, &studio.subject, shown) {
             self.stage = Stage::Stale;
             self.notices.extend(scene.take_notices());
         }

@@ -9,7 +9,9 @@ use crate::render::device::layouts::{Layouts, pipeline_layout};
 use crate::render::device::pipelines::{PipelineParts, Pipelines, render_pass, render_pipeline};
 use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
 use crate::render::device::readback::Readback;
-use crate::render::device::textures::{OUTPUT_FORMAT, PICK_FORMAT, Target, read_texture};
+use crate::render::device::textures::{
+    OUTPUT_FORMAT, PICK_FORMAT, Target, read_texture, row_pitch,
+};
 use crate::render::pack::gpu_types::{Affine, SLICE_COLORS, SLICE_GREY, Slice};
 use crate::render::pack::look::linear_color;
 use crate::render::pack::raycast_key::RaycastKey;
@@ -250,7 +252,7 @@ impl SliceScene<'_> {
         );
         let mut encoder = encoder(self.gpu);
         self.encode(&mut encoder, &target.view, &uniform_of(plane), true);
-        let pitch = (32 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let pitch = row_pitch(32 * size[0]);
         Ok(PendingSlice {
             reading: read_texture(self.gpu, encoder, &target.texture, pitch),
             size,

@@ -8,7 +8,7 @@ use super::pick::{PendingPick, Pick, encode_pick};
 use super::picture::PictureJob;
 use super::probe::Sample;
 use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
-use crate::data::{Segment, Subject};
+use crate::data::{Resources, Segment, Subject};
 use crate::document::Illustration;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -45,6 +45,7 @@ pub struct Studio {
     pub(crate) passes: Arc<Passes>,
     pub(crate) subject: Arc<SubjectTextures>,
     pub(crate) wants_grid: bool,
+    pub(crate) resources: Resources,
 }
 
 impl Studio {
@@ -66,12 +67,19 @@ impl Studio {
             passes: Arc::new(passes),
             subject: Arc::new(subject),
             wants_grid,
+            resources: Resources::default(),
         })
     }
 
+    /// The same volume, with what has come of the files that illustrations name besides: the samples of their fields.
+    pub fn with_resources(self, resources: Resources) -> Self {
+        Self { resources, ..self }
+    }
+
     fn scene(&self, illustration: &Illustration, wants_grid: bool) -> Scene {
+        let shown = (illustration, &self.resources);
         self.passes
-            .scene(&self.gpu, &self.subject, illustration, wants_grid)
+            .scene(&self.gpu, &self.subject, shown, wants_grid)
     }
 
     /// Makes everything ready for one picture.
@@ -117,7 +125,7 @@ impl Studio {
         illustration: &Illustration,
         size_px: [u32; 2],
         samples: u32,
-    ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+    ) -> impl Future<Output = Result<Image, RenderError>> + 'static + use<> {
         let job = self.picture(illustration, size_px);
         async move { job?.draw(samples.max(1)).await }
     }

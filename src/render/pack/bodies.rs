@@ -41,11 +41,6 @@ pub(crate) fn bodies_of(
     bodies
 }
 
-/// Says that a name in `look.segments` means nothing here.
-pub(crate) fn segment_notice(name: &str) -> String {
-    format!("look: the subject has no segment “{name}”")
-}
-
 impl Bodies {
     /// True if anything is drawn as a body, or hidden.
     pub(crate) fn is_any(&self) -> bool {

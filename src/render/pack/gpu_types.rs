@@ -1,9 +1,7 @@
 //! Mirrors of the structs in `shaders/types.wgsl`, member by member and in order; `tests/layout.rs` compares them.
 
-use crate::document::{
-    FieldRef, FieldSamples, MAX_FIELDS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData,
-    TemplateMode,
-};
+use crate::data::{FieldSamples, Resources};
+use crate::document::{MAX_FIELDS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData, TemplateMode};
 use crate::placed::solved_points;
 use glam::{Affine3A, Mat3A, Vec3A};
 
@@ -105,11 +103,11 @@ impl Templates {
         pool: [[0.0; 4]; POOL],
     };
 
-    /// Packs the enabled templates. An `add` with no enabled one before it composes (spec/templates.md). More than
+    /// Packs the enabled templates, fields with their samples where those are there. An `add` with no enabled one before it composes (spec/templates.md). More than
     /// [`MAX_TEMPLATES`] cannot come from a valid document; what is over is left out.
-    pub fn pack(placed: &[PlacedTemplate]) -> Self {
+    pub fn pack(placed: &[PlacedTemplate], resources: &Resources) -> Self {
         let mut packed = Self::NONE;
-        let acting = placed.iter().map(PlacedTemplate::acting);
+        let acting = placed.iter().map(|t| resources.acting(t));
         let enabled: Vec<_> = acting.filter(|t| t.enabled).take(MAX_TEMPLATES).collect();
         let (mut count, mut group) = (0, 0);
         // The first entry stays 0: no points, no samples, no curve. Curves come first: there is room for one of every
@@ -138,11 +136,14 @@ impl Templates {
         for (slot, template) in packed.items.iter_mut().zip(&enabled) {
             let held = match &template.data {
                 TemplateData::Points(_) => solved_points(template),
-                TemplateData::Field(field) if fields < MAX_FIELDS => {
-                    fields += usize::from(field.samples.is_some());
-                    field_place(field, &mut slice)
-                }
-                TemplateData::Field(_) | TemplateData::None => Vec::new(),
+                TemplateData::Field(_) => match resources.field(template) {
+                    Some(samples) if fields < MAX_FIELDS => {
+                        fields += 1;
+                        vec![field_place(samples, &mut slice)]
+                    }
+                    _ => Vec::new(),
+                },
+                TemplateData::None => Vec::new(),
             };
             if let Some(first) = hold(&held) {
                 slot.held = first as u32;
@@ -163,14 +164,11 @@ impl Templates {
 }
 
 /// Where the samples of a field begin among those of all, as packed into the pool.
-fn field_place(field: &FieldRef, slice: &mut u32) -> Vec<[f32; 4]> {
-    let Some(FieldSamples(samples)) = &field.samples else {
-        return Vec::new();
-    };
+fn field_place(FieldSamples(samples): &FieldSamples, slice: &mut u32) -> [f32; 4] {
     let [x, y, z] = samples.dims;
     let place = [x as f32, y as f32, z as f32, *slice as f32];
     *slice += z;
-    vec![place]
+    place
 }
 
 impl Template {

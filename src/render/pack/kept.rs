@@ -4,7 +4,8 @@ use super::gpu_types::{
     CONSTRAIN_COORDINATE, CONSTRAIN_DISPLACEMENT, CONSTRAIN_RIGID, KEEPS_DEEP, KeptGroup,
     MAX_TEMPLATES,
 };
-use crate::data::Segment;
+use super::notice::RenderNotice;
+use crate::data::{Resources, Segment};
 use crate::document::{
     Align, ConstrainBy, MAX_KEEP_SETS, PlacedTemplate, TemplateMode, keep_set, keep_sets,
 };
@@ -71,7 +72,12 @@ pub(crate) fn labels_of(name: &str, segments: &[Segment]) -> Vec<u8> {
 
 impl KeptTissue {
     /// What the templates keep of a subject with these segments. `bounds` is the box of the subject at rest.
-    pub fn of(templates: &[PlacedTemplate], segments: &[Segment], bounds: Aabb) -> Self {
+    pub fn of(
+        templates: &[PlacedTemplate],
+        resources: &Resources,
+        segments: &[Segment],
+        bounds: Aabb,
+    ) -> Self {
         let mut kept = Self {
             label_sets: [[0; 4]; 8],
             set_count: 0,
@@ -83,7 +89,7 @@ impl KeptTissue {
         };
         let acting: Vec<PlacedTemplate> = templates
             .iter()
-            .map(PlacedTemplate::acting)
+            .map(|template| resources.acting(template))
             .filter(|t| t.enabled)
             .take(MAX_TEMPLATES)
             .collect();
@@ -113,7 +119,7 @@ impl KeptTissue {
             if index == 0 || template.mode == TemplateMode::Compose {
                 head = index;
             }
-            let longest = max_displacement(template, bounds);
+            let longest = max_displacement(template, resources, bounds);
             let item = &mut kept.items[head];
             item.longest += longest;
             match &template.align {
@@ -194,9 +200,10 @@ impl KeptTissue {
         };
     }
 
-    /// One line for each name that the subject has no segment for.
-    pub fn notices(&self) -> Vec<String> {
-        self.unknown.iter().map(|name| kept_notice(name)).collect()
+    /// A notice for each name that the subject has no segment for.
+    pub fn notices(&self) -> Vec<RenderNotice> {
+        let unknown = self.unknown.iter().cloned();
+        unknown.map(RenderNotice::UnknownKept).collect()
     }
 
     /// True if nothing is kept and nothing gives way.
@@ -213,9 +220,4 @@ impl KeptTissue {
     pub fn kept_by(&self) -> u32 {
         u32::from(self.set_count > 0) | u32::from(self.keeps_deep) << 1
     }
-}
-
-/// Says that a name in `keep` means nothing here.
-pub(crate) fn kept_notice(name: &str) -> String {
-    format!("keep: the subject has no segment “{name}”; nothing is kept for it")
 }

@@ -5,6 +5,7 @@ pub(crate) mod frame;
 pub mod gpu_types;
 pub(crate) mod kept;
 pub(crate) mod look;
+pub(crate) mod notice;
 pub(crate) mod raycast_key;
 pub(crate) mod stamps;
 pub(crate) mod values;

@@ -8,11 +8,9 @@ use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
 use crate::render::device::programs::{ProgramId, module};
-use crate::render::device::readback::Readback;
-use crate::render::device::textures::volume_texture;
+use crate::render::device::textures::{read_half_texels, volume_texture};
 use crate::render::pack::gpu_types::Baked;
 use glam::{UVec3, Vec3};
-use half::f16;
 
 /// Format of the baked map. Halves: 0.0002 subject units at a displacement of a quarter.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -183,38 +181,7 @@ impl BakedTexture {
     /// Copies the baked map to main memory.
     pub(crate) async fn read(&self, gpu: &Gpu) -> Result<BakedMap, RenderError> {
         let [width, height, depth, _] = self.place.texels;
-        let pitch = (8 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("baked map"),
-            size: u64::from(pitch) * u64::from(height) * u64::from(depth),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let mut encoder = encoder(gpu);
-        encoder.copy_texture_to_buffer(
-            self.texture.as_image_copy(),
-            wgpu::TexelCopyBufferInfo {
-                buffer: &buffer,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(pitch),
-                    rows_per_image: Some(height),
-                },
-            },
-            self.texture.size(),
-        );
-        gpu.queue.submit([encoder.finish()]);
-        let bytes = Readback::start(gpu, buffer).await?;
-        let values = bytes
-            .chunks_exact(pitch as usize)
-            .flat_map(|row| row.chunks_exact(8).take(width as usize))
-            .map(|texel| {
-                [0, 2, 4, 6].map(|i| match texel.get(i..i + 2) {
-                    Some(&[low, high]) => f16::from_le_bytes([low, high]).to_f32(),
-                    _ => 0.0,
-                })
-            })
-            .collect();
+        let values = read_half_texels(gpu, &self.texture).await?;
         Ok(BakedMap {
             origin_min: Vec3::from_slice(&self.place.origin_min[..3]),
             size: Vec3::from_slice(&self.place.per_unit[..3]).recip(),

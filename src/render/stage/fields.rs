@@ -1,20 +1,19 @@
 //! Sampled displacements on the GPU.
 
-use crate::document::PlacedTemplate;
-use crate::document::{FieldSamples, MAX_FIELDS, TemplateData};
+use crate::data::{FieldSamples, Resources};
+use crate::document::{MAX_FIELDS, PlacedTemplate};
 use crate::render::device::gpu::Gpu;
 use crate::render::device::textures::volume_texture;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use glam::UVec3;
 
 /// Samples of the fields that act, in their order, as far as they are there: as many as are drawn.
-pub(crate) fn acting_fields<'a>(
-    templates: impl Iterator<Item = &'a PlacedTemplate>,
+pub(crate) fn acting_fields(
+    templates: &[PlacedTemplate],
+    resources: &Resources,
 ) -> Vec<FieldSamples> {
-    let samples = templates.filter_map(|template| match &template.data {
-        TemplateData::Field(field) => field.samples.clone(),
-        _ => None,
-    });
+    let acting = templates.iter().filter(|t| t.acting().enabled);
+    let samples = acting.filter_map(|template| resources.field(template).cloned());
     samples.take(MAX_FIELDS).collect()
 }
 

@@ -1,13 +1,15 @@
 //! What the stages of a scene are made from.
 
 use super::fields::acting_fields;
-use crate::document::{FieldSamples, Illustration, OpacityMode};
+use crate::data::{FieldSamples, Resources};
+use crate::document::{Illustration, OpacityMode};
 use crate::math::Aabb;
 use crate::placed::deformed_bounds;
-use crate::render::pack::bodies::{bodies_of, segment_notice};
+use crate::render::pack::bodies::bodies_of;
 use crate::render::pack::gpu_types::{Bodies, Templates};
-use crate::render::pack::kept::{KeptTissue, kept_notice};
+use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::look::{TransferTable, background_uniform};
+use crate::render::pack::notice::RenderNotice;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::textures::SubjectTextures;
 
@@ -32,8 +34,8 @@ pub(crate) struct Inputs {
     pub background: Stamped<[f32; 4]>,
     bounds_from: MadeFrom<4>,
     /// Names of no segment that a notice has been made for.
-    said: Vec<String>,
-    notices: Vec<String>,
+    noticed: Vec<String>,
+    notices: Vec<RenderNotice>,
 }
 
 impl Inputs {
@@ -49,20 +51,24 @@ impl Inputs {
             look: Stamped::default(),
             background: Stamped::default(),
             bounds_from: MadeFrom::default(),
-            said: Vec::new(),
+            noticed: Vec::new(),
             notices: Vec::new(),
         }
     }
 
-    /// Takes over an illustration for a subject; each input that differs gets a new stamp.
-    pub(crate) fn update(&mut self, illustration: &Illustration, subject: &SubjectTextures) {
+    /// Takes over an illustration and the data of its files for a subject; each input that differs gets a new stamp.
+    pub(crate) fn update(
+        &mut self,
+        illustration: &Illustration,
+        resources: &Resources,
+        subject: &SubjectTextures,
+    ) {
         let placed = &illustration.templates;
         self.subject = subject.stamp;
-        let acting = placed.iter().filter(|t| t.acting().enabled);
-        self.fields.set(acting_fields(acting));
-        self.templates.set(Templates::pack(placed));
-        let kept = KeptTissue::of(placed, &subject.segments, subject.frame.bounds);
-        self.say(&kept.unknown, kept_notice);
+        self.fields.set(acting_fields(placed, resources));
+        self.templates.set(Templates::pack(placed, resources));
+        let kept = KeptTissue::of(placed, resources, &subject.segments, subject.frame.bounds);
+        self.notify(&kept.unknown, RenderNotice::UnknownKept);
         self.kept.set(Some(kept));
         let bounds_from = [
             self.subject,
@@ -71,7 +77,7 @@ impl Inputs {
             self.kept.stamp(),
         ];
         if self.bounds_from.is_stale(bounds_from) {
-            let bounds = deformed_bounds(placed, subject.frame.bounds);
+            let bounds = deformed_bounds(placed, resources, subject.frame.bounds);
             let around = self
                 .rigid_reach()
                 .map(|far| subject.frame.bounds.expanded(far));
@@ -81,7 +87,7 @@ impl Inputs {
         let mut unknown = Vec::new();
         let look = &illustration.look;
         let bodies = bodies_of(&look.segments, &subject.segments, &mut unknown);
-        self.say(&unknown, segment_notice);
+        self.notify(&unknown, RenderNotice::UnknownBody);
         self.bodies.set(bodies);
         let table = TransferTable::new(look, &illustration.subject, &subject.info);
         self.look.set(Some((table, look.opacity)));
@@ -113,8 +119,8 @@ impl Inputs {
         self.look.get().as_ref().map(|(table, _)| table)
     }
 
-    /// Messages about the document since the last call.
-    pub(crate) fn take_notices(&mut self) -> Vec<String> {
+    /// Notices about the document since the last call.
+    pub(crate) fn take_notices(&mut self) -> Vec<RenderNotice> {
         std::mem::take(&mut self.notices)
     }
 
@@ -126,11 +132,11 @@ impl Inputs {
     }
 
     /// Adds a notice for each name of no segment, once per name.
-    fn say(&mut self, names: &[String], notice: fn(&str) -> String) {
+    fn notify(&mut self, names: &[String], notice: fn(String) -> RenderNotice) {
         for name in names {
-            if !self.said.contains(name) {
-                self.notices.push(notice(name));
-                self.said.push(name.clone());
+            if !self.noticed.contains(name) {
+                self.notices.push(notice(name.clone()));
+                self.noticed.push(name.clone());
             }
         }
     }

@@ -6,8 +6,7 @@ use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
 use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
-use crate::render::device::readback::Readback;
-use crate::render::device::textures::volume_texture;
+use crate::render::device::textures::{read_half_texels, volume_texture};
 use crate::render::pack::gpu_types::{DistanceJob, Kept};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
@@ -198,37 +197,8 @@ impl KeptTextures {
             self.texture.height(),
             self.texture.depth_or_array_layers(),
         ];
-        let pitch = (8 * x).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("distances readback"),
-            size: u64::from(pitch) * u64::from(y) * u64::from(z),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let mut encoder = encoder(gpu);
-        encoder.copy_texture_to_buffer(
-            self.texture.as_image_copy(),
-            wgpu::TexelCopyBufferInfo {
-                buffer: &buffer,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(pitch),
-                    rows_per_image: Some(y),
-                },
-            },
-            self.texture.size(),
-        );
-        gpu.queue.submit([encoder.finish()]);
-        let bytes = Readback::start(gpu, buffer).await?;
-        let texels = bytes
-            .chunks_exact(pitch as usize)
-            .flat_map(|row| row.chunks_exact(8).take(x as usize))
-            .map(|texel| {
-                std::array::from_fn(|i| {
-                    half::f16::from_le_bytes([texel[2 * i], texel[2 * i + 1]]).to_f32()
-                })
-            });
-        Ok(([x, y, z], texels.collect()))
+        let texels = read_half_texels(gpu, &self.texture).await?;
+        Ok(([x, y, z], texels))
     }
 
     fn make(

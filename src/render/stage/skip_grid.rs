@@ -2,9 +2,9 @@
 
 use super::inputs::Inputs;
 use super::kept::KeptTextures;
+use crate::data::Resources;
 use crate::displace::Material;
 use crate::document::PlacedTemplate;
-use crate::document::{ParamValue, TemplateKind};
 use crate::math::Aabb;
 use crate::placed::{max_displacement, reach};
 use crate::render::device::bindings::{encoder, entry};
@@ -13,8 +13,7 @@ use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
 use crate::render::device::programs::{ProgramId, module};
-use crate::render::device::readback::Readback;
-use crate::render::device::textures::volume_texture;
+use crate::render::device::textures::{read_texture, row_pitch, volume_texture};
 use crate::render::pack::gpu_types::{
     Affine, Grid, GridJob, GridTemplate, MATERIAL_BENT, MATERIAL_RIPPLED, MATERIAL_SHIFTED,
     MATERIAL_WITHIN, MAX_TEMPLATES,
@@ -114,6 +113,8 @@ pub(crate) struct GridInput<'a> {
     pub inputs: &'a Inputs,
     /// Templates as placed; the enabled ones are in the order of the packed ones.
     pub placed: &'a [PlacedTemplate],
+    /// What has come of the files that they name.
+    pub resources: &'a Resources,
     /// The uniform of the templates.
     pub templates: &'a wgpu::Buffer,
     /// What templates leave alone.
@@ -303,28 +304,8 @@ impl SkipGrid {
 
     /// Reads the cells back, as made.
     pub(crate) async fn read(&self, gpu: &Gpu) -> Result<GridCells, RenderError> {
-        let bytes_per_row = 8 * CELLS;
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("grid readback"),
-            size: u64::from(bytes_per_row) * u64::from(CELLS).pow(2),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let mut encoder = encoder(gpu);
-        encoder.copy_texture_to_buffer(
-            self.texture.as_image_copy(),
-            wgpu::TexelCopyBufferInfo {
-                buffer: &buffer,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(bytes_per_row),
-                    rows_per_image: Some(CELLS),
-                },
-            },
-            self.texture.size(),
-        );
-        gpu.queue.submit([encoder.finish()]);
-        let bytes = Readback::start(gpu, buffer).await?;
+        let pitch = row_pitch(8 * CELLS);
+        let bytes = read_texture(gpu, encoder(gpu), &self.texture, pitch).await?;
         let all: Vec<[u32; 2]> = bytemuck::pod_collect_to_vec(&bytes);
         let [x, y, z, _] = self.grid.cells;
         let used = (0..z)
@@ -385,10 +366,10 @@ fn plan(input: &GridInput<'_>, along: u32) -> (Grid, GridJob) {
     let cells = cells.as_uvec3();
     let spread = (LONGEST_STEP * input.step / cell_size.min_element()).ceil() as u32;
     let mut items = [GridTemplate::default(); MAX_TEMPLATES];
-    let acting: Vec<PlacedTemplate> = input.placed.iter().map(PlacedTemplate::acting).collect();
-    let enabled = acting.iter().filter(|t| t.enabled);
+    let acting = input.placed.iter().map(|t| input.resources.acting(t));
+    let enabled = acting.filter(|t| t.enabled);
     for (slot, template) in items.iter_mut().zip(enabled) {
-        *slot = item(template, bounds);
+        *slot = item(&template, input.resources, bounds);
     }
     let subject = &input.subject.uniform;
     let bricks = &input.subject.bricks;
@@ -422,8 +403,8 @@ fn plan(input: &GridInput<'_>, along: u32) -> (Grid, GridJob) {
     (grid, job)
 }
 
-fn item(template: &PlacedTemplate, bounds: Aabb) -> GridTemplate {
-    let reach = reach(template);
+fn item(template: &PlacedTemplate, resources: &Resources, bounds: Aabb) -> GridTemplate {
+    let reach = reach(template, resources);
     let (mut boxes, mut detail, mut stretch, mut longest) = (reach.boxes, reach.detail, 1.0, 0.0);
     if let Some(bent) = template.bent() {
         // Where nothing is changed the curve does nothing either.
@@ -432,7 +413,7 @@ fn item(template: &PlacedTemplate, bounds: Aabb) -> GridTemplate {
             [low.min(part.min.z), high.max(part.max.z)]
         });
         stretch = bent.stretch(heights);
-        longest = max_displacement(template, bounds.expanded(0.5));
+        longest = max_displacement(template, resources, bounds.expanded(0.5));
         boxes = boxes.map(|part| bent.bent_box(part));
         detail *= (bent.size().x / template.placement.size.x).min(1.0) / stretch;
     }
@@ -441,32 +422,24 @@ fn item(template: &PlacedTemplate, bounds: Aabb) -> GridTemplate {
             .extend(0.0)
             .to_array()
     };
-    let (material, shift) = match reach.material {
-        // The slabs' edges may be finer than a cell, but a slab is never off by more than one gap and one shift.
-        _ if template.kind == TemplateKind::Slices => {
-            let [_, gap, shift, progress] = [0, 1, 2, 3].map(|i| match template.params.get(i) {
-                Some(ParamValue::Number(v)) => *v,
-                _ => 0.0,
-            });
-            let ripple = Vec3::new(shift.abs(), 0.0, gap) * progress;
-            (
-                MATERIAL_RIPPLED,
-                Aabb {
-                    min: -ripple,
-                    max: ripple,
-                },
-            )
-        }
-        Material::Stays => (
+    let (material, shift) = match (reach.ripple, reach.material) {
+        (Some(ripple), _) => (
+            MATERIAL_RIPPLED,
+            Aabb {
+                min: -ripple,
+                max: ripple,
+            },
+        ),
+        (None, Material::Stays) => (
             MATERIAL_SHIFTED,
             Aabb {
                 min: Vec3::ZERO,
                 max: Vec3::ZERO,
             },
         ),
-        Material::Shifted(shift) => (MATERIAL_SHIFTED, shift),
-        Material::Within(_) => (MATERIAL_WITHIN, Aabb::UNIT),
-        Material::Bent(_) => (MATERIAL_BENT, Aabb::UNIT),
+        (None, Material::Shifted(shift)) => (MATERIAL_SHIFTED, shift),
+        (None, Material::Within(_)) => (MATERIAL_WITHIN, Aabb::UNIT),
+        (None, Material::Bent(_)) => (MATERIAL_BENT, Aabb::UNIT),
     };
     GridTemplate {
         reach0_min: corner(boxes[0].min),

@@ -1,17 +1,17 @@
 //! Volumes that are larger than the device takes.
 
-use crate::data::{Reducer, Volume, VolumeBuilder, Voxels};
+use crate::data::{Reducer, Reduction, Volume, VolumeBuilder, Voxels};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 
-/// A coarser copy if the volume is larger than the device takes, with the notice that says so.
+/// A coarser copy if the volume is larger than the device takes, and how much coarser it is.
 ///
 /// # Errors
 /// [`RenderError::TooLarge`].
 pub(crate) fn reduced_to_fit(
     gpu: &Gpu,
     volume: &Volume,
-) -> Result<Option<(Volume, String)>, RenderError> {
+) -> Result<Option<(Volume, Reduction)>, RenderError> {
     use crate::data::VolumeSink as _;
     let limits = gpu.volume_limits();
     let dims = volume.grid.dims;
@@ -45,11 +45,14 @@ pub(crate) fn reduced_to_fit(
     if let Some(labels) = &volume.segmentation {
         reducer.labels(labels.labels.clone());
     }
-    let notice = reducer.reduction().map(|r| r.to_string());
     let small = builder
         .finish()
         .map_err(|why| RenderError::TooLarge(why.to_string()))?;
-    Ok(Some((small, notice.unwrap_or_default())))
+    let reduction = Reduction {
+        from: dims,
+        to: small.grid.dims,
+    };
+    Ok(Some((small, reduction)))
 }
 
 fn empty_like(voxels: &Voxels) -> Voxels {

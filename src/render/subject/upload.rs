@@ -23,10 +23,10 @@ pub(crate) enum Upload {
 pub(crate) fn fitting(
     gpu: &Gpu,
     subject: &Subject,
-) -> Result<(Subject, Option<String>), RenderError> {
+) -> Result<(Subject, Option<Reduction>), RenderError> {
     match subject {
         Subject::Space(space) => Ok(match reduced_to_fit(gpu, &space.volume)? {
-            Some((small, notice)) => (Subject::from(small), Some(notice)),
+            Some((small, reduction)) => (Subject::from(small), Some(reduction)),
             None => (subject.clone(), None),
         }),
     }

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use crate::assets::{OtherFile, Role, Want};
+use crate::assets::{OtherFile, Role, Source, Want};
 use crate::data::BuildError;
 use crate::document::{DocumentError, MAX_BYTES};
 use crate::link::LinkError;
@@ -115,6 +115,18 @@ impl MissingSubject {
         match want.role {
             Role::Segments => Self::RemoteSegments { src },
             Role::Subject | Role::Field => Self::Remote { src },
+        }
+    }
+
+    /// The error for a file that the reader is to supply.
+    pub(super) fn wanted(want: &Want) -> Self {
+        let (Source::Builtin(name) | Source::File { name, .. }) = &want.source;
+        Self::Wanted {
+            name: match name.as_str() {
+                "" => "without a name".to_owned(),
+                name => format!("“{name}”"),
+            },
+            sha256: want.sha256().unwrap_or_default().to_owned(),
         }
     }
 

@@ -22,9 +22,10 @@ pub(super) fn export_field(
     moment: Moment,
     size: u32,
 ) -> Result<Vec<u8>, CliError> {
-    let illustration = opened.illustration(moment, common)?;
+    let (illustration, resources) = opened.illustration(moment, common)?;
     let grid = subject_grid(&illustration, common, &opened.folder)?;
-    let bounds = deformed_bounds(&illustration.templates, grid.subject_bounds());
+    let (templates, at_rest) = (&illustration.templates, grid.subject_bounds());
+    let bounds = deformed_bounds(templates, &resources, at_rest);
     let (min, side) = (bounds.min.as_dvec3(), (bounds.max - bounds.min).as_dvec3());
     let step = side.max_element() / f64::from(size);
     let dims = (side / step - 1e-6).ceil().max(DVec3::ONE).as_uvec3();
@@ -43,7 +44,7 @@ pub(super) fn export_field(
     let samples = pollster::block_on(async {
         Probe::new(&gpu)
             .await?
-            .samples(&illustration, &points)
+            .samples(&illustration, &resources, &points)
             .await
     })?;
     let mm = grid.mm_per_unit();

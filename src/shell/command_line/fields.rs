@@ -6,22 +6,22 @@ use super::args::Common;
 use super::error::CliError;
 use super::output::notice;
 use super::subject::subject_of;
-use crate::assets::{Assets, Data, FieldNews, Source, Want};
-use crate::data::{Grid, VolumeLimits};
+use crate::assets::{Assets, Data, ResourceNews, Source, Want};
+use crate::data::{Grid, Resources, VolumeLimits};
 use crate::document::{Illustration, SubjectRef, TemplateData};
 use crate::load::{FieldFile, read_field};
 use crate::shell::files::{Folder, local};
 use crate::subjects::{FINE_RESOLUTION, Generator};
 
-/// Gives each `field` template that acts its samples, and its place where the file says it.
+/// The samples of each `field` template that acts.
 ///
 /// # Errors
 /// [`CliError::Field`] with the template's pointer.
-pub(super) fn attach_fields(
-    illustration: &mut Illustration,
+pub(super) fn fields_of(
+    illustration: &Illustration,
     common: &Common,
     folder: &Path,
-) -> Result<(), CliError> {
+) -> Result<Resources, CliError> {
     let mut assets = Assets::default();
     let mut paths = Vec::new();
     for template in illustration.templates.iter().filter(|t| t.enabled) {
@@ -40,25 +40,22 @@ pub(super) fn attach_fields(
         paths.push((template.index, path));
     }
     if paths.is_empty() {
-        return Ok(());
+        return Ok(Resources::default());
     }
     assets.set_grid(subject_grid(illustration, common, folder)?);
-    let (resources, news) = assets.field_resources(illustration);
+    let (resources, news) = assets.resources(illustration);
     for news in news {
         match news {
-            FieldNews::Notice(index, line) => notice(format!("/templates/{index}: {line}")),
-            FieldNews::Refused(index, why) => {
-                let path = paths.iter().find(|(i, _)| *i == index);
+            ResourceNews::NoSegment { .. } | ResourceNews::FieldNotice { .. } => notice(news),
+            ResourceNews::FieldRefused { template, .. } => {
+                let path = paths.iter().find(|(index, _)| *index == template);
                 let path = path.map(|(_, path)| path.display().to_string());
-                return Err(CliError::Field(format!(
-                    "/templates/{index}: {why} ({})",
-                    path.unwrap_or_default()
-                )));
+                let path = path.unwrap_or_default();
+                return Err(CliError::Field(format!("{news} ({path})")));
             }
         }
     }
-    resources.attach_fields(illustration);
-    Ok(())
+    Ok(resources)
 }
 
 /// The file of a field: at its address, else the one of those given that has its hash.

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::args::{Common, Moment};
 use super::error::CliError;
-use super::fields::attach_fields;
+use super::fields::fields_of;
 use super::output::{notice, shortened};
+use crate::data::Resources;
 use crate::document::{Document, Illustration, MAX_BYTES};
 use crate::link::{self, LinkError};
 
@@ -24,15 +25,15 @@ impl Opened {
         }
     }
 
-    /// What the document says at a moment, its notices said.
+    /// What the document says at a moment, its notices said, and the samples of its fields.
     pub(super) fn illustration(
         &self,
         moment: Moment,
         common: &Common,
-    ) -> Result<Illustration, CliError> {
-        let mut illustration = self.at_moment(moment)?;
-        attach_fields(&mut illustration, common, &self.folder)?;
-        Ok(illustration)
+    ) -> Result<(Illustration, Resources), CliError> {
+        let illustration = self.at_moment(moment)?;
+        let resources = fields_of(&illustration, common, &self.folder)?;
+        Ok((illustration, resources))
     }
 
     fn at_moment(&self, moment: Moment) -> Result<Illustration, CliError> {

@@ -22,7 +22,7 @@ pub(super) fn probe(
     with_object: bool,
     moment: Moment,
 ) -> Result<(), CliError> {
-    let illustration = opened.illustration(moment, common)?;
+    let (illustration, resources) = opened.illustration(moment, common)?;
     let points = match points {
         Some(path) => {
             let shown = path.display().to_string();
@@ -50,14 +50,14 @@ pub(super) fn probe(
         .collect();
     let samples = match &subject {
         Some(subject) => {
-            say_kept(&illustration, subject);
-            let studio = Studio::new(&gpu, subject, false)?;
+            say_kept(&illustration, &resources, subject);
+            let studio = Studio::new(&gpu, subject, false)?.with_resources(resources);
             pollster::block_on(studio.probe_object(&illustration, &positions))?
         }
         None => pollster::block_on(async {
             Probe::new(&gpu)
                 .await?
-                .samples(&illustration, &positions)
+                .samples(&illustration, &resources, &positions)
                 .await
         })?,
     };

@@ -28,7 +28,7 @@ pub(super) fn render(
     moment: Moment,
     paper: Paper,
 ) -> Result<(), CliError> {
-    let illustration = opened.illustration(moment, common)?;
+    let (illustration, resources) = opened.illustration(moment, common)?;
     // Found out before minutes of drawing, not after.
     let folder = output
         .parent()
@@ -45,8 +45,8 @@ pub(super) fn render(
     }
     let gpu = open_gpu(common)?;
     let subject = subject_of(&illustration, common, &opened.folder, gpu.volume_limits())?;
-    say_kept(&illustration, &subject);
-    let studio = Studio::new(&gpu, &subject, true)?;
+    say_kept(&illustration, &resources, &subject);
+    let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
     let drawing = studio.render_image(&illustration, paper.size, paper.samples);
     let mut image = pollster::block_on(drawing)?;
     if paper.lettering {

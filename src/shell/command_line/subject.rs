@@ -10,8 +10,8 @@ use super::output::notice;
 use super::reading::hint;
 use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
 use crate::data::{
-    BuildError, Reducer, Subject, SubjectBuilder, Turns, VolumeBuilder, VolumeLimits, VolumeSink,
-    Voxels, segment,
+    BuildError, Reducer, Resources, Subject, SubjectBuilder, Turns, VolumeBuilder, VolumeLimits,
+    VolumeSink, Voxels, segment,
 };
 use crate::document::{Illustration, Reading};
 use crate::load::{LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
@@ -43,33 +43,28 @@ pub(super) fn subject_of(
                 take_subject(&mut assets, &want, illustration, common, folder, limits)?
             }
             Role::Segments => take_segments(&mut assets, &want, &mut given, folder)?,
-            // Fields come by `attach_fields`, as they need the subject's grid only.
+            // Fields come by `fields_of`, as they need the subject's grid only.
             Role::Field => {}
         }
     }
     for (_, file) in given {
         assets.add_segments(file);
     }
-    let (resources, notices) = assets.segment_resources(illustration);
+    let (resources, news) = assets.resources(illustration);
     drop(assets);
-    notices.iter().for_each(notice);
+    news.iter().for_each(notice);
     // A document has a subject, and it was brought.
-    let Some(subject) = resources.subject else {
-        return Err(CliError::from(MissingSubject::Wanted {
-            name: "without a name".to_owned(),
-            sha256: String::new(),
-        }));
+    let Some(subject) = resources.subject.clone() else {
+        return Err(CliError::from(MissingSubject::wanted(&Want::subject(
+            &illustration.subject,
+        ))));
     };
-    let has_more = !resources.segmentations.is_empty() || !illustration.recipes.is_empty();
-    let Some(volume) = subject.values().filter(|_| has_more) else {
+    let has_own_only = resources.segmentations.is_empty() && resources.own_segments.is_none();
+    if subject.values().is_none() || (has_own_only && illustration.recipes.is_empty()) {
         return Ok(subject);
-    };
-    let made = pollster::block_on(segment(
-        Arc::clone(volume),
-        resources.segmentations,
-        illustration.recipes.clone(),
-        Turns::endless(),
-    ));
+    }
+    let recipes = illustration.recipes.clone();
+    let made = pollster::block_on(segment(resources, recipes, Turns::endless()));
     made.notices.iter().for_each(notice);
     Ok(subject.with_segmentation(made.segmentation.map(Arc::unwrap_or_clone)))
 }
@@ -112,14 +107,7 @@ fn take_subject(
             let taken = assets.take(want, data);
             taken.map_err(|other| MissingSubject::other(&path, other))
         }
-        Source::File { sha256, name, .. } => Err(MissingSubject::Wanted {
-            name: if name.is_empty() {
-                "without a name".to_owned()
-            } else {
-                format!("“{name}”")
-            },
-            sha256: sha256.clone().unwrap_or_default(),
-        }),
+        Source::File { src: None, .. } => Err(MissingSubject::wanted(want)),
     }
 }
 
@@ -252,9 +240,10 @@ fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, Mi
 }
 
 /// Names what `keep` asks for and the subject has not.
-pub(super) fn say_kept(illustration: &Illustration, subject: &Subject) {
+pub(super) fn say_kept(illustration: &Illustration, resources: &Resources, subject: &Subject) {
     let (segments, bounds) = (subject.segments(), subject.frame().bounds);
-    for line in KeptTissue::of(&illustration.templates, segments, bounds).notices() {
+    let templates = &illustration.templates;
+    for line in KeptTissue::of(templates, resources, segments, bounds).notices() {
         notice(line);
     }
 }

@@ -1,0 +1,46 @@
+use std::fmt;
+
+/// What there is to say of what came for a document. Displayed, it is one line, led by a JSON pointer into the document.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ResourceNews {
+    /// The author names a number that no segment of the file has; the name makes no segment.
+    NoSegment {
+        /// JSON pointer of the entry of `subject.segments`.
+        pointer: String,
+        /// The number in the file.
+        number: u32,
+        /// What the author calls it.
+        name: String,
+    },
+    /// A field is drawn, but not quite as its file has it.
+    FieldNotice {
+        /// Index of the template in the document.
+        template: usize,
+        /// What is different.
+        line: String,
+    },
+    /// A field cannot be used with this subject.
+    FieldRefused {
+        /// Index of the template in the document.
+        template: usize,
+        /// Why, in plain words.
+        why: String,
+    },
+}
+
+impl fmt::Display for ResourceNews {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSegment {
+                pointer,
+                number,
+                name,
+            } => write!(
+                f,
+                "{pointer}/names/{number}: the file has no segment of this number; “{name}” names nothing"
+            ),
+            Self::FieldNotice { template, line } => write!(f, "/templates/{template}: {line}"),
+            Self::FieldRefused { template, why } => write!(f, "/templates/{template}: {why}"),
+        }
+    }
+}

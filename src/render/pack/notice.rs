@@ -1,0 +1,29 @@
+//! What the renderer has to say about a document or a subject.
+
+use std::fmt;
+
+use crate::data::Reduction;
+
+/// What the renderer has to say. Displayed, it is one line in plain words.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RenderNotice {
+    /// `keep` of a template names a segment that the subject does not have; nothing is kept for it.
+    UnknownKept(String),
+    /// `look.segments` names a segment that the subject does not have.
+    UnknownBody(String),
+    /// The volume is larger than the device takes, and is drawn coarser.
+    Reduced(Reduction),
+}
+
+impl fmt::Display for RenderNotice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownKept(name) => write!(
+                f,
+                "keep: the subject has no segment “{name}”; nothing is kept for it"
+            ),
+            Self::UnknownBody(name) => write!(f, "look: the subject has no segment “{name}”"),
+            Self::Reduced(reduction) => reduction.fmt(f),
+        }
+    }
+}
