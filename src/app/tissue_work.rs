@@ -7,7 +7,6 @@
 
 use std::cell::Cell;
 use std::rc::Rc;
-use std::sync::Arc;
 
 use crate::app::picture::pending::{Pending, poll_once};
 use crate::assets::Assets;

@@ -368,7 +368,7 @@ fn number_of_own(segment: &Segment) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::{VolumeBuilder, VolumeSink as _, Voxels};
+    use crate::data::{Volume, VolumeBuilder, VolumeSink as _, Voxels};
     use crate::document::Document;
     use glam::{DAffine3, UVec3};
 
@@ -431,7 +431,7 @@ mod tests {
         let is_shared = first
             .subject
             .as_ref()
-            .is_some_and(|s| s.is_same(&Subject::from(volume)));
+            .is_some_and(|s| s.is_same(&Subject::from(Arc::clone(&volume))));
         assert!(is_shared, "voxels are not copied for names");
         // Nothing has changed: the same things, and no news.
         let again = assets.resources(illustration);

@@ -5,7 +5,7 @@ use crate::reference::{self, Placed};
 use fabrica::data::Resources;
 use fabrica::document::{PlacedTemplate, TemplateMode};
 use fabrica::render::gpu_types::{Subject, Templates};
-use fabrica::render::programs::files_of;
+use fabrica::render::programs::{SubjectShader, files_of};
 use fabrica::render::{
     Probe, Sample, WorkDone, result_buffer, storage_buffer, submit_and_read, uniform_buffer,
 };
@@ -193,7 +193,7 @@ fn source() -> String {
         "march/ray.wgsl",
         "march/value.wgsl",
     ] {
-        for file in files_of(path, None) {
+        for file in files_of(path, &[SubjectShader::Volume.path()]) {
             if known.insert(file.path) {
                 let _ = writeln!(text, "{}", file.source);
             }

@@ -5,7 +5,7 @@ use super::reduce::reduced_to_fit;
 use super::textures::SubjectTextures;
 use super::volume;
 use super::volume_upload::VolumeUpload;
-use crate::data::{Segmentation, Subject};
+use crate::data::{Reduction, Segmentation, Subject};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
