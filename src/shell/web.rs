@@ -195,8 +195,9 @@ impl Viewer {
         Some(shown.0.document().to_json_compact())
     }
 
-    /// The controls that are seen, a line each: role, name, value, and where it lies in the canvas (left, top, width
-    /// and height, CSS pixels), parted by tabs. Empty at the first call; the next frame makes it.
+    /// The controls and texts that are seen, a line each: role, name, value, and where it lies in the canvas (left,
+    /// top, width and height, CSS pixels), parted by tabs. Tabs and line breaks in a name or value are spaces here. A
+    /// text has a value and no name. Empty at the first call; the next frame makes the list.
     pub fn controls(&self) -> String {
         let page = self.page.borrow();
         let Some(ctx) = &page.ctx else {
@@ -209,6 +210,21 @@ impl Viewer {
             ctx.request_repaint();
         }
         text
+    }
+
+    /// Number of frames drawn since the viewer was started. A viewer that sleeps draws none: see
+    /// [`Viewer::request_frame`].
+    pub fn frame(&self) -> u32 {
+        let page = self.page.borrow();
+        let number = page.ctx.as_ref().map_or(0, |ctx| ctx.cumulative_frame_nr());
+        number as u32
+    }
+
+    /// Asks for one more frame, though nothing may have changed.
+    pub fn request_frame(&self) {
+        if let Some(ctx) = &self.page.borrow().ctx {
+            ctx.request_repaint();
+        }
     }
 
     /// True when the picture is complete and nothing is being loaded.
@@ -282,11 +298,15 @@ impl egui::Plugin for Controls {
         };
         let factor = f64::from(ctx.zoom_factor());
         self.text.clear();
+        let plain = |text: Option<&str>| text.unwrap_or_default().replace(['\t', '\n', '\r'], " ");
         for (_, node) in &tree.nodes {
-            let (Some(name), Some(place)) = (node.label(), node.bounds()) else {
+            let Some(place) = node.bounds() else {
                 continue;
             };
-            let value = node.value().unwrap_or_default();
+            let (name, value) = (plain(node.label()), plain(node.value()));
+            if name.is_empty() && value.is_empty() {
+                continue;
+            }
             let [x, y, w, h] =
                 [place.x0, place.y0, place.width(), place.height()].map(|v| v * factor);
             let role = node.role();

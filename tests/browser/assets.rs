@@ -1,13 +1,24 @@
 //! The files that a document names, fetched by the page: found, named and refused as in the commands and in the window.
 
-use super::hand::{click, pause, settled};
+use super::hand::{click, find, listed};
+use super::harness::Tab;
 use super::*;
 
 /// Where what stands in the panels has to be seen.
 const HIGH: (u32, u32) = (780, 560);
 
-/// The same segments as in a command (tests/gpu/cli.rs) and in the window (tests/app/assets.rs). Those two also read
-/// the messages; the page lists its controls only, and messages go by while a slow device draws.
+/// True if every part stands in the list of all messages, which keeps those that go by themselves.
+async fn has_told(tab: &Tab, parts: &[String]) -> bool {
+    click(tab, "More").await;
+    click(tab, "Messages").await;
+    find(tab, "Close messages").await;
+    let list = listed(tab).await;
+    click(tab, "Close messages").await;
+    println!("{list}");
+    parts.iter().all(|part| list.contains(part))
+}
+
+/// The same as in a command (tests/gpu/cli.rs) and in the window (tests/app/assets.rs).
 #[test]
 fn label_volumes_open_as_in_a_command() {
     with_browser(BrowserGpu::Software, |session| async move {
@@ -18,17 +29,28 @@ fn label_volumes_open_as_in_a_command() {
             let document = serde_json::json!({ "fabrica": 1, "subject": case.subject });
             let link = payload(&document.to_string());
             let tab = session.viewer_sized(&format!("#{link}"), HIGH).await;
-            settled(&tab).await;
-            let controls = "window.fabrica.viewer.controls()";
+            tab.settled().await;
+            // An error stays over the picture, with the hashes behind a button.
+            let list = listed(&tab).await;
+            let has_details = list.contains("\tDetails\t");
+            assert_eq!(has_details, case.is_error, "{}: {list}", case.name);
+            let is_told = has_told(&tab, &case.says).await;
+            assert!(is_told, "{}: {:?}", case.name, case.says);
             click(&tab, "Panel: Tissues").await;
-            settled(&tab).await;
-            let list: String = tab.eval(controls).await;
+            let list = listed(&tab).await;
             let is_there = |name: &str| list.contains(&format!("Show {name} alone"));
             for name in case.segments {
                 assert!(is_there(name), "{}: no “{name}”: {list}", case.name);
             }
             for name in case.absent {
                 assert!(!is_there(name), "{}: “{name}”: {list}", case.name);
+            }
+            if case.is_error {
+                // It goes on: another document opens.
+                let cube = payload(r#"{"fabrica":1,"subject":{"builtin":"cube"}}"#);
+                tab.eval::<bool>(&format!("(location.hash = '{cube}', true)"))
+                    .await;
+                find(&tab, "Show top alone").await;
             }
             tab.page.close().await.expect("the tab closes");
         }
@@ -39,7 +61,7 @@ fn label_volumes_open_as_in_a_command() {
 #[test]
 fn a_foreign_label_volume_waits_for_a_tap() {
     with_browser(BrowserGpu::Software, |session| async move {
-        let other = session.other_server();
+        let other = session.server.beside();
         let [(scan, bytes), (parts, labels)] = segment_files::files();
         session.server.add(scan, bytes);
         other.add(parts, labels);
@@ -49,17 +71,18 @@ fn a_foreign_label_volume_waits_for_a_tap() {
         let tab = session.viewer_sized(&format!("#{link}"), HIGH).await;
         tab.wait_until("window.fabrica.viewer.controls().includes('Fetch')", 60)
             .await;
+        let host = other.address().replace("http://", "");
+        let list = listed(&tab).await;
+        let question = list.lines().find(|line| line.contains(&host));
+        assert!(question.is_some(), "the host is named: {list}");
         assert!(
             other.asked().is_empty(),
             "nothing was fetched before the tap"
         );
-        // The card comes in with a movement.
-        pause(1500).await;
         click(&tab, "Fetch").await;
-        settled(&tab).await;
+        tab.settled().await;
         click(&tab, "Panel: Tissues").await;
-        settled(&tab).await;
-        let list: String = tab.eval("window.fabrica.viewer.controls()").await;
+        let list = listed(&tab).await;
         assert!(list.contains("Show segment 2 alone"), "{list}");
     });
 }

@@ -1,8 +1,10 @@
 //! What an author does in a real browser: by touch alone on a phone, by keyboard alone, in two tabs; and a page that
 //! sleeps.
 
-use super::hand::{CTRL, SHIFT, document, mark, pause};
-use super::hand::{Touch, changed, controls, find, focus, hear, press, press_with, tab_to};
+use super::hand::{CTRL, SHIFT, clipboard, document, kept, mark, pause};
+use super::hand::{
+    Touch, changed, controls, find, focus, hear, press, press_with, scenery, tab_to,
+};
 use super::harness::{Tab, with_browser};
 use super::*;
 use serde_json::Value;
@@ -19,15 +21,6 @@ const IS_CUBE: &str =
 
 const TEMPLATES: &str =
     "(JSON.parse(window.fabrica.viewer.get_document() || '{}').templates ?? [])";
-
-/// The text on the clipboard once it has come.
-async fn clipboard(tab: &Tab, start: &str) -> String {
-    let read = "navigator.clipboard.readText().catch(error => String(error))";
-    let start = serde_json::to_string(start).expect("text");
-    let wanted = format!("{read}.then(text => text.startsWith({start}))");
-    tab.wait_until(&wanted, 30).await;
-    tab.eval(read).await
-}
 
 // ---------------------------------------------------------------------------------------------------- the path
 
@@ -122,7 +115,7 @@ fn the_path_by_touch_alone() {
         let look = changed(&tab, "look").await;
         assert!(look["background"].is_string(), "{look}");
         hand.tap("Look").await;
-        rest(&tab).await;
+        tab.frames(3).await;
         tab.picture("touch_7_done").await;
 
         // Everything that a thumb has to meet is large enough for one; the marks of the ball of axes stand in the menu
@@ -158,8 +151,8 @@ fn the_path_by_keys_alone() {
         let tab = session
             .viewer_sized(&format!("#{}", payload(PLAIN)), PAGE)
             .await;
-        rest(&tab).await;
         focus(&tab).await;
+        scenery(&tab, "keys_0").await;
         mark(&tab, "camera").await;
         press(&tab, "ArrowRight").await;
         changed(&tab, "camera").await;
@@ -173,7 +166,6 @@ fn the_path_by_keys_alone() {
         }
         tab.picture("keys_1_search").await;
         press(&tab, "Enter").await;
-        pause(1000).await;
         press(&tab, "Enter").await;
         tab.wait_until(&format!("{TEMPLATES}.length === 1"), 60)
             .await;
@@ -201,7 +193,6 @@ fn the_path_by_keys_alone() {
         .await;
         // A label in the middle, named at once.
         press(&tab, "a").await;
-        rest(&tab).await;
         press(&tab, "Enter").await;
         let labels = "JSON.parse(window.fabrica.viewer.get_document()).labels";
         tab.wait_until(&format!("{labels}?.length === 1"), 30).await;
@@ -211,7 +202,7 @@ fn the_path_by_keys_alone() {
         }
         tab.wait_until(&format!("{labels}[0].text === 'box'"), 20)
             .await;
-        rest(&tab).await;
+        tab.frames(3).await;
         tab.picture("keys_3_look").await;
         let adjusted = document(&tab).await;
         assert_eq!(adjusted["look"]["opacity"], "mass", "{adjusted}");
@@ -236,7 +227,8 @@ fn the_path_by_keys_alone() {
 
 async fn to_front(tab: &Tab) {
     tab.page.bring_to_front().await.expect("the tab comes up");
-    pause(500).await;
+    tab.wait_until("!document.hidden", 20).await;
+    tab.frames(2).await;
 }
 
 /// A template copied in one tab is pasted in another; both are edited in turn, reloaded without their addresses, and
@@ -256,8 +248,8 @@ fn two_tabs_share_templates_and_nothing_else() {
         let first = session
             .viewer_sized(&format!("#{}", with_title("first", poke)), SIZE)
             .await;
-        rest(&first).await;
         focus(&first).await;
+        scenery(&first, "tabs_first").await;
         press(&first, "n").await;
         press_with(&first, CTRL, "c", Some("copy")).await;
         let text = clipboard(&first, "{\"fabrica-templates\"").await;
@@ -266,8 +258,8 @@ fn two_tabs_share_templates_and_nothing_else() {
         let second = session
             .viewer_sized(&format!("#{}", with_title("second", "")), SIZE)
             .await;
-        rest(&second).await;
         focus(&second).await;
+        scenery(&second, "tabs_second").await;
         press_with(&second, CTRL, "v", Some("paste")).await;
         second
             .wait_until(&format!("{TEMPLATES}.length === 1"), 30)
@@ -277,8 +269,7 @@ fn two_tabs_share_templates_and_nothing_else() {
             document(&first).await["templates"],
             "whole, with what this version does not know"
         );
-        rest(&second).await;
-        second.picture("tabs_pasted").await;
+        scenery(&second, "tabs_pasted").await;
 
         // Edited in turn.
         to_front(&first).await;
@@ -286,17 +277,19 @@ fn two_tabs_share_templates_and_nothing_else() {
         first
             .wait_until(&format!("{TEMPLATES}.length === 2"), 30)
             .await;
-        pause(1000).await;
+        kept(&first).await;
         to_front(&second).await;
         press(&second, "h").await;
         second
             .wait_until(&format!("{TEMPLATES}[0].enabled === false"), 30)
             .await;
-        pause(1000).await;
+        kept(&second).await;
         to_front(&first).await;
         press(&first, "h").await;
-        pause(1500).await;
-        rest(&first).await;
+        first
+            .wait_until(&format!("{TEMPLATES}.some(t => t.enabled === false)"), 30)
+            .await;
+        kept(&first).await;
         let left = [document(&first).await, document(&second).await];
         assert_ne!(left[0], left[1]);
 
@@ -333,9 +326,10 @@ fn a_sleeping_page_draws_nothing() {
         // Turned once, to see that the counter counts.
         focus(&tab).await;
         press(&tab, "ArrowRight").await;
-        rest(&tab).await;
+        tab.settled().await;
         assert!(tab.eval::<u32>(submits).await > 0, "drawing is counted");
-        // Messages go by and the catalogue's pictures are made; then there is silence.
+        // Messages go by and the catalogue's pictures are made; then there is silence. Time itself is looked at here: a
+        // page that asked for a frame every few seconds would not sleep.
         let mut before = tab.eval::<u32>(submits).await;
         for _ in 0..40 {
             pause(4000).await;
@@ -353,7 +347,6 @@ fn a_sleeping_page_draws_nothing() {
         other.page.close().await.expect("the tab closes");
         to_front(&tab).await;
         press(&tab, "ArrowLeft").await;
-        pause(1500).await;
         assert!(tab.eval::<u32>(submits).await > before, "and awake again");
     });
 }

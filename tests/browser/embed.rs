@@ -4,6 +4,10 @@ use super::*;
 
 const LESSON: &str = r#"{"fabrica":1,"title":"Opening a cube","subject":{"builtin":"cube"},"templates":[{"kind":"split","size":[1.2,1.2,1.2],"params":{"amount":0}}],"steps":[{"title":"Apart","caption":"The halves part.","set":{"/templates/0/params/amount":0.3}}]}"#;
 
+/// Keeps the viewer that the element makes: for the test's waits alone.
+const WATCH: &[u8] = b"import { Viewer } from './fabrica.js'; const start = Viewer.prototype.start; Viewer.prototype.start = function () { window.viewer = this; return start.call(this); };";
+const VIEWER: &str = "window.viewer";
+
 fn embedding_page(attributes: &str) -> Vec<u8> {
     let link = payload(LESSON);
     format!(
@@ -16,9 +20,13 @@ fn embedding_page(attributes: &str) -> Vec<u8> {
 #[test]
 fn embedded_viewer_walks_its_steps() {
     with_browser(BrowserGpu::Software, |session| async move {
-        session
-            .server
-            .add("lesson.html", embedding_page("controls"));
+        let page = String::from_utf8(embedding_page("controls")).expect("text");
+        let page = page.replace(
+            "<script",
+            "<script type=module src=watch.js></script><script",
+        );
+        session.server.add("lesson.html", page.into_bytes());
+        session.server.add("watch.js", WATCH.to_vec());
         let tab = session.open("lesson.html").await;
         tab.resize(480, 400).await;
         let root = "document.getElementById('it')";
@@ -29,9 +37,9 @@ fn embedded_viewer_walks_its_steps() {
         .await;
         tab.eval::<bool>(&format!("(window.changes = 0, {root}.addEventListener('stepchange', () => window.changes++), true)")).await;
         let picture = format!("{root}.toDataURL()");
-        tokio::time::sleep(Duration::from_secs(8)).await;
+        tab.drawn("embed_before", |page| drawn_pixels(page) > 5000)
+            .await;
         let before: String = tab.eval(&picture).await;
-        tab.picture("embed_before").await;
         tab.eval::<bool>(&format!("({root}.next(), {root}.next(), true)"))
             .await;
         assert_eq!(
@@ -49,7 +57,7 @@ fn embedded_viewer_walks_its_steps() {
             "Apart",
             "the steps are there"
         );
-        tokio::time::sleep(Duration::from_secs(8)).await;
+        tab.frames_of(VIEWER, 3).await;
         tab.picture("embed_after").await;
         let after: String = tab.eval(&picture).await;
         let decode = |url: &str| {
@@ -81,7 +89,7 @@ fn embedded_viewer_walks_its_steps() {
         );
         let accepted: String = tab.eval(&set("/templates/0/params/amount", "0.3")).await;
         assert_eq!(accepted, "", "a value is taken");
-        tokio::time::sleep(Duration::from_secs(8)).await;
+        tab.frames_of(VIEWER, 3).await;
         let by_page: String = tab.eval(&picture).await;
         let by_page = decode(&by_page);
         assert_eq!(by_page.dimensions(), after.dimensions());
@@ -123,7 +131,8 @@ fn embedded_viewer_without_webgpu_gives_words() {
         page.extend(embedding_page("loading=\"lazy\""));
         session.server.add("long.html", page);
         let tab = session.open("long.html").await;
-        tokio::time::sleep(Duration::from_secs(2)).await;
+        // An observer of what is seen is told after a frame of the browser.
+        tab.eval::<bool>("new Promise(done => { let left = 20; const frame = () => left-- > 0 ? requestAnimationFrame(frame) : done(true); frame(); })").await;
         let fetched =
             "performance.getEntriesByType('resource').filter(e => e.name.endsWith('.wasm')).length";
         assert_eq!(tab.eval::<u32>(fetched).await, 0, "nothing is fetched yet");

@@ -15,20 +15,23 @@ fn dropped_scan_is_drawn() {
             let tab = session.viewer_sized("#", PAGE).await;
             tab.wait_until("window.fabrica.viewer.get_document() !== ''", 60)
                 .await;
-            let before = object_part(&tab.picture(&format!("{name}_before")).await);
+            let before = format!("{name}_before");
+            let is_drawn = |page: &image::RgbaImage| drawn_pixels(&object_part(page)) > 5000;
+            let before = object_part(&tab.drawn(&before, is_drawn).await);
             drop_files(&tab, &[name]).await;
             tab.wait_until(
                 "JSON.parse(window.fabrica.viewer.get_document()).subject?.sha256 !== undefined",
                 180,
             )
             .await;
-            rest(&tab).await;
+            tab.settled().await;
             let after = object_part(&tab.picture(name).await);
             assert!(drawn_pixels(&after) > 5000, "the scan is drawn");
             assert!(
                 difference(&before, &after, WHITE).mean > 3.0,
                 "it is not the head of before"
             );
+            hand::kept(&tab).await;
             let hash: String = tab.eval("location.hash").await;
             assert!(!hash.contains(name), "the file's name is not in the link");
             tab.assert_no_complaints().await;
@@ -41,7 +44,7 @@ fn dropped_scan_is_drawn() {
 #[test]
 fn foreign_document_waits_for_a_tap() {
     with_browser(BrowserGpu::Software, |session| async move {
-        let other = session.other_server();
+        let other = session.server.beside();
         other.add(
             "lesson.json",
             br#"{"fabrica":1,"title":"far","subject":{"builtin":"cube"}}"#.to_vec(),
@@ -76,7 +79,7 @@ fn large_volume_stays_within_its_memory() {
     const SIDE: usize = 512;
     with_browser(BrowserGpu::Software, |session| async move {
         let tab = session.viewer_sized("#", (420, 360)).await;
-        rest(&tab).await;
+        tab.settled().await;
         let heap = "window.fabrica.memory.buffer.byteLength";
         let idle: f64 = tab.eval(heap).await;
         session.server.add("large.nii", large_nifti(SIDE));
@@ -85,8 +88,7 @@ fn large_volume_stays_within_its_memory() {
             "(window.fabrica.viewer.set_link('{document}'), true)"
         ))
         .await;
-        tokio::time::sleep(Duration::from_secs(3)).await;
-        rest(&tab).await;
+        tab.settled().await;
         let picture = tab.picture("large").await;
         assert!(drawn_pixels(&picture) > 5000, "it is drawn");
         let loaded: f64 = tab.eval(heap).await;

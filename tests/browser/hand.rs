@@ -1,15 +1,15 @@
 //! Hands for the browser tests: fingers, keys, and finding what is on the screen by its name, as whoever uses it does.
 
+use super::compare::drawn_pixels;
 use super::harness::Tab;
 use chromiumoxide::cdp::browser_protocol::emulation::{
     SetFocusEmulationEnabledParams, SetTouchEmulationEnabledParams,
 };
-use chromiumoxide::cdp::browser_protocol::input::{
-    DispatchKeyEventParams, DispatchKeyEventType, DispatchMouseEventType,
-};
+use chromiumoxide::cdp::browser_protocol::input::{DispatchKeyEventParams, DispatchKeyEventType};
 use serde_json::Value;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+/// Lets time pass: only where time itself is what a test is about, or a hand is slow.
 pub(crate) fn pause(milliseconds: u64) -> impl Future<Output = ()> {
     tokio::time::sleep(Duration::from_millis(milliseconds))
 }
@@ -40,14 +40,25 @@ pub(crate) async fn changed(tab: &Tab, part: &str) -> Value {
     // A movement may not have ended.
     let mut before = document(tab).await;
     loop {
-        pause(400).await;
+        tab.frames(4).await;
         let now = document(tab).await;
         if now == before {
-            break;
+            return now[part].clone();
         }
         before = now;
     }
-    document(tab).await[part].clone()
+}
+
+/// Waits until the address and what the tab keeps are those of the document that is shown.
+pub(crate) async fn kept(tab: &Tab) {
+    let link = "window.fabrica.viewer.get_link()";
+    tab.wait_until(
+        &format!(
+            "location.hash === '#' + {link} && sessionStorage.getItem('fabrica.document') === {link}"
+        ),
+        30,
+    )
+    .await;
 }
 
 /// Drops files of the server's together.
@@ -59,15 +70,7 @@ pub(crate) async fn drop_files(tab: &Tab, names: &[impl serde::Serialize]) {
         ))
         .await;
     assert!(dropped, "the event was sent");
-}
-
-/// Waits until nothing is left to do, three times in a row: a file that was dropped is worked on a moment later.
-pub(crate) async fn settled(tab: &Tab) {
-    for _ in 0..3 {
-        pause(900).await;
-        tab.wait_until("window.fabrica.viewer.is_at_rest()", 200)
-            .await;
-    }
+    tab.frames(2).await;
 }
 
 // ---------------------------------------------------------------------------------------------------- what is seen
@@ -93,11 +96,19 @@ impl Control {
     }
 }
 
-/// Every named control that the page shows.
-pub(crate) async fn controls(tab: &Tab) -> Vec<Control> {
+/// What the page shows as lines of text, see `controls` in src/shell/web.rs: as it is after all that was done before.
+pub(crate) async fn listed(tab: &Tab) -> String {
     let lines = "window.fabrica.viewer.controls()";
+    // Nothing is listed before the first call.
+    let _asked: String = tab.eval(lines).await;
+    tab.frames(2).await;
     tab.wait_until(&format!("{lines} !== ''"), 30).await;
-    let text: String = tab.eval(lines).await;
+    tab.eval(lines).await
+}
+
+/// Every control and text that the page shows.
+pub(crate) async fn controls(tab: &Tab) -> Vec<Control> {
+    let text = listed(tab).await;
     let control = |line: &str| {
         let parts: Vec<&str> = line.split('\t').collect();
         let number = |i: usize| parts.get(i)?.parse::<f64>().ok();
@@ -115,7 +126,8 @@ pub(crate) async fn controls(tab: &Tab) -> Vec<Control> {
 pub(crate) async fn find(tab: &Tab, name: &str) -> Control {
     let mut before = None;
     let mut seen = Vec::new();
-    for _ in 0..100 {
+    let start = Instant::now();
+    while start.elapsed() < Duration::from_secs(60) {
         seen = controls(tab).await;
         let is_wanted = |c: &&Control| c.name == name || (name == "Picture" && c.role == "Image");
         let now = seen.iter().find(is_wanted).cloned();
@@ -123,10 +135,26 @@ pub(crate) async fn find(tab: &Tab, name: &str) -> Control {
             return now.clone();
         }
         before = now;
-        pause(200).await;
     }
     let names: Vec<&str> = seen.iter().map(|c| c.name.as_str()).collect();
     panic!("{name} is not on the screen; there are {names:?}");
+}
+
+/// Waits until an object is in the middle of the picture, and gives the page.
+pub(crate) async fn scenery(tab: &Tab, name: &str) -> image::RgbaImage {
+    let picture = find(tab, "Picture").await;
+    let [left, top, width, height] =
+        [picture.at.0, picture.at.1, picture.size.0, picture.size.1].map(|number| number as u32);
+    // The middle third: neither bars nor messages lie over it.
+    let middle = |page: &image::RgbaImage| {
+        let (x, y) = (left + width / 3, top + height / 3);
+        image::imageops::crop_imm(page, x, y, width / 3, height / 3).to_image()
+    };
+    let is_enough = |page: &image::RgbaImage| {
+        let middle = middle(page);
+        drawn_pixels(&middle) * 8 > middle.pixels().len()
+    };
+    tab.drawn(name, is_enough).await
 }
 
 // ---------------------------------------------------------------------------------------------------- the mouse
@@ -134,14 +162,7 @@ pub(crate) async fn find(tab: &Tab, name: &str) -> Control {
 /// Clicks on the control of a name.
 pub(crate) async fn click(tab: &Tab, name: &str) {
     let (x, y) = find(tab, name).await.middle();
-    tab.mouse(DispatchMouseEventType::MouseMoved, x, y, false)
-        .await;
-    pause(150).await;
-    // As a hand does: the release does not wait until the page has dealt with the press.
-    tokio::join!(
-        tab.mouse(DispatchMouseEventType::MousePressed, x, y, true),
-        tab.mouse(DispatchMouseEventType::MouseReleased, x, y, true)
-    );
+    tab.click(x, y).await;
 }
 
 // ---------------------------------------------------------------------------------------------------- fingers
@@ -179,10 +200,9 @@ impl<'a> Touch<'a> {
         Self(tab)
     }
 
-    /// Waits until there is something in the picture to be touched: its place is asked of what was drawn.
+    /// Waits until there is something in the picture to be touched: its place is asked of what is drawn.
     pub(crate) async fn scenery(&self) {
-        find(self.0, "Picture").await;
-        pause(2500).await;
+        scenery(self.0, "touch_scenery").await;
     }
 
     async fn touch(&self, kind: &str, fingers: &[(f64, f64)]) {
@@ -205,20 +225,21 @@ impl<'a> Touch<'a> {
         };
         self.touch("touchStart", &at(0.0)).await;
         for i in 1..=8 {
+            // No faster than a hand: a list would be flung.
             pause(70).await;
             self.touch("touchMove", &at(f64::from(i) / 8.0)).await;
         }
         pause(70).await;
         self.touch("touchEnd", &[]).await;
-        pause(300).await;
+        self.0.frames(3).await;
     }
 
-    /// A finger on a place for so many milliseconds, and a pause.
+    /// A finger on a place for so many milliseconds: how long tells a tap from a long press.
     async fn press_at(&self, at: (f64, f64), milliseconds: u64) {
         self.touch("touchStart", &[at]).await;
         pause(milliseconds).await;
         self.touch("touchEnd", &[]).await;
-        pause(400).await;
+        self.0.frames(3).await;
     }
 
     /// A tap on a place.
@@ -255,7 +276,6 @@ impl<'a> Touch<'a> {
             let x = 22.0;
             let start = bottom - 75.0 - 45.0 * f64::from(i % 3);
             self.swipe(&[[(x, start), (x, top + 10.0)]]).await;
-            pause(400).await;
         }
         panic!("{name} does not come into the drawer");
     }
@@ -276,7 +296,7 @@ pub(crate) async fn focus(tab: &Tab) {
         .expect("a window in front");
     tab.eval::<bool>("(document.getElementById('fabrica').focus(), true)")
         .await;
-    pause(300).await;
+    tab.frames(2).await;
 }
 
 /// A key with others held; `command` is what the browser's own editing would do with it.
@@ -315,7 +335,7 @@ pub(crate) async fn press_with(tab: &Tab, modifiers: i64, key: &str, command: Op
         }
         tab.page.execute(params).await.expect("a key");
     }
-    pause(120).await;
+    tab.frames(2).await;
 }
 
 pub(crate) async fn press(tab: &Tab, key: &str) {
@@ -327,6 +347,15 @@ pub(crate) async fn hear(tab: &Tab, wanted: &str) {
     let said = "document.getElementById('said').textContent";
     tab.wait_until(&format!("{said}.includes('{wanted}')"), 20)
         .await;
+}
+
+/// The text on the clipboard once it has come.
+pub(crate) async fn clipboard(tab: &Tab, start: &str) -> String {
+    let read = "navigator.clipboard.readText().catch(error => String(error))";
+    let start = serde_json::to_string(start).expect("text");
+    let wanted = format!("{read}.then(text => text.startsWith({start}))");
+    tab.wait_until(&wanted, 30).await;
+    tab.eval(read).await
 }
 
 /// What the page last said aloud.
@@ -346,7 +375,7 @@ pub(crate) async fn tab_to(tab: &Tab, wanted: &str) {
             if said != before {
                 break;
             }
-            pause(100).await;
+            tab.frames(2).await;
             said = spoken(tab).await;
         }
         if said.contains(wanted) {

@@ -1,11 +1,14 @@
-//! What the browser tests stand on: a display of their own, a server for the built page, a browser with a software
-//! WebGPU, and pictures of the canvas. Nothing is skipped: a missing part fails with what to do about it.
+//! What the browser tests stand on: a browser with a software WebGPU, a server for the built page, tabs and pictures of
+//! them. Nothing is skipped: a missing part fails with what to do about it.
 
+pub(crate) use super::running::Gpu;
+use super::running::{RUNTIME, Running, alone, timed};
+use super::server::Server;
 use base64::Engine as _;
 use chromiumoxide::Page;
-use chromiumoxide::browser::{Browser, BrowserConfig};
+use chromiumoxide::browser::Browser;
 use chromiumoxide::cdp::browser_protocol::browser::{
-    PermissionDescriptor, PermissionSetting, SetPermissionParams,
+    BrowserContextId, PermissionDescriptor, PermissionSetting, SetPermissionParams,
 };
 use chromiumoxide::cdp::browser_protocol::emulation::SetDeviceMetricsOverrideParams;
 use chromiumoxide::cdp::browser_protocol::input::{
@@ -13,81 +16,98 @@ use chromiumoxide::cdp::browser_protocol::input::{
     MouseButton,
 };
 use chromiumoxide::cdp::browser_protocol::page::CaptureScreenshotFormat;
+use chromiumoxide::cdp::browser_protocol::target::{
+    CreateBrowserContextParams, CreateTargetParams,
+};
 use chromiumoxide::page::ScreenshotParams;
-use futures::{FutureExt as _, StreamExt as _};
-use std::collections::BTreeMap;
+use futures::FutureExt as _;
 use std::future::Future;
-use std::io::{BufRead as _, BufReader, Read as _, Write as _};
-use std::net::{TcpListener, TcpStream};
 use std::panic::AssertUnwindSafe;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
-
-/// How the tests' browser is to be started.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Gpu {
-    /// WebGPU on SwiftShader, the software rasteriser that comes with the browser.
-    Software,
-    /// As on a machine without any: the browser offers no adapter.
-    None,
-}
+use tokio::time::timeout;
 
 /// No browser test may take longer; a hanging browser must not hold up everything after it.
 const LIMIT: Duration = Duration::from_secs(900);
+/// Closing what a test has opened may not take longer.
+const CLOSING: Duration = Duration::from_secs(10);
+/// Between two questions of what is waited for.
+const ROUND: Duration = Duration::from_millis(30);
 
-/// One browser test at a time: they share two cores and a software GPU.
-static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+/// The page's viewer.
+const VIEWER: &str = "window.fabrica.viewer";
+
+/// Runs in every page before its own scripts: keeps what the page complains of and the graphics devices that it made,
+/// and counts frames for [`Tab::frames`]. A page that sleeps is asked for the frames.
+const PREPARED: &str = r#"
+window.messages = [];
+for (const kind of ["log", "info", "warn", "error"]) {
+  const write = console[kind];
+  console[kind] = (...words) => { window.messages.push(kind + ": " + words.join(" ")); write(...words); };
+}
+addEventListener("error", (event) => window.messages.push("uncaught: " + event.message));
+addEventListener("unhandledrejection", (event) => window.messages.push("unhandled: " + event.reason));
+addEventListener("securitypolicyviolation", (event) => window.messages.push("policy: " + event.violatedDirective + " " + event.blockedURI));
+if (window.GPUAdapter) {
+  const request = GPUAdapter.prototype.requestDevice;
+  window.devices = [];
+  GPUAdapter.prototype.requestDevice = async function (...wanted) {
+    const device = await request.apply(this, wanted);
+    window.devices.push(device);
+    return device;
+  };
+}
+window.framesLater = async (viewer, wanted) => {
+  const start = performance.now();
+  let last = viewer.frame();
+  for (let left = wanted; left > 0; ) {
+    if (document.hidden) throw new Error("a hidden tab draws no frames");
+    if (performance.now() - start > 60000) throw new Error(`${left} of ${wanted} frames did not come within a minute`);
+    viewer.request_frame();
+    // The timer is for the page that is hidden meanwhile.
+    await new Promise((resolve) => { requestAnimationFrame(resolve); setTimeout(resolve, 1000); });
+    const now = viewer.frame();
+    // After a lost device the count begins anew.
+    left -= now < last ? 0 : now - last;
+    last = now;
+  }
+  return true;
+};
+"#;
 
 /// Root of the repository.
 pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Runs one test against a fresh browser, alone.
+/// Runs one test, alone, in a fresh context of the browser: no cookie, storage, permission or tab of another test.
+#[track_caller]
 pub(crate) fn with_browser<F, R>(gpu: Gpu, test: F)
 where
     F: FnOnce(Session) -> R,
     R: Future<Output = ()>,
 {
-    let _alone = alone();
-    let dist = dist();
-    let runtime = tokio::runtime::Builder::new_multi_thread()
-        .worker_threads(1)
-        .enable_all()
-        .build()
-        .expect("a tokio runtime");
-    let display = Display::start();
-    let server = Server::start(dist);
-    // Whatever the test does, the browser and its display end: a panic is caught, and closing has its own limits.
-    let outcome = runtime.block_on(async {
-        let session = Session::start(gpu, &display, server).await;
-        let browser = Arc::clone(&session.browser);
-        let running = AssertUnwindSafe(tokio::time::timeout(LIMIT, test(session))).catch_unwind();
-        let outcome = running.await;
-        let closing = async {
-            let mut browser = browser.lock().await;
-            let _closed = tokio::time::timeout(Duration::from_secs(3), browser.close()).await;
-            let _gone = tokio::time::timeout(Duration::from_secs(3), browser.wait()).await;
-            if let Some(child) = browser.get_mut_child() {
-                let _killed = child.inner.start_kill();
-            }
-        };
-        let _closed = tokio::time::timeout(Duration::from_secs(10), closing).await;
+    let mut stage = alone();
+    let server = Server::start(dist());
+    let run = async {
+        let running = stage.browser(gpu).await;
+        let session = Session::start(&running, server).await;
+        let (browser, context) = (Arc::clone(&session.browser), session.context.clone());
+        let outcome = AssertUnwindSafe(timeout(LIMIT, test(session)));
+        let outcome = outcome.catch_unwind().await;
+        let closed = timeout(CLOSING, browser.dispose_browser_context(context)).await;
+        // A browser in which a test failed may be in any state: it ends here.
+        if matches!((&outcome, closed), (Ok(Ok(())), Ok(Ok(_)))) {
+            stage.keep(running);
+        }
         outcome
-    });
-    runtime.shutdown_timeout(Duration::from_secs(1));
-    drop(display);
-    match outcome {
+    };
+    match timed(|| RUNTIME.block_on(run)) {
         Ok(Ok(())) => {}
         Ok(Err(_elapsed)) => panic!("the test did not end within {} s", LIMIT.as_secs()),
         Err(panic) => std::panic::resume_unwind(panic),
     }
-}
-
-fn alone() -> MutexGuard<'static, ()> {
-    ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The built page, which has to be newer than what it is built from.
@@ -128,206 +148,25 @@ fn newest_under(path: &Path) -> Option<(SystemTime, PathBuf)> {
     Some((time, path.to_path_buf()))
 }
 
-/// A display that no one sees. Ends when dropped.
-pub(crate) struct Display {
-    child: Child,
-    name: String,
-}
-
-impl Display {
-    fn start() -> Self {
-        let mut child = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp"])
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap_or_else(|error| {
-                panic!("Xvfb: {error}. The browser tests need it (Debian: apt-get install xvfb); `cargo xtask test` sets it up")
-            });
-        let mut line = String::new();
-        if let Some(out) = child.stdout.as_mut() {
-            BufReader::new(out)
-                .read_line(&mut line)
-                .expect("Xvfb says which display it took");
-        }
-        let name = format!(":{}", line.trim());
-        assert!(name.len() > 1, "Xvfb ended without a display");
-        Self { child, name }
-    }
-}
-
-impl Drop for Display {
-    fn drop(&mut self) {
-        let _killed = self.child.kill();
-        let _reaped = self.child.wait();
-    }
-}
-
-/// A server on localhost for the built page and for files that a test adds.
-#[derive(Clone)]
-pub(crate) struct Server {
-    port: u16,
-    shared: Arc<Shared>,
-}
-
-struct Shared {
-    folder: PathBuf,
-    added: Mutex<BTreeMap<String, Vec<u8>>>,
-    asked: Mutex<Vec<String>>,
-}
-
-impl Server {
-    /// Serves `folder` at a port of its own until the process ends.
-    pub(crate) fn start(folder: PathBuf) -> Self {
-        let listener = TcpListener::bind(("127.0.0.1", 0)).expect("a port on localhost");
-        let port = listener
-            .local_addr()
-            .expect("the address just bound")
-            .port();
-        let shared = Arc::new(Shared {
-            folder,
-            added: Mutex::default(),
-            asked: Mutex::default(),
-        });
-        let for_thread = Arc::clone(&shared);
-        std::thread::spawn(move || {
-            for stream in listener.incoming().flatten() {
-                let shared = Arc::clone(&for_thread);
-                std::thread::spawn(move || shared.answer(stream));
-            }
-        });
-        Self { port, shared }
-    }
-
-    /// Where it is, without a slash at the end.
-    pub(crate) fn address(&self) -> String {
-        format!("http://127.0.0.1:{}", self.port)
-    }
-
-    /// Serves these bytes at `/name` from now on.
-    pub(crate) fn add(&self, name: &str, bytes: Vec<u8>) {
-        let mut added = self.shared.added.lock().expect("no answer panicked");
-        added.insert(name.to_owned(), bytes);
-    }
-
-    /// Paths that were asked for, in order.
-    pub(crate) fn asked(&self) -> Vec<String> {
-        self.shared
-            .asked
-            .lock()
-            .expect("no answer panicked")
-            .clone()
-    }
-}
-
-impl Shared {
-    fn answer(&self, mut stream: TcpStream) {
-        let _timeout = stream.set_read_timeout(Some(Duration::from_secs(10)));
-        let mut reader = BufReader::new(match stream.try_clone() {
-            Ok(stream) => stream,
-            Err(_) => return,
-        });
-        let mut first = String::new();
-        if reader.read_line(&mut first).is_err() {
-            return;
-        }
-        let mut line = String::new();
-        while reader.read_line(&mut line).is_ok_and(|n| n > 2) {
-            line.clear();
-        }
-        let target = first.split(' ').nth(1).unwrap_or("/").to_owned();
-        let path = target.split(['?', '#']).next().unwrap_or("/");
-        let name = path.trim_start_matches('/');
-        let name = if name.is_empty() { "index.html" } else { name };
-        if let Ok(mut asked) = self.asked.lock() {
-            asked.push(target.clone());
-        }
-        let added = self.added.lock().ok().and_then(|a| a.get(name).cloned());
-        let body = added.or_else(|| {
-            (!name.contains("..")).then(|| std::fs::read(self.folder.join(name)).ok())?
-        });
-        let kind = match name.rsplit('.').next() {
-            Some("html") => "text/html; charset=utf-8",
-            Some("js") => "text/javascript",
-            Some("css") => "text/css",
-            Some("wasm") => "application/wasm",
-            Some("svg") => "image/svg+xml",
-            Some("json") => "application/json",
-            Some("png") => "image/png",
-            _ => "application/octet-stream",
-        };
-        let (status, body) = match body {
-            Some(body) => ("200 OK", body),
-            None => ("404 Not Found", b"no such file".to_vec()),
-        };
-        let head = format!(
-            "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nCache-Control: no-store\r\nAccess-Control-Allow-Origin: *\r\nConnection: close\r\n\r\n",
-            body.len()
-        );
-        let _sent = stream
-            .write_all(head.as_bytes())
-            .and_then(|()| stream.write_all(&body));
-        let _shut = stream.shutdown(std::net::Shutdown::Write);
-        let _drained = stream.read(&mut [0; 1]);
-    }
-}
-
-/// A browser with its display and server.
+/// What one test has: a context of the browser, and a server.
 pub(crate) struct Session {
-    /// The browser.
-    pub(crate) browser: Arc<tokio::sync::Mutex<Browser>>,
+    browser: Arc<Browser>,
+    context: BrowserContextId,
     /// Serves the page.
     pub(crate) server: Server,
-    _profile: tempfile::TempDir,
 }
 
 impl Session {
-    async fn start(gpu: Gpu, display: &Display, server: Server) -> Self {
-        let profile = tempfile::tempdir().expect("a folder for the browser's profile");
-        let mut config = BrowserConfig::builder()
-            .with_head()
-            .no_sandbox()
-            .window_size(1300, 900)
-            .viewport(None)
-            .user_data_dir(profile.path())
-            .request_timeout(Duration::from_secs(300))
-            .launch_timeout(Duration::from_secs(60))
-            .env("DISPLAY", &display.name)
-            .env(
-                "XDG_RUNTIME_DIR",
-                std::env::temp_dir().display().to_string(),
-            )
-            .args([
-                "disable-quic",
-                "no-first-run",
-                "disable-background-networking",
-                "disable-component-update",
-                "disable-sync",
-                "ignore-gpu-blocklist",
-            ]);
-        if let Some(path) = chromium() {
-            config = config.chrome_executable(path);
-        }
-        config = match gpu {
-            Gpu::Software => config
-                .arg("enable-unsafe-webgpu")
-                .arg(("use-webgpu-adapter", "swiftshader"))
-                .arg(("enable-features", "Vulkan"))
-                .arg(("use-vulkan", "swiftshader")),
-            Gpu::None => config
-                .arg("disable-gpu")
-                .arg(("disable-features", "WebGPU")),
-        };
-        let config = config.build().unwrap_or_else(|error| {
-            panic!("no browser: {error}. The tests need Chromium (Debian: apt-get install chromium); `cargo xtask test` sets it up")
-        });
-        let (browser, mut handler) = Browser::launch(config).await.expect("the browser starts");
-        tokio::spawn(async move { while handler.next().await.is_some() {} });
+    async fn start(running: &Running, server: Server) -> Self {
+        let browser = Arc::clone(&running.browser);
+        let context = browser
+            .create_browser_context(CreateBrowserContextParams::default())
+            .await
+            .expect("a context of its own");
         Self {
-            browser: Arc::new(tokio::sync::Mutex::new(browser)),
+            browser,
+            context,
             server,
-            _profile: profile,
         }
     }
 
@@ -343,13 +182,12 @@ impl Session {
     }
 
     async fn tab(&self) -> Tab {
-        let browser = self.browser.lock().await;
-        let page = browser.new_page("about:blank").await.expect("a tab opens");
-        page.evaluate_on_new_document(
-            "window.messages=[];for(const k of ['log','info','warn','error']){const f=console[k];console[k]=(...a)=>{window.messages.push(k+': '+a.join(' '));f(...a)}};addEventListener('error',e=>window.messages.push('uncaught: '+e.message));addEventListener('unhandledrejection',e=>window.messages.push('unhandled: '+e.reason));addEventListener('securitypolicyviolation',e=>window.messages.push('policy: '+e.violatedDirective+' '+e.blockedURI));if(window.GPUAdapter){const r=GPUAdapter.prototype.requestDevice;window.devices=[];GPUAdapter.prototype.requestDevice=async function(...a){const d=await r.apply(this,a);window.devices.push(d);return d}}",
-        )
-        .await
-        .expect("a script for the next page");
+        let mut target = CreateTargetParams::new("about:blank");
+        target.browser_context_id = Some(self.context.clone());
+        let page = self.browser.new_page(target).await.expect("a tab opens");
+        page.evaluate_on_new_document(PREPARED)
+            .await
+            .expect("a script for the next page");
         Tab { page }
     }
 
@@ -368,42 +206,21 @@ impl Session {
         tab
     }
 
-    /// A second server: another origin.
-    pub(crate) fn other_server(&self) -> Server {
-        Server::start(self.server.shared.folder.clone())
-    }
-
     /// Lets pages of the server read and write the clipboard, as a reader would be asked to.
     pub(crate) async fn allow_clipboard(&self) {
-        let browser = self.browser.lock().await;
         for name in ["clipboard-read", "clipboard-write"] {
             let what = PermissionDescriptor::new(name);
             let mut params = SetPermissionParams::new(what, PermissionSetting::Granted);
             params.origin = Some(self.server.address());
-            browser.execute(params).await.expect("the permission");
+            params.browser_context_id = Some(self.context.clone());
+            self.browser.execute(params).await.expect("the permission");
         }
     }
 }
 
-fn chromium() -> Option<PathBuf> {
-    if let Some(path) = std::env::var_os("CHROME") {
-        return Some(path.into());
-    }
-    let path = std::env::var_os("PATH")?;
-    let names = [
-        "chromium",
-        "chromium-browser",
-        "google-chrome-stable",
-        "google-chrome",
-    ];
-    std::env::split_paths(&path)
-        .flat_map(|folder| names.map(|name| folder.join(name)))
-        .find(|file| file.is_file())
-}
-
-/// One tab.
+/// A tab of the browser, with the hands and eyes of a test.
 pub(crate) struct Tab {
-    /// The tab itself.
+    /// Its connection with the browser.
     pub(crate) page: Page,
 }
 
@@ -435,7 +252,7 @@ impl Tab {
                     self.messages().await
                 );
             }
-            tokio::time::sleep(Duration::from_millis(100)).await;
+            tokio::time::sleep(ROUND).await;
         }
     }
 
@@ -450,8 +267,40 @@ impl Tab {
                     self.messages().await
                 );
             }
-            tokio::time::sleep(Duration::from_millis(100)).await;
+            tokio::time::sleep(ROUND).await;
         }
+    }
+
+    /// Waits until the page's viewer has drawn so many more frames. The first of them takes in what was done before,
+    /// the second shows it, and when there is a third the second is on the screen.
+    pub(crate) async fn frames(&self, number: u32) {
+        self.frames_of(VIEWER, number).await;
+    }
+
+    /// The same of a viewer in somebody else's page.
+    pub(crate) async fn frames_of(&self, viewer: &str, number: u32) {
+        let script = format!("window.framesLater({viewer}, {number})");
+        assert!(self.eval::<bool>(&script).await);
+    }
+
+    /// Waits until all that was done before is on the screen: taken in, loaded, and drawn to the last sample.
+    pub(crate) async fn settled(&self) {
+        self.settled_of(VIEWER).await;
+    }
+
+    /// The same of a viewer in somebody else's page.
+    pub(crate) async fn settled_of(&self, viewer: &str) {
+        let is_at_rest = format!("{viewer}.is_at_rest()");
+        for _ in 0..100 {
+            self.frames_of(viewer, 3).await;
+            self.wait_until(&is_at_rest, 240).await;
+            // The last frames may have found something more to do.
+            self.frames_of(viewer, 3).await;
+            if self.eval(&is_at_rest).await {
+                return;
+            }
+        }
+        panic!("the page never comes to rest");
     }
 
     /// Visible text of the page.
@@ -480,6 +329,25 @@ impl Tab {
         let picture = self.screenshot(name).await;
         assert_not_blank(&picture, name);
         picture
+    }
+
+    /// The page once enough of it is drawn, though the picture may not be complete: `is_enough` says so. For tests
+    /// that do not compare pictures: the last samples take a software GPU the longest.
+    pub(crate) async fn drawn(
+        &self,
+        name: &str,
+        is_enough: impl Fn(&image::RgbaImage) -> bool,
+    ) -> image::RgbaImage {
+        let start = Instant::now();
+        loop {
+            let picture = self.screenshot(name).await;
+            if is_enough(&picture) {
+                return picture;
+            }
+            let late = start.elapsed() > Duration::from_secs(120);
+            assert!(!late, "{name} is not drawn:\n{}", self.messages().await);
+            tokio::time::sleep(ROUND).await;
+        }
     }
 
     /// The page as it is, blank or not; left in target/e2e.
@@ -521,28 +389,37 @@ impl Tab {
         }
     }
 
-    /// Clicks.
+    /// Presses and releases the left button at a place in CSS pixels.
     pub(crate) async fn click(&self, x: f64, y: f64) {
-        self.drag((x, y), (x, y), 1).await;
+        self.mouse(DispatchMouseEventType::MouseMoved, x, y, false)
+            .await;
+        self.frames(2).await;
+        // As a hand does: the release does not wait until the page has dealt with the press.
+        tokio::join!(
+            self.mouse(DispatchMouseEventType::MousePressed, x, y, true),
+            self.mouse(DispatchMouseEventType::MouseReleased, x, y, true)
+        );
+        self.frames(2).await;
     }
 
-    /// Drags from one point to the other in `n` moves.
+    /// Drags from one point to the other in `n` moves, each of them in a frame of its own.
     pub(crate) async fn drag(&self, from: (f64, f64), to: (f64, f64), n: u32) {
         self.mouse(DispatchMouseEventType::MouseMoved, from.0, from.1, false)
             .await;
-        tokio::time::sleep(Duration::from_millis(150)).await;
+        self.frames(2).await;
         self.mouse(DispatchMouseEventType::MousePressed, from.0, from.1, true)
             .await;
         for i in 1..=n {
             let t = f64::from(i) / f64::from(n);
             let (x, y) = (from.0 + (to.0 - from.0) * t, from.1 + (to.1 - from.1) * t);
-            tokio::time::sleep(Duration::from_millis(60)).await;
+            self.frames(1).await;
             self.mouse(DispatchMouseEventType::MouseMoved, x, y, true)
                 .await;
         }
-        tokio::time::sleep(Duration::from_millis(60)).await;
+        self.frames(1).await;
         self.mouse(DispatchMouseEventType::MouseReleased, to.0, to.1, true)
             .await;
+        self.frames(2).await;
     }
 }
 

@@ -16,12 +16,10 @@ mod making;
 mod native;
 mod page;
 mod parts;
+mod running;
 #[path = "../support/segment_files.rs"]
-#[expect(
-    dead_code,
-    reason = "the page lists its controls, not the words of its messages"
-)]
 mod segment_files;
+mod server;
 mod size;
 mod slices;
 mod tissue;
@@ -32,8 +30,7 @@ use fabrica::document::{Document, TemplateKind};
 use fabrica::link;
 use fabrica::render::{Gpu, GpuOptions, Studio, View};
 use hand::drop_files;
-use harness::{Gpu as BrowserGpu, Tab, from_base64, with_browser};
-use std::time::Duration;
+use harness::{Gpu as BrowserGpu, from_base64, with_browser};
 
 /// Size of the page in these tests, CSS pixels: wide enough for the panels, small enough for a software GPU.
 const PAGE: (u32, u32) = (780, 420);
@@ -41,19 +38,10 @@ const PAGE: (u32, u32) = (780, 420);
 const PICTURE: (f64, f64, f64, f64) = (218.0, 46.0, 258.0, 374.0);
 
 const WHITE: [u8; 3] = [255; 3];
-const AT_REST: &str = "window.fabrica.viewer.is_at_rest()";
 
 /// A peel on the side of the head.
 const PEEL: &str = r#"{"fabrica":1,"title":"Scalp","templates":[{"kind":"peel","at":[0,0.1,0.3],"size":[0.5,0.4,0.2],"params":{"progress":0.2}}]}"#;
 
 fn payload(json: &str) -> String {
     link::encode(&Document::from_json(json).expect("a good document"))
-}
-
-async fn rest(tab: &Tab) {
-    // A frame has to see the new document before it can be at rest with it.
-    tokio::time::sleep(Duration::from_millis(700)).await;
-    tab.wait_until(AT_REST, 240).await;
-    tokio::time::sleep(Duration::from_millis(500)).await;
-    tab.wait_until(AT_REST, 60).await;
 }

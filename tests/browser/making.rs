@@ -1,6 +1,6 @@
 //! Displacements drawn, bent and imported in a real browser: control points, curves, fields, and segments from DICOM.
 
-use super::hand::{changed, click, document, drop_files, find, focus, hear, mark, press, settled};
+use super::hand::{changed, click, document, drop_files, find, focus, hear, mark, press};
 use super::harness::{Session, Tab, with_browser};
 use super::*;
 
@@ -13,7 +13,7 @@ async fn opened(session: &Session, json: &str) -> Tab {
         .viewer_sized(&format!("#{}", payload(json)), TALL)
         .await;
     focus(&tab).await;
-    settled(&tab).await;
+    tab.settled().await;
     tab
 }
 
@@ -47,7 +47,6 @@ fn a_control_point_and_a_curve_are_dragged() {
         let tab = opened(&session, json).await;
         let first = object(&tab, "control_point").await;
         click(&tab, "1. Points").await;
-        settled(&tab).await;
         let before = document(&tab).await;
         let templates = dragged(&tab, "Control point 1", (30.0, 20.0)).await;
         let points = "/0/params/points";
@@ -57,7 +56,7 @@ fn a_control_point_and_a_curve_are_dragged() {
         assert_eq!(was[1], is[1], "and no other");
         // Without the handles over it.
         press(&tab, "Escape").await;
-        settled(&tab).await;
+        tab.settled().await;
         let second = object(&tab, "control_point_dragged").await;
         let moved = difference(&first, &second, WHITE);
         assert!(moved.mean > 0.5, "the tissue went along: {moved:?}");
@@ -74,13 +73,13 @@ fn a_control_point_and_a_curve_are_dragged() {
         let templates = changed(&tab, "templates").await;
         let curve = templates[0]["curve"].clone();
         assert_eq!(curve["points"].as_array().map(Vec::len), Some(7));
-        settled(&tab).await;
+        tab.settled().await;
         let second = object(&tab, "along_the_surface").await;
         assert!(difference(&first, &second, WHITE).mean > 0.5);
         let templates = dragged(&tab, "Curve point 4", (0.0, -30.0)).await;
         assert_ne!(curve["points"][3], templates[0]["curve"]["points"][3]);
         assert_eq!(curve["points"][1], templates[0]["curve"]["points"][1]);
-        settled(&tab).await;
+        tab.frames(3).await;
         object(&tab, "curve_dragged").await;
         assert_link_holds(&tab).await;
         tab.assert_no_complaints().await;
@@ -105,7 +104,7 @@ fn fields_and_segmentations_are_dropped() {
         let templates = changed(&tab, "templates").await;
         assert_eq!(templates[0]["kind"], "field", "{templates}");
         assert!(templates[0]["params"]["sha256"].is_string(), "{templates}");
-        settled(&tab).await;
+        tab.settled().await;
         let second = object(&tab, "field_dropped").await;
         let moved = difference(&first, &second, WHITE);
         assert!(moved.mean > 0.5, "it displaces: {moved:?}");
@@ -138,7 +137,7 @@ fn fields_and_segmentations_are_dropped() {
         mark(&tab, "subject").await;
         drop_files(&tab, &names).await;
         changed(&tab, "subject").await;
-        settled(&tab).await;
+        tab.settled().await;
         let subject = document(&tab).await["subject"].clone();
         tab.picture("segmentation_dropped").await;
         assert!(subject["sha256"].is_string(), "{subject}");

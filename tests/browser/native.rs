@@ -1,101 +1,356 @@
 //! Pictures of the page beside pictures of the native program.
 
+use super::harness::{Session, Tab};
 use super::*;
+use fabrica::data::{FieldSamples, Grid, Resources, VolumeBuilder};
+use fabrica::document::{Illustration, TemplateData};
+use fabrica::load::{FieldUse, OneFile, read_field};
+use fabrica::subjects::FINE_RESOLUTION;
+use image::RgbaImage;
+use serde_json::{Value, json};
+use std::f64::consts::FRAC_1_SQRT_2;
+use std::sync::Arc;
 
-/// The same document drawn by the page and by the native program under lavapipe.
-#[test]
-fn browser_draws_what_the_native_program_draws() {
-    const SIZE: [u32; 2] = [160, 120];
-    const RESOLUTION: u32 = 64;
-    const SAMPLES: u32 = 4;
-    let mut documents: Vec<(String, String)> = TemplateKind::FORMULAS
+const SIZE: [u32; 2] = [160, 120];
+const RESOLUTION: u32 = 64;
+const SAMPLES: u32 = 4;
+
+/// A document that both sides draw.
+struct Case {
+    name: String,
+    document: Value,
+    /// Pointers to what the case is about: without it the picture is another.
+    about: &'static [&'static str],
+}
+
+fn case(name: &str, about: &'static [&'static str], rest: Value) -> Case {
+    let mut document = rest;
+    document["fabrica"] = json!(1);
+    Case {
+        name: name.to_owned(),
+        document,
+        about,
+    }
+}
+
+/// A template of each kind that its parameters describe, and four together.
+fn kinds() -> Vec<Case> {
+    let mut cases: Vec<Case> = TemplateKind::FORMULAS
         .iter()
         .map(|kind| {
             let name = kind.spec().name;
-            let text = format!(
-                r#"{{"fabrica":1,"subject":{{"builtin":"cube"}},"templates":[{{"kind":"{name}","at":[0,0.1,0.1],"size":[0.8,0.7,0.9]}}],"camera":{{"rotate":[0.3,0.2,0.1,0.92]}}}}"#
-            );
-            (name.to_owned(), text)
+            let template = json!({ "kind": name, "at": [0, 0.1, 0.1], "size": [0.8, 0.7, 0.9] });
+            let rest = json!({
+                "subject": { "builtin": "cube" },
+                "templates": [template],
+                "camera": { "rotate": [0.3, 0.2, 0.1, 0.92] },
+            });
+            case(name, &["/templates/0"], rest)
         })
         .collect();
-    let four = r#"{"fabrica":1,"subject":{"builtin":"head"},"templates":[{"kind":"twist","size":[1,1,1],"params":{"angle":0.4}},{"kind":"peel","at":[0,0.1,0.3],"size":[0.5,0.4,0.2]},{"kind":"retractor","at":[0.1,0.2,0],"rotate":[-0.7,0,0,0.7],"size":[0.4,0.4,0.3]},{"kind":"slices","size":[0.9,0.9,0.9],"params":{"count":3}}]}"#;
-    documents.push(("four".to_owned(), four.to_owned()));
-    with_browser(BrowserGpu::Software, |session| async move {
-        let tab = session.open("#").await;
-        tab.wait_until("window.fabrica?.viewer !== undefined", 120)
-            .await;
-        tab.eval::<bool>("(window.fabrica.viewer.destroy(), true)")
-            .await;
-        let gpu = Gpu::open(&GpuOptions {
-            adapter: None,
-            is_strict: true,
-        })
-        .await
-        .expect("a Vulkan device, lavapipe is enough");
-        println!("native: {} {}", gpu.info.name, gpu.info.driver_info);
+    cases.push(case(
+        "four",
+        &[
+            "/templates/0",
+            "/templates/1",
+            "/templates/2",
+            "/templates/3",
+        ],
+        json!({
+            "subject": { "builtin": "head" },
+            "templates": [
+                { "kind": "twist", "size": [1, 1, 1], "params": { "angle": 0.4 } },
+                { "kind": "peel", "at": [0, 0.1, 0.3], "size": [0.5, 0.4, 0.2] },
+                { "kind": "retractor", "at": [0.1, 0.2, 0], "rotate": [-0.7, 0, 0, 0.7], "size": [0.4, 0.4, 0.3] },
+                { "kind": "slices", "size": [0.9, 0.9, 0.9], "params": { "count": 3 } },
+            ],
+        }),
+    ));
+    cases
+}
+
+/// What templates and looks have besides: control points, drawn lines, curves, kept tissue, constraints, bodies, and
+/// opacity by gradient with its correction at cuts.
+fn besides() -> Vec<Case> {
+    let above = json!({ "rotate": [0.3, 0.2, 0.1, 0.92] });
+    vec![
+        case(
+            "rbf",
+            &["/templates/0", "/templates/0/params/edge"],
+            json!({
+                "subject": { "builtin": "cube" },
+                "templates": [{ "kind": "rbf", "at": [0, 0.1, 0.1], "size": [1, 1, 1], "params": {
+                    "points": [
+                        { "at": [0.7, 0.8, 0.7], "move": [0.1, 0, -0.2] },
+                        { "at": [0.2, 0.5, 0.8], "move": [0, 0.1, 0.15] },
+                    ],
+                    "softness": 0.3,
+                    "edge": 0.2,
+                } }],
+                "camera": above,
+            }),
+        ),
+        case(
+            "curve",
+            &["/templates/0", "/templates/0/curve"],
+            json!({
+                "subject": { "builtin": "cube" },
+                "templates": [{
+                    "kind": "peel", "at": [0, 0, 0.28], "size": [0.9, 0.7, 0.5],
+                    "curve": { "points": [[0.02, 0.7], [0.35, 0.95], [0.65, 0.75], [0.98, 0.95]] },
+                    "params": { "depth": 0.3, "progress": 0.6, "radius": 0.12 },
+                }],
+                "camera": above,
+            }),
+        ),
+        // Both halves of the bar are cut open: down to the core, and down to a depth.
+        case(
+            "alignment",
+            &["/templates/0/align", "/templates/1/align"],
+            json!({
+                "subject": { "builtin": "bar" },
+                "templates": [
+                    { "kind": "cut", "at": [0, 0.25, 0.1], "size": [0.5, 0.3, 0.3], "align": { "to": "segment", "keep": ["core"] } },
+                    { "kind": "cut", "at": [0, -0.25, 0.1], "size": [0.5, 0.3, 0.3], "align": { "to": "surface", "depth": 0.05 } },
+                ],
+                "camera": { "rotate": [0.35, 0.2, 0.4, 0.82], "distance": 2 },
+            }),
+        ),
+        // Three stretches of the bar, each with another constraint, in a look that lets the core be seen.
+        case(
+            "constraints",
+            &[
+                "/templates/0/constrain",
+                "/templates/1/constrain",
+                "/templates/2/constrain",
+            ],
+            json!({
+                "subject": { "builtin": "bar" },
+                "templates": [
+                    { "kind": "pull", "at": [0, 0.32, 0], "size": [0.4, 0.28, 0.4], "constrain": { "by": "displacement", "keep": ["core"] } },
+                    { "kind": "twist", "at": [0, 0, 0], "size": [0.4, 0.4, 0.28], "rotate": [FRAC_1_SQRT_2, 0, 0, FRAC_1_SQRT_2], "constrain": { "by": "coordinate", "keep": ["core"] } },
+                    { "kind": "pull", "at": [0, -0.32, 0], "size": [0.4, 0.28, 0.4], "constrain": { "by": "rigid", "keep": ["core"] } },
+                ],
+                "look": { "segments": { "core": 1, "shell": 0.3 } },
+                "camera": { "rotate": [0.35, 0.2, 0.4, 0.82], "distance": 2 },
+            }),
+        ),
+        case(
+            "bodies",
+            &["/look/segments/core", "/look/segments/shell"],
+            json!({
+                "subject": { "builtin": "bar" },
+                "templates": [{ "kind": "split", "at": [0, 0.1, 0], "size": [0.6, 0.6, 0.6] }],
+                "look": { "segments": { "core": { "opacity": 1, "color": "#20c030" }, "shell": 0.3 } },
+                "camera": { "rotate": [0.35, 0.2, 0.4, 0.82], "distance": 2 },
+            }),
+        ),
+        case(
+            "edges",
+            &["/look/gradient", "/templates/0/params/cut", "/templates/1"],
+            json!({
+                "subject": { "builtin": "cube" },
+                "templates": [
+                    { "kind": "split", "at": [0, 0.1, 0.2], "size": [1, 1, 0.8], "params": { "cut": [[0.3, 0], [0.6, 0.5], [0.4, 1]] } },
+                    { "kind": "cut", "at": [0.4, 0.3, 0.4], "size": [0.4, 0.6, 0.4] },
+                ],
+                "look": { "gradient": 0.8 },
+                "camera": above,
+            }),
+        ),
+    ]
+}
+
+/// The same document without what stands at a pointer.
+fn without(document: &Value, pointer: &str) -> Value {
+    let mut plain = document.clone();
+    let (parent, last) = pointer.rsplit_once('/').expect("a pointer");
+    match plain.pointer_mut(parent) {
+        Some(Value::Array(list)) => {
+            list.remove(last.parse().expect("an index"));
+        }
+        Some(Value::Object(map)) => {
+            map.remove(last).expect("it is there");
+        }
+        _ => panic!("nothing is at {pointer}"),
+    }
+    plain
+}
+
+/// What was found so far.
+#[derive(Default)]
+struct Findings {
+    worst: (f64, u8),
+    faults: Vec<String>,
+}
+
+impl Findings {
+    /// Compares the two sides, and the native one with what it would be without what the case is about.
+    fn compare(
+        &mut self,
+        name: &str,
+        page: &RgbaImage,
+        native: &RgbaImage,
+        plain: &[(&str, RgbaImage)],
+    ) {
         let folder = harness::root().join("target/e2e/compared");
         std::fs::create_dir_all(&folder).expect("a folder for pictures");
-        let (mut worst, mut faults) = ((0.0, 0), Vec::new());
-        let mut first_picture = None;
-        let mut studio = None;
-        for (name, text) in &documents {
-            let quoted = serde_json::to_string(text).expect("text");
-            let script = format!(
-                "window.fabrica.module.render_png({quoted},{},{},{SAMPLES},{RESOLUTION}).then(b => btoa(Array.from(b, c => String.fromCharCode(c)).join('')))",
-                SIZE[0], SIZE[1]
-            );
-            let page = image::load_from_memory(&from_base64(&tab.eval::<String>(&script).await))
-                .expect("a PNG")
-                .to_rgba8();
-            let document = Document::from_json(text).expect("a good document");
-            let subject = if name == "four" { "head" } else { "cube" };
-            if studio.as_ref().is_none_or(|(held, _)| *held != subject) {
-                let mut builder = fabrica::data::VolumeBuilder::new();
-                fabrica::subjects::generate(subject, RESOLUTION, &mut builder).expect("a subject");
-                let volume = builder.finish().expect("a whole volume");
-                let made = Studio::new(&gpu, &volume.into(), true).expect("the subject fits");
-                studio = Some((subject, made));
-            }
-            let (_, held) = studio.as_ref().expect("just made");
-            let image = held
-                .render_image(document.illustration(), SIZE, SAMPLES)
-                .await
-                .expect("a native picture");
-            let native = image::RgbaImage::from_raw(SIZE[0], SIZE[1], image.rgba).expect("whole");
-            for (side, picture) in [("page", &page), ("native", &native)] {
-                picture
-                    .save(folder.join(format!("{name}_{side}.png")))
-                    .expect("saved");
-            }
-            let found = difference(&page, &native, WHITE);
-            println!("{name}: {found:?}");
-            if found.count < 1500 {
-                faults.push(format!("{name}: only {} pixels are drawn", found.count));
-            }
-            if found.mean > 2.0 || found.percentile > 8 {
-                faults.push(format!("{name}: {found:?}"));
-            }
-            worst = (
-                f64::max(worst.0, found.mean),
-                u8::max(worst.1, found.percentile),
-            );
-            // The negative control: another template is another picture.
-            if let Some(other) = &first_picture {
-                let apart = difference(other, &native, WHITE);
-                if apart.mean <= 2.0 && apart.percentile <= 8 {
-                    faults.push(format!(
-                        "{name} looks like {}: the test sees nothing",
-                        documents[0].0
-                    ));
-                }
-            } else {
-                first_picture = Some(native);
+        for (side, picture) in [("page", page), ("native", native)] {
+            picture
+                .save(folder.join(format!("{name}_{side}.png")))
+                .expect("saved");
+        }
+        let found = difference(page, native, WHITE);
+        println!("{name}: {found:?}");
+        if found.count < 1500 {
+            self.faults
+                .push(format!("{name}: only {} pixels are drawn", found.count));
+        }
+        if found.mean > 2.0 || found.percentile > 8 {
+            self.faults.push(format!("{name}: {found:?}"));
+        }
+        self.worst.0 = self.worst.0.max(found.mean);
+        self.worst.1 = self.worst.1.max(found.percentile);
+        for (pointer, plain) in plain {
+            let apart = difference(plain, native, WHITE);
+            if apart.mean <= 2.0 && apart.percentile <= 8 {
+                self.faults.push(format!(
+                    "{name} looks the same without {pointer}: the test sees nothing"
+                ));
             }
         }
+    }
+}
+
+/// The native side.
+struct Native {
+    gpu: Gpu,
+    /// The last subject, by name and resolution.
+    held: Option<((String, u32), Studio, Grid)>,
+}
+
+impl Native {
+    async fn open() -> Self {
+        let options = GpuOptions {
+            adapter: None,
+            is_strict: true,
+        };
+        let gpu = Gpu::open(&options).await;
+        let gpu = gpu.expect("a Vulkan device, lavapipe is enough");
+        println!("native: {} {}", gpu.info.name, gpu.info.driver_info);
+        Self { gpu, held: None }
+    }
+
+    fn subject(&mut self, name: &str, resolution: u32) -> (Studio, Grid) {
+        let wanted = (name.to_owned(), resolution);
+        if self.held.as_ref().is_none_or(|(held, ..)| *held != wanted) {
+            let mut builder = VolumeBuilder::new();
+            fabrica::subjects::generate(name, resolution, &mut builder).expect("a subject");
+            let volume = builder.finish().expect("a whole volume");
+            let grid = volume.grid;
+            let studio = Studio::new(&self.gpu, &volume.into(), true).expect("the subject fits");
+            self.held = Some((wanted, studio, grid));
+        }
+        let (_, studio, grid) = self.held.as_ref().expect("just made");
+        (studio.clone(), *grid)
+    }
+
+    async fn draw(&mut self, document: &Value) -> RgbaImage {
+        let name = document["subject"]["builtin"].as_str().expect("a name");
+        let (studio, _) = self.subject(name, RESOLUTION);
+        let document = Document::from_json(&document.to_string()).expect("a good document");
+        drawn(&studio, document.illustration(), SIZE).await
+    }
+}
+
+async fn drawn(studio: &Studio, illustration: &Illustration, size: [u32; 2]) -> RgbaImage {
+    let image = studio.render_image(illustration, size, SAMPLES).await;
+    let image = image.expect("a native picture");
+    RgbaImage::from_raw(size[0], size[1], image.rgba).expect("whole")
+}
+
+/// The bytes of a PNG that a script promises.
+async fn promised(tab: &Tab, script: &str) -> RgbaImage {
+    let script =
+        format!("{script}.then(b => btoa(Array.from(b, c => String.fromCharCode(c)).join('')))");
+    let png = from_base64(&tab.eval::<String>(&script).await);
+    image::load_from_memory(&png).expect("a PNG").to_rgba8()
+}
+
+/// The same documents drawn by the page and by the native program under lavapipe.
+#[test]
+fn browser_draws_what_the_native_program_draws() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let mut native = Native::open().await;
+        let mut findings = Findings::default();
+        let tab = compare_field(&session, &mut native, &mut findings).await;
+        tab.eval::<bool>("(window.fabrica.viewer.destroy(), true)")
+            .await;
+        for case in kinds().into_iter().chain(besides()) {
+            let text = case.document.to_string();
+            let quoted = serde_json::to_string(&text).expect("text");
+            let script = format!(
+                "window.fabrica.module.render_png({quoted},{},{},{SAMPLES},{RESOLUTION})",
+                SIZE[0], SIZE[1]
+            );
+            let page = promised(&tab, &script).await;
+            let image = native.draw(&case.document).await;
+            let mut plain = Vec::new();
+            for pointer in case.about {
+                plain.push((
+                    *pointer,
+                    native.draw(&without(&case.document, pointer)).await,
+                ));
+            }
+            findings.compare(&case.name, &page, &image, &plain);
+        }
+        let Findings { worst, faults } = findings;
         println!(
             "worst mean {:.3}, worst 99.9th percentile {}",
             worst.0, worst.1
         );
         assert!(faults.is_empty(), "{}", faults.join("\n"));
     });
+}
+
+/// A displacement field comes from a file, so that the viewer itself draws it: its picture as it is shown.
+async fn compare_field(session: &Session, native: &mut Native, findings: &mut Findings) -> Tab {
+    let mut table = String::from("x,y,z,dx,dy,dz\n");
+    for i in 0..125 {
+        let at = [i % 5, i / 5 % 5, i / 25].map(|n| f64::from(n) * 25.0 - 50.0);
+        table += &format!("{},{},{},0,{},0\n", at[0], at[1], at[2], 0.3 * at[0] + 15.0);
+    }
+    let table = table.into_bytes();
+    session.server.add("nodes.csv", table.clone());
+    let json = r#"{"fabrica":1,"subject":{"builtin":"cube"},"templates":[{"kind":"field","params":{"src":"nodes.csv","edge":0.1}}],"camera":{"rotate":[0.3,0.2,0.1,0.92]}}"#;
+    let tab = session
+        .viewer_sized(&format!("#{}", payload(json)), (300, 420))
+        .await;
+    tab.settled().await;
+    let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+
+    let (studio, grid) = native.subject("cube", FINE_RESOLUTION);
+    let document = Document::from_json(json).expect("a good document");
+    let illustration = document.illustration();
+    let size = page.dimensions().into();
+    let plain = drawn(&studio, illustration, size).await;
+    let length = table.len() as u64;
+    let mut file = OneFile::new("nodes.csv", &*table, Some(length));
+    let field = read_field(&mut file, "nodes.csv").expect("a field");
+    let given = FieldUse {
+        is_subject_units: false,
+        is_lps: None,
+        subject: &grid,
+    };
+    let (samples, notices) = field.fit(&given).expect("it fits");
+    println!("field: {notices:?}");
+    let mut resources = Resources::default();
+    let template = &illustration.templates[0];
+    assert!(matches!(template.data, TemplateData::Field(_)));
+    let key = fabrica::data::FieldKey::of(template).expect("it names its file");
+    resources.add_field(key, FieldSamples(Arc::new(samples)));
+    let studio = studio.with_resources(resources);
+    let image = drawn(&studio, illustration, size).await;
+    findings.compare("field", &page, &image, &[("/templates/0", plain)]);
+    tab
 }

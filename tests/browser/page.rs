@@ -12,7 +12,7 @@ fn plain_address_shows_the_head() {
             "viewer started after {:.1} s",
             start.elapsed().as_secs_f32()
         );
-        rest(&tab).await;
+        tab.settled().await;
         println!(
             "picture complete after {:.1} s",
             start.elapsed().as_secs_f32()
@@ -40,12 +40,11 @@ fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
         session.allow_clipboard().await;
         let first = payload(PEEL);
         let tab = session.viewer_sized(&format!("#{first}"), PAGE).await;
-        rest(&tab).await;
+        tab.settled().await;
         let closed = object_part(&tab.picture("peel_before").await);
         assert!(drawn_pixels(&closed) > 10_000, "something is drawn");
         // Select it in the list, then take its handle where the head's geometry says that it is.
         tab.click(f64::from(PAGE.0) - 210.0, 150.0).await;
-        tokio::time::sleep(Duration::from_millis(800)).await;
         tab.picture("peel_selected").await;
         let document = Document::from_json(PEEL).expect("a good document");
         let template = &document.illustration().templates[0];
@@ -80,6 +79,7 @@ fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
         assert_ne!(hash, format!("#{first}"), "the address follows");
         // The reader's way: the button.
         tab.key("Escape").await;
+        tab.frames(2).await;
         tab.click(f64::from(PAGE.0) - 74.0, 23.0).await;
         let copied = "navigator.clipboard.readText().catch(error => String(error))";
         tab.wait_until(
@@ -92,10 +92,10 @@ fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
             copied.starts_with(&session.server.address()),
             "a link was copied: {copied}"
         );
-        rest(&tab).await;
+        tab.settled().await;
         let dragged = object_part(&tab.picture("peel_dragged_rest").await);
         let other = session.viewer_at(&copied, PAGE).await;
-        rest(&other).await;
+        other.settled().await;
         let opened = object_part(&other.picture("peel_opened").await);
         let same = difference(&dragged, &opened, WHITE);
         println!("dragged and opened: {same:?}");
@@ -114,21 +114,19 @@ fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
 fn resize_keeps_the_picture() {
     with_browser(BrowserGpu::Software, |session| async move {
         let tab = session.viewer_sized("", (700, 480)).await;
-        rest(&tab).await;
+        let is_head = |page: &image::RgbaImage| drawn_pixels(page) > 15_000;
+        tab.drawn("resize_before", is_head).await;
         for (width, height) in [(420, 600), (900, 560)] {
             tab.resize(width, height).await;
-            rest(&tab).await;
-            let picture = tab.picture(&format!("resize_{width}")).await;
+            tab.frames(3).await;
+            let picture = tab.drawn(&format!("resize_{width}"), is_head).await;
             assert_eq!(
                 picture.dimensions(),
                 (width, height),
                 "the page has its new size"
             );
-            assert!(
-                drawn_pixels(&picture) > 15_000,
-                "the head is drawn at {width} × {height}"
-            );
         }
+        tab.settled().await;
         tab.assert_no_complaints().await;
     });
 }
@@ -190,12 +188,11 @@ fn hostile_link_leaves_a_working_viewer() {
         ] {
             let tab = session.viewer_sized(&format!("#{bad}"), PAGE).await;
             let before: String = tab.eval("location.hash").await;
-            rest(&tab).await;
-            let picture = tab.picture(&format!("hostile_{name}")).await;
-            assert!(
-                drawn_pixels(&object_part(&picture)) > 5000,
-                "{name}: the viewer draws the head"
-            );
+            // The viewer draws the head.
+            let is_head = |page: &image::RgbaImage| drawn_pixels(&object_part(page)) > 5000;
+            tab.drawn(&format!("hostile_{name}"), is_head).await;
+            // After 0.35 s of rest the address is renewed, if it is.
+            hand::pause(700).await;
             let said: String = tab
                 .eval("document.getElementById('said').textContent")
                 .await;
@@ -221,12 +218,12 @@ fn lost_device_comes_back() {
         let tab = session
             .viewer_sized(&format!("#{}", payload(PEEL)), PAGE)
             .await;
-        rest(&tab).await;
+        tab.settled().await;
         let before = object_part(&tab.picture("lost_before").await);
         tab.eval::<bool>("(window.devices[0].destroy(), true)")
             .await;
         tab.wait_until("document.documentElement.dataset.losses === '1' && document.documentElement.dataset.state === 'started'", 60).await;
-        rest(&tab).await;
+        tab.settled().await;
         let after = object_part(&tab.picture("lost_after").await);
         let same = difference(&before, &after, WHITE);
         println!("before and after the loss: {same:?}");

@@ -2,7 +2,8 @@
 //! page.
 
 use super::*;
-use harness::Server;
+use harness::Tab;
+use server::Server;
 
 /// The files of programs that a server was asked for, in order.
 fn programs(server: &Server) -> Vec<String> {
@@ -23,6 +24,15 @@ fn count(server: &Server, name: &str) -> usize {
 /// True if an object fills a quarter of the picture's middle; the hint for newcomers may cover the rest.
 fn is_drawn(picture: &image::RgbaImage) -> bool {
     drawn_pixels(picture) * 4 > picture.pixels().len()
+}
+
+/// Puts the message of an error away: the picture behind it is still there.
+async fn assert_head_is_drawn(tab: &Tab, name: &str) {
+    hand::click(tab, "Dismiss").await;
+    let list = hand::listed(tab).await;
+    assert!(!list.contains("Alert\t"), "no message is left: {list}");
+    let picture = object_part(&tab.picture(name).await);
+    assert!(is_drawn(&picture), "{name}: the head is still there");
 }
 
 /// A small scan: a ball in an NRRD file.
@@ -51,7 +61,7 @@ fn each_part_is_fetched_when_it_is_needed() {
     with_browser(BrowserGpu::Software, |session| async move {
         session.server.add("ball.nrrd", small_scan());
         let tab = session.viewer_sized("", PAGE).await;
-        rest(&tab).await;
+        tab.settled().await;
         let picture = object_part(&tab.picture("parts_head").await);
         assert!(is_drawn(&picture), "the head is drawn");
         let server = &session.server;
@@ -68,7 +78,7 @@ fn each_part_is_fetched_when_it_is_needed() {
             "the part is asked for while the page's own module is on its way: {all:?}"
         );
         drop_files(&tab, &["ball.nrrd"]).await;
-        hand::settled(&tab).await;
+        tab.settled().await;
         let ball = object_part(&tab.picture("parts_ball").await);
         assert!(
             difference(&picture, &ball, WHITE).mean > 2.0,
@@ -79,7 +89,7 @@ fn each_part_is_fetched_when_it_is_needed() {
         assert_eq!(count(server, "fabrica_scans_bg.wasm"), 1, "{asked:?}");
         // The compiled module serves the next load: nothing is fetched again.
         drop_files(&tab, &["ball.nrrd"]).await;
-        hand::settled(&tab).await;
+        tab.settled().await;
         assert_eq!(count(server, "fabrica_scans_bg.wasm"), 1, "kept");
         tab.assert_no_complaints().await;
     });
@@ -92,9 +102,9 @@ fn a_link_to_a_scan_fetches_no_maker_of_subjects() {
         session.server.add("ball.nrrd", small_scan());
         let link = payload(r#"{"fabrica":1,"subject":{"src":"ball.nrrd"}}"#);
         let tab = session.viewer_sized(&format!("#{link}"), PAGE).await;
-        rest(&tab).await;
-        let picture = object_part(&tab.picture("parts_link").await);
-        assert!(is_drawn(&picture), "the ball is drawn");
+        // The ball is drawn.
+        tab.drawn("parts_link", |page| is_drawn(&object_part(page)))
+            .await;
         let server = &session.server;
         assert_eq!(
             count(server, "fabrica_subjects"),
@@ -113,15 +123,14 @@ fn a_part_that_fails_is_a_message() {
     with_browser(BrowserGpu::Software, |session| async move {
         session.server.add("ball.nrrd", small_scan());
         let tab = session.viewer_sized("", PAGE).await;
-        rest(&tab).await;
+        tab.drawn("parts_before", |page| is_drawn(&object_part(page)))
+            .await;
         // It loads, and stops in the midst of its task.
         let faulty = "export default async () => {}; export async function run() { setTimeout(() => { throw new Error('planted fault'); }); await new Promise(() => {}); }";
         session
             .server
             .add("fabrica_scans.js", faulty.as_bytes().to_vec());
         drop_files(&tab, &["ball.nrrd"]).await;
-        hand::settled(&tab).await;
-        tab.picture("parts_fault").await;
         let said = "document.getElementById('said').textContent";
         tab.wait_until(
             &format!("{said}.includes('stopped because of a fault')"),
@@ -133,17 +142,19 @@ fn a_part_that_fails_is_a_message() {
                 .await,
             "the page itself goes on"
         );
+        assert_head_is_drawn(&tab, "parts_after_fault").await;
         // It cannot be loaded at all.
         session
             .server
             .add("fabrica_scans.js", b"this is no program".to_vec());
         drop_files(&tab, &["ball.nrrd"]).await;
-        hand::settled(&tab).await;
+        tab.settled().await;
         let document: String = tab.eval("window.fabrica.viewer.get_document()").await;
         assert!(
             !document.contains("ball"),
             "the document is as it was: {document}"
         );
+        assert_head_is_drawn(&tab, "parts_after_no_program").await;
         tab.assert_no_complaints().await;
     });
 }

@@ -1,6 +1,6 @@
 //! Slices beside the picture, and a series of slices as files.
 
-use super::hand::{controls, document, drop_files, find, focus, pause, press};
+use super::hand::{controls, document, drop_files, find, focus, press};
 use super::harness::with_browser;
 use super::*;
 
@@ -33,9 +33,9 @@ fn series_is_dropped_and_a_template_placed_on_a_slice() {
                 60,
             )
             .await;
-            pause(5000).await;
-            let picture = object_part(&tab.picture("series_dropped").await);
-            assert!(drawn_pixels(&picture) > 3000, "the series is drawn");
+            // The series is drawn.
+            let is_drawn = |page: &image::RgbaImage| drawn_pixels(&object_part(page)) > 3000;
+            tab.drawn("series_dropped", is_drawn).await;
         } else {
             println!(
                 "no series was dropped: FABRICA_TEST_DATA names no folder of scans; slices of a cube"
@@ -47,7 +47,7 @@ fn series_is_dropped_and_a_template_placed_on_a_slice() {
             let pane = find(&tab, name).await;
             assert!(pane.size.0.min(pane.size.1) > 100.0, "{pane:?}");
         }
-        pause(5000).await;
+        tab.frames(3).await;
         tab.picture("slices_shown").await;
 
         // The crosshair goes to the middle of the axial slice; there the template is placed.
@@ -64,7 +64,7 @@ fn series_is_dropped_and_a_template_placed_on_a_slice() {
             20,
         )
         .await;
-        pause(3000).await;
+        tab.frames(3).await;
         let placed = document(&tab).await;
         let template = &placed["templates"][0];
         assert_eq!(template["kind"], "poke", "{placed}");

@@ -1,7 +1,7 @@
 //! Scans and their tissues in a real browser: a bone that a link makes in a scan without labels, and label files beside
 //! a scan.
 
-use super::hand::{changed, click, document, drop_files, focus, mark, press, settled};
+use super::hand::{changed, click, clipboard, document, drop_files, focus, mark, press};
 use super::harness::{Session, Tab, with_browser};
 use super::*;
 use sha2::{Digest as _, Sha256};
@@ -23,6 +23,10 @@ fn serve(session: &Session, path: &Path, name: &str) -> String {
 
 /// The picture of a tab between its bars.
 async fn object(tab: &Tab, name: &str) -> image::RgbaImage {
+    // The messages over the picture go by themselves.
+    hand::listed(tab).await;
+    tab.wait_until("!window.fabrica.viewer.controls().includes('Alert\\t')", 60)
+        .await;
     let page = tab.picture(name).await;
     image::imageops::crop_imm(&page, 30, 90, 300, 240).to_image()
 }
@@ -41,7 +45,7 @@ async fn opened(
     tab.wait_until("window.fabrica.viewer.get_document() !== ''", 60)
         .await;
     drop_files(&tab, files).await;
-    settled(&tab).await;
+    tab.settled().await;
     let picture = object(&tab, name).await;
     println!("{name} after {:.1} s", start.elapsed().as_secs_f32());
     tab.assert_no_complaints().await;
@@ -83,7 +87,7 @@ fn links_bring_their_tissues_when_the_files_are_dropped() {
             payload(&bared(""))
         ))
         .await;
-        settled(&tab).await;
+        tab.settled().await;
         let without = object(&tab, "tissue_no_bone").await;
         tab.page.close().await.expect("the tab closes");
         let (tab, again) = opened(&session, &kept, &files, "tissue_bone_again").await;
@@ -111,7 +115,7 @@ fn links_bring_their_tissues_when_the_files_are_dropped() {
             payload(&head(opening))
         ))
         .await;
-        settled(&tab).await;
+        tab.settled().await;
         let opened_up = object(&tab, "tissue_brain").await;
         tab.assert_no_complaints().await;
         let ivory = [&bone, &opened_up].map(|picture| pixels_between(picture, 0.85, 0.99));
@@ -145,7 +149,6 @@ fn bone_is_found_in_a_scan_and_laid_bare() {
             60,
         )
         .await;
-        settled(&tab).await;
 
         let start = std::time::Instant::now();
         click(&tab, "Panel: Tissues").await;
@@ -153,7 +156,6 @@ fn bone_is_found_in_a_scan_and_laid_bare() {
         click(&tab, "Make a tissue").await;
         let subject = changed(&tab, "subject").await;
         assert_eq!(subject["features"].as_array().map(Vec::len), Some(1));
-        settled(&tab).await;
         let found = start.elapsed().as_secs_f32();
         tab.picture("bone_found").await;
         // A peel in the middle of the picture, which leaves the new tissue alone.
@@ -162,7 +164,6 @@ fn bone_is_found_in_a_scan_and_laid_bare() {
             press(&tab, letter).await;
         }
         press(&tab, "Enter").await;
-        settled(&tab).await;
         tab.picture("bone_placing").await;
         press(&tab, "Enter").await;
         tab.wait_until(
@@ -183,23 +184,18 @@ fn bone_is_found_in_a_scan_and_laid_bare() {
         );
         // Nothing is selected by whoever opens the link: no handles over the picture.
         press(&tab, "Escape").await;
-        settled(&tab).await;
+        tab.settled().await;
         let made = object_part(&tab.picture("bone_bared").await);
         assert!(drawn_pixels(&made) > 3000);
 
         click(&tab, "Copy link").await;
-        tab.wait_until(
-            "navigator.clipboard.readText().then(text => text.includes('#'))",
-            30,
-        )
-        .await;
-        let link: String = tab.eval("navigator.clipboard.readText()").await;
+        let link = clipboard(&tab, &session.server.address()).await;
         let other = session.viewer_at(&link, HIGH).await;
         other
             .wait_until("window.fabrica.viewer.get_document() !== ''", 60)
             .await;
         drop_files(&other, &["chest.nii.gz"]).await;
-        settled(&other).await;
+        other.settled().await;
         assert_eq!(document(&other).await, document(&tab).await);
         let seen = object_part(&other.picture("bone_linked").await);
         let same = difference(&made, &seen, WHITE);

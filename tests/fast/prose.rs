@@ -2,9 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-/// Folder in which docs may still repeat the name of their item.
-const NOT_YET: &str = "tests/browser";
-
 /// What [`faults`] says of a doc that repeats the name of its item.
 const HOLLOW: &str = "a doc that only repeats a name";
 
@@ -187,9 +184,7 @@ fn comments_fit_and_say_something() {
     for path in all {
         let text = std::fs::read_to_string(&path).expect("text");
         let name = path.strip_prefix(root).unwrap_or(&path).display();
-        let may_repeat = path.starts_with(root.join(NOT_YET));
         let faults = faults(&text).into_iter();
-        let faults = faults.filter(|(_, fault)| !(may_repeat && fault.starts_with(HOLLOW)));
         found.extend(faults.map(|(line, fault)| format!("{name}:{line}: {fault}")));
     }
     assert!(
