@@ -390,7 +390,7 @@ fn head_with_recipe() -> Volume {
     let recipes = document.illustration().recipes.clone();
     let mut volume = builtin("head", 64);
     let resources = Resources {
-        volume: Some(std::sync::Arc::new(volume.clone())),
+        subject: Some(volume.clone().into()),
         ..Resources::default()
     };
     let made = pollster::block_on(segment(resources, recipes, Turns::endless()));
