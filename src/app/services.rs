@@ -22,9 +22,9 @@ pub trait Services {
     fn expect_segmentations(&mut self, expected: &SegmentationsExpected) {
         _ = expected;
     }
-    /// True while files are read that no load stands for: those that the user opened and that may turn out to be
-    /// documents, fields or scans, and fields that the document names. Also while there are messages to poll, where that
-    /// can be told.
+    /// True while the shell reads files outside a load: files that the user opened, which may turn out to be documents,
+    /// fields or scans, and fields that the document names. Also true while messages wait to be polled, as far as the
+    /// shell knows.
     fn is_reading(&self) -> bool {
         false
     }

@@ -1,6 +1,7 @@
 use std::fmt;
 
-/// What there is to say of what came for a document. Displayed, it is one line, led by a JSON pointer into the document.
+/// A remark on a file that arrived for a document. Displayed, it is one line that begins with a JSON pointer into the
+/// document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ResourceNews {
     /// The author names a number that no segment of the file has; the name makes no segment.

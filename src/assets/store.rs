@@ -194,8 +194,8 @@ impl Assets {
     }
 
     /// The data of the files that a document names: its subject, its label volumes under the author's names, and the
-    /// fields of templates that act, laid over the subject. Files that have not arrived are left out; there are no fields
-    /// before the grid of the subject is known.
+    /// fields of templates that act, laid over the subject. Files that have not arrived are left out. There are no
+    /// fields before the grid of the subject is known.
     ///
     /// The news come once each: when a label volume or a subject is given its names, and when a field is laid over a
     /// subject. Cheap where nothing has changed.

@@ -6,8 +6,8 @@ use super::volume::{Volume, VolumeSink, Voxels};
 /// A piece of a subject on its way from a reader or a generator to whoever shows it.
 #[derive(Clone, Debug)]
 pub enum SubjectPart {
-    /// A volume without its voxels, as [`VolumeSink::begin`] takes it. Its pieces follow, and what came before belongs to
-    /// a coarser volume.
+    /// A volume without its voxels, as [`VolumeSink::begin`] takes it. The pieces of this volume follow; earlier pieces
+    /// belong to a coarser volume.
     Volume(Box<Volume>),
     /// Scalars that follow the ones before.
     Scalars(Voxels),

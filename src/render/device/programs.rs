@@ -114,7 +114,7 @@ const fn is_same(a: &[u8], b: &[u8]) -> bool {
 /// which ask a subject are compiled once for each kind that is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SubjectShader {
-    /// A volume.
+    /// Values and labels from two 3D textures.
     Volume,
 }
 

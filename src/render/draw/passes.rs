@@ -28,7 +28,8 @@ impl Passes {
         }
     }
 
-    /// A scene of an illustration, with what has come of its files, on a subject. `wants_grid` false draws without the skip grid.
+    /// A scene of an illustration and the data of its files on a subject. `wants_grid` false draws without the skip
+    /// grid.
     pub(crate) fn scene(
         &self,
         gpu: &Gpu,

@@ -103,8 +103,9 @@ impl Templates {
         pool: [[0.0; 4]; POOL],
     };
 
-    /// Packs the enabled templates, fields with their samples where those are there. An `add` with no enabled one before it composes (spec/templates.md). More than
-    /// [`MAX_TEMPLATES`] cannot come from a valid document; what is over is left out.
+    /// Packs the enabled templates; a field acts as soon as its samples have arrived. An `add` with no enabled template
+    /// before it composes (spec/templates.md). A valid document has at most [`MAX_TEMPLATES`]; further ones are left
+    /// out.
     pub fn pack(placed: &[PlacedTemplate], resources: &Resources) -> Self {
         let mut packed = Self::NONE;
         let acting = placed.iter().map(|t| resources.acting(t));
