@@ -185,8 +185,8 @@ impl App {
             let want = want.clone();
             let ticket = self.services.load(&want);
             self.session.segments_started(ticket, want);
-        } else if self.has_said_labels != named {
-            self.has_said_labels = named;
+        } else if self.reported_segments != named {
+            self.reported_segments = named;
             let text = words::tissue::w().labels_wanted;
             if is_file && missing.iter().any(|want| want.sha256().is_some()) {
                 // It stays until it is not true any more.
@@ -229,7 +229,7 @@ impl App {
                 self.session.notify(Gravity::Success, text, "");
             }
         }
-        self.has_said_labels.clear();
+        self.reported_segments.clear();
     }
 
     /// Throws away the pieces of a load that ends early. A label volume is not asked for again.

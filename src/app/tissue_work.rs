@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use crate::app::picture::pending::{Pending, poll_once};
 use crate::assets::Assets;
-use crate::data::{Resources, Segmented, Turns, segment};
+use crate::data::{Resources, Segmented, TimeSlices, segment};
 use crate::document::{Illustration, Recipe, SegmentsRef};
 use crate::render::Clock;
 
@@ -51,7 +51,7 @@ fn has_values(assets: &Assets) -> bool {
 struct Job {
     made_of: MadeOf,
     until: Rc<Cell<f64>>,
-    turns: Turns,
+    time_slices: TimeSlices,
     work: Pending<Segmented>,
 }
 
@@ -79,7 +79,7 @@ impl TissueWork {
 
     /// How far the work under way is, 0 to 1.
     pub(crate) fn progress(&self) -> Option<f32> {
-        self.job.as_ref().map(|job| job.turns.progress())
+        self.job.as_ref().map(|job| job.time_slices.progress())
     }
 
     /// Goes on for its share of a frame. A result is to be shown. `resources` is what has come of the files of the
@@ -117,13 +117,13 @@ impl TissueWork {
     fn start(&self, resources: &Resources, made_of: MadeOf) -> Job {
         let (clock, until) = (self.clock, Rc::new(Cell::new(0.0)));
         let deadline = Rc::clone(&until);
-        let turns = Turns::until(move || clock() > deadline.get());
+        let time_slices = TimeSlices::until(move || clock() > deadline.get());
         let recipes = made_of.recipes.clone();
-        let work = segment(resources.clone(), recipes, turns.clone());
+        let work = segment(resources.clone(), recipes, time_slices.clone());
         Job {
             made_of,
             until,
-            turns,
+            time_slices,
             work: Box::pin(work),
         }
     }

@@ -95,7 +95,7 @@ pub struct App {
     /// The label volumes that the shell was last told to expect.
     pub(crate) labels_expected: SegmentationsExpected,
     /// Label volumes of the document that a message has named as missing.
-    pub(crate) has_said_labels: Vec<SegmentsRef>,
+    pub(crate) reported_segments: Vec<SegmentsRef>,
 }
 
 /// What has been spoken to a screen reader so far.
@@ -178,7 +178,7 @@ impl App {
             tissue: tissue_work::TissueWork::new(start.clock),
             incoming_labels: Vec::new(),
             labels_expected: SegmentationsExpected::default(),
-            has_said_labels: Vec::new(),
+            reported_segments: Vec::new(),
         };
         app.do_outside();
         app

@@ -2,82 +2,13 @@
 //!
 //! Everything here is the same bit for bit on every machine: whole numbers, or floats by additions, products and
 //! comparisons in a fixed order. An operation works slice by slice and gives way in between when its time slice
-//! is over ([`Turns`]); besides the set itself it holds a few slices.
+//! is over ([`TimeSlices`]); besides the set itself it holds a few slices.
 
-use std::cell::Cell;
 use std::collections::VecDeque;
-use std::fmt;
-use std::future::Future;
-use std::pin::Pin;
-use std::rc::Rc;
-use std::task::{Context, Poll};
 
 use glam::UVec3;
 
-/// Cooperative time slices for a long computation: between two slices of the volume the computation asks whether its
-/// time slice is over and, if so, gives way (its future is pending until it is polled again). Holds the progress too.
-#[derive(Clone)]
-pub struct Turns {
-    is_up: Rc<dyn Fn() -> bool>,
-    progress: Rc<Cell<f32>>,
-}
-
-impl fmt::Debug for Turns {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Turns")
-            .field("progress", &self.progress)
-            .finish_non_exhaustive()
-    }
-}
-
-impl Turns {
-    /// One time slice without an end: the computation runs through.
-    pub fn endless() -> Self {
-        Self::until(|| false)
-    }
-
-    /// Time slices that are over when `is_up` returns true; polled again, the computation goes on.
-    pub fn until(is_up: impl Fn() -> bool + 'static) -> Self {
-        Self {
-            is_up: Rc::new(is_up),
-            progress: Rc::default(),
-        }
-    }
-
-    /// How far the work is, 0 to 1.
-    pub fn progress(&self) -> f32 {
-        self.progress.get()
-    }
-
-    pub(super) fn set_progress(&self, fraction: f32) {
-        self.progress.set(fraction);
-    }
-
-    /// Gives way once if the time slice is over.
-    pub(super) fn pass(&self) -> Pass {
-        Pass {
-            is_due: (self.is_up)(),
-        }
-    }
-}
-
-/// Pending once, or not at all.
-pub(super) struct Pass {
-    is_due: bool,
-}
-
-impl Future for Pass {
-    type Output = ();
-
-    fn poll(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<()> {
-        if std::mem::take(&mut self.is_due) {
-            context.waker().wake_by_ref();
-            Poll::Pending
-        } else {
-            Poll::Ready(())
-        }
-    }
-}
+use super::time_slices::TimeSlices;
 
 /// A set of voxels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -165,7 +96,7 @@ impl Mask {
         self.dims.z as usize
     }
 
-    async fn parts(&self, wanted: u8, turns: &Turns) -> Parts {
+    async fn parts(&self, wanted: u8, time_slices: &TimeSlices) -> Parts {
         let height = self.dims.y as usize;
         let mut parts = Parts {
             runs: Vec::new(),
@@ -193,7 +124,7 @@ impl Mask {
                 parts.join_rows(row, row - height);
             }
             if row % height == 0 {
-                turns.pass().await;
+                time_slices.give_way().await;
             }
         }
         // A parent comes earlier, so that in order each step leads to the end.
@@ -210,7 +141,7 @@ impl Mask {
         parts: &Parts,
         to: u8,
         changes: impl Fn(u32) -> bool,
-        turns: &Turns,
+        time_slices: &TimeSlices,
     ) {
         let (length, height) = (self.row_length(), self.dims.y as usize);
         for row in 0..parts.rows.len() - 1 {
@@ -222,14 +153,14 @@ impl Mask {
                 }
             }
             if row % height == 0 {
-                turns.pass().await;
+                time_slices.give_way().await;
             }
         }
     }
 
     /// Keeps the largest parts; of parts of one size the one that comes first.
-    pub async fn keep_largest(&mut self, count: usize, turns: &Turns) {
-        let parts = self.parts(1, turns).await;
+    pub async fn keep_largest(&mut self, count: usize, time_slices: &TimeSlices) {
+        let parts = self.parts(1, time_slices).await;
         let mut sizes = vec![0u64; parts.runs.len()];
         for (index, run) in parts.runs.iter().enumerate() {
             sizes[parts.root(index as u32) as usize] += u64::from(run.end - run.start);
@@ -242,12 +173,12 @@ impl Mask {
             sizes[root as usize] = 0;
         }
         let goes = |root: u32| sizes[root as usize] > 0;
-        self.set_parts(&parts, 0, goes, turns).await;
+        self.set_parts(&parts, 0, goes, time_slices).await;
     }
 
     /// Keeps the parts that hold one of these voxels.
-    pub async fn keep_parts_at(&mut self, seeds: &[UVec3], turns: &Turns) {
-        let parts = self.parts(1, turns).await;
+    pub async fn keep_parts_at(&mut self, seeds: &[UVec3], time_slices: &TimeSlices) {
+        let parts = self.parts(1, time_slices).await;
         let mut kept = Vec::new();
         for seed in seeds.iter().filter(|seed| seed.cmplt(self.dims).all()) {
             let row = (seed.y + self.dims.y * seed.z) as usize;
@@ -257,13 +188,13 @@ impl Mask {
             };
             kept.extend(parts.row(row).find(holds).map(|run| parts.root(run)));
         }
-        self.set_parts(&parts, 0, |root| !kept.contains(&root), turns)
+        self.set_parts(&parts, 0, |root| !kept.contains(&root), time_slices)
             .await;
     }
 
     /// Adds every enclosed hole: parts of the rest that touch no end of the grid.
-    pub async fn fill(&mut self, turns: &Turns) {
-        let parts = self.parts(0, turns).await;
+    pub async fn fill(&mut self, time_slices: &TimeSlices) {
+        let parts = self.parts(0, time_slices).await;
         let (height, rows) = (self.dims.y as usize, parts.rows.len() - 1);
         let mut is_open = vec![false; parts.runs.len()];
         for row in 0..rows {
@@ -276,7 +207,7 @@ impl Mask {
                 }
             }
         }
-        self.set_parts(&parts, 1, |root| !is_open[root as usize], turns)
+        self.set_parts(&parts, 1, |root| !is_open[root as usize], time_slices)
             .await;
     }
 
@@ -285,7 +216,13 @@ impl Mask {
     /// grid are neither in the set nor outside.
     ///
     /// The squared distance is found axis by axis (Saito and Toriwaki 1994); only slices within reach are held.
-    pub async fn spread(&mut self, wanted: u8, spacing_mm: [f32; 3], reach_mm: f32, turns: &Turns) {
+    pub async fn spread(
+        &mut self,
+        wanted: u8,
+        spacing_mm: [f32; 3],
+        reach_mm: f32,
+        time_slices: &TimeSlices,
+    ) {
         // Room for the rounding of spacings, so that "1 mm" reaches the next voxel at 1 mm.
         let most = reach_mm * reach_mm * (1.0 + 1e-5);
         let [sx, sy, sz] = spacing_mm;
@@ -333,13 +270,13 @@ impl Mask {
                         lower(&mut flat[shift..], &rows[..length - shift], more);
                         lower(&mut flat[..length - shift], &rows[shift..], more);
                         if k % 8 == 0 {
-                            turns.pass().await;
+                            time_slices.give_way().await;
                         }
                     }
                 }
                 ring.push_back(flat);
                 next += 1;
-                turns.pass().await;
+                time_slices.give_way().await;
             }
             while first + rz < z {
                 spare.extend(ring.pop_front().filter(|slice| !slice.is_empty()));
@@ -350,7 +287,7 @@ impl Mask {
             for (i, slice) in ring.iter().enumerate() {
                 if !slice.is_empty() {
                     lower(&mut near, slice, squared((first + i).abs_diff(z), sz));
-                    turns.pass().await;
+                    time_slices.give_way().await;
                 }
             }
             let bits = &mut self.bits[z * length..(z + 1) * length];
@@ -364,7 +301,7 @@ impl Mask {
 
     /// Smooths the outline: blurs the set (1 inside, 0 outside) by a Gaussian and keeps the voxels with at least one
     /// half. A place beyond the grid has the value of its nearest voxel.
-    pub async fn smooth(&mut self, spacing_mm: [f32; 3], sigma_mm: f32, turns: &Turns) {
+    pub async fn smooth(&mut self, spacing_mm: [f32; 3], sigma_mm: f32, time_slices: &TimeSlices) {
         let (width, length, slices) = (self.row_length(), self.slice_length(), self.slices());
         let kernels = spacing_mm.map(|spacing| kernel(sigma_mm / spacing.max(1e-6)));
         let [kx, ky, kz] = &kernels;
@@ -382,7 +319,7 @@ impl Mask {
                 {
                     blur_row(row, kx, out);
                 }
-                turns.pass().await;
+                time_slices.give_way().await;
                 let height = self.dims.y as usize;
                 for y in 0..height {
                     let sums = &mut sums[y * width..(y + 1) * width];
@@ -390,7 +327,7 @@ impl Mask {
                         &row_blurred[y * width..(y + 1) * width]
                     });
                     if y % 32 == 0 {
-                        turns.pass().await;
+                        time_slices.give_way().await;
                     }
                 }
                 ring.push_back(sums.iter().map(|&sum| (sum >> 16) as u16).collect());
@@ -401,7 +338,7 @@ impl Mask {
                 first += 1;
             }
             weigh(&mut sums, kz, z, slices, |z| &ring[z - first]);
-            turns.pass().await;
+            time_slices.give_way().await;
             let bits = &mut self.bits[z * length..(z + 1) * length];
             for (bit, &sum) in bits.iter_mut().zip(&sums) {
                 *bit = u8::from(sum >= 1 << 31);

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use glam::{DVec3, UVec3};
 
-use super::mask::{Mask, Turns};
+use super::mask::Mask;
+use super::time_slices::TimeSlices;
 use super::{Grid, Resources, Segment, Segmentation, Subject, Volume, Voxels, resized};
 use crate::document::{CleanStep, Recipe, RecipeSource};
 
@@ -62,7 +63,11 @@ pub struct Segmented {
 /// own stands for the overlap. Without a subject there are none.
 ///
 /// The result is the same bit for bit on every machine. Holds a byte per voxel besides the result.
-pub async fn segment(resources: Resources, recipes: Vec<Recipe>, turns: Turns) -> Segmented {
+pub async fn segment(
+    resources: Resources,
+    recipes: Vec<Recipe>,
+    time_slices: TimeSlices,
+) -> Segmented {
     let mut notices = Vec::new();
     let own = resources.own_segmentation();
     let files = &resources.segmentations;
@@ -83,37 +88,41 @@ pub async fn segment(resources: Resources, recipes: Vec<Recipe>, turns: Turns) -
         .into_iter()
         .chain(files.iter().map(Arc::as_ref))
     {
-        sources.push((labels, join.list_file(labels, &mut notices, &turns).await));
+        sources.push((
+            labels,
+            join.list_file(labels, &mut notices, &time_slices).await,
+        ));
     }
     let listed: Vec<Option<Segment>> = recipes
         .iter()
         .map(|recipe| join.list_segment(recipe, &mut notices))
         .collect();
     for (labels, becomes) in sources {
-        join.add_file(labels, &becomes, &mut notices, &turns).await;
+        join.add_file(labels, &becomes, &mut notices, &time_slices)
+            .await;
     }
     let mut counts = Vec::with_capacity(recipes.len());
     let steps: usize = recipes.iter().map(|recipe| recipe.clean.len() + 2).sum();
     let mut done = 0;
     let mut has_done = |n: usize| {
         done += n;
-        turns.set_progress(done as f32 / steps.max(1) as f32);
+        time_slices.set_progress(done as f32 / steps.max(1) as f32);
     };
     for (recipe, listed) in recipes.iter().zip(listed) {
-        let mut mask = draft(volume, recipe, &mut notices, &turns).await;
+        let mut mask = draft(volume, recipe, &mut notices, &time_slices).await;
         has_done(1);
         let spacing = volume.grid.spacing_mm().as_vec3().to_array();
         for step in &recipe.clean {
             match *step {
-                CleanStep::Largest(count) => mask.keep_largest(count as usize, &turns).await,
-                CleanStep::Fill => mask.fill(&turns).await,
+                CleanStep::Largest(count) => mask.keep_largest(count as usize, &time_slices).await,
+                CleanStep::Fill => mask.fill(&time_slices).await,
                 CleanStep::Close(mm) => {
-                    mask.spread(1, spacing, mm, &turns).await;
-                    mask.spread(0, spacing, mm, &turns).await;
+                    mask.spread(1, spacing, mm, &time_slices).await;
+                    mask.spread(0, spacing, mm, &time_slices).await;
                 }
-                CleanStep::Smooth(mm) => mask.smooth(spacing, mm, &turns).await,
-                CleanStep::Grow(mm) => mask.spread(1, spacing, mm, &turns).await,
-                CleanStep::Shrink(mm) => mask.spread(0, spacing, mm, &turns).await,
+                CleanStep::Smooth(mm) => mask.smooth(spacing, mm, &time_slices).await,
+                CleanStep::Grow(mm) => mask.spread(1, spacing, mm, &time_slices).await,
+                CleanStep::Shrink(mm) => mask.spread(0, spacing, mm, &time_slices).await,
             }
             has_done(1);
         }
@@ -127,8 +136,15 @@ pub async fn segment(resources: Resources, recipes: Vec<Recipe>, turns: Turns) -
         counts.push(count);
         if let Some(segment) = listed {
             let at = format!("/subject/features/{}", recipe.index);
-            join.add_segment(&volume.grid, &mask, &segment, &at, &mut notices, &turns)
-                .await;
+            join.add_segment(
+                &volume.grid,
+                &mask,
+                &segment,
+                &at,
+                &mut notices,
+                &time_slices,
+            )
+            .await;
         }
         has_done(1);
     }
@@ -164,14 +180,19 @@ fn grid_of_labels(volume: &Volume, files: &[Arc<Segmentation>]) -> Grid {
 }
 
 /// The first draft of a segment, on the scan's grid.
-async fn draft(volume: &Volume, recipe: &Recipe, notices: &mut Vec<String>, turns: &Turns) -> Mask {
+async fn draft(
+    volume: &Volume,
+    recipe: &Recipe,
+    notices: &mut Vec<String>,
+    time_slices: &TimeSlices,
+) -> Mask {
     let dims = volume.grid.dims;
     let slice = dims.x as usize * dims.y as usize;
     let mut bits = Vec::with_capacity(volume.voxels.len());
     let range = recipe.from.range();
     while bits.len() < volume.voxels.len() {
         within(volume, range, bits.len()..bits.len() + slice, &mut bits);
-        turns.pass().await;
+        time_slices.give_way().await;
     }
     let mut mask = Mask { dims, bits };
     if let RecipeSource::Grow { seeds, .. } = &recipe.from {
@@ -195,7 +216,7 @@ async fn draft(volume: &Volume, recipe: &Recipe, notices: &mut Vec<String>, turn
                 _ => inside.push(voxel),
             }
         }
-        mask.keep_parts_at(&inside, turns).await;
+        mask.keep_parts_at(&inside, time_slices).await;
     }
     mask
 }
@@ -256,14 +277,14 @@ impl Join {
         &mut self,
         file: &Segmentation,
         notices: &mut Vec<String>,
-        turns: &Turns,
+        time_slices: &TimeSlices,
     ) -> Vec<Option<Segment>> {
         let mut occurs = [false; 256];
         for part in file.labels.chunks(1 << 18) {
             for &label in part {
                 occurs[usize::from(label)] = true;
             }
-            turns.pass().await;
+            time_slices.give_way().await;
         }
         let mut becomes: Vec<Option<Segment>> = vec![None; 256];
         for number in 1..256usize {
@@ -315,7 +336,7 @@ impl Join {
         file: &Segmentation,
         becomes: &[Option<Segment>],
         notices: &mut Vec<String>,
-        turns: &Turns,
+        time_slices: &TimeSlices,
     ) {
         let from = Nearest::new(&self.labels.grid, &file.grid);
         let mut table = OverlapTable::default();
@@ -336,11 +357,11 @@ impl Join {
                     at += 1;
                 }
                 if y % 16 == 0 {
-                    turns.pass().await;
+                    time_slices.give_way().await;
                 }
             }
         }
-        self.say_lost(lost, "a label volume", notices);
+        self.report_lost(lost, "a label volume", notices);
     }
 
     fn list_segment(&mut self, recipe: &Recipe, notices: &mut Vec<String>) -> Option<Segment> {
@@ -369,7 +390,7 @@ impl Join {
         segment: &Segment,
         at: &str,
         notices: &mut Vec<String>,
-        turns: &Turns,
+        time_slices: &TimeSlices,
     ) {
         let mut table = OverlapTable::default();
         let mut lost = 0;
@@ -389,12 +410,12 @@ impl Join {
                     out += 1;
                 }
             }
-            turns.pass().await;
+            time_slices.give_way().await;
         }
-        self.say_lost(lost, at, notices);
+        self.report_lost(lost, at, notices);
     }
 
-    fn say_lost(&self, lost: u64, what: &str, notices: &mut Vec<String>) {
+    fn report_lost(&self, lost: u64, what: &str, notices: &mut Vec<String>) {
         if lost > 0 {
             notices.push(format!(
                 "{what}: too many segments overlap; {lost} voxels belong to the last of them only"

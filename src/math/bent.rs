@@ -58,14 +58,14 @@ pub struct Bent {
 
 /// The part of a box that lies on a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Laid {
+pub struct OnLine {
     /// Height (z) of the plane that lies on the line, template units.
     pub height: f32,
     /// x of the planes that lie at the first and at the last point, template units.
     pub ends: [f32; 2],
 }
 
-impl Laid {
+impl OnLine {
     /// The top, from x = 0 to x = 1.
     pub const TOP: Self = Self {
         height: 1.0,
@@ -83,7 +83,7 @@ impl Bent {
         places: &[Vec2],
         is_spline: bool,
         straight: Vec3,
-        laid: Laid,
+        on_line: OnLine,
     ) -> Result<Self, NotBent> {
         // Mitres are differences of nearly equal directions: 64 bits keep their digits.
         let mut line: Vec<DVec2> = Vec::with_capacity(SPLINE_SEGMENTS + 1);
@@ -149,13 +149,13 @@ impl Bent {
                 mitre: mitre.as_vec2(),
             });
         }
-        let [from, to] = laid.ends;
+        let [from, to] = on_line.ends;
         let per_unit = length as f32 / (to - from);
         Ok(Self {
             joints,
             straight,
             size: Vec3::new(per_unit, straight.y, straight.z),
-            origin: Vec2::new(from * per_unit, laid.height * straight.z),
+            origin: Vec2::new(from * per_unit, on_line.height * straight.z),
         })
     }
 
@@ -406,7 +406,7 @@ mod tests {
 
     fn dome(is_spline: bool) -> Bent {
         let places = [[0.0, 0.6], [0.3, 1.0], [0.7, 1.05], [1.0, 0.5]].map(Vec2::from_array);
-        Bent::new(&places, is_spline, SIZE, Laid::TOP).expect("it is bent")
+        Bent::new(&places, is_spline, SIZE, OnLine::TOP).expect("it is bent")
     }
 
     #[test]
@@ -430,7 +430,7 @@ mod tests {
             Vec2::new(1.0, 1.0),
         ];
         for is_spline in [true, false] {
-            let bent = Bent::new(&places, is_spline, SIZE, Laid::TOP).expect("a line");
+            let bent = Bent::new(&places, is_spline, SIZE, OnLine::TOP).expect("a line");
             for q in [
                 Vec3::ZERO,
                 Vec3::new(-2.0, 0.1, 4.0),
@@ -515,7 +515,7 @@ mod tests {
     fn what_cannot_be_bent_says_so() {
         let bent = |places: &[[f32; 2]], is_spline| {
             let places: Vec<Vec2> = places.iter().map(|p| Vec2::from_array(*p)).collect();
-            Bent::new(&places, is_spline, SIZE, Laid::TOP)
+            Bent::new(&places, is_spline, SIZE, OnLine::TOP)
         };
         for is_spline in [true, false] {
             assert_eq!(bent(&[], is_spline), Err(NotBent::TooShort));
@@ -538,7 +538,7 @@ mod tests {
             &[[0.0, 0.9], [0.5, 1.0], [1.0, 0.9]].map(Vec2::from_array),
             true,
             Vec3::new(0.1, 0.5, 2.0),
-            Laid::TOP,
+            OnLine::TOP,
         );
         assert!(deep.expect("it is bent").is_folded(1.0));
     }

@@ -8,7 +8,7 @@ mod placement;
 pub mod space;
 
 pub use aabb::Aabb;
-pub use bent::{Bent, Laid, NotBent};
+pub use bent::{Bent, NotBent, OnLine};
 pub use color::{linear_from_srgb, mix_srgb, srgb_from_linear};
 pub use number::{hex, plain_f64, round_to};
 pub use placement::Placement;

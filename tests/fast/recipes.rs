@@ -2,8 +2,8 @@
 //! joined.
 
 use fabrica::data::{
-    Grid, Mask, Resources, Segment, Segmentation, Segmented, Turns, Volume, VolumeBuilder, Voxels,
-    segment,
+    Grid, Mask, Resources, Segment, Segmentation, Segmented, TimeSlices, Volume, VolumeBuilder,
+    Voxels, segment,
 };
 use fabrica::document::{Document, Recipe};
 use glam::{DAffine3, DMat3, DVec3, IVec3, UVec3, Vec3};
@@ -119,7 +119,7 @@ fn growing_is_a_flood_fill() {
             })
             .collect();
         let mut grown = mask.clone();
-        done(grown.keep_parts_at(&seeds, &Turns::endless()));
+        done(grown.keep_parts_at(&seeds, &TimeSlices::unlimited()));
         assert_eq!(grown.bits, bits(&flood(&mask, 1, seeds)), "{dims}");
     }
 }
@@ -153,7 +153,7 @@ fn the_largest_parts_are_kept_and_holes_are_filled() {
                 .for_each(|(e, &b)| *e |= u8::from(b));
         }
         let mut kept = mask.clone();
-        done(kept.keep_largest(count, &Turns::endless()));
+        done(kept.keep_largest(count, &TimeSlices::unlimited()));
         assert_eq!(kept.bits, expected, "{dims}, the {count} largest");
 
         let is_end = |v: &UVec3| v.cmpeq(UVec3::ZERO).any() || (*v + 1).cmpeq(dims).any();
@@ -161,7 +161,7 @@ fn the_largest_parts_are_kept_and_holes_are_filled() {
         let expected: Vec<u8> = outside.iter().map(|&out| u8::from(!out)).collect();
         holes += usize::from(expected != mask.bits);
         let mut filled = mask.clone();
-        done(filled.fill(&Turns::endless()));
+        done(filled.fill(&TimeSlices::unlimited()));
         assert_eq!(filled.bits, expected, "{dims}, filled");
     }
     assert!(holes > 30, "only {holes} had anything to fill");
@@ -194,7 +194,7 @@ fn growing_and_shrinking_are_plain_distances() {
                 })
                 .collect();
             let mut spread = mask.clone();
-            done(spread.spread(wanted, spacing, reach, &Turns::endless()));
+            done(spread.spread(wanted, spacing, reach, &TimeSlices::unlimited()));
             assert_eq!(
                 spread.bits, expected,
                 "{dims}, {spacing:?} mm, {reach} mm, to {wanted}"
@@ -215,7 +215,7 @@ fn smoothing_is_a_gaussian_and_one_half() {
         let spacing = [0; 3].map(|_| 0.5 + 0.25 * random.below(5) as f32);
         let sigma = 0.3 + 1.2 * random.unit();
         let mut smooth = mask.clone();
-        done(smooth.smooth(spacing, sigma, &Turns::endless()));
+        done(smooth.smooth(spacing, sigma, &TimeSlices::unlimited()));
         // Axis by axis in double precision, over the same reach.
         let mut values: Vec<f64> = mask.bits.iter().map(|&b| f64::from(b)).collect();
         for axis in 0..3 {
@@ -283,13 +283,18 @@ fn recipes(text: &str) -> Vec<Recipe> {
     document.illustration().recipes.clone()
 }
 
-fn segmented(volume: &Volume, files: &[Segmentation], text: &str, turns: Turns) -> Segmented {
+fn segmented(
+    volume: &Volume,
+    files: &[Segmentation],
+    text: &str,
+    time_slices: TimeSlices,
+) -> Segmented {
     let resources = Resources {
         subject: Some(volume.clone().into()),
         segmentations: files.iter().cloned().map(Arc::new).collect(),
         ..Resources::default()
     };
-    done(segment(resources, recipes(text), turns))
+    done(segment(resources, recipes(text), time_slices))
 }
 
 const RECIPES: &str = r#"[
@@ -300,15 +305,15 @@ const RECIPES: &str = r#"[
 #[test]
 fn interruptions_change_nothing() {
     let volume = scan(&mut Random(11), UVec3::new(19, 14, 11));
-    let whole = segmented(&volume, &[], RECIPES, Turns::endless());
+    let whole = segmented(&volume, &[], RECIPES, TimeSlices::unlimited());
     let count = std::cell::Cell::new(0);
-    let turns = Turns::until(move || {
+    let time_slices = TimeSlices::until(move || {
         count.set(count.get() + 1);
         count.get() % 2 == 0
     });
-    let parts = segmented(&volume, &[], RECIPES, turns.clone());
+    let parts = segmented(&volume, &[], RECIPES, time_slices.clone());
     assert_eq!(whole, parts, "bit for bit");
-    assert_eq!(turns.progress(), 1.0, "told to its end");
+    assert_eq!(time_slices.progress(), 1.0, "told to its end");
     assert!(
         whole
             .notices
@@ -363,7 +368,7 @@ fn segments_of_several_files_and_recipes_are_joined() {
     };
     let files = [first, second];
     let text = r#"[{"name":"high","from":{"threshold":[100,9999]}}]"#;
-    let made = segmented(&volume, &files, text, Turns::endless());
+    let made = segmented(&volume, &files, text, TimeSlices::unlimited());
     assert_eq!(made.notices, Vec::<String>::new());
     let labels = made.segmentation.expect("labels");
     assert_eq!(labels.grid, volume.grid);
@@ -417,13 +422,13 @@ fn finer_labels_stay_fine_and_one_file_stays_as_it_is() {
         }],
     };
     let files = [labels];
-    let alone = segmented(&volume, &files, "[]", Turns::endless());
+    let alone = segmented(&volume, &files, "[]", TimeSlices::unlimited());
     let alone = alone.segmentation.expect("labels");
     assert_eq!(alone.labels, files[0].labels, "on its own grid");
     assert_eq!(alone.segments[0].name, "fifth");
     assert!(alone.segments[0].color_srgb.is_some(), "a color of ours");
     let text = r#"[{"name":"all","from":{"threshold":[-9999]}}]"#;
-    let made = segmented(&volume, &files, text, Turns::endless());
+    let made = segmented(&volume, &files, text, TimeSlices::unlimited());
     let joined = made.segmentation.expect("labels");
     assert_eq!(joined.grid.dims, fine.dims);
     assert!(
@@ -449,7 +454,7 @@ fn nothing_and_everything_are_segments_too() {
         &volume,
         &[],
         r#"[{"from":{"threshold":[5000]},"clean":[{"largest":3},{"close":50},{"smooth":10},{"fill":true},{"shrink":50}]}]"#,
-        Turns::endless(),
+        TimeSlices::unlimited(),
     );
     assert_eq!(made.counts, [0]);
     assert_eq!(
@@ -461,14 +466,14 @@ fn nothing_and_everything_are_segments_too() {
         &volume,
         &[],
         r#"[{"from":{"threshold":[-1e30]}}]"#,
-        Turns::endless(),
+        TimeSlices::unlimited(),
     );
     assert_eq!(made.counts, [0], "what is no number is in no range");
     volume.voxels = Voxels::F32(vec![1.0; 60]);
     let all =
         r#"{"from":{"threshold":[-1e30]},"clean":[{"shrink":50},{"smooth":10},{"close":50}]}"#;
     let all = vec![all; 16].join(",");
-    let made = segmented(&volume, &[], &format!("[{all}]"), Turns::endless());
+    let made = segmented(&volume, &[], &format!("[{all}]"), TimeSlices::unlimited());
     assert_eq!(made.counts, [60; 16], "beyond the grid is neither");
     assert_eq!(
         names_at(made.segmentation.as_deref().expect("labels"), 7).len(),

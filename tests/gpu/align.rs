@@ -5,7 +5,7 @@ use crate::firm::{BOUND, as_reference, difference, firm};
 use crate::gpu::{builtin, gpu, studio_of};
 use crate::reference::Placed;
 use crate::scatter::{Random, defaults, placed};
-use fabrica::data::{Grid, Resources, Segment, Segmentation, Turns, Volume, Voxels, segment};
+use fabrica::data::{Grid, Resources, Segment, Segmentation, TimeSlices, Volume, Voxels, segment};
 use fabrica::document::{
     Align, Constrain, ConstrainBy, Illustration, PlacedTemplate, TemplateKind, TemplateMode,
 };
@@ -393,7 +393,7 @@ fn head_with_recipe() -> Volume {
         subject: Some(volume.clone().into()),
         ..Resources::default()
     };
-    let made = pollster::block_on(segment(resources, recipes, Turns::endless()));
+    let made = pollster::block_on(segment(resources, recipes, TimeSlices::unlimited()));
     let labels = made.segmentation.expect("labels");
     volume.segmentation = Some(Segmentation::clone(&labels));
     volume
@@ -864,7 +864,7 @@ fn the_grid_finds_kept_tissue_between_thick_slices() {
     assert_nothing_is_hidden(&volume, &template);
 }
 
-/// Figure 5.11: a bar that twists from an anchor on, and one whose end turns as a whole.
+/// Figure 5.11: a bar that twists from an anchor on, and one whose end time_slices as a whole.
 #[test]
 fn a_twist_has_an_anchor_and_a_rigid_end() {
     let text = include_str!("../../web/gallery/anchored-twist.json");
@@ -886,7 +886,7 @@ fn a_twist_has_an_anchor_and_a_rigid_end() {
         for (sample, pos) in samples.expect("samples").iter().zip(&points) {
             let source = sample.pos_in_rest;
             let around = |p: Vec3| glam::Vec2::new(p.x, p.z);
-            // Which way it turns is the template's business; how far, and that it stays in its slice, is asked here.
+            // Which way it time_slices is the template's business; how far, and that it stays in its slice, is asked here.
             let way = 2.0 * around(*pos).length() * (0.5 * turned(pos.y)).sin();
             farthest = farthest
                 .max((pos.distance(source) - way.abs()).abs())

@@ -231,7 +231,7 @@ impl Viewport {
         });
     }
 
-    /// Turns, moves and zooms: the camera as the hand leaves it.
+    /// TimeSlices, moves and zooms: the camera as the hand leaves it.
     fn gestures(
         &self,
         ui: &Ui,

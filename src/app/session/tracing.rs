@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use crate::document::{Curve, PlacedTemplate};
-use crate::math::{Bent, Laid};
+use crate::math::{Bent, OnLine};
 
 /// Places of the surface that are asked for along a template.
 pub(super) const PLACES: usize = 7;
@@ -58,7 +58,7 @@ impl Tracing {
         places.reverse();
         places.extend(high.iter().map_while(|pos| near(*pos)));
         let size = template.placement.size;
-        let surface = Bent::new(&places, false, size, Laid::TOP).ok()?;
+        let surface = Bent::new(&places, false, size, OnLine::TOP).ok()?;
         let top = surface.beside(template.kind.facts().shape.above * size.z);
         let curve = Curve::spline(top);
         (places.len() > 2 && curve.bent(size).is_ok()).then_some(curve)

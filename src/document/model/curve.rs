@@ -1,6 +1,6 @@
 //! The curve that a template may be laid along.
 
-use crate::math::{Bent, Laid, NotBent};
+use crate::math::{Bent, NotBent, OnLine};
 use glam::{Vec2, Vec3};
 
 /// The line that a template's top lies along, from x = 0 to x = 1 (dissertation, section 5.3).
@@ -13,9 +13,9 @@ pub struct Curve {
     pub points: Vec<Vec2>,
     /// True: a smooth curve through the points. False: straight from each point to the next.
     pub is_spline: bool,
-    /// Which part of the box lies on the line. Documents always say the top ([`Laid::TOP`]); a template that acts only
+    /// Which part of the box lies on the line. Documents always say the top ([`OnLine::TOP`]); a template that acts only
     /// in part ([`super::PlacedTemplate::acting`]) has another part there.
-    pub laid: Laid,
+    pub on_line: OnLine,
 }
 
 impl Curve {
@@ -24,7 +24,7 @@ impl Curve {
         Self {
             points,
             is_spline: true,
-            laid: Laid::TOP,
+            on_line: OnLine::TOP,
         }
     }
 
@@ -43,7 +43,7 @@ impl Curve {
     /// # Errors
     /// [`NotBent`] if the points make no line; the template is straight then.
     pub fn bent(&self, size: Vec3) -> Result<Bent, NotBent> {
-        Bent::new(&self.points, self.is_spline, size, self.laid)
+        Bent::new(&self.points, self.is_spline, size, self.on_line)
     }
 
     /// The mirror image across the middle of x. The order of the points is reversed as well.
@@ -61,12 +61,12 @@ impl Curve {
     #[must_use]
     pub(super) fn in_part(&self, part: Vec2, center: Vec2) -> Self {
         let to = |q: Vec2| center + (q - center) / part;
-        let [from, until] = self.laid.ends;
+        let [from, until] = self.on_line.ends;
         Self {
             points: self.points.iter().map(|p| to(*p)).collect(),
             is_spline: self.is_spline,
-            laid: Laid {
-                height: to(Vec2::new(0.0, self.laid.height)).y,
+            on_line: OnLine {
+                height: to(Vec2::new(0.0, self.on_line.height)).y,
                 ends: [from, until].map(|x| to(Vec2::new(x, 0.0)).x),
             },
         }

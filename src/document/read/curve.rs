@@ -4,7 +4,7 @@ use super::object::Object;
 use super::reader::Reader;
 use crate::document::model::Curve;
 use crate::document::text::{DocumentError, NoticeKind};
-use crate::math::{Laid, NotBent};
+use crate::math::{NotBent, OnLine};
 use glam::Vec3;
 
 impl Reader {
@@ -28,7 +28,7 @@ impl Reader {
         let curve = Curve {
             points,
             is_spline,
-            laid: Laid::TOP,
+            on_line: OnLine::TOP,
         };
         let what = match curve.bent(size) {
             Ok(bent) if bent.is_folded(layer) => {

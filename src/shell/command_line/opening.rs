@@ -19,7 +19,7 @@ pub(super) struct Opened {
 }
 
 impl Opened {
-    pub(super) fn say_notices(&self) {
+    pub(super) fn report_notices(&self) {
         for line in self.document.notices() {
             notice(line);
         }
@@ -37,7 +37,7 @@ impl Opened {
     }
 
     fn at_moment(&self, moment: Moment) -> Result<Illustration, CliError> {
-        self.say_notices();
+        self.report_notices();
         let last = self.document.step_count();
         let step = moment.step.unwrap_or_else(|| {
             if self.step > last {

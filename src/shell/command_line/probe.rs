@@ -10,7 +10,7 @@ use super::device::open_gpu;
 use super::error::CliError;
 use super::opening::Opened;
 use super::output::shortened;
-use super::subject::{say_kept, subject_of};
+use super::subject::{report_kept, subject_of};
 use crate::data::{Subject, VolumeLimits};
 use crate::render::{Probe, Sample, Studio};
 
@@ -50,7 +50,7 @@ pub(super) fn probe(
         .collect();
     let samples = match &subject {
         Some(subject) => {
-            say_kept(&illustration, &resources, subject);
+            report_kept(&illustration, &resources, subject);
             let studio = Studio::new(&gpu, subject, false)?.with_resources(resources);
             pollster::block_on(studio.probe_object(&illustration, &positions))?
         }

@@ -51,7 +51,7 @@ fn execute(args: Args) -> Result<(), CliError> {
         Command::View { doc } => {
             let opened = doc.as_deref().map(open).transpose()?;
             if let Some(opened) = &opened {
-                opened.say_notices();
+                opened.report_notices();
             }
             let opening = Opening {
                 folder: opened.as_ref().map(|opened| opened.folder.clone()),
@@ -102,7 +102,7 @@ fn execute(args: Args) -> Result<(), CliError> {
         }
         Command::Link { doc, page } => {
             let opened = open(&doc)?;
-            opened.say_notices();
+            opened.report_notices();
             let fragment = link::fragment(&opened.document, opened.step);
             if fragment.len() > link::ADVISED_LENGTH {
                 notice(format!(
@@ -117,7 +117,7 @@ fn execute(args: Args) -> Result<(), CliError> {
         }
         Command::Doc { doc } => {
             let opened = open(&doc)?;
-            opened.say_notices();
+            opened.report_notices();
             print(&opened.document.to_json())
         }
         Command::Info { file } => info(common, &file),

@@ -10,8 +10,8 @@ use super::output::notice;
 use super::reading::hint;
 use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
 use crate::data::{
-    BuildError, Reducer, Resources, Subject, SubjectBuilder, Turns, VolumeBuilder, VolumeLimits,
-    VolumeSink, Voxels, segment,
+    BuildError, Reducer, Resources, Subject, SubjectBuilder, TimeSlices, VolumeBuilder,
+    VolumeLimits, VolumeSink, Voxels, segment,
 };
 use crate::document::{Illustration, Reading};
 use crate::load::{LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
@@ -64,7 +64,7 @@ pub(super) fn subject_of(
         return Ok(subject);
     }
     let recipes = illustration.recipes.clone();
-    let made = pollster::block_on(segment(resources, recipes, Turns::endless()));
+    let made = pollster::block_on(segment(resources, recipes, TimeSlices::unlimited()));
     made.notices.iter().for_each(notice);
     Ok(subject.with_segmentation(made.segmentation.map(Arc::unwrap_or_clone)))
 }
@@ -240,7 +240,7 @@ fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, Mi
 }
 
 /// Names what `keep` asks for and the subject has not.
-pub(super) fn say_kept(illustration: &Illustration, resources: &Resources, subject: &Subject) {
+pub(super) fn report_kept(illustration: &Illustration, resources: &Resources, subject: &Subject) {
     let (segments, bounds) = (subject.segments(), subject.frame().bounds);
     let templates = &illustration.templates;
     for line in KeptTissue::of(templates, resources, segments, bounds).notices() {
