@@ -9,10 +9,12 @@ fn dropped_scan_is_drawn() {
         return;
     };
     with_browser(BrowserGpu::Software, |session| async move {
+        // Named, for the page would come back to the scan of the round before.
+        let head = format!("#{}", payload(r#"{"fabrica":1}"#));
         for name in ["head_ct_headsq.nii.gz", "chest_ct_2mm.nii.gz"] {
             let scan = std::fs::read(data.join("ct").join(name)).expect("a scan");
             session.server.add(name, scan);
-            let tab = session.viewer_sized("#", PAGE).await;
+            let tab = session.viewer_sized(&head, PAGE).await;
             tab.wait_until("window.fabrica.viewer.get_document() !== ''", 60)
                 .await;
             let before = format!("{name}_before");
