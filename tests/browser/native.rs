@@ -76,7 +76,11 @@ fn besides() -> Vec<Case> {
     vec![
         case(
             "rbf",
-            &["/templates/0", "/templates/0/params/edge"],
+            &[
+                "/templates/0",
+                "/templates/0/params/edge",
+                "/templates/0/params/cut",
+            ],
             json!({
                 "subject": { "builtin": "cube" },
                 "templates": [{ "kind": "rbf", "at": [0, 0.1, 0.1], "size": [1, 1, 1], "params": {
@@ -86,6 +90,7 @@ fn besides() -> Vec<Case> {
                     ],
                     "softness": 0.3,
                     "edge": 0.2,
+                    "cut": [[0.45, 0], [0.5, 1]],
                 } }],
                 "camera": above,
             }),
@@ -147,11 +152,11 @@ fn besides() -> Vec<Case> {
         ),
         case(
             "edges",
-            &["/look/gradient", "/templates/0/params/cut", "/templates/1"],
+            &["/look/gradient", "/templates/0", "/templates/1"],
             json!({
                 "subject": { "builtin": "cube" },
                 "templates": [
-                    { "kind": "split", "at": [0, 0.1, 0.2], "size": [1, 1, 0.8], "params": { "cut": [[0.3, 0], [0.6, 0.5], [0.4, 1]] } },
+                    { "kind": "split", "at": [0, 0.1, 0.2], "size": [1, 1, 0.8] },
                     { "kind": "cut", "at": [0.4, 0.3, 0.4], "size": [0.4, 0.6, 0.4] },
                 ],
                 "look": { "gradient": 0.8 },
