@@ -886,7 +886,7 @@ fn a_twist_has_an_anchor_and_a_rigid_end() {
         for (sample, pos) in samples.expect("samples").iter().zip(&points) {
             let source = sample.pos_in_rest;
             let around = |p: Vec3| glam::Vec2::new(p.x, p.z);
-            // Which way it time_slices is the template's business; how far, and that it stays in its slice, is asked here.
+            // Which way it turns is the template's business; how far, and that it stays in its slice, is asked here.
             let way = 2.0 * around(*pos).length() * (0.5 * turned(pos.y)).sin();
             farthest = farthest
                 .max((pos.distance(source) - way.abs()).abs())

@@ -13,8 +13,8 @@ pub struct Curve {
     pub points: Vec<Vec2>,
     /// True: a smooth curve through the points. False: straight from each point to the next.
     pub is_spline: bool,
-    /// Which part of the box lies on the line. Documents always say the top ([`OnLine::TOP`]); a template that acts only
-    /// in part ([`super::PlacedTemplate::acting`]) has another part there.
+    /// Which part of the box lies on the line. In a document that is always the top ([`OnLine::TOP`]); a template that
+    /// acts in part ([`super::PlacedTemplate::acting`]) has another part there.
     pub on_line: OnLine,
 }
 
