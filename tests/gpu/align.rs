@@ -864,7 +864,7 @@ fn the_grid_finds_kept_tissue_between_thick_slices() {
     assert_nothing_is_hidden(&volume, &template);
 }
 
-/// Figure 5.11: a bar that twists from an anchor on, and one whose end time_slices as a whole.
+/// Figure 5.11: a bar that twists from an anchor on, and one whose end turns as a whole.
 #[test]
 fn a_twist_has_an_anchor_and_a_rigid_end() {
     let text = include_str!("../../web/gallery/anchored-twist.json");
