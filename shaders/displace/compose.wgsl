@@ -1,5 +1,5 @@
-// The whole inverse map of a document: the templates walked backwards, each in its own space (spec/templates.md,
-// "Several templates").
+// The composed inverse map of a document. The map applies the templates from the last to the first, each template in
+// its own space (spec/templates.md, "Several templates").
 //
 //   rest  <-- T1 <-- T2 <-- T3 (add to T2) <-- T4  <-- subject (deformed, what the viewer shows)
 //             |      '------.------'           |
@@ -7,8 +7,10 @@
 //             |      same point, D summed      |
 //             '--- A = the smallest of all ----'
 //
-// Differs from the rule that library files read no globals: 32 templates cannot be passed by value, so the pass
-// declares `templates: Templates` (group 2, binding 0) and this file reads it.
+// D is the displacement of a template, A the continuity of the composed map.
+//
+// This file is an exception to the rule that library files read no globals. 32 templates cannot be passed by value, so
+// the pass declares `templates: Templates` (group 2, binding 0) and this file reads that variable.
 //
 // `drawn_kinds` saves time on devices that run both sides of every branch, as software rasterisers do: the pipeline of
 // a document leaves out the kinds that the document does not use. All ones, the default, serves every document.
@@ -18,7 +20,8 @@
 //   displace/retractor.wgsl displace/cutquad.wgsl displace/peeler.wgsl displace/pull.wgsl displace/cut.wgsl
 //   displace/hole.wgsl displace/lens.wgsl displace/move.wgsl displace/rbf.wgsl displace/field.wgsl
 
-/// Bit k set: templates of kind k occur; bit 0: some lie along a curve. A pipeline constant.
+/// Pipeline constant. Bit k is set if the document has a template of kind k; bit 0 is set if a template lies along a
+/// curve.
 override drawn_kinds: u32 = 0xffffffffu;
 
 /// Where a point of the deformed object came from.
@@ -29,18 +32,19 @@ struct Mapped {
     continuity: f32,
 }
 
-/// What the object has at a point.
+/// The material that the composed map finds at a point of the deformed object.
 struct Material {
     /// Where the material was at rest, rest space.
     pos: vec3f,
     /// Continuity of the composed map; below 0: there is no material.
     continuity: f32,
-    /// Templates that moved the material, a bit for each; where no tissue is kept, all templates that may have moved
-    /// the material. 0 if the material stayed where it was.
+    /// In a document that keeps tissue, bit i is set if template i moved the material, and all bits are 0 if the
+    /// material stayed where it was. In other documents, bit i is set if template i may have moved the material.
     path: u32,
 }
 
-/// One template's inverse displacement in its own space. `kind` as in the catalogue; an unknown one is the identity.
+/// Inverse displacement of one template, in the space of that template. `kind` is one of the KIND_ constants; a
+/// template of an unknown kind leaves the point `q` where it is.
 fn displace(kind: u32, q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Displaced {
     var d = at_rest(q);
     switch kind {
@@ -149,8 +153,8 @@ fn displace(kind: u32, q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -
     return d;
 }
 
-/// Displacement (`source` less `q`, in the member `source`) and continuity of template i at a point `q` of its straight
-/// box.
+/// Displacement and continuity of template i at a point `q` of the template's straight box. The member `source` of the
+/// result holds the displacement: the place that the material came from, less `q`.
 fn shifted(i: u32, q: vec3f, p0: vec4f) -> Displaced {
     let kind = templates.items[i].kind;
     let size = templates.items[i].size.xyz;
@@ -161,7 +165,7 @@ fn shifted(i: u32, q: vec3f, p0: vec4f) -> Displaced {
         if first != 0u {
             let own = unbend(first, size, q);
             let d = displace(kind, own.xyz, size, p0, p1, held);
-            // Without a displacement the result is exactly 0, free of the rounding of `bend`.
+            // If the template does not displace the point, the result is exactly 0, without the rounding of `bend`.
             let is_moved = own.w > 0.5 && any(d.source != own.xyz);
             let by = bend(first, size, d.source) - q;
             return Displaced(select(vec3f(0.0), by, is_moved), select(1.0, d.continuity, own.w > 0.5));
@@ -171,11 +175,12 @@ fn shifted(i: u32, q: vec3f, p0: vec4f) -> Displaced {
     return Displaced(d.source - q, d.continuity);
 }
 
-/// Rest space from subject space. Bit i of `mask`: template i may reach this point; the others are not evaluated (all
-/// ones without a skip grid). Bits past the last template are ignored.
+/// Maps a point of subject space to rest space. Bit i of `mask` is set if template i may reach the point; templates
+/// whose bit is 0 are not evaluated. Without a skip grid, all bits are 1. Bits past the last template are ignored.
 fn rest_from_subject(pos: vec3f, mask: u32) -> Mapped {
     let count = min(templates.count, 32u);
-    // A shift by 32 is not defined, hence the two steps.
+    // WGSL does not define a shift by 32 bits. So the shift is taken modulo 32, and `select` treats a document without
+    // templates.
     var left = select(0u, mask & (0xffffffffu >> ((32u - count) & 31u)), count > 0u);
     var at = pos;
     var sum = vec3f(0.0);
@@ -185,7 +190,8 @@ fn rest_from_subject(pos: vec3f, mask: u32) -> Mapped {
         let i = firstLeadingBit(left);
         left &= ~(1u << i);
         let head = templates.items[i].group;
-        // The list is walked backwards: a group starts at the point to which the group behind it in the list led.
+        // The loop runs from the last template to the first. All templates of a group start from the same point: the
+        // point to which the later groups of the list led.
         if head != group {
             at += sum;
             sum = vec3f(0.0);
@@ -193,7 +199,8 @@ fn rest_from_subject(pos: vec3f, mask: u32) -> Mapped {
         }
         let q = apply_affine(templates.items[i].template_from_subject, at);
         let d = shifted(i, q, templates.items[i].params0);
-        // Only the difference is transformed back: an identity stays exact, however the template is placed.
+        // Only the displacement is transformed back to subject space, not the point. So a template that displaces
+        // nothing leaves the point exactly unchanged, wherever the template is placed.
         let moved = d.source;
         sum += apply_linear(templates.items[i].subject_from_template, moved);
         continuity = min(continuity, d.continuity);

@@ -1,17 +1,17 @@
 // Cutquad: an incision along y, opening along x, with lips that bulge. Template space.
-// Source: Correa, appendix C, as closed in spec/templates.md.
+// Source: Correa, appendix C; spec/templates.md completes what the appendix leaves open.
 //
 //   z  section across
 //   1 +-.^.         .^.-+     the lips rise by `ripple`
 //     |    \ (gap) /    |
 //     |     '.   .'     |     the opening grows with z²
 //   0 +-------'.'-------+
-//     0  .1    ½     .9 1 x   tissue within 0.4 of the mid plane gives way
+//     0  .1    ½     .9 1 x   tissue within 0.4 of the mid plane moves aside
 //
-// Carries upwards, rest elsewhere.
+// Above the cube, tissue moves as on the top face. Beyond the other faces, tissue stays at rest.
 // needs: displace/frame.wgsl displace/angles.wgsl
 
-/// How far beside the mid plane tissue gives way, template units.
+/// Only tissue nearer to the mid plane than this distance (template units) moves aside.
 const CUTQUAD_REACH: f32 = 0.4;
 
 /// p0: amount, length, ripple.

@@ -1,9 +1,11 @@
-// The colour of tissue: of the transfer table, tinted by the segments around, or of a body.
+// The colour of tissue. The transfer table gives the colour, and the segments around the point tint that colour. Where
+// the tissue belongs to a body, the colour of the body replaces the tinted colour.
 // needs: types.wgsl bind/subject.wgsl bind/look.wgsl march/overrides.wgsl march/value.wgsl march/segments.wgsl
 //   march/sample.wgsl march/surface.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
-/// How far inside a surface its segment is looked up, voxels, if the voxels around it belong to none: where tissue
-/// fills less than half of a voxel, its label is air. The nearest segment counts, for skin is thin.
+/// How deep below a surface, in voxels, the shader searches for a segment if the voxels around the surface belong to no
+/// segment. Such voxels occur because a voxel that tissue fills to less than half has the label of air. The search ends
+/// at the first segment, since a thin segment such as the skin must not be missed.
 const TINT_DEPTH: f32 = 1.9;
 
 /// Linear RGB of a surface.

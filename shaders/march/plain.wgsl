@@ -1,11 +1,13 @@
-// What the object has at a point if every template moves everything: the composed map decides alone. This file has the
-// same functions as march/align.wgsl and takes its place in the programs for documents that keep no tissue.
+// The material at a point of the object in documents that keep no tissue: every template moves all tissue, so the
+// composed map alone determines the material. This file defines the same functions as march/align.wgsl and replaces
+// that file in the programs for such documents.
 // needs: types.wgsl displace/compose.wgsl march/interface.wgsl
 
 /// True if both sides of the surface of kept tissue take their normal from that surface.
 const KEEPS_TISSUE: bool = false;
 
-/// Offset of finite differences of the map, subject units: small against every bend, large against the rounding of f32.
+/// Offset of finite differences of the map, subject units: much smaller than any bend of the map, much larger than the
+/// rounding error of f32.
 fn map_step() -> f32 {
     return 0.0005;
 }
@@ -21,12 +23,12 @@ fn material_at(pos: vec3f, mask: u32) -> Material {
     return Material(mapped.pos, mapped.continuity, mask);
 }
 
-/// The map by the templates of `path` alone: smooth wherever the material took that path.
+/// The map by the templates of `path` alone. This map is smooth wherever exactly these templates moved the material.
 fn map_along(pos: vec3f, path: u32) -> Mapped {
     return rest_from_subject(pos, path);
 }
 
-/// No surface of kept tissue: weight 0.
+/// Returns weight 0, since no document of this program has a surface of kept tissue.
 fn kept_surface(_rest: vec3f, _path: u32, _jacobian: mat3x3f, to_eye: vec3f) -> KeptSurface {
     return KeptSurface(to_eye, 0.0, vec3f(0.0));
 }

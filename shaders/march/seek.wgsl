@@ -1,5 +1,5 @@
-// The way of a ray through the deformed space: leaps over empty cells, samples at steps that follow the map
-// (Correa, section 7.5.2, adaptive sampling).
+// The march of a ray through the deformed space. The march leaps over empty cells and takes samples elsewhere; the map
+// determines the length of each step (Correa, section 7.5.2, adaptive sampling).
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/grid.wgsl displace/compose.wgsl march/overrides.wgsl
 // march/ray.wgsl
 //   march/opacity.wgsl march/sample.wgsl
@@ -16,7 +16,7 @@ struct Ray {
     forward: vec3f,
     /// Direction of the ray away from the eye, view space, unit length.
     dir_in_view: vec3f,
-    /// Distances from the eye at which the ray enters the box of the object, at least 0, and leaves it.
+    /// Distances from the eye at which the ray enters the box of the object (at least 0) and leaves the box.
     t_start: f32,
     t_end: f32,
 }
@@ -29,11 +29,12 @@ struct Walk {
     /// The samples at `t` and at `t_before`.
     here: Sample,
     before: Sample,
-    /// Templates that reach their cells. A cut between the two samples may be one of the earlier cell's templates
-    /// alone.
+    /// Masks of the templates that may reach the grid cells of the samples at `t` and at `t_before`. A cut between the
+    /// two samples may belong to a template that reaches only the cell of the earlier sample.
     mask: u32,
     mask_before: u32,
-    /// Distance from the eye at which the cell of the sample ends.
+    /// Distance from the eye at which the ray leaves the grid cell of the sample at `t`; if that cell is empty, the
+    /// distance at which the ray leaves the empty cells around that cell.
     t_cell: f32,
 }
 
@@ -54,13 +55,14 @@ fn ray_through(pixel: vec2f) -> Ray {
     return Ray(origin, dir, inverse_dir, forward, dir_in_view, max(span.x, 0.0), span.y);
 }
 
-/// A ray before its first step.
+/// The state of the march along a ray before the first sample.
 fn walk_along(ray: Ray) -> Walk {
     let nothing = Sample(vec3f(0.0), 0.0, 0.0, 1.0, 0u);
     return Walk(ray.t_start + frame.step * frame.first_step, ray.t_start, nothing, nothing, 0u, 0u, -1.0);
 }
 
-/// Cell of the skip grid at a point: x mask, y emptiness. Everything is visible without a grid.
+/// Cell of the skip grid at a point. x: mask of the templates that may reach the cell; y: 0 if something in the cell
+/// may be visible. Without a grid, every template may reach every point, and every point may be visible.
 fn cell_at(pos: vec3f) -> vec2u {
     if has_grid == 0u || grid.is_used == 0u {
         return vec2u(0xffffffffu, 0u);
@@ -70,7 +72,8 @@ fn cell_at(pos: vec3f) -> vec2u {
     return textureLoad(grid_cells, cell, 0).xy;
 }
 
-/// Leaps from cell to cell until something may be seen. Not while inside tissue: its end must be found first.
+/// Leaps over empty cells to the next cell that may hold something visible. If the sample before was visible, the march
+/// does not leap, since the march has to find the end of that tissue first.
 fn leap(ray: Ray, walk: ptr<function, Walk>) {
     loop {
         if (*walk).t >= ray.t_end {
@@ -98,13 +101,14 @@ fn leap(ray: Ray, walk: ptr<function, Walk>) {
     }
 }
 
-/// Seeks the next sample with something in it, or the first behind it. False if the ray ends before.
+/// Seeks the next visible sample, or the first sample behind a visible one. False if the ray leaves the box of the
+/// object before such a sample.
 fn seek(ray: Ray, walk: ptr<function, Walk>) -> bool {
     var is_found = false;
     (*walk).here = (*walk).before;
     loop {
         var t_stop = ray.t_end;
-        // Through empty cells and those that no template reaches.
+        // This loop passes through empty cells and through cells that no template reaches.
         loop {
             leap(ray, walk);
             // Cells that no template reaches are sampled without the map.

@@ -1,9 +1,9 @@
-//! Distances between two points. They stay where they were set in the deformed object's space, belong to no document,
-//! and go with the subject.
+//! Distances between two points. The points keep their positions in the space of the deformed object. No document
+//! stores the distances. A subject that fills another box removes all distances.
 
 use glam::Vec3;
 
-/// Distances at most: more cannot be told apart over a picture.
+/// Most distances at a time: a user cannot tell more lines over a picture apart.
 const MOST: usize = 12;
 
 /// The distances that were measured.
@@ -18,7 +18,7 @@ impl Measures {
         &self.lines
     }
 
-    /// Adds a distance; the oldest goes where there are too many.
+    /// Adds a distance. If the list is full, removes the oldest distance first.
     pub fn add(&mut self, line: [Vec3; 2]) {
         if self.lines.len() == MOST {
             self.lines.remove(0);
@@ -26,7 +26,7 @@ impl Measures {
         self.lines.push(line);
     }
 
-    /// Removes the distance of this index; without one nothing happens.
+    /// Removes the distance at this index. Does nothing if there is no distance at this index.
     pub fn remove(&mut self, index: usize) {
         if index < self.lines.len() {
             self.lines.remove(index);

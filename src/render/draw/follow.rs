@@ -13,29 +13,31 @@ use crate::render::scene::Scene;
 use crate::render::subject::textures::SubjectTextures;
 use glam::Vec3;
 
-/// Cells along the longest side of the lattice; with all three sides as long it is less than the 2^17 that the
-/// program can number.
+/// Cells along the longest side of the lattice. Even a lattice with this many cells along each side has fewer cells
+/// than the 2^17 that the program can number.
 const CELLS: f32 = 48.0;
 
-/// Blocks of the lattice, as in pass/follow.wgsl.
+/// Number of blocks that the lattice is divided into; pass/follow.wgsl uses the same number.
 const BLOCKS: usize = 6 * 6 * 6;
 
-/// Farther from a point at rest than this (subject units), nothing is taken for it: its tissue is cut away.
+/// Largest error of a place that was found: the distance at rest, in subject units, between the wanted point and the
+/// material at the place. If the error is larger, the tissue of the point counts as cut away.
 const FOUND: f32 = 0.008;
 
-/// Finds where points of the rest are in the deformed object. Compiles its programs when templates of other kinds come.
+/// Finds where points of rest space are in the deformed object. The follower compiles its programs at the first use,
+/// and again when the key of the scene changes, for example because of a template of another kind.
 #[derive(Debug, Default)]
 pub(crate) struct Follower {
     made: Option<(RaycastKey, [wgpu::ComputePipeline; 2])>,
 }
 
-/// Places on their way back. Await them, or ask once per frame.
+/// Places that the GPU has yet to return. Await this future, or call [`PendingPlaces::poll_now`] once per frame.
 #[derive(Debug)]
 pub struct PendingPlaces(Readback);
 
 impl PendingPlaces {
-    /// The answer if it has come; does not wait. For each point where it is now, subject space; `None` where its
-    /// tissue is cut away.
+    /// Returns the places if the GPU has returned them, and does not wait for the GPU. Each item is the place of one
+    /// point in the deformed object, subject space, or `None` if the tissue of that point is cut away.
     pub fn poll_now(&mut self) -> Option<Result<Vec<Option<Vec3>>, RenderError>> {
         self.0.poll_now().map(|bytes| bytes.map(|b| read(&b)))
     }

@@ -10,10 +10,11 @@ use crate::render::pack::gpu_types::{Frame, Resolve};
 use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::scene::Scene;
 
-/// Pixels of the largest picture; beyond it the picture is enlarged. A 4K screen fits.
+/// Most pixels of a drawn picture. A screen with more pixels shows a smaller picture, enlarged. A 4K screen has fewer
+/// pixels than this limit.
 const MAX_PIXELS: f32 = 9.0e6;
 
-/// The accumulated picture in linear light and the one that is shown, of one size.
+/// The accumulated picture in linear light, and the picture that the window shows. Both pictures have the same size.
 #[derive(Debug)]
 pub(crate) struct Targets {
     pub size: [u32; 2],
@@ -23,23 +24,24 @@ pub(crate) struct Targets {
     pub tiles: Vec<[u32; 4]>,
 }
 
-/// One drawing into the targets.
+/// The input of one drawing into the targets.
 pub(crate) struct Shot<'a> {
     pub key: RaycastKey,
     pub frame: Frame,
-    /// For keys that draw from the baked map.
+    /// Bind group of the baked map, if the program of `key` reads the baked map.
     pub baked: Option<&'a wgpu::BindGroup>,
-    /// Pixels of the accumulated picture in use, from its top left.
+    /// Width and height, in pixels, of the part of the accumulated picture that is in use. The part starts at the top
+    /// left of the picture.
     pub viewport: [u32; 2],
-    /// What of it is drawn.
+    /// Tiles of the accumulated picture that are drawn.
     pub tiles: &'a [[u32; 4]],
-    /// Weight against the content of the target: 1 overwrites.
+    /// Weight of the new picture against the picture that is already in the target; 1 overwrites the target.
     pub weight: f32,
-    /// From an output pixel to the texture coordinate, as in [`Resolve`].
+    /// Factor that turns an output pixel into a texture coordinate, as in [`Resolve`].
     pub scale: [f32; 2],
     /// Largest texture coordinate in use, as in [`Resolve`].
     pub end: [f32; 2],
-    /// What of the shown picture is drawn.
+    /// Tiles of the shown picture that are drawn.
     pub shown: &'a [[u32; 4]],
 }
 
@@ -89,8 +91,8 @@ impl Targets {
     }
 }
 
-/// The size of the picture that is drawn for a screen of so many pixels: smaller where they are more than can be
-/// drawn in time.
+/// The size of the picture that is drawn for a screen of the given size, pixels. The picture is smaller than the screen
+/// if the screen has more than `MAX_PIXELS` pixels or is longer than the largest texture of the GPU.
 pub(crate) fn fitting_size(gpu: &Gpu, size: [u32; 2]) -> [u32; 2] {
     let max_side = gpu.device.limits().max_texture_dimension_2d as f32;
     let [width, height] = size.map(|side| side as f32);

@@ -1,7 +1,8 @@
 use crate::document::Camera;
 use glam::{Affine3A, Mat3A, Vec2, Vec3, Vec3A};
 
-/// A camera with the size of its picture: rays out, pixels in. Cheap; made per frame.
+/// A camera together with the size of its picture. A view turns pixels into rays, and points of subject space into
+/// pixels. A view is cheap to make, so each frame makes a new one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// View space (camera at the origin, looking along -z, y up) to subject space. Rigid.
@@ -12,7 +13,8 @@ pub struct View {
     pub size_px: Vec2,
 }
 
-/// Distances below this would put the eye into the target; a document may say 0.
+/// Least distance between the eye and the target, subject units. A document may give the distance 0, which would put
+/// the eye into the target.
 const LEAST_DISTANCE: f32 = 1e-3;
 
 impl View {
@@ -20,7 +22,8 @@ impl View {
     pub fn new(camera: &Camera, size_px: [u32; 2]) -> Self {
         let size = Vec2::new(size_px[0].max(1) as f32, size_px[1].max(1) as f32);
         let half = (camera.fov_deg.clamp(1.0, 150.0).to_radians() * 0.5).tan();
-        // The identity looks from +y towards -y with +z up, so the view's x is the subject's -x.
+        // With the identity as its rotation, the camera looks from +y towards -y, and +z is up. So the x axis of view
+        // space is the -x axis of subject space.
         let at_rest = Mat3A::from_cols(Vec3A::NEG_X, Vec3A::Z, Vec3A::Y);
         let turned = Mat3A::from_quat(camera.rotate) * at_rest;
         let back = turned.z_axis;
