@@ -1,5 +1,5 @@
 // Dilate: a bulge at mid height; the frame is drawn in squeeze.wgsl. Template space.
-// Source: Correa, appendix C, as closed in spec/templates.md.
+// Source: Correa, appendix C; spec/templates.md completes what the appendix leaves open.
 //
 //   z
 //   1 +-------+       rest

@@ -1,5 +1,5 @@
 // Retractor: draw an incision along x open, compressing the tissue beside it. Template space.
-// Source: Correa, appendix C, as closed in spec/templates.md.
+// Source: Correa, appendix C; spec/templates.md completes what the appendix leaves open.
 //
 //   z  section across               y  from above
 //   1 +--.         .--+           1 +-----------+

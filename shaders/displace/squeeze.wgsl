@@ -1,5 +1,5 @@
 // Squeeze: a waist at mid height. Dilate: a bulge there. Template space.
-// Source: Correa, appendix C, as closed in spec/templates.md.
+// Source: Correa, appendix C; spec/templates.md completes what the appendix leaves open.
 //
 //   z   squeeze        dilate
 //   1 +-------+      +-------+      rest
