@@ -1,5 +1,5 @@
 // Cutquad: an incision along y, opening along x, with lips that bulge. Template space.
-// Source: Correa, appendix C; spec/templates.md completes what the appendix leaves open.
+// Source: Correa, appendix C, with edges closed where no tear is meant (spec/templates.md).
 //
 //   z  section across
 //   1 +-.^.         .^.-+     the lips rise by `ripple`

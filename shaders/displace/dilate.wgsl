@@ -1,5 +1,5 @@
 // Dilate: a bulge at mid height; the frame is drawn in squeeze.wgsl. Template space.
-// Source: Correa, appendix C; spec/templates.md completes what the appendix leaves open.
+// Source: Correa, appendix C, with edges closed where no tear is meant (spec/templates.md).
 //
 //   z
 //   1 +-------+       rest

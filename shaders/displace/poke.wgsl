@@ -1,6 +1,6 @@
 // Poke: push in or pull out a bump along z. Template space.
-// Source: Correa, "Discontinuous displacement mapping", appendix C; spec/templates.md completes what the appendix
-// leaves open.
+// Source: Correa, "Discontinuous displacement mapping", appendix C, with edges closed where no tear is
+// meant (spec/templates.md).
 //
 //   z
 //   1 +- - ./^\. - -+     carries upwards: a pulled bump leaves the cube through its top

@@ -1,5 +1,5 @@
 // Retractor: draw an incision along x open, compressing the tissue beside it. Template space.
-// Source: Correa, appendix C; spec/templates.md completes what the appendix leaves open.
+// Source: Correa, appendix C, with edges closed where no tear is meant (spec/templates.md).
 //
 //   z  section across               y  from above
 //   1 +--.         .--+           1 +-----------+

@@ -1,5 +1,5 @@
 // Squeeze: a waist at mid height. Dilate: a bulge there. Template space.
-// Source: Correa, appendix C; spec/templates.md completes what the appendix leaves open.
+// Source: Correa, appendix C, with edges closed where no tear is meant (spec/templates.md).
 //
 //   z   squeeze        dilate
 //   1 +-------+      +-------+      rest
