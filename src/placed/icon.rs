@@ -1,7 +1,6 @@
 use crate::displace::Holds;
 use crate::document::{
-    Align, Camera, ControlPoints, ParamValue, PlacedTemplate, TemplateData, TemplateKind,
-    TemplateMode,
+    Camera, ControlPoints, ParamValue, PlacedTemplate, TemplateData, TemplateKind,
 };
 use crate::math::Placement;
 use glam::{Quat, Vec3};
@@ -27,23 +26,15 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
         }),
         Holds::Parameters | Holds::File => TemplateData::None,
     };
+    let placement = Placement {
+        at: Vec3::from_array(icon.at),
+        rotate: Quat::IDENTITY,
+        size: Vec3::from_array(icon.size),
+    };
     let template = PlacedTemplate {
-        index: 0,
-        kind,
-        name: String::new(),
-        placement: Placement {
-            at: Vec3::from_array(icon.at),
-            rotate: Quat::IDENTITY,
-            size: Vec3::from_array(icon.size),
-        },
         params: params.collect(),
-        enabled: true,
-        mode: TemplateMode::Compose,
-        amount: 1.0,
-        align: Align::Axis,
-        constrain: None,
-        curve: None,
         data,
+        ..PlacedTemplate::new(kind, placement)
     };
     let [yaw, pitch] = icon.yaw_pitch_deg.map(f32::to_radians);
     let camera = Camera {

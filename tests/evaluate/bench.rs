@@ -3,13 +3,13 @@
 use crate::gpu::gpu;
 use crate::reference::{self, Placed};
 use fabrica::data::Resources;
-use fabrica::document::{PlacedTemplate, TemplateMode};
+use fabrica::document::PlacedTemplate;
 use fabrica::render::gpu_types::{Subject, Templates};
 use fabrica::render::programs::{SubjectShader, files_of};
 use fabrica::render::{
     Probe, Sample, WorkDone, result_buffer, storage_buffer, submit_and_read, uniform_buffer,
 };
-use glam::{Affine3A, DMat3, DQuat, DVec3, Vec3};
+use glam::{Affine3A, DMat3, DVec3, Vec3};
 use half::f16;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -32,25 +32,6 @@ pub(crate) fn probe(list: &[PlacedTemplate], points: &[Vec3]) -> Vec<Sample> {
     let probe = pollster::block_on(Probe::new(gpu())).expect("the probe program compiles");
     pollster::block_on(probe.samples_of(&Templates::pack(list, &Resources::default()), points))
         .expect("samples")
-}
-
-/// The same list for the f64 reading of the catalogue.
-pub(crate) fn plain(list: &[PlacedTemplate]) -> Vec<Placed> {
-    list.iter()
-        .map(|t| {
-            let mut floats = Vec::new();
-            t.params.iter().for_each(|p| p.pack(&mut floats));
-            Placed {
-                kind: t.kind.spec().name,
-                at: t.placement.at.as_dvec3(),
-                rotate: DQuat::from_array(t.placement.rotate.to_array().map(f64::from)).normalize(),
-                size: t.placement.size.as_dvec3(),
-                params: floats.into_iter().map(f64::from).collect(),
-                is_added: t.mode == TemplateMode::Add,
-                curve: None,
-            }
-        })
-        .collect()
 }
 
 /// Jacobian of the whole map in f64: differences of the closed form over 2e-6, wrong by about 1e-10.

@@ -1,7 +1,7 @@
 //! Sections 6.2.1 to 6.2.3: the errors of a map that is baked into a texture, and of a texture of its Jacobian.
 
-use super::bench::{jacobian, plain, probe};
-use crate::reference::{self, Placed};
+use super::bench::{jacobian, probe};
+use crate::reference::{self, Placed, as_reference};
 use fabrica::document::PlacedTemplate;
 use glam::{DMat3, DVec3, UVec3};
 use half::f16;
@@ -112,7 +112,7 @@ pub(crate) struct Places {
 
 impl Places {
     pub(crate) fn new(list: &[PlacedTemplate], count: u32) -> Self {
-        let plain = plain(list);
+        let plain = as_reference(list);
         // A lattice of golden ratios (Roberts 2018): even, and off every texel.
         let q = |i: u32| {
             let k = f64::from(i);

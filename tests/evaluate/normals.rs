@@ -1,8 +1,8 @@
 //! Section 6.3: normals by each method against those of an object whose deformed surface is known, and 6.3.1: its shape
 //! from them.
 
-use super::bench::{LIGHT, METHODS, Method, Object, Scan, jacobian, plain};
-use crate::reference::{self, Placed};
+use super::bench::{LIGHT, METHODS, Method, Object, Scan, jacobian};
+use crate::reference::{self, Placed, as_reference};
 use fabrica::document::PlacedTemplate;
 use glam::DVec3;
 
@@ -62,7 +62,7 @@ fn normal_at(object: Object, list: &[Placed], pos: DVec3, margin: f64) -> Option
 impl Surface {
     /// Seen from everywhere around.
     pub(crate) fn new(object: Object, list: &[PlacedTemplate], voxel: f64, count: u32) -> Self {
-        let list = plain(list);
+        let list = as_reference(list);
         let places = (0..count)
             .filter_map(|i| {
                 let k = f64::from(i);
@@ -134,7 +134,7 @@ pub(crate) fn picture(
     n: u32,
     method: u32,
 ) -> Vec<f64> {
-    let plain = plain(list);
+    let plain = as_reference(list);
     let mut lit = vec![1.0; (n * n) as usize];
     let (mut points, mut pixels) = (Vec::new(), Vec::new());
     for i in 0..n * n {
@@ -175,7 +175,7 @@ impl Relief {
         n: usize,
         method: u32,
     ) -> Self {
-        let plain = plain(list);
+        let plain = as_reference(list);
         let side = |i: usize| -0.3 + 0.6 * i as f64 / (n - 1) as f64;
         let places: Vec<DVec3> = (0..n * n)
             .map(|i| {

@@ -1,15 +1,14 @@
 //! Section 6.2.4: how opaque haze is that is pressed together or drawn apart, in each mode, against the integral along
 //! the ray.
 
-use super::bench::{jacobian, plain};
-use crate::gpu::{gpu, studio_of};
-use crate::reference;
-use fabrica::data::{Grid, Volume, Voxels};
+use super::bench::jacobian;
+use crate::gpu::{gpu, studio_of, uniform_volume};
+use crate::reference::{self, as_reference};
 use fabrica::document::{
     Background, Illustration, OpacityMode, PlacedTemplate, Transfer, TransferPoint,
 };
 use fabrica::render::Studio;
-use glam::{DAffine3, DVec3, UVec3};
+use glam::DVec3;
 
 pub(crate) const MODES: [(OpacityMode, &str); 3] = [
     (OpacityMode::Constancy, "constancy"),
@@ -22,19 +21,7 @@ const HAZE: f32 = 0.01;
 
 /// A cube of one value.
 pub(crate) fn haze() -> Studio {
-    let n = 48u32;
-    let volume = Volume {
-        grid: Grid {
-            dims: UVec3::splat(n),
-            world_from_voxel: DAffine3::from_scale(DVec3::splat(100.0 / f64::from(n))),
-        },
-        voxels: Voxels::U8(vec![7; (n * n * n) as usize]),
-        slope: 1.0,
-        intercept: 0.0,
-        value_range: [7.0, 7.0],
-        segmentation: None,
-    };
-    studio_of(gpu(), &volume, true)
+    studio_of(gpu(), &uniform_volume(48), true)
 }
 
 fn scene(list: &[PlacedTemplate], mode: OpacityMode) -> Illustration {
@@ -56,7 +43,7 @@ pub(crate) fn stopped(studio: &Studio, list: &[PlacedTemplate], mode: OpacityMod
     let image = studio.render_image(&scene(list, mode), [65, 65], 8);
     let image = pollster::block_on(image).expect("a picture");
     let drawn = f64::from(image.rgba[4 * (32 * 65 + 32) + 3]) / 255.0;
-    let list = plain(list);
+    let list = as_reference(list);
     let steps = 4_000;
     let length = 4.0 / f64::from(steps);
     let mut depth = 0.0;

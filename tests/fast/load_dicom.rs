@@ -3,31 +3,15 @@
 use std::path::PathBuf;
 
 use crate::data::data_folder;
-use crate::scans::load_frame;
-use fabrica::data::{Volume, VolumeBuilder, Voxels};
+use crate::scans::{load_files, load_frame};
+use fabrica::data::{Volume, Voxels};
 use fabrica::load::{
-    self, ALL_FILES, FileSet, LoadError, LoadReport, MemoryFiles, ReadOptions, Warning,
-    orientation_code,
+    self, ALL_FILES, FileSet, LoadError, MemoryFiles, ReadOptions, Warning, orientation_code,
 };
 use glam::{DVec3, UVec3};
 
 /// Stands in the header of every file written here, and nowhere else ever.
 const PATIENT: &str = "Doe^Jane^ZQXJ";
-
-fn read(
-    files: &mut dyn FileSet,
-    name: &str,
-    frame: u64,
-) -> Result<(Volume, LoadReport), LoadError> {
-    let mut report = LoadReport::default();
-    let mut builder = VolumeBuilder::new();
-    let options = ReadOptions {
-        frame,
-        ..ReadOptions::default()
-    };
-    load::read_volume(files, name, &options, &mut builder, &mut report)?;
-    Ok((builder.finish().expect("all voxels came"), report))
-}
 
 // ------------------------------------------------------------------------------------------------- written ones
 
@@ -222,7 +206,7 @@ fn a_series_is_sorted_by_where_its_slices_lie() {
                 ..slice.clone()
             })
             .collect();
-        let (volume, report) = read(&mut folder(&written), ALL_FILES, 0).expect("a series");
+        let (volume, report) = load_files(&mut folder(&written), ALL_FILES, 0).expect("a series");
         assert_eq!(volume.grid.dims, UVec3::new(4, 3, 5));
         assert!(
             volume
@@ -254,18 +238,19 @@ fn a_series_is_sorted_by_where_its_slices_lie() {
     // One file of it brings the others, and the hash does not depend on names.
     let mut files = folder(&slices);
     let first = files.names()[0].clone();
-    let (by_file, by_file_report) = read(&mut files, &first, 0).expect("by one file");
+    let (by_file, by_file_report) = load_files(&mut files, &first, 0).expect("by one file");
     assert_eq!(by_file, volumes[0]);
     let renamed: Vec<(String, Vec<u8>)> = slices
         .iter()
         .enumerate()
         .map(|(i, slice)| (format!("{}.dcm", 50 - i), slice.bytes()))
         .collect();
-    let (_, report) = read(&mut MemoryFiles::new(renamed), ALL_FILES, 0).expect("renamed");
+    let (_, report) = load_files(&mut MemoryFiles::new(renamed), ALL_FILES, 0).expect("renamed");
     assert_eq!(report.sha256, by_file_report.sha256);
     // A file alone is hashed as it lies on disk.
     let bytes = slices[0].bytes();
-    let (_, report) = read(&mut MemoryFiles::new([("a", bytes.clone())]), "a", 0).expect("one");
+    let (_, report) =
+        load_files(&mut MemoryFiles::new([("a", bytes.clone())]), "a", 0).expect("one");
     let plain: [u8; 32] = <sha2::Sha256 as sha2::Digest>::digest(&bytes).into();
     assert_eq!(report.sha256, Some(plain));
 }
@@ -279,7 +264,7 @@ fn gaps_doubles_tilt_and_uneven_slices_are_named() {
             .collect()
     };
     let (volume, report) =
-        read(&mut folder(&at(&[0.0, 1.0, 2.0, 5.0, 6.0])), ALL_FILES, 0).expect("a gap");
+        load_files(&mut folder(&at(&[0.0, 1.0, 2.0, 5.0, 6.0])), ALL_FILES, 0).expect("a gap");
     assert_eq!(volume.grid.dims.z, 7);
     assert_eq!(volume.grid.spacing_mm().z, 1.0);
     assert_eq!(report.warnings, [Warning::MissingSlices { count: 2 }]);
@@ -291,7 +276,7 @@ fn gaps_doubles_tilt_and_uneven_slices_are_named() {
     );
 
     let (volume, report) =
-        read(&mut folder(&at(&[0.0, 1.0, 2.4, 3.0])), ALL_FILES, 0).expect("uneven");
+        load_files(&mut folder(&at(&[0.0, 1.0, 2.4, 3.0])), ALL_FILES, 0).expect("uneven");
     assert_eq!(volume.grid.dims.z, 4);
     assert!(
         matches!(report.warnings[..], [Warning::UnevenSlices { .. }]),
@@ -300,7 +285,7 @@ fn gaps_doubles_tilt_and_uneven_slices_are_named() {
 
     let mut doubled = at(&[0.0, 1.0, 2.0]);
     doubled.push(slice(9, 1.0));
-    let (volume, report) = read(&mut folder(&doubled), ALL_FILES, 0).expect("doubled");
+    let (volume, report) = load_files(&mut folder(&doubled), ALL_FILES, 0).expect("doubled");
     assert_eq!(volume.grid.dims.z, 3);
     assert_eq!(report.warnings, [Warning::DoubledSlices { count: 1 }]);
 
@@ -311,7 +296,7 @@ fn gaps_doubles_tilt_and_uneven_slices_are_named() {
             slice
         })
         .collect();
-    let (volume, report) = read(&mut folder(&tilted), ALL_FILES, 0).expect("tilted");
+    let (volume, report) = load_files(&mut folder(&tilted), ALL_FILES, 0).expect("tilted");
     let Some(Warning::Tilted { degrees }) = report.warnings.first() else {
         panic!("{report:?}");
     };
@@ -346,25 +331,25 @@ fn several_volumes_are_told_apart() {
         slices.push(other);
     }
     let mut files = folder(&slices);
-    let (volume, report) = read(&mut files, ALL_FILES, 0).expect("the first time");
+    let (volume, report) = load_files(&mut files, ALL_FILES, 0).expect("the first time");
     assert_eq!(
         (report.frame_count, volume.grid.dims.z, volume.voxels.get(0)),
         (3, 4, Some(0.0))
     );
-    let (volume, again) = read(&mut files, ALL_FILES, 1).expect("the second");
+    let (volume, again) = load_files(&mut files, ALL_FILES, 1).expect("the second");
     assert_eq!((volume.grid.dims.z, volume.voxels.get(0)), (4, Some(1.0)));
     assert_eq!(report.sha256, again.sha256, "of one set of files");
-    let (volume, _) = read(&mut files, ALL_FILES, 2).expect("the other series");
+    let (volume, _) = load_files(&mut files, ALL_FILES, 2).expect("the other series");
     assert_eq!(volume.grid.dims.z, 2);
     assert_eq!(orientation_code(&volume.grid), "PIR");
     assert!(matches!(
-        read(&mut files, ALL_FILES, 3),
+        load_files(&mut files, ALL_FILES, 3),
         Err(LoadError::NoSuchFrame { count: 3, .. })
     ));
     // Slices scaled each in their own way are values.
     let mut scaled: Vec<Slice> = (0..3).map(|i| slice(i, f64::from(i))).collect();
     scaled[1].intercept = 500.0;
-    let (volume, _) = read(&mut folder(&scaled), ALL_FILES, 0).expect("scaled");
+    let (volume, _) = load_files(&mut folder(&scaled), ALL_FILES, 0).expect("scaled");
     let value =
         |z: usize| volume.voxels.get(z * 12).expect("inside") * volume.slope + volume.intercept;
     assert_eq!([value(0), value(1), value(2)], [-1024.0, 600.0, -824.0]);
@@ -381,7 +366,7 @@ fn patients_names_are_never_said() {
     for len in (0..whole.len()).step_by(3) {
         let cut = MemoryFiles::new([("a.dcm", whole[..len].to_vec())]);
         let mut cut = cut;
-        if let Err(error) = read(&mut cut, "a.dcm", 0) {
+        if let Err(error) = load_files(&mut cut, "a.dcm", 0) {
             all_words += &format!("{error} {error:?}");
         }
     }
@@ -410,7 +395,7 @@ fn damaged_files_are_refused_or_read() {
         }
         .bytes();
         for len in 0..whole.len() {
-            let result = read(
+            let result = load_files(
                 &mut MemoryFiles::new([("a.dcm", whole[..len].to_vec())]),
                 "a.dcm",
                 0,
@@ -424,7 +409,9 @@ fn damaged_files_are_refused_or_read() {
             for mask in [0x01, 0x80, 0xFF, 0x20] {
                 let mut bytes = whole.clone();
                 bytes[at] ^= mask;
-                if let Err(error) = read(&mut MemoryFiles::new([("a.dcm", bytes)]), "a.dcm", 0) {
+                if let Err(error) =
+                    load_files(&mut MemoryFiles::new([("a.dcm", bytes)]), "a.dcm", 0)
+                {
                     assert!(!error.to_string().contains('\n'));
                 }
             }
@@ -503,7 +490,7 @@ fn the_same_picture_in_every_syntax() {
     files.sort();
     let alone = |path: &std::path::Path| {
         let bytes = std::fs::read(path).expect("a file");
-        read(&mut MemoryFiles::new([("a.dcm", bytes)]), "a.dcm", 0)
+        load_files(&mut MemoryFiles::new([("a.dcm", bytes)]), "a.dcm", 0)
     };
     let (plain, _) = alone(&single.join("MR_small.dcm")).expect("explicit little-endian");
     assert_eq!(plain.grid.dims, UVec3::new(64, 64, 1));
@@ -624,7 +611,7 @@ fn odd_and_broken_files_load_or_say_why() {
         } else {
             "a.dcm"
         };
-        let found = read(&mut MemoryFiles::new([(file, bytes)]), file, 0);
+        let found = load_files(&mut MemoryFiles::new([(file, bytes)]), file, 0);
         let result = match &found {
             Ok((volume, report)) => format!("{} {:?}", volume.grid.dims, report.notices()),
             Err(error) => error.to_string(),

@@ -1,57 +1,15 @@
 //! NRRD, MetaImage and raw voxels: real files against the facts known of them, written ones, broken ones.
 
 use crate::data::data_folder;
-use crate::scans::{Folder, load_path};
+use crate::scans::{Fact, Folder, Random, fact, load_files, load_path, rounds};
 use fabrica::data::{Volume, VolumeBuilder, Voxels};
 use fabrica::load::{
-    self, FileSet, LoadError, LoadReport, MemoryFiles, ReadOptions, Warning, orientation_code,
+    self, LoadError, LoadReport, MemoryFiles, ReadOptions, Warning, orientation_code,
 };
 use glam::{DVec3, UVec3};
 
-fn load_files(
-    files: &mut dyn FileSet,
-    name: &str,
-    frame: u64,
-) -> Result<(Volume, LoadReport), LoadError> {
-    let mut report = LoadReport::default();
-    let mut builder = VolumeBuilder::new();
-    let options = ReadOptions {
-        frame,
-        ..ReadOptions::default()
-    };
-    load::read_volume(files, name, &options, &mut builder, &mut report)?;
-    Ok((builder.finish().expect("all voxels came"), report))
-}
-
 fn load(name: &str, bytes: Vec<u8>) -> Result<(Volume, LoadReport), LoadError> {
     load_files(&mut MemoryFiles::new([(name, bytes)]), name, 0)
-}
-
-struct Fact {
-    file: &'static str,
-    dims: [u32; 3],
-    spacing: [f64; 3],
-    range: [f32; 2],
-    code: &'static str,
-    stored: &'static str,
-}
-
-const fn fact(
-    file: &'static str,
-    dims: [u32; 3],
-    spacing: [f64; 3],
-    range: [f32; 2],
-    code: &'static str,
-    stored: &'static str,
-) -> Fact {
-    Fact {
-        file,
-        dims,
-        spacing,
-        range,
-        code,
-        stored,
-    }
 }
 
 /// What the folder's own README states, taken there with other programs.
@@ -192,29 +150,8 @@ fn scans_have_the_facts_stated_of_them() {
         return;
     };
     for fact in FACTS {
-        let name = fact.file;
-        let (volume, report) =
-            load_path(&folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-        println!(
-            "{name}: {} {:?}",
-            orientation_code(&volume.grid),
-            report.notices()
-        );
-        assert_eq!(volume.grid.dims, UVec3::from(fact.dims), "{name}: size");
-        let spacing = volume.grid.spacing_mm();
-        assert!(
-            (spacing - DVec3::from(fact.spacing)).abs().max_element() < 1e-3,
-            "{name}: spacing {spacing}"
-        );
-        assert_eq!(volume.value_range, fact.range, "{name}: range");
-        if !fact.code.is_empty() {
-            assert_eq!(
-                orientation_code(&volume.grid),
-                fact.code,
-                "{name}: orientation"
-            );
-        }
-        assert_eq!(report.stored_type, fact.stored, "{name}: type");
+        let volume = fact.load(&folder);
+        assert_eq!(volume.value_range, fact.range, "{}: range", fact.file);
     }
 }
 
@@ -541,24 +478,6 @@ fn metaimage_directions_and_parts() {
         Voxels::U8(vec![b'2']),
         "1, 2 and 3 are as bright as 2"
     );
-}
-
-/// How often to damage each file: more where `FABRICA_FUZZ_ROUNDS` asks for it.
-fn rounds(usual: usize) -> usize {
-    let asked = std::env::var("FABRICA_FUZZ_ROUNDS").ok();
-    asked.and_then(|text| text.parse().ok()).unwrap_or(usual)
-}
-
-/// A small generator of numbers, so that a failure comes again.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as usize
-    }
 }
 
 #[test]

@@ -3,6 +3,7 @@
 
 use std::io::{self, Read, Write as _};
 
+use crate::scans::{Random, rounds};
 use fabrica::data::{Volume, VolumeBuilder, VolumeSink, Voxels};
 use fabrica::load::{
     FileHandle, FileSet, Format, LoadError, LoadReport, MemoryFiles, OneFile, ReadOptions, Warning,
@@ -478,24 +479,6 @@ fn cut_at_every_byte_is_an_error() {
             let mut one = OneFile::new(name, &bytes[..len], None);
             load_files(&mut one, name).expect_err("cut");
         }
-    }
-}
-
-/// How often to damage each file: more where `FABRICA_FUZZ_ROUNDS` asks for it.
-fn rounds(usual: usize) -> usize {
-    let asked = std::env::var("FABRICA_FUZZ_ROUNDS").ok();
-    asked.and_then(|text| text.parse().ok()).unwrap_or(usual)
-}
-
-/// A small generator of numbers, so that a failure comes again.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as usize
     }
 }
 

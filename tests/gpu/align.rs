@@ -1,10 +1,10 @@
 //! Kept tissue: what the object has at a point when templates leave tissue alone, against a plain recursive reading of
 //! spec/contract.md ("Meaning" of `align`); distances against brute force.
 
-use crate::firm::{BOUND, as_reference, difference, firm};
+use crate::firm::{BOUND, difference, firm};
 use crate::gpu::{builtin, gpu, studio_of};
-use crate::reference::Placed;
-use crate::scatter::{Random, defaults, placed};
+use crate::reference::{Placed, as_reference};
+use crate::scatter::Random;
 use fabrica::data::{Grid, Resources, Segment, Segmentation, TimeSlices, Volume, Voxels, segment};
 use fabrica::document::{
     Align, Constrain, ConstrainBy, Illustration, PlacedTemplate, TemplateKind, TemplateMode,
@@ -377,7 +377,7 @@ fn peel(align: Align) -> PlacedTemplate {
         rotate: Quat::from_rotation_x(-0.6),
         size: Vec3::new(0.5, 0.5, 0.4),
     };
-    let mut template = placed(TemplateKind::Peel, placement, defaults(TemplateKind::Peel));
+    let mut template = PlacedTemplate::new(TemplateKind::Peel, placement);
     template.align = align;
     template
 }
@@ -684,7 +684,7 @@ fn nothing_is_drawn_through_bone() {
             rotate: Quat::IDENTITY,
             size: Vec3::new(0.5, 0.5, 0.9),
         };
-        let free = placed(kind, placement, defaults(kind));
+        let free = PlacedTemplate::new(kind, placement);
         let points: Vec<Vec3> = (0..600).map(|_| random.vector(-0.4, 0.4)).collect();
         let passed_bone = |template: &PlacedTemplate| {
             let (mut passed, mut moved) = (0, 0);
@@ -741,7 +741,7 @@ fn rigid_segments_move_as_a_whole() {
             rotate,
             size: Vec3::new(0.9, 0.9, 0.9),
         };
-        let free = placed(kind, placement, defaults(kind));
+        let free = PlacedTemplate::new(kind, placement);
         let mut rigid = free.clone();
         rigid.constrain = Some(Constrain {
             by: ConstrainBy::Rigid,
@@ -816,7 +816,7 @@ fn the_grid_follows_rigid_segments() {
         rotate: Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2),
         size: Vec3::splat(0.9),
     };
-    let mut template = placed(TemplateKind::Bend, placement, defaults(TemplateKind::Bend));
+    let mut template = PlacedTemplate::new(TemplateKind::Bend, placement);
     template.constrain = Some(Constrain {
         by: ConstrainBy::Rigid,
         keep: vec!["tibia".to_owned(), "fibula".to_owned()],
@@ -856,7 +856,7 @@ fn the_grid_finds_kept_tissue_between_thick_slices() {
         rotate: Quat::IDENTITY,
         size: Vec3::splat(1.2),
     };
-    let mut template = placed(TemplateKind::Cut, placement, defaults(TemplateKind::Cut));
+    let mut template = PlacedTemplate::new(TemplateKind::Cut, placement);
     template.align = Align::Segment {
         keep: vec!["plate".to_owned()],
         thickness: 0.01,

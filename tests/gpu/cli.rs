@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 use tempfile::TempDir;
 
-use crate::segment_files;
+use crate::segment_files::{self, nifti};
 
 struct Outcome {
     status: i32,
@@ -93,42 +93,8 @@ fn text(path: &Path) -> &str {
 
 const PEEL: &str = r#"{"fabrica":1,"subject":{"builtin":"bar"},"templates":[{"kind":"peel","params":{"progress":0.8}}]}"#;
 
-/// A NIfTI-1 volume of 16-bit numbers with voxels of 1 mm.
-fn nifti(dims: [u16; 3], value: impl Fn(u16, u16, u16) -> i16) -> Vec<u8> {
-    let mut bytes = vec![0_u8; 352];
-    let mut put = |at: usize, data: &[u8]| bytes[at..at + data.len()].copy_from_slice(data);
-    put(0, &348_i32.to_le_bytes());
-    for (i, n) in [3, dims[0], dims[1], dims[2], 1, 1, 1, 1]
-        .into_iter()
-        .enumerate()
-    {
-        put(40 + 2 * i, &n.to_le_bytes());
-    }
-    put(70, &4_i16.to_le_bytes());
-    put(72, &16_i16.to_le_bytes());
-    for i in 0..8 {
-        put(76 + 4 * i, &1_f32.to_le_bytes());
-    }
-    put(108, &352_f32.to_le_bytes());
-    put(112, &1_f32.to_le_bytes());
-    put(254, &1_i16.to_le_bytes());
-    for (row, n) in dims.into_iter().enumerate() {
-        put(280 + 20 * row, &1_f32.to_le_bytes());
-        put(292 + 16 * row, &(-0.5 * (f32::from(n) - 1.0)).to_le_bytes());
-    }
-    put(344, b"n+1\0");
-    for z in 0..dims[2] {
-        for y in 0..dims[1] {
-            for x in 0..dims[0] {
-                bytes.extend(value(x, y, z).to_le_bytes());
-            }
-        }
-    }
-    bytes
-}
-
 fn scan() -> Vec<u8> {
-    nifti([16, 12, 8], |x, y, z| (x * 50 + y + z) as i16)
+    nifti([16, 12, 8], |x, y, z| x * 50 + y + z)
 }
 
 fn hash(bytes: &[u8]) -> String {

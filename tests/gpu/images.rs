@@ -2,30 +2,14 @@
 //!
 //! `FABRICA_BLESS=name cargo test --test gpu images::` writes a snapshot anew (`all` for every one).
 
-use crate::gpu::{builtin, open_software, software, studio_of};
-use fabrica::data::{Grid, Subject, Volume, Voxels};
+use crate::gpu::{builtin, open_software, software, studio_of, uniform_volume};
+use fabrica::data::{Subject, Volume};
 use fabrica::document::{Document, Illustration};
 use fabrica::render::{
     Image, RenderError, Renderer, Studio, encode_png, render_image, system_clock,
 };
-use glam::{DAffine3, DVec3, UVec3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use std::path::PathBuf;
-
-/// The device that stands for the web: refuses what a browser would.
-/// A cube of `n`³ voxels of one value, 1 unit wide.
-fn uniform_volume(n: u32) -> Volume {
-    Volume {
-        grid: Grid {
-            dims: UVec3::splat(n),
-            world_from_voxel: DAffine3::from_scale(DVec3::splat(100.0 / f64::from(n))),
-        },
-        voxels: Voxels::U8(vec![7; (n * n * n) as usize]),
-        slope: 1.0,
-        intercept: 0.0,
-        value_range: [7.0, 7.0],
-        segmentation: None,
-    }
-}
 
 fn illustration(json: &str) -> Illustration {
     let document = Document::from_json(json).expect("a valid document");

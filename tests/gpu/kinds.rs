@@ -1,10 +1,9 @@
 //! The facts about each kind, compared with its formula: the main parameter, as constraints by
 //! coordinate scale it, and the mirror image.
 
-use crate::firm::as_reference;
 use crate::gpu::{builtin, gpu, studio_of};
-use crate::reference;
-use crate::scatter::{Random, defaults, placed};
+use crate::reference::{self, as_reference};
+use crate::scatter::{Random, placed};
 use fabrica::data::Resources;
 use fabrica::document::{
     Constrain, ConstrainBy, Illustration, PlacedTemplate, Plane, TemplateKind, mirrored,
@@ -54,7 +53,7 @@ fn constraints_by_coordinate_scale_the_main_parameter() {
             rotate: Quat::IDENTITY,
             size: Vec3::new(0.5, 0.5, 0.9),
         };
-        let free = placed(kind, placement, defaults(kind));
+        let free = PlacedTemplate::new(kind, placement);
         // Around the box as well: an open flap stands above it.
         let points: Vec<Vec3> = (0..3000)
             .map(|_| free.subject_from_template(random.vector(-0.5, 1.5)))

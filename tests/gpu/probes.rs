@@ -10,8 +10,9 @@
 //! reference itself then moves by more than a quarter of the bound, the point says nothing about the shader and is left
 //! out. It is counted, and only few may be.
 
-use crate::firm::{BOUND, as_reference, difference, firm};
+use crate::firm::{BOUND, difference, firm};
 use crate::gpu::gpu;
+use crate::reference::as_reference;
 use crate::scatter::{Random, defaults, placed};
 use fabrica::data::Resources;
 use fabrica::document::{Curve, ParamValue, PlacedTemplate, TemplateKind, TemplateMode};
@@ -246,7 +247,7 @@ fn a_planted_sign_error_is_caught() {
     let (_gpu, probe) = probe();
     for kind in TemplateKind::FORMULAS {
         let mut random = Random(0xBAD + kind as u64);
-        let right = placed(kind, Placement::DOCUMENT_DEFAULT, defaults(kind));
+        let right = PlacedTemplate::new(kind, Placement::DOCUMENT_DEFAULT);
         let mut wrong = right.clone();
         match wrong.params.first_mut() {
             Some(ParamValue::Number(v)) if kind == TemplateKind::Slices => *v += 1.0,
@@ -331,7 +332,7 @@ fn beyond_a_rest_end_nothing_moves() {
     let (_gpu, probe) = probe();
     let mut random = Random(13);
     for (kind, ends) in kinds {
-        let template = placed(kind, random.template(kind).placement, defaults(kind));
+        let template = PlacedTemplate::new(kind, random.template(kind).placement);
         for end in ends.chars() {
             let axis = "xyz".find(end.to_ascii_lowercase()).expect("an axis");
             let points: Vec<Vec3> = (0..100)

@@ -3,6 +3,7 @@
 
 mod curve;
 
+use fabrica::document::{PlacedTemplate, TemplateMode};
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::TAU;
 
@@ -34,6 +35,29 @@ impl Placed {
     fn subject_from_template_vector(&self, v: DVec3) -> DVec3 {
         self.rotate * (self.size * v)
     }
+}
+
+/// The enabled templates of a list, with their parameters as plain numbers.
+pub(crate) fn as_reference(list: &[PlacedTemplate]) -> Vec<Placed> {
+    let enabled = list.iter().filter(|t| t.enabled);
+    enabled
+        .map(|t| {
+            let mut floats = Vec::new();
+            t.params.iter().for_each(|p| p.pack(&mut floats));
+            Placed {
+                kind: t.kind.spec().name,
+                at: t.placement.at.as_dvec3(),
+                rotate: DQuat::from_array(t.placement.rotate.to_array().map(f64::from)).normalize(),
+                size: t.placement.size.as_dvec3(),
+                params: floats.into_iter().map(f64::from).collect(),
+                is_added: t.mode == TemplateMode::Add,
+                curve: t.curve.as_ref().map(|curve| {
+                    let points = curve.points.iter();
+                    (points.map(|p| p.as_dvec2()).collect(), curve.is_spline)
+                }),
+            }
+        })
+        .collect()
 }
 
 /// Source position and continuity of the whole list at a point of the deformed object.

@@ -2,35 +2,12 @@
 //! is nearer to it than the rounding of its own coordinates.
 
 use crate::reference::{self, Placed};
-use fabrica::document::{PlacedTemplate, TemplateMode};
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 /// Asserted; the contract promises ten times as much.
 pub(crate) const BOUND: f64 = 1e-4;
 /// Moved by rounding, the reference may change by this much.
 pub(crate) const FIRM: f64 = BOUND / 4.0;
-
-pub(crate) fn as_reference(list: &[PlacedTemplate]) -> Vec<Placed> {
-    let enabled = list.iter().filter(|t| t.enabled);
-    enabled
-        .map(|t| {
-            let mut floats = Vec::new();
-            t.params.iter().for_each(|p| p.pack(&mut floats));
-            Placed {
-                kind: t.kind.spec().name,
-                at: t.placement.at.as_dvec3(),
-                rotate: DQuat::from_array(t.placement.rotate.to_array().map(f64::from)).normalize(),
-                size: t.placement.size.as_dvec3(),
-                params: floats.into_iter().map(f64::from).collect(),
-                is_added: t.mode == TemplateMode::Add,
-                curve: t.curve.as_ref().map(|curve| {
-                    let points = curve.points.iter();
-                    (points.map(|p| p.as_dvec2()).collect(), curve.is_spline)
-                }),
-            }
-        })
-        .collect()
-}
 
 /// How far the two differ: the larger of the distance in subject units and the continuity's difference (relative above
 /// 1).

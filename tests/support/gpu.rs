@@ -4,9 +4,10 @@
 
 use std::sync::OnceLock;
 
-use fabrica::data::{Subject, Volume, VolumeBuilder};
+use fabrica::data::{Grid, Subject, Volume, VolumeBuilder, Voxels};
 use fabrica::render::{Gpu, GpuOptions, Studio};
 use fabrica::subjects;
+use glam::{DAffine3, DVec3, UVec3};
 
 fn open(adapter: Option<&str>) -> Gpu {
     let options = GpuOptions {
@@ -45,6 +46,21 @@ pub(crate) fn builtin(name: &str, resolution: u32) -> Volume {
     let mut builder = VolumeBuilder::new();
     subjects::generate(name, resolution, &mut builder).expect("a built-in subject");
     builder.finish().expect("a whole volume")
+}
+
+/// A cube of `n`³ voxels of one value, 1 unit wide.
+pub(crate) fn uniform_volume(n: u32) -> Volume {
+    Volume {
+        grid: Grid {
+            dims: UVec3::splat(n),
+            world_from_voxel: DAffine3::from_scale(DVec3::splat(100.0 / f64::from(n))),
+        },
+        voxels: Voxels::U8(vec![7; (n * n * n) as usize]),
+        slope: 1.0,
+        intercept: 0.0,
+        value_range: [7.0, 7.0],
+        segmentation: None,
+    }
 }
 
 /// A device with a volume on it.

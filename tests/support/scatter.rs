@@ -2,9 +2,7 @@
 
 #![allow(dead_code, reason = "each test uses a part of it")]
 
-use fabrica::document::{
-    Align, Curve, ParamKind, ParamValue, PlacedTemplate, TemplateKind, TemplateMode,
-};
+use fabrica::document::{Curve, ParamKind, ParamValue, PlacedTemplate, TemplateKind};
 use fabrica::math::Placement;
 use glam::{Quat, Vec2, Vec3};
 
@@ -144,18 +142,8 @@ pub(crate) fn placed(
     params: Vec<ParamValue>,
 ) -> PlacedTemplate {
     PlacedTemplate {
-        index: 0,
-        kind,
-        name: String::new(),
-        placement,
         params,
-        enabled: true,
-        mode: TemplateMode::Compose,
-        amount: 1.0,
-        align: Align::Axis,
-        constrain: None,
-        curve: None,
-        data: Default::default(),
+        ..PlacedTemplate::new(kind, placement)
     }
 }
 

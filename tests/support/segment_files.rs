@@ -25,29 +25,37 @@ pub(crate) struct Case {
     pub(crate) is_error: bool,
 }
 
-/// A NIfTI-1 volume of 16 x 12 x 8 16-bit numbers with voxels of 1 mm about the origin.
-fn nifti(value: impl Fn(i16, i16, i16) -> i16) -> Vec<u8> {
-    const DIMS: [i16; 3] = [16, 12, 8];
+/// Voxels along each axis of the files here.
+const DIMS: [i16; 3] = [16, 12, 8];
+
+/// A NIfTI-1 volume of 16-bit numbers with voxels of 1 mm about the origin.
+pub(crate) fn nifti(dims: [i16; 3], value: impl Fn(i16, i16, i16) -> i16) -> Vec<u8> {
     let mut bytes = vec![0_u8; 352];
     let mut put = |at: usize, data: &[u8]| bytes[at..at + data.len()].copy_from_slice(data);
     put(0, &348_i32.to_le_bytes());
-    put(40, &3_i16.to_le_bytes());
-    for (i, n) in DIMS.into_iter().enumerate() {
-        put(42 + 2 * i, &n.to_le_bytes());
-        put(80 + 4 * i, &1_f32.to_le_bytes());
-        put(280 + 20 * i, &1_f32.to_le_bytes());
-        put(292 + 16 * i, &(-0.5 * (f32::from(n) - 1.0)).to_le_bytes());
+    let [width, height, depth] = dims;
+    for (i, n) in [3, width, height, depth, 1, 1, 1, 1]
+        .into_iter()
+        .enumerate()
+    {
+        put(40 + 2 * i, &n.to_le_bytes());
     }
     put(70, &4_i16.to_le_bytes());
     put(72, &16_i16.to_le_bytes());
-    put(76, &1_f32.to_le_bytes());
+    for i in 0..8 {
+        put(76 + 4 * i, &1_f32.to_le_bytes());
+    }
     put(108, &352_f32.to_le_bytes());
     put(112, &1_f32.to_le_bytes());
     put(254, &1_i16.to_le_bytes());
+    for (row, n) in dims.into_iter().enumerate() {
+        put(280 + 20 * row, &1_f32.to_le_bytes());
+        put(292 + 16 * row, &(-0.5 * (f32::from(n) - 1.0)).to_le_bytes());
+    }
     put(344, b"n+1\0");
-    for z in 0..DIMS[2] {
-        for y in 0..DIMS[1] {
-            for x in 0..DIMS[0] {
+    for z in 0..depth {
+        for y in 0..height {
+            for x in 0..width {
                 bytes.extend(value(x, y, z).to_le_bytes());
             }
         }
@@ -58,10 +66,10 @@ fn nifti(value: impl Fn(i16, i16, i16) -> i16) -> Vec<u8> {
 /// The files by their names.
 pub(crate) fn files() -> [(&'static str, Vec<u8>); 2] {
     [
-        (SCAN, nifti(|x, y, z| x * 50 + y + z)),
+        (SCAN, nifti(DIMS, |x, y, z| x * 50 + y + z)),
         (
             PARTS,
-            nifti(|x, _, _| i16::from(x >= 5) + i16::from(x >= 10)),
+            nifti(DIMS, |x, _, _| i16::from(x >= 5) + i16::from(x >= 10)),
         ),
     ]
 }

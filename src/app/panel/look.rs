@@ -193,41 +193,62 @@ fn window_ui(
 /// How much the segments' own colours show.
 fn tint_ui(ui: &mut Ui, look: &Look, preset: Option<&Preset>, commands: &mut Vec<Command>) {
     let own = preset.map_or(0.0, |preset| preset.tint);
-    let row = NumberRow {
+    let row = PartRow {
         name: transfer_words().tint,
         summary: transfer_words().tint_hint,
-        value: f64::from(look.tint.unwrap_or(own)) * 100.0,
-        default: look.tint.is_some().then_some(f64::from(own) * 100.0),
-        range: [0.0, 100.0],
-        unit: " %",
-        decimals: 0,
+        value: look.tint.unwrap_or(own),
+        default: look.tint.is_some().then_some(own),
+        pointer: "/look/tint",
+        undo: "Change tint",
     };
-    if let Some(change) = row.ui(ui) {
-        commands.push(widget::command(change.map(|percent| Edit::Set {
-            pointer: "/look/tint".to_owned(),
-            value: (percent.round() / 100.0).into(),
-            name: "Change tint".to_owned(),
-        })));
-    }
+    row.ui(ui, commands);
 }
 
 /// How much opacity follows the steepness of the value.
 fn edges_ui(ui: &mut Ui, look: &Look, commands: &mut Vec<Command>) {
-    let row = NumberRow {
+    let row = PartRow {
         name: w().edges,
         summary: w().edges_hint,
-        value: f64::from(look.gradient) * 100.0,
+        value: look.gradient,
         default: Some(0.0),
-        range: [0.0, 100.0],
-        unit: " %",
-        decimals: 0,
+        pointer: "/look/gradient",
+        undo: "Change edges",
     };
-    if let Some(change) = row.ui(ui) {
-        commands.push(widget::command(change.map(|percent| Edit::Set {
-            pointer: "/look/gradient".to_owned(),
-            value: (percent.round() / 100.0).into(),
-            name: "Change edges".to_owned(),
-        })));
+    row.ui(ui, commands);
+}
+
+/// A row for a number from 0 to 1 of the document, shown in percent.
+struct PartRow {
+    name: &'static str,
+    summary: &'static str,
+    /// From 0 to 1, as `default`.
+    value: f32,
+    /// What the reset button sets; `None` hides the button.
+    default: Option<f32>,
+    /// JSON pointer of the number in the document.
+    pointer: &'static str,
+    /// Name of the change in the undo menu.
+    undo: &'static str,
+}
+
+impl PartRow {
+    fn ui(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        let row = NumberRow {
+            name: self.name,
+            summary: self.summary,
+            value: f64::from(self.value) * 100.0,
+            default: self.default.map(|part| f64::from(part) * 100.0),
+            range: [0.0, 100.0],
+            unit: " %",
+            decimals: 0,
+        };
+        if let Some(change) = row.ui(ui) {
+            commands.push(widget::command(change.map(|percent| Edit::Set {
+                pointer: self.pointer.to_owned(),
+                value: (percent.round() / 100.0).into(),
+                name: self.undo.to_owned(),
+            })));
+        }
     }
 }
 

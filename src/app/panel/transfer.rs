@@ -441,7 +441,7 @@ impl Editor {
         self.wants_focus = point;
     }
 
-    /// A point at a value, in the colour that is there already, and with its opacity unless another is given.
+    /// Adds a point at a value ([`with_point`]) and selects it.
     fn add(
         &mut self,
         value: f32,
@@ -452,16 +452,7 @@ impl Editor {
         if shown.points.len() >= MAX_POINTS {
             return;
         }
-        let mut points = shown.points.clone();
-        let at = points.partition_point(|p| p.value <= value);
-        points.insert(
-            at,
-            TransferPoint {
-                value,
-                color_srgb: color_at(&shown.points, value),
-                opacity: opacity.unwrap_or_else(|| opacity_at(&shown.points, value)),
-            },
-        );
+        let (points, at) = with_point(&shown.points, value, opacity);
         self.select(Some(at));
         commands.push(points_command(points, shown.tint, false));
     }
@@ -498,16 +489,7 @@ impl Editor {
                     (Some(a), None) => 0.5 * (a + whole[1].max(a)),
                     _ => 0.5 * (whole[0] + whole[1]),
                 };
-                let mut points = shown.points.clone();
-                let at = points.partition_point(|p| p.value <= value);
-                points.insert(
-                    at,
-                    TransferPoint {
-                        value,
-                        color_srgb: color_at(&shown.points, value),
-                        opacity: opacity_at(&shown.points, value),
-                    },
-                );
+                let (points, at) = with_point(&shown.points, value, None);
                 self.selected = Some(at);
                 commands.push(points_command(points, shown.tint, false));
             }
@@ -640,6 +622,24 @@ fn move_point(points: &mut [TransferPoint], i: usize, value: f32, opacity: f32) 
         point.value = value.clamp(low, high.max(low));
         point.opacity = opacity.clamp(0.0, 1.0);
     }
+}
+
+/// Points with one more at a value, in the colour that is there already, and with the opacity there unless another is
+/// given; and the index of the new point.
+fn with_point(
+    points: &[TransferPoint],
+    value: f32,
+    opacity: Option<f32>,
+) -> (Vec<TransferPoint>, usize) {
+    let mut longer = points.to_vec();
+    let at = points.partition_point(|p| p.value <= value);
+    let point = TransferPoint {
+        value,
+        color_srgb: color_at(points, value),
+        opacity: opacity.unwrap_or_else(|| opacity_at(points, value)),
+    };
+    longer.insert(at, point);
+    (longer, at)
 }
 
 fn points_command(points: Vec<TransferPoint>, tint: f32, is_drag: bool) -> Command {

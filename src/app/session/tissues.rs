@@ -2,10 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use crate::document::{
-    Align, Illustration, ParamValue, PlacedTemplate, Recipe, RecipeSource, TemplateData,
-    TemplateKind, TemplateMode,
-};
+use crate::document::{Align, Illustration, PlacedTemplate, Recipe, RecipeSource, TemplateKind};
 use crate::math::Placement;
 
 /// What of the tissues is being edited or shown.
@@ -40,26 +37,17 @@ impl Tissues {
     /// The illustration while a segment is shown alone: everything else is cut away. `None` while all are shown.
     pub fn alone_in(&self, shown: &Illustration) -> Option<Illustration> {
         let name = self.alone.clone()?;
+        let placement = Placement {
+            at: Vec3::ZERO,
+            rotate: Quat::IDENTITY,
+            size: Vec3::splat(2.5),
+        };
         let cut = PlacedTemplate {
-            index: 0,
-            kind: TemplateKind::Cut,
-            name: String::new(),
-            placement: Placement {
-                at: Vec3::ZERO,
-                rotate: Quat::IDENTITY,
-                size: Vec3::splat(2.5),
-            },
-            params: vec![ParamValue::Choice(0)],
-            amount: 1.0,
-            enabled: true,
-            mode: TemplateMode::Compose,
             align: Align::Segment {
                 keep: vec![name],
                 thickness: 0.01,
             },
-            constrain: None,
-            curve: None,
-            data: TemplateData::None,
+            ..PlacedTemplate::new(TemplateKind::Cut, placement)
         };
         Some(Illustration {
             templates: vec![cut],

@@ -35,6 +35,26 @@ pub struct PlacedTemplate {
 }
 
 impl PlacedTemplate {
+    /// A straight template with the default parameters of its kind, fully done and composed with the template before
+    /// it. Control points and files are added by the caller.
+    pub fn new(kind: TemplateKind, placement: Placement) -> Self {
+        let params = kind.spec().params.iter();
+        Self {
+            index: 0,
+            kind,
+            name: String::new(),
+            placement,
+            curve: None,
+            params: params.map(|param| param.kind.default_value()).collect(),
+            amount: 1.0,
+            enabled: true,
+            mode: TemplateMode::Compose,
+            align: Align::Axis,
+            constrain: None,
+            data: TemplateData::None,
+        }
+    }
+
     /// This template with its amount worked in, as its kind says ([`Amount`]); the amount is 1 then. At 0 every kind is
     /// the identity or switched off.
     pub fn acting(&self) -> Self {

@@ -1,7 +1,7 @@
 use super::clock::Clock;
 use super::studio::Studio;
 use crate::data::Subject;
-use crate::document::{Align, Illustration, PlacedTemplate, TemplateMode};
+use crate::document::{Align, Illustration, PlacedTemplate};
 use crate::document::{Document, SubjectRef, TemplateKind};
 use crate::math::Placement;
 use crate::render::device::error::RenderError;
@@ -166,27 +166,13 @@ fn case(subject: &SubjectRef, count: usize) -> Illustration {
     illustration.subject = subject.clone();
     illustration.camera.rotate = Quat::from_rotation_z(0.5) * Quat::from_rotation_x(-0.3);
     illustration.camera.distance = 2.1;
-    let place = |kind, at: [f32; 3], size: [f32; 3]| PlacedTemplate {
-        index: 0,
-        kind,
-        name: String::new(),
-        placement: Placement {
+    let place = |kind, at: [f32; 3], size: [f32; 3]| {
+        let placement = Placement {
             at: Vec3::from_array(at),
             rotate: Quat::IDENTITY,
             size: Vec3::from_array(size),
-        },
-        params: TemplateKind::spec(kind)
-            .params
-            .iter()
-            .map(|p| p.kind.default_value())
-            .collect(),
-        enabled: true,
-        mode: TemplateMode::Compose,
-        amount: 1.0,
-        align: Align::Axis,
-        constrain: None,
-        curve: None,
-        data: Default::default(),
+        };
+        PlacedTemplate::new(kind, placement)
     };
     let all = [
         place(TemplateKind::Peel, [0.0, 0.15, 0.3], [0.4, 0.4, 0.3]),
