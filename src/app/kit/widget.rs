@@ -454,16 +454,11 @@ impl NumberRow<'_> {
                 ui.add(slider.step_by(step).max_decimals(self.decimals))
             });
             let slider = slider.named(fill(w().slider, &[&self.name]));
-            result = change(&slider, value);
             let mut typed = self.value;
-            let field = DragValue::new(&mut typed)
+            let field = number_field(&mut typed, self.decimals)
                 .range(low..=high)
                 .speed((high - low) / 400.0)
-                .max_decimals(self.decimals)
-                .custom_formatter(|value, _| plain(value, self.decimals))
-                .custom_parser(words::parse_number)
-                .suffix(self.unit)
-                .update_while_editing(false);
+                .suffix(self.unit);
             let field = ui.add_sized(vec2(FIELD_WIDTH, control_height()), field);
             let field = field.labelled_by(label.id).on_hover_text(fill(
                 w().range,
@@ -474,12 +469,13 @@ impl NumberRow<'_> {
                     &self.unit,
                 ],
             ));
-            result = result.or(change(&field, typed));
-            // Controls report what they round away as a change; that is none.
+            // Controls report what they round away as a change. The slider does so in every frame, and must not hide
+            // what was typed into the field.
             let tolerance = 0.5 * 0.1_f64.powi(self.decimals as i32);
-            result = result
-                .take()
-                .filter(|change| (change.value() - self.value).abs() > tolerance);
+            let is_new = |change: &Change<f64>| (change.value() - self.value).abs() > tolerance;
+            result = change(&slider, value)
+                .filter(is_new)
+                .or(change(&field, typed).filter(is_new));
             if let Some(default) = self.default.filter(|d| (d - self.value).abs() > tolerance) {
                 let name = fill(w().reset, &[&in_sentence(self.name)]);
                 if icon_button_sized(ui, Icon::Reset, &name, true, false, reset).clicked() {
@@ -584,14 +580,10 @@ pub(crate) fn vector_row(
         let width = ((ui.available_width() - 2.0 * 4.0) / 3.0).clamp(44.0, 80.0);
         for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
             let mut edited = value;
-            let field = DragValue::new(&mut edited[i])
+            let field = number_field(&mut edited[i], decimals)
                 .range(range[0]..=range[1])
                 .speed(0.6 * 0.1_f64.powi(decimals as i32))
-                .max_decimals(decimals)
-                .custom_formatter(|value, _| plain(value, decimals))
-                .custom_parser(words::parse_number)
-                .suffix(unit)
-                .update_while_editing(false);
+                .suffix(unit);
             let field = ui.add_sized(vec2(width, control_height()), field);
             let field = field
                 .named(format!("{name} {axis}"))
@@ -603,6 +595,18 @@ pub(crate) fn vector_row(
         }
     });
     result
+}
+
+/// A field for a number, shown and typed as the language writes numbers. The value changes when the keyboard leaves it.
+pub(crate) fn number_field<N: egui::emath::Numeric>(
+    value: &mut N,
+    decimals: usize,
+) -> DragValue<'_> {
+    DragValue::new(value)
+        .max_decimals(decimals)
+        .custom_formatter(move |value, _| plain(value, decimals))
+        .custom_parser(words::parse_number)
+        .update_while_editing(false)
 }
 
 /// A number without needless zeros.
@@ -624,5 +628,72 @@ pub(crate) fn command(change: Change<Edit>) -> Command {
     match change {
         Change::Drag(edit) => Command::Drag(edit),
         Change::Set(edit) => Command::Apply(edit),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable as _;
+
+    use super::*;
+    use crate::document::{ParamKind, TemplateKind};
+
+    /// A row of a parameter whose value is kept as the document keeps it: in 32 bits.
+    fn typed_into_row(start: f32, range: [f32; 2], decimals: usize, text: &str) -> f32 {
+        let row = move |ui: &mut Ui, (value, is_ready): &mut (f32, bool)| {
+            // Fonts come a frame after they were asked for.
+            if !std::mem::replace(is_ready, true) {
+                return theme::install(ui.ctx());
+            }
+            let row = NumberRow {
+                name: "Depth",
+                summary: "How deep",
+                value: f64::from(*value),
+                default: Some(f64::from(start)),
+                range: range.map(f64::from),
+                unit: "",
+                decimals,
+            };
+            if let Some(change) = row.ui(ui) {
+                *value = *change.value() as f32;
+            }
+        };
+        let mut harness = Harness::builder()
+            .with_size(vec2(320.0, 60.0))
+            .build_ui_state(row, (start, false));
+        harness.run_steps(2);
+        harness.get_by_role(Role::SpinButton).click();
+        harness.run_steps(2);
+        harness.event(egui::Event::Text(text.to_owned()));
+        harness.run_steps(2);
+        harness.key_press(egui::Key::Enter);
+        harness.run_steps(4);
+        harness.state().0
+    }
+
+    #[test]
+    fn every_number_of_every_template_can_be_typed() {
+        for kind in TemplateKind::FORMULAS {
+            for param in kind.spec().params {
+                let (start, min, max, decimals) = match param.kind {
+                    ParamKind::Number { default, min, max } => (default, min, max, 3),
+                    ParamKind::Count { default, min, max } => (default, min, max, 0),
+                    _ => continue,
+                };
+                let wanted = plain(f64::from(min + 0.62 * (max - min)), decimals);
+                let kept = typed_into_row(start, [min, max], decimals, &wanted);
+                let name = (kind.spec().name, param.name);
+                assert_eq!(plain(f64::from(kept), decimals), wanted, "{name:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_field_that_is_left_as_it_was_changes_nothing() {
+        for start in [0.3, 1.0 / 3.0] {
+            let shown = plain(f64::from(start), 3);
+            assert_eq!(typed_into_row(start, [0.0, 1.0], 3, &shown), start);
+        }
     }
 }

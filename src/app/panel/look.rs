@@ -1,6 +1,6 @@
 //! Colours and light: preset, window, opacity, background.
 
-use egui::{DragValue, Ui, vec2};
+use egui::{Ui, vec2};
 
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{Palette, control_height};
@@ -160,11 +160,7 @@ fn window_ui(
         widget::row_label(ui, w().window, w().window_hint);
         let decimals = if span > 50.0 { 0 } else { 3 };
         for (i, name) in [w().window_from, w().window_to].into_iter().enumerate() {
-            let field = DragValue::new(&mut edited[i])
-                .speed(span / 600.0)
-                .max_decimals(decimals)
-                .custom_formatter(|value, _| widget::plain(value, decimals))
-                .update_while_editing(false);
+            let field = widget::number_field(&mut edited[i], decimals).speed(span / 600.0);
             let field = ui
                 .add_sized(vec2(66.0, control_height()), field)
                 .named(name)

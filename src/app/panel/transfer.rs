@@ -13,8 +13,8 @@
 //! into listed points, which are absolute (contract, "Transfer functions").
 
 use egui::{
-    CornerRadius, CursorIcon, DragValue, EventFilter, Key, Modifiers, Pos2, Rect, Response, Role,
-    Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
+    CornerRadius, CursorIcon, EventFilter, Key, Modifiers, Pos2, Rect, Response, Role, Sense,
+    Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::transfer_plot::{
@@ -531,23 +531,16 @@ impl Editor {
                 .named(fill(look::w().colour_n, &[&(i + 1)]))
                 .on_hover_text(w().colour);
             let width = ((ui.available_width() - control_height() - 14.0) / 2.0).clamp(60.0, 120.0);
-            let field = DragValue::new(&mut edited.value)
-                .speed(span / 800.0)
-                .max_decimals(decimals)
-                .custom_formatter(|value, _| widget::plain(value, decimals))
-                .update_while_editing(false);
+            let field = widget::number_field(&mut edited.value, decimals).speed(span / 800.0);
             let value = ui.add_sized(vec2(width, control_height()), field);
             let value = value
                 .named(fill(look::w().value_n, &[&(i + 1)]))
                 .on_hover_text(look::w().value);
             let mut opacity_percent = edited.opacity * 100.0;
-            let field = DragValue::new(&mut opacity_percent)
+            let field = widget::number_field(&mut opacity_percent, 2)
                 .range(0.0..=100.0)
                 .speed(0.25)
-                .max_decimals(2)
-                .custom_formatter(|value, _| widget::plain(value, 2))
-                .suffix(" %")
-                .update_while_editing(false);
+                .suffix(" %");
             let opacity = ui.add_sized(vec2(width, control_height()), field);
             let opacity = opacity
                 .named(fill(look::w().opacity_n, &[&(i + 1)]))

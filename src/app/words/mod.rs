@@ -219,7 +219,7 @@ pub(crate) fn parse_number(text: &str) -> Option<f64> {
             '\u{2212}' => '-',
             c => c,
         })
-        .filter(|c| !c.is_whitespace() && *c != '°')
+        .filter(|c| !c.is_whitespace() && *c != '°' && *c != '%')
         .collect();
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
