@@ -323,7 +323,7 @@ fn question(files: &mut dyn FileSet, name: &str) -> RawQuestion {
     }
 }
 
-/// TimeSlices what a reader hands over into events.
+/// Turns what a reader hands over into events.
 struct PostingSink<'a> {
     post: &'a mut dyn Post,
     last_fraction: f32,

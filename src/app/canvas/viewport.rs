@@ -231,7 +231,7 @@ impl Viewport {
         });
     }
 
-    /// TimeSlices, moves and zooms: the camera as the hand leaves it.
+    /// Turning, moving and zooming: the camera as the hand leaves it.
     fn gestures(
         &self,
         ui: &Ui,

@@ -92,7 +92,7 @@ pub fn axes(rotate: Quat) -> [Vec3; 3] {
     [rotate * Vec3::NEG_X, rotate * Vec3::Z, rotate * Vec3::Y]
 }
 
-/// TimeSlices the camera about its target. `delta` in radians: x to the right, y down, as the pointer moves.
+/// Turns the camera about its target. `delta` in radians: x to the right, y down, as the pointer moves.
 /// The patient's long axis stays upright and the camera does not go over the poles.
 pub fn orbit(camera: &mut Camera, delta: Vec2) {
     let [_, up, back] = axes(camera.rotate);

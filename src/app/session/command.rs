@@ -52,7 +52,7 @@ pub enum Command {
     AddSeed(Vec3, f32),
     /// Measures from or to a point of subject space.
     Measure(Option<Vec3>),
-    /// TimeSlices the look to the surface that was found.
+    /// Turns the look to the surface that was found.
     LookAt(Option<Found>),
     /// Lays the template of this index on the surface that was found along its axis.
     LayOn(usize, Option<Found>),
@@ -76,7 +76,7 @@ pub enum Command {
     Paste,
     /// Mirrors the selected template, with its group, across a middle plane of the subject: as a copy, or where it is.
     Mirror(Plane, bool),
-    /// TimeSlices and moves the selected template so that it lies on the surface under it.
+    /// Turns and moves the selected template so that it lies on the surface under it.
     LayOnSurface,
     /// Bends the selected template along the surface under it.
     FollowSurface,
@@ -104,7 +104,7 @@ pub enum Command {
     ResetView,
     /// Takes another camera, as a hand moved it.
     MoveCamera(Camera),
-    /// TimeSlices the camera, radians to the right and down.
+    /// Turns the camera, radians to the right and down.
     Orbit(f32, f32),
     /// Comes closer by a factor.
     Zoom(f32),
@@ -144,9 +144,9 @@ pub enum Command {
     EditCaption(usize),
     /// Shows or hides the choice among the volumes of the subject's file.
     ToggleFrames,
-    /// TimeSlices from the light theme to the dark one, or back.
+    /// Turns from the light theme to the dark one, or back.
     ToggleTheme,
-    /// TimeSlices to the next panel and gives it the keyboard, or with `false` to the one before.
+    /// Turns to the next panel and gives it the keyboard, or with `false` to the one before.
     NextPanel(bool),
     /// High contrast or the usual one.
     ToggleContrast,
@@ -172,7 +172,7 @@ pub enum GizmoMode {
     /// Along the axes, in the planes between them, freely.
     #[default]
     Move,
-    /// TimeSlices about the axes of the template.
+    /// Turns about the axes of the template.
     Turn,
     /// The faces of the box.
     Size,

@@ -359,7 +359,7 @@ impl Session {
         }
     }
 
-    /// TimeSlices to the next panel, or the one before, and gives it the keyboard.
+    /// Turns to the next panel, or the one before, and gives it the keyboard.
     fn next_panel(&mut self, forward: bool) {
         const PANELS: [Tab; 5] = [Tab::Add, Tab::Templates, Tab::Tissues, Tab::Look, Tab::Text];
         // The catalogue has a place of its own where there is room.

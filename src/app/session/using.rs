@@ -169,7 +169,7 @@ impl Session {
         };
     }
 
-    /// TimeSlices the look to a point of the object, from the same side.
+    /// Turns the look to a point of the object, from the same side.
     pub(super) fn look_at(&mut self, found: Option<Found>) {
         if let Some(found) = found {
             self.glide_to(Camera {

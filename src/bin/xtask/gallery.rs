@@ -311,7 +311,7 @@ fn middle(name: &str) -> Value {
     rounded([0.0, forward, 0.0])
 }
 
-/// TimeSlices a template's z towards a side, its x to the left as one looks at it.
+/// Turns a template's z towards a side, its x to the left as one looks at it.
 fn facing(angle_deg: f32) -> Value {
     let (s, c) = (angle_deg / 2.0).to_radians().sin_cos();
     let (r, t) = (

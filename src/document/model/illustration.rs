@@ -75,7 +75,7 @@ impl Illustration {
 pub struct Camera {
     /// The point in the middle of the picture, subject space.
     pub target: Vec3,
-    /// TimeSlices the camera about the target; the identity looks from +y towards -y with +z up.
+    /// Turns the camera about the target; the identity looks from +y towards -y with +z up.
     pub rotate: Quat,
     /// Distance from the target, subject units.
     pub distance: f32,
