@@ -1,6 +1,6 @@
 //! Takes in everything that the shell hands over: opened files, loads piece by piece, answers to requests.
 
-use crate::app::services::Message;
+use crate::app::services::{Message, SavedTo};
 use crate::app::session::{Gravity, LoadOf};
 use crate::app::window::App;
 use crate::app::words::{self, fill};
@@ -38,11 +38,14 @@ impl App {
                 Message::Field { want, outcome } => self.take_field(want, *outcome),
                 Message::Pasted(text) => self.session.take_pasted(text),
                 Message::Copied(outcome) => self.session.copied(outcome),
-                Message::Saved(Ok(name)) => self.session.notify(
-                    Gravity::Success,
-                    fill(words::messages::w().saved, &[&name]),
-                    "",
-                ),
+                Message::Saved(Ok(place)) => {
+                    let text = words::messages::w();
+                    let line = match place {
+                        SavedTo::Downloads(name) => fill(text.saved_in_downloads, &[&name]),
+                        SavedTo::Path(path) => fill(text.saved, &[&path.display()]),
+                    };
+                    self.session.notify(Gravity::Success, line, "");
+                }
                 Message::Saved(Err(error)) if error.is_empty() => {}
                 Message::Saved(Err(error)) => {
                     self.session

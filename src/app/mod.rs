@@ -35,6 +35,8 @@ mod panel;
 #[cfg(feature = "app")]
 mod picture;
 #[cfg(feature = "app")]
+mod saving;
+#[cfg(feature = "app")]
 mod services;
 #[cfg(feature = "app")]
 mod tissue_work;
@@ -48,7 +50,7 @@ pub use self::canvas::captions::caption_places;
 #[cfg(feature = "app")]
 pub use self::canvas::lettering::letter;
 #[cfg(feature = "app")]
-pub use self::services::{Message, Services};
+pub use self::services::{Message, SavedTo, Services};
 pub use self::session::{
     Command, GizmoMode, LinkChange, Pane, STORED_DOCUMENT, SaveFile, See, StandardView, Ticket,
     TissueCommand, Tool,

@@ -1,6 +1,8 @@
 //! What the app asks of its surroundings, and what comes back. The shell implements [`Services`] natively and on the
 //! page; tests have a false one. Nothing here blocks and nothing here knows a file, a thread or an address bar.
 
+use std::path::PathBuf;
+
 use crate::app::session::{LinkChange, SaveFile, Ticket};
 use crate::assets::{LoadEvent, SegmentationsExpected, Want};
 use crate::document::RawVoxels;
@@ -72,6 +74,15 @@ pub trait Services {
     }
 }
 
+/// Where a file went that was given to the user.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SavedTo {
+    /// A file of this name among the downloads of the browser, wherever those are.
+    Downloads(String),
+    /// A file of this machine.
+    Path(PathBuf),
+}
+
 /// What the shell tells the app: results of the calls of [`Services`], and what the user opened.
 #[derive(Debug)]
 pub enum Message {
@@ -110,9 +121,8 @@ pub enum Message {
     Copied(Result<(), String>),
     /// The text on the clipboard; `None` where the clipboard may not be read.
     Pasted(Option<String>),
-    /// The name under which the file was saved, or why it was not; an empty reason means that the user thought better
-    /// of it.
-    Saved(Result<String, String>),
+    /// Where the file was saved, or why it was not; an empty reason means that the user thought better of it.
+    Saved(Result<SavedTo, String>),
     /// A shader file was changed. Sent by debug builds only.
     #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
     ShadersChanged,

@@ -5,9 +5,10 @@ use std::time::Duration;
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, Vec2, vec2};
 
 use crate::app::canvas::panes::{self, Places};
+use crate::app::canvas::saved::Saving;
 use crate::app::canvas::slices::Slices;
 use crate::app::canvas::viewport::{self, Viewport};
-use crate::app::canvas::{hint, lettering, steps, title};
+use crate::app::canvas::{hint, steps, title};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, widget};
@@ -19,8 +20,8 @@ use crate::app::picture::catalogue_icons::CatalogueIcons;
 use crate::app::picture::host::Picture;
 use crate::app::services::Services;
 use crate::app::session::{
-    Command, Effect, Focus, Gravity, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING, SaveFile,
-    Session, Tab, Ticket,
+    Command, Effect, Focus, Gravity, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING, Session, Tab,
+    Ticket,
 };
 use crate::app::tissue_work;
 use crate::app::words::{self, Lang};
@@ -28,7 +29,7 @@ use crate::assets::{Assets, SegmentationsExpected, Want};
 use crate::data::{Resources, SubjectBuilder};
 use crate::document::{Document, SegmentsRef};
 use crate::load::LabelFile;
-use crate::render::{Clock, RenderNotice, encode_png};
+use crate::render::{Clock, RenderNotice};
 
 /// Width in points below which panels become drawers.
 const NARROW: f32 = 760.0;
@@ -58,7 +59,7 @@ pub struct App {
     pub(crate) services: Box<dyn Services>,
     pub(crate) picture: Option<Picture>,
     icons: CatalogueIcons,
-    viewport: Viewport,
+    pub(crate) viewport: Viewport,
     /// A message about the lost device has been shown.
     has_told_loss: bool,
     /// Effects of commands that are carried out in the window once the frame is drawn.
@@ -67,9 +68,9 @@ pub struct App {
     focus: Option<Focus>,
     announced: Announced,
     /// The next picture asked for is of the size that is shown.
-    wants_shown_size: bool,
-    /// Title and credit are written into the picture that is being made.
-    is_lettering: bool,
+    pub(crate) wants_shown_size: bool,
+    /// The picture on its way into a file.
+    pub(crate) saving: Option<Saving>,
     /// The window is narrow: panels open as drawers over the picture.
     is_narrow: bool,
     /// Fingers point first, so that controls are large in a wide window too.
@@ -166,7 +167,7 @@ impl App {
             focus: None,
             announced: Announced::default(),
             wants_shown_size: false,
-            is_lettering: false,
+            saving: None,
             is_narrow: false,
             incoming: SubjectBuilder::default(),
             assets: Assets::default(),
@@ -263,6 +264,7 @@ impl App {
                 Effect::Ask(question) => self.viewport.take_question(question),
                 Effect::Focus(focus) => self.focus = Some(focus),
                 Effect::SavePicture
+                | Effect::StopSaving
                 | Effect::ToggleTheme
                 | Effect::ToggleContrast
                 | Effect::Scale(_) => self.pending.push(effect),
@@ -294,23 +296,12 @@ impl App {
                 Effect::Scale(factor) => {
                     ctx.set_zoom_factor((ctx.zoom_factor() * factor).clamp(0.6, 3.0));
                 }
-                Effect::SavePicture => self.start_picture_file(ui.pixels_per_point()),
+                Effect::SavePicture => self.start_saving(ui.pixels_per_point()),
+                Effect::StopSaving => self.stop_saving(),
                 // The rest is done at once.
                 _ => {}
             }
         }
-    }
-
-    fn start_picture_file(&mut self, pixels_per_point: f32) {
-        let Some(picture) = &mut self.picture else {
-            return;
-        };
-        let size = self.viewport.size_px(pixels_per_point);
-        let is_as_shown = std::mem::take(&mut self.wants_shown_size);
-        let size = if is_as_shown { size } else { file_size(size) };
-        picture.start_file(&self.session.shown_as_seen(), size);
-        // A script asks for the picture as the window shows it, without lettering.
-        self.is_lettering = self.session.is_lettering && !is_as_shown;
     }
 
     // ------------------------------------------------------------------------------------------------ frame
@@ -451,6 +442,7 @@ impl App {
         self.announce(ui);
         self.perform_in_window(ui);
         let ctx = ui.ctx();
+        self.advance_saving(ctx);
         if let Some(picture) = &mut self.picture {
             for notice in picture.take_notices() {
                 // A file that is not there yet may be on its way.
@@ -459,32 +451,6 @@ impl App {
                     let line = notice.to_string();
                     self.session.notify(Gravity::Warning, line, "");
                 }
-            }
-            let file = picture.poll_file().map(|image| {
-                let mut image = image?;
-                if self.is_lettering {
-                    let places = self.viewport.caption_places();
-                    lettering::letter_with(ctx, &mut image, &self.session.shown_as_seen(), &places);
-                }
-                encode_png(&image)
-            });
-            match file {
-                Some(Ok(bytes)) => {
-                    let name = format!("{}.png", self.session.file_stem());
-                    self.services.save_file(SaveFile {
-                        name,
-                        mime: "image/png",
-                        bytes,
-                    });
-                }
-                Some(Err(error)) => {
-                    self.session.notify(
-                        Gravity::Error,
-                        words::messages::w().picture_failed,
-                        error.to_string(),
-                    );
-                }
-                None => {}
             }
             // Icons are drawn when the picture has had its turn, somebody sees them, and no hand is at work: making
             // a program for the GPU may take longer than a frame.
@@ -771,13 +737,6 @@ fn scroll(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
         widget::directed(ui, contents);
         ui.add_space(12.0);
     });
-}
-
-/// A saved picture has the window's proportions, and at least 2,000 pixels along its longer side.
-fn file_size([width, height]: [u32; 2]) -> [u32; 2] {
-    let longest = width.max(height).max(1) as f32;
-    let factor = (2000.0 / longest).max(1.0);
-    [width, height].map(|side| ((side as f32 * factor).round() as u32).clamp(1, 4096))
 }
 
 impl eframe::App for App {

@@ -13,7 +13,7 @@ use super::files::{Folder, Picked, local};
 use super::loading::{
     make_subject, read_file, read_segments, resolutions, take_segmentations, wanted_file,
 };
-use crate::app::{App, LinkChange, Message, SaveFile, Services, Start, Ticket};
+use crate::app::{App, LinkChange, Message, SaveFile, SavedTo, Services, Start, Ticket};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
 use crate::document::{Document, RawVoxels, Reading};
@@ -612,7 +612,7 @@ impl Services for NativeServices {
             let outcome = match pollster::block_on(dialog) {
                 None => Err(String::new()),
                 Some(chosen) => write_whole(chosen.path(), &file.bytes)
-                    .map(|()| chosen.file_name())
+                    .map(|()| SavedTo::Path(chosen.path().to_owned()))
                     .map_err(|error| error.to_string()),
             };
             send(&sender, &ctx, Message::Saved(outcome));

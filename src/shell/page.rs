@@ -13,7 +13,7 @@ use super::worker::answer::Answer;
 use super::worker::fault::text_of;
 use super::worker::run::{self, WorkerLoad};
 use super::worker::task::{ScanTask, Task};
-use crate::app::{LinkChange, Message, STORED_DOCUMENT, SaveFile, Services, Ticket};
+use crate::app::{LinkChange, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, Ticket};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
 use crate::document::{RawVoxels, Reading};
@@ -615,7 +615,9 @@ impl Services for PageServices {
                 link.click();
                 Url::revoke_object_url(&address)
             });
-        let outcome = saved.map(|()| file.name).map_err(|error| text_of(&error));
+        let outcome = saved
+            .map(|()| SavedTo::Downloads(file.name))
+            .map_err(|error| text_of(&error));
         self.0.borrow_mut().send(Message::Saved(outcome));
     }
 

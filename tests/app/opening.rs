@@ -381,6 +381,94 @@ fn documents_and_pictures_are_saved() {
     assert_eq!(file.bytes.get(1..4), Some(b"PNG".as_slice()), "a PNG");
 }
 
+impl Window {
+    /// Steps until a picture is saved, and shows what was seen meanwhile: how far the work was, in the order of frames.
+    fn watch_saving(&mut self) -> Vec<f64> {
+        let before = self.log.0.borrow().saved.len();
+        let patience = clock() + 120.0;
+        let mut seen = Vec::new();
+        while clock() < patience && self.log.0.borrow().saved.len() == before {
+            self.harness.step();
+            let work = self.harness.query_by_label("Saving the picture…");
+            seen.extend(work.and_then(|work| work.accesskit_node().numeric_value()));
+        }
+        seen
+    }
+}
+
+#[test]
+fn saving_a_picture_tells_how_far_it_is_and_where_the_file_went() {
+    let mut window = Window::open(
+        vec2(900.0, 600.0),
+        r#"{ "fabrica": 1, "title": "A cube, cut", "subject": { "builtin": "cube" } }"#,
+    );
+    window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    let seen = window.watch_saving();
+    assert!(seen.len() >= 2 && seen.is_sorted(), "{seen:?}");
+    assert!(
+        seen.iter().all(|part| (0.0..=1.0).contains(part)),
+        "{seen:?}"
+    );
+    assert!(seen.last() > seen.first(), "it went on: {seen:?}");
+    window.steps(3);
+    assert!(
+        window
+            .harness
+            .query_by_label("Saving the picture…")
+            .is_none()
+    );
+    window
+        .harness
+        .get_by_label("a-cube-cut.png is in this browser's downloads");
+}
+
+#[test]
+fn saving_a_picture_can_be_stopped() {
+    let mut window = Window::open(vec2(900.0, 600.0), CUBE);
+    window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    window.look("saving");
+    window.click("Stop saving");
+    window
+        .harness
+        .get_by_label("Saving was stopped; no file was made");
+    window.settle();
+    assert!(window.log.0.borrow().saved.is_empty(), "no file was made");
+    // The next one is made as if nothing had been.
+    window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    window.watch_saving();
+    assert_eq!(window.log.0.borrow().saved.len(), 1);
+}
+
+/// A script that asks for the picture cannot be told that somebody stopped it.
+#[test]
+fn a_picture_for_a_script_is_not_offered_to_be_stopped() {
+    let mut window = Window::open(vec2(900.0, 600.0), CUBE);
+    window.harness.state_mut().ask_for_picture();
+    assert_eq!(window.watch_saving(), [0.0; 0]);
+    assert_eq!(window.log.0.borrow().saved.len(), 1);
+}
+
+#[test]
+fn a_picture_saved_from_a_phone_ends_where_the_object_does() {
+    let mut window = Window::open(vec2(390.0, 844.0), CUBE);
+    window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    window.watch_saving();
+    let log = window.log.0.borrow();
+    let file = log.saved.last().expect("a picture");
+    let picture = image::load_from_memory(&file.bytes)
+        .expect("a PNG")
+        .to_rgba8();
+    if let Some(folder) = std::env::var_os("FABRICA_LOOK_AT") {
+        let path = std::path::Path::new(&folder).join("saved_from_a_phone.png");
+        picture.save(path).expect("a picture to look at");
+    }
+    let ground = *picture.get_pixel(0, 0);
+    let rows = (0..picture.height())
+        .filter(|y| (0..picture.width()).any(|x| *picture.get_pixel(x, *y) != ground));
+    let filled = rows.count() as f32 / picture.height() as f32;
+    assert!(filled > 0.6, "{filled} of the rows show the object");
+}
+
 /// From the drop of a file to the first answer of its reader, the window is not at rest and says that it loads.
 #[test]
 fn a_file_being_looked_at_is_waited_for() {

@@ -162,7 +162,8 @@ impl Services for Fake {
     }
     fn save_file(&mut self, file: SaveFile) {
         let log = &mut *self.0.borrow_mut();
-        log.queue.push(Message::Saved(Ok(file.name.clone())));
+        log.queue
+            .push(Message::Saved(Ok(SavedTo::Downloads(file.name.clone()))));
         log.saved.push(file);
     }
     fn copy_text(&mut self, text: String) {

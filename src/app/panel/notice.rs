@@ -15,7 +15,7 @@ const SHOWN: usize = 3;
 
 /// Over the bottom of the picture: loading, then the newest lines.
 pub(crate) fn ui(ui: &Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
-    let is_busy = session.load.is_some() || session.is_reading;
+    let is_busy = session.load.is_some() || session.is_reading || session.saving.is_some();
     if !is_busy && session.notices.shown().next().is_none() {
         return;
     }
@@ -38,6 +38,10 @@ pub(crate) fn ui(ui: &Ui, rect: Rect, session: &Session, commands: &mut Vec<Comm
         let count = session.notices.shown().count();
         for notice in session.notices.shown().skip(count.saturating_sub(SHOWN)) {
             notice_ui(ui, notice, commands);
+        }
+        if let Some(fraction) = session.saving {
+            let work = (w().saving, w().stop_saving);
+            work_ui(ui, work, fraction, Command::StopSaving, commands);
         }
         if let Some(load) = &session.load {
             load_ui(ui, load, commands);
@@ -134,27 +138,40 @@ fn notice_ui(ui: &mut Ui, notice: &Notice, commands: &mut Vec<Command>) {
 }
 
 fn load_ui(ui: &mut Ui, load: &Load, commands: &mut Vec<Command>) {
+    let Some(host) = &load.host else {
+        let stage = names::stage(&load.what);
+        let work = (stage.as_str(), w().cancel_loading);
+        return work_ui(ui, work, load.fraction, Command::CancelLoad, commands);
+    };
+    card(ui, Palette::get(ui).line, |ui| {
+        ui.add(Label::new(fill(w().fetch_it, &[host])).wrap());
+        ui.horizontal(|ui| {
+            if widget::labelled_button(ui, Icon::Download, w().fetch, true, true).clicked() {
+                commands.push(Command::AllowHost);
+            }
+            if widget::labelled_button(ui, Icon::Close, w().no, false, true).clicked() {
+                commands.push(Command::CancelLoad);
+            }
+        });
+    });
+}
+
+/// Work under way: its name, how much of it is done, and a button that stops it.
+fn work_ui(
+    ui: &mut Ui,
+    (name, stop_name): (&str, &str),
+    fraction: f32,
+    stop: Command,
+    commands: &mut Vec<Command>,
+) {
     let palette = Palette::get(ui);
     card(ui, palette.line, |ui| {
-        if let Some(host) = &load.host {
-            ui.add(Label::new(fill(w().fetch_it, &[host])).wrap());
-            ui.horizontal(|ui| {
-                if widget::labelled_button(ui, Icon::Download, w().fetch, true, true).clicked() {
-                    commands.push(Command::AllowHost);
-                }
-                if widget::labelled_button(ui, Icon::Close, w().no, false, true).clicked() {
-                    commands.push(Command::CancelLoad);
-                }
-            });
-            return;
-        }
         ui.horizontal(|ui| {
-            let percent = (load.fraction * 100.0).round();
-            let text = format!("{} {percent} %", names::stage(&load.what));
-            ui.add(Label::new(text).truncate());
+            let percent = (fraction * 100.0).round();
+            ui.add(Label::new(format!("{name} {percent} %")).truncate());
             ui.with_layout(widget::against(), |ui| {
-                if widget::icon_button(ui, Icon::Close, w().cancel_loading, true).clicked() {
-                    commands.push(Command::CancelLoad);
+                if widget::icon_button(ui, Icon::Close, stop_name, true).clicked() {
+                    commands.push(stop);
                 }
                 let (bar, response) = ui.allocate_exact_size(
                     vec2((ui.available_width() - 8.0).max(20.0), 4.0),
@@ -162,13 +179,13 @@ fn load_ui(ui: &mut Ui, load: &Load, commands: &mut Vec<Command>) {
                 );
                 response.widget_info(|| {
                     let mut info =
-                        egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, w().loading);
-                    info.value = Some(f64::from(load.fraction));
+                        egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, name);
+                    info.value = Some(f64::from(fraction));
                     info
                 });
                 ui.painter()
                     .rect_filled(bar, CornerRadius::same(2), palette.sunken);
-                let done = bar.with_max_x(bar.left() + bar.width() * load.fraction.clamp(0.0, 1.0));
+                let done = bar.with_max_x(bar.left() + bar.width() * fraction.clamp(0.0, 1.0));
                 ui.painter()
                     .rect_filled(done, CornerRadius::same(2), palette.accent);
             });

@@ -1,6 +1,8 @@
 //! The picture in the middle: the renderer, the texture that egui shows, and the questions to the GPU that wait
 //! for an answer. The only file of this room that uses wgpu.
 
+use std::cell::Cell;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use eframe::egui_wgpu::RenderState;
@@ -10,10 +12,18 @@ use super::pending::{Pending, poll_once};
 use crate::app::session::{Command, Found, Place, Question};
 use crate::data::{Resources, Segment, Segmentation, Subject};
 use crate::document::{Background, Camera, Illustration};
+use crate::math::Aabb;
 use crate::render::{
     Clock, DrawState, Gpu, Image, PendingPick, PendingPlaces, PendingSlice, Pick, RenderError,
     RenderNotice, Renderer, SlicePlane, SliceView, SubjectInfo, View,
 };
+
+/// A picture for a file, in the making.
+struct FileJob {
+    picture: Pending<Result<Image, RenderError>>,
+    /// How much of it is drawn, 0 to 1.
+    progress: Rc<Cell<f32>>,
+}
 
 /// The renderer with what the interface needs around it. Built once per window.
 pub(crate) struct Picture {
@@ -28,7 +38,7 @@ pub(crate) struct Picture {
     ghost_texture: Option<(egui::TextureId, u64)>,
     clock: Clock,
     questions: Vec<(Question, PendingPick)>,
-    file: Option<Pending<Result<Image, RenderError>>>,
+    file: Option<FileJob>,
     /// As of the last frame.
     pub(crate) state: DrawState,
 }
@@ -258,19 +268,41 @@ impl Picture {
         self.renderer.follow_points(points)
     }
 
-    /// Starts drawing the picture once more for a file.
+    /// Starts drawing the picture once more for a file, in place of one that is being drawn.
     pub(crate) fn start_file(&mut self, illustration: &Illustration, size_px: [u32; 2]) {
-        let future = self
-            .renderer
-            .render_image(illustration, size_px, FILE_SAMPLES);
-        self.file = Some(Box::pin(future));
+        let progress = Rc::new(Cell::new(0.0));
+        let told = Rc::clone(&progress);
+        let picture =
+            self.renderer
+                .render_image(illustration, size_px, FILE_SAMPLES, move |part| {
+                    told.set(part)
+                });
+        self.file = Some(FileJob {
+            picture: Box::pin(picture),
+            progress,
+        });
     }
 
     /// The picture for a file once it is there.
     pub(crate) fn poll_file(&mut self) -> Option<Result<Image, RenderError>> {
-        let image = poll_once(self.file.as_mut()?)?;
+        let image = poll_once(&mut self.file.as_mut()?.picture)?;
         self.file = None;
         Some(image)
+    }
+
+    /// How much of the picture for a file is drawn, 0 to 1; none while none is asked for.
+    pub(crate) fn file_progress(&self) -> Option<f32> {
+        self.file.as_ref().map(|file| file.progress.get())
+    }
+
+    /// Stops drawing the picture for a file.
+    pub(crate) fn stop_file(&mut self) {
+        self.file = None;
+    }
+
+    /// Box of the deformed object as it was last drawn, subject space.
+    pub(crate) fn bounds(&self) -> Option<Aabb> {
+        self.renderer.bounds()
     }
 
     /// The GPU is busy with something that the interface waits for.

@@ -124,6 +124,8 @@ pub enum Command {
     SaveDocument,
     /// Saves the picture as a PNG.
     SavePicture,
+    /// Stops making the picture for a file.
+    StopSaving,
     /// Stops the load under way; what was shown before stays.
     CancelLoad,
     /// Fetches from the host that was asked about.

@@ -52,6 +52,8 @@ pub enum Effect {
     Save(SaveFile),
     /// Draw the picture once more for a file.
     SavePicture,
+    /// Stop making the picture for a file.
+    StopSaving,
     /// Put text on the clipboard.
     Copy(String),
     /// Put the link on the clipboard; the text goes behind the `#` of the page's address.

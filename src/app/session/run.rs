@@ -126,6 +126,7 @@ impl Session {
             Command::CopyLink => self.copy_link(),
             Command::SaveDocument => self.save_document(),
             Command::SavePicture => self.effect(Effect::SavePicture),
+            Command::StopSaving => self.effect(Effect::StopSaving),
             Command::CancelLoad => {
                 if let Some(load) = &self.load {
                     self.effects.push(Effect::CancelLoad(load.ticket));

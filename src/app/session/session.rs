@@ -125,6 +125,8 @@ pub struct Session {
     pub load: Option<Load>,
     /// True while the shell reads files of which it is not yet known what they are, and fields.
     pub is_reading: bool,
+    /// How much of the picture for a file is drawn, 0 to 1, while one is made that the user asked for.
+    pub saving: Option<f32>,
     /// Number of the message of the last load that failed, until one is done.
     pub(super) load_failure: Option<u64>,
     /// What the subject's file leaves to choose.
@@ -197,6 +199,7 @@ impl Session {
             notices: Notices::default(),
             load: None,
             is_reading: false,
+            saving: None,
             load_failure: None,
             files: FileChoice::default(),
             requested: None,

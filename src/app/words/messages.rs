@@ -7,6 +7,10 @@ words! {
         link_long: "The link has {0} characters, which some programs cut off; a saved document is safer", "Der Link hat {0} Zeichen, was manche Programme kürzen; ein gesichertes Dokument ist sicherer", "El enlace tiene {0} caracteres y algunos programas lo cortan; es más seguro guardar el documento", "链接有 {0} 个字符，有些程序会截断；保存文档更稳妥";
         clipboard_refused: "The clipboard did not take the link", "Die Zwischenablage hat den Link nicht angenommen", "El portapapeles no aceptó el enlace", "剪贴板未能接受链接";
         saved: "Saved {0}", "{0} gesichert", "{0} guardado", "已保存 {0}";
+        saved_in_downloads: "{0} is in this browser's downloads", "{0} liegt bei den Downloads dieses Browsers", "{0} está en las descargas de este navegador", "{0} 已存入此浏览器的下载内容";
+        saving: "Saving the picture…", "Das Bild wird gesichert …", "Guardando la imagen…", "正在保存图片…";
+        stop_saving: "Stop saving", "Sichern anhalten", "Detener el guardado", "停止保存";
+        saving_stopped: "Saving was stopped; no file was made", "Das Sichern wurde angehalten; es gibt keine Datei", "Se detuvo el guardado; no se creó ningún archivo", "已停止保存，未生成文件";
         not_saved: "The file was not saved", "Die Datei wurde nicht gesichert", "El archivo no se guardó", "文件未保存";
         cannot_be_held: "The scan cannot be held", "Der Scan lässt sich nicht aufnehmen", "El estudio no cabe en memoria", "无法容纳该扫描";
         loading_stopped: "Loading was stopped", "Das Laden wurde angehalten", "Se detuvo la carga", "已停止载入";

@@ -47,8 +47,12 @@ impl PictureJob {
             .bake(&self.gpu, &mut self.scene, texels_along, u32::MAX);
     }
 
-    /// Draws it, from the start each time.
-    pub(crate) async fn draw(&self, samples: u32) -> Result<Image, RenderError> {
+    /// Draws it, from the start each time, and reports after each batch how much of it is drawn, 0 to 1.
+    pub(crate) async fn draw(
+        &self,
+        samples: u32,
+        on_progress: impl Fn(f32),
+    ) -> Result<Image, RenderError> {
         let linear = Target::new(&self.gpu, "linear", self.size, LINEAR_FORMAT);
         let output = Target::new(&self.gpu, "image", self.size, OUTPUT_FORMAT);
         let baked = self.scene.baked();
@@ -58,6 +62,7 @@ impl PictureJob {
         };
         let pipeline = self.passes.raycast.pipeline(&self.gpu, key);
         let tiles = tiles_of(self.size);
+        let (mut drawn, all) = (0, tiles.len() * samples as usize);
         for index in 0..samples {
             let frame = frame_of(
                 &self.view,
@@ -86,6 +91,8 @@ impl PictureJob {
                 self.gpu.queue.submit([encoder.finish()]);
                 WorkDone::start(&self.gpu).await?;
                 self.gpu.check()?;
+                drawn += batch.len();
+                on_progress(drawn as f32 / all as f32);
             }
         }
         let mut encoder = encoder(&self.gpu);

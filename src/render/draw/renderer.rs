@@ -9,6 +9,7 @@ use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
 use crate::data::{Resources, Segment, Segmentation, Subject};
 use crate::document::{Camera, Illustration};
+use crate::math::Aabb;
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -346,6 +347,11 @@ impl Renderer {
         self.studio.as_ref().map(|s| s.info())
     }
 
+    /// Box of the deformed object as it was last drawn, subject space.
+    pub fn bounds(&self) -> Option<Aabb> {
+        self.scene.as_ref().map(Scene::bounds)
+    }
+
     /// The named segments of the subject, once one is on the GPU.
     pub fn segments(&self) -> &[Segment] {
         self.studio.as_ref().map_or(&[], |s| s.segments())
@@ -463,19 +469,21 @@ impl Renderer {
         Ok(true)
     }
 
-    /// A finished picture of the subject on the GPU, independent of the picture in the window: for PNG export and
-    /// icons. The future owns its resources and may be polled once per frame.
-    pub fn render_image(
+    /// A finished picture of the subject on the GPU, independent of the picture in the window: for PNG export.
+    /// `on_progress` hears how much of the picture is drawn, 0 to 1. The future owns its resources and may be polled
+    /// once per frame; who drops it stops the work.
+    pub fn render_image<P: Fn(f32) + 'static>(
         &self,
         illustration: &Illustration,
         size_px: [u32; 2],
         samples: u32,
-    ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        on_progress: P,
+    ) -> impl Future<Output = Result<Image, RenderError>> + 'static + use<P> {
         let started = self
             .studio
             .as_ref()
             .map(|studio| studio.clone().with_resources(self.resources.clone()))
-            .map(|studio| studio.render_image(illustration, size_px, samples));
+            .map(|studio| studio.render_with_progress(illustration, size_px, samples, on_progress));
         async move {
             match started {
                 Some(picture) => picture.await,

@@ -126,8 +126,19 @@ impl Studio {
         size_px: [u32; 2],
         samples: u32,
     ) -> impl Future<Output = Result<Image, RenderError>> + 'static + use<> {
+        self.render_with_progress(illustration, size_px, samples, |_| {})
+    }
+
+    /// As [`Studio::render_image`]; `on_progress` hears how much of the picture is drawn, 0 to 1.
+    pub(crate) fn render_with_progress<P: Fn(f32) + 'static>(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        samples: u32,
+        on_progress: P,
+    ) -> impl Future<Output = Result<Image, RenderError>> + 'static + use<P> {
         let job = self.picture(illustration, size_px);
-        async move { job?.draw(samples.max(1)).await }
+        async move { job?.draw(samples.max(1), on_progress).await }
     }
 
     /// Draws one picture from the baked map, with so many texels along its longest side, as the viewer does
@@ -147,7 +158,7 @@ impl Studio {
         async move {
             let mut job = job?;
             job.bake(texels_along);
-            job.draw(samples.max(1)).await
+            job.draw(samples.max(1), |_| {}).await
         }
     }
 

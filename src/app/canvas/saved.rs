@@ -1,0 +1,94 @@
+//! A picture on its way into a file: as it was when it was asked for, in its own frame, with its texts.
+
+use glam::Vec2;
+
+use super::caption_layout::CaptionPlace;
+use super::lettering;
+use crate::document::{Camera, Illustration};
+use crate::math::Aabb;
+use crate::render::{Image, RenderError, View, encode_png};
+
+/// Pixels along the longer side of a saved picture at least, and along either side at most.
+const LEAST_PX: f32 = 2000.0;
+const MOST_PX: u32 = 4096;
+/// Free room around the object in a frame that was made lower, of the object's height.
+const MARGIN: f32 = 0.06;
+
+/// A picture on its way into a file, as it was when it was asked for.
+pub(crate) struct Saving {
+    /// The illustration with its camera.
+    pub illustration: Illustration,
+    /// Name of the file.
+    pub name: String,
+    /// The texts that are written into the picture, and where the captions are; none: no text is.
+    pub captions: Option<Vec<CaptionPlace>>,
+    /// Asked for by a script, which waits for the picture.
+    pub is_for_script: bool,
+}
+
+impl Saving {
+    /// The PNG of the drawn picture, lettered where that is wished.
+    pub(crate) fn encoded(
+        &self,
+        ctx: &egui::Context,
+        mut image: Image,
+    ) -> Result<Vec<u8>, RenderError> {
+        if let Some(places) = &self.captions {
+            lettering::letter_with(ctx, &mut image, &self.illustration, places);
+        }
+        encode_png(&image)
+    }
+}
+
+/// Size of a saved picture, pixels: the proportions of the picture in the window, which has `shown_px`, and at least
+/// [`LEAST_PX`] along the longer side. Where the window is higher than wide, as on a phone, the frame ends above and
+/// below the object, whose box in subject space is `bounds`: most of the picture would be empty else.
+pub(crate) fn file_size(shown_px: [u32; 2], camera: &Camera, bounds: Option<Aabb>) -> [u32; 2] {
+    let [width, height] = shown_px.map(|side| side.max(1) as f32);
+    let needed = bounds.map_or(height, |bounds| {
+        let view = View::new(camera, shown_px);
+        let off_middle = |corner: Vec2| (corner.y - 0.5 * height).abs();
+        let reach = bounds.corners().iter().try_fold(0.0_f32, |reach, corner| {
+            Some(reach.max(off_middle(view.pixel_from_subject(*corner)?)))
+        });
+        reach.map_or(height, |reach| 2.0 * reach * (1.0 + MARGIN))
+    });
+    let height = needed.clamp(width.min(height), height);
+    let factor = (LEAST_PX / width.max(height)).max(1.0);
+    [width, height].map(|side| ((side * factor).round() as u32).clamp(1, MOST_PX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Document;
+    use glam::Vec3;
+
+    const BOX: Aabb = Aabb {
+        min: Vec3::splat(-0.25),
+        max: Vec3::splat(0.25),
+    };
+
+    #[test]
+    fn a_wide_picture_keeps_the_windows_proportions() {
+        let camera = Document::new().illustration().camera;
+        assert_eq!(file_size([500, 400], &camera, Some(BOX)), [2000, 1600]);
+        assert_eq!(file_size([3000, 1000], &camera, Some(BOX)), [3000, 1000]);
+    }
+
+    #[test]
+    fn a_high_picture_ends_where_the_object_does() {
+        let camera = Document::new().illustration().camera;
+        let [width, height] = file_size([390, 740], &camera, Some(BOX));
+        assert_eq!([width, height], [2000, 2000], "a small object: a square");
+        // A box higher than the picture is wide needs more, one that leaves the window all of it.
+        let tall = |half: f32| Aabb {
+            min: Vec3::new(-0.1, -0.1, -half),
+            max: Vec3::new(0.1, 0.1, half),
+        };
+        let [width, height] = file_size([390, 740], &camera, Some(tall(0.9)));
+        assert!(width < height && height == 2000, "{width} x {height}");
+        assert_eq!(file_size([390, 740], &camera, Some(tall(5.0)))[1], 2000);
+        assert_eq!(file_size([390, 740], &camera, None), [1054, 2000]);
+    }
+}
