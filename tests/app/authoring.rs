@@ -108,7 +108,7 @@ fn the_list_orders_hides_duplicates_and_deletes() {
     };
     window.click("2. skin");
     assert_eq!(window.harness.state().selected(), Some(1));
-    window.click("Let it act earlier");
+    window.click("Move up: acts earlier");
     assert_eq!(kinds(&window), ["peel", "poke", "twist"]);
     assert_eq!(
         window.harness.state().selected(),
@@ -125,7 +125,7 @@ fn the_list_orders_hides_duplicates_and_deletes() {
         Some(1),
         "the copy is selected"
     );
-    window.click("Joins: Added");
+    window.click("Combine: Summed");
     assert_eq!(
         window.document().illustration().templates[1].mode,
         TemplateMode::Add
@@ -337,12 +337,12 @@ fn tissue_is_left_alone_by_check_boxes() {
         let pointer = format!("/templates/0/{key}");
         window.document().get(&pointer).cloned()
     };
-    window.click("Leaves alone: Tissue");
+    window.click("Keep in place: Tissue");
     assert_eq!(get(&window, "align/to"), Some("segment".into()));
     let before = get(&window, "align/keep");
     window
         .harness
-        .get_by_label("Leaves alone: ball")
+        .get_by_label("Keep in place: ball")
         .click_accesskit();
     window.settle();
     window.look("keep");
@@ -358,11 +358,11 @@ fn tissue_is_left_alone_by_check_boxes() {
     window.press_with(Modifiers::COMMAND, Key::Z);
     assert_eq!(get(&window, "align"), None, "nothing is kept by default");
 
-    window.click("Leaves alone: What lies deep");
+    window.click("Keep in place: What lies deep");
     assert_eq!(get(&window, "align/to"), Some("surface".into()));
     window
         .harness
-        .get_by_label("Gives way to: Acts less")
+        .get_by_label("Protect: Weaker")
         .click_accesskit();
     window.settle();
     assert_eq!(get(&window, "constrain/by"), Some("coordinate".into()));

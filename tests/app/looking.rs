@@ -372,7 +372,7 @@ fn an_amount_is_set_shown_and_taken_back() {
     assert!(amount > 0.5, "{amount}");
     window.press_with(Modifiers::COMMAND, Key::Z);
     assert_eq!(window.document().illustration().templates[0].amount, 0.5);
-    window.click("Hide what was before");
+    window.click("End the comparison");
     window.settle();
     window.look("ghost_off");
 }

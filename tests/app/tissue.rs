@@ -58,9 +58,9 @@ fn a_tissue_is_made_cleaned_up_and_kept_by_a_template() {
     // It is there for the template to keep, beside the segments of the subject.
     let name = made[0].name.clone();
     window.place_peel();
-    window.click("Leaves alone: Tissue");
+    window.click("Keep in place: Tissue");
     let title = if name == "bone" { "Bone" } else { &name };
-    let label = format!("Leaves alone: {title}");
+    let label = format!("Keep in place: {title}");
     let keeps = |window: &Window| match &window.document().illustration().templates[0].align {
         Align::Segment { keep, .. } => keep.clone(),
         other => panic!("{other:?}"),
@@ -117,7 +117,7 @@ fn bone_of_a_scan_to_look_at() {
         window.look(&format!("{name}_slices"));
         window.press(Key::V);
         window.place_peel();
-        window.click("Leaves alone: Tissue");
+        window.click("Keep in place: Tissue");
         window.settle();
         window.look(&format!("{name}_peeled"));
     }

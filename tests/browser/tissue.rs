@@ -172,7 +172,7 @@ fn bone_is_found_in_a_scan_and_laid_bare() {
         )
         .await;
         mark(&tab, "templates").await;
-        click(&tab, "Leaves alone: Tissue").await;
+        click(&tab, "Keep in place: Tissue").await;
         let templates = changed(&tab, "templates").await;
         println!(
             "bone named after {found:.1} s, kept by a peel after {:.1} s",

@@ -335,7 +335,7 @@ struct Handles<'a> {
     main: Option<Pos2>,
     /// What the knob stands for.
     main_at: Option<Pos2>,
-    main_name: String,
+    main_name: &'static str,
     /// Where the tip of each arrow is seen.
     tips: [Option<Pos2>; 3],
     /// Middles of the faces: axis, far end, place, and whether it faces the viewer.
@@ -373,7 +373,7 @@ impl<'a> Handles<'a> {
             main_at,
             main_name: spec
                 .main_param
-                .map_or_else(String::new, |i| kinds::param_name(template.kind, i)),
+                .map_or("", |i| kinds::param_name(template.kind, i)),
             tips,
             faces,
         }
@@ -466,7 +466,7 @@ impl<'a> Handles<'a> {
             painter.circle_filled(main, radius, if is_hot { ink::HOT } else { ink::HANDLE });
             if is_hot {
                 let font = crate::app::kit::theme::strong_font(12.0);
-                let text = self.main_name.clone();
+                let text = self.main_name.to_owned();
                 let galley = painter.layout_no_wrap(text, font, egui::Color32::WHITE);
                 let at = main + vec2(16.0, -0.5 * galley.size().y);
                 let back = Rect::from_min_size(at, galley.size()).expand2(vec2(6.0, 3.0));
@@ -621,7 +621,7 @@ impl<'a> Handles<'a> {
             let Some(at) = at.filter(|at| self.view.rect.contains(*at)) else {
                 return;
             };
-            let name = part.name(&in_sentence(&self.main_name));
+            let name = part.name(&in_sentence(self.main_name));
             let rect = Rect::from_center_size(at, Vec2::splat(12.0));
             let id = ui.scope_id().with(("gizmo", template.index, &name));
             let response = ui.interact(rect, id, Sense::empty());

@@ -329,11 +329,26 @@ pub(crate) fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
     galley.size().x
 }
 
-/// A choice among a few entries, side by side. Returns the entry that was chosen in this frame.
+/// A choice among a few entries whose words speak for themselves; see [`explained`].
 pub(crate) fn segmented<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,
     options: &[(T, &str)],
+    current: T,
+) -> Option<T> {
+    let options: Vec<_> = options
+        .iter()
+        .map(|&(value, text)| (value, text, ""))
+        .collect();
+    explained(ui, name, &options, current)
+}
+
+/// A choice among a few entries, side by side: value, word, and a sentence on the entry, shown while the pointer is over
+/// it (none where that is empty). Returns the entry that was chosen in this frame.
+pub(crate) fn explained<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    options: &[(T, &str, &str)],
     current: T,
 ) -> Option<T> {
     let palette = Palette::get(ui);
@@ -347,7 +362,7 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     let step = rect.width() / options.len().max(1) as f32;
     let mut widths: Vec<f32> = options
         .iter()
-        .map(|(_, text)| text_width(ui, text, theme::strong_font(12.5)) + 10.0)
+        .map(|(_, text, _)| text_width(ui, text, theme::strong_font(12.5)) + 10.0)
         .collect();
     let all: f32 = widths.iter().sum();
     let is_tight = widths.iter().any(|width| *width > step);
@@ -358,13 +373,16 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     }
     let letters = 12.5 * fit;
     let mut left = rect.left();
-    for (i, &(value, text)) in options.iter().enumerate() {
+    for (i, &(value, text, hint)) in options.iter().enumerate() {
         let cell =
             Rect::from_min_size(egui::pos2(left, rect.top()), vec2(widths[i], rect.height()));
         left = cell.right();
         let cell = sided(rect, cell);
         let selected = value == current;
-        let response = ui.interact(cell, ui.scope_id().with((name, i)), Sense::click());
+        let mut response = ui.interact(cell, ui.scope_id().with((name, i)), Sense::click());
+        if !hint.is_empty() {
+            response = response.on_hover_text(hint);
+        }
         if selected
             && ui
                 .data_mut(|data| data.remove_temp::<bool>(wants_focus))

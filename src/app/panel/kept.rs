@@ -84,11 +84,11 @@ fn align_ui(
     };
     ui.label(w().leaves).on_hover_text(w().leaves_hint);
     let options = [
-        (Leaves::Nothing, w().nothing),
-        (Leaves::Deep, w().deep),
-        (Leaves::Tissue, w().tissue),
+        (Leaves::Nothing, w().nothing, w().nothing_hint),
+        (Leaves::Deep, w().deep, w().deep_hint),
+        (Leaves::Tissue, w().tissue, w().tissue_hint),
     ];
-    if let Some(leaves) = widget::segmented(ui, w().leaves, &options, current) {
+    if let Some(leaves) = widget::explained(ui, w().leaves, &options, current) {
         let align = match leaves {
             Leaves::Nothing => Align::Axis,
             Leaves::Deep => Align::Surface {
@@ -166,12 +166,12 @@ fn constrain_ui(
     ui.add_space(4.0);
     ui.label(w().yields).on_hover_text(w().yields_hint);
     let options = [
-        (Yields::Nothing, w().nothing),
-        (Yields::Shorter, w().shorter),
-        (Yields::Weaker, w().weaker),
-        (Yields::Whole, w().whole),
+        (Yields::Nothing, w().nothing, w().unprotected_hint),
+        (Yields::Shorter, w().shorter, w().shorter_hint),
+        (Yields::Weaker, w().weaker, w().weaker_hint),
+        (Yields::Whole, w().whole, w().whole_hint),
     ];
-    if let Some(yields) = widget::segmented(ui, w().yields, &options, current) {
+    if let Some(yields) = widget::explained(ui, w().yields, &options, current) {
         let keep = match &template.constrain {
             Some(constrain) => constrain.keep.clone(),
             None => first_set(all, segments),

@@ -43,11 +43,11 @@ pub(crate) fn ui(
     }
     widget::heading(ui, w().opacity_heading, |_| {});
     let options = [
-        (OpacityMode::Constancy, w().surfaces),
-        (OpacityMode::Mass, w().mass),
-        (OpacityMode::None, w().as_it_is),
+        (OpacityMode::Constancy, w().surfaces, w().surfaces_hint),
+        (OpacityMode::Mass, w().mass, w().mass_hint),
+        (OpacityMode::None, w().as_it_is, w().as_it_is_hint),
     ];
-    if let Some(mode) = widget::segmented(ui, w().opacity, &options, look.opacity) {
+    if let Some(mode) = widget::explained(ui, w().opacity, &options, look.opacity) {
         commands.push(Command::Apply(Edit::SetOpacity(mode)));
     }
     let hint = match look.opacity {

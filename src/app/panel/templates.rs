@@ -275,10 +275,10 @@ fn template_ui(
         widget::row(ui, |ui| {
             widget::row_label(ui, w().joins, w().joins_hint);
             let options = [
-                (TemplateMode::Compose, w().after),
-                (TemplateMode::Add, w().summed),
+                (TemplateMode::Compose, w().after, w().after_hint),
+                (TemplateMode::Add, w().summed, w().summed_hint),
             ];
-            if let Some(mode) = widget::segmented(ui, w().joins, &options, template.mode) {
+            if let Some(mode) = widget::explained(ui, w().joins, &options, template.mode) {
                 commands.push(Command::Apply(Edit::SetMode {
                     template: index,
                     mode,
@@ -391,7 +391,7 @@ fn param_ui(
             };
             let shown = |v: f32| f64::from(v) * factor;
             let row = NumberRow {
-                name: &name,
+                name,
                 summary,
                 value: shown(value),
                 default: Some(shown(default)),
@@ -409,7 +409,7 @@ fn param_ui(
         }
         (ParamKind::Count { default, min, max }, ParamValue::Number(value)) => {
             let row = NumberRow {
-                name: &name,
+                name,
                 summary,
                 value: f64::from(value),
                 default: Some(f64::from(default)),
@@ -426,12 +426,9 @@ fn param_ui(
         }
         (ParamKind::Flag { .. }, ParamValue::Flag(value)) => {
             widget::row(ui, |ui| {
-                widget::row_label(ui, &name, summary);
+                widget::row_label(ui, name, summary);
                 let mut on = value;
-                let response = ui
-                    .checkbox(&mut on, "")
-                    .named(name.clone())
-                    .on_hover_text(summary);
+                let response = ui.checkbox(&mut on, "").named(name).on_hover_text(summary);
                 if response.changed() {
                     send(Change::Set(ParamValue::Flag(on)), commands);
                 }
@@ -439,29 +436,30 @@ fn param_ui(
         }
         (ParamKind::Choice { names }, ParamValue::Choice(value)) => {
             widget::row(ui, |ui| {
-                widget::row_label(ui, &name, summary);
+                widget::row_label(ui, name, summary);
                 let titles: Vec<String> = names.iter().map(|name| kinds::choice(name)).collect();
                 let selected = titles.get(value as usize).cloned().unwrap_or_default();
                 let combo = widget::combo("choice", &selected, ui.available_width() - 4.0);
                 let shown = combo.show_ui(ui, |ui| {
-                    for (i, title) in titles.iter().enumerate() {
-                        if ui.selectable_label(i == value as usize, title).clicked() {
+                    for (i, (name, title)) in names.iter().zip(&titles).enumerate() {
+                        let entry = ui.selectable_label(i == value as usize, title);
+                        if entry.on_hover_text(kinds::choice_hint(name)).clicked() {
                             send(Change::Set(ParamValue::Choice(i as u32)), commands);
                         }
                     }
                 });
-                shown.response.named(name.clone());
+                shown.response.named(name);
             });
         }
         (ParamKind::Vector { min, max, .. }, ParamValue::Vector(v)) => {
             let value = v.to_array().map(f64::from);
             let range = [f64::from(min), f64::from(max)];
-            if let Some(change) = widget::vector_row(ui, &name, summary, value, range, "", 3) {
+            if let Some(change) = widget::vector_row(ui, name, summary, value, range, "", 3) {
                 send(change.map(|v| ParamValue::Vector(vec3(v))), commands);
             }
         }
         (ParamKind::Rotation, ParamValue::Rotation(q)) => {
-            if let Some(change) = rotation_row(ui, &name, summary, q) {
+            if let Some(change) = rotation_row(ui, name, summary, q) {
                 send(change.map(ParamValue::Rotation), commands);
             }
         }

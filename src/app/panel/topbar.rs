@@ -81,7 +81,7 @@ fn link_length_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let length = session.payload.len();
     let palette = Palette::get(ui);
     if session.is_link_long() {
-        let text = theme::strong(fill(w().characters, &[&length]))
+        let text = theme::strong(fill(w().link_of, &[&length]))
             .size(12.0)
             .color(palette.warning);
         let advice = w().link_is_long;
@@ -93,7 +93,7 @@ fn link_length_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             commands.push(Command::SaveDocument);
         }
     } else {
-        let text = egui::RichText::new(fill(w().characters, &[&length]))
+        let text = egui::RichText::new(fill(w().link_of, &[&length]))
             .size(12.0)
             .color(palette.weak);
         ui.label(text).on_hover_text(w().link_length);
@@ -147,7 +147,11 @@ fn more_menu(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut Vec
         item(ui, Icon::Picture, w().save_picture, Command::SavePicture);
         ui.separator();
         item(ui, Icon::Eye, w().picture_alone, Command::TogglePanels);
-        item(ui, Icon::Contrast, w().theme, Command::ToggleTheme);
+        let theme = match ui.theme() {
+            egui::Theme::Dark => w().theme_light,
+            egui::Theme::Light => w().theme_dark,
+        };
+        item(ui, Icon::Contrast, theme, Command::ToggleTheme);
         let contrast = if theme::has_contrast() {
             w().usual_contrast
         } else {

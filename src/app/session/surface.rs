@@ -88,7 +88,7 @@ impl Session {
             placement,
         });
         let edit = Edit::All {
-            name: "Lay on the surface".to_owned(),
+            name: "Snap to the surface".to_owned(),
             edits: vec![edit],
         };
         self.apply(&edit, false);

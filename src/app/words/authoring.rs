@@ -11,7 +11,7 @@ words! {
         mirror_coronal: "Mirrored copy, front and back", "Spiegelkopie, vorn und hinten", "Copia reflejada, delante y detrás", "镜像副本：前后";
         mirror_axial: "Mirrored copy, above and below", "Spiegelkopie, oben und unten", "Copia reflejada, arriba y abajo", "镜像副本：上下";
         mirror_here: "Move to the other side", "Auf die andere Seite", "Pasar al otro lado", "移到另一侧";
-        lay: "Lay on the surface again", "Wieder an die Oberfläche legen", "Ajustar de nuevo a la superficie", "重新贴合表面";
+        lay: "Snap to the surface", "An die Oberfläche anlegen", "Ajustar a la superficie", "贴合到表面";
         group: "Group", "Gruppe", "Grupo", "组";
         group_hint: "Templates of a group are copied, mirrored and moved together; with Shift one moves alone", "Vorlagen einer Gruppe werden zusammen kopiert, gespiegelt und bewegt; mit Umschalt bewegt sich eine allein", "Las plantillas de un grupo se copian, reflejan y mueven juntas; con Mayús se mueve una sola", "同组模板一起复制、镜像和移动；按住 Shift 可单独移动";
         no_group: "None", "Keine", "Ninguno", "无";

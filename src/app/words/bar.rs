@@ -14,7 +14,6 @@ words! {
         link: "Link", "Link", "Enlace", "链接";
         copied: "Copied", "Kopiert", "Copiado", "已复制";
         link_hint: "The link holds the whole illustration: {0} characters", "Der Link enthält die ganze Illustration: {0} Zeichen", "El enlace contiene toda la ilustración: {0} caracteres", "链接包含整幅插图：{0} 个字符";
-        characters: "{0} characters", "{0} Zeichen", "{0} caracteres", "{0} 个字符";
         link_length: "Length of the link", "Länge des Links", "Longitud del enlace", "链接长度";
         link_is_long: "Some programs cut links as long as this: better save the document as a file", "Manche Programme kürzen so lange Links: besser das Dokument als Datei sichern", "Algunos programas cortan enlaces tan largos: mejor guardar el documento como archivo", "有些程序会截断这么长的链接：最好将文档存为文件";
         subject: "Subject", "Objekt", "Objeto", "对象";
@@ -26,8 +25,9 @@ words! {
         new_document: "New document", "Neues Dokument", "Documento nuevo", "新建文档";
         save_document: "Save document", "Dokument sichern", "Guardar documento", "保存文档";
         save_picture: "Save picture", "Bild sichern", "Guardar imagen", "保存图片";
-        picture_alone: "Picture alone", "Nur das Bild", "Solo la imagen", "仅显示图像";
-        theme: "Colours of the program", "Farben des Programms", "Colores del programa", "界面颜色";
+        picture_alone: "Present", "Präsentieren", "Presentar", "演示";
+        theme_light: "Light colours", "Helle Farben", "Colores claros", "浅色界面";
+        theme_dark: "Dark colours", "Dunkle Farben", "Colores oscuros", "深色界面";
         high_contrast: "High contrast", "Hoher Kontrast", "Contraste alto", "高对比度";
         usual_contrast: "Usual contrast", "Üblicher Kontrast", "Contraste normal", "普通对比度";
         larger: "Larger", "Größer", "Más grande", "放大界面";

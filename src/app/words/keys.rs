@@ -21,7 +21,7 @@ words! {
         cut: "Cut the template out", "Vorlage ausschneiden", "Cortar la plantilla", "剪切模板";
         paste: "Paste templates, a link or a document", "Vorlagen, Link oder Dokument einfügen", "Pegar plantillas, un enlace o un documento", "粘贴模板、链接或文档";
         mirror: "Mirrored copy, right and left", "Spiegelkopie, rechts und links", "Copia reflejada, derecha e izquierda", "镜像副本：左右";
-        lay: "Lay on the surface again", "Wieder an die Oberfläche legen", "Ajustar de nuevo a la superficie", "重新贴合表面";
+        lay: "Snap to the surface", "An die Oberfläche anlegen", "Ajustar a la superficie", "贴合到表面";
         group: "Group with the one before", "Mit der davor gruppieren", "Agrupar con la anterior", "与上一个编组";
         ungroup: "Leave the group", "Gruppe verlassen", "Dejar el grupo", "离开组";
         snap: "Handles in steps or not", "Griffe in Schritten oder nicht", "Tiradores por pasos o no", "手柄步进开关";
@@ -54,11 +54,11 @@ words! {
         hide: "Hide or show the template", "Vorlage aus- oder einblenden", "Ocultar o mostrar la plantilla", "隐藏或显示模板";
         duplicate: "Duplicate the template", "Vorlage verdoppeln", "Duplicar la plantilla", "复制一份模板";
         delete: "Delete the template", "Vorlage löschen", "Eliminar la plantilla", "删除模板";
-        earlier: "Let it act earlier", "Früher wirken lassen", "Que actúe antes", "更早作用";
-        later: "Let it act later", "Später wirken lassen", "Que actúe después", "更晚作用";
+        earlier: "Let the template act earlier", "Vorlage früher wirken lassen", "Que la plantilla actúe antes", "让模板更早作用";
+        later: "Let the template act later", "Vorlage später wirken lassen", "Que la plantilla actúe después", "让模板更晚作用";
         next_step: "Next step", "Nächster Schritt", "Paso siguiente", "下一步";
         step_before: "Step before", "Schritt davor", "Paso anterior", "上一步";
-        picture_alone: "The picture alone", "Nur das Bild", "Solo la imagen", "仅显示图像";
+        picture_alone: "Present: the picture without panels", "Präsentieren: das Bild ohne Bereiche", "Presentar: la imagen sin paneles", "演示：仅显示图像";
         this_sheet: "This sheet", "Dieses Blatt", "Esta hoja", "此页";
         front: "From the front", "Von vorn", "Desde delante", "从前面看";
         back: "From the back", "Von hinten", "Desde detrás", "从后面看";

@@ -1,44 +1,48 @@
-//! The catalogue's names and explanations. English is what the catalogue itself says, but for two titles; a match
-//! without a kind does not compile, and a test holds the number of parameters.
+//! What people call the catalogue's kinds and parameters, and what these do, as one sees it on the box. A match without
+//! a kind does not compile, and a test holds the number of parameters.
 
-use super::{Lang, capitalized, lang, of};
+use super::{Lang, capitalized, of};
 use crate::document::TemplateKind;
 
-/// German, Spanish, Chinese; English stands in the catalogue.
-type Line = [&'static str; Lang::COUNT - 1];
+/// A text in every language.
+type Line = [&'static str; Lang::COUNT];
 
 /// Texts of one kind of template.
 struct Kind {
-    title: [&'static str; Lang::COUNT],
+    title: Line,
     summary: Line,
     /// Name and summary of each parameter, in the catalogue's order.
     params: &'static [(Line, Line)],
 }
 
-const ANGLE: Line = ["Winkel", "Ángulo", "角度"];
-const DEPTH: Line = ["Tiefe", "Profundidad", "深度"];
-const AMOUNT: Line = ["Maß", "Cantidad", "幅度"];
-const LENGTH: Line = ["Länge", "Longitud", "长度"];
-const FALLOFF: Line = ["Abklingen", "Atenuación", "衰减"];
-const STRENGTH: Line = ["Stärke", "Intensidad", "强度"];
-const EDGE: Line = ["Rand", "Borde", "边缘"];
+const ANGLE: Line = ["Angle", "Winkel", "Ángulo", "角度"];
+const DEPTH: Line = ["Depth", "Tiefe", "Profundidad", "深度"];
+const AMOUNT: Line = ["Amount", "Maß", "Cantidad", "幅度"];
+const LENGTH: Line = ["Length", "Länge", "Longitud", "长度"];
+const FALLOFF: Line = ["Falloff", "Abklingen", "Atenuación", "衰减"];
+const STRENGTH: Line = ["Strength", "Stärke", "Intensidad", "强度"];
+const EDGE: Line = ["Edge", "Rand", "Borde", "边缘"];
 const EDGE_MEANS: Line = [
+    "Width over which it ends at the faces of the box",
     "Breite, in der es an den Flächen des Quaders endet",
     "Anchura en que termina en las caras de la caja",
     "在盒子各面处收尾的宽度",
 ];
 const TIMES: Line = [
+    "Times the displacement",
     "Mal die Verschiebung",
     "Veces el desplazamiento",
     "位移的倍数",
 ];
-const OFFSET: Line = ["Versatz", "Desplazamiento", "位移"];
+const OFFSET: Line = ["Offset", "Versatz", "Desplazamiento", "位移"];
 const HALF_OPENING: Line = [
-    "Halbe Öffnung oben",
-    "Media abertura arriba",
-    "顶部开口的一半",
+    "Half the opening, at the surface",
+    "Halbe Öffnung an der Oberfläche",
+    "Mitad de la abertura en la superficie",
+    "表面开口的一半",
 ];
 const HALF_LENGTH: Line = [
+    "Half the length of the incision",
     "Halbe Länge des Schnitts",
     "Mitad de la longitud de la incisión",
     "切口长度的一半",
@@ -50,40 +54,54 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Poke => Kind {
             title: ["Poke", "Beule", "Bulto", "凸起"],
             summary: [
-                "Eine Beule entlang z eindrücken oder herausziehen",
-                "Hundir o sacar un bulto según z",
-                "沿 z 压入或拉出一个凸起",
+                "Push in or pull out a bump",
+                "Eine Beule eindrücken oder herausziehen",
+                "Hundir o sacar un bulto",
+                "压入或拉出一个凸起",
             ],
             params: &[
                 (
                     AMOUNT,
                     [
+                        "Height; positive pulls out",
                         "Höhe; positiv zieht heraus",
                         "Altura; positivo saca hacia fuera",
                         "高度；正值向外拉",
                     ],
                 ),
                 (
-                    ["Breite", "Anchura", "宽度"],
-                    ["Breite der Beule", "Anchura del bulto", "凸起的宽度"],
+                    ["Width", "Breite", "Anchura", "宽度"],
+                    [
+                        "Width of the bump",
+                        "Breite der Beule",
+                        "Anchura del bulto",
+                        "凸起的宽度",
+                    ],
                 ),
             ],
         },
         K::Twist => Kind {
             title: ["Twist", "Verdrehen", "Torsión", "扭转"],
             summary: [
-                "Um die z-Achse verdrehen",
-                "Torcer en torno al eje z",
-                "绕 z 轴扭转",
+                "Twist about the axis that points into the depth",
+                "Um die Achse verdrehen, die in die Tiefe zeigt",
+                "Torcer en torno al eje que entra en profundidad",
+                "绕指向深处的轴扭转",
             ],
             params: &[
                 (
                     ANGLE,
-                    ["Drehung der Mitte", "Giro del centro", "中部的转角"],
+                    [
+                        "Turn of the middle",
+                        "Drehung der Mitte",
+                        "Giro del centro",
+                        "中部的转角",
+                    ],
                 ),
                 (
                     FALLOFF,
                     [
+                        "0 turns the whole box, 1 falls off from the axis on",
                         "0 dreht den ganzen Quader, 1 klingt von der Achse an ab",
                         "0 gira toda la caja, 1 se atenúa desde el eje",
                         "0 转动整个盒子，1 从轴线起逐渐减弱",
@@ -94,26 +112,34 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Wave => Kind {
             title: ["Wave", "Welle", "Onda", "波纹"],
             summary: [
-                "Ringförmige Wellen entlang y",
-                "Ondas concéntricas según y",
-                "沿 y 的同心波纹",
+                "Ring-shaped ripples, up and down",
+                "Ringförmige Wellen, auf und ab",
+                "Ondas concéntricas, arriba y abajo",
+                "上下起伏的同心波纹",
             ],
             params: &[
                 (
-                    ["Höhe", "Amplitud", "振幅"],
-                    ["Höhe der Wellen", "Altura de la onda", "波纹的高度"],
+                    ["Amplitude", "Höhe", "Amplitud", "振幅"],
+                    [
+                        "Height of the ripple",
+                        "Höhe der Wellen",
+                        "Altura de la onda",
+                        "波纹的高度",
+                    ],
                 ),
                 (
-                    ["Frequenz", "Frecuencia", "频率"],
+                    ["Frequency", "Frequenz", "Frecuencia", "频率"],
                     [
-                        "Radiant je Einheit des Radius",
-                        "Radianes por unidad de radio",
-                        "每单位半径的弧度",
+                        "How close together the rings lie",
+                        "Wie dicht die Ringe liegen",
+                        "Lo juntos que están los anillos",
+                        "圆环的疏密",
                     ],
                 ),
                 (
                     FALLOFF,
                     [
+                        "0 ripples the whole box, 1 falls off from the axis on",
                         "0 wellt den ganzen Quader, 1 klingt von der Achse an ab",
                         "0 ondula toda la caja, 1 se atenúa desde el eje",
                         "0 使整个盒子起伏，1 从轴线起逐渐减弱",
@@ -124,33 +150,37 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Bend => Kind {
             title: ["Bend", "Biegen", "Doblar", "弯曲"],
             summary: [
-                "Einen Balken biegen, der entlang y verläuft",
-                "Doblar una barra que corre según y",
-                "弯曲沿 y 方向的长条",
+                "Bend an upright bar",
+                "Einen aufrechten Balken biegen",
+                "Doblar una barra vertical",
+                "弯曲一根竖直的长条",
             ],
             params: &[
                 (
                     ANGLE,
                     [
-                        "Nach -z, oder nach +z, wenn negativ",
-                        "Hacia -z, o hacia +z si es negativo",
-                        "朝 -z，负值则朝 +z",
+                        "Into the depth; outwards if negative",
+                        "In die Tiefe; nach außen, wenn negativ",
+                        "Hacia el fondo; hacia fuera si es negativo",
+                        "弯向深处；负值则向外",
                     ],
                 ),
                 (
-                    ["Anfang", "Inicio", "起点"],
+                    ["Start", "Anfang", "Inicio", "起点"],
                     [
-                        "Wo entlang y die Biegung beginnt",
-                        "Dónde empieza la curva según y",
-                        "弯曲沿 y 的起点",
+                        "Where the bend begins, from the lower end",
+                        "Wo die Biegung beginnt, vom unteren Ende aus",
+                        "Dónde empieza la curva, desde el extremo inferior",
+                        "弯曲的起点，从下端算起",
                     ],
                 ),
                 (
-                    ["Ende", "Fin", "终点"],
+                    ["End", "Ende", "Fin", "终点"],
                     [
-                        "Wo entlang y die Biegung endet",
-                        "Dónde acaba la curva según y",
-                        "弯曲沿 y 的终点",
+                        "Where the bend ends, from the lower end",
+                        "Wo die Biegung endet, vom unteren Ende aus",
+                        "Dónde acaba la curva, desde el extremo inferior",
+                        "弯曲的终点，从下端算起",
                     ],
                 ),
             ],
@@ -158,56 +188,69 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Squeeze => Kind {
             title: ["Squeeze", "Einschnüren", "Estrechar", "收腰"],
             summary: [
-                "Eine Taille auf halber Höhe",
-                "Una cintura a media altura",
-                "在半高处收窄",
+                "A waist half way down",
+                "Eine Taille auf halber Tiefe",
+                "Una cintura a media profundidad",
+                "在半深处收窄",
             ],
-            params: &[(STRENGTH, ["Wie schmal", "Cuánto se estrecha", "收窄程度"])],
+            params: &[(
+                STRENGTH,
+                ["How narrow", "Wie schmal", "Cuánto se estrecha", "收窄程度"],
+            )],
         },
         K::Dilate => Kind {
             title: ["Dilate", "Weiten", "Dilatar", "膨胀"],
             summary: [
-                "Ein Bauch auf halber Höhe",
-                "Un abombamiento a media altura",
-                "在半高处鼓起",
+                "A bulge half way down",
+                "Ein Bauch auf halber Tiefe",
+                "Un abombamiento a media profundidad",
+                "在半深处鼓起",
             ],
-            params: &[(STRENGTH, ["Wie weit", "Cuánto se ensancha", "鼓起程度"])],
+            params: &[(
+                STRENGTH,
+                ["How wide", "Wie weit", "Cuánto se ensancha", "鼓起程度"],
+            )],
         },
         K::Peel => Kind {
             title: ["Peel", "Abrollen", "Enrollar", "卷起"],
             summary: [
-                "Eine Schicht vom Rand x = 0 her aufrollen",
-                "Enrollar una capa desde el borde x = 0",
-                "从 x = 0 边缘卷起一层",
+                "Roll a layer up from its left edge",
+                "Eine Schicht vom linken Rand her aufrollen",
+                "Enrollar una capa desde el borde izquierdo",
+                "从左边缘卷起一层",
             ],
             params: &[
                 (
-                    ["Fortschritt", "Avance", "进度"],
+                    ["Progress", "Fortschritt", "Avance", "进度"],
                     [
-                        "Wie weit die Rolle entlang x gekommen ist",
-                        "Hasta dónde ha llegado el rollo según x",
-                        "卷曲沿 x 的进度",
+                        "How far the roll has come from left to right",
+                        "Wie weit die Rolle von links nach rechts gekommen ist",
+                        "Hasta dónde ha llegado el rollo, de izquierda a derecha",
+                        "卷曲从左到右的进度",
                     ],
                 ),
                 (
                     DEPTH,
                     [
-                        "Dicke der Schicht unter der Oberseite, Teil von z",
-                        "Grosor de la capa bajo la cara superior, fracción de z",
-                        "顶面下层的厚度，z 的比例",
+                        "Thickness of the layer, as a part of the box's depth",
+                        "Dicke der Schicht, Teil der Tiefe des Quaders",
+                        "Grosor de la capa, parte de la profundidad de la caja",
+                        "层的厚度，占盒子深度的比例",
                     ],
                 ),
                 (
-                    ["Radius", "Radio", "半径"],
+                    ["Radius", "Radius", "Radio", "半径"],
                     [
-                        "Innenseite der Rolle, Teil von x",
-                        "Interior del rollo, fracción de x",
-                        "卷的内半径，x 的比例",
+                        "Inside of the roll, as a part of the box's width",
+                        "Innenseite der Rolle, Teil der Breite des Quaders",
+                        "Interior del rollo, parte de la anchura de la caja",
+                        "卷的内半径，占盒子宽度的比例",
                     ],
                 ),
                 (
                     ANGLE,
                     [
+                        "Where the roll ends and the flap goes on straight",
                         "Wo die Rolle endet und der Lappen gerade weitergeht",
                         "Dónde acaba el rollo y el colgajo sigue recto",
                         "卷曲结束、皮瓣伸直之处",
@@ -218,14 +261,16 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Flap => Kind {
             title: ["Flap", "Klappe", "Colgajo", "翻瓣"],
             summary: [
-                "Eine Tür, die sich um ihre Kante x = 0, z = 1 öffnet",
-                "Una puerta que se abre por su arista x = 0, z = 1",
-                "绕 x = 0、z = 1 边打开的门",
+                "A door that opens about its left edge",
+                "Eine Tür, die sich um ihre linke Kante öffnet",
+                "Una puerta que se abre por su borde izquierdo",
+                "绕左边缘打开的门",
             ],
             params: &[
                 (
                     ANGLE,
                     [
+                        "How far it is open",
                         "Wie weit sie offen ist",
                         "Cuánto está abierta",
                         "打开的角度",
@@ -234,9 +279,10 @@ fn kind_words(kind: TemplateKind) -> Kind {
                 (
                     DEPTH,
                     [
-                        "Dicke der Tür unter der Oberseite, Teil von z",
-                        "Grosor de la puerta bajo la cara superior, fracción de z",
-                        "顶面下门的厚度，z 的比例",
+                        "Thickness of the door, as a part of the box's depth",
+                        "Dicke der Tür, Teil der Tiefe des Quaders",
+                        "Grosor de la puerta, parte de la profundidad de la caja",
+                        "门的厚度，占盒子深度的比例",
                     ],
                 ),
             ],
@@ -244,33 +290,37 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Split => Kind {
             title: ["Split", "Spalten", "Partir", "劈开"],
             summary: [
-                "Zwei Hälften entlang x auseinander",
-                "Dos mitades separadas según x",
-                "沿 x 分成两半",
+                "Two halves apart, to the left and to the right",
+                "Zwei Hälften auseinander, nach links und nach rechts",
+                "Dos mitades separadas, a izquierda y derecha",
+                "向左右分成两半",
             ],
             params: &[
                 (
                     AMOUNT,
                     [
+                        "Half width of the opening",
                         "Halbe Breite der Öffnung",
                         "Mitad de la anchura de la abertura",
                         "开口宽度的一半",
                     ],
                 ),
                 (
-                    ["Linse", "Lente", "透镜形"],
+                    ["Lens", "Linse", "Lente", "透镜形"],
                     [
-                        "1 schließt die Öffnung an beiden Enden in y",
-                        "1 cierra la abertura en ambos extremos de y",
-                        "1 使开口在 y 两端闭合",
+                        "1 closes the opening at its upper and lower end",
+                        "1 schließt die Öffnung am oberen und unteren Ende",
+                        "1 cierra la abertura en su extremo superior e inferior",
+                        "1 使开口的上下两端闭合",
                     ],
                 ),
                 (
-                    ["Keil", "Cuña", "楔形"],
+                    ["Wedge", "Keil", "Cuña", "楔形"],
                     [
-                        "Unten geschlossen, oben offen",
-                        "Cerrada abajo, abierta arriba",
-                        "底部闭合，顶部张开",
+                        "Closed in the depth, open at the surface",
+                        "In der Tiefe geschlossen, an der Oberfläche offen",
+                        "Cerrada en el fondo, abierta en la superficie",
+                        "深处闭合，表面张开",
                     ],
                 ),
             ],
@@ -278,30 +328,43 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Slices => Kind {
             title: ["Slices", "Scheiben", "Rodajas", "切片"],
             summary: [
-                "Entlang z in Scheiben schneiden und auseinanderziehen",
-                "Cortar en rodajas según z y separarlas",
-                "沿 z 切成薄片并拉开",
+                "Cut into slabs, one below the other in depth, and draw them apart",
+                "In der Tiefe in Scheiben schneiden und auseinanderziehen",
+                "Cortar en rodajas en profundidad y separarlas",
+                "沿深度切成薄片并拉开",
             ],
             params: &[
                 (
-                    ["Anzahl", "Número", "数量"],
-                    ["Zahl der Scheiben", "Número de rodajas", "薄片数量"],
-                ),
-                (
-                    ["Abstand", "Separación", "间隔"],
-                    ["Zwischen zwei Scheiben", "Entre dos rodajas", "两片之间"],
-                ),
-                (
-                    ["Versatz", "Corrimiento", "偏移"],
+                    ["Count", "Anzahl", "Número", "数量"],
                     [
-                        "Seitwärts, entlang x, je Scheibe",
-                        "Hacia el lado, según x, por rodaja",
-                        "每片沿 x 的侧移",
+                        "Number of slabs",
+                        "Zahl der Scheiben",
+                        "Número de rodajas",
+                        "薄片数量",
                     ],
                 ),
                 (
-                    ["Fortschritt", "Avance", "进度"],
+                    ["Gap", "Abstand", "Separación", "间隔"],
                     [
+                        "Between two slabs",
+                        "Zwischen zwei Scheiben",
+                        "Entre dos rodajas",
+                        "两片之间",
+                    ],
+                ),
+                (
+                    ["Shift", "Versatz", "Corrimiento", "偏移"],
+                    [
+                        "Sideways, to the right, per slab",
+                        "Seitwärts, nach rechts, je Scheibe",
+                        "Hacia la derecha, por rodaja",
+                        "每片向右的侧移",
+                    ],
+                ),
+                (
+                    ["Progress", "Fortschritt", "Avance", "进度"],
+                    [
+                        "0 closed, 1 drawn apart",
                         "0 geschlossen, 1 auseinandergezogen",
                         "0 cerradas, 1 separadas",
                         "0 闭合，1 拉开",
@@ -312,16 +375,18 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Retractor => Kind {
             title: ["Retractor", "Wundhaken", "Separador", "牵开器"],
             summary: [
-                "Einen Schnitt entlang x aufziehen; das Gewebe daneben wird gestaucht",
-                "Abrir una incisión según x comprimiendo el tejido de al lado",
-                "拉开沿 x 的切口，压缩旁边的组织",
+                "Draw a horizontal incision open; the tissue beside it is compressed",
+                "Einen waagrechten Schnitt aufziehen; das Gewebe daneben wird gestaucht",
+                "Abrir una incisión horizontal comprimiendo el tejido de al lado",
+                "拉开水平切口，压缩旁边的组织",
             ],
             params: &[
                 (AMOUNT, HALF_OPENING),
                 (LENGTH, HALF_LENGTH),
                 (
-                    ["Reichweite", "Alcance", "范围"],
+                    ["Reach", "Reichweite", "Alcance", "范围"],
                     [
+                        "How far beside it tissue gives way",
                         "Wie weit daneben das Gewebe nachgibt",
                         "Hasta dónde cede el tejido de al lado",
                         "旁侧组织让位的范围",
@@ -332,16 +397,18 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Cutquad => Kind {
             title: ["Incision", "Schnitt", "Incisión", "切口"],
             summary: [
-                "Ein Schnitt entlang y mit gewölbten Lippen",
-                "Una incisión según y con labios abombados",
-                "沿 y 的切口，边缘隆起",
+                "A vertical incision with lips that bulge",
+                "Ein senkrechter Schnitt mit gewölbten Lippen",
+                "Una incisión vertical con labios abombados",
+                "竖直切口，边缘隆起",
             ],
             params: &[
                 (AMOUNT, HALF_OPENING),
                 (LENGTH, HALF_LENGTH),
                 (
-                    ["Wulst", "Reborde", "隆起"],
+                    ["Ripple", "Wulst", "Reborde", "隆起"],
                     [
+                        "Height of the bulging lips",
                         "Höhe der gewölbten Lippen",
                         "Altura de los labios abombados",
                         "隆起边缘的高度",
@@ -352,31 +419,44 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Peeler => Kind {
             title: ["Tongue", "Zunge", "Lengüeta", "舌瓣"],
             summary: [
+                "Lift a tongue of the top layer",
                 "Eine Zunge der obersten Schicht anheben",
                 "Levantar una lengüeta de la capa superior",
                 "掀起顶层的舌形瓣",
             ],
             params: &[
                 (
-                    ["Hub", "Elevación", "抬起"],
-                    ["Höhe an der Spitze", "Altura en la punta", "尖端的高度"],
+                    ["Lift", "Hub", "Elevación", "抬起"],
+                    [
+                        "Height at the tip",
+                        "Höhe an der Spitze",
+                        "Altura en la punta",
+                        "尖端的高度",
+                    ],
                 ),
                 (
-                    ["Breite", "Anchura", "宽度"],
-                    ["Breite der Zunge", "Anchura de la lengüeta", "舌瓣的宽度"],
+                    ["Width", "Breite", "Anchura", "宽度"],
+                    [
+                        "Width of the tongue",
+                        "Breite der Zunge",
+                        "Anchura de la lengüeta",
+                        "舌瓣的宽度",
+                    ],
                 ),
             ],
         },
         K::Pull => Kind {
             title: ["Pull", "Ziehen", "Estirar", "牵拉"],
             summary: [
-                "Die Mitte des Quaders entlang eines Vektors ziehen",
-                "Tirar del centro de la caja según un vector",
-                "沿向量牵拉盒子中部",
+                "Draw the middle of the box in any direction",
+                "Die Mitte des Quaders in eine beliebige Richtung ziehen",
+                "Tirar del centro de la caja en cualquier dirección",
+                "向任意方向牵拉盒子中部",
             ],
             params: &[(
                 OFFSET,
                 [
+                    "Where the middle goes, fractions of the box",
                     "Wohin die Mitte kommt, Teile des Quaders",
                     "Adónde va el centro, fracciones de la caja",
                     "中部的去向，盒子的比例",
@@ -386,30 +466,46 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Cut => Kind {
             title: ["Cut", "Ausschneiden", "Recortar", "切除"],
             summary: [
+                "Remove material, move nothing",
                 "Material entfernen, nichts bewegen",
                 "Quitar material sin mover nada",
                 "移除材料，不移动任何部分",
             ],
             params: &[(
-                ["Form", "Forma", "形状"],
-                ["Was entfernt wird", "Lo que se quita", "移除的形状"],
+                ["Shape", "Form", "Forma", "形状"],
+                [
+                    "What is removed",
+                    "Was entfernt wird",
+                    "Lo que se quita",
+                    "移除的形状",
+                ],
             )],
         },
         K::Hole => Kind {
             title: ["Hole", "Loch", "Agujero", "孔"],
             summary: [
-                "Eine runde Öffnung entlang z zur Seite schieben",
-                "Apartar el tejido en una abertura redonda según z",
-                "沿 z 推开一个圆孔",
+                "Push tissue aside into a round opening",
+                "Gewebe zu einer runden Öffnung beiseiteschieben",
+                "Apartar el tejido en una abertura redonda",
+                "推开组织，形成圆孔",
             ],
             params: &[
-                (AMOUNT, ["Radius oben", "Radio arriba", "顶部半径"]),
                 (
-                    ["Verjüngung", "Conicidad", "锥度"],
+                    AMOUNT,
                     [
-                        "Radius unten als Teil davon",
-                        "Radio abajo como fracción del de arriba",
-                        "底部半径与顶部之比",
+                        "Radius at the surface",
+                        "Radius an der Oberfläche",
+                        "Radio en la superficie",
+                        "表面处的半径",
+                    ],
+                ),
+                (
+                    ["Taper", "Verjüngung", "Conicidad", "锥度"],
+                    [
+                        "Radius in the depth, as a part of the one at the surface",
+                        "Radius in der Tiefe als Teil des Radius an der Oberfläche",
+                        "Radio en el fondo como parte del de la superficie",
+                        "深处半径与表面半径之比",
                     ],
                 ),
             ],
@@ -417,15 +513,17 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Lens => Kind {
             title: ["Lens", "Lupe", "Lupa", "放大镜"],
             summary: [
+                "Magnify the middle of the box",
                 "Die Mitte des Quaders vergrößern",
                 "Ampliar el centro de la caja",
                 "放大盒子中部",
             ],
-            params: &[(STRENGTH, ["Wie stark", "Cuánto", "放大程度"])],
+            params: &[(STRENGTH, ["How much", "Wie stark", "Cuánto", "放大程度"])],
         },
         K::Move => Kind {
             title: ["Move", "Versetzen", "Trasladar", "移出"],
             summary: [
+                "Take the box out whole and put it elsewhere",
                 "Den Quader ganz herausnehmen und anderswo hinsetzen",
                 "Sacar la caja entera y ponerla en otro sitio",
                 "将盒子整体取出放到别处",
@@ -434,14 +532,16 @@ fn kind_words(kind: TemplateKind) -> Kind {
                 (
                     OFFSET,
                     [
+                        "How far, fractions of the box",
                         "Wie weit, Teile des Quaders",
                         "Cuánto, fracciones de la caja",
                         "距离，盒子的比例",
                     ],
                 ),
                 (
-                    ["Drehung", "Giro", "旋转"],
+                    ["Turn", "Drehung", "Giro", "旋转"],
                     [
+                        "Turned about its centre",
                         "Um seine Mitte gedreht",
                         "Girado en torno a su centro",
                         "绕其中心旋转",
@@ -452,41 +552,46 @@ fn kind_words(kind: TemplateKind) -> Kind {
         K::Rbf => Kind {
             title: ["Points", "Punkte", "Puntos", "控制点"],
             summary: [
-                "Verschiebungen an Kontrollpunkten, dazwischen interpoliert",
-                "Desplazamientos en puntos de control, interpolados",
-                "控制点处的位移，其间插值",
+                "Move single points; the tissue between them follows",
+                "Einzelne Punkte bewegen; das Gewebe dazwischen folgt",
+                "Mover puntos sueltos; el tejido intermedio los sigue",
+                "移动若干点，其间的组织随之移动",
             ],
             params: &[
                 (STRENGTH, TIMES),
                 (
-                    ["Weichheit", "Suavidad", "柔度"],
+                    ["Softness", "Weichheit", "Suavidad", "柔度"],
                     [
+                        "Reach of a control point, fractions of the box",
                         "Reichweite eines Punktes, Teile des Quaders",
                         "Alcance de un punto, fracciones de la caja",
                         "控制点的作用范围，盒子的比例",
                     ],
                 ),
                 (
-                    ["Exponent", "Exponente", "指数"],
+                    ["Exponent", "Exponent", "Exponente", "指数"],
                     [
-                        "Der Multiquadrik; -0,5 ist glatt und örtlich",
-                        "De la multicuádrica; -0,5 es suave y local",
-                        "多二次函数的指数；-0.5 平滑而局部",
+                        "How the pull fades with distance; -0.5 is smooth and stays near",
+                        "Wie der Zug mit dem Abstand nachlässt; -0,5 ist glatt und bleibt in der Nähe",
+                        "Cómo decae con la distancia; -0,5 es suave y local",
+                        "牵引随距离减弱的方式；-0.5 平滑而局部",
                     ],
                 ),
                 (
-                    ["Ausziehen", "Extruir", "拉伸"],
+                    ["Extrude", "Ausziehen", "Extruir", "拉伸"],
                     [
-                        "Die Punkte gelten in x und y, für jedes z",
-                        "Los puntos cuentan en x e y, para cada z",
-                        "控制点仅按 x 和 y 计，对所有 z 有效",
+                        "The same at every depth",
+                        "In jeder Tiefe gleich",
+                        "Igual a cualquier profundidad",
+                        "在任何深度都相同",
                     ],
                 ),
                 (
                     FALLOFF,
                     [
-                        "0 zieht durch den ganzen Quader, 1 klingt von der Mitte an ab",
-                        "0 extruye toda la caja, 1 se atenúa desde el centro",
+                        "0 reaches through the whole box, 1 fades from its middle on",
+                        "0 reicht durch den ganzen Quader, 1 klingt von der Mitte an ab",
+                        "0 atraviesa toda la caja, 1 se atenúa desde el centro",
                         "0 贯穿整个盒子，1 从中部开始衰减",
                     ],
                 ),
@@ -501,6 +606,7 @@ fn kind_words(kind: TemplateKind) -> Kind {
                 "位移场",
             ],
             summary: [
+                "A displacement field from a file",
                 "Ein Verschiebungsfeld aus einer Datei",
                 "Un campo de desplazamiento de un archivo",
                 "文件中的位移场",
@@ -508,16 +614,18 @@ fn kind_words(kind: TemplateKind) -> Kind {
             params: &[
                 (STRENGTH, TIMES),
                 (
-                    ["Einheit", "Unidad", "单位"],
+                    ["Units", "Einheit", "Unidad", "单位"],
                     [
+                        "Of the vectors in the file",
                         "Der Vektoren in der Datei",
                         "De los vectores del archivo",
                         "文件中矢量的单位",
                     ],
                 ),
                 (
-                    ["Achsen", "Ejes", "坐标轴"],
+                    ["Axes", "Achsen", "Ejes", "坐标轴"],
                     [
+                        "Directions of the vectors in the file",
                         "Richtungen der Vektoren in der Datei",
                         "Direcciones de los vectores del archivo",
                         "文件中矢量的方向",
@@ -529,45 +637,31 @@ fn kind_words(kind: TemplateKind) -> Kind {
     }
 }
 
-/// The column of a language other than English.
-fn column() -> Option<usize> {
-    match lang() {
-        Lang::English | Lang::Mirrored => None,
-        Lang::German => Some(0),
-        Lang::Spanish => Some(1),
-        Lang::Chinese => Some(2),
-    }
-}
-
 /// What people call a kind.
 pub(crate) fn title(kind: TemplateKind) -> &'static str {
     of(kind_words(kind).title)
 }
 
-/// One line on what a kind does.
+/// One line on what a kind does, in directions as one sees them who looks at the box from outside: left and right along
+/// its x axis, down and up along y, into the depth against z.
 pub(crate) fn summary(kind: TemplateKind) -> &'static str {
-    column().map_or(kind.spec().summary, |column| {
-        kind_words(kind).summary[column]
-    })
+    of(kind_words(kind).summary)
 }
 
 /// What people call a parameter, by its index in the catalogue.
-pub(crate) fn param_name(kind: TemplateKind, param: usize) -> String {
-    let words = column().and_then(|column| Some(kind_words(kind).params.get(param)?.0[column]));
-    words.map_or_else(
-        || capitalized(kind.spec().params[param].name),
-        str::to_owned,
-    )
+pub(crate) fn param_name(kind: TemplateKind, param: usize) -> &'static str {
+    kind_words(kind)
+        .params
+        .get(param)
+        .map_or("", |words| of(words.0))
 }
 
-/// One line on a parameter, without the unit of angles, which are shown in degrees.
+/// One line on a parameter.
 pub(crate) fn param_summary(kind: TemplateKind, param: usize) -> &'static str {
-    let words = column().and_then(|column| Some(kind_words(kind).params.get(param)?.1[column]));
-    words.unwrap_or_else(|| {
-        kind.spec().params[param]
-            .summary
-            .trim_end_matches(", radians")
-    })
+    kind_words(kind)
+        .params
+        .get(param)
+        .map_or("", |words| of(words.1))
 }
 
 /// What people call a value of a parameter that has names for them.
@@ -607,6 +701,67 @@ pub(crate) fn choice(name: &str) -> String {
     of(line).to_owned()
 }
 
+/// A sentence on a value of a parameter that has names for them.
+pub(crate) fn choice_hint(name: &str) -> &'static str {
+    of(match name {
+        "box" => [
+            "Everything in the box is removed",
+            "Alles im Quader wird entfernt",
+            "Se quita todo lo que hay en la caja",
+            "移除盒子内的一切",
+        ],
+        "sphere" => [
+            "A ball that fills the box is removed",
+            "Eine Kugel, die den Quader füllt, wird entfernt",
+            "Se quita una esfera que llena la caja",
+            "移除充满盒子的球体",
+        ],
+        "cylinder" => [
+            "A round shaft into the depth is removed",
+            "Ein runder Schacht in die Tiefe wird entfernt",
+            "Se quita un pozo redondo en profundidad",
+            "移除通向深处的圆柱",
+        ],
+        "halfspace" => [
+            "Everything above the middle of the box is removed",
+            "Alles über der Mitte des Quaders wird entfernt",
+            "Se quita todo lo que está por encima del centro de la caja",
+            "移除盒子中面以上的一切",
+        ],
+        "mm" => [
+            "The vectors in the file are millimetres",
+            "Die Vektoren in der Datei sind Millimeter",
+            "Los vectores del archivo son milímetros",
+            "文件中的矢量以毫米为单位",
+        ],
+        "subject" => [
+            "The vectors in the file are parts of the subject's longest side",
+            "Die Vektoren in der Datei sind Teile der längsten Seite des Objekts",
+            "Los vectores del archivo son partes del lado más largo del objeto",
+            "文件中的矢量以对象最长边的比例为单位",
+        ],
+        "auto" => [
+            "The directions that the file states",
+            "Die Richtungen, die die Datei nennt",
+            "Las direcciones que indica el archivo",
+            "文件所注明的方向",
+        ],
+        "lps" => [
+            "The vectors point to the patient's left, back and head, as in DICOM and ITK",
+            "Die Vektoren zeigen nach links, hinten und oben am Patienten, wie in DICOM und ITK",
+            "Los vectores apuntan a la izquierda, atrás y arriba del paciente, como en DICOM e ITK",
+            "矢量指向患者的左、后、头侧，如 DICOM 与 ITK",
+        ],
+        "ras" => [
+            "The vectors point to the patient's right, front and head, as in NIfTI",
+            "Die Vektoren zeigen nach rechts, vorn und oben am Patienten, wie in NIfTI",
+            "Los vectores apuntan a la derecha, delante y arriba del paciente, como en NIfTI",
+            "矢量指向患者的右、前、头侧，如 NIfTI",
+        ],
+        _ => [""; Lang::COUNT],
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -623,6 +778,7 @@ mod tests {
                     super::super::set_lang(Lang::German);
                     for name in names {
                         assert_ne!(choice(name), capitalized(name), "{name} has no words");
+                        assert_ne!(choice_hint(name), "", "{name} has no hint");
                     }
                     super::super::set_lang(Lang::English);
                 }

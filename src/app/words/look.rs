@@ -21,11 +21,11 @@ words! {
         window_from: "Window from", "Fenster von", "Ventana desde", "窗口下限";
         window_to: "Window to", "Fenster bis", "Ventana hasta", "窗口上限";
         reset_window: "Reset window", "Fenster zurücksetzen", "Restablecer la ventana", "重置窗口";
-        opacity_heading: "Opacity under deformation", "Deckkraft bei Verformung", "Opacidad al deformar", "变形时的不透明度";
+        opacity_heading: "Opacity of stretched tissue", "Deckkraft von gedehntem Gewebe", "Opacidad del tejido estirado", "拉伸组织的不透明度";
         opacity: "Opacity", "Deckkraft", "Opacidad", "不透明度";
-        surfaces: "Surfaces", "Flächen", "Superficies", "表面";
-        mass: "Mass", "Masse", "Masa", "质量";
-        as_it_is: "As it is", "Wie sie ist", "Tal cual", "原样";
+        surfaces: "Keep surfaces", "Flächen erhalten", "Conservar superficies", "保持表面";
+        mass: "Keep mass", "Masse erhalten", "Conservar masa", "保持质量";
+        as_it_is: "Unchanged", "Unverändert", "Sin cambios", "不变";
         surfaces_hint: "A stretched surface stays as opaque as it was.", "Eine gedehnte Fläche bleibt so deckend, wie sie war.", "Una superficie estirada sigue igual de opaca.", "拉伸的表面保持原来的不透明度。";
         mass_hint: "Stretched tissue grows thinner, compressed tissue denser.", "Gedehntes Gewebe wird dünner, gestauchtes dichter.", "El tejido estirado se aclara, el comprimido se densifica.", "拉伸的组织变薄，压缩的组织变密。";
         as_it_is_hint: "Opacity does not follow the deformation.", "Die Deckkraft folgt der Verformung nicht.", "La opacidad no sigue la deformación.", "不透明度不随变形改变。";

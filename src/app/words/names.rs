@@ -110,11 +110,11 @@ pub(crate) fn edit_title(name: &str) -> String {
         "Cut templates" => ["", "Vorlagen ausschneiden", "Cortar plantillas", "剪切模板"],
         "Mirror templates" => ["", "Vorlagen spiegeln", "Reflejar plantillas", "镜像模板"],
         "Group templates" => ["", "Vorlagen gruppieren", "Agrupar plantillas", "编组模板"],
-        "Lay on the surface" => [
+        "Snap to the surface" => [
             "",
-            "An die Oberfläche legen",
+            "An die Oberfläche anlegen",
             "Ajustar a la superficie",
-            "贴合表面",
+            "贴合到表面",
         ],
         "Add label" => ["", "Beschriftung hinzufügen", "Añadir rótulo", "添加标注"],
         "Change label" => ["", "Beschriftung ändern", "Cambiar rótulo", "更改标注"],
@@ -161,11 +161,11 @@ pub(crate) fn edit_title(name: &str) -> String {
                 Some(kinds::param_name(kind, index))
             });
             let what = match what {
-                "mode" => w.mode.to_owned(),
-                "alignment" => w.alignment.to_owned(),
-                "amount" if param.is_none() => w.amount.to_owned(),
-                "constraint" => super::kept::w().constraint.to_owned(),
-                _ => param.unwrap_or_else(|| what.to_owned()),
+                "mode" => w.mode,
+                "alignment" => w.alignment,
+                "amount" if param.is_none() => w.amount,
+                "constraint" => super::kept::w().constraint,
+                _ => param.unwrap_or(what),
             };
             return fill(w.change_of, &[&what, &title(of_what)]);
         }

@@ -20,8 +20,8 @@ words! {
         colours: "Slices in colour", "Schnitte in Farbe", "Cortes en color", "彩色切片";
         greys: "Slices in grey", "Schnitte in Grau", "Cortes en gris", "灰度切片";
         move_template: "Move {0} in the slice", "{0} im Schnitt verschieben", "Mover {0} en el corte", "在切片中移动{0}";
-        ghost_show: "Show what was before", "Zeigen, was vorher war", "Mostrar el estado original", "显示变形前的样子";
-        ghost_hide: "Hide what was before", "Verbergen, was vorher war", "Ocultar el estado original", "隐藏变形前的样子";
+        ghost_show: "Compare with the original", "Mit dem Original vergleichen", "Comparar con el original", "与原始状态对比";
+        ghost_hide: "End the comparison", "Vergleich beenden", "Terminar la comparación", "结束对比";
         measure: "Measure distances", "Abstände messen", "Medir distancias", "测量距离";
         measure_end: "End measuring", "Messen beenden", "Terminar de medir", "结束测量";
         measure_hint: "Choose two points", "Zwei Punkte wählen", "Elija dos puntos", "选择两点";
@@ -32,7 +32,7 @@ words! {
         amount: "Overall", "Insgesamt", "Total", "总体";
         amount_hint: "From closed to what is set below", "Von geschlossen bis zu dem, was unten eingestellt ist", "De cerrado a lo que se indica abajo", "从闭合到下方设置的程度";
         key_slices: "Slices", "Schnitte", "Cortes", "切片";
-        key_ghost: "What was before", "Was vorher war", "El estado original", "变形前的样子";
+        key_ghost: "Compare with the original", "Mit dem Original vergleichen", "Comparar con el original", "与原始状态对比";
         key_measure: "Measure", "Messen", "Medir", "测量";
     }
 }

@@ -6,7 +6,7 @@ words! {
         heading: "Tissues", "Gewebe", "Tejidos", "组织";
         add: "Make a tissue", "Gewebe anlegen", "Crear un tejido", "创建组织";
         add_hint: "Finds a tissue by its values in the scan, so that templates can leave it alone", "Findet ein Gewebe an seinen Werten im Scan, damit Vorlagen es unberührt lassen können", "Encuentra un tejido por sus valores en la imagen, para que las plantillas lo dejen intacto", "按扫描数值找出组织，使模板可以不触及它";
-        none: "The scan brings no tissues of its own.", "Der Scan bringt keine Gewebe mit.", "La imagen no trae tejidos propios.", "该扫描自身不含组织标签。";
+        none: "This scan comes without segments. Make a tissue out of its values.", "Dieser Scan kommt ohne Segmente. Ein Gewebe aus seinen Werten erstellen.", "Este estudio no trae segmentos. Cree un tejido a partir de sus valores.", "此扫描没有分割标签。可根据其数值创建组织。";
         alone: "Show {0} alone", "Nur {0} zeigen", "Mostrar solo {0}", "仅显示{0}";
         all: "Show everything again", "Wieder alles zeigen", "Mostrar todo de nuevo", "重新显示全部";
         look: "How {0} is drawn", "Wie {0} gezeichnet wird", "Cómo se dibuja {0}", "{0}的绘制方式";
@@ -39,7 +39,7 @@ words! {
         close_hint: "Closes gaps up to twice as wide, in millimetres", "Schließt Lücken bis zur doppelten Breite, in Millimetern", "Cierra huecos de hasta el doble de ancho, en milímetros", "闭合宽度不超过两倍此值的缝隙（毫米）";
         largest: "Parts", "Teile", "Partes", "部分数";
         largest_hint: "Keeps so many of the largest parts; 0 keeps all", "Behält so viele der größten Teile; 0 behält alle", "Conserva tantas de las partes mayores; 0 las conserva todas", "保留最大的若干部分；0 表示全部";
-        fill: "Fill what is closed in", "Eingeschlossenes füllen", "Rellenar lo encerrado", "填充封闭空腔";
+        fill: "Fill holes", "Löcher füllen", "Rellenar agujeros", "填充孔洞";
         smooth: "Smooth", "Glätten", "Suavizar", "平滑";
         smooth_hint: "Smooths the outline, in millimetres", "Glättet den Umriss, in Millimetern", "Suaviza el contorno, en milímetros", "平滑轮廓（毫米）";
         grow: "Grow by", "Zugabe", "Ampliar", "扩大";
