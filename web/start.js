@@ -105,6 +105,12 @@ async function main() {
     document.documentElement.dataset.state = "no-webgpu";
     return;
   }
+  const query = new URLSearchParams(location.search);
+  if (query.has("bench")) {
+    early?.worker.terminate();
+    await bench(fabrica, Number.parseInt(query.get("bench"), 10) || 0);
+    return;
+  }
   const host = fabrica.foreign_document_host();
   if (host && !(await agreed(host))) {
     show("The document was not fetched.", [], "The page's address still names it: load the page again to be asked once more.");
@@ -126,6 +132,21 @@ async function main() {
   element("cover").hidden = true;
   document.documentElement.dataset.state = "started";
   watch(viewer, keep);
+}
+
+/** Frame times in place of the viewer. */
+async function bench(fabrica, repeats) {
+  window.fabrica = { module: fabrica };
+  show("Frame times on this device");
+  try {
+    const { showBench } = await import("./bench.js");
+    window.fabrica.report = await showBench(fabrica, element("remedies"), repeats);
+    document.documentElement.dataset.state = "measured";
+  } catch (error) {
+    console.error(error);
+    show("The frame times could not be measured.", [String(error)]);
+    document.documentElement.dataset.state = "failed";
+  }
 }
 
 /** Looks after a fault in the viewer, which leaves the picture frozen, and after a lost graphics device. */

@@ -15,7 +15,7 @@ use crate::app::{App, Command, Message, Start};
 use crate::data::VolumeLimits;
 use crate::document::{Document, SubjectRef};
 use crate::link;
-use crate::render::{Gpu, GpuOptions, Studio, encode_png};
+use crate::render::Gpu;
 
 /// An empty document: the head, nothing placed.
 const EMPTY: &str = "{\"fabrica\":1}";
@@ -44,7 +44,7 @@ impl Viewer {
             is_page,
             base: base.unwrap_or_default(),
         };
-        WORKER_ADDRESS.set(place.worker.clone());
+        run::set_known_address(&place.worker);
         let page = Rc::new(RefCell::new(Page::new(place)));
         let on_pop = is_page.then(|| {
             let page = Rc::clone(&page);
@@ -355,7 +355,7 @@ fn is_ours(event: &egui::Event, is_page: bool) -> bool {
 }
 
 /// Seconds since the page was opened.
-fn seconds() -> f64 {
+pub(super) fn seconds() -> f64 {
     let performance = web_sys::window().and_then(|w| w.performance());
     performance.map_or(0.0, |p| p.now() * 1e-3)
 }
@@ -502,7 +502,8 @@ pub fn with_value(text: &str, pointer: &str, value: &str) -> Result<String, JsVa
     Ok(document.to_json_compact())
 }
 
-fn open(text: &str) -> Result<Document, JsValue> {
+/// The document of a link, a payload or JSON.
+pub(super) fn open(text: &str) -> Result<Document, JsValue> {
     let text = text.trim();
     if text.starts_with('{') {
         return Document::from_json(text).map_err(|error| error.to_string().into());
@@ -511,69 +512,4 @@ fn open(text: &str) -> Result<Document, JsValue> {
     decoded
         .map(|l| l.document)
         .map_err(|error| error.to_string().into())
-}
-
-thread_local! {
-    /// What [`render_png`] draws with, kept for the next call: a subject's name, its resolution, and a device that
-    /// holds it.
-    static STUDIO: RefCell<Option<(String, u32, Studio)>> = const { RefCell::new(None) };
-    static STUDIO_GPU: RefCell<Option<Gpu>> = const { RefCell::new(None) };
-    /// Address of worker.js, as the last viewer was given it.
-    static WORKER_ADDRESS: RefCell<String> = const { RefCell::new(String::new()) };
-}
-
-/// Where worker.js is: beside the page, if there has been no viewer that knows better.
-fn worker_address() -> String {
-    let known = WORKER_ADDRESS.with_borrow(Clone::clone);
-    if known.is_empty() {
-        "./worker.js".to_owned()
-    } else {
-        known
-    }
-}
-
-/// Draws a document with a built-in subject offscreen and deterministically, as `fabrica render` does, and gives the
-/// PNG.
-/// `resolution` is the number of voxels along the subject's longest side. For tests and for pictures of other pages.
-///
-/// # Errors
-/// What is wrong with the document, the subject or the device, in words.
-#[wasm_bindgen]
-pub async fn render_png(
-    text: String,
-    width: u32,
-    height: u32,
-    samples: u32,
-    resolution: u32,
-) -> Result<Vec<u8>, JsValue> {
-    let document = open(&text)?;
-    let illustration = document.illustration();
-    let SubjectRef::Builtin { name } = &illustration.subject else {
-        return Err("only built-in subjects can be drawn offscreen".into());
-    };
-    let words = |error: &dyn std::error::Error| JsValue::from(error.to_string());
-    let held = STUDIO_GPU.with_borrow(Clone::clone);
-    let gpu = match held.filter(|gpu| gpu.lost().is_none()) {
-        Some(gpu) => gpu,
-        None => {
-            let opened = Gpu::open(&GpuOptions::default()).await;
-            let gpu = opened.map_err(|e| words(&e))?;
-            STUDIO.set(None);
-            STUDIO_GPU.set(Some(gpu.clone()));
-            gpu
-        }
-    };
-    let held = STUDIO.with_borrow(Clone::clone);
-    let studio = match held.filter(|(n, r, _)| n == name && *r == resolution) {
-        Some((_, _, studio)) => studio,
-        None => {
-            let subject = run::make_subject(&worker_address(), name, resolution).await?;
-            let studio = Studio::new(&gpu, &subject, true).map_err(|e| words(&e))?;
-            STUDIO.set(Some((name.clone(), resolution, studio.clone())));
-            studio
-        }
-    };
-    let image = studio.render_image(illustration, [width, height], samples);
-    let image = image.await.map_err(|e| words(&e))?;
-    encode_png(&image).map_err(|e| words(&e))
 }

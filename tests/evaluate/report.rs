@@ -388,8 +388,9 @@ fn cost(page: &mut Page) {
         name: "head".to_owned(),
     };
     let subject = Subject::from(volume);
-    let bench = render::bench(gpu(), &subject, &named, [160, 120], 5, render::system_clock);
-    let bench = pollster::block_on(bench).expect("a bench");
+    let bench = (&subject, &named);
+    let bench = render::bench(gpu(), bench, [160, 120], 5, render::system_clock, |_| {});
+    let bench = pollster::block_on(bench).expect("a bench").rows;
     let peel = bench
         .iter()
         .find(|row| row.name == "one peel")

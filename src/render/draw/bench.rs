@@ -9,8 +9,9 @@ use crate::render::device::gpu::Gpu;
 use crate::render::device::readback::WorkDone;
 use glam::Quat;
 use glam::Vec3;
+use serde_json::{Value, json};
 
-/// One line of `fabrica bench`.
+/// One line of a [`BenchReport`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct BenchRow {
     /// Name of the scene that was drawn.
@@ -49,6 +50,50 @@ impl std::fmt::Display for BenchRow {
     }
 }
 
+/// Frame times of one adapter, as `fabrica bench` and the page's `?bench` tell them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BenchReport {
+    /// Name of the adapter, as the driver or the browser tells it.
+    pub adapter: String,
+    /// Voxels along each axis of the subject that was drawn.
+    pub voxels: [u32; 3],
+    /// Width and height of the measured picture, pixels.
+    pub size_px: [u32; 2],
+    /// One row per scene, with and without the skip grid.
+    pub rows: Vec<BenchRow>,
+}
+
+impl BenchReport {
+    /// The report as JSON: `adapter`, `voxels`, `size`, and `frames` with times in milliseconds.
+    pub fn to_json(&self) -> Value {
+        let row = |row: &BenchRow| {
+            json!({
+                "name": row.name, "templates": row.template_count, "grid": row.has_grid, "ms": row.seconds * 1e3,
+                "making_ms": row.making_seconds * 1e3, "ratio": row.ratio, "grid_gain": row.grid_gain,
+            })
+        };
+        let frames: Vec<Value> = self.rows.iter().map(row).collect();
+        json!({ "adapter": self.adapter, "voxels": self.voxels, "size": self.size_px, "frames": frames })
+    }
+}
+
+impl std::fmt::Display for BenchReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let ([x, y, z], [width, height]) = (self.voxels, self.size_px);
+        writeln!(
+            f,
+            "{}, {x} x {y} x {z} voxels, {width} x {height} pixels; ratios to the undeformed frame with the grid",
+            self.adapter
+        )?;
+        self.rows.iter().try_for_each(|row| writeln!(f, "{row}"))
+    }
+}
+
+/// Size of the measured picture, pixels: small enough for a software GPU to end within a minute or two.
+pub const BENCH_SIZE_PX: [u32; 2] = [256, 256];
+/// Frames per case; the median counts.
+pub const BENCH_REPEATS: usize = 7;
+
 /// The eight templates read from the baked map, as while the camera moves.
 const BAKED: &str = "eight, baked";
 
@@ -65,20 +110,27 @@ const CASES: [(&str, usize); 6] = [
 /// Times frames (one sample per pixel at rest quality, read back) of a subject, which documents name as `named`:
 /// undeformed, one peel, eight templates, a peel aligned to the surface and to segments, each with and without the
 /// grid. After a frame of each that warms up come `repeats` rounds of a frame of each; the median counts. What is made
-/// once per edit, before a frame, is timed apart.
+/// once per edit, before a frame, is timed apart. `on_progress` hears how much is measured, 0 to 1.
 ///
 /// # Errors
 /// As [`Studio::render_image`].
 pub async fn bench(
     gpu: &Gpu,
-    subject: &Subject,
-    named: &SubjectRef,
+    (subject, named): (&Subject, &SubjectRef),
     size_px: [u32; 2],
     repeats: usize,
     clock: Clock,
-) -> Result<Vec<BenchRow>, RenderError> {
+    on_progress: impl Fn(f32),
+) -> Result<BenchReport, RenderError> {
     let studio = Studio::new(gpu, subject, true)?;
+    let repeats = repeats.max(1);
     let mut cases = Vec::new();
+    let all = (2 * CASES.len() * (1 + repeats)) as f32;
+    let mut measured = 0.0;
+    let mut tell = || {
+        measured += 1.0;
+        on_progress(measured / all);
+    };
     for has_grid in [true, false] {
         let studio = studio.with_grid(has_grid);
         for (name, template_count) in CASES {
@@ -89,6 +141,7 @@ pub async fn bench(
             } else {
                 studio.render_image(&illustration, size_px, 1).await?;
             }
+            tell();
             let row = BenchRow {
                 name,
                 template_count,
@@ -102,7 +155,7 @@ pub async fn bench(
         }
     }
     // In rounds: whatever else the machine does meets every case alike.
-    for _ in 0..repeats.max(1) {
+    for _ in 0..repeats {
         for (row, studio, illustration, times, making_times) in &mut cases {
             let start = clock();
             let mut job = studio.picture(illustration, size_px)?;
@@ -114,6 +167,7 @@ pub async fn bench(
             job.draw(1, |_| {}).await?;
             times.push(clock() - ready);
             making_times.push(ready - start);
+            tell();
         }
     }
     let mut rows: Vec<BenchRow> = cases
@@ -133,7 +187,12 @@ pub async fn bench(
             .filter(|_| row.has_grid)
             .map(|without| without / row.seconds.max(1e-9));
     }
-    Ok(rows)
+    Ok(BenchReport {
+        adapter: gpu.info.name.clone(),
+        voxels: subject.values().map_or([0; 3], |v| v.grid.dims.to_array()),
+        size_px,
+        rows,
+    })
 }
 
 fn median(times: &mut [f64]) -> f64 {

@@ -20,6 +20,8 @@ thread_local! {
     static MODULES: RefCell<BTreeMap<Part, JsValue>> = const { RefCell::new(BTreeMap::new()) };
     /// Workers that web/parts.js started while the page's own module was on its way; each takes one task.
     static WAITING: RefCell<Vec<(Part, Worker)>> = const { RefCell::new(Vec::new()) };
+    /// Address of worker.js, as the last viewer was given it.
+    static KNOWN_ADDRESS: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
 /// Takes a worker that was started early and has loaded a part, or is loading it.
@@ -158,6 +160,21 @@ pub async fn read_field(
     match read.await {
         Ok(()) => found.replace(Err(String::new())),
         Err(error) => Err(super::fault::text_of(&error)),
+    }
+}
+
+/// From now on workers that no viewer starts are started from this address of worker.js.
+pub fn set_known_address(address: &str) {
+    KNOWN_ADDRESS.set(address.to_owned());
+}
+
+/// Where worker.js is, as the last viewer was given it: beside the page, if there has been no viewer.
+pub fn known_address() -> String {
+    let known = KNOWN_ADDRESS.with_borrow(Clone::clone);
+    if known.is_empty() {
+        "./worker.js".to_owned()
+    } else {
+        known
     }
 }
 

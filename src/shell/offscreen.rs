@@ -1,0 +1,100 @@
+//! What the page's scripts may have drawn beside the viewers: a picture as a PNG, and the frame times of this browser.
+
+use std::cell::RefCell;
+
+use wasm_bindgen::prelude::*;
+
+use super::web::{open, seconds};
+use super::worker::run;
+use crate::document::{Document, SubjectRef};
+use crate::render::{BENCH_REPEATS, BENCH_SIZE_PX, Gpu, GpuOptions, Studio, encode_png};
+use crate::subjects::FINE_RESOLUTION;
+
+thread_local! {
+    /// What [`render_png`] draws with, kept for the next call: a subject's name, its resolution, and a device that
+    /// holds it.
+    static STUDIO: RefCell<Option<(String, u32, Studio)>> = const { RefCell::new(None) };
+    static STUDIO_GPU: RefCell<Option<Gpu>> = const { RefCell::new(None) };
+}
+
+fn words(error: impl std::error::Error) -> JsValue {
+    JsValue::from(error.to_string())
+}
+
+/// The device that pictures are drawn with beside the viewers', opened when it is first needed and after a loss.
+async fn gpu() -> Result<Gpu, JsValue> {
+    let held = STUDIO_GPU.with_borrow(Clone::clone);
+    if let Some(gpu) = held.filter(|gpu| gpu.lost().is_none()) {
+        return Ok(gpu);
+    }
+    let gpu = Gpu::open(&GpuOptions::default()).await.map_err(words)?;
+    STUDIO.set(None);
+    STUDIO_GPU.set(Some(gpu.clone()));
+    Ok(gpu)
+}
+
+/// Draws a document with a built-in subject offscreen and deterministically, as `fabrica render` does, and gives the
+/// PNG.
+/// `resolution` is the number of voxels along the subject's longest side. For tests and for pictures of other pages.
+///
+/// # Errors
+/// What is wrong with the document, the subject or the device, in words.
+#[wasm_bindgen]
+pub async fn render_png(
+    text: String,
+    width: u32,
+    height: u32,
+    samples: u32,
+    resolution: u32,
+) -> Result<Vec<u8>, JsValue> {
+    let document = open(&text)?;
+    let illustration = document.illustration();
+    let SubjectRef::Builtin { name } = &illustration.subject else {
+        return Err("only built-in subjects can be drawn offscreen".into());
+    };
+    let gpu = gpu().await?;
+    let held = STUDIO.with_borrow(Clone::clone);
+    let studio = match held.filter(|(n, r, _)| n == name && *r == resolution) {
+        Some((_, _, studio)) => studio,
+        None => {
+            let subject = run::make_subject(&run::known_address(), name, resolution).await?;
+            let studio = Studio::new(&gpu, &subject, true).map_err(words)?;
+            STUDIO.set(Some((name.clone(), resolution, studio.clone())));
+            studio
+        }
+    };
+    let image = studio.render_image(illustration, [width, height], samples);
+    let image = image.await.map_err(words)?;
+    encode_png(&image).map_err(words)
+}
+
+/// Times frames of the built-in head on this browser's adapter, the rows of `fabrica bench`, and gives the report as
+/// JSON and as text: `[json, text]`. `repeats` frames per row count; 0 takes as many as the command does. `on_progress`
+/// is called with how much is measured, 0 to 1.
+///
+/// # Errors
+/// What is wrong with the subject or the device, in words.
+#[wasm_bindgen]
+pub async fn bench(repeats: u32, on_progress: js_sys::Function) -> Result<Vec<String>, JsValue> {
+    let illustration = Document::new().illustration().clone();
+    let SubjectRef::Builtin { name } = &illustration.subject else {
+        return Err("an empty document shows a built-in subject".into());
+    };
+    let gpu = gpu().await?;
+    let subject = run::make_subject(&run::known_address(), name, FINE_RESOLUTION).await?;
+    let report = crate::render::bench(
+        &gpu,
+        (&subject, &illustration.subject),
+        BENCH_SIZE_PX,
+        match repeats {
+            0 => BENCH_REPEATS,
+            n => n as usize,
+        },
+        seconds,
+        |part| {
+            let _ignored = on_progress.call1(&JsValue::NULL, &JsValue::from_f64(f64::from(part)));
+        },
+    );
+    let report = report.await.map_err(words)?;
+    Ok(vec![report.to_json().to_string(), report.to_string()])
+}
