@@ -5,6 +5,7 @@ mod baked;
 mod bodies;
 mod captions;
 mod cli;
+mod coarse;
 mod fields;
 mod grid;
 mod images;
@@ -13,6 +14,8 @@ mod load_memory;
 mod probes;
 mod slices;
 
+#[path = "../support/data.rs"]
+mod data;
 #[path = "../support/firm.rs"]
 mod firm;
 #[path = "../support/gpu.rs"]
@@ -21,6 +24,8 @@ mod gpu;
 mod rbf;
 #[path = "../reference/mod.rs"]
 mod reference;
+#[path = "../support/scans.rs"]
+mod scans;
 #[path = "../support/scatter.rs"]
 mod scatter;
 #[path = "../support/segment_files.rs"]

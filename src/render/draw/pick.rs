@@ -94,7 +94,7 @@ pub(crate) fn encode_pick(
 ) -> PendingPick {
     let frame = Frame {
         pick: pixel.to_array(),
-        ..frame_of(view, scene.bounds(), subject.frame.detail, 0, false)
+        ..frame_of(view, view, scene.bounds(), subject.frame.detail, 0)
     };
     let target = Target::new(gpu, "pick", [4, 1], PICK_FORMAT);
     let pipeline = passes.raycast.pipeline(gpu, scene.key(true));

@@ -64,13 +64,8 @@ impl PictureJob {
         let tiles = tiles_of(self.size);
         let (mut drawn, all) = (0, tiles.len() * samples as usize);
         for index in 0..samples {
-            let frame = frame_of(
-                &self.view,
-                self.scene.bounds(),
-                self.subject.frame.detail,
-                index,
-                false,
-            );
+            let detail = self.subject.frame.detail;
+            let frame = frame_of(&self.view, &self.view, self.scene.bounds(), detail, index);
             let frame_group = frame_group(&self.gpu, &self.passes.layouts, &frame);
             for batch in tiles.chunks((BATCH_PIXELS / (TILE * TILE)) as usize) {
                 let mut encoder = encoder(&self.gpu);

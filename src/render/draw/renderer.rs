@@ -657,7 +657,9 @@ impl Renderer {
             .size
             .map(|side| ((side as f32 * scale).round() as u32).clamp(1, side));
         let view = View::new(&illustration.camera, small);
-        let frame = frame_of(&view, scene.bounds(), studio.subject.frame.detail, 0, true);
+        let finished = View::new(&illustration.camera, targets.size);
+        let detail = studio.subject.frame.detail;
+        let frame = frame_of(&view, &finished, scene.bounds(), detail, 0);
         let [small_width, small_height] = small.map(|side| side as f32);
         let shot = Shot {
             key,
@@ -699,13 +701,8 @@ impl Renderer {
         }
         let tiles = targets.tiles.get(first..end).unwrap_or_default();
         let view = View::new(&illustration.camera, targets.size);
-        let frame = frame_of(
-            &view,
-            scene.bounds(),
-            studio.subject.frame.detail,
-            sample,
-            false,
-        );
+        let detail = studio.subject.frame.detail;
+        let frame = frame_of(&view, &view, scene.bounds(), detail, sample);
         let [width, height] = targets.size.map(|side| side as f32);
         let shot = Shot {
             key: scene.key(false),

@@ -4,34 +4,37 @@ use super::gpu_types::Frame;
 use super::view::View;
 use crate::math::Aabb;
 
-/// Step at rest, in voxels of the finest spacing. Crossings are found exactly at any step; this is for thin things
+/// Length of a step, in voxels of the finest spacing. Crossings are found exactly at any step; this is for thin things
 /// and haze.
-const STEP_AT_REST: f32 = 0.75;
-/// Step while anything moves.
-const STEP_MOVING: f32 = 1.25;
-/// Steps are never longer than this, subject units, but for subjects of few voxels: the skip grid is made for steps of
-/// this length.
+const STEP: f32 = 0.75;
+/// Steps are never longer than this, in voxels and in subject units, whichever is longer: the skip grid is made for
+/// steps of this length.
+const LONGEST_STEP_VOXELS: f32 = 1.25;
 const LONGEST_STEP: f32 = 0.009;
 
 /// The longest step that any ray takes through a subject whose finest detail has this length.
 pub(crate) fn longest_step(detail: f32) -> f32 {
-    (STEP_MOVING * detail).max(LONGEST_STEP)
+    (LONGEST_STEP_VOXELS * detail).max(LONGEST_STEP)
 }
 
 /// Uniform of sample `index` of a picture of a subject whose finest detail has this length, subject units. The same
 /// for the same index on every machine: nothing is random.
+///
+/// `finished` is the view of the finished picture. A quick picture of fewer pixels takes the steps of the finished one:
+/// the colour of a surface counts for the whole step behind the surface, so that longer steps change the light. With
+/// steps made for its own pixels, a quick picture of half transparent tissue differed by up to 7 levels of 255 in the
+/// mean.
 pub(crate) fn frame_of(
     view: &View,
+    finished: &View,
     bounds: Aabb,
     detail: f32,
     index: u32,
-    is_moving: bool,
 ) -> Frame {
     let distance = (view.eye() - bounds.center()).length();
-    let factor = if is_moving { STEP_MOVING } else { STEP_AT_REST };
     // Finer than a pixel is lost on the picture.
-    let step = (detail * factor)
-        .max(0.6 * view.units_per_pixel(distance))
+    let step = (detail * STEP)
+        .max(0.6 * finished.units_per_pixel(distance))
         .min(longest_step(detail));
     let k = index as f32;
     // Rank-1 lattice with the plastic number: the first samples already lie well apart (Roberts 2018).
