@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, Vec2, vec2};
 
+use crate::app::canvas::foot::Foot;
 use crate::app::canvas::panes::{self, Places};
 use crate::app::canvas::saved::Saving;
 use crate::app::canvas::slices::Slices;
@@ -628,21 +629,24 @@ impl App {
         CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
             let session = &self.session;
             let rect = ui.available_rect_before_wrap();
-            let places = Places::new(rect, &session.view);
-            ui.painter().rect_filled(rect, 0.0, Palette::get(ui).line);
+            let foot = Foot::new(ui, rect, session);
+            let panes = foot.panes(rect, session);
+            let places = Places::new(panes, &session.view);
+            let palette = Palette::get(ui);
+            ui.painter().rect_filled(rect, 0.0, palette.panel);
+            ui.painter().rect_filled(panes, 0.0, palette.line);
             let picture = self.picture.as_mut();
             self.viewport
                 .ui(ui, places.picture, session, picture, commands);
             places.tabs_ui(ui, &session.view, commands);
             let picture = self.picture.as_mut();
             self.slices.ui(ui, &places, session, picture, commands);
-            if places.picture.is_some() {
-                steps::ui(ui, rect, session, commands);
-            }
-            hint::ui(ui, rect, session, commands);
-            notice::ui(ui, rect, session, commands);
+            foot.ui(ui, rect, session, commands);
+            let hint = hint::ui(ui, rect, session, commands);
+            let floor = foot.top().or(hint.map(|card| card.top()));
+            notice::ui(ui, rect, floor, session, commands);
             if session.are_panels_hidden {
-                title::ui(ui, rect, session, commands);
+                title::way_back_ui(ui, rect, commands);
             }
             if ui.input(|i| !i.raw.hovered_files.is_empty()) {
                 panes::drop_hint_ui(ui, rect);

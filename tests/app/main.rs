@@ -2,6 +2,7 @@
 
 mod assets;
 mod authoring;
+mod canvas;
 mod captions;
 mod comfort;
 mod looking;

@@ -99,6 +99,13 @@ fn steps_are_walked_and_an_edit_leaves_them() {
     window.settle();
     assert_eq!(
         window.harness.state().step(),
+        2,
+        "what is selected is looked at first"
+    );
+    window.press(Key::CloseBracket);
+    window.settle();
+    assert_eq!(
+        window.harness.state().step(),
         0,
         "what is edited is the document as it stands"
     );

@@ -4,6 +4,7 @@
 use egui::{Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2};
 use glam::{Quat, Vec3};
 
+use super::apart::{APART, Apart, drawn_out, on_stems};
 use super::snap;
 use crate::app::canvas::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;
@@ -19,8 +20,12 @@ use crate::placed;
 const ARROW: f32 = 74.0;
 /// Points of a turning ring's radius.
 const RING: f32 = 66.0;
-/// Points between the centre's handle and the knob of the main parameter at least.
-const STEM: f32 = 30.0;
+/// Where the squares lie between the arrows, as parts of both arrows: the first where there is room.
+const SQUARES: [f32; 4] = [0.36, 0.5, 0.64, 0.8];
+/// Lengths of an arrow where others are in its way, as parts of [`ARROW`].
+const LENGTHS: [f32; 3] = [1.0, 1.35, 0.7];
+/// How far the knob on its stem keeps from the shafts of the arrows, points.
+const BESIDE_SHAFT: f32 = 14.0;
 /// Points around a line or dot within which the mouse takes it.
 const REACH_MOUSE: f32 = 9.0;
 /// How near a finger must be to a handle, points.
@@ -285,18 +290,6 @@ fn stepped(value: f32, step: f32, snap: bool) -> f32 {
     }
 }
 
-/// Where the knob of the main parameter is drawn: on what it stands for, or on a stem beside it when the centre's
-/// handle is too near to tell them apart.
-fn knob(at: Pos2, center: Pos2) -> Pos2 {
-    let away = at - center;
-    if away.length() >= STEM {
-        return at;
-    }
-    // Down and to the right there is neither an arrow nor a square in most views.
-    let direction = vec2(0.6, 0.8);
-    at + direction * STEM
-}
-
 /// A point of a ring: its place in subject space and in the window, and whether it lies on the half towards the eye.
 struct RingPoint {
     pos: Vec3,
@@ -331,22 +324,38 @@ struct Handles<'a> {
     bent: Option<Bent>,
     mode: GizmoMode,
     center: Option<Pos2>,
-    /// Where the main parameter is held: the knob, a little aside from what it stands for if the centre is there too.
+    /// Where the main parameter is held: the knob, on a stem beside what it stands for if another handle is there.
     main: Option<Pos2>,
     /// What the knob stands for.
     main_at: Option<Pos2>,
     main_name: &'static str,
-    /// Where the tip of each arrow is seen.
+    /// Where the tip of each arrow is seen; none of an arrow that points at the eye and cannot be dragged to any use.
     tips: [Option<Pos2>; 3],
-    /// Middles of the faces: axis, far end, place, and whether it faces the viewer.
-    faces: Vec<(usize, bool, Pos2, bool)>,
+    /// The squares between the arrows, each by the axis that it is across.
+    squares: [Option<Pos2>; 3],
+    faces: Vec<Face>,
+}
+
+/// The handle of a face of the box.
+#[derive(Clone, Copy)]
+struct Face {
+    axis: usize,
+    /// At the far end of the axis.
+    is_far: bool,
+    /// The middle of the face.
+    at: Pos2,
+    /// Where it is held: in the middle, or drawn out from there where another handle is in its way; none where that is
+    /// no use either.
+    grip: Option<Pos2>,
+    /// The face is turned to the viewer.
+    is_front: bool,
 }
 
 impl<'a> Handles<'a> {
     fn new(view: &'a Projection, template: &'a PlacedTemplate, mode: GizmoMode) -> Self {
         let placement = &template.placement;
         let unit = 1.0 / view.points_per_unit(placement.at);
-        let tips = AXES.map(|axis| {
+        let arrows = AXES.map(|axis| {
             view.ui_from_subject(placement.at + placement.rotate * axis * (ARROW * unit))
         });
         let mut faces = Vec::with_capacity(6);
@@ -356,59 +365,132 @@ impl<'a> Handles<'a> {
                 let pos = template.subject_from_template(Vec3::splat(0.5) + axis * sign);
                 let outward = placement.rotate * axis * sign;
                 if let Some(seen) = view.ui_from_subject(pos) {
-                    faces.push((i, high, seen, outward.dot(view.eye - pos) > 0.0));
+                    faces.push(Face {
+                        axis: i,
+                        is_far: high,
+                        at: seen,
+                        grip: None,
+                        is_front: outward.dot(view.eye - pos) > 0.0,
+                    });
                 }
             }
         }
         let spec = template.kind.spec();
         let center = view.ui_from_subject(placement.at);
         let main_at = placed::handle(template).and_then(|handle| view.ui_from_subject(handle.at));
-        Self {
+        let mut handles = Self {
             view,
             placement,
             bent: template.bent(),
             mode,
             center,
-            main: main_at.zip(center).map(|(at, center)| knob(at, center)),
+            main: None,
             main_at,
             main_name: spec
                 .main_param
                 .map_or("", |i| kinds::param_name(template.kind, i)),
-            tips,
+            tips: [None; 3],
+            squares: [None; 3],
             faces,
+        };
+        if let Some(center) = center {
+            handles.keep_apart(center, arrows);
+        }
+        handles
+    }
+
+    /// Finds a place for every handle: the centre first, then the knob, which stays where it is dragged to, then the
+    /// others around both.
+    fn keep_apart(&mut self, center: Pos2, arrows: [Option<Pos2>; 3]) {
+        let mut apart = Apart::default();
+        // Where the knob would be nearer to the middle, it stands on a stem in every mode.
+        apart.take(center);
+        self.main = self.main_at.and_then(|at| apart.take_first([at]));
+        match self.mode {
+            GizmoMode::Move => self.place_arrows(center, arrows, &mut apart),
+            GizmoMode::Turn => {}
+            GizmoMode::Size => self.place_faces(center, &mut apart),
+        }
+        if let (None, Some(at)) = (self.main, self.main_at) {
+            let shafts = self.tips;
+            let beside = |place: &Pos2| {
+                let distance = |tip: Pos2| segment_distance(*place, center, tip);
+                shafts
+                    .iter()
+                    .flatten()
+                    .all(|tip| distance(*tip) >= BESIDE_SHAFT)
+            };
+            let stems = || on_stems(at, self.view.rect);
+            let place = apart.take_first(stems().filter(beside));
+            self.main = place.or_else(|| apart.take_first(stems())).or(Some(at));
         }
     }
 
-    /// Corner of the small square that moves in the plane across an axis.
-    fn plane_center(&self, axis: usize) -> Option<Pos2> {
-        let (center, a, b) = (
-            self.center?,
-            self.tips[(axis + 1) % 3]?,
-            self.tips[(axis + 2) % 3]?,
-        );
-        let normal = self.placement.rotate * AXES[axis];
-        let facing = normal
-            .dot((self.view.eye - self.placement.at).normalize_or_zero())
-            .abs();
-        // Edge-on squares cannot be dragged to any use.
-        (facing > 0.25).then(|| center + 0.36 * (a - center) + 0.36 * (b - center))
+    fn place_arrows(&mut self, center: Pos2, arrows: [Option<Pos2>; 3], apart: &mut Apart) {
+        for (i, arrow) in arrows.into_iter().enumerate() {
+            let along = arrow.map(|tip| tip - center);
+            self.tips[i] = along
+                .filter(|along| along.length() >= APART)
+                .and_then(|along| apart.take_first(LENGTHS.map(|part| center + along * part)));
+        }
+        for i in 0..3 {
+            let normal = self.placement.rotate * AXES[i];
+            let to_eye = (self.view.eye - self.placement.at).normalize_or_zero();
+            // Edge-on squares cannot be dragged to any use.
+            if normal.dot(to_eye).abs() <= 0.25 {
+                continue;
+            }
+            if let (Some(a), Some(b)) = (arrows[(i + 1) % 3], arrows[(i + 2) % 3]) {
+                let out = (a - center) + (b - center);
+                self.squares[i] = apart.take_first(SQUARES.map(|part| center + out * part));
+            }
+        }
+    }
+
+    /// Faces that are turned to the viewer first; others that find no place are left out.
+    fn place_faces(&mut self, center: Pos2, apart: &mut Apart) {
+        self.faces.sort_by_key(|face| !face.is_front);
+        for face in &mut self.faces {
+            let out = face.at - center;
+            let direction = if out.length() > 2.0 {
+                out.normalized()
+            } else {
+                Vec2::ZERO
+            };
+            face.grip = apart.take_first(drawn_out(face.at, direction));
+        }
     }
 
     /// The part under a place of the window, within `reach` points; where several overlap, the most specific.
     fn hit(&self, pos: Pos2, reach: f32) -> Option<Part> {
-        let near = |handle: Option<Pos2>, extra: f32| {
-            handle.is_some_and(|handle| handle.distance(pos) <= reach + extra)
+        // The nearest of those within reach: a finger reaches several.
+        let nearest = |handles: &[(Part, Option<Pos2>, f32)]| {
+            let within = handles.iter().filter_map(|(part, at, extra)| {
+                let distance = at.as_ref()?.distance(pos);
+                (distance <= reach + extra).then_some((*part, distance))
+            });
+            within
+                .min_by(|a, b| a.1.total_cmp(&b.1))
+                .map(|found| found.0)
         };
-        if near(self.main, 5.0) {
-            return Some(Part::Main);
-        }
+        let main = (Part::Main, self.main, 5.0);
         match self.mode {
             GizmoMode::Move => {
-                if near(self.center, 1.0) {
-                    return Some(Part::Free);
-                }
-                if let Some(i) = (0..3).find(|&i| near(self.plane_center(i), 2.0)) {
-                    return Some(Part::Plane(i));
+                let square = |i| (Part::Plane(i), self.squares[i], 2.0);
+                let tip = |i| (Part::Axis(i), self.tips[i], 0.0);
+                let free = (Part::Free, self.center, 1.0);
+                let all = [
+                    main,
+                    free,
+                    square(0),
+                    square(1),
+                    square(2),
+                    tip(0),
+                    tip(1),
+                    tip(2),
+                ];
+                if let Some(part) = nearest(&all) {
+                    return Some(part);
                 }
                 let center = self.center?;
                 let distance = |i: usize| {
@@ -418,6 +500,9 @@ impl<'a> Handles<'a> {
                 (distance(best) <= reach).then_some(Part::Axis(best))
             }
             GizmoMode::Turn => {
+                if let Some(part) = nearest(&[main]) {
+                    return Some(part);
+                }
                 let distance = |i: usize| {
                     let points = ring(self.view, self.placement, i);
                     points
@@ -433,15 +518,10 @@ impl<'a> Handles<'a> {
                 (distance(best) <= reach + 2.0).then_some(Part::Ring(best))
             }
             GizmoMode::Size => {
-                let near = self
-                    .faces
-                    .iter()
-                    .filter(|face| face.2.distance(pos) <= reach + 3.0);
-                let cost = |face: &&(usize, bool, Pos2, bool)| {
-                    face.2.distance(pos) + if face.3 { 0.0 } else { 6.0 }
-                };
-                near.min_by(|a, b| cost(a).total_cmp(&cost(b)))
-                    .map(|face| Part::Face(face.0, face.1))
+                let face = |face: &Face| (Part::Face(face.axis, face.is_far), face.grip, 3.0);
+                let mut all = vec![main];
+                all.extend(self.faces.iter().map(face));
+                nearest(&all)
             }
         }
     }
@@ -455,8 +535,7 @@ impl<'a> Handles<'a> {
         }
         if let (Some(main), Some(at)) = (self.main, self.main_at) {
             if main != at {
-                painter.line_segment([at, main], Stroke::new(4.0, ink::HALO_DARK));
-                painter.line_segment([at, main], Stroke::new(2.0, egui::Color32::WHITE));
+                stem(painter, at, main);
                 painter.circle_filled(at, 3.5, ink::HANDLE);
             }
             let is_hot = hot == Some(Part::Main);
@@ -498,7 +577,7 @@ impl<'a> Handles<'a> {
         let is_face_front = |axis: usize, high: bool| {
             self.faces
                 .iter()
-                .any(|face| face.0 == axis && face.1 == high && face.3)
+                .any(|face| face.axis == axis && face.is_far == high && face.is_front)
         };
         for axis in 0..3_usize {
             for bits in 0..8_usize {
@@ -532,18 +611,16 @@ impl<'a> Handles<'a> {
         let toward = |i: usize| (self.placement.rotate * AXES[i]).dot(self.view.back);
         order.sort_by(|&a, &b| toward(a).total_cmp(&toward(b)));
         for i in order {
-            let Some(tip) = self.tips[i] else { continue };
             let color = if hot == Some(Part::Axis(i)) {
                 ink::HOT
             } else {
                 AXIS_COLORS[i]
             };
-            let length = (tip - center).length();
-            if length > 14.0 {
-                let start = center + (tip - center) * (12.0 / length);
+            if let Some(tip) = self.tips[i] {
+                let start = center + (tip - center).normalized() * 12.0;
                 arrow(painter, start, tip, color);
             }
-            if let Some(at) = self.plane_center(i) {
+            if let Some(at) = self.squares[i] {
                 let is_hot = hot == Some(Part::Plane(i));
                 let color = if is_hot { ink::HOT } else { AXIS_COLORS[i] };
                 let square =
@@ -598,12 +675,20 @@ impl<'a> Handles<'a> {
 
     fn paint_size(&self, painter: &Painter, hot: Option<Part>) {
         for pass in [false, true] {
-            for &(i, high, at, is_front) in self.faces.iter().filter(|face| face.3 == pass) {
-                let is_hot = hot == Some(Part::Face(i, high));
+            for face in self.faces.iter().filter(|face| face.is_front == pass) {
+                let Some(grip) = face.grip else { continue };
+                let is_hot = hot == Some(Part::Face(face.axis, face.is_far));
                 let side = if is_hot { 15.0 } else { 12.0 };
-                let color = if is_hot { ink::HOT } else { AXIS_COLORS[i] };
-                let fade = if is_front { 1.0 } else { 0.55 };
-                let square = Rect::from_center_size(at, Vec2::splat(side));
+                let color = if is_hot {
+                    ink::HOT
+                } else {
+                    AXIS_COLORS[face.axis]
+                };
+                let fade = if face.is_front { 1.0 } else { 0.55 };
+                if grip != face.at {
+                    stem(painter, face.at, grip);
+                }
+                let square = Rect::from_center_size(grip, Vec2::splat(side));
                 painter.rect_filled(square.expand(3.0), 4.0, ink::HALO_DARK.gamma_multiply(fade));
                 painter.rect_filled(
                     square.expand(1.8),
@@ -633,7 +718,7 @@ impl<'a> Handles<'a> {
                 announce(Part::Free, self.center);
                 for i in 0..3 {
                     announce(Part::Axis(i), self.tips[i]);
-                    announce(Part::Plane(i), self.plane_center(i));
+                    announce(Part::Plane(i), self.squares[i]);
                 }
             }
             GizmoMode::Turn => {
@@ -644,8 +729,8 @@ impl<'a> Handles<'a> {
                 }
             }
             GizmoMode::Size => {
-                for &(i, high, at, _) in &self.faces {
-                    announce(Part::Face(i, high), Some(at));
+                for face in &self.faces {
+                    announce(Part::Face(face.axis, face.is_far), face.grip);
                 }
             }
         }
@@ -656,6 +741,12 @@ fn segment_distance(pos: Pos2, from: Pos2, to: Pos2) -> f32 {
     let along = to - from;
     let t = ((pos - from).dot(along) / along.length_sq().max(1e-6)).clamp(0.0, 1.0);
     (pos - from - along * t).length()
+}
+
+/// The line between a handle and what it stands for.
+fn stem(painter: &Painter, from: Pos2, to: Pos2) {
+    painter.line_segment([from, to], Stroke::new(4.0, ink::HALO_DARK));
+    painter.line_segment([from, to], Stroke::new(2.0, egui::Color32::WHITE));
 }
 
 fn arrow(painter: &Painter, from: Pos2, to: Pos2, color: egui::Color32) {

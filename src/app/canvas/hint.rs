@@ -10,24 +10,31 @@ use crate::app::kit::widget;
 use crate::app::session::Command;
 use crate::app::session::Session;
 use crate::app::words::authoring::w;
+use crate::document::{ParamKind, ParamValue, PlacedTemplate};
 
 /// The card: beside the ball of axes, or where there is no room at the head of the picture. Nothing while something
-/// else wants the place.
-pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut Vec<Command>) {
+/// else wants the place. Returns where it lies at the foot of the picture.
+pub(crate) fn ui(
+    ui: &mut Ui,
+    picture: Rect,
+    session: &Session,
+    commands: &mut Vec<Command>,
+) -> Option<Rect> {
     let has_steps = session.document().step_count() > 0;
     if !session.has_hint || has_steps || session.are_panels_hidden || session.tab.is_some() {
-        return;
+        return None;
     }
     let palette = Palette::get(ui);
     let width = (picture.width() - 16.0).min(330.0);
     let is_narrow = picture.width() < 560.0;
     let has_one = session.template_count() > 0;
+    let is_opened = session.shown().templates.iter().any(is_opened);
     let lines = [
         (
             w().hint_choose,
             session.tool().placing().is_some() || has_one,
         ),
-        (w().hint_place, has_one),
+        (w().hint_place, is_opened),
         (w().hint_link, false),
     ];
     let galleys = lines.map(|(text, is_done)| {
@@ -40,9 +47,10 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut V
         )
     });
     let text_height: f32 = galleys.iter().map(|(g, _)| g.size().y + 5.0).sum();
-    let height = text_height + 50.0;
+    let head = theme::control_height() + 14.0;
+    let height = text_height + head + 8.0;
     if 2.0 * height > picture.height() {
-        return;
+        return None;
     }
     let corner = if is_narrow {
         let has_bar = session.tool().placing().is_some() || session.selected_template().is_some();
@@ -68,7 +76,7 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut V
             commands.push(Command::PutHintAway);
         }
     });
-    let mut y = card.top() + 42.0;
+    let mut y = card.top() + head;
     for (i, (galley, is_done)) in galleys.into_iter().enumerate() {
         let row = Rect::from_min_size(pos2(card.left() + 12.0, y), vec2(width - 24.0, 0.0))
             .with_max_y(y + galley.size().y);
@@ -90,4 +98,22 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut V
         y += galley.size().y + 5.0;
         ui.painter().galley(spot.min, galley, palette.text);
     }
+    (!is_narrow).then_some(card)
+}
+
+/// True if the main parameter is no longer what a new template has; a template without one is as open as it gets.
+fn is_opened(template: &PlacedTemplate) -> bool {
+    let spec = template.kind.spec();
+    let Some(param) = spec.main_param else {
+        return true;
+    };
+    let now = template.params.get(param);
+    let at_first = match spec.params[param].kind {
+        ParamKind::Number { default, .. } | ParamKind::Count { default, .. } => {
+            ParamValue::Number(default)
+        }
+        ParamKind::Vector { default, .. } => ParamValue::Vector(default.into()),
+        ParamKind::Flag { .. } | ParamKind::Choice { .. } | ParamKind::Rotation => return true,
+    };
+    now != Some(&at_first)
 }

@@ -1,8 +1,10 @@
 //! What lies on the picture and on the slices: handles, captions, measures, the bars over them.
 
+pub(crate) mod apart;
 pub(crate) mod caption_layout;
 pub(crate) mod captions;
 pub(crate) mod curve;
+pub(crate) mod foot;
 pub(crate) mod gizmo;
 pub(crate) mod hint;
 pub(crate) mod lettering;

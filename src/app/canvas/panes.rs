@@ -18,8 +18,6 @@ use crate::app::words::slices::w;
 
 /// Gap between two panes, points.
 const GAP: f32 = 2.0;
-/// Height of the row of tabs where there is room for one pane only.
-const TABS: f32 = 40.0;
 /// Width below which there is room for one pane only.
 pub(crate) const ONE_PANE: f32 = 560.0;
 
@@ -56,8 +54,9 @@ impl Places {
         let is_narrow = rect.width() < ONE_PANE;
         let mut inner = rect;
         if is_narrow {
-            places.tabs = Some(rect.with_max_y(rect.top() + TABS));
-            inner.min.y += TABS;
+            let tabs = theme::control_height() + 12.0;
+            places.tabs = Some(rect.with_max_y(rect.top() + tabs));
+            inner.min.y += tabs;
         }
         let alone = view.expanded.or(is_narrow.then_some(Pane::Picture));
         let place = |pane: Pane| match alone {

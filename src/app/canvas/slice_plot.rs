@@ -190,13 +190,21 @@ fn paint_line(painter: &Painter, line: Vec<Pos2>, stroke: Stroke, is_dashed: boo
     }
 }
 
-/// The sides of the patient at the edges.
-pub(crate) fn edges(painter: &Painter, axes: &Axes, rect: Rect, color: Color32) {
+/// The sides of the patient at the edges; the upper one under `head`, the name and position of the slice, where these
+/// reach so far.
+pub(crate) fn edges(painter: &Painter, axes: &Axes, (rect, head): (Rect, Rect), color: Color32) {
     let font = theme::strong_font(13.0);
+    let top = rect.center_top() + vec2(0.0, 16.0);
+    let is_covered = head.expand2(vec2(14.0, 0.0)).contains(top);
+    let top = if is_covered {
+        pos2(top.x, head.bottom() + 12.0)
+    } else {
+        top
+    };
     let at = [
         (rect.left_center() + vec2(12.0, 0.0), -axes.right),
         (rect.right_center() - vec2(STRIP + 10.0, 0.0), axes.right),
-        (rect.center_top() + vec2(0.0, 16.0), -axes.down),
+        (top, -axes.down),
         (rect.center_bottom() - vec2(0.0, 16.0), axes.down),
     ];
     for (pos, direction) in at {

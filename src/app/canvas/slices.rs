@@ -18,7 +18,7 @@ use crate::app::canvas::slice_plot::{
 use crate::app::kit::float::float_frame;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, over_picture as ink};
-use crate::app::kit::widget;
+use crate::app::kit::{slow_click, widget};
 use crate::app::picture::host::Picture;
 use crate::app::session::shape::placement_on_surface;
 use crate::app::session::{Command, Gravity, See, Session, SubjectFacts};
@@ -110,6 +110,9 @@ impl Slices {
                 hovered = hovered.or(found.map(|pos| (pos, rect)));
             }
         }
+        // The planes stay in the outermost voxels, however far outside a click lies.
+        let edge = Vec3::splat(0.5 * facts.detail).min(0.5 * (bounds.max - bounds.min));
+        cross = cross.clamp(bounds.min + edge, bounds.max - edge);
         if cross != session.view.cross {
             commands.push(Command::See(See::Cross(cross)));
             ui.ctx().request_repaint();
@@ -170,7 +173,8 @@ impl Slices {
         } else {
             Color32::from_black_alpha(170)
         };
-        edges(&painter, axes, rect, letters);
+        let head = self.head_ui(&painter, (axes, rect), facts, *cross, letters);
+        edges(&painter, axes, (rect, head), letters);
         paint_crosshair(&painter, axes, &map, *cross);
         self.templates_ui(ui, &painter, i, &map, session);
         // Lines in the slice are bright, lines a tenth of the object away are faint.
@@ -184,15 +188,7 @@ impl Slices {
             let placement = placement_on_surface(kind, pos, normal, &session.camera);
             paint_section(&painter, &map, &placement, Stroke::new(1.5, ink::HOT));
         }
-        self.controls_ui(
-            ui,
-            (axes, rect),
-            (facts, bounds),
-            session,
-            cross,
-            letters,
-            commands,
-        );
+        self.controls_ui(ui, (axes, rect), bounds, session, cross, letters, commands);
         if response.has_focus() {
             widget::focus_ring(ui, &response, rect.shrink(1.0));
         }
@@ -280,7 +276,7 @@ impl Slices {
             match held {
                 Held::Crosshair => *cross = map.subject(pos),
                 Held::Template(index, offset) => {
-                    let templates = &session.illustration().templates;
+                    let templates = &session.shown().templates;
                     if let Some(template) = templates.iter().find(|t| t.index == index) {
                         let at = map.subject(pos) + offset;
                         let placement = Placement {
@@ -307,7 +303,8 @@ impl Slices {
             let normal = outwards(pos, facts.bounds.center(), axes);
             commands.push(Command::PlaceAt { pos, normal });
         } else if session.tool().is_measuring() {
-            commands.push(Command::Measure(Some(map.subject(pos))));
+            let places = slow_click::places(ui, response).into_iter();
+            commands.extend(places.map(|pos| Command::Measure(Some(map.subject(pos)))));
         } else if let Some(template) = template_at(pos, map, session) {
             commands.push(Command::Select(Some(template.index)));
         } else {
@@ -404,7 +401,7 @@ impl Slices {
 
     /// Boxes cut by the slice, and dots to take hold of.
     fn templates_ui(&self, ui: &Ui, painter: &Painter, i: usize, map: &Map<'_>, session: &Session) {
-        for template in &session.illustration().templates {
+        for template in &session.shown().templates {
             let is_selected = session.selected == Some(template.index);
             let fade = if template.enabled { 1.0 } else { 0.45 };
             let width = if is_selected { 2.2 } else { 1.4 };
@@ -442,21 +439,18 @@ impl Slices {
         }
     }
 
-    /// Name and position, the strip that scrolls through, and the buttons of a pane.
-    #[expect(clippy::too_many_arguments, reason = "what stands around a slice")]
-    fn controls_ui(
-        &mut self,
-        ui: &mut Ui,
+    /// Name and position at the head of a pane. Returns where they are painted.
+    fn head_ui(
+        &self,
+        painter: &Painter,
         (axes, rect): (&Axes, Rect),
-        (facts, bounds): (&SubjectFacts, Aabb),
-        session: &Session,
-        cross: &mut Vec3,
+        facts: &SubjectFacts,
+        cross: Vec3,
         letters: Color32,
-        commands: &mut Vec<Command>,
-    ) {
+    ) -> Rect {
         let name = pane_name(axes.pane);
         let at = cross[axes.axis];
-        let mm = facts.world_from_subject(*cross)[axes.axis];
+        let mm = facts.world_from_subject(cross)[axes.axis];
         let text = fill(
             w().at,
             &[
@@ -464,7 +458,6 @@ impl Slices {
                 &widget::plain(f64::from(mm), 1),
             ],
         );
-        let painter = ui.painter_at(rect);
         let corner = rect.left_top() + vec2(10.0, 8.0);
         let shown = painter.text(
             corner,
@@ -473,13 +466,31 @@ impl Slices {
             theme::strong_font(13.0),
             axes.color,
         );
-        painter.text(
+        let position = painter.text(
             shown.right_top() + vec2(8.0, 1.0),
             Align2::LEFT_TOP,
             text,
             egui::FontId::proportional(12.0),
             letters,
         );
+        shown.union(position)
+    }
+
+    /// The strip that scrolls through, and the buttons of a pane.
+    #[expect(clippy::too_many_arguments, reason = "what stands around a slice")]
+    fn controls_ui(
+        &mut self,
+        ui: &mut Ui,
+        (axes, rect): (&Axes, Rect),
+        bounds: Aabb,
+        session: &Session,
+        cross: &mut Vec3,
+        letters: Color32,
+        commands: &mut Vec<Command>,
+    ) {
+        let name = pane_name(axes.pane);
+        let at = cross[axes.axis];
+        let painter = ui.painter_at(rect);
 
         // The strip at the right.
         let (low, high) = (bounds.min[axes.axis], bounds.max[axes.axis]);
@@ -688,7 +699,7 @@ fn outwards(pos: Vec3, center: Vec3, axes: &Axes) -> Vec3 {
 
 /// The template whose dot is at a place; the selected one first.
 fn template_at<'a>(at: Pos2, map: &Map<'_>, session: &'a Session) -> Option<&'a PlacedTemplate> {
-    let templates = &session.illustration().templates;
+    let templates = &session.shown().templates;
     let near = templates.iter().filter(|t| {
         let is_selected = session.selected == Some(t.index);
         map.ui(t.placement.at).distance(at) <= REACH

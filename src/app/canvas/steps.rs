@@ -1,6 +1,9 @@
-//! The bar of a lesson at the foot of the picture: the step that is shown, its legend, back and forth.
+//! The bar of a lesson at the foot of the picture or under the slices: the step that is shown, its legend, back and
+//! forth.
 
-use egui::{FontId, Rect, Role, Ui, UiBuilder, WidgetInfo, vec2};
+use std::sync::Arc;
+
+use egui::{FontId, Galley, Rect, Role, Ui, UiBuilder, WidgetInfo, vec2};
 
 use crate::app::canvas::view_bar;
 use crate::app::kit::float;
@@ -11,14 +14,17 @@ use crate::app::session::Command;
 use crate::app::session::Session;
 use crate::app::words::keys::w;
 
-/// Points that the ball of axes and the way home take at the left, and at the foot of the picture.
-const BESIDE_THE_BALL: f32 = 148.0;
-const ABOVE_THE_BALL: f32 = 112.0;
+/// Widest bar over a picture, and under panes, points.
+const WIDEST: f32 = 560.0;
+const WIDEST_UNDER_PANES: f32 = 900.0;
+/// Height of the row of buttons, and what the bar has around its text, points.
+const ROW: f32 = 44.0;
+const MARGIN: f32 = 14.0;
 
-/// Title and legend of the step that is shown.
-fn texts(session: &Session) -> (&str, &str) {
+/// Title and legend of a step; of the document where it is 0.
+fn texts(session: &Session, step: usize) -> (&str, &str) {
     let illustration = session.document().illustration();
-    let step = session.step().checked_sub(1);
+    let step = step.checked_sub(1);
     match step.and_then(|index| illustration.steps.get(index)) {
         Some(step) => (&step.title, &step.legend),
         None => (&illustration.title, &illustration.legend),
@@ -37,44 +43,62 @@ fn heading(number: usize, count: usize, title: &str) -> String {
 /// The step that is shown, for readers who cannot see it. Nothing without steps.
 pub(crate) fn spoken(session: &Session) -> Option<String> {
     let count = session.document().step_count();
-    let (title, legend) = texts(session);
+    let (title, legend) = texts(session, session.step());
     (count > 0).then(|| format!("{}. {legend}", heading(session.step(), count, title)))
 }
 
-/// The bar at the foot of the picture: back, number and title, forth, and the legend. Nothing without steps.
-pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut Vec<Command>) {
-    let steps = &session.document().illustration().steps;
-    if steps.is_empty() || picture.height() < 220.0 {
-        return;
+/// A text of the bar; none where it is empty.
+fn galley(ui: &Ui, text: &str, size: f32, bar_width: f32) -> Option<Arc<Galley>> {
+    let width = bar_width - 2.0 * MARGIN;
+    let (font, color) = (FontId::proportional(size), Palette::get(ui).text);
+    let layout = |text: &str| ui.painter().layout(text.to_owned(), font, color, width);
+    (!text.is_empty()).then(|| layout(text))
+}
+
+/// The credit, where the panels that tell it are not there.
+fn credit(ui: &Ui, session: &Session, width: f32) -> Option<Arc<Galley>> {
+    let credit = &session.illustration().credit;
+    galley(ui, credit, 12.0, width).filter(|_| session.are_panels_hidden)
+}
+
+/// Where the bar lies in the part of the window that shows the object: over the foot of the picture; under the panes
+/// where slices are shown, always as high as the longest legend needs, so that the panes stay as they are. None without
+/// steps.
+pub(crate) fn place(ui: &Ui, area: Rect, session: &Session) -> Option<Rect> {
+    let count = session.document().step_count();
+    if count == 0 || area.height() < 220.0 {
+        return None;
     }
-    let palette = Palette::get(ui);
-    let number = session.step();
-    let (title, legend) = texts(session);
-    // Beside the ball of axes where there is room for both, else above it.
-    let free = if picture.width() > 620.0 {
-        picture.with_min_x(picture.left() + BESIDE_THE_BALL)
+    let is_split = session.view.is_split;
+    let (free, widest) = if is_split {
+        (area, WIDEST_UNDER_PANES)
     } else {
-        picture.with_max_y(picture.bottom() - ABOVE_THE_BALL)
+        (view_bar::above_foot(area), WIDEST)
     };
-    let free = free.with_max_x(free.right() - view_bar::column_width(picture));
-    let width = (free.width() - 16.0).min(560.0);
-    let text_width = width - 28.0;
-    let legend = (!legend.is_empty()).then(|| {
-        ui.painter().layout(
-            legend.to_owned(),
-            FontId::proportional(14.0),
-            palette.text,
-            text_width,
-        )
-    });
-    let legend_height = legend.as_ref().map_or(0.0, |galley| galley.size().y + 6.0);
-    let height = 44.0 + legend_height.min(0.3 * picture.height());
-    let bar = Rect::from_min_size(
-        free.center_bottom() - vec2(0.5 * width, height + 14.0),
-        vec2(width, height),
-    );
+    let width = (free.width() - 16.0).min(widest);
+    let shown = if is_split {
+        0..=count
+    } else {
+        session.step()..=session.step()
+    };
+    let height_of =
+        |galley: Option<Arc<Galley>>| galley.map_or(0.0, |galley| galley.size().y + 6.0);
+    let legends = shown.map(|step| height_of(galley(ui, texts(session, step).1, 14.0, width)));
+    let text = legends.fold(0.0, f32::max) + height_of(credit(ui, session, width));
+    let height = ROW + text.min(0.3 * area.height());
+    let below = if is_split { 8.0 } else { MARGIN };
+    let corner = free.center_bottom() - vec2(0.5 * width, height + below);
+    Some(Rect::from_min_size(corner, vec2(width, height)))
+}
+
+/// The bar: back, number and title, forth, and the legend.
+pub(crate) fn ui(ui: &mut Ui, bar: Rect, session: &Session, commands: &mut Vec<Command>) {
+    let count = session.document().step_count();
+    let number = session.step();
+    let (title, legend) = texts(session, number);
+    let width = bar.width();
     float::float_frame(ui, bar);
-    let row = Rect::from_min_size(bar.min, vec2(width, 44.0)).shrink2(vec2(8.0, 6.0));
+    let row = Rect::from_min_size(bar.min, vec2(width, ROW)).shrink2(vec2(8.0, 6.0));
     let mut inner = ui.new_child(
         UiBuilder::new()
             .id_salt("steps")
@@ -85,7 +109,7 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut V
     if back.clicked() {
         commands.push(Command::GoToStep(number.saturating_sub(1)));
     }
-    let heading = heading(number, steps.len(), title);
+    let heading = heading(number, count, title);
     inner.allocate_ui(vec2(row.width() - 76.0, row.height()), |ui| {
         ui.centered_and_justified(|ui| {
             let response = ui.add(egui::Label::new(theme::strong(heading.clone())).truncate());
@@ -94,13 +118,17 @@ pub(crate) fn ui(ui: &mut Ui, picture: Rect, session: &Session, commands: &mut V
         });
     });
     inner.with_layout(widget::against(), |ui| {
-        let is_last = number >= steps.len();
+        let is_last = number >= count;
         if widget::icon_button(ui, Icon::Next, w().next_step, !is_last).clicked() {
             commands.push(Command::GoToStep(number + 1));
         }
     });
-    if let Some(galley) = legend {
-        let at = bar.left_top() + vec2(14.0, 42.0);
-        ui.painter_at(bar).galley(at, galley, palette.text);
+    let painter = ui.painter_at(bar);
+    let mut at = bar.left_top() + vec2(MARGIN, ROW - 2.0);
+    let texts = [galley(ui, legend, 14.0, width), credit(ui, session, width)];
+    for galley in texts.into_iter().flatten() {
+        let step = galley.size().y + 6.0;
+        painter.galley(at, galley, Palette::get(ui).text);
+        at.y += step;
     }
 }

@@ -1,16 +1,21 @@
 //! Title, text and credit over the picture when it is shown alone.
 
-use egui::{FontId, Rect, Ui, UiBuilder, Vec2, vec2};
+use std::sync::Arc;
 
+use egui::{FontId, Galley, Rect, Ui, UiBuilder, Vec2, vec2};
+
+use crate::app::canvas::view_bar;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{float, widget};
 use crate::app::session::{Command, Session};
 use crate::app::words::picture;
 
-/// The texts at the foot of the picture, and the way back to the panels.
-pub(crate) fn ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
-    let button = Rect::from_min_size(rect.right_top() + vec2(-46.0, 12.0), Vec2::splat(34.0));
+/// The way back to the panels.
+pub(crate) fn way_back_ui(ui: &mut Ui, rect: Rect, commands: &mut Vec<Command>) {
+    let side = theme::control_height() + 6.0;
+    let corner = rect.right_top() + vec2(-12.0 - side, 12.0);
+    let button = Rect::from_min_size(corner, Vec2::splat(side));
     let button = widget::sided(rect, button);
     float::float_frame(ui, button);
     let mut inner = ui.new_child(
@@ -21,33 +26,54 @@ pub(crate) fn ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut Vec<
     if widget::icon_button(&mut inner, Icon::Close, picture::w().show_panels, true).clicked() {
         commands.push(Command::TogglePanels);
     }
+}
+
+/// The texts of the document that are not empty, as wide as there is room for.
+fn galleys(ui: &Ui, area: Rect, session: &Session) -> Vec<Arc<Galley>> {
+    let free = free(area, session);
+    let width = (free.width() - 40.0).clamp(160.0, 640.0);
     let illustration = session.illustration();
     let texts = [
         (&illustration.title, theme::strong_font(20.0)),
         (&illustration.legend, FontId::proportional(15.0)),
         (&illustration.credit, FontId::proportional(12.0)),
     ];
-    if texts.iter().all(|(text, _)| text.is_empty()) {
-        return;
-    }
-    let palette = Palette::get(ui);
-    let width = (rect.width() - 200.0).clamp(200.0, 640.0);
-    let galleys: Vec<_> = texts
+    let color = Palette::get(ui).text;
+    texts
         .into_iter()
         .filter(|(text, _)| !text.is_empty())
-        .map(|(text, font)| ui.painter().layout(text.clone(), font, palette.text, width))
-        .collect();
+        .map(|(text, font)| ui.painter().layout(text.clone(), font, color, width))
+        .collect()
+}
+
+/// The part of the window at whose foot the card lies.
+fn free(area: Rect, session: &Session) -> Rect {
+    if session.view.is_split {
+        area
+    } else {
+        view_bar::above_foot(area)
+    }
+}
+
+/// Where the card of title, legend and credit lies in the part of the window that shows the object: over the foot of
+/// the picture, under the panes where slices are shown. None without texts.
+pub(crate) fn place(ui: &Ui, area: Rect, session: &Session) -> Option<Rect> {
+    let galleys = galleys(ui, area, session);
     let height: f32 = galleys.iter().map(|galley| galley.size().y + 4.0).sum();
-    let widest = galleys
-        .iter()
-        .map(|galley| galley.size().x)
-        .fold(0.0, f32::max);
-    let mut at = rect.center_bottom() - vec2(0.5 * widest, height + 26.0);
-    let frame = Rect::from_min_size(at, vec2(widest, height)).expand2(vec2(14.0, 8.0));
-    float::float_frame(ui, frame);
-    for galley in galleys {
+    let widths = galleys.iter().map(|galley| galley.size().x);
+    let size = vec2(widths.reduce(f32::max)?, height) + vec2(28.0, 16.0);
+    let below = if session.view.is_split { 8.0 } else { 18.0 };
+    let corner = free(area, session).center_bottom() - vec2(0.5 * size.x, size.y + below);
+    Some(Rect::from_min_size(corner, size))
+}
+
+/// The card at its place.
+pub(crate) fn ui(ui: &Ui, area: Rect, card: Rect, session: &Session) {
+    float::float_frame(ui, card);
+    let mut at = card.min + vec2(14.0, 8.0);
+    for galley in galleys(ui, area, session) {
         let step = galley.size().y + 4.0;
-        ui.painter().galley(at, galley, palette.text);
+        ui.painter().galley(at, galley, Palette::get(ui).text);
         at.y += step;
     }
 }

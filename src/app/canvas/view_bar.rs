@@ -32,6 +32,21 @@ pub(crate) fn column_width(picture: Rect) -> f32 {
     }
 }
 
+/// Points that the ball of axes and the way home take at the left, and at the foot of the picture.
+const BESIDE_THE_BALL: f32 = 148.0;
+const ABOVE_THE_BALL: f32 = 112.0;
+
+/// The part of a picture at whose foot a card may lie: beside the ball of axes where there is room for both, else above
+/// the ball, and beside the buttons.
+pub(crate) fn above_foot(picture: Rect) -> Rect {
+    let free = if picture.width() > 620.0 {
+        picture.with_min_x(picture.left() + BESIDE_THE_BALL)
+    } else {
+        picture.with_max_y(picture.bottom() - ABOVE_THE_BALL)
+    };
+    free.with_max_x(free.right() - column_width(picture))
+}
+
 /// The part of a picture that texts over it may fill: beside the buttons and above the ball of axes.
 pub(crate) fn beside(picture: Rect) -> Rect {
     let foot = if picture.height() < LOW {

@@ -11,11 +11,12 @@ use super::caption_layout::CaptionPlace;
 use super::captions::Followed;
 use super::gizmo::Gizmo;
 use super::measure::Distances;
+use super::panes::ONE_PANE;
 use super::projection::{self, Projection};
 use super::tools::{asking_ui, bar_rect, tools_ui};
 use super::{curve, orientation, points, slice_plot, view_bar};
 use crate::app::kit::theme::{self, Palette};
-use crate::app::kit::{template_menu, widget};
+use crate::app::kit::{slow_click, template_menu, widget};
 use crate::app::picture::host::{Picture, found};
 use crate::app::session::camera;
 use crate::app::session::{Command, Gravity, Place, Question, Session, Tool};
@@ -107,6 +108,17 @@ impl Viewport {
             self.unseen_ui(ui, session, picture);
             return;
         };
+        let has_bar = session.tool().wants_place() || session.selected_template().is_some();
+        let bars = rect;
+        // Where there is little room the bar lies above the picture, else over its head.
+        let rect = if has_bar && rect.width() < ONE_PANE {
+            let rect = rect.with_min_y(bar_rect(bars, 0.0).bottom() + 6.0);
+            ui.painter()
+                .rect_filled(bars.with_max_y(rect.top()), 0.0, Palette::get(ui).panel);
+            rect
+        } else {
+            rect
+        };
         let id = ui.scope_id().with("picture");
         let response = ui.interact(rect, id, Sense::click_and_drag());
         ui.advance_cursor_after_rect(rect);
@@ -135,8 +147,7 @@ impl Viewport {
         } else {
             Color32::from_black_alpha(150)
         };
-        let has_bar = session.tool().placing().is_some() || session.selected_template().is_some();
-        let free = if has_bar {
+        let free = if has_bar && bars == rect {
             rect.with_min_y(bar_rect(rect, 0.0).bottom() + 2.0)
         } else {
             rect
@@ -153,16 +164,16 @@ impl Viewport {
         match session.tool() {
             Tool::Place(kind) => {
                 let name = in_sentence(kinds::title(kind));
-                self.placing_ui(ui, rect, &view, &name, commands);
+                self.placing_ui(ui, bars, &view, &name, commands);
             }
             Tool::Caption => {
                 self.gizmo.release();
                 let words = words::captions::w();
                 let texts = [words.tap_where, words.click_where];
-                asking_ui(ui, rect, texts, words.cancel, commands);
+                asking_ui(ui, bars, texts, words.cancel, commands);
             }
             Tool::Look | Tool::Seed(_) | Tool::Measure(_) => {
-                self.templates_ui(ui, &response, &view, session, commands);
+                self.templates_ui(ui, (&response, bars), &view, session, commands);
             }
         }
         let selects = matches!(session.tool(), Tool::Look | Tool::Seed(_));
@@ -187,13 +198,15 @@ impl Viewport {
     fn templates_ui(
         &mut self,
         ui: &mut Ui,
-        response: &Response,
+        (response, bars): (&Response, Rect),
         view: &Projection,
         session: &Session,
         commands: &mut Vec<Command>,
     ) {
         self.markers_ui(ui, view, session, commands);
-        let Some(template) = session.selected_template() else {
+        let (Some(template), Some(in_document)) =
+            (session.selected_as_shown(), session.selected_template())
+        else {
             self.gizmo.release();
             return;
         };
@@ -205,7 +218,7 @@ impl Viewport {
         } else if let Some(edit) = self.gizmo.ui(ui, response, view, template, session) {
             commands.push(Command::Drag(edit));
         }
-        tools_ui(ui, view.rect, session, template, commands);
+        tools_ui(ui, bars, session, in_document, commands);
     }
 
     fn announce(&self, response: &Response, session: &Session) {
@@ -434,11 +447,15 @@ impl Viewport {
             .is_none_or(|template| template.kind.facts().holds != Holds::Points)
             && !self.gizmo.is_hot();
         match clicked {
-            Some(pixel) if session.tool() != Tool::Look && response.clicked() => {
-                commands.push(Command::UseToolAt(pixel));
+            Some(_) if session.tool().adds_up() && response.clicked() => {
+                let places = slow_click::places(ui, response).into_iter();
+                commands.extend(places.map(|pos| Command::UseToolAt(pixel(pos))));
             }
-            Some(pixel) if session.tool() == Tool::Look && response.double_clicked() && is_free => {
-                commands.push(Command::LookAtPixel(pixel));
+            Some(at) if session.tool() != Tool::Look && response.clicked() => {
+                commands.push(Command::UseToolAt(at));
+            }
+            Some(at) if session.tool() == Tool::Look && response.double_clicked() && is_free => {
+                commands.push(Command::LookAtPixel(at));
             }
             _ => {}
         }
@@ -484,7 +501,7 @@ impl Viewport {
     ) {
         self.gizmo.release();
         if let Some(preview) = &self.preview {
-            paint_preview(ui, rect, view, preview);
+            paint_preview(ui, view.rect, view, preview);
         }
         let texts = [w().tap_where, w().click_where].map(|text| fill(text, &[&name]));
         asking_ui(

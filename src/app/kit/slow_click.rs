@@ -1,7 +1,7 @@
 //! Clicks on slow devices: a press and its release may lie a long frame apart, however short the finger or the button
-//! was down.
+//! was down, and one frame may hold several clicks.
 
-use egui::{Context, Event, RawInput};
+use egui::{Context, Event, PointerButton, Pos2, RawInput, Response, Ui};
 
 /// Longest press that is a click, seconds; a finger that rests longer opens a menu.
 const CLICK: f64 = 0.8;
@@ -45,4 +45,29 @@ impl egui::Plugin for SlowClicks {
         }
         ctx.options_mut(|options| options.input_options.max_click_duration = longest);
     }
+}
+
+/// Where the main button or a finger clicked on a widget in this frame, in order: egui tells the last place only.
+pub(crate) fn places(ui: &Ui, response: &Response) -> Vec<Pos2> {
+    if !response.clicked() {
+        return Vec::new();
+    }
+    let releases: Vec<Pos2> = ui.input(|i| {
+        let released = i.events.iter().filter_map(|event| match event {
+            Event::PointerButton {
+                pos,
+                button: PointerButton::Primary,
+                pressed: false,
+                ..
+            } => Some(*pos),
+            _ => None,
+        });
+        released
+            .filter(|pos| response.rect.contains(*pos))
+            .collect()
+    });
+    if releases.len() > 1 {
+        return releases;
+    }
+    response.interact_pointer_pos().into_iter().collect()
 }

@@ -43,6 +43,7 @@ pub(crate) fn ui(ui: &Ui, commands: &mut Vec<Command>) {
             widget::divider(ui);
             let height = content.y - 150.0;
             egui::ScrollArea::vertical()
+                .auto_shrink([false, true])
                 .max_height(height)
                 .min_scrolled_height(height)
                 .show(ui, |ui| {

@@ -13,8 +13,15 @@ use crate::app::words::{fill, names};
 /// Lines shown at once over the picture.
 const SHOWN: usize = 3;
 
-/// Over the bottom of the picture: loading, then the newest lines.
-pub(crate) fn ui(ui: &Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
+/// Over the bottom of the picture: loading, then the newest lines. `floor` is the top of a card there, which they keep
+/// free, points.
+pub(crate) fn ui(
+    ui: &Ui,
+    rect: Rect,
+    floor: Option<f32>,
+    session: &Session,
+    commands: &mut Vec<Command>,
+) {
     let is_busy = session.load.is_some() || session.is_reading || session.saving.is_some();
     if !is_busy && session.notices.shown().next().is_none() {
         return;
@@ -26,6 +33,7 @@ pub(crate) fn ui(ui: &Ui, rect: Rect, session: &Session, commands: &mut Vec<Comm
     } else {
         rect.bottom() - 22.0
     };
+    let bottom = floor.map_or(bottom, |floor| bottom.min(floor - 8.0));
     let area = egui::Area::new(egui::Id::unique("notices"))
         .order(egui::Order::Middle)
         .pivot(egui::Align2::CENTER_BOTTOM)

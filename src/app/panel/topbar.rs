@@ -132,7 +132,8 @@ fn subject_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 fn more_menu(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut Vec<Command>) {
     let button = widget::icon_button(ui, Icon::More, w().more, true);
     egui::Popup::menu(&button).show(|ui| {
-        ui.set_min_width(264.0);
+        // The row of languages takes all the width that there is.
+        ui.set_width(264.0);
         let mut item = |ui: &mut Ui, icon: Icon, text: &str, command: Command| {
             if menu_item(ui, icon, text) {
                 commands.push(command);

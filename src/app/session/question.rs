@@ -17,6 +17,8 @@ pub struct Question {
     pub index: usize,
     /// Makes the command that is run with the answer; `None` where nothing is seen.
     pub reply: fn(usize, Option<Found>) -> Command,
+    /// Every click counts: the answers to several, such as the ends of a distance, belong together.
+    pub adds: bool,
 }
 
 /// Where a question looks.
@@ -47,16 +49,17 @@ impl Question {
             place,
             index,
             reply,
+            adds: false,
         }
     }
 
-    /// True if this question makes an earlier one that has no answer yet pointless: a click the click before it, a
-    /// view of its own other such views.
+    /// True if this question makes an earlier one that has no answer yet pointless: a click the click before it unless
+    /// both add up, a view of its own other such views.
     pub fn replaces(&self, earlier: &Self) -> bool {
         match (&self.place, &earlier.place) {
             (Place::Beside(new, _), Place::Beside(old, _)) => !Arc::ptr_eq(new, old),
             (Place::Beside(..), _) | (_, Place::Beside(..)) => false,
-            _ => true,
+            _ => !(self.adds && earlier.adds),
         }
     }
 }

@@ -234,7 +234,6 @@ impl Session {
             self.take_tool(Tool::Look);
         }
         if index.is_some() {
-            self.leave_lesson();
             self.side_tab = Tab::Templates;
         }
     }
@@ -244,7 +243,6 @@ impl Session {
         if count == 0 {
             return;
         }
-        self.leave_lesson();
         let step = if forward { 1 } else { count - 1 };
         self.selected = Some(match self.selected {
             Some(index) => (index + step) % count,

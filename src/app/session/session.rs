@@ -273,6 +273,13 @@ impl Session {
         self.template(self.selected?)
     }
 
+    /// The selected template as the picture shows it: at a step of a lesson with what the step sets.
+    pub fn selected_as_shown(&self) -> Option<&PlacedTemplate> {
+        let index = self.selected?;
+        let mut templates = self.shown().templates.iter();
+        templates.find(|template| template.index == index)
+    }
+
     /// The template of this index in the document, if its kind can be drawn.
     pub fn template(&self, index: usize) -> Option<&PlacedTemplate> {
         let mut templates = self.illustration().templates.iter();
@@ -349,7 +356,7 @@ impl Session {
 
     // ------------------------------------------------------------------------------------------------ the lesson
 
-    /// Goes to a step. Nothing is selected there, and no tool of authors is active, for a step is looked at.
+    /// Goes to a step. Nothing is selected at first, and no tool of authors is active, for a step is looked at.
     pub(super) fn go_to_step(&mut self, step: usize) {
         self.glide = None;
         self.selected = None;

@@ -42,6 +42,7 @@ impl Session {
                 place: Place::Beside(sight, middle),
                 index: template,
                 reply: Command::LayOn,
+                adds: false,
             }));
         }
     }
@@ -61,6 +62,7 @@ impl Session {
                 place: Place::Beside(Arc::clone(&sight), pos),
                 index,
                 reply: Command::Trace,
+                adds: false,
             }));
         }
     }

@@ -187,6 +187,11 @@ fn a_newer_click_makes_an_open_one_pointless() {
     assert!(!beside.replaces(&at(1.0)) && !at(1.0).replaces(&beside));
     let other = question(run(&mut session, Command::LayOnSurface));
     assert!(other.replaces(&beside));
+    // Both ends of a distance are asked for, however late the answer to the first comes.
+    run(&mut session, Command::See(See::ToggleMeasure));
+    let [first, second] =
+        [1.0, 2.0].map(|x| question(run(&mut session, Command::UseToolAt([x, 0.0]))));
+    assert!(!second.replaces(&first) && at(1.0).replaces(&second));
 }
 
 #[test]
@@ -319,6 +324,14 @@ fn a_change_ends_the_lesson() {
     let mut session = lesson();
     run(&mut session, Command::GoToStep(2));
     assert_ne!(session.shown(), session.illustration());
+    // What is selected is shown as the step has it.
+    run(&mut session, Command::SelectNext(true));
+    assert_eq!((session.step(), session.selected), (2, Some(0)));
+    run(&mut session, Command::Select(Some(0)));
+    assert_eq!((session.step(), session.selected), (2, Some(0)));
+    let shown = session.selected_as_shown();
+    assert_eq!(shown, session.shown().templates.first());
+    assert_ne!(shown, session.selected_template());
     let edit = Edit::SetTitle("Other".to_owned());
     run(&mut session, Command::Apply(edit));
     assert_eq!(session.step(), 0);

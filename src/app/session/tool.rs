@@ -39,6 +39,11 @@ impl Tool {
         matches!(self, Self::Measure(_))
     }
 
+    /// True if every click counts, however quickly the clicks come: ends of distances, seeds.
+    pub fn adds_up(self) -> bool {
+        matches!(self, Self::Seed(_) | Self::Measure(_))
+    }
+
     /// True if the tool changes the document, so that it cannot be used in a lesson.
     pub fn is_for_authors(self) -> bool {
         matches!(self, Self::Place(_) | Self::Caption | Self::Seed(_))

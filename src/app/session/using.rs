@@ -26,7 +26,10 @@ impl Session {
             Tool::Seed(_) => |_, found| Command::SeedOn(found),
             Tool::Measure(_) => |_, found| Command::Measure(found.map(|found| found.pos)),
         };
-        self.effect(Effect::Ask(Question::new(Place::Pixel(pixel), reply)));
+        self.effect(Effect::Ask(Question {
+            adds: self.tool.adds_up(),
+            ..Question::new(Place::Pixel(pixel), reply)
+        }));
     }
 
     /// Asks about the middle of the picture, for the tools that wait for one place.
