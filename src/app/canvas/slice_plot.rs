@@ -190,22 +190,31 @@ fn paint_line(painter: &Painter, line: Vec<Pos2>, stroke: Stroke, is_dashed: boo
     }
 }
 
-/// The sides of the patient at the edges; the upper one under `head`, the name and position of the slice, where these
-/// reach so far.
-pub(crate) fn edges(painter: &Painter, axes: &Axes, (rect, head): (Rect, Rect), color: Color32) {
+/// The sides of the patient at the edges. The upper and the lower letter make way for what else is written there.
+pub(crate) fn edges(
+    painter: &Painter,
+    axes: &Axes,
+    rect: Rect,
+    written: [Option<Rect>; 2],
+    color: Color32,
+) {
     let font = theme::strong_font(13.0);
-    let top = rect.center_top() + vec2(0.0, 16.0);
-    let is_covered = head.expand2(vec2(14.0, 0.0)).contains(top);
-    let top = if is_covered {
-        pos2(top.x, head.bottom() + 12.0)
-    } else {
-        top
-    };
+    let mut top = rect.center_top() + vec2(0.0, 16.0);
+    let mut bottom = rect.center_bottom() - vec2(0.0, 16.0);
+    for text in written.into_iter().flatten() {
+        let around = text.expand2(vec2(14.0, 8.0));
+        if around.contains(top) {
+            top.y = text.bottom() + 12.0;
+        }
+        if around.contains(bottom) {
+            bottom.y = text.top() - 10.0;
+        }
+    }
     let at = [
         (rect.left_center() + vec2(12.0, 0.0), -axes.right),
         (rect.right_center() - vec2(STRIP + 10.0, 0.0), axes.right),
         (top, -axes.down),
-        (rect.center_bottom() - vec2(0.0, 16.0), axes.down),
+        (bottom, axes.down),
     ];
     for (pos, direction) in at {
         let letters = orientation::letters(direction);

@@ -77,6 +77,8 @@ pub(crate) struct Slices {
     /// A pane has the keyboard: page up and down are for it.
     pub(crate) has_keyboard: bool,
     has_failed: bool,
+    /// Where the line about a point was painted last: the lower letter of that pane makes way.
+    readout: Option<Rect>,
 }
 
 impl Slices {
@@ -174,7 +176,7 @@ impl Slices {
             Color32::from_black_alpha(170)
         };
         let head = self.head_ui(&painter, (axes, rect), facts, *cross, letters);
-        edges(&painter, axes, (rect, head), letters);
+        edges(&painter, axes, rect, [Some(head), self.readout], letters);
         paint_crosshair(&painter, axes, &map, *cross);
         self.templates_ui(ui, &painter, i, &map, session);
         // Lines in the slice are bright, lines a tenth of the object away are faint.
@@ -577,6 +579,7 @@ impl Slices {
     ) {
         let first = places.slices.iter().flatten().next().copied();
         let Some((pos, rect)) = hovered.or(first.map(|rect| (cross, rect))) else {
+            self.readout = None;
             return;
         };
         if let Some(picture) = picture {
@@ -646,6 +649,9 @@ impl Slices {
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, label.clone()));
         painter.rect_filled(back, 4.0, Color32::from_black_alpha(170));
         painter.galley(corner, galley, Color32::WHITE);
+        if self.readout.replace(back) != Some(back) {
+            ui.ctx().request_repaint();
+        }
     }
 }
 
