@@ -1,7 +1,7 @@
 //! Takes in everything that the shell hands over: opened files, loads piece by piece, answers to requests.
 
 use crate::app::services::{Message, SavedTo};
-use crate::app::session::{Gravity, LoadOf};
+use crate::app::session::{Gravity, Load, LoadOf};
 use crate::app::window::App;
 use crate::app::words::{self, fill};
 use crate::assets::{Data, LoadEvent, Role, SegmentationsExpected, Want};
@@ -95,7 +95,12 @@ impl App {
                     load.what = what;
                 }
             }
-            LoadEvent::Coarse => self.show_incoming(),
+            LoadEvent::Coarse => {
+                self.show_incoming();
+                if let Some(load) = &mut self.session.load {
+                    load.is_coarse = true;
+                }
+            }
             LoadEvent::Frames { count } => {
                 if let Some(load) = &mut self.session.load {
                     load.frame_count = count;
@@ -116,13 +121,20 @@ impl App {
                     return self.refuse(text.wrong_file, details);
                 }
                 self.show_incoming();
-                self.session.load_done(sha256);
+                let is_step = self.session.load_done(sha256);
                 if let Some(load) = load {
-                    self.take_segmentations(&load.of);
+                    self.take_segmentations(&load.of, is_step);
                 }
             }
             LoadEvent::Notice(text) => self.session.notify(Gravity::Warning, text, ""),
-            LoadEvent::Failed { message, details } => self.refuse(&message, details),
+            LoadEvent::Fault(fault) => self.fault = Some(fault),
+            LoadEvent::Failed { message, details } => match self.fault.take() {
+                Some(fault) => {
+                    let details = [message, details].join("\n");
+                    self.refuse(&words::faults::text(&fault), details.trim_end().to_owned());
+                }
+                None => self.refuse(&message, details),
+            },
             LoadEvent::Cancelled => {
                 self.drop_incoming();
                 self.session.load_ended();
@@ -211,8 +223,8 @@ impl App {
     }
 
     /// Takes the label volumes that came with the load that is done. The document names those that the reader opened
-    /// from now on.
-    fn take_segmentations(&mut self, of: &LoadOf) {
+    /// from now on. `is_step`: the load's scan was a step of undo, which its label volumes are a part of.
+    fn take_segmentations(&mut self, of: &LoadOf, is_step: bool) {
         for file in std::mem::take(&mut self.incoming_labels) {
             if let LoadOf::Segments(want) = of {
                 if let Err(other) = self.assets.take(want, Data::Segments(file)) {
@@ -227,7 +239,7 @@ impl App {
             let is_new = |named: &SegmentsRef| named.sha256.as_ref() != Some(&sha256);
             let is_file = matches!(of, LoadOf::File | LoadOf::Instead);
             if is_file && self.session.illustration().segments.iter().all(is_new) {
-                self.session.add_label_file(&sha256);
+                self.session.add_label_file(&sha256, is_step);
                 let text = fill(words::tissue::w().labels_taken, &[&names]);
                 self.session.notify(Gravity::Success, text, "");
             }
@@ -239,6 +251,7 @@ impl App {
     fn drop_incoming(&mut self) {
         self.incoming = SubjectBuilder::default();
         self.incoming_labels.clear();
+        self.fault = None;
         if let Some(LoadOf::Segments(want)) = self.session.load.as_ref().map(|load| &load.of) {
             self.assets.refuse(want);
         }
@@ -258,6 +271,8 @@ impl App {
         match whole {
             Ok((subject, histogram)) => {
                 self.transfer.set_histogram(histogram);
+                let is_file = self.session.load.as_ref().is_some_and(Load::is_file);
+                self.is_other_uploading |= is_file || self.session.shows_earlier_object();
                 self.session.set_subject(&subject);
                 self.assets.give(Data::Subject {
                     subject: subject.clone(),

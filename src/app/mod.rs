@@ -11,6 +11,7 @@
 //! | `canvas` | what lies on the picture: handles, captions, slices, measures, bars | `kit`, `picture` |
 //! | `panel` | one panel or dialog each | `kit`, `picture` |
 //! | `services`, `arrivals`, `fields`, `tissue_work` | what the shell does for the app, and what comes back | all |
+//! | `provisional`, `window_title` | what the picture still waits for; the name of the window | all |
 //! | `window` | the app itself: input becomes commands, commands change the session | all |
 //!
 //! Nothing here knows where it runs. The picture is drawn when something changed; at rest nothing repaints.
@@ -35,6 +36,8 @@ mod panel;
 #[cfg(feature = "app")]
 mod picture;
 #[cfg(feature = "app")]
+mod provisional;
+#[cfg(feature = "app")]
 mod saving;
 #[cfg(feature = "app")]
 mod services;
@@ -42,6 +45,8 @@ mod services;
 mod tissue_work;
 #[cfg(feature = "app")]
 mod window;
+#[cfg(feature = "app")]
+mod window_title;
 
 #[cfg(feature = "app")]
 pub use self::canvas::caption_layout::CaptionPlace;
@@ -50,7 +55,7 @@ pub use self::canvas::captions::caption_places;
 #[cfg(feature = "app")]
 pub use self::canvas::lettering::letter;
 #[cfg(feature = "app")]
-pub use self::services::{Message, SavedTo, Services};
+pub use self::services::{Message, MissingDocument, SavedTo, Services, WhyMissing};
 pub use self::session::{
     Command, GizmoMode, LinkChange, Pane, STORED_DOCUMENT, SaveFile, See, StandardView, Ticket,
     TissueCommand, Tool,

@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 
 use crate::app::session::{LinkChange, SaveFile, Ticket};
+use crate::app::words::{self, fill};
 use crate::assets::{LoadEvent, SegmentationsExpected, Want};
 use crate::document::RawVoxels;
 use crate::load::FieldFile;
@@ -52,6 +53,10 @@ pub trait Services {
     fn set_link(&mut self, payload: &str, change: LinkChange);
     /// Keeps a text for the next time the program is started.
     fn store(&mut self, key: &str, value: &str);
+    /// Calls the window, or the tab of the browser, by this title.
+    fn set_title(&mut self, title: &str) {
+        _ = title;
+    }
     /// Language tags that the reader wants, the best liked first.
     fn languages(&self) -> Vec<String> {
         Vec::new()
@@ -81,6 +86,40 @@ pub enum SavedTo {
     Downloads(String),
     /// A file of this machine.
     Path(PathBuf),
+}
+
+/// A document whose address is known, but which could not be had.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissingDocument {
+    /// The address, as the reader knows it.
+    pub address: String,
+    /// What became of it.
+    pub why: WhyMissing,
+}
+
+impl MissingDocument {
+    /// Why the document could not be had: one line, and more on demand.
+    pub(crate) fn in_words(&self) -> (String, String) {
+        let w = words::messages::w();
+        let (line, details) = match &self.why {
+            WhyMissing::Answer(404 | 410) => (w.document_missing, String::new()),
+            WhyMissing::Answer(status) => (w.document_refused, fill(w.server_answered, &[status])),
+            WhyMissing::Unreachable(why) => (w.document_unreachable, why.clone()),
+            WhyMissing::TooLong => (w.document_too_long, String::new()),
+        };
+        (fill(line, &[&self.address]), details)
+    }
+}
+
+/// What became of a document that was asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WhyMissing {
+    /// The server answered with this status of HTTP.
+    Answer(u16),
+    /// There was no answer; the browser's words.
+    Unreachable(String),
+    /// The file has more bytes than a document may have.
+    TooLong,
 }
 
 /// What the shell tells the app: results of the calls of [`Services`], and what the user opened.

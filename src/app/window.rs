@@ -6,6 +6,7 @@ use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, Vec2, vec2};
 
 use crate::app::canvas::foot::Foot;
 use crate::app::canvas::panes::{self, Places};
+use crate::app::canvas::provisional as provisional_line;
 use crate::app::canvas::saved::Saving;
 use crate::app::canvas::slices::Slices;
 use crate::app::canvas::viewport::{self, Viewport};
@@ -19,17 +20,17 @@ use crate::app::panel::{
 };
 use crate::app::picture::catalogue_icons::CatalogueIcons;
 use crate::app::picture::host::Picture;
-use crate::app::services::Services;
+use crate::app::services::{MissingDocument, Services};
 use crate::app::session::{
-    Command, Effect, Focus, Gravity, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING, Session, Tab,
-    Ticket,
+    Command, Effect, Focus, Gravity, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING, STORED_TITLE,
+    Session, Tab, Ticket,
 };
 use crate::app::tissue_work;
 use crate::app::words::{self, Lang};
 use crate::assets::{Assets, SegmentationsExpected, Want};
 use crate::data::{Resources, SubjectBuilder};
 use crate::document::{Document, SegmentsRef};
-use crate::load::LabelFile;
+use crate::load::{FileFault, LabelFile};
 use crate::render::{Clock, RenderNotice};
 
 /// Width in points below which panels become drawers.
@@ -48,6 +49,8 @@ pub struct Start {
     pub document: Option<Document>,
     /// A link or JSON; goes before `document`. Where it is broken a message tells so, and an empty document is opened.
     pub text: Option<String>,
+    /// The document that was asked for and could not be had: a message tells so, and an empty one is opened.
+    pub missing: Option<MissingDocument>,
     /// A load that the shell has already started in place of the document's subject.
     pub subject: Option<Ticket>,
     /// Seconds, from any origin; the renderer measures itself with it.
@@ -92,12 +95,20 @@ pub struct App {
     slices: Slices,
     /// The segments of the subject in the making.
     pub(crate) tissue: tissue_work::TissueWork,
+    /// What is wrong with the file of the load under way.
+    pub(crate) fault: Option<FileFault>,
     /// Label volumes of the load under way.
     pub(crate) incoming_labels: Vec<LabelFile>,
     /// The label volumes that the shell was last told to expect.
     pub(crate) labels_expected: SegmentationsExpected,
     /// Label volumes of the document that a message has named as missing.
     pub(crate) reported_segments: Vec<SegmentsRef>,
+    /// The picture shows an earlier object until the new one is on the device.
+    pub(crate) is_other_uploading: bool,
+    /// The title that the window was last given.
+    pub(crate) window_title: String,
+    /// Since when the picture waits for something, seconds on the clock of the interface.
+    pub(crate) provisional_since: Option<f64>,
 }
 
 /// What has been spoken to a screen reader so far.
@@ -132,16 +143,23 @@ impl App {
             .as_ref()
             .map(|render_state| Picture::new(render_state, start.clock));
         let mut session = Session::new(Document::new());
-        session.is_lettering = services.stored(STORED_LETTERING).as_deref() == Some("yes");
+        let is_wished = |key| services.stored(key).as_deref() == Some("yes");
+        session.is_lettering = is_wished(STORED_LETTERING);
+        session.has_title = is_wished(STORED_TITLE);
         // Who comes with a document has been here before, or comes to look.
         let is_first = start.text.is_none()
             && start.document.is_none()
+            && start.missing.is_none()
             && services.stored(STORED_DOCUMENT).is_none();
         session.has_hint = is_first && services.stored(STORED_HINT).is_none();
-        match (start.text, start.document) {
-            (Some(text), _) => session.open_text(&text),
-            (None, Some(document)) => session.open_document(document, 0),
-            (None, None) => {
+        match (start.text, start.document, start.missing) {
+            (Some(text), _, _) => session.open_text(&text),
+            (None, Some(document), _) => session.open_document(document, 0),
+            (None, None, Some(missing)) => {
+                let (text, details) = missing.in_words();
+                session.notify(Gravity::Error, text, details);
+            }
+            (None, None, None) => {
                 // A stored document that cannot be read is ignored without a message: storing is a convenience.
                 let kept = services
                     .stored(STORED_DOCUMENT)
@@ -178,9 +196,13 @@ impl App {
             transfer: transfer::Editor::default(),
             slices: Slices::default(),
             tissue: tissue_work::TissueWork::new(start.clock),
+            fault: None,
             incoming_labels: Vec::new(),
             labels_expected: SegmentationsExpected::default(),
             reported_segments: Vec::new(),
+            is_other_uploading: false,
+            provisional_since: None,
+            window_title: String::new(),
         };
         app.do_outside();
         app
@@ -441,6 +463,7 @@ impl App {
     /// What happens after everything is shown.
     fn afterwards(&mut self, ui: &Ui) {
         self.announce(ui);
+        self.tell_title();
         self.perform_in_window(ui);
         let ctx = ui.ctx();
         self.advance_saving(ctx);
@@ -626,6 +649,8 @@ impl App {
 
     /// The picture, the slices beside it, and what floats over both.
     fn picture_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        let provisional = self.provisional(ui.ctx());
+        let is_earlier = self.shows_earlier_object();
         CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
             let session = &self.session;
             let rect = ui.available_rect_before_wrap();
@@ -636,8 +661,15 @@ impl App {
             ui.painter().rect_filled(rect, 0.0, palette.panel);
             ui.painter().rect_filled(panes, 0.0, palette.line);
             let picture = self.picture.as_mut();
+            self.viewport.is_earlier = is_earlier;
             self.viewport
                 .ui(ui, places.picture, session, picture, commands);
+            if let Some(picture) = places.picture {
+                let head = title::head_ui(ui, picture, session);
+                if let Some(text) = provisional {
+                    provisional_line::ui(ui, picture, head, text);
+                }
+            }
             places.tabs_ui(ui, &session.view, commands);
             let picture = self.picture.as_mut();
             self.slices.ui(ui, &places, session, picture, commands);

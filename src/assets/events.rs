@@ -2,7 +2,7 @@
 
 use crate::data::SubjectPart;
 use crate::document::RawVoxels;
-use crate::load::LabelFile;
+use crate::load::{FileFault, LabelFile};
 
 /// Which files hold labels of the subject: files that are opened are taken as its segments where they are among these,
 /// or where they look like labels and a scan is shown.
@@ -45,6 +45,8 @@ pub enum LoadEvent {
     },
     /// Something was not as expected but the subject is usable.
     Notice(String),
+    /// What is wrong with the file, for its owner. `Failed` follows.
+    Fault(FileFault),
     /// There will be no subject.
     Failed {
         /// One line in plain words.

@@ -1,5 +1,6 @@
 //! A document with its undo and redo.
 
+use super::model::Camera;
 use super::text::DocumentError;
 use super::tree::Document;
 use super::write::Edit;
@@ -24,6 +25,17 @@ pub struct History {
 struct Entry {
     document: Document,
     name: String,
+    /// Where one looked from, if `document` is another one and not an earlier or later state of the same.
+    outlook: Option<Outlook>,
+}
+
+/// Where one looks at a document from. Undo leaves it alone, but for steps that start another document.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outlook {
+    /// The camera as the hand left it.
+    pub camera: Camera,
+    /// The camera that the document came with.
+    pub home: Camera,
 }
 
 impl History {
@@ -57,7 +69,7 @@ impl History {
         if document == self.document {
             return Ok(false);
         }
-        self.push(document, edit.name(&self.document));
+        self.push(document, edit.name(&self.document), None);
         Ok(true)
     }
 
@@ -89,16 +101,51 @@ impl History {
         Ok(changed)
     }
 
+    /// Does an edit as part of the last step of undo, whatever that was. True if it changed anything.
+    ///
+    /// # Errors
+    /// As [`Edit::apply`]; the document stays as it was.
+    pub fn amend(&mut self, edit: &Edit) -> Result<bool, DocumentError> {
+        if self.undo.is_empty() {
+            return self.apply(edit);
+        }
+        self.drag = None;
+        let document = edit.apply(&self.document)?;
+        let changed = document != self.document;
+        self.document = document;
+        self.redo.clear();
+        Ok(changed)
+    }
+
     /// Ends a drag: the next one is undone by itself.
     pub fn end_drag(&mut self) {
         self.drag = None;
     }
 
-    fn push(&mut self, document: Document, name: String) {
+    /// Starts another document in place of the present one, which is seen from `outlook`, as one step of undo.
+    pub fn start(&mut self, document: Document, name: String, outlook: Outlook) {
+        self.drag = None;
+        self.push(document, name, Some(outlook));
+    }
+
+    /// Where one looked from at the document that [`History::undo`], or [`History::redo`], would bring back in place of
+    /// another one. Whoever goes there leaves the present outlook in its place. `None` if the document stays the same
+    /// one.
+    pub fn outlook_mut(&mut self, is_undo: bool) -> Option<&mut Outlook> {
+        let entries = if is_undo {
+            &mut self.undo
+        } else {
+            &mut self.redo
+        };
+        entries.last_mut()?.outlook.as_mut()
+    }
+
+    fn push(&mut self, document: Document, name: String, outlook: Option<Outlook>) {
         let before = std::mem::replace(&mut self.document, document);
         self.undo.push(Entry {
             document: before,
             name,
+            outlook,
         });
         self.redo.clear();
         let mut bytes: usize = self.undo.iter().map(|e| e.document.byte_count()).sum();
@@ -121,7 +168,7 @@ impl History {
         let after = std::mem::replace(&mut self.document, entry.document);
         self.redo.push(Entry {
             document: after,
-            name: entry.name,
+            ..entry
         });
         true
     }
@@ -135,7 +182,7 @@ impl History {
         let before = std::mem::replace(&mut self.document, entry.document);
         self.undo.push(Entry {
             document: before,
-            name: entry.name,
+            ..entry
         });
         true
     }

@@ -25,13 +25,14 @@
 //!
 //! Files import only from files before them: `limits` <- `model` (plain types, no JSON) and `text` (JSON, pointers,
 //! errors, notices) <- `schema` (every fixed key once) <- `read` and `write` <- `canonical`, `steps`, `blend` <-
-//! `lesson` <- `tree` <- `naming` <- `history`, `authoring`.
+//! `lesson` <- `tree` <- `naming` <- `history`, `authoring` <- `carry`.
 //!
 #![doc = include_str!("reference.md")]
 
 mod authoring;
 mod blend;
 mod canonical;
+mod carry;
 mod history;
 mod lesson;
 mod limits;
@@ -53,7 +54,8 @@ pub use authoring::{
     Plane, free_group_name, group_of, groups, mirror, mirrored, templates_from_text,
     templates_to_text,
 };
-pub use history::History;
+pub use carry::carried_templates;
+pub use history::{History, Outlook};
 pub use lesson::Lesson;
 pub use limits::{
     BUILTIN_SUBJECTS, DEFAULT_SUBJECT, FORMAT, MAX_BYTES, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CURVE,

@@ -1,3 +1,5 @@
+use super::fault::FaultKind;
+
 /// Why a file gave no volume: what was expected, what was found, and where. One line each, in plain words, file name
 /// last.
 ///
@@ -45,6 +47,16 @@ pub enum LoadError {
         name: String,
         /// What the file is, and what the user may do instead.
         what: String,
+    },
+    /// Another kind of file, which holds no scan.
+    #[error("{what} ({name})")]
+    NoScan {
+        /// Name of the file, as given.
+        name: String,
+        /// What the file is, and what the user may do instead.
+        what: &'static str,
+        /// The kind of file, as people call it.
+        kind: FaultKind,
     },
     /// A header field holds something that cannot be.
     #[error("{field} at byte {offset} of the header should be {expected}, but is {found} ({name})")]

@@ -101,6 +101,11 @@ impl Reading<'_> {
                 name: name.to_owned(),
                 what: what.to_owned(),
             }),
+            Kind::NoScan(kind, what) => Err(LoadError::NoScan {
+                name: name.to_owned(),
+                what,
+                kind,
+            }),
             Kind::Unknown => Err(LoadError::UnknownFormat {
                 name: name.to_owned(),
                 begins: start

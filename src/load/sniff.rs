@@ -1,3 +1,4 @@
+use super::fault::FaultKind;
 use super::{dicom, metaimage, nifti, nrrd};
 
 /// Bytes looked at to tell what a file is.
@@ -12,6 +13,8 @@ pub(super) enum Kind {
     Empty,
     /// Known, and not read: in words.
     Refused(&'static str),
+    /// Known, and no scan: which kind of file, and in words.
+    NoScan(FaultKind, &'static str),
     Unknown,
 }
 
@@ -44,13 +47,27 @@ pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
             "FreeSurfer's MGH is not read: convert it to NIfTI (mri_convert does)",
         );
     }
-    const SIGNS: [(&[u8], &str); 7] = [
-        (b"\x89PNG", "a PNG picture is no volume"),
-        (b"\xff\xd8\xff", "a JPEG picture is no volume"),
+    const SIGNS: [(&[u8], FaultKind, &str); 5] = [
+        (b"\x89PNG", FaultKind::Picture, "a PNG picture is no volume"),
+        (
+            b"\xff\xd8\xff",
+            FaultKind::Picture,
+            "a JPEG picture is no volume",
+        ),
         (
             b"PK\x03\x04",
+            FaultKind::Archive,
             "a ZIP archive: unpack it and open the scan in it",
         ),
+        (b"glTF", FaultKind::Surface, "a surface (glTF), no volume"),
+        (b"ply\n", FaultKind::Surface, "a surface (PLY), no volume"),
+    ];
+    for (sign, kind, what) in SIGNS {
+        if start.starts_with(sign) {
+            return Kind::NoScan(kind, what);
+        }
+    }
+    const UNREAD: [(&[u8], &str); 2] = [
         (
             b"\x93NUMPY",
             "a NumPy array says nothing of voxel size or orientation: save it as NIfTI or NRRD",
@@ -59,10 +76,8 @@ pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
             b"# vtk DataFile",
             "VTK files are not read: save as MetaImage or NIfTI",
         ),
-        (b"glTF", "a surface (glTF), no volume"),
-        (b"ply\n", "a surface (PLY), no volume"),
     ];
-    for (sign, what) in SIGNS {
+    for (sign, what) in UNREAD {
         if start.starts_with(sign) {
             return Kind::Refused(what);
         }
@@ -71,7 +86,7 @@ pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
         return Kind::Dicom;
     }
     if named(".obj") || named(".stl") || named(".ply") {
-        return Kind::Refused("a surface, no volume");
+        return Kind::NoScan(FaultKind::Surface, "a surface, no volume");
     }
     Kind::Unknown
 }

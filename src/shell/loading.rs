@@ -203,12 +203,22 @@ pub fn read_segments(files: &mut dyn FileSet, name: &str, post: &mut dyn Post) {
             }
             LoadEvent::Done { sha256: None }
         }
-        Err(error) => LoadEvent::Failed {
-            message: error.to_string(),
-            details: String::new(),
-        },
+        Err(error) => {
+            tell_fault(&error, post);
+            LoadEvent::Failed {
+                message: error.to_string(),
+                details: String::new(),
+            }
+        }
     };
     post.post(event);
+}
+
+/// Posts what the owner of a file can make of an error.
+fn tell_fault(error: &LoadError, post: &mut dyn Post) {
+    if let Some(fault) = error.fault() {
+        post.post(LoadEvent::Fault(fault));
+    }
 }
 
 /// Reads a subject from a file and posts its pieces and how the load ended.
@@ -255,6 +265,7 @@ pub fn read_file(
             post.post(LoadEvent::AskRaw(question(files, name)));
         }
         Err(error) => {
+            tell_fault(&error, post);
             post.post(LoadEvent::Failed {
                 message: error.to_string(),
                 details: report.notices().join("\n"),

@@ -100,6 +100,7 @@ pub fn view(opening: Opening) -> Result<(), WindowError> {
         let start = Start {
             document: opening.document,
             text: None,
+            missing: None,
             subject,
             clock: seconds,
         };
@@ -646,6 +647,11 @@ impl Services for NativeServices {
                 eprintln!("notice: {}: {error}", path.display());
             }
         }
+    }
+
+    fn set_title(&mut self, title: &str) {
+        let title = egui::ViewportCommand::Title(title.to_owned());
+        self.ctx.send_viewport_cmd(title);
     }
 
     fn languages(&self) -> Vec<String> {

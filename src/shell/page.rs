@@ -708,6 +708,15 @@ impl Services for PageServices {
         }
     }
 
+    fn set_title(&mut self, title: &str) {
+        // The page around an embedded viewer has a title of its own.
+        if self.0.borrow().place.is_page
+            && let Some(document) = window().and_then(|w| w.document())
+        {
+            document.set_title(title);
+        }
+    }
+
     fn languages(&self) -> Vec<String> {
         let wanted = window().map(|w| w.navigator().languages());
         let wanted = wanted.into_iter().flat_map(|list| list.to_vec());

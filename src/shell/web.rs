@@ -11,7 +11,7 @@ use web_sys::{HtmlCanvasElement, Url};
 use super::page::{Page, PageServices, Place, foreign_host, kept_document};
 use super::worker::run;
 use super::worker::task::Part;
-use crate::app::{App, Command, Message, Start};
+use crate::app::{App, Command, Message, MissingDocument, Start, WhyMissing};
 use crate::data::VolumeLimits;
 use crate::document::{Document, SubjectRef};
 use crate::link;
@@ -75,7 +75,8 @@ impl Viewer {
         }
     }
 
-    /// Starts to draw the document of the address (of a page) or of [`Viewer::set_link`].
+    /// Starts to draw the document of the address (of a page) or of [`Viewer::set_link`]. A document that cannot be
+    /// fetched is told in the viewer.
     ///
     /// # Errors
     /// If there is no WebGPU device for the canvas.
@@ -87,13 +88,19 @@ impl Viewer {
             None if is_page => match document_address() {
                 Some(address) => {
                     self.page.borrow_mut().place.base.clone_from(&address);
-                    Some(fetch_text(&address).await?)
+                    match fetch_text(&address).await {
+                        Ok(text) => Some(text),
+                        Err(why) => {
+                            let missing = MissingDocument { address, why };
+                            return self.run(None, Some(missing)).await;
+                        }
+                    }
                 }
                 None => address_text(),
             },
             None => Some(EMPTY.to_owned()),
         };
-        self.run(text).await
+        self.run(text, None).await
     }
 
     /// Starts again after the graphics device was lost: the same document, the same files.
@@ -104,10 +111,14 @@ impl Viewer {
         let text = Some(self.get_link()).filter(|link| !link.is_empty());
         let text = text.unwrap_or_else(|| EMPTY.to_owned());
         self.runner.destroy();
-        self.run(Some(text)).await
+        self.run(Some(text), None).await
     }
 
-    async fn run(&self, text: Option<String>) -> Result<(), JsValue> {
+    async fn run(
+        &self,
+        text: Option<String>,
+        missing: Option<MissingDocument>,
+    ) -> Result<(), JsValue> {
         let mut setup = eframe::egui_wgpu::WgpuSetupCreateNew::without_display_handle();
         setup.instance_descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
         setup.device_descriptor = Arc::new(Gpu::device_descriptor);
@@ -138,6 +149,7 @@ impl Viewer {
             let start = Start {
                 document: None,
                 text,
+                missing,
                 subject: None,
                 clock: seconds,
             };
@@ -384,30 +396,26 @@ fn document_address() -> Option<String> {
         .map(|u| u.href())
 }
 
-async fn fetch_text(address: &str) -> Result<String, JsValue> {
+async fn fetch_text(address: &str) -> Result<String, WhyMissing> {
     const LIMIT: f64 = 2e6;
-    let window = web_sys::window().ok_or("no window")?;
-    let fail = |why: String| {
-        JsValue::from(format!(
-            "The document {address} could not be fetched: {why}"
-        ))
-    };
+    let unreachable =
+        |error: &JsValue| WhyMissing::Unreachable(super::worker::fault::text_of(error));
+    let window = web_sys::window();
+    let window = window.ok_or_else(|| WhyMissing::Unreachable("no window".to_owned()))?;
     let response = JsFuture::from(window.fetch_with_str(address)).await;
-    let response = response.map_err(|e| fail(super::worker::fault::text_of(&e)))?;
-    let response: web_sys::Response = response.unchecked_into();
+    let response: web_sys::Response = response.map_err(|e| unreachable(&e))?.unchecked_into();
     if !response.ok() {
-        return Err(fail(format!("the server answered {}", response.status())));
+        return Err(WhyMissing::Answer(response.status()));
     }
-    let length = response.headers().get("content-length")?;
-    if length
-        .and_then(|n| n.parse::<f64>().ok())
-        .is_some_and(|n| n > LIMIT)
-    {
-        return Err(fail("it is too long for a document".to_owned()));
+    let length = response.headers().get("content-length");
+    let length = length.ok().flatten().and_then(|n| n.parse::<f64>().ok());
+    if length.is_some_and(|n| n > LIMIT) {
+        return Err(WhyMissing::TooLong);
     }
-    let text = JsFuture::from(response.text()?).await?;
+    let text = response.text().map_err(|e| unreachable(&e))?;
+    let text = JsFuture::from(text).await.map_err(|e| unreachable(&e))?;
     text.as_string()
-        .ok_or_else(|| fail("it is no text".to_owned()))
+        .ok_or_else(|| WhyMissing::Unreachable("no text".to_owned()))
 }
 
 /// Called once when the program has been loaded. Starting is left to web/start.js.

@@ -18,7 +18,11 @@ fn a_caption_is_set_named_and_follows_its_tissue() {
     window.click_at(at);
     window.settle();
     assert_eq!(window.captions().len(), 1);
-    assert_eq!(window.captions()[0].text, "Label 1");
+    assert_eq!(
+        window.captions()[0].text,
+        "Middle",
+        "as its tissue is called"
+    );
     // Its field has the keyboard, and typed text replaces the text in it.
     window
         .harness

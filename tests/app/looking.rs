@@ -256,7 +256,7 @@ fn slices_are_linked_by_their_crosshair_and_say_what_is_there() {
         .next()
         .and_then(|n| n.replace('\u{2212}', "-").parse().ok())
         .expect("a number");
-    assert!((-0.5..-0.05).contains(&x), "{text}");
+    assert!(x < -5.0, "{text}");
     assert!(text.contains("value"), "inside the cube: {text}");
 
     // The same way back by the keyboard; the pane was clicked, so it has it.
@@ -392,7 +392,7 @@ fn distances_are_measured_on_the_surface_and_in_slices() {
         text_of(&node.accesskit_node())
     };
     let on_surface = text(&window);
-    assert!(on_surface.contains(" mm · 0."), "{on_surface}");
+    assert!(on_surface.ends_with(" mm"), "{on_surface}");
     window.look("measured");
     window.press(Key::V);
     window.settle();

@@ -23,7 +23,8 @@ use egui::{Key, Modifiers, Pos2, Role, Vec2, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, wgpu::WgpuTestRenderer};
 use fabrica::app::{
-    App, LinkChange, LoadEvent, Message, RawQuestion, SaveFile, SavedTo, Services, Start, Ticket,
+    App, LinkChange, LoadEvent, Message, MissingDocument, RawQuestion, SaveFile, SavedTo, Services,
+    Start, Ticket, WhyMissing,
 };
 use fabrica::data::{SubjectPart, Volume, VolumeSink, Voxels};
 use fabrica::document::{Document, ParamValue, RawVoxels, SubjectRef, TemplateMode};

@@ -147,7 +147,8 @@ fn templates_of_a_group_move_together() {
 
     // A mirrored copy of a group is a group of its own.
     window.press(Key::M);
-    assert_eq!(names(&window), ["skin", "skin", "poke", "poke"]);
+    let named = ["skin", "skin, mirrored", "poke", "Poke, mirrored"];
+    assert_eq!(names(&window), named);
     let groups: Vec<_> = (0..4).map(|i| group(&window, i)).collect();
     assert_eq!(groups, ["Group", "Group 2", "Group", "Group 2"]);
     window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::G);

@@ -354,6 +354,159 @@ fn an_opened_file_becomes_the_subject_by_its_hash() {
     );
 }
 
+/// A scan of another shape begins a new document; its templates are a button away, and undo brings all of the old back.
+#[test]
+fn an_opened_scan_starts_a_document_and_may_keep_the_templates() {
+    let log = Fake::default();
+    let json = r#"{ "fabrica": 1, "title": "A cube", "subject": { "builtin": "cube" },
+        "labels": [{ "at": [0, 0, 0.4], "text": "Lid" }], "templates": [{ "kind": "split" }] }"#;
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(json));
+    let before = window.document();
+    let ticket = Ticket(99);
+    log.0
+        .borrow_mut()
+        .queue
+        .push(Message::FileStarted { ticket });
+    window.steps(2);
+    file_arrives(&log, ticket, None);
+    window.settle();
+    let illustration = window.document().illustration().clone();
+    assert!(illustration.templates.is_empty() && illustration.captions.is_empty());
+    assert!(illustration.title.is_empty());
+    window.look("keep_templates");
+    window.click("Keep my templates");
+    assert_eq!(window.document().illustration().templates.len(), 1);
+    assert!(window.document().illustration().captions.is_empty());
+    assert!(window.harness.query_by_label("Keep my templates").is_none());
+    window.click("Undo");
+    assert!(window.document().illustration().templates.is_empty());
+    window.click("Undo");
+    window.settle();
+    assert_eq!(window.document(), before);
+}
+
+/// The parts of a built-in subject at a number of voxels along it, and how that is ended.
+fn subject_arrives(log: &Fake, name: &str, resolution: u32, end: LoadEvent) {
+    let log = &mut *log.0.borrow_mut();
+    let ticket = Ticket(log.next_ticket);
+    fabrica::subjects::generate(name, resolution, &mut Queue(log, ticket)).expect("built in");
+    log.queue.push(Message::Load { ticket, event: end });
+}
+
+#[test]
+fn a_picture_that_waits_for_something_says_for_what() {
+    let log = Fake::default();
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(CUBE));
+    let says = |window: &Window, text: &str| {
+        let line = window.harness.query_by_role(Role::Status);
+        line.is_some_and(|line| {
+            line.accesskit_node()
+                .label()
+                .is_some_and(|l| l.contains(text))
+        })
+    };
+    assert!(
+        window.harness.query_by_role(Role::Status).is_none(),
+        "whole"
+    );
+    log.0.borrow_mut().is_slow = true;
+    window
+        .harness
+        .state_mut()
+        .run(fabrica::app::Command::SetSubject(SubjectRef::Builtin {
+            name: "bar".to_owned(),
+        }));
+    window.settle();
+    assert!(
+        says(&window, "Earlier picture"),
+        "the cube under another name"
+    );
+    window.look("provisional_earlier");
+    subject_arrives(&log, "bar", 16, LoadEvent::Coarse);
+    window.settle();
+    window.steps(30);
+    assert!(says(&window, "Coarse for now"));
+    window.look("provisional_coarse");
+    subject_arrives(&log, "bar", 32, LoadEvent::Done { sha256: None });
+    log.0.borrow_mut().is_slow = false;
+    window.settle();
+    assert!(
+        window.harness.query_by_role(Role::Status).is_none(),
+        "whole again"
+    );
+}
+
+/// A document that is not at its address is no reason to have no viewer, and takes no place of the last one.
+#[test]
+fn a_document_that_is_not_there_is_told_in_a_working_viewer() {
+    let cases = [
+        (WhyMissing::Answer(404), "no document at this address"),
+        (WhyMissing::Answer(500), "server did not give"),
+        (
+            WhyMissing::Unreachable("offline".to_owned()),
+            "could not be fetched",
+        ),
+        (WhyMissing::TooLong, "too long"),
+    ];
+    for (why, words) in cases {
+        let log = Fake::default();
+        let kept = fabrica::link::encode(&Document::from_json(CUBE).expect("a document"));
+        log.store_value("document", &kept);
+        let address = "https://fabrica.example/missing.json".to_owned();
+        log.0.borrow_mut().missing = Some(MissingDocument { address, why });
+        log.0.borrow_mut().is_slow = true;
+        let window = Window::open_with(DESK, egui::Theme::Light, log.clone(), None);
+        assert!(window.harness.query_by_label_contains(words).is_some());
+        assert_eq!(window.document(), Document::new());
+        assert!(window.harness.query_by_label("Place peel").is_some());
+        assert_eq!(log.0.borrow().stored.get("document"), Some(&kept));
+        assert!(log.0.borrow().links.is_empty(), "the address stays");
+    }
+}
+
+#[test]
+fn the_window_and_the_picture_bear_the_title() {
+    let mut window = Window::open(DESK, CUBE);
+    let title = |window: &Window| window.log.0.borrow().title.clone();
+    assert_eq!(title(&window), "Fabrica");
+    let edit = fabrica::document::Edit::SetTitle("A cube, cut".to_owned());
+    let app = window.harness.state_mut();
+    app.run(fabrica::app::Command::Apply(edit));
+    window.steps(3);
+    assert_eq!(title(&window), "A cube, cut \u{2013} Fabrica");
+    let over = |window: &Window| {
+        let (role, title) = (Role::Heading, "A cube, cut");
+        window
+            .harness
+            .query_by_role_and_label(role, title)
+            .is_some()
+    };
+    assert!(!over(&window), "only where it is wished");
+    window.click("Panel: Text");
+    window.click("Show the title over the picture");
+    assert!(over(&window));
+    window.look("title_over");
+    let kept = window.log.0.borrow().stored.get("title").cloned();
+    assert_eq!(kept.as_deref(), Some("yes"));
+    window.click("Undo");
+    assert_eq!(title(&window), "Fabrica");
+    assert!(!over(&window));
+}
+
+#[test]
+fn a_file_that_is_no_scan_is_called_what_it_is() {
+    let log = Fake::default();
+    let json = r#"{ "fabrica": 1, "subject": { "src": "photo.png" } }"#;
+    log.0.borrow_mut().files = vec![("photo.png".to_owned(), b"\x89PNG\r\n\x1a\n".to_vec())];
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log, Some(json));
+    let line = "photo.png is an image, not a scan";
+    assert!(window.harness.query_by_label(line).is_some());
+    window.click("Details");
+    let technical = window.harness.query_by_label_contains("PNG picture");
+    assert!(technical.is_some(), "the technical words are a button away");
+    window.look("no_scan");
+}
+
 #[test]
 fn documents_and_pictures_are_saved() {
     let mut window = Window::open(

@@ -28,6 +28,10 @@ pub(crate) struct Log {
     pub(crate) files: Vec<(String, Vec<u8>)>,
     /// A load that was started in place of the document's subject.
     pub(crate) instead: Option<Ticket>,
+    /// The document that was asked for and could not be had.
+    pub(crate) missing: Option<MissingDocument>,
+    /// The title that the window was last given.
+    pub(crate) title: String,
 }
 
 #[derive(Clone, Default)]
@@ -62,10 +66,15 @@ impl Log {
         };
         let event = match outcome {
             Ok(sha256) => LoadEvent::Done { sha256 },
-            Err(error) => LoadEvent::Failed {
-                message: error.to_string(),
-                details: String::new(),
-            },
+            Err(error) => {
+                let fault = error.fault().map(LoadEvent::Fault);
+                let fault = fault.map(|event| Message::Load { ticket, event });
+                self.queue.extend(fault);
+                LoadEvent::Failed {
+                    message: error.to_string(),
+                    details: String::new(),
+                }
+            }
         };
         self.queue.push(Message::Load { ticket, event });
     }
@@ -182,6 +191,9 @@ impl Services for Fake {
     fn set_link(&mut self, payload: &str, change: LinkChange) {
         self.0.borrow_mut().links.push((payload.to_owned(), change));
     }
+    fn set_title(&mut self, title: &str) {
+        title.clone_into(&mut self.0.borrow_mut().title);
+    }
     fn store(&mut self, key: &str, value: &str) {
         self.0
             .borrow_mut()
@@ -228,6 +240,7 @@ impl Window {
         let services = log.clone();
         let text = text.map(str::to_owned);
         let instead = log.0.borrow().instead;
+        let missing = log.0.borrow().missing.clone();
         let harness = Harness::builder()
             .with_size(size)
             .with_theme(theme)
@@ -239,6 +252,7 @@ impl Window {
                 let start = Start {
                     document: None,
                     text,
+                    missing,
                     subject: instead,
                     clock,
                 };

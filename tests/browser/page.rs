@@ -165,7 +165,26 @@ fn history_and_reload_restore_documents() {
         );
         let from_file = session.viewer_sized("?doc=lesson.json", (420, 360)).await;
         from_file.wait_until(&is("four"), 30).await;
+        let called = "document.title === 'four \u{2013} Fabrica'";
+        from_file.wait_until(called, 30).await;
         from_file.assert_no_complaints().await;
+    });
+}
+
+/// A document that is not at its address is told as that, in a viewer that works.
+#[test]
+fn missing_document_is_told_in_a_working_viewer() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tab = session.viewer_sized("?doc=missing.json", PAGE).await;
+        let said =
+            "document.getElementById('said').textContent.includes('no document at this address')";
+        tab.wait_until(said, 30).await;
+        let title: String = tab.eval("document.title").await;
+        assert_eq!(title, "Fabrica");
+        let address: String = tab.eval("location.search").await;
+        assert_eq!(address, "?doc=missing.json");
+        let is_covered: bool = tab.eval("!document.getElementById('cover').hidden").await;
+        assert!(!is_covered, "the viewer is seen");
     });
 }
 

@@ -120,8 +120,7 @@ impl<'a> Distances<'a> {
             commands.push(Command::See(See::ToggleMeasure));
         }
         for (i, [a, b]) in self.lines.iter().enumerate().take(shown) {
-            let units = widget::plain(f64::from(a.distance(*b)), 3);
-            let value = format!("{} · {units}", millimetres(*a, *b, mm_per_unit));
+            let value = millimetres(*a, *b, mm_per_unit);
             let text = fill(w().distance_n, &[&(i + 1), &value]);
             if row(ui, &text, false, &fill(w().measure_remove, &[&(i + 1)])) {
                 commands.push(Command::See(See::RemoveMeasure(i)));

@@ -13,6 +13,7 @@ pub(crate) mod orientation;
 pub(crate) mod panes;
 pub(crate) mod points;
 pub(crate) mod projection;
+pub(crate) mod provisional;
 pub(crate) mod saved;
 pub(crate) mod slice_plot;
 pub(crate) mod slices;

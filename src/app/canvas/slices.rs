@@ -453,13 +453,7 @@ impl Slices {
         let name = pane_name(axes.pane);
         let at = cross[axes.axis];
         let mm = facts.world_from_subject(cross)[axes.axis];
-        let text = fill(
-            w().at,
-            &[
-                &widget::plain(f64::from(at), 3),
-                &widget::plain(f64::from(mm), 1),
-            ],
-        );
+        let text = fill(w().mm, &[&widget::plain(f64::from(mm), 1)]);
         let corner = rect.left_top() + vec2(10.0, 8.0);
         let shown = painter.text(
             corner,
@@ -618,10 +612,7 @@ impl Slices {
         }
         let number = |v: f32, decimals: usize| widget::plain(f64::from(v), decimals);
         let list = |v: Vec3, decimals: usize| v.to_array().map(|c| number(c, decimals)).join(", ");
-        let mut text = fill(
-            w().at,
-            &[&list(pos, 3), &list(facts.world_from_subject(pos), 1)],
-        );
+        let mut text = fill(w().mm, &[&list(facts.world_from_subject(pos), 1)]);
         if let Some((_, texel)) = self.read {
             text.push_str(" · ");
             if texel.is_there {

@@ -1,15 +1,44 @@
-//! Title, text and credit over the picture when it is shown alone.
+//! The title at the head of the picture, where it is wished; title, text and credit at its foot when it is shown alone.
 
 use std::sync::Arc;
 
-use egui::{FontId, Galley, Rect, Ui, UiBuilder, Vec2, vec2};
+use egui::{FontId, Galley, Rect, Role, Sense, Ui, UiBuilder, Vec2, WidgetInfo, vec2};
 
+use super::tools::bar_rect;
 use crate::app::canvas::view_bar;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{float, widget};
 use crate::app::session::{Command, Session};
 use crate::app::words::picture;
+
+/// The title at the head of the picture, if it is wished there. Returns where the rest of the picture begins, points
+/// from the top of the window.
+pub(crate) fn head_ui(ui: &Ui, picture: Rect, session: &Session) -> f32 {
+    let has_bar = session.tool().wants_place() || session.selected_template().is_some();
+    let top = if has_bar {
+        bar_rect(picture, 0.0).bottom() + 8.0
+    } else {
+        picture.top() + 30.0
+    };
+    let title = session.illustration().title.trim();
+    // Alone, the picture has its title at the foot.
+    if !session.has_title || title.is_empty() || session.are_panels_hidden {
+        return top;
+    }
+    let color = Palette::get(ui).text;
+    let width = (picture.width() - 48.0).max(80.0);
+    let font = theme::strong_font(18.0);
+    let galley = ui.painter().layout(title.to_owned(), font, color, width);
+    let card = Rect::from_center_size(picture.center_top(), galley.size() + vec2(24.0, 10.0));
+    let card = card.translate(vec2(0.0, top - card.top()));
+    let painter = ui.painter_at(picture);
+    painter.rect_filled(card, 8.0, Palette::get(ui).float);
+    painter.galley(card.min + vec2(12.0, 5.0), galley, color);
+    let response = ui.interact(card, ui.scope_id().with("title"), Sense::empty());
+    response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, title));
+    card.bottom() + 6.0
+}
 
 /// The way back to the panels.
 pub(crate) fn way_back_ui(ui: &mut Ui, rect: Rect, commands: &mut Vec<Command>) {

@@ -39,6 +39,8 @@ const BUDGET_REST: f32 = 0.05;
 
 /// How much of the untouched object is seen, of 255.
 const GHOST_ALPHA: u8 = 84;
+/// How much of an object is seen that is no longer the document's, of 255.
+const EARLIER_ALPHA: u8 = 110;
 /// Pixels of the picture at most. On a 4K screen it is drawn at about seven tenths of the screen's own resolution and
 /// scaled up: nobody sees the difference in tissue, and it takes half as long.
 pub(crate) const MAX_PICTURE_PIXELS: f32 = 4_200_000.0;
@@ -66,6 +68,8 @@ pub(crate) struct Viewport {
     /// The picture could not be drawn; a message told so.
     has_failed: bool,
     captions: Followed,
+    /// The picture still shows another object than the document's, and is drawn faintly.
+    pub(crate) is_earlier: bool,
 }
 
 impl Viewport {
@@ -340,7 +344,11 @@ impl Viewport {
                 self.has_failed = false;
                 if let Some(texture) = texture {
                     let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                    ui.painter().image(texture, rect, uv, Color32::WHITE);
+                    let tint = match self.is_earlier {
+                        true => Color32::from_white_alpha(EARLIER_ALPHA),
+                        false => Color32::WHITE,
+                    };
+                    ui.painter().image(texture, rect, uv, tint);
                 }
             }
             Err(error) => {

@@ -12,7 +12,7 @@ use crate::app::words::look::{Look as Words, w};
 use crate::app::words::transfer::w as transfer_words;
 use crate::app::words::{fill, names};
 use crate::document::{
-    Background, Edit, Look, OpacityMode, Preset, Transfer, Window, preset, presets,
+    Background, Edit, Look, OpacityMode, Preset, PresetSubject, Transfer, Window, preset, presets,
 };
 use crate::render::{SubjectInfo, auto_preset, window_of};
 
@@ -109,7 +109,15 @@ fn transfer_ui(
     };
     let auto = auto.map_or_else(
         || w().automatic.to_owned(),
-        |name| fill(w().automatic_is, &[&title(name)]),
+        |name| {
+            // Values without a unit say nothing of the machine that they come from.
+            let is_unknown = preset(name).is_some_and(|p| p.subject == PresetSubject::Mri);
+            let title = match is_unknown {
+                true => w().any_scan.to_owned(),
+                false => title(name),
+            };
+            fill(w().automatic_is, &[&title])
+        },
     );
     let selected = match transfer {
         Transfer::Auto => auto.clone(),

@@ -6,7 +6,7 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget;
 use crate::app::session::Command;
-use crate::app::session::{Gravity, Load, Notice, Session};
+use crate::app::session::{Gravity, Load, Notice, Offer, Session};
 use crate::app::words::messages::w;
 use crate::app::words::{fill, names};
 
@@ -133,6 +133,16 @@ fn notice_ui(ui: &mut Ui, notice: &Notice, commands: &mut Vec<Command>) {
                     }
                 });
             });
+            match notice.offer {
+                Some(Offer::KeepTemplates) => {
+                    if widget::labelled_button(ui, Icon::Layers, w().keep_templates, true, true)
+                        .clicked()
+                    {
+                        commands.push(Command::KeepTemplates);
+                    }
+                }
+                None => {}
+            }
             if notice.is_unfolded {
                 let text = RichText::new(&notice.details).small().color(palette.weak);
                 egui::ScrollArea::vertical()

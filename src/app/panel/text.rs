@@ -64,6 +64,12 @@ pub(crate) fn ui(
         1,
         Edit::SetCredit,
     );
+    let mut has_title = session.has_title;
+    ui.horizontal_wrapped(|ui| {
+        if ui.checkbox(&mut has_title, w().show_title).changed() {
+            commands.push(Command::ToggleTitle);
+        }
+    });
     let mut is_lettering = session.is_lettering;
     ui.horizontal_wrapped(|ui| {
         if ui.checkbox(&mut is_lettering, w().lettering).changed() {

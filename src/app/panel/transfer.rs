@@ -699,7 +699,7 @@ pub(crate) fn grouped_presets(
     let mut groups = vec![
         (PresetSubject::Builtin, w().segments),
         (PresetSubject::Ct, w().ct),
-        (PresetSubject::Mri, w().mri),
+        (PresetSubject::Mri, w().other),
     ];
     let first = info.map(|info| match (info.has_segments, info.is_ct) {
         (true, _) => PresetSubject::Builtin,

@@ -87,6 +87,7 @@ impl Picture {
     /// Shows another subject; it is uploaded while the old one stays.
     pub(crate) fn set_subject(&mut self, subject: Subject) -> Result<(), RenderError> {
         self.state.is_done = false;
+        self.state.uploading = Some(0.0);
         self.renderer.set_subject(subject)
     }
 
@@ -348,5 +349,6 @@ pub(crate) fn found(pick: Pick) -> Found {
         normal: pick.normal,
         pos_in_rest: pick.pos_in_rest,
         value: pick.value,
+        segment: pick.segment,
     }
 }

@@ -108,11 +108,14 @@ pub enum Command {
     Orbit(f32, f32),
     /// Comes closer by a factor.
     Zoom(f32),
-    /// Takes a subject in place of the present one.
+    /// Takes a subject in place of the present one: a new document begins, unless it is another volume of the same
+    /// file.
     SetSubject(SubjectRef),
+    /// Brings the templates of the document that was left for a new one into that.
+    KeepTemplates,
     /// Opens a scan or a document.
     Open,
-    /// Starts from an empty document.
+    /// Starts from an empty document; undo brings the present one back.
     New,
     /// Shows a step of the document; 0 is the document as it stands.
     GoToStep(usize),
@@ -154,6 +157,8 @@ pub enum Command {
     ToggleContrast,
     /// Title and credit are written into saved pictures, or not.
     ToggleLettering,
+    /// The title stands over the picture, or not.
+    ToggleTitle,
     /// The first hint does not come again.
     PutHintAway,
     /// The interface speaks another language.

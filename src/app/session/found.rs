@@ -13,4 +13,6 @@ pub struct Found {
     pub pos_in_rest: Vec3,
     /// Value of the subject at the point, in the units of its scan.
     pub value: f32,
+    /// Label of the segment that the tissue belongs to, if it belongs to one.
+    pub segment: Option<u16>,
 }

@@ -11,7 +11,7 @@
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
 //! | `notices`, `view`, `tissues`, `files`, `clipboard` | other parts of the state |
 //! | `session` | the state itself |
-//! | `run`, `using`, `surface`, `templates`, `opening`, `raw`, `link`, `clock` | what can be done with it |
+//! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw`, `link`, `clock` | what can be done with it |
 
 pub mod camera;
 mod clipboard;
@@ -34,6 +34,7 @@ mod run;
 )]
 mod session;
 pub mod shape;
+mod starting;
 mod surface;
 mod templates;
 mod ticket;
@@ -55,9 +56,9 @@ pub use self::files::{FileChoice, Fit, RawCommand, RawDraft};
 pub use self::found::Found;
 pub use self::measures::Measures;
 pub use self::mode::Mode;
-pub use self::notices::{Gravity, Notice, Notices};
+pub use self::notices::{Gravity, Notice, Notices, Offer};
 pub use self::question::{Place, Question, Sight};
-pub use self::run::{STORED_HINT, STORED_LETTERING};
+pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_TITLE};
 pub use self::session::{Load, LoadOf, STORED_DOCUMENT, Session, Tab};
 pub use self::ticket::Ticket;
 pub use self::tissues::{TissueCommand, Tissues};

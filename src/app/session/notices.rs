@@ -28,6 +28,13 @@ impl Gravity {
     }
 }
 
+/// What a message offers to do by a button.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Offer {
+    /// The templates of the document that was left come into the new one.
+    KeepTemplates,
+}
+
 /// One message to the user; kept when it is no longer shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Notice {
@@ -39,6 +46,8 @@ pub struct Notice {
     pub message: String,
     /// More, on demand; may be empty.
     pub details: String,
+    /// What the message's button does; such a message stays until it is answered or put away.
+    pub offer: Option<Offer>,
     /// When the message goes by itself, seconds on the clock of the interface.
     pub until: Option<f64>,
     /// Still shown over the picture.
@@ -66,12 +75,23 @@ impl Notices {
             gravity,
             message,
             details,
+            offer: None,
             until: gravity.seconds().map(|seconds| now + seconds),
             is_shown: true,
             is_unfolded: false,
         });
         if self.list.len() > MOST {
             self.list.remove(0);
+        }
+        id
+    }
+
+    /// Adds a message with a button, which stays until it is answered or put away, and returns its number.
+    pub fn offer(&mut self, now: f64, offer: Offer, message: String) -> u64 {
+        let id = self.add(now, Gravity::Info, message, String::new());
+        if let Some(notice) = self.list.last_mut() {
+            notice.offer = Some(offer);
+            notice.until = None;
         }
         id
     }

@@ -7,24 +7,23 @@ use super::mode::Mode;
 use super::notices::Gravity;
 use super::session::{Load, LoadOf, STORED_DOCUMENT, Session, payload_of};
 use super::ticket::Ticket;
-use super::tool::Tool;
 use crate::app::words::fill;
 use crate::app::words::messages::w;
 use crate::assets::{OtherFile, Want};
 use crate::document::{Document, Edit, Reading, SubjectRef};
 use crate::link;
 
+/// True if a subject that was asked for, or is shown, is that of the document.
+fn is_of(one: &Option<SubjectRef>, subject: &SubjectRef) -> bool {
+    one.as_ref().is_some_and(|one| one.is_same_data(subject))
+}
+
 impl Session {
     /// Takes another document in place of the present one, at one of its steps, and shows its notices.
     pub fn open_document(&mut self, document: Document, step: usize) {
         let notices: Vec<String> = document.notices().iter().map(ToString::to_string).collect();
-        self.glide = None;
-        self.selected = None;
-        if self.tool.is_for_authors() {
-            self.tool = Tool::Look;
-        }
-        self.tissues.open = None;
-        self.tissues.alone = None;
+        self.put_down();
+        self.withdraw_templates();
         self.link_stale_since = None;
         self.payload = payload_of(&document, &document.illustration().camera);
         self.mode = Mode::at(&document, step);
@@ -76,11 +75,27 @@ impl Session {
 
     /// Asks for the document's subject unless it is there or on its way.
     pub fn load_subject(&mut self) {
-        let subject = self.illustration().subject.clone();
-        if self.requested.as_ref() != Some(&subject) {
+        if !is_of(&self.requested, &self.illustration().subject) {
+            let subject = self.illustration().subject.clone();
             self.requested = Some(subject.clone());
             self.effect(Effect::LoadSubject(subject));
         }
+    }
+
+    /// True while an object is seen that is not the document's: that is on its way, or cannot be had.
+    pub fn shows_earlier_object(&self) -> bool {
+        let is_seen = self.view.subject.is_some();
+        is_seen && !is_of(&self.shown_subject, &self.illustration().subject)
+    }
+
+    /// The subject of the load under way is shown, whole or coarsely.
+    pub(super) fn load_is_shown(&mut self) {
+        let of = self.load.as_ref().map(|load| &load.of);
+        // A file becomes the document's subject when it is done.
+        self.shown_subject = match of {
+            Some(LoadOf::Subject) => Some(self.illustration().subject.clone()),
+            _ => None,
+        };
     }
 
     /// The document's subject is on its way.
@@ -112,16 +127,20 @@ impl Session {
         let subject = &self.illustration().subject;
         let is_answer = match load.of {
             LoadOf::Subject => true,
-            LoadOf::File => {
-                let is_missing = self.requested.as_ref() != Some(subject);
-                let is_supplied = matches!(subject, SubjectRef::Supplied { .. });
-                let is_asked_for = !self.is_restored || self.template_count() > 0;
-                is_missing && is_supplied && is_asked_for
-            }
+            LoadOf::File => self.waits_for_file() && matches!(subject, SubjectRef::Supplied { .. }),
             LoadOf::Instead | LoadOf::Segments(_) => false,
         };
         let check = Want::subject(subject).check(found);
         check.err().filter(|_| is_answer)
+    }
+
+    /// The document's own file could not be had, and was asked for in this session: a file that is opened is the answer.
+    fn waits_for_file(&self) -> bool {
+        let subject = &self.illustration().subject;
+        let is_here = is_of(&self.requested, subject);
+        let is_file = !matches!(subject, SubjectRef::Builtin { .. });
+        let is_asked_for = !self.is_restored || self.template_count() > 0;
+        !is_here && is_file && is_asked_for
     }
 
     /// Tells that a file is not the one that the document means, with both hashes.
@@ -148,13 +167,14 @@ impl Session {
         load.is_some_and(|load| matches!(load.of, LoadOf::Segments(_)))
     }
 
-    /// The load is over. A file becomes the subject of the document, as one step of undo.
-    pub fn load_done(&mut self, sha256: Option<String>) {
+    /// The load is over. A file that the document waited for becomes its subject; any other begins a new document. Both
+    /// are one step of undo, and true is returned then.
+    pub fn load_done(&mut self, sha256: Option<String>) -> bool {
         let Some(load) = self.load.take() else {
-            return;
+            return false;
         };
         if matches!(load.of, LoadOf::Segments(_)) {
-            return;
+            return false;
         }
         // A message that the load failed is no longer true.
         if let Some(failure) = self.load_failure.take() {
@@ -162,7 +182,7 @@ impl Session {
         }
         self.files.loaded(load.frame_count, load.is_file());
         let Some(sha256) = sha256.filter(|_| load.is_file()) else {
-            return;
+            return false;
         };
         let is_instead = load.of == LoadOf::Instead;
         if is_instead && let Err(other) = Want::subject(&self.illustration().subject).check(&sha256)
@@ -173,32 +193,31 @@ impl Session {
             if *wanted == sha256 && self.wants_other_frame(&load.reading) {
                 self.requested = None;
                 self.load_subject();
-                return;
+                return false;
             }
             if *wanted == sha256 {
                 self.requested = Some(self.illustration().subject.clone());
-                return;
-            }
-            if self.template_count() > 0 {
-                self.notify(
-                    Gravity::Info,
-                    w().other_file,
-                    fill(w().other_file_details, &[wanted, &sha256]),
-                );
+                self.shown_subject.clone_from(&self.requested);
+                return false;
             }
         }
+        let is_answer = is_instead || self.waits_for_file();
         let subject = SubjectRef::Supplied {
             sha256,
             name: String::new(),
             reading: load.reading,
         };
         self.requested = Some(subject.clone());
+        self.shown_subject = Some(subject.clone());
+        if !is_answer {
+            return self.start_with(subject);
+        }
         let edit = Edit::SetSubject(subject);
         let edit = match is_instead {
             true => self.with_its_segments(edit),
             false => edit,
         };
-        self.apply(&edit, false);
+        self.apply(&edit, false)
     }
 
     /// The change to another subject, but with the segments and recipes of the present one.
@@ -220,8 +239,9 @@ impl Session {
         }
     }
 
-    /// The document names a label volume beside its scan, behind those that it names already.
-    pub fn add_label_file(&mut self, sha256: &str) {
+    /// The document names a label volume beside its scan, behind those that it names already. `is_with_scan`: the volume
+    /// came with the scan, and both are one step of undo.
+    pub fn add_label_file(&mut self, sha256: &str, is_with_scan: bool) {
         let at = "/subject/segments";
         let mut list = match self.document().get(at) {
             None => Vec::new(),
@@ -239,7 +259,11 @@ impl Session {
             value,
             name: "Add segments".to_owned(),
         };
-        self.apply(&edit, false);
+        if is_with_scan {
+            self.amend(&edit);
+        } else {
+            self.apply(&edit, false);
+        }
     }
 
     /// The load came to nothing; the document keeps its subject.

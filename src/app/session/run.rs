@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 use super::camera;
 use super::command::Command;
-use super::effect::{Effect, Focus, LinkChange};
+use super::effect::{Effect, Focus};
 use super::question::{Place, Question};
 use super::session::{Session, Tab};
 use super::tissues::TissueCommand;
@@ -17,6 +17,8 @@ use crate::document::{Camera, Document, Edit, ParamKind, ParamValue, TemplateKin
 pub const STORED_HINT: &str = "hint";
 /// The key under which it is kept whether title and credit are written into saved pictures.
 pub const STORED_LETTERING: &str = "lettering";
+/// The key under which it is kept whether the title stands over the picture.
+pub const STORED_TITLE: &str = "title";
 
 impl Session {
     /// Runs a command at the time `now`, seconds on the clock of the interface. Returns the effects for the app, in
@@ -114,14 +116,12 @@ impl Session {
                 camera::zoom(&mut camera, factor);
                 self.move_camera(camera);
             }
-            Command::SetSubject(subject) => {
-                self.apply(&Edit::SetSubject(subject), false);
-                self.load_subject();
-            }
+            Command::SetSubject(subject) => self.choose_subject(subject),
+            Command::KeepTemplates => self.keep_templates(),
             Command::Open => self.effect(Effect::OpenFile),
             Command::New => {
-                self.open_document(Document::new(), 0);
-                self.touch_link(LinkChange::Push);
+                self.start_document(Document::new(), "New document".to_owned());
+                self.load_subject();
             }
             Command::CopyLink => self.copy_link(),
             Command::SaveDocument => self.save_document(),
@@ -152,8 +152,11 @@ impl Session {
             Command::ToggleContrast => self.effect(Effect::ToggleContrast),
             Command::ToggleLettering => {
                 self.is_lettering = !self.is_lettering;
-                let kept = if self.is_lettering { "yes" } else { "no" };
-                self.store(STORED_LETTERING, kept);
+                self.store(STORED_LETTERING, yes_or_no(self.is_lettering));
+            }
+            Command::ToggleTitle => {
+                self.has_title = !self.has_title;
+                self.store(STORED_TITLE, yes_or_no(self.has_title));
             }
             Command::NextPanel(forward) => self.next_panel(forward),
             Command::PutHintAway => self.put_hint_away(),
@@ -299,19 +302,6 @@ impl Session {
         self.apply(&edit, true);
     }
 
-    fn undo_or_redo(&mut self, is_undo: bool) {
-        self.history.end_drag();
-        let did = if is_undo {
-            self.history.undo()
-        } else {
-            self.history.redo()
-        };
-        if did {
-            self.document_changed(LinkChange::Push);
-            self.load_subject();
-        }
-    }
-
     fn run_see(&mut self, see: See) {
         let view = &mut self.view;
         match see {
@@ -388,4 +378,9 @@ impl Session {
             self.store(STORED_HINT, "seen");
         }
     }
+}
+
+/// A wish as it is kept for the next start.
+fn yes_or_no(is_wished: bool) -> &'static str {
+    if is_wished { "yes" } else { "no" }
 }

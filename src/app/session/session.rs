@@ -8,6 +8,7 @@ use super::effect::{Effect, LinkChange};
 use super::files::{FileChoice, RawDraft};
 use super::mode::Mode;
 use super::notices::{Gravity, Notices};
+use super::starting::Left;
 use super::ticket::Ticket;
 use super::tissues::Tissues;
 use super::tool::Tool;
@@ -16,7 +17,8 @@ use super::view::ViewState;
 use crate::assets::Want;
 use crate::data::Subject;
 use crate::document::{
-    Camera, Document, Edit, History, Illustration, PlacedTemplate, Reading, SubjectRef,
+    Camera, Document, DocumentError, Edit, History, Illustration, PlacedTemplate, Reading,
+    SubjectRef,
 };
 use crate::link;
 
@@ -56,6 +58,8 @@ pub struct Load {
     pub reading: Reading,
     /// Volumes in the file, once that is known.
     pub frame_count: u64,
+    /// The subject is seen coarsely, until its fine voxels are there.
+    pub is_coarse: bool,
 }
 
 impl Load {
@@ -69,6 +73,7 @@ impl Load {
             host: None,
             reading: Reading::default(),
             frame_count: 1,
+            is_coarse: false,
         }
     }
 
@@ -133,6 +138,8 @@ pub struct Session {
     pub files: FileChoice,
     /// The subject that was loaded, or is on its way.
     pub(super) requested: Option<SubjectRef>,
+    /// The subject that is seen, as the document names it; `None` while a file is seen that is not yet the document's.
+    pub(super) shown_subject: Option<SubjectRef>,
     /// Rises with every document that is opened.
     pub opened: u64,
     /// The document was kept from the last time; nobody asked for it now.
@@ -161,6 +168,8 @@ pub struct Session {
     pub has_hint: bool,
     /// Title and credit are written into saved pictures.
     pub is_lettering: bool,
+    /// The title stands over the picture.
+    pub has_title: bool,
     /// Handles go in steps.
     pub is_snapping: bool,
     /// A template of a group moves without the others, while the key for it is held.
@@ -168,6 +177,8 @@ pub struct Session {
     /// The text that the catalogue is searched for.
     pub search: String,
     pub(super) clipboard: Clipboard,
+    /// The document that was left for a new one, while its templates may still be brought along.
+    pub(super) left: Option<Left>,
     /// The surface along a template, as far as it has been found.
     pub(super) tracing: Option<Tracing>,
     /// Seconds on the clock of the interface.
@@ -203,6 +214,7 @@ impl Session {
             load_failure: None,
             files: FileChoice::default(),
             requested: None,
+            shown_subject: None,
             opened: 0,
             is_restored: false,
             tab: None,
@@ -217,10 +229,12 @@ impl Session {
             copied_at: None,
             has_hint: false,
             is_lettering: false,
+            has_title: false,
             is_snapping: false,
             is_alone: false,
             search: String::new(),
             clipboard: Clipboard::default(),
+            left: None,
             tracing: None,
             now: 0.0,
             revision: 0,
@@ -438,6 +452,17 @@ impl Session {
         } else {
             self.history.apply(edit)
         };
+        self.applied(result, is_drag)
+    }
+
+    /// Changes the document as a part of the last step of undo. True if the document took the change; else a message
+    /// tells why.
+    pub(super) fn amend(&mut self, edit: &Edit) -> bool {
+        let result = self.history.amend(edit);
+        self.applied(result, false)
+    }
+
+    fn applied(&mut self, result: Result<bool, DocumentError>, is_drag: bool) -> bool {
         match result {
             Ok(_) => {
                 self.document_changed(if is_drag {
@@ -470,6 +495,7 @@ impl Session {
 
     /// Another subject is shown. Distances and the crosshair stay where it fills the same box.
     pub fn set_subject(&mut self, subject: &Subject) {
+        self.load_is_shown();
         if !self.view.set_subject(subject) && self.tool.is_measuring() {
             self.tool = Tool::Measure(None);
         }

@@ -11,6 +11,7 @@ use super::session::{Session, Tab};
 use super::tool::Tool;
 use crate::app::words::authoring::w;
 use crate::app::words::fill;
+use crate::app::words::names::template_title;
 use crate::document::{
     Edit, Plane, free_group_name, group_of, groups, mirror, templates_from_text, templates_to_text,
 };
@@ -135,6 +136,8 @@ impl Session {
         let group = group_of(self.document(), selected);
         let copies = (as_copy && !group.is_empty())
             .then(|| free_group_name(group, &groups(self.document())));
+        let all = self.illustration().templates.iter();
+        let mut titles: Vec<String> = all.map(template_title).collect();
         let mut edits = Vec::new();
         // From the last to the first, so that a copy moves none of those that are still to come.
         for &index in acted_on.iter().rev() {
@@ -142,6 +145,14 @@ impl Session {
                 continue;
             };
             edits.extend(mirror(template, plane, as_copy));
+            if as_copy {
+                let name = mirrored_name(&template_title(template), &titles);
+                titles.push(name.clone());
+                edits.push(Edit::RenameTemplate {
+                    template: index + 1,
+                    name,
+                });
+            }
             if let Some(group) = &copies {
                 edits.push(Edit::SetGroup {
                     template: index + 1,
@@ -245,4 +256,15 @@ impl Session {
             edits,
         }
     }
+}
+
+/// A name for the mirror image of a template, other than the titles that are taken: that of the image of an image is
+/// the first one's.
+fn mirrored_name(title: &str, taken: &[String]) -> String {
+    let suffix = fill(w().mirrored, &[&""]);
+    let wanted = match title.strip_suffix(&suffix) {
+        Some(first) => first.to_owned(),
+        None => fill(w().mirrored, &[&title]),
+    };
+    free_group_name(&wanted, taken)
 }

@@ -12,7 +12,7 @@ use super::session::{Session, Tab};
 use super::shape::placement_on_surface;
 use super::tissues::{with_range, with_seeds};
 use super::tool::Tool;
-use crate::app::words::{captions, fill, messages};
+use crate::app::words::{capitalized, captions, fill, kept, messages};
 use crate::document::{Camera, Caption, Edit, MAX_SEEDS, RecipeSource, TemplateKind};
 use crate::math::Placement;
 
@@ -86,7 +86,7 @@ impl Session {
         }
     }
 
-    /// Fastens a caption to the tissue that was found; its text is to be typed next.
+    /// Fastens a caption to the tissue that was found, with the name of its segment; the text is to be typed next.
     pub(super) fn caption_on(&mut self, found: Option<Found>) {
         let Some(found) = found else {
             return self.notify_nothing_here();
@@ -96,9 +96,15 @@ impl Session {
         }
         self.tool = Tool::Look;
         let index = self.illustration().captions.len();
+        let facts = self.view.subject.as_ref().zip(found.segment);
+        let segment = facts.and_then(|(facts, label)| facts.segments.get(&label));
+        let segment = segment.filter(|name| !name.trim().is_empty());
         let caption = Caption {
             at: found.pos_in_rest,
-            text: fill(captions::w().caption_n, &[&(index + 1)]),
+            text: segment.map_or_else(
+                || fill(captions::w().caption_n, &[&(index + 1)]),
+                |name| capitalized(&kept::segment(name)),
+            ),
         };
         if self.apply(&Edit::AddCaption(caption), false) {
             self.are_panels_hidden = false;

@@ -10,6 +10,7 @@ words! {
         mirror_sagittal: "Mirrored copy, right and left", "Spiegelkopie, rechts und links", "Copia reflejada, derecha e izquierda", "镜像副本：左右";
         mirror_coronal: "Mirrored copy, front and back", "Spiegelkopie, vorn und hinten", "Copia reflejada, delante y detrás", "镜像副本：前后";
         mirror_axial: "Mirrored copy, above and below", "Spiegelkopie, oben und unten", "Copia reflejada, arriba y abajo", "镜像副本：上下";
+        mirrored: "{0}, mirrored", "{0}, gespiegelt", "{0}, reflejo", "{0}（镜像）";
         mirror_here: "Move to the other side", "Auf die andere Seite", "Pasar al otro lado", "移到另一侧";
         lay: "Snap to the surface", "An die Oberfläche anlegen", "Ajustar a la superficie", "贴合到表面";
         group: "Group", "Gruppe", "Grupo", "组";

@@ -8,6 +8,7 @@ words! {
         colours_hint: "Which values are seen, in which colour", "Welche Werte man sieht, und in welcher Farbe", "Qué valores se ven y de qué color", "显示哪些数值，用什么颜色";
         automatic: "Automatic", "Automatisch", "Automático", "自动";
         automatic_is: "Automatic ({0})", "Automatisch ({0})", "Automático ({0})", "自动（{0}）";
+        any_scan: "scan", "Scan", "estudio", "扫描";
         own_points: "Own points ({0})", "Eigene Punkte ({0})", "Puntos propios ({0})", "自定义点（{0}）";
         colour_n: "Colour {0}", "Farbe {0}", "Color {0}", "颜色 {0}";
         value_n: "Value {0}", "Wert {0}", "Valor {0}", "数值 {0}";

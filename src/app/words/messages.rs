@@ -39,6 +39,13 @@ words! {
         loading: "Loading", "Laden", "Cargando", "正在载入";
         messages: "Messages", "Meldungen", "Mensajes", "消息";
         close_messages: "Close messages", "Meldungen schließen", "Cerrar los mensajes", "关闭消息";
+        document_missing: "There is no document at this address: {0}", "Unter dieser Adresse gibt es kein Dokument: {0}", "No hay ningún documento en esta dirección: {0}", "此网址没有文档：{0}";
+        document_refused: "The server did not give the document: {0}", "Der Server hat das Dokument nicht herausgegeben: {0}", "El servidor no entregó el documento: {0}", "服务器没有提供该文档：{0}";
+        document_unreachable: "The document could not be fetched: {0}", "Das Dokument konnte nicht geladen werden: {0}", "No se pudo descargar el documento: {0}", "无法获取该文档：{0}";
+        document_too_long: "This file is too long for a document: {0}", "Diese Datei ist zu lang für ein Dokument: {0}", "Este archivo es demasiado largo para ser un documento: {0}", "此文件过长，不是文档：{0}";
+        server_answered: "The server answered {0}.", "Der Server hat {0} geantwortet.", "El servidor respondió {0}.", "服务器返回 {0}。";
+        new_for_subject: "A new document was started for this subject", "Für dieses Objekt wurde ein neues Dokument begonnen", "Se ha empezado un documento nuevo para este objeto", "已为此对象新建文档";
+        keep_templates: "Keep my templates", "Meine Vorlagen behalten", "Conservar mis plantillas", "保留我的模板";
         nothing_so_far: "Nothing so far.", "Bisher nichts.", "Nada por ahora.", "暂无消息。";
     }
 }

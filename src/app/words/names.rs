@@ -106,6 +106,13 @@ pub(crate) fn edit_title(name: &str) -> String {
         "Change credit" => ["", "Nachweis ändern", "Cambiar los créditos", "更改署名"],
         "Change language" => ["", "Sprache ändern", "Cambiar el idioma", "更改语言"],
         "Change subject" => ["", "Objekt ändern", "Cambiar el objeto", "更改对象"],
+        "New document" => ["", "Neues Dokument", "Documento nuevo", "新建文档"],
+        "Keep templates" => [
+            "",
+            "Vorlagen behalten",
+            "Conservar las plantillas",
+            "保留模板",
+        ],
         "Paste templates" => ["", "Vorlagen einfügen", "Pegar plantillas", "粘贴模板"],
         "Cut templates" => ["", "Vorlagen ausschneiden", "Cortar plantillas", "剪切模板"],
         "Mirror templates" => ["", "Vorlagen spiegeln", "Reflejar plantillas", "镜像模板"],

@@ -10,7 +10,6 @@ words! {
         pane: "View", "Ansicht", "Vista", "视图";
         slice: "{0} slice", "Schnitt {0}", "Corte {0}", "{0}切片";
         position: "{0} position", "Lage {0}", "Posición {0}", "{0}位置";
-        at: "{0} · {1} mm", "{0} · {1} mm", "{0} · {1} mm", "{0} · {1} 毫米";
         value: "value {0}", "Wert {0}", "valor {0}", "数值 {0}";
         nothing: "nothing", "nichts", "nada", "空";
         show: "Slices beside the picture", "Schnitte neben dem Bild", "Cortes junto a la imagen", "在图像旁显示切片";

@@ -7,6 +7,7 @@ fn every_line_has_the_same_gaps_in_every_language() {
     let tables = [
         bar::LINES,
         catalogue::LINES,
+        faults::LINES,
         files::LINES,
         kept::LINES,
         keys::LINES,

@@ -14,7 +14,7 @@ words! {
         colour: "Colour", "Farbe", "Color", "颜色";
         segments: "Named segments", "Benannte Segmente", "Segmentos con nombre", "已命名的分割";
         ct: "CT", "CT", "TC", "CT";
-        mri: "MRI", "MRT", "RM", "MRI";
+        other: "MRI and other scans", "MRT und andere Scans", "RM y otros estudios", "MRI 及其他扫描";
         tint: "Tint", "Tönung", "Tinte", "着色";
         tint_hint: "How much the segments' own colours show", "Wie stark die eigenen Farben der Segmente durchkommen", "Cuánto se ven los colores propios de los segmentos", "分割自身颜色的显示程度";
     }

@@ -41,6 +41,7 @@ pub(crate) const ORDER: [(&str, &[&[&str]]); 3] = [
             &["tree.rs"],
             &["naming.rs"],
             &["history.rs", "authoring.rs", "reference.rs"],
+            &["carry.rs"],
             &["tests"],
         ],
     ),
@@ -65,7 +66,12 @@ pub(crate) const ORDER: [(&str, &[&[&str]]); 3] = [
             &["tissue_work.rs"],
             &["canvas", "panel"],
             &["window.rs"],
-            &["arrivals.rs", "fields.rs"],
+            &[
+                "arrivals.rs",
+                "fields.rs",
+                "provisional.rs",
+                "window_title.rs",
+            ],
         ],
     ),
 ];

@@ -39,6 +39,19 @@ impl SubjectRef {
         }
     }
 
+    /// True if both are the same data, read in the same way, whatever the author calls them.
+    pub fn is_same_data(&self, other: &Self) -> bool {
+        let nameless = |subject: &Self| {
+            let mut subject = subject.clone();
+            match &mut subject {
+                Self::Builtin { .. } => {}
+                Self::Address { name, .. } | Self::Supplied { name, .. } => name.clear(),
+            }
+            subject
+        };
+        nameless(self) == nameless(other)
+    }
+
     /// This subject with another way of reading its file. A built-in subject stays as it is.
     #[must_use]
     pub fn with_reading(mut self, new: Reading) -> Self {

@@ -3,8 +3,9 @@
 //! the answer to a displacement field. The others are the events of a load:
 //! `["begin", header as JSON]`, `["scalars", typed array]`, `["labels", Uint8Array]`, `["progress", fraction, what]`,
 //! `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`, `["label-file", sha256, header as JSON, Uint8Array]`,
-//! `["frames", count]`, `["raw", bytes or undefined, is packed, guess or undefined]`, `["failed", message, details]`,
-//! `["cancelled"]`.
+//! `["frames", count]`, `["raw", bytes or undefined, is packed, guess or undefined]`,
+//! `["fault", kind, name of the file, bytes found, bytes expected, file that is missing]`,
+//! `["failed", message, details]`, `["cancelled"]`.
 
 use js_sys::{Array, Float32Array, Reflect, Uint8Array};
 use serde_json::Value;
@@ -15,7 +16,7 @@ use super::task::{reading_of, text_of_reading};
 use crate::assets::{LoadEvent, RawQuestion};
 use crate::data::{SubjectPart, Voxels};
 use crate::document::Reading;
-use crate::load::{FieldFile, LabelFile};
+use crate::load::{FaultKind, FieldFile, FileFault, LabelFile};
 
 /// What the page gets from a part.
 #[derive(Debug)]
@@ -182,6 +183,17 @@ pub mod post {
                 push(&"notice".into());
                 push(&text.into());
             }
+            LoadEvent::Fault(fault) => {
+                let word = FaultKind::WORDS
+                    .iter()
+                    .find(|(kind, _)| *kind == fault.kind);
+                push(&"fault".into());
+                push(&word.map(|(_, word)| *word).into());
+                push(&fault.name.into());
+                push(&(fault.bytes[0] as f64).into());
+                push(&(fault.bytes[1] as f64).into());
+                push(&fault.needed.into());
+            }
             LoadEvent::Failed { message, details } => {
                 push(&"failed".into());
                 push(&message.into());
@@ -244,6 +256,16 @@ fn event_of(message: &Array) -> Option<LoadEvent> {
             sha256: message.get(1).as_string(),
         },
         "notice" => LoadEvent::Notice(text(1)),
+        "fault" => {
+            let count = |index: u32| message.get(index).as_f64().map(|n| n as u64);
+            let (word, name) = (text(1), text(2));
+            LoadEvent::Fault(FileFault {
+                kind: FaultKind::WORDS.iter().find(|(_, w)| *w == word)?.0,
+                name,
+                bytes: [count(3)?, count(4)?],
+                needed: text(5),
+            })
+        }
         "failed" => LoadEvent::Failed {
             message: text(1),
             details: text(2),
