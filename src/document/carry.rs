@@ -100,8 +100,8 @@ fn recipes(from: &Document, into: &Document, segments: &[&str], templates: &[Val
             .map(str::to_owned)
     };
     let is_there = |name: &str| {
-        let own = list(into, "/subject/features").iter().filter_map(name_of);
-        segments.contains(&name) || own.into_iter().any(|own| own == name)
+        let mut own = list(into, "/subject/features").iter().filter_map(name_of);
+        segments.contains(&name) || own.any(|own| own == name)
     };
     let is_carried = |recipe: &&Value| {
         let by_threshold = recipe

@@ -164,6 +164,7 @@ fn is_same_file(one: &SubjectRef, other: &SubjectRef) -> bool {
 mod tests {
     use super::super::{Command, Effect, Gravity, Load, LoadOf, Session, Ticket};
     use super::*;
+    use crate::document::Reading;
 
     const PEELED: &str = r#"{ "fabrica": 1, "title": "Scalp", "subject": { "builtin": "head" },
         "camera": { "distance": 2.0 }, "labels": [{ "at": [0, 0, 0.4], "text": "Frontal bone" }],
@@ -300,8 +301,10 @@ mod tests {
         let mut session = session_of(PEELED);
         open_file(&mut session, "a");
         session.run(Command::KeepTemplates, 0.0);
-        let mut reading = crate::document::Reading::default();
-        reading.frame = 3;
+        let reading = Reading {
+            frame: 3,
+            ..Reading::default()
+        };
         let other = session.illustration().subject.clone().with_reading(reading);
         session.run(Command::SetSubject(other), 0.0);
         assert_eq!(session.template_count(), 1);
