@@ -133,15 +133,12 @@ fn notice_ui(ui: &mut Ui, notice: &Notice, commands: &mut Vec<Command>) {
                     }
                 });
             });
-            match notice.offer {
-                Some(Offer::KeepTemplates) => {
-                    if widget::labelled_button(ui, Icon::Layers, w().keep_templates, true, true)
-                        .clicked()
-                    {
-                        commands.push(Command::KeepTemplates);
-                    }
-                }
-                None => {}
+            let keeps_templates = notice.offer == Some(Offer::KeepTemplates);
+            let keep = w().keep_templates;
+            if keeps_templates
+                && widget::labelled_button(ui, Icon::Layers, keep, true, true).clicked()
+            {
+                commands.push(Command::KeepTemplates);
             }
             if notice.is_unfolded {
                 let text = RichText::new(&notice.details).small().color(palette.weak);
