@@ -18,7 +18,6 @@ use crate::app::panel::{
     catalogue, frames, keys, look, notice, raw, shortcuts, templates, text, tissue, topbar,
     transfer,
 };
-use crate::app::picture::catalogue_icons::CatalogueIcons;
 use crate::app::picture::host::Picture;
 use crate::app::services::{MissingDocument, Services};
 use crate::app::session::{
@@ -62,7 +61,7 @@ pub struct App {
     pub(crate) session: Session,
     pub(crate) services: Box<dyn Services>,
     pub(crate) picture: Option<Picture>,
-    icons: CatalogueIcons,
+    icons: catalogue::Icons,
     pub(crate) viewport: Viewport,
     /// A message about the lost device has been shown.
     has_told_loss: bool,
@@ -179,7 +178,7 @@ impl App {
             services,
             has_fingers,
             picture,
-            icons: CatalogueIcons::default(),
+            icons: catalogue::Icons::new(&cc.egui_ctx),
             viewport: Viewport::default(),
             has_told_loss: false,
             pending: Vec::new(),
@@ -476,15 +475,6 @@ impl App {
                     self.session.notify(Gravity::Warning, line, "");
                 }
             }
-            // Icons are drawn when the picture has had its turn, somebody sees them, and no hand is at work: making
-            // a program for the GPU may take longer than a frame.
-            let is_quiet = ui.input(|i| i.events.is_empty() && !i.pointer.any_down());
-            let is_seen = self.session.tab == Some(Tab::Add) || !self.is_narrow;
-            let is_icon_time =
-                is_quiet && is_seen && picture.state.is_done && self.session.load.is_none();
-            if is_icon_time && self.icons.advance(ctx, picture, catalogue::kinds()) {
-                ctx.request_repaint();
-            }
             if picture.is_waiting() {
                 ctx.request_repaint();
             }
@@ -522,7 +512,6 @@ impl App {
             .and_then(|picture| picture.gpu().lost());
         if let Some(reason) = lost.filter(|_| !self.has_told_loss) {
             self.has_told_loss = true;
-            self.icons.device_lost();
             self.session
                 .notify(Gravity::Error, words::messages::w().device_lost, reason);
         }

@@ -212,7 +212,7 @@ fn at_rest_nothing_repaints() {
     let mut window = Window::open(DESK, CUBE);
     window.place_peel();
     window.settle();
-    // Icons are drawn and messages go by; then there is silence.
+    // Messages go by; then there is silence.
     let patience = clock() + 240.0;
     while clock() < patience {
         window.harness.step();

@@ -5,6 +5,7 @@ mod data;
 mod gallery;
 #[path = "../../src/bin/xtask/house.rs"]
 mod house;
+mod icons;
 #[path = "../../src/bin/xtask/imports.rs"]
 mod imports;
 mod layers;
@@ -14,6 +15,8 @@ mod load;
 mod load_dicom;
 mod load_formats;
 mod load_hostile;
+#[path = "../../src/bin/xtask/palette.rs"]
+mod palette;
 mod prose;
 mod recipes;
 #[path = "../support/scans.rs"]

@@ -8,6 +8,7 @@ mod cli;
 mod coarse;
 mod fields;
 mod grid;
+mod icons;
 mod images;
 mod kinds;
 mod load_memory;

@@ -1,8 +1,9 @@
-//! Widgets, colours, type and drawn icons that every panel uses.
+//! Widgets, colours, type, drawn icons and sheets of pictures that every panel uses.
 
 pub(crate) mod float;
 pub(crate) mod icon;
 pub(crate) mod menu;
+pub(crate) mod sheet;
 pub(crate) mod slow_click;
 pub(crate) mod template_menu;
 pub(crate) mod theme;

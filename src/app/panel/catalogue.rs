@@ -1,19 +1,22 @@
-//! The catalogue: every template as a small picture of what it does to a cube, drawn by the renderer itself. A click
-//! starts placing it.
+//! The catalogue: every template as a small picture of what it does to a cube. A click starts placing it.
+//!
+//! The pictures ship with the program: `cargo xtask icons` has the renderer draw them into `catalogue.png` beside this
+//! file.
 
 use egui::{
-    Align2, CornerRadius, FontId, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, Context, CornerRadius, FontId, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use crate::app::kit::icon::Icon;
+use crate::app::kit::sheet::Sheet;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget::{self, Named as _};
-use crate::app::picture::catalogue_icons::CatalogueIcons;
 use crate::app::session::{Command, Focus, Session, Tool};
 use crate::app::words::catalogue::{Catalogue, w};
 use crate::app::words::{authoring, fill, in_sentence, kinds};
 use crate::displace::Group;
 use crate::document::TemplateKind;
+use crate::placed::{ICON_PX, icon_kinds};
 
 /// A word of the catalogue's table.
 type Word = fn(&Catalogue) -> &'static str;
@@ -38,16 +41,31 @@ fn kinds_of(group: Group) -> Vec<TemplateKind> {
     kinds.into_iter().map(|(_, kind)| kind).collect()
 }
 
-/// Every kind, in the order of the catalogue.
-pub(crate) fn kinds() -> impl Iterator<Item = TemplateKind> {
-    GROUPS.into_iter().flat_map(|(_, group)| kinds_of(group))
+/// The pictures of the catalogue. Made once per window.
+pub(crate) struct Icons(Option<Sheet>);
+
+impl Icons {
+    /// The icons as the program ships them.
+    pub(crate) fn new(ctx: &Context) -> Self {
+        let png = include_bytes!("catalogue.png");
+        Self(Sheet::new(ctx, "icons of the catalogue", png, [ICON_PX; 2]).ok())
+    }
+
+    /// Paints the icon of a kind.
+    fn paint(&self, ui: &Ui, kind: TemplateKind, rect: Rect) {
+        let index = icon_kinds().position(|other| other == kind);
+        if let (Some(sheet), Some(index)) = (&self.0, index) {
+            let (texture, uv) = sheet.tile(index);
+            ui.painter().image(texture, rect, uv, egui::Color32::WHITE);
+        }
+    }
 }
 
 /// The whole catalogue in columns as the width allows.
 pub(crate) fn ui(
     ui: &mut Ui,
     session: &Session,
-    icons: &CatalogueIcons,
+    icons: &Icons,
     focus: Option<Focus>,
     commands: &mut Vec<Command>,
 ) {
@@ -149,7 +167,7 @@ fn is_found(kind: TemplateKind, group: &str, wanted: &str) -> bool {
 fn cell_ui(
     ui: &mut Ui,
     session: &Session,
-    icons: &CatalogueIcons,
+    icons: &Icons,
     kind: TemplateKind,
     width: f32,
     commands: &mut Vec<Command>,
@@ -180,14 +198,7 @@ fn cell_ui(
         widget::focus_ring(ui, &response, rect);
         let top = rect.center_top() + vec2(0.0, 4.0 + 0.5 * picture_side);
         let picture = Rect::from_center_size(top, Vec2::splat(picture_side));
-        match icons.texture(kind) {
-            Some(texture) => {
-                let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                ui.painter()
-                    .image(texture, picture, uv, egui::Color32::WHITE);
-            }
-            None => outline(ui, picture.shrink(8.0), palette.line),
-        }
+        icons.paint(ui, kind, picture);
         let mut font = if is_placing {
             theme::strong_font(11.0)
         } else {
@@ -211,32 +222,14 @@ fn cell_ui(
     }
 }
 
-/// A plain cube, until the renderer has drawn the icon.
-fn outline(ui: &Ui, rect: Rect, color: egui::Color32) {
-    let (c, r) = (rect.center(), 0.5 * rect.height());
-    let at = |x: f32, y: f32| c + vec2(x * r, y * r);
-    let stroke = Stroke::new(1.2, color);
-    let hexagon = vec![
-        at(0.0, -1.0),
-        at(0.87, -0.5),
-        at(0.87, 0.5),
-        at(0.0, 1.0),
-        at(-0.87, 0.5),
-        at(-0.87, -0.5),
-    ];
-    ui.painter().add(egui::Shape::closed_line(hexagon, stroke));
-    for to in [at(0.87, -0.5), at(0.0, 1.0), at(-0.87, -0.5)] {
-        ui.painter().line_segment([at(0.0, 0.0), to], stroke);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn the_groups_hold_every_kind_once() {
-        let mut all: Vec<TemplateKind> = kinds().collect();
+        let groups = GROUPS.into_iter();
+        let mut all: Vec<TemplateKind> = groups.flat_map(|(_, group)| kinds_of(group)).collect();
         all.sort();
         // A field comes with its file.
         let mut expected = TemplateKind::ALL.to_vec();

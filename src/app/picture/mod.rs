@@ -1,5 +1,4 @@
-//! Hosts the renderer: the picture, its slices and the icons of the catalogue.
+//! Hosts the renderer: the picture and its slices.
 
-pub(crate) mod catalogue_icons;
 pub(crate) mod host;
 pub(crate) mod pending;

@@ -295,7 +295,7 @@ fn picture_difference(one: &[u8], other: &[u8]) -> Result<Option<String>, String
 }
 
 /// Size and values of a PNG with 8 bits a channel.
-fn values(bytes: &[u8]) -> Result<((u32, u32), Vec<u8>), String> {
+pub(crate) fn values(bytes: &[u8]) -> Result<((u32, u32), Vec<u8>), String> {
     let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
         .read_info()
         .map_err(|error| format!("no PNG: {error}"))?;

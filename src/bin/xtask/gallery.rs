@@ -18,6 +18,9 @@ use crate::run::{Outcome, cargo, program, report, root, run};
 /// Where `cargo xtask serve` shows the page.
 const PAGE: &str = "http://127.0.0.1:8080/";
 
+/// Samples per pixel.
+const SAMPLES: u32 = 4;
+
 /// The four sides: name, and degrees that the eye goes round from the front, to the subject's left first.
 const SIDES: [(&str, f32); 4] = [
     ("front", 0.0),
@@ -37,16 +40,7 @@ struct Wish {
 /// Draws the gallery into target/gallery.
 pub(crate) fn gallery(args: &[String]) -> Outcome {
     let wish = read(args)?;
-    let fabrica = match &wish.program {
-        Some(path) => path.clone(),
-        None => {
-            run(
-                "build the native program",
-                cargo().args(["build", "--bin", "fabrica"]),
-            )?;
-            root().join("target/debug/fabrica")
-        }
-    };
+    let fabrica = native(wish.program.as_deref())?;
     let folder = root().join("target/gallery");
     fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut page = String::from(HEAD);
@@ -68,6 +62,17 @@ pub(crate) fn gallery(args: &[String]) -> Outcome {
     fs::write(&index, page).map_err(|error| format!("{}: {error}", index.display()))?;
     report(&format!("look at {}", index.display()));
     Ok(())
+}
+
+/// The native program that draws: the one that is given, else it is built.
+pub(crate) fn native(given: Option<&Path>) -> Result<PathBuf, String> {
+    if let Some(path) = given {
+        return Ok(path.to_path_buf());
+    }
+    let mut command = cargo();
+    command.args(["build", "--bin", "fabrica"]);
+    run("build the native program", &mut command)?;
+    Ok(root().join("target/debug/fabrica"))
 }
 
 fn read(args: &[String]) -> Result<Wish, String> {
@@ -104,7 +109,7 @@ fn read(args: &[String]) -> Result<Wish, String> {
 }
 
 /// The gallery's documents by file name, in the order of the names.
-fn documents() -> Result<Vec<(String, Document)>, String> {
+pub(crate) fn documents() -> Result<Vec<(String, Document)>, String> {
     let folder = root().join("web/gallery");
     let entries =
         fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -142,7 +147,14 @@ fn illustration(
             Some(i) => format!("{step}. {}", shown.steps[i].title),
         };
         let file = format!("{name}-{step}.png");
-        draw(fabrica, document, step, &folder.join(&file), wish.size_px)?;
+        draw(
+            fabrica,
+            document,
+            step,
+            &folder.join(&file),
+            [wish.size_px; 2],
+            SAMPLES,
+        )?;
         figure(page, document, step, &file, &caption, wish);
     }
     let _ = writeln!(
@@ -228,7 +240,14 @@ fn sheet(page: &mut String, name: &str, fabrica: &Path, folder: &Path, wish: &Wi
             });
             let document = made(name, &templates, &camera)?;
             let file = format!("{name}-{how}-{side}.png");
-            draw(fabrica, &document, 0, &folder.join(&file), wish.size_px)?;
+            draw(
+                fabrica,
+                &document,
+                0,
+                &folder.join(&file),
+                [wish.size_px; 2],
+                SAMPLES,
+            )?;
             figure(page, &document, 0, &file, &format!("{how}, {side}"), wish);
         }
     }
@@ -345,17 +364,26 @@ fn made(name: &str, templates: &Value, camera: &Value) -> Result<Document, Strin
     Document::from_json(&tree.to_string()).map_err(|error| error.to_string())
 }
 
-/// Draws a document at a step.
-fn draw(fabrica: &Path, document: &Document, step: usize, to: &Path, size_px: u32) -> Outcome {
+/// Draws a document at a step into a PNG of `width` and `height` pixels.
+pub(crate) fn draw(
+    fabrica: &Path,
+    document: &Document,
+    step: usize,
+    to: &Path,
+    [width, height]: [u32; 2],
+    samples: u32,
+) -> Outcome {
     let from = to.with_extension("json");
     fs::write(&from, document.to_json()).map_err(|error| format!("{}: {error}", from.display()))?;
     let mut command = program(fabrica);
     command.arg("render").arg(&from).arg("-o").arg(to);
     command.args([
         "--size",
-        &format!("{size_px}x{size_px}"),
+        &format!("{width}x{height}"),
         "--step",
         &step.to_string(),
+        "--samples",
+        &samples.to_string(),
     ]);
     let done = command
         .output()

@@ -8,8 +8,10 @@ mod gallery;
 mod house;
 mod imports;
 mod page;
+mod palette;
 mod run;
 mod setup;
+mod sheet;
 mod test;
 
 use std::process::ExitCode;
@@ -29,6 +31,7 @@ cargo xtask COMMAND
   bless [NAME]      accept the pictures that tests draw now as the expected ones
   gallery [--only NAME]  draw every built-in subject and every illustration of web/gallery into
                     target/gallery/index.html (also --size PIXELS, --program FILE, --page URL)
+  icons             draw the icons of the catalogue anew, into the picture that ships with the program
   evaluate          measure maps, normals, opacity and cost against closed forms (some minutes, test profile):
                     tables and plots in target/evaluation/index.html
   shaders [FOLDER]  write the assembled shader programs into a folder (default target/shaders)
@@ -48,6 +51,7 @@ fn main() -> ExitCode {
         Some("size") => page::size(),
         Some("bless") => test::bless(rest),
         Some("gallery") => gallery::gallery(rest),
+        Some("icons") => sheet::icons(rest),
         Some("evaluate") => evaluate::evaluate(),
         Some("shaders") => check::shaders(rest),
         Some("setup") => setup::for_page().and_then(|()| setup::for_tests()),

@@ -58,4 +58,7 @@ pub enum RenderError {
     /// The PNG encoder failed.
     #[error("PNG: {0}")]
     Png(#[from] png::EncodingError),
+    /// Bytes are no PNG file, or a broken one.
+    #[error("PNG: {0}")]
+    NotPng(#[from] png::DecodingError),
 }
