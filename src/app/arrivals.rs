@@ -1,7 +1,7 @@
 //! Takes in everything that the shell hands over: opened files, loads piece by piece, answers to requests.
 
 use crate::app::services::{Message, SavedTo};
-use crate::app::session::{Gravity, Load, LoadOf};
+use crate::app::session::{Gravity, Load, LoadOf, Shipped};
 use crate::app::window::App;
 use crate::app::words::{self, fill};
 use crate::assets::{Data, LoadEvent, Role, SegmentationsExpected, Want};
@@ -36,6 +36,15 @@ impl App {
                     }
                 }
                 Message::Field { want, outcome } => self.take_field(want, *outcome),
+                Message::Shipped { file, outcome } => match (file, outcome) {
+                    (Shipped::Examples, outcome) => {
+                        let outcome = outcome.as_deref().map_err(Clone::clone);
+                        self.session.library.take_list(outcome);
+                    }
+                    (Shipped::ExamplePictures, Ok(png)) => self.example_pictures.take(png),
+                    // The cards say enough without pictures.
+                    (Shipped::ExamplePictures, Err(_)) => {}
+                },
                 Message::Pasted(text) => self.session.take_pasted(text),
                 Message::Copied(outcome) => self.session.copied(outcome),
                 Message::Saved(Ok(place)) => {

@@ -57,8 +57,8 @@ pub use self::canvas::lettering::letter;
 #[cfg(feature = "app")]
 pub use self::services::{Message, MissingDocument, SavedTo, Services, WhyMissing};
 pub use self::session::{
-    Command, GizmoMode, LinkChange, Pane, STORED_DOCUMENT, SaveFile, See, StandardView, Ticket,
-    TissueCommand, Tool,
+    Command, GizmoMode, LinkChange, Pane, STORED_DOCUMENT, SaveFile, See, Shipped, StandardView,
+    Ticket, TissueCommand, Tool,
 };
 #[cfg(feature = "app")]
 pub use self::window::{App, Start};

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use crate::app::session::{LinkChange, SaveFile, Ticket};
+use crate::app::session::{LinkChange, SaveFile, Shipped, Ticket};
 use crate::app::words::{self, fill};
 use crate::assets::{LoadEvent, SegmentationsExpected, Want};
 use crate::document::RawVoxels;
@@ -39,6 +39,8 @@ pub trait Services {
     fn load_field(&mut self, want: &Want) {
         _ = want;
     }
+    /// Fetches a file that ships with the program; [`Message::Shipped`] follows.
+    fn fetch_shipped(&mut self, file: Shipped);
     /// Stops a load; [`LoadEvent::Cancelled`] follows.
     fn cancel_load(&mut self, ticket: Ticket);
     /// Gives bytes to the user as a file; [`Message::Saved`] follows.
@@ -155,6 +157,13 @@ pub enum Message {
         ticket: Ticket,
         /// Name of the host.
         host: String,
+    },
+    /// A file that ships with the program has come, or has not.
+    Shipped {
+        /// The file that was asked for.
+        file: Shipped,
+        /// Its bytes, or why there are none.
+        outcome: Result<Vec<u8>, String>,
     },
     /// The clipboard has the text, or why not.
     Copied(Result<(), String>),

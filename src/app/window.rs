@@ -15,14 +15,14 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, widget};
 use crate::app::panel::{
-    catalogue, frames, keys, look, notice, raw, shortcuts, templates, text, tissue, topbar,
-    transfer,
+    catalogue, frames, keys, library, look, notice, raw, shortcuts, templates, text, tissue,
+    topbar, transfer,
 };
 use crate::app::picture::host::Picture;
 use crate::app::services::{MissingDocument, Services};
 use crate::app::session::{
-    Command, Effect, Focus, Gravity, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING, STORED_TITLE,
-    Session, Tab, Ticket,
+    Command, Effect, Focus, Gravity, Listing, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING,
+    STORED_RECENT, STORED_TITLE, Session, Tab, Ticket, changed_recent,
 };
 use crate::app::tissue_work;
 use crate::app::words::{self, Lang};
@@ -62,6 +62,7 @@ pub struct App {
     pub(crate) services: Box<dyn Services>,
     pub(crate) picture: Option<Picture>,
     icons: catalogue::Icons,
+    pub(crate) example_pictures: library::Pictures,
     pub(crate) viewport: Viewport,
     /// A message about the lost device has been shown.
     has_told_loss: bool,
@@ -151,6 +152,7 @@ impl App {
             && start.missing.is_none()
             && services.stored(STORED_DOCUMENT).is_none();
         session.has_hint = is_first && services.stored(STORED_HINT).is_none();
+        let earlier = services.stored(STORED_DOCUMENT);
         match (start.text, start.document, start.missing) {
             (Some(text), _, _) => session.open_text(&text),
             (None, Some(document), _) => session.open_document(document, 0),
@@ -169,6 +171,9 @@ impl App {
                 }
             }
         }
+        if let Some(earlier) = earlier {
+            session.keep_earlier(earlier);
+        }
         session.load_subject();
         if let Some(ticket) = start.subject {
             session.instead_started(ticket);
@@ -179,6 +184,7 @@ impl App {
             has_fingers,
             picture,
             icons: catalogue::Icons::new(&cc.egui_ctx),
+            example_pictures: library::Pictures::default(),
             viewport: Viewport::default(),
             has_told_loss: false,
             pending: Vec::new(),
@@ -230,6 +236,7 @@ impl App {
             && !self.tissue.is_behind(&self.assets, self.session.shown())
             && !self.wants_segments()
             && self.pending.is_empty()
+            && self.session.library.listing != Listing::Asked
             && !self.viewport.is_waiting()
             && self.picture.as_ref().is_none_or(is_picture_done)
     }
@@ -283,6 +290,17 @@ impl App {
                 Effect::Paste => services.paste_text(),
                 Effect::SetLink(tail, change) => services.set_link(&tail, change),
                 Effect::Store(key, value) => services.store(key, &value),
+                Effect::FetchShipped(file) => services.fetch_shipped(file),
+                Effect::Recent(change) => {
+                    let kept = services.stored(STORED_RECENT).unwrap_or_default();
+                    let list = changed_recent(&kept, &change);
+                    if list != kept {
+                        services.store(STORED_RECENT, &list);
+                    }
+                    if self.session.library.is_open {
+                        self.session.library.take_recent(&list);
+                    }
+                }
                 Effect::Ask(question) => self.viewport.take_question(question),
                 Effect::Focus(focus) => self.focus = Some(focus),
                 Effect::SavePicture
@@ -365,6 +383,9 @@ impl App {
             notice::messages_ui(ui, &self.session, &mut commands);
         }
 
+        if self.session.library.is_open {
+            library::ui(ui, &self.session, &mut self.example_pictures, &mut commands);
+        }
         frames::ui(ui, &self.session, &mut commands);
         raw::ui(ui, &self.session, &mut commands);
 
@@ -411,6 +432,7 @@ impl App {
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
         let is_sheet_open = self.session.is_keys_sheet_open
             || self.session.is_messages_open
+            || self.session.library.is_open
             || self.session.raw_draft().is_some();
         if !is_typing && !is_sheet_open {
             ui.input(|i| {

@@ -13,7 +13,7 @@ use super::files::{Folder, Picked, local};
 use super::loading::{
     make_subject, read_file, read_segments, resolutions, take_segmentations, wanted_file,
 };
-use crate::app::{App, LinkChange, Message, SaveFile, SavedTo, Services, Start, Ticket};
+use crate::app::{App, LinkChange, Message, SaveFile, SavedTo, Services, Shipped, Start, Ticket};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
 use crate::document::{Document, RawVoxels, Reading};
@@ -553,6 +553,15 @@ impl Services for NativeServices {
             Role::Subject | Role::Field => self.start_file(path, true, want.reading.clone()),
             Role::Segments => self.start_segments(path),
         }
+    }
+
+    fn fetch_shipped(&mut self, file: Shipped) {
+        let bytes: &[u8] = match file {
+            Shipped::Examples => include_bytes!("../../web/examples/list.json"),
+            Shipped::ExamplePictures => include_bytes!("../../web/examples/pictures.png"),
+        };
+        let outcome = Ok(bytes.to_vec());
+        self.send(Message::Shipped { file, outcome });
     }
 
     fn load_field(&mut self, want: &Want) {

@@ -13,7 +13,9 @@ use super::worker::answer::Answer;
 use super::worker::fault::text_of;
 use super::worker::run::{self, WorkerLoad};
 use super::worker::task::{ScanTask, Task};
-use crate::app::{LinkChange, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, Ticket};
+use crate::app::{
+    LinkChange, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, Shipped, Ticket,
+};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
 use crate::document::{RawVoxels, Reading};
@@ -340,7 +342,7 @@ fn not_started(error: &JsValue) -> LoadEvent {
     }
 }
 
-/// Fetches from the page's own host.
+/// Fetches what lies beside the page or the program.
 async fn fetched(address: &str) -> Option<Blob> {
     let response = JsFuture::from(window()?.fetch_with_str(address))
         .await
@@ -354,6 +356,13 @@ async fn fetched(address: &str) -> Option<Blob> {
         .ok()?
         .dyn_into()
         .ok()
+}
+
+/// The bytes of a file that lies beside the program.
+async fn fetched_bytes(address: &str) -> Option<Vec<u8>> {
+    let blob = fetched(address).await?;
+    let buffer = JsFuture::from(blob.array_buffer()).await.ok()?;
+    Some(js_sys::Uint8Array::new(&buffer).to_vec())
 }
 
 /// The text of a file that begins as a document does.
@@ -508,6 +517,21 @@ impl Services for PageServices {
             }
         }
         ticket
+    }
+
+    fn fetch_shipped(&mut self, file: Shipped) {
+        let services = self.clone();
+        // Its files lie beside the program, which need not lie beside the page that it is set into.
+        let address = Url::new_with_base(file.path(), &self.0.borrow().place.worker);
+        spawn_local(async move {
+            let bytes = match address {
+                Ok(address) => fetched_bytes(&address.href()).await,
+                Err(_) => None,
+            };
+            let outcome = bytes.ok_or_else(|| file.path().to_owned());
+            let mut page = services.0.borrow_mut();
+            page.send(Message::Shipped { file, outcome });
+        });
     }
 
     fn load_field(&mut self, want: &Want) {

@@ -5,6 +5,7 @@ mod authoring;
 mod canvas;
 mod captions;
 mod comfort;
+mod library;
 mod looking;
 mod making;
 mod opening;

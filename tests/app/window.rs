@@ -26,6 +26,10 @@ pub(crate) struct Log {
     pub(crate) is_reading: bool,
     /// Files that there are, by their addresses.
     pub(crate) files: Vec<(String, Vec<u8>)>,
+    /// Files of the program that were asked for.
+    pub(crate) fetched: Vec<fabrica::app::Shipped>,
+    /// Files of the program do not come.
+    pub(crate) is_offline: bool,
     /// A load that was started in place of the document's subject.
     pub(crate) instead: Option<Ticket>,
     /// The document that was asked for and could not be had.
@@ -151,6 +155,20 @@ impl Services for Fake {
             log.read(src, want.role, ticket);
         }
         ticket
+    }
+    fn fetch_shipped(&mut self, file: fabrica::app::Shipped) {
+        use fabrica::app::Shipped;
+        let log = &mut *self.0.borrow_mut();
+        log.fetched.push(file);
+        let bytes: &[u8] = match file {
+            Shipped::Examples => include_bytes!("../../web/examples/list.json"),
+            Shipped::ExamplePictures => include_bytes!("../../web/examples/pictures.png"),
+        };
+        let outcome = match log.is_offline {
+            true => Err("offline".to_owned()),
+            false => Ok(bytes.to_vec()),
+        };
+        log.queue.push(Message::Shipped { file, outcome });
     }
     fn is_reading(&self) -> bool {
         self.0.borrow().is_reading

@@ -12,6 +12,7 @@ mod embed;
 mod files;
 mod hand;
 mod harness;
+mod library;
 mod making;
 mod native;
 mod page;

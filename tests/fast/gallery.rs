@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::examples;
 use fabrica::document::{Document, SubjectRef};
 use fabrica::link;
 
@@ -80,5 +81,38 @@ fn every_document_fits_a_link_and_comes_back() {
         );
         let back = link::decode(&payload).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(back.document.to_json(), document.to_json(), "{name}");
+    }
+}
+
+/// List and pictures of the examples ship with the program; both are written by one command.
+#[test]
+fn the_list_of_examples_is_the_gallery() {
+    const REMEDY: &str = "run `cargo xtask examples`";
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let gallery = examples::examples(root).expect("the gallery");
+    assert_eq!(gallery.len(), files().len());
+    let list = fs::read_to_string(root.join(examples::LIST)).expect("the list");
+    let expected = examples::list(&gallery);
+    assert!(list == expected, "the list is out of date: {REMEDY}");
+
+    let pictures = fs::read(root.join(examples::PICTURES)).expect("the pictures");
+    let weight = pictures.len() + list.len();
+    assert!(weight <= 400_000, "{weight} bytes for a page to fetch");
+    let sheet = image::load_from_memory(&pictures)
+        .expect("a PNG")
+        .to_rgba8();
+    let ([width, height], columns) = (examples::TILE_PX, examples::COLUMNS);
+    let rows = (gallery.len() as u32).div_ceil(columns);
+    assert_eq!(
+        sheet.dimensions(),
+        (columns * width, rows * height),
+        "{REMEDY}"
+    );
+    for (index, (name, _)) in (0..).zip(&gallery) {
+        let (x, y) = (index % columns * width, index / columns * height);
+        let tile = image::imageops::crop_imm(&sheet, x, y, width, height).to_image();
+        let corner = *tile.get_pixel(0, height / 2);
+        let drawn = tile.pixels().filter(|pixel| **pixel != corner).count();
+        assert!(drawn > 2000, "{name}: {drawn} pixels are drawn");
     }
 }

@@ -2,6 +2,8 @@
 
 #[path = "../support/data.rs"]
 mod data;
+#[path = "../../src/bin/xtask/examples.rs"]
+mod examples;
 mod gallery;
 #[path = "../../src/bin/xtask/house.rs"]
 mod house;

@@ -2,7 +2,7 @@
 //! than what the facts say of an icon, fails.
 
 use crate::gpu::{builtin, software, studio_of};
-use fabrica::document::{Illustration, ParamValue};
+use fabrica::document::{Illustration, ParamValue, TemplateKind};
 use fabrica::placed::{ICON_COLUMNS, ICON_PX, icon_document, icon_kinds};
 use fabrica::render::{Image, decode_png};
 use fabrica::subjects::FINE_RESOLUTION;
@@ -44,8 +44,15 @@ fn difference(a: &Image, b: &Image) -> f64 {
     sum / a.rgba.len() as f64
 }
 
-/// A palette of 256 colours is off by 0.2 to 0.35 of 255 in the mean; adapters of one family differ by less than 0.1.
+/// A palette of 256 colours is off by 0.2 to 0.4 of 255 in the mean; adapters of one family differ by less than 0.1.
 const BOUND: f64 = 0.45;
+
+/// The kinds whose icons change least with their main parameter.
+const LEAST: [TemplateKind; 3] = [
+    TemplateKind::Lens,
+    TemplateKind::Retractor,
+    TemplateKind::Wave,
+];
 
 #[test]
 fn the_icons_are_what_the_renderer_draws() {
@@ -65,7 +72,11 @@ fn the_icons_are_what_the_renderer_draws() {
         worst = worst.max(off);
         assert!(off < BOUND, "{kind:?} is off by {off:.2}: {REMEDY}");
 
-        // The negative control: an icon with a fifth less of the main parameter is another one.
+        // The negative control: with a fifth less of the main parameter it is another icon, also of those that change
+        // least by that.
+        if !LEAST.contains(&kind) {
+            continue;
+        }
         let template = &mut illustration.templates[0];
         let main = kind.spec().main_param;
         match main.map(|main| &mut template.params[main]) {

@@ -7,9 +7,10 @@ use crate::app::kit::float;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget;
-use crate::app::session::Command;
 use crate::app::session::Session;
+use crate::app::session::{Command, LibraryCommand};
 use crate::app::words::authoring::w;
+use crate::app::words::library;
 use crate::document::{ParamKind, ParamValue, PlacedTemplate};
 
 /// The card: beside the ball of axes, or where there is no room at the head of the picture. Nothing while something
@@ -49,6 +50,10 @@ pub(crate) fn ui(
     let text_height: f32 = galleys.iter().map(|(g, _)| g.size().y + 5.0).sum();
     let head = theme::control_height() + 14.0;
     let height = text_height + head + 8.0;
+    // The words go before the button.
+    let foot = theme::control_height() + 12.0;
+    let has_examples = 2.0 * (height + foot) <= picture.height();
+    let height = if has_examples { height + foot } else { height };
     if 2.0 * height > picture.height() {
         return None;
     }
@@ -76,6 +81,16 @@ pub(crate) fn ui(
             commands.push(Command::PutHintAway);
         }
     });
+    if has_examples {
+        let row = card.shrink2(vec2(12.0, 10.0));
+        let row = row.with_min_y(row.bottom() - theme::control_height());
+        let builder = UiBuilder::new().id_salt("hint of examples").max_rect(row);
+        let mut ui = ui.new_child(builder.layout(widget::along()));
+        let text = library::w().or_example;
+        if widget::labelled_button(&mut ui, Icon::Book, text, false, true).clicked() {
+            commands.push(Command::Library(LibraryCommand::Toggle));
+        }
+    }
     let mut y = card.top() + head;
     for (i, (galley, is_done)) in galleys.into_iter().enumerate() {
         let row = Rect::from_min_size(pos2(card.left() + 12.0, y), vec2(width - 24.0, 0.0))

@@ -6,6 +6,7 @@ pub(crate) mod curve;
 pub(crate) mod frames;
 pub(crate) mod kept;
 pub(crate) mod keys;
+pub(crate) mod library;
 pub(crate) mod look;
 pub(crate) mod notice;
 pub(crate) mod points;

@@ -10,7 +10,7 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::template_menu;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
-use crate::app::session::{Command, Session};
+use crate::app::session::{Command, LibraryCommand, Session};
 use crate::app::words::templates::w;
 use crate::app::words::{self, fill, kinds, names};
 use crate::data::Segment;
@@ -66,6 +66,11 @@ fn list_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         let weak = Palette::get(ui).weak;
         let text = w().nothing_placed;
         ui.add(Label::new(egui::RichText::new(text).color(weak)).wrap());
+        ui.add_space(4.0);
+        let example = words::library::w().or_example;
+        if widget::labelled_button(ui, Icon::Book, example, false, true).clicked() {
+            commands.push(Command::Library(LibraryCommand::Toggle));
+        }
         return;
     }
     let mut drop_at = None;

@@ -6,15 +6,19 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::menu::menu_item;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget::{self, Named as _};
-use crate::app::session::Command;
 use crate::app::session::Session;
+use crate::app::session::{Command, LibraryCommand};
 use crate::app::words::bar::w;
 use crate::app::words::{self, Lang, fill, names};
 use crate::document::SubjectRef;
 
+/// Width of the bar in points from which on the examples have a button in it; else they are in the menu.
+const EXAMPLES_WIDTH: f32 = 880.0;
+
 /// The bar. `is_narrow` leaves words out.
 pub(crate) fn ui(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut Vec<Command>) {
     let palette = Palette::get(ui);
+    let has_examples = ui.available_width() >= EXAMPLES_WIDTH;
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         if !is_narrow {
@@ -30,6 +34,13 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut
                 .clicked()
         {
             commands.push(Command::Open);
+        }
+        if has_examples
+            && widget::labelled_button(ui, Icon::Book, words::library::w().examples, false, true)
+                .on_hover_text(words::library::w().examples_hint)
+                .clicked()
+        {
+            commands.push(Command::Library(LibraryCommand::Toggle));
         }
         ui.add_space(if is_narrow { 0.0 } else { 8.0 });
         let undo = session.history.undo_name().map(str::to_owned);
@@ -52,7 +63,7 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut
         }
 
         ui.with_layout(widget::against(), |ui| {
-            more_menu(ui, session, is_narrow, commands);
+            more_menu(ui, session, is_narrow, has_examples, commands);
             let is_copied = session.copied_at.is_some();
             let (icon, text) = match (is_copied, is_narrow) {
                 (true, _) => (Icon::Check, w().copied),
@@ -129,7 +140,13 @@ fn subject_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         .on_hover_text(w().subject_hint);
 }
 
-fn more_menu(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut Vec<Command>) {
+fn more_menu(
+    ui: &mut Ui,
+    session: &Session,
+    is_narrow: bool,
+    has_examples: bool,
+    commands: &mut Vec<Command>,
+) {
     let button = widget::icon_button(ui, Icon::More, w().more, true);
     egui::Popup::menu(&button).show(|ui| {
         // The row of languages takes all the width that there is.
@@ -142,6 +159,10 @@ fn more_menu(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut Vec
         };
         if is_narrow {
             item(ui, Icon::Folder, w().open_file, Command::Open);
+        }
+        if !has_examples {
+            let command = Command::Library(LibraryCommand::Toggle);
+            item(ui, Icon::Book, words::library::w().examples, command);
         }
         item(ui, Icon::Plus, w().new_document, Command::New);
         item(ui, Icon::Download, w().save_document, Command::SaveDocument);

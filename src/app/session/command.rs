@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::camera::StandardView;
 use super::files::RawCommand;
 use super::found::Found;
+use super::library::LibraryCommand;
 use super::notices::Gravity;
 use super::tissues::TissueCommand;
 use super::view::See;
@@ -169,6 +170,8 @@ pub enum Command {
     TogglePanels,
     /// Changes how one looks: slices, ghost, distances.
     See(See),
+    /// Shows examples and recent documents, or opens one.
+    Library(LibraryCommand),
     /// Edits or shows tissues.
     Tissue(TissueCommand),
 }

@@ -1,5 +1,6 @@
 //! What the session wants done outside of itself, as values. Whoever runs a command carries out what it returns.
 
+use super::library::{RecentChange, Shipped};
 use super::question::Question;
 use super::ticket::Ticket;
 use crate::document::{RawVoxels, SubjectRef};
@@ -64,6 +65,10 @@ pub enum Effect {
     SetLink(String, LinkChange),
     /// Keep a text under a key for the next start.
     Store(&'static str, String),
+    /// Fetch a file that ships with the program.
+    FetchShipped(Shipped),
+    /// Change the list of documents that were open before, and give it to the library if it is open.
+    Recent(RecentChange),
     /// Ask the picture a question; its answer is a command.
     Ask(Question),
     /// Give a control the keyboard.

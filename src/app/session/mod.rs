@@ -9,9 +9,9 @@
 //! | `tool`, `mode`, `walk` | the active tool; author or lesson; the steps of a lesson |
 //! | `command`, `effect`, `question`, `found`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
-//! | `notices`, `view`, `tissues`, `files`, `clipboard` | other parts of the state |
+//! | `notices`, `view`, `tissues`, `files`, `clipboard`, `library` | other parts of the state |
 //! | `session` | the state itself |
-//! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw`, `link`, `clock` | what can be done with it |
+//! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw`, `lending`, `link`, `clock` | what can be done with it |
 
 pub mod camera;
 mod clipboard;
@@ -20,6 +20,8 @@ mod command;
 mod effect;
 mod files;
 mod found;
+mod lending;
+mod library;
 mod link;
 mod measures;
 mod mode;
@@ -54,6 +56,10 @@ pub use self::command::{Command, GizmoMode};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};
 pub use self::files::{FileChoice, Fit, RawCommand, RawDraft};
 pub use self::found::Found;
+pub use self::library::{
+    Example, Library, LibraryCommand, LibraryPage, Listing, Recent, RecentChange, STORED_RECENT,
+    Shipped, changed_recent,
+};
 pub use self::measures::Measures;
 pub use self::mode::Mode;
 pub use self::notices::{Gravity, Notice, Notices, Offer};

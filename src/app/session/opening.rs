@@ -21,6 +21,7 @@ fn is_of(one: &Option<SubjectRef>, subject: &SubjectRef) -> bool {
 impl Session {
     /// Takes another document in place of the present one, at one of its steps, and shows its notices.
     pub fn open_document(&mut self, document: Document, step: usize) {
+        self.keep_work();
         let notices: Vec<String> = document.notices().iter().map(ToString::to_string).collect();
         self.put_down();
         self.withdraw_templates();

@@ -142,6 +142,7 @@ impl Session {
             Command::Raw(command) => self.run_raw(command),
             Command::See(see) => self.run_see(see),
             Command::Tissue(command) => self.run_tissue(command),
+            Command::Library(command) => self.run_library(command),
             Command::ToggleKeys => self.is_keys_sheet_open = !self.is_keys_sheet_open,
             Command::ToggleFrames => self.files.is_open = !self.files.is_open,
             Command::ToggleMessages => self.is_messages_open = !self.is_messages_open,
@@ -214,6 +215,8 @@ impl Session {
         if self.is_keys_sheet_open || self.is_messages_open {
             self.is_keys_sheet_open = false;
             self.is_messages_open = false;
+        } else if self.library.is_open {
+            self.library.is_open = false;
         } else if matches!(self.tool, Tool::Measure(Some(_))) {
             self.take_tool(Tool::Measure(None));
         } else if self.tool != Tool::Look {

@@ -6,6 +6,7 @@ use super::clipboard::Clipboard;
 use super::command::GizmoMode;
 use super::effect::{Effect, LinkChange};
 use super::files::{FileChoice, RawDraft};
+use super::library::Library;
 use super::mode::Mode;
 use super::notices::{Gravity, Notices};
 use super::starting::Left;
@@ -189,6 +190,8 @@ pub struct Session {
     pub view: ViewState,
     /// Which recipe is edited and which tissue is shown alone.
     pub tissues: Tissues,
+    /// Examples, and documents that were open before.
+    pub library: Library,
     /// Effects that wait for the app, in order.
     pub(super) effects: Vec<Effect>,
 }
@@ -240,6 +243,7 @@ impl Session {
             revision: 0,
             view: ViewState::default(),
             tissues: Tissues::default(),
+            library: Library::default(),
             effects: Vec::new(),
         }
     }

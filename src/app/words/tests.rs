@@ -12,6 +12,7 @@ fn every_line_has_the_same_gaps_in_every_language() {
         kept::LINES,
         keys::LINES,
         captions::LINES,
+        library::LINES,
         look::LINES,
         authoring::LINES,
         names::LINES,

@@ -13,6 +13,7 @@ use fabrica::link;
 use fabrica::subjects::{self, Generator};
 use serde_json::{Value, json};
 
+use crate::examples::documents;
 use crate::run::{Outcome, cargo, program, report, root, run};
 
 /// Where `cargo xtask serve` shows the page.
@@ -46,7 +47,7 @@ pub(crate) fn gallery(args: &[String]) -> Outcome {
     let mut page = String::from(HEAD);
     let is_wanted = |name: &str| wish.only.as_deref().is_none_or(|only| name.contains(only));
     page.push_str("<h1>Gallery</h1>\n");
-    for (name, document) in documents()? {
+    for (name, document) in documents(root())? {
         if is_wanted(&name) {
             illustration(&mut page, &name, &document, &fabrica, &folder, &wish)?;
         }
@@ -106,28 +107,6 @@ fn read(args: &[String]) -> Result<Wish, String> {
         }
     }
     Ok(wish)
-}
-
-/// The gallery's documents by file name, in the order of the names.
-pub(crate) fn documents() -> Result<Vec<(String, Document)>, String> {
-    let folder = root().join("web/gallery");
-    let entries =
-        fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    let mut files: Vec<PathBuf> = entries
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| path.extension().is_some_and(|end| end == "json"))
-        .collect();
-    files.sort();
-    files
-        .into_iter()
-        .map(|path| {
-            let located = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-            let text = fs::read_to_string(&path).map_err(|error| located(&error))?;
-            let document = Document::from_json(&text).map_err(|error| located(&error))?;
-            let stem = path.file_stem().unwrap_or_default();
-            Ok((stem.to_string_lossy().into_owned(), document))
-        })
-        .collect()
 }
 
 /// One illustration: its text, its link, a picture for every step.

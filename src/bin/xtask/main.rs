@@ -4,6 +4,7 @@
 mod check;
 mod compare;
 mod evaluate;
+mod examples;
 mod gallery;
 mod house;
 mod imports;
@@ -31,6 +32,7 @@ cargo xtask COMMAND
   bless [NAME]      accept the pictures that tests draw now as the expected ones
   gallery [--only NAME]  draw every built-in subject and every illustration of web/gallery into
                     target/gallery/index.html (also --size PIXELS, --program FILE, --page URL)
+  examples          write the list of examples out of web/gallery, and draw their pictures anew
   icons             draw the icons of the catalogue anew, into the picture that ships with the program
   evaluate          measure maps, normals, opacity and cost against closed forms (some minutes, test profile):
                     tables and plots in target/evaluation/index.html
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
         Some("bless") => test::bless(rest),
         Some("gallery") => gallery::gallery(rest),
         Some("icons") => sheet::icons(rest),
+        Some("examples") => sheet::examples(rest),
         Some("evaluate") => evaluate::evaluate(),
         Some("shaders") => check::shaders(rest),
         Some("setup") => setup::for_page().and_then(|()| setup::for_tests()),

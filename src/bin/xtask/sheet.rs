@@ -11,6 +11,7 @@ use fabrica::document::Document;
 use fabrica::placed::{ICON_COLUMNS, ICON_PX, icon_document, icon_kinds};
 
 use crate::compare::values;
+use crate::examples;
 use crate::gallery::{draw, native};
 use crate::palette::{Rgba, palette};
 use crate::run::{Outcome, report, root};
@@ -29,6 +30,20 @@ pub(crate) fn icons(args: &[String]) -> Outcome {
         sheet.add(&fabrica, &document, 0)?;
     }
     sheet.write(&root().join(ICONS))
+}
+
+/// Writes the list of examples, and draws their pictures as they open.
+pub(crate) fn examples(args: &[String]) -> Outcome {
+    let examples = examples::examples(root())?;
+    let list = root().join(examples::LIST);
+    let text = examples::list(&examples);
+    fs::write(&list, text).map_err(|error| format!("{}: {error}", list.display()))?;
+    let fabrica = program_of("examples", args)?;
+    let mut sheet = Sheet::new(examples::TILE_PX, examples::COLUMNS);
+    for (_, document) in &examples {
+        sheet.add(&fabrica, document, 0)?;
+    }
+    sheet.write(&root().join(examples::PICTURES))
 }
 
 /// The native program: that of `--program FILE`, else it is built.
