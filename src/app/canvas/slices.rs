@@ -451,7 +451,6 @@ impl Slices {
         letters: Color32,
     ) -> Rect {
         let name = pane_name(axes.pane);
-        let at = cross[axes.axis];
         let mm = facts.world_from_subject(cross)[axes.axis];
         let text = fill(w().mm, &[&widget::plain(f64::from(mm), 1)]);
         let corner = rect.left_top() + vec2(10.0, 8.0);
