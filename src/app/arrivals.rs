@@ -1,5 +1,6 @@
 //! Takes in everything that the shell hands over: opened files, loads piece by piece, answers to requests.
 
+use crate::app::picture::host::Picture;
 use crate::app::services::{Message, SavedTo};
 use crate::app::session::{Gravity, Load, LoadOf, Shipped};
 use crate::app::window::App;
@@ -161,10 +162,17 @@ impl App {
         let made = self
             .tissue
             .advance(&self.assets, &self.resources, shown, is_dragging);
-        if self.tissue.is_behind(&self.assets, self.session.shown()) {
+        let shown = self.session.shown();
+        let is_behind = self.tissue.is_behind(&self.assets, shown);
+        let is_stopped = self.tissue.is_stopped(&self.assets, shown);
+        let is_done = |picture: &Picture| picture.state.is_done;
+        let tissues = &mut self.session.tissues;
+        tissues.progress = self.tissue.progress();
+        (tissues.is_behind, tissues.is_stopped) = (is_behind, is_stopped);
+        if is_behind {
             ui.ctx().request_repaint();
         }
-        self.session.tissues.progress = self.tissue.progress();
+        tissues.is_drawn = self.picture.as_ref().is_none_or(is_done);
         let Some(made) = made else {
             return;
         };
@@ -175,6 +183,7 @@ impl App {
         let segments = made.segmentation.as_ref().map_or(&[][..], |l| &l.segments);
         self.session.view.set_segments(segments);
         self.session.revision += 1;
+        self.inside.set_labels(made.segmentation.as_deref());
         let shown = self
             .picture
             .as_mut()
@@ -282,6 +291,8 @@ impl App {
                 self.transfer.set_histogram(histogram);
                 let is_file = self.session.load.as_ref().is_some_and(Load::is_file);
                 self.is_other_uploading |= is_file || self.session.shows_earlier_object();
+                let own = subject.values().and_then(|v| v.segmentation.as_ref());
+                self.inside.set_labels(own);
                 self.session.set_subject(&subject);
                 self.assets.give(Data::Subject {
                     subject: subject.clone(),

@@ -23,6 +23,8 @@ pub(crate) struct TissueWork {
     /// What the segments that are shown were made of.
     made_of: Option<MadeOf>,
     job: Option<Job>,
+    /// What was not to be found: it is not begun again by itself.
+    stopped: Option<MadeOf>,
     /// Voxels of each recipe, in order, as of the last result.
     pub(crate) counts: Vec<u64>,
 }
@@ -61,20 +63,45 @@ impl TissueWork {
             clock,
             made_of: None,
             job: None,
+            stopped: None,
             counts: Vec::new(),
         }
     }
 
     /// Another subject is shown, with the segments that it came with.
     pub(crate) fn restart(&mut self) {
-        self.job = None;
+        (self.job, self.stopped) = (None, None);
         self.made_of = Some(MadeOf::default());
         self.counts.clear();
     }
 
-    /// True while the segments that are shown are not yet those that the document describes.
+    /// True while the segments that are shown are not yet those that the document describes, but will be.
     pub(crate) fn is_behind(&self, assets: &Assets, illustration: &Illustration) -> bool {
-        has_values(assets) && self.made_of.as_ref() != Some(&MadeOf::of(assets, illustration))
+        if !has_values(assets) {
+            return false;
+        }
+        let wanted = Some(MadeOf::of(assets, illustration));
+        self.made_of != wanted && self.stopped != wanted
+    }
+
+    /// True if the segments that the document describes are not found because that was stopped.
+    pub(crate) fn is_stopped(&self, assets: &Assets, illustration: &Illustration) -> bool {
+        self.stopped
+            .as_ref()
+            .is_some_and(|stopped| *stopped == MadeOf::of(assets, illustration))
+    }
+
+    /// Stops finding the segments that the document describes; those that are shown stay.
+    pub(crate) fn stop(&mut self, assets: &Assets, illustration: &Illustration) {
+        if self.is_behind(assets, illustration) {
+            self.job = None;
+            self.stopped = Some(MadeOf::of(assets, illustration));
+        }
+    }
+
+    /// Goes on after a stop.
+    pub(crate) fn find(&mut self) {
+        self.stopped = None;
     }
 
     /// How far the work under way is, 0 to 1.
@@ -96,6 +123,10 @@ impl TissueWork {
             return None;
         }
         let made_of = MadeOf::of(assets, illustration);
+        if self.stopped.as_ref() == Some(&made_of) {
+            return None;
+        }
+        self.stopped = None;
         if !is_dragging && self.job.as_ref().is_some_and(|job| job.made_of != made_of) {
             self.job = None;
         }
@@ -126,5 +157,78 @@ impl TissueWork {
             time_slices,
             work: Box::pin(work),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    use glam::{DAffine3, UVec3};
+
+    use super::*;
+    use crate::assets::Data;
+    use crate::data::{Grid, Subject, Volume, Voxels};
+    use crate::document::Document;
+
+    /// A second later each time, so that no work is done within its share.
+    fn hasty() -> f64 {
+        static NOW: AtomicU64 = AtomicU64::new(0);
+        NOW.fetch_add(1, Ordering::Relaxed) as f64
+    }
+
+    fn illustration(low: f32) -> Illustration {
+        let json = format!(
+            r#"{{ "fabrica": 1, "subject": {{ "builtin": "cube", "features": [
+                {{ "name": "bone", "from": {{ "threshold": [{low}] }} }} ] }} }}"#
+        );
+        let document = Document::from_json(&json).expect("a valid document");
+        document.illustration().clone()
+    }
+
+    #[test]
+    fn what_was_stopped_waits_until_it_is_wanted() {
+        let subject = Subject::from(Volume {
+            grid: Grid {
+                dims: UVec3::splat(4),
+                world_from_voxel: DAffine3::IDENTITY,
+            },
+            voxels: Voxels::U8((0..64).collect()),
+            slope: 1.0,
+            intercept: 0.0,
+            value_range: [0.0, 63.0],
+            segmentation: None,
+        });
+        let resources = Resources {
+            subject: Some(subject.clone()),
+            ..Resources::default()
+        };
+        let mut assets = Assets::default();
+        let sha256 = None;
+        assets.give(Data::Subject { subject, sha256 });
+        let mut work = TissueWork::new(hasty);
+        work.restart();
+        let wanted = illustration(60.0);
+        let go_on = |work: &mut TissueWork, wanted: &Illustration| {
+            work.advance(&assets, &resources, wanted, false).is_some()
+        };
+        assert!(!go_on(&mut work, &wanted), "it takes its time");
+        assert!(work.progress().is_some() && work.is_behind(&assets, &wanted));
+        work.stop(&assets, &wanted);
+        assert!(work.is_stopped(&assets, &wanted) && !work.is_behind(&assets, &wanted));
+        for _ in 0..100 {
+            assert!(!go_on(&mut work, &wanted), "it is stopped");
+        }
+        assert_eq!(work.progress(), None);
+        // Other values are another search.
+        let other = illustration(50.0);
+        assert!((0..100).any(|_| go_on(&mut work, &other)));
+        assert_eq!(work.counts, [14]);
+        assert!(!work.is_behind(&assets, &other) && !work.is_stopped(&assets, &other));
+        assert!(!go_on(&mut work, &wanted));
+        work.stop(&assets, &wanted);
+        work.find();
+        assert!((0..100).any(|_| go_on(&mut work, &wanted)), "it goes on");
+        assert_eq!(work.counts, [4]);
     }
 }

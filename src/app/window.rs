@@ -15,7 +15,7 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, widget};
 use crate::app::panel::{
-    catalogue, frames, keys, library, look, notice, raw, shortcuts, templates, text, tissue,
+    catalogue, frames, kept, keys, library, look, notice, raw, shortcuts, templates, text, tissue,
     topbar, transfer,
 };
 use crate::app::picture::host::Picture;
@@ -97,6 +97,8 @@ pub struct App {
     pub(crate) tissue: tissue_work::TissueWork,
     /// What is wrong with the file of the load under way.
     pub(crate) fault: Option<FileFault>,
+    /// What lies inside of the tissue that the selected template keeps.
+    pub(crate) inside: kept::Inside,
     /// Label volumes of the load under way.
     pub(crate) incoming_labels: Vec<LabelFile>,
     /// The label volumes that the shell was last told to expect.
@@ -202,6 +204,7 @@ impl App {
             slices: Slices::default(),
             tissue: tissue_work::TissueWork::new(start.clock),
             fault: None,
+            inside: kept::Inside::default(),
             incoming_labels: Vec::new(),
             labels_expected: SegmentationsExpected::default(),
             reported_segments: Vec::new(),
@@ -279,6 +282,8 @@ impl App {
                 Effect::CancelLoad(ticket) => services.cancel_load(ticket),
                 Effect::AllowHost(ticket) => services.allow_host(ticket),
                 Effect::AnswerRaw(ticket, voxels) => services.answer_raw(ticket, &voxels),
+                Effect::StopTissues => self.tissue.stop(&self.assets, self.session.shown()),
+                Effect::FindTissues => self.tissue.find(),
                 Effect::OpenFile => services.open_file(),
                 Effect::Save(file) => services.save_file(file),
                 Effect::Copy(text) => services.copy_text(text),
@@ -701,12 +706,15 @@ impl App {
         match tab {
             Tab::Add | Tab::Templates => {
                 let segments = self.picture.as_ref().map_or(&[][..], Picture::segments);
-                templates::ui(ui, &self.session, segments, commands);
+                let template = self.session.selected_template();
+                let inside = self.inside.names(template, segments);
+                templates::ui(ui, &self.session, segments, inside, commands);
             }
             Tab::Tissues => {
                 let segments = self.picture.as_ref().map_or(&[][..], Picture::segments);
                 let info = self.picture.as_ref().and_then(Picture::subject_info);
-                tissue::ui(ui, &self.session, segments, info.as_ref(), commands);
+                let scan = info.as_ref().map(|info| (info, self.transfer.histogram()));
+                tissue::ui(ui, &self.session, segments, scan, commands);
             }
             Tab::Look => {
                 let info = self.picture.as_ref().and_then(Picture::subject_info);

@@ -9,6 +9,7 @@
 mod builder;
 mod field;
 mod frame;
+mod inside;
 mod mask;
 mod material;
 mod parts;
@@ -23,6 +24,7 @@ mod volume;
 pub use builder::{BuildError, VolumeBuilder};
 pub use field::{FieldSamples, SampledField};
 pub use frame::SubjectFrame;
+pub use inside::CoarseLabels;
 pub use mask::Mask;
 pub use material::Material;
 pub use parts::{SubjectBuilder, SubjectPart};

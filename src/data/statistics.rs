@@ -33,6 +33,28 @@ impl Histogram {
         max
     }
 
+    /// Voxels with a value in the range, ends included, to the width of a bin.
+    pub fn count_within(&self, [low, high]: [f32; 2]) -> f64 {
+        let [min, max] = self.value_range.map(f64::from);
+        let (low, high) = (f64::from(low), f64::from(high));
+        let width = (max - min) / self.counts.len().max(1) as f64;
+        if width <= 0.0 {
+            let all: u64 = self.counts.iter().sum();
+            return if low <= min && min <= high {
+                all as f64
+            } else {
+                0.0
+            };
+        }
+        let bins = self.counts.iter().enumerate();
+        bins.map(|(bin, &count)| {
+            let from = min + bin as f64 * width;
+            let part = (high.min(from + width) - low.max(from)) / width;
+            count as f64 * part.clamp(0.0, 1.0)
+        })
+        .sum()
+    }
+
     /// A window that shows what matters when nothing is known of the values: without the darkest bin (the air around,
     /// or padding), from the 2nd to the 98th of a hundred voxels.
     pub fn robust_window(&self) -> [f32; 2] {
@@ -293,6 +315,23 @@ mod tests {
         let histogram = statistics.histogram(1.0, 0.0);
         assert_eq!(histogram.counts[128], 2);
         assert!((histogram.quantile(0.5) - 0.0).abs() < 2000.0 / 256.0);
+    }
+
+    #[test]
+    fn voxels_within_a_range_are_counted() {
+        let mut statistics = Statistics::new();
+        statistics.add(&Voxels::I16(vec![-1000, 0, 0, 0, 200, 1000]));
+        let histogram = statistics.histogram(1.0, 0.0);
+        let count = |low: f32, high: f32| histogram.count_within([low, high]);
+        assert_eq!(count(100.0, f32::MAX), 2.0);
+        assert_eq!(count(-2000.0, 2000.0), 6.0);
+        assert_eq!(count(-500.0, 100.0), 3.0);
+        assert_eq!(count(300.0, 900.0), 0.0);
+        statistics = Statistics::new();
+        statistics.add(&Voxels::U8(vec![7; 9]));
+        let constant = statistics.histogram(1.0, 0.0);
+        assert_eq!(constant.count_within([7.0, 8.0]), 9.0);
+        assert_eq!(constant.count_within([8.0, 9.0]), 0.0);
     }
 
     #[test]

@@ -10,6 +10,17 @@ impl Window {
         self.document().illustration().recipes.clone()
     }
 
+    /// Pixels of the picture in which something is seen.
+    fn drawn(&mut self) -> usize {
+        let rect = self.harness.get_by_role(Role::Image).rect();
+        let image = self.harness.render().expect("the window can be drawn");
+        let [x, y] = [rect.left() as u32, rect.top() as u32];
+        let [w, h] = [rect.width() as u32, rect.height() as u32];
+        let picture = image::imageops::crop_imm(&image, x, y, w, h).to_image();
+        let is_white = |p: &image::Rgba<u8>| p.0.iter().all(|c| *c > 250);
+        picture.pixels().filter(|p| !is_white(p)).count()
+    }
+
     /// What the shell does when a scan is dropped.
     fn drop_scan(&mut self, path: &std::path::Path) {
         let name = path
@@ -90,6 +101,156 @@ fn a_tissue_is_made_cleaned_up_and_kept_by_a_template() {
     window.settle();
     assert!(window.recipes().is_empty(), "removed");
     window.settle();
+}
+
+/// The built-in head has a bone of its own: the new one stays apart, and Escape leaves it unmade.
+#[test]
+fn a_tissue_is_named_apart_and_left_by_escape() {
+    let json = r#"{ "fabrica": 1, "subject": { "builtin": "head" } }"#;
+    let mut window = Window::open(DESK, json);
+    let before = window.document().to_json();
+    window.click("Panel: Tissues");
+    window.look("head_tissues");
+    window.click("Make a tissue");
+    window.settle();
+    window.look("head_making");
+    assert_eq!(window.recipes()[0].name, "bone 2");
+    for name in ["Show bone alone", "Bone 2"] {
+        window.harness.get_by_label(name);
+    }
+    // A name that is there already is not taken over.
+    let typed = |window: &mut Window, text: &str| {
+        window
+            .harness
+            .get_by_role_and_label(Role::TextInput, "Name")
+            .focus();
+        window.steps(2);
+        window.press_with(Modifiers::COMMAND, Key::A);
+        window
+            .harness
+            .get_by_role_and_label(Role::TextInput, "Name")
+            .type_text(text);
+        window.steps(2);
+    };
+    typed(&mut window, "Skin");
+    window.look("head_naming");
+    window.harness.get_by_label_contains("becomes “Skin 2”");
+    window.press(Key::Enter);
+    window.settle();
+    assert_eq!(window.recipes()[0].name, "Skin 2");
+    typed(&mut window, "mandible");
+    window.press(Key::Escape);
+    window.settle();
+    assert_eq!(window.recipes()[0].name, "Skin 2", "the field is left");
+    window.press(Key::Escape);
+    window.settle();
+    assert_eq!(window.document().to_json(), before, "it is not made");
+}
+
+/// The list takes what the panel has; a name that is clicked is shown for a moment.
+#[test]
+fn the_list_uses_the_panel_and_names_can_be_clicked() {
+    let json = r#"{ "fabrica": 1, "subject": { "builtin": "head" } }"#;
+    let mut window = Window::open(DESK, json);
+    window.click("Panel: Tissues");
+    window.steps(3);
+    let add = window.harness.get_by_label("Make a tissue").rect();
+    let gap = DESK.y - add.bottom();
+    assert!(
+        (0.0..40.0).contains(&gap),
+        "the list ends at the button, which ends {gap} above the end"
+    );
+    let before = window.drawn();
+    window.click("Bone");
+    window.steps(10);
+    let name = window.harness.get_by_label("Bone");
+    assert_eq!(
+        name.accesskit_node().toggled(),
+        Some(egui::accesskit::Toggled::True)
+    );
+    window.look("head_glimpse");
+    let bone = window.drawn();
+    assert!(bone < before * 9 / 10, "{bone} of {before}: the bone alone");
+    // It goes on until the bone is drawn, then for a second.
+    for _ in 0..3 {
+        window.settle();
+        window.steps(40);
+    }
+    let after = window.drawn();
+    assert!(
+        after.abs_diff(before) < before / 100,
+        "{after} of {before}: everything again"
+    );
+}
+
+/// While a tissue is found the picture is what it was, and the search can be stopped and goes on when that is wanted.
+#[test]
+fn finding_a_tissue_can_be_stopped() {
+    const SMALL: Vec2 = Vec2::new(780.0, 640.0);
+    let mut window = Window::open(SMALL, CUBE);
+    {
+        // Enough voxels for many frames.
+        let log = &mut *window.log.0.borrow_mut();
+        log.next_ticket += 1;
+        let ticket = Ticket(log.next_ticket);
+        log.queue.push(Message::FileStarted { ticket });
+        fabrica::subjects::generate("cube", 160, &mut Queue(log, ticket)).expect("the cube");
+        let sha256 = Some("5c".repeat(32));
+        let event = LoadEvent::Done { sha256 };
+        log.queue.push(Message::Load { ticket, event });
+    }
+    window.settle();
+    window.click("Panel: Tissues");
+    window.settle();
+    let before = window.drawn();
+    window.click("Make a tissue");
+    window.look("finding");
+    assert!(window.drawn() > before / 2, "the old picture stays");
+    window.harness.get_by_label_contains("provisional");
+    window.click("Stop");
+    window.settle();
+    window.look("stopped");
+    window.harness.get_by_label_contains("Stopped");
+    assert!(window.drawn() > before / 2, "as it was");
+    window.click("Go on");
+    window.settle();
+    assert!(window.harness.query_by_label_contains("Stopped").is_none());
+    assert!(
+        window
+            .harness
+            .query_by_label_contains("provisional")
+            .is_none()
+    );
+    window.look("found");
+}
+
+/// What lies inside of the skull is offered to whoever keeps the bone.
+#[test]
+fn what_lies_inside_is_kept_too() {
+    let json = r#"{ "fabrica": 1, "templates": [ { "kind": "peel", "at": [0.02,0.24,0.2],
+        "rotate": [0,0.7071,0.7071,0], "size": [0.36,0.3,0.2], "params": { "progress": 0.6 } } ] }"#;
+    let mut window = Window::open(DESK, json);
+    window.press(Key::N);
+    window.click("Keep in place: Tissue");
+    window.settle();
+    let keeps = |window: &Window| match &window.document().illustration().templates[0].align {
+        Align::Segment { keep, .. } => keep.clone(),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(keeps(&window), ["bone"]);
+    window.look("inside_offered");
+    window.click("Also keep what lies inside");
+    window.settle();
+    window.look("inside_kept");
+    let kept = keeps(&window);
+    for name in ["bone", "brain", "cerebellum"] {
+        assert!(kept.iter().any(|n| n == name), "{name}: {kept:?}");
+    }
+    assert!(kept.iter().all(|n| n != "skin"), "{kept:?}");
+    let offer = window.harness.query_by_label("Also keep what lies inside");
+    assert!(offer.is_none(), "nothing is left inside");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(keeps(&window), ["bone"], "one step of undo");
 }
 
 /// The author's path on real scans, to be looked at; the link and the same file give the same again.

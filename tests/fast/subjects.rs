@@ -1,8 +1,10 @@
 //! The built-in subjects: the same bits everywhere, segments where anatomy has them, values as in a scan.
 
 use std::collections::VecDeque;
+use std::future::Future as _;
+use std::task::{Context, Poll, Waker};
 
-use fabrica::data::{Volume, VolumeSink, Voxels};
+use fabrica::data::{CoarseLabels, Segment, TimeSlices, Volume, VolumeBuilder, VolumeSink, Voxels};
 use fabrica::subjects::{self, Generator, SubjectError};
 use sha2::{Digest as _, Sha256};
 
@@ -336,6 +338,37 @@ fn the_head_has_plausible_volumes() {
         let found = head.millilitres(names);
         assert!((low..high).contains(&found), "{names:?}: {found:.0} ml");
     }
+}
+
+/// A peel that keeps the bone would drag the brain through the skull: what the skull encloses is known, and nothing
+/// else.
+#[test]
+fn the_skull_of_the_head_encloses_the_brain() {
+    let mut builder = VolumeBuilder::new();
+    subjects::generate("head", 96, &mut builder).expect("the head is made");
+    let volume = builder.finish().expect("it is whole");
+    let labels = volume.segmentation.expect("it has segments");
+    let coarse = CoarseLabels::of(&labels);
+    let inside = |keep: &[&str]| {
+        let is_kept = |segment: &Segment| keep.contains(&segment.name.as_str());
+        let unlimited = TimeSlices::unlimited();
+        let work = std::pin::pin!(coarse.inside(&labels.segments, is_kept, &unlimited));
+        match work.poll(&mut Context::from_waker(Waker::noop())) {
+            Poll::Ready(names) => names,
+            Poll::Pending => panic!("without time slices nothing waits"),
+        }
+    };
+    let found = inside(&["bone"]);
+    for name in ["brain", "white matter", "cerebellum", "ventricles"] {
+        assert!(
+            found.iter().any(|n| n == name),
+            "{name} is inside: {found:?}"
+        );
+    }
+    for name in ["skin", "fat", "muscle", "lips", "bone"] {
+        assert!(found.iter().all(|n| n != name), "{name} is not: {found:?}");
+    }
+    assert!(inside(&["ventricles"]).is_empty(), "nothing is in them");
 }
 
 #[test]

@@ -708,10 +708,11 @@ fn paint_preview(ui: &Ui, rect: Rect, view: &Projection, placement: &Placement) 
     }
 }
 
-/// Hands the illustration to the picture: as the document has it, or with one tissue alone.
+/// Hands the illustration to the picture: as the document has it, or as the work on tissues wants it seen.
 fn set_seen(picture: &mut Picture, session: &Session, camera: &Camera) {
-    match session.tissues.alone_in(session.shown()) {
-        Some(alone) => picture.set(&alone, camera),
+    let facts = session.view.subject.as_ref();
+    match session.tissues.seen_in(session.shown(), facts) {
+        Some(seen) => picture.set(&seen, camera),
         None => picture.set(session.shown(), camera),
     }
 }

@@ -458,12 +458,23 @@ pub(crate) struct NumberRow<'a> {
 impl NumberRow<'_> {
     /// Draws the row and returns the change, in shown units.
     pub(crate) fn ui(self, ui: &mut Ui) -> Option<Change<f64>> {
+        self.row_ui(ui, None)
+    }
+
+    /// The same with a note beside the number, such as the number in another unit.
+    pub(crate) fn ui_with_note(self, ui: &mut Ui, note: &str) -> Option<Change<f64>> {
+        self.row_ui(ui, Some(note))
+    }
+
+    fn row_ui(self, ui: &mut Ui, note: Option<&str>) -> Option<Change<f64>> {
         let mut result = None;
         row(ui, |ui| {
             let [low, high] = self.range;
             let label = row_label(ui, self.name, self.summary);
             let reset = if theme::is_touch() { 36.0 } else { 20.0 };
-            let tail = FIELD_WIDTH + reset + 2.0 * ui.spacing().item_spacing.x;
+            let noted = note.map_or(0.0, |_| NOTE_WIDTH);
+            let field_width = FIELD_WIDTH - if note.is_some() { NOTED_LESS } else { 0.0 };
+            let tail = field_width + noted + reset + 2.0 * ui.spacing().item_spacing.x;
             let width = (ui.available_width() - tail).max(40.0);
             let mut value = self.value;
             let step = if self.decimals == 0 { 1.0 } else { 0.0 };
@@ -477,7 +488,14 @@ impl NumberRow<'_> {
                 .range(low..=high)
                 .speed((high - low) / 400.0)
                 .suffix(self.unit);
-            let field = ui.add_sized(vec2(FIELD_WIDTH, control_height()), field);
+            let field = ui.add_sized(vec2(field_width, control_height()), field);
+            if let Some(note) = note {
+                let size = vec2(noted - ui.spacing().item_spacing.x, control_height());
+                let text = egui::RichText::new(note)
+                    .small()
+                    .color(Palette::get(ui).weak);
+                ui.add_sized(size, egui::Label::new(text).truncate());
+            }
             let field = field.labelled_by(label.id).on_hover_text(fill(
                 w().range,
                 &[
@@ -558,6 +576,9 @@ pub(crate) fn combo(id: &'static str, selected: &str, width: f32) -> egui::Combo
 }
 
 const FIELD_WIDTH: f32 = 62.0;
+/// Width of the note beside the number of a [`NumberRow`], and by how much the number is narrower there.
+const NOTE_WIDTH: f32 = 54.0;
+const NOTED_LESS: f32 = 20.0;
 
 /// Width of the names at the left of rows.
 pub(crate) const LABEL_WIDTH: f32 = 78.0;

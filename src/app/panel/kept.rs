@@ -1,14 +1,20 @@
 //! What the selected template leaves alone (its alignment), and what its displacement gives way to (its constraint).
+//! Tissue that lies inside of what is left alone is offered too: a template would drag it through what encloses it.
 
 use egui::{Color32, Label, Sense, Stroke, Ui, vec2};
 
+use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{Palette, control_height};
 use crate::app::kit::widget::{self, Named as _, NumberRow};
 use crate::app::panel::tissue;
+use crate::app::picture::pending::{Pending, poll_once};
 use crate::app::session::Command;
 use crate::app::words::kept::{segment, w};
-use crate::data::Segment;
-use crate::document::{Align, Constrain, ConstrainBy, Edit, PlacedTemplate, keep_sets};
+use crate::app::words::{fill, in_sentence};
+use crate::data::{CoarseLabels, RECIPE_COLORS_SRGB, Segment, Segmentation, TimeSlices};
+use crate::document::{
+    Align, Constrain, ConstrainBy, Edit, Illustration, PlacedTemplate, Recipe, keep_sets,
+};
 
 /// Depth and thickness where the document has none (contract, "Defaults").
 const DEPTH: f32 = 0.02;
@@ -36,17 +42,63 @@ enum Yields {
     Whole,
 }
 
-/// Both parts; `all` are the templates of the document, whose sets are offered first.
+/// What lies inside of the tissue that a template leaves alone. Found when the template or the segments change.
+#[derive(Default)]
+pub(crate) struct Inside {
+    labels: Option<CoarseLabels>,
+    /// What the answer is about: the names that are kept, and all segments.
+    of: Option<(Vec<String>, Vec<Segment>)>,
+    names: Vec<String>,
+}
+
+impl Inside {
+    /// The subject has other segments.
+    pub(crate) fn set_labels(&mut self, segmentation: Option<&Segmentation>) {
+        self.labels = segmentation.map(CoarseLabels::of);
+        self.of = None;
+    }
+
+    /// Names of the segments that lie inside of those that the template keeps.
+    pub(crate) fn names(
+        &mut self,
+        template: Option<&PlacedTemplate>,
+        segments: &[Segment],
+    ) -> &[String] {
+        let align = template.map(|template| &template.align);
+        let (Some(Align::Segment { keep, .. }), Some(labels)) = (align, &self.labels) else {
+            return &[];
+        };
+        let is_known =
+            |(names, all): &(Vec<String>, Vec<Segment>)| names == keep && all == segments;
+        if !self.of.as_ref().is_some_and(is_known) {
+            let of = (keep.clone(), segments.to_vec());
+            let (labels, (keep, all)) = (labels.clone(), of.clone());
+            // Without time slices the answer is there at once.
+            let mut work: Pending<Vec<String>> = Box::pin(async move {
+                let is_kept = |segment: &Segment| keep.iter().any(|name| means(name, segment));
+                labels.inside(&all, is_kept, &TimeSlices::unlimited()).await
+            });
+            self.names = poll_once(&mut work).unwrap_or_default();
+            self.of = Some(of);
+        }
+        &self.names
+    }
+}
+
+/// Both parts. `inside` are the names of the segments that lie inside of those that the template keeps; what other
+/// templates of the illustration keep is offered first.
 pub(crate) fn ui(
     ui: &mut Ui,
     template: &PlacedTemplate,
-    all: &[PlacedTemplate],
+    illustration: &Illustration,
     segments: &[Segment],
+    inside: &[String],
     commands: &mut Vec<Command>,
 ) {
-    let index = template.index;
+    let (all, index) = (&illustration.templates, template.index);
+    let segments = &with_recipes(segments, &illustration.recipes);
     ui.push_id(("leaves alone", index), |ui| {
-        align_ui(ui, template, all, segments, commands);
+        align_ui(ui, template, all, segments, inside, commands);
     });
     // A constraint needs tissue to give way to.
     if !segments.is_empty() || template.constrain.is_some() {
@@ -56,14 +108,34 @@ pub(crate) fn ui(
     }
 }
 
-/// What a set starts with: the one that another template has, else the usual.
+/// The segments, and those that recipes are still being run for, under labels that no voxel has.
+fn with_recipes(segments: &[Segment], recipes: &[Recipe]) -> Vec<Segment> {
+    let mut all = segments.to_vec();
+    for recipe in recipes {
+        if segments.iter().all(|segment| segment.name != recipe.name) {
+            let color = RECIPE_COLORS_SRGB[recipe.index % RECIPE_COLORS_SRGB.len()];
+            all.push(Segment {
+                label: u16::MAX - recipe.index as u16,
+                name: recipe.name.clone(),
+                color_srgb: Some(recipe.color_srgb.unwrap_or(color)),
+            });
+        }
+    }
+    all
+}
+
+/// What a set starts with: the one that another template has, else the usual, else the only tissue that there is.
 fn first_set(all: &[PlacedTemplate], segments: &[Segment]) -> Vec<String> {
     if let Some(set) = keep_sets(all).into_iter().next() {
         return set;
     }
     let has = |name: &str| segments.iter().any(|s| s.name == name);
     let usual = FIRST_KEPT.iter().filter(|name| has(name));
-    usual.map(|&name| name.to_owned()).collect()
+    let usual: Vec<String> = usual.map(|&name| name.to_owned()).collect();
+    match segments {
+        [only] if usual.is_empty() => vec![only.name.clone()],
+        _ => usual,
+    }
 }
 
 fn align_ui(
@@ -71,6 +143,7 @@ fn align_ui(
     template: &PlacedTemplate,
     all: &[PlacedTemplate],
     segments: &[Segment],
+    inside: &[String],
     commands: &mut Vec<Command>,
 ) {
     let set = |align: Align| Edit::SetAlign {
@@ -127,6 +200,11 @@ fn align_ui(
             }
         }
         Align::Segment { keep, thickness } => {
+            if inside_ui(ui, inside) {
+                let keep = [keep, inside].concat();
+                let thickness = *thickness;
+                commands.push(Command::Apply(set(Align::Segment { keep, thickness })));
+            }
             if let Some(keep) = segments_ui(ui, w().leaves, keep, segments) {
                 let thickness = *thickness;
                 commands.push(Command::Apply(set(Align::Segment { keep, thickness })));
@@ -142,6 +220,22 @@ fn align_ui(
             }
         }
     }
+}
+
+/// Offers to keep what lies inside; true if that is wanted.
+fn inside_ui(ui: &mut Ui, inside: &[String]) -> bool {
+    if inside.is_empty() {
+        return false;
+    }
+    let weak = Palette::get(ui).weak;
+    let titles: Vec<String> = inside
+        .iter()
+        .map(|name| in_sentence(&segment(name)))
+        .collect();
+    let text = fill(w().inside, &[&titles.join(", ")]);
+    ui.add(Label::new(egui::RichText::new(text).color(weak)).wrap());
+    let button = widget::labelled_button(ui, Icon::Plus, w().keep_inside, false, true);
+    button.on_hover_text(w().keep_inside_hint).clicked()
 }
 
 fn constrain_ui(

@@ -11,6 +11,7 @@ pub(crate) mod look;
 pub(crate) mod notice;
 pub(crate) mod points;
 pub(crate) mod raw;
+pub(crate) mod recipe;
 pub(crate) mod shortcuts;
 pub(crate) mod templates;
 pub(crate) mod text;

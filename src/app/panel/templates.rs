@@ -28,12 +28,13 @@ pub(crate) fn ui(
     ui: &mut Ui,
     session: &Session,
     segments: &[Segment],
+    inside: &[String],
     commands: &mut Vec<Command>,
 ) {
     list_ui(ui, session, commands);
     if let Some(template) = session.selected_template() {
         widget::divider(ui);
-        template_ui(ui, session, segments, template, commands);
+        template_ui(ui, session, (segments, inside), template, commands);
     } else if let Some(index) = session.selected {
         widget::divider(ui);
         let weak = Palette::get(ui).weak;
@@ -234,7 +235,7 @@ fn row_ui(ui: &mut Ui, session: &Session, index: usize, commands: &mut Vec<Comma
 fn template_ui(
     ui: &mut Ui,
     session: &Session,
-    segments: &[Segment],
+    (segments, inside): (&[Segment], &[String]),
     template: &PlacedTemplate,
     commands: &mut Vec<Command>,
 ) {
@@ -295,8 +296,8 @@ fn template_ui(
         group_ui(ui, session, index, commands);
     }
     widget::divider(ui);
-    let all = &session.illustration().templates;
-    kept::ui(ui, template, all, segments, commands);
+    let illustration = session.illustration();
+    kept::ui(ui, template, illustration, segments, inside, commands);
     widget::divider(ui);
     placement_ui(ui, template, commands);
 }

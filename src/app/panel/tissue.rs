@@ -2,30 +2,28 @@
 //! points, then cleaned up. Each can be shown alone; those made here are edited in place, and the picture shows
 //! the result as soon as it is found.
 
-use egui::{Color32, Label, RichText, Sense, Stroke, TextEdit, Ui, vec2};
-use serde_json::Value;
+use egui::{Color32, Label, RichText, Sense, Stroke, Ui, vec2};
 
+use super::recipe;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{Palette, control_height};
-use crate::app::kit::widget::{self, Change, NumberRow};
-use crate::app::session::tissues::{with_range, with_seeds};
-use crate::app::session::{Command, Session, TissueCommand, Tool};
+use crate::app::kit::widget::{self, NumberRow};
+use crate::app::session::tissues::set_look;
+use crate::app::session::{Command, LoadOf, Session, TissueCommand};
 use crate::app::words::kept::segment;
 use crate::app::words::tissue::w;
 use crate::app::words::{fill, in_sentence};
-use crate::data::{RECIPE_COLORS_SRGB, Segment};
-use crate::document::{
-    Align, CleanStep, Constrain, Edit, MAX_RECIPES, MAX_SMOOTH_MM, PlacedTemplate, Recipe,
-    RecipeSource, SegmentLook, color_text, pointer,
-};
+use crate::data::{Histogram, RECIPE_COLORS_SRGB, Segment};
+use crate::document::{MAX_RECIPES, Recipe, SegmentLook};
 use crate::render::SubjectInfo;
-use glam::Vec3;
 
-/// Rows before the list scrolls.
+/// Rows that the list shows at least before it scrolls, alone and with a form below.
 const LISTED: usize = 9;
-/// The largest lengths that sliders offer, mm; a document may hold larger ones.
-const MOST_CLOSE_MM: f64 = 10.0;
-const MOST_GROW_MM: f64 = 10.0;
+const LISTED_WITH_FORM: usize = 4;
+/// Width of the bar that tells how far the search for tissues is, points.
+const BAR: f32 = 96.0;
+/// Space at the end of the panel, points.
+const END: f32 = 14.0;
 /// Where dense bone begins in Hounsfield units; its spongy parts are closed in by it.
 const BONE_FROM: f32 = 180.0;
 
@@ -35,31 +33,40 @@ pub(crate) fn listed(segments: &[Segment]) -> Vec<&Segment> {
     segments.iter().filter(|s| is_single(s.label)).collect()
 }
 
-/// The panel. `segments` are those shown at this moment.
+/// The panel. `segments` are those shown at this moment; `scan` is what is known of the values of the subject, and
+/// how often which occur.
 pub(crate) fn ui(
     ui: &mut Ui,
     session: &Session,
     segments: &[Segment],
-    info: Option<&SubjectInfo>,
+    scan: Option<(&SubjectInfo, Option<&Histogram>)>,
     commands: &mut Vec<Command>,
 ) {
     let recipes = &session.illustration().recipes;
     // Recipes find tissue by values.
     let has_values = session.view.has_values();
-    let can_add = info.is_some() && recipes.len() < MAX_RECIPES;
+    // A coarse copy comes before the scan: lengths in its voxels would be too long.
+    let is_arriving = |of: &LoadOf| !matches!(of, LoadOf::Segments(_));
+    let is_loading = session
+        .load
+        .as_ref()
+        .is_some_and(|load| is_arriving(&load.of));
+    let can_add = scan.is_some() && recipes.len() < MAX_RECIPES && !is_loading;
     widget::heading(ui, w().heading, |ui| {
+        progress_ui(ui, session, commands);
         if session.tissues.alone.is_some()
             && widget::icon_button(ui, Icon::Reset, w().all, true).clicked()
         {
             commands.push(Command::Tissue(TissueCommand::Alone(None)));
         }
     });
+    stopped_ui(ui, session, commands);
     let listed = listed(segments);
     let weak = Palette::get(ui).weak;
     if listed.is_empty() && recipes.is_empty() {
         ui.add(Label::new(RichText::new(w().none).color(weak)).wrap());
     }
-    let mut rows = |ui: &mut Ui| {
+    let rows = |ui: &mut Ui| {
         // A segment that a recipe is being run for has a row already.
         for recipe in recipes {
             let color = RECIPE_COLORS_SRGB[recipe.index % RECIPE_COLORS_SRGB.len()];
@@ -72,79 +79,105 @@ pub(crate) fn ui(
             row_ui(ui, session, &entry.name, color, None, commands);
         }
     };
-    if listed.len().max(recipes.len()) <= LISTED {
-        rows(ui);
-    } else {
-        egui::ScrollArea::vertical()
-            .id_salt("tissues")
-            .max_height(LISTED as f32 * (control_height() + 4.0))
-            .auto_shrink([false, true])
-            .show(ui, rows);
-    }
+    let least = match session.tissues.open {
+        Some(_) => LISTED_WITH_FORM,
+        None => LISTED,
+    };
+    let rows_height = list_height(ui, least);
+    egui::ScrollArea::vertical()
+        .id_salt("tissues")
+        .max_height(rows_height)
+        .auto_shrink([false, true])
+        .show(ui, rows);
+    let below = ui.cursor().top();
     let open = session.tissues.open;
     if let Some(recipe) = recipes.iter().find(|recipe| open == Some(recipe.index)) {
         widget::divider(ui);
         ui.push_id(("tissue", recipe.index), |ui| {
-            recipe_ui(ui, session, recipe, info, commands);
+            recipe::ui(ui, session, recipe, scan, commands);
         });
     }
     if has_values {
         ui.add_space(4.0);
         let add = widget::labelled_button(ui, Icon::Plus, w().add, false, can_add);
-        if add.on_hover_text(w().add_hint).clicked()
-            && let Some(info) = info
+        let add = add.on_hover_text(w().add_hint);
+        let add = add.on_disabled_hover_text(if is_loading {
+            w().loading
+        } else {
+            w().add_hint
+        });
+        if add.clicked()
+            && let Some((info, _)) = scan
         {
-            add_recipe(session, info, commands);
+            commands.push(make(session, info));
         }
     }
-    if let Some(fraction) = session.tissues.progress {
-        let bar = egui::ProgressBar::new(fraction).desired_height(4.0);
-        ui.add(bar).on_hover_text(w().working);
+    remember_height(ui, ui.cursor().top() - below);
+}
+
+/// Where the height of what stands below the list is kept from frame to frame.
+fn below_id() -> egui::Id {
+    egui::Id::unique("height below the tissues")
+}
+
+/// The height that the list may take: what the panel has left besides what stands below the list, or that of the least
+/// number of rows.
+fn list_height(ui: &Ui, least: usize) -> f32 {
+    let below: f32 = ui.data(|data| data.get_temp(below_id())).unwrap_or(0.0);
+    let room = ui.clip_rect().bottom() - ui.cursor().top() - below - END;
+    room.max(least as f32 * (control_height() + 4.0))
+}
+
+fn remember_height(ui: &Ui, height: f32) {
+    let before = ui.data_mut(|data| {
+        let before: Option<f32> = data.get_temp(below_id());
+        data.insert_temp(below_id(), height);
+        before
+    });
+    if before.is_none_or(|before| (before - height).abs() > 0.5) {
+        ui.ctx().request_repaint();
     }
 }
 
-fn add_recipe(session: &Session, info: &SubjectInfo, commands: &mut Vec<Command>) {
-    let recipes = &session.illustration().recipes;
-    let has = |name: &str| recipes.iter().any(|recipe| recipe.name == name);
-    let (mut name, range) = if info.is_ct {
+/// How far the search for tissues is, and how to stop it: in the heading, so that no control moves when it begins.
+fn progress_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let tissues = &session.tissues;
+    let Some(fraction) = tissues.progress.filter(|_| tissues.is_behind) else {
+        return;
+    };
+    if widget::icon_button(ui, Icon::Close, w().stop, true).clicked() {
+        commands.push(Command::Tissue(TissueCommand::Stop));
+    }
+    let percent = (fraction * 100.0).round();
+    let bar = egui::ProgressBar::new(fraction).desired_height(4.0);
+    let bar = ui.add(bar.desired_width(BAR));
+    bar.on_hover_text(fill(w().working, &[&percent]));
+}
+
+/// The search was stopped: that the picture is not what the document says, and how to go on.
+fn stopped_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    if !session.tissues.is_stopped {
+        return;
+    }
+    let weak = Palette::get(ui).weak;
+    ui.add(Label::new(RichText::new(w().stopped).small().color(weak)).wrap());
+    if widget::labelled_button(ui, Icon::Next, w().go_on, false, true).clicked() {
+        commands.push(Command::Tissue(TissueCommand::Find));
+    }
+}
+
+/// The command that makes a tissue: bone of a CT, else the brighter half of the usual window.
+fn make(session: &Session, info: &SubjectInfo) -> Command {
+    let (name, range) = if info.is_ct {
         let low = info.hounsfield_offset + BONE_FROM;
         ("bone".to_owned(), [low, f32::MAX])
     } else {
         let [low, high] = info.window_auto;
-        (String::new(), [0.5 * (low + high), f32::MAX])
+        let number = session.illustration().recipes.len() + 1;
+        let name = fill(w().tissue_n, &[&number]);
+        (name, [0.5 * (low + high), f32::MAX])
     };
-    let mut number = recipes.len() + 1;
-    while name.is_empty() || has(&name) {
-        name = fill(w().tissue_n, &[&number]);
-        number += 1;
-    }
-    let recipe = Recipe {
-        index: recipes.len(),
-        name: name.clone(),
-        color_srgb: None,
-        from: RecipeSource::Threshold { range },
-        clean: vec![
-            CleanStep::Close(2.0),
-            CleanStep::Largest(1),
-            CleanStep::Fill,
-        ],
-    };
-    let mut list = recipes_of(session);
-    let index = list.len();
-    list.push(recipe.to_value());
-    commands.push(Command::Apply(Edit::Set {
-        pointer: "/subject/features".to_owned(),
-        value: Value::from(list),
-        name: format!("Make {name}"),
-    }));
-    commands.push(Command::Tissue(TissueCommand::Open(Some(index))));
-    commands.push(Command::Tissue(TissueCommand::Alone(Some(name))));
-}
-
-/// The recipes as the document has them, unknown ones too.
-fn recipes_of(session: &Session) -> Vec<Value> {
-    let list = session.document().get("/subject/features");
-    list.and_then(Value::as_array).cloned().unwrap_or_default()
+    Command::Tissue(TissueCommand::Make(name, range))
 }
 
 fn row_ui(
@@ -172,26 +205,8 @@ fn row_ui(
             if let Some(recipe) = recipe {
                 let text = fill(w().remove, &[&in_text]);
                 if widget::icon_button(ui, Icon::Trash, &text, true).clicked() {
-                    let mut list = recipes_of(session);
-                    if recipe.index < list.len() {
-                        list.remove(recipe.index);
-                    }
-                    commands.push(Command::Tissue(TissueCommand::Open(None)));
-                    if is_alone {
-                        commands.push(Command::Tissue(TissueCommand::Alone(None)));
-                    }
-                    let mut edits = vec![Edit::Set {
-                        pointer: "/subject/features".to_owned(),
-                        value: Value::from(list),
-                        name: String::new(),
-                    }];
-                    if look.is_some() {
-                        edits.push(set_look(name, None));
-                    }
-                    commands.push(Command::Apply(Edit::All {
-                        name: format!("Remove {name}"),
-                        edits,
-                    }));
+                    let remove = TissueCommand::Remove(recipe.index);
+                    commands.push(Command::Tissue(remove));
                 }
             }
             let (text, alone) = match is_alone {
@@ -210,11 +225,7 @@ fn row_ui(
                 }
             }
             ui.with_layout(widget::along(), |ui| {
-                let mut text = RichText::new(&title);
-                if is_open {
-                    text = text.color(Palette::get(ui).accent);
-                }
-                ui.add(Label::new(text).truncate());
+                name_ui(ui, session, name, is_open, commands);
             });
         });
     });
@@ -225,32 +236,50 @@ fn row_ui(
     }
 }
 
+/// The name of a tissue: a click chooses it, and shows it for a moment.
+fn name_ui(ui: &mut Ui, session: &Session, name: &str, is_open: bool, commands: &mut Vec<Command>) {
+    let palette = Palette::get(ui);
+    let title = segment(name);
+    let is_selected = session.tissues.selected.as_deref() == Some(name);
+    // All of the row takes the click.
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
+    response.widget_info(|| {
+        egui::WidgetInfo::selected(egui::Role::Button, ui.is_enabled(), is_selected, &title)
+    });
+    if is_selected || response.hovered() {
+        let wash = if is_selected {
+            palette.accent_wash
+        } else {
+            palette.hover
+        };
+        ui.painter().rect_filled(rect, 4.0, wash);
+    }
+    let color = if is_open {
+        palette.accent
+    } else {
+        palette.text
+    };
+    let room = rect.width() - 8.0;
+    let galley = egui::WidgetText::from(title.as_str()).into_galley(
+        ui,
+        Some(egui::TextWrapMode::Truncate),
+        room,
+        egui::TextStyle::Body,
+    );
+    let at = rect.left_center() + vec2(4.0, -0.5 * galley.size().y);
+    let spot = widget::sided(rect, egui::Rect::from_min_size(at, galley.size()));
+    ui.painter().galley(spot.min, galley, color);
+    widget::focus_ring(ui, &response, rect);
+    let hint = fill(w().glimpse, &[&in_sentence(&title)]);
+    if response.on_hover_text(hint).clicked() {
+        let select = TissueCommand::Select(name.to_owned());
+        commands.push(Command::Tissue(select));
+    }
+}
+
 fn look_of<'a>(session: &'a Session, name: &str) -> Option<&'a SegmentLook> {
     let mut looks = session.illustration().look.segments.iter();
     looks.find(|look| look.name == name)
-}
-
-/// The edit that draws a tissue with this opacity and colour, or (`None`) by the transfer function.
-fn set_look(tissue: &str, look: Option<(f32, Option<[u8; 3]>)>) -> Edit {
-    let pointer = pointer::join("/look/segments", tissue);
-    let name = format!("Draw {tissue}");
-    match look {
-        None => Edit::Reset { pointer, name },
-        Some((opacity, color)) => {
-            let opacity = Value::from((f64::from(opacity) * 100.0).round() / 100.0);
-            let value = match color {
-                None => opacity,
-                Some(color) => {
-                    serde_json::json!({ "opacity": opacity, "color": color_text(color) })
-                }
-            };
-            Edit::Set {
-                pointer,
-                value,
-                name,
-            }
-        }
-    }
 }
 
 /// The color of a tissue, as a button: filled where it is drawn in it, struck out where it is hidden.
@@ -364,309 +393,4 @@ fn look_ui(
             commands.push(Command::Apply(edit));
         }
     });
-}
-
-/// A change of the recipe, as one step of undo or a part of a drag.
-fn set(recipe: &Recipe, change: Change<Recipe>, commands: &mut Vec<Command>) {
-    let edit = change.map(|new| Edit::Set {
-        pointer: format!("/subject/features/{}", recipe.index),
-        value: new.to_value(),
-        name: format!("Change {}", recipe.name),
-    });
-    commands.push(widget::command(edit));
-}
-
-fn recipe_ui(
-    ui: &mut Ui,
-    session: &Session,
-    recipe: &Recipe,
-    info: Option<&SubjectInfo>,
-    commands: &mut Vec<Command>,
-) {
-    name_ui(ui, session, recipe, commands);
-    let is_grown = matches!(recipe.from, RecipeSource::Grow { .. });
-    let options = [(false, w().values), (true, w().points)];
-    if let Some(grows) = widget::segmented(ui, w().from, &options, is_grown) {
-        let range = recipe.from.range();
-        let seeds = Vec::new();
-        let from = match grows {
-            true => RecipeSource::Grow { seeds, range },
-            false => RecipeSource::Threshold { range },
-        };
-        let new = Recipe {
-            from,
-            ..recipe.clone()
-        };
-        set(recipe, Change::Set(new), commands);
-        commands.push(Command::Tissue(TissueCommand::Seed(grows)));
-    }
-    range_ui(ui, recipe, info, commands);
-    if let RecipeSource::Grow { seeds, .. } = &recipe.from {
-        seeds_ui(ui, session, recipe, seeds, commands);
-    }
-    clean_ui(ui, recipe, commands);
-    let voxel_cm3 = session.view.subject.as_ref().and_then(|s| s.voxel_cm3);
-    if let (Some(&count), Some(voxel_cm3)) = (
-        session.tissues.counts.get(position(session, recipe)),
-        voxel_cm3,
-    ) {
-        let text = if count == 0 {
-            w().nothing.to_owned()
-        } else {
-            let volume = count as f64 * voxel_cm3;
-            let decimals = if volume < 10.0 { 2 } else { 0 };
-            fill(w().volume, &[&widget::plain(volume, decimals)])
-        };
-        let weak = Palette::get(ui).weak;
-        ui.label(RichText::new(text).small().color(weak));
-    }
-}
-
-/// Place of a recipe among those that are known.
-fn position(session: &Session, recipe: &Recipe) -> usize {
-    let all = &session.illustration().recipes;
-    all.iter().take_while(|r| r.index < recipe.index).count()
-}
-
-fn name_ui(ui: &mut Ui, session: &Session, recipe: &Recipe, commands: &mut Vec<Command>) {
-    widget::row(ui, |ui| {
-        let label = widget::row_label(ui, w().name, "");
-        let mut name = recipe.name.clone();
-        let field = TextEdit::singleline(&mut name).desired_width(f32::INFINITY);
-        let field = ui.add(field).labelled_by(label.id);
-        if field.changed() && !name.trim().is_empty() {
-            let new = Recipe {
-                name: name.clone(),
-                ..recipe.clone()
-            };
-            let mut edits = vec![Edit::Set {
-                pointer: format!("/subject/features/{}", recipe.index),
-                value: new.to_value(),
-                name: String::new(),
-            }];
-            // What keeps it goes on keeping it.
-            edits.extend(renamed(
-                &session.illustration().templates,
-                &recipe.name,
-                &name,
-            ));
-            if let Some(look) = look_of(session, &recipe.name) {
-                edits.push(set_look(&recipe.name, None));
-                edits.push(set_look(&name, Some((look.opacity, look.color_srgb))));
-            }
-            commands.push(Command::Drag(Edit::All {
-                name: format!("Rename {}", recipe.name),
-                edits,
-            }));
-            if session.tissues.alone.as_ref() == Some(&recipe.name) {
-                commands.push(Command::Tissue(TissueCommand::Alone(Some(name))));
-            }
-        }
-    });
-}
-
-/// Edits that let templates mean a tissue by its new name.
-fn renamed(templates: &[PlacedTemplate], from: &str, to: &str) -> Vec<Edit> {
-    let change = |keep: &[String]| -> Option<Vec<String>> {
-        let has = keep.iter().any(|name| name == from);
-        let new = |name: &String| if name == from { to } else { name }.to_owned();
-        has.then(|| keep.iter().map(new).collect())
-    };
-    let mut edits = Vec::new();
-    for template in templates {
-        let index = template.index;
-        if let Align::Segment { keep, thickness } = &template.align
-            && let Some(keep) = change(keep)
-        {
-            edits.push(Edit::SetAlign {
-                template: index,
-                align: Align::Segment {
-                    keep,
-                    thickness: *thickness,
-                },
-            });
-        }
-        if let Some(Constrain { by, keep }) = &template.constrain
-            && let Some(keep) = change(keep)
-        {
-            edits.push(Edit::SetConstrain {
-                template: index,
-                constrain: Some(Constrain { by: *by, keep }),
-            });
-        }
-    }
-    edits
-}
-
-fn range_ui(ui: &mut Ui, recipe: &Recipe, info: Option<&SubjectInfo>, commands: &mut Vec<Command>) {
-    let [low, high] = recipe.from.range();
-    let [min, max] = info.map_or([low, high], |info| info.value_range);
-    let shown_high = high.min(max);
-    let decimals = if max - min > 50.0 { 0 } else { 3 };
-    let row = |name: &'static str, summary: &'static str, value: f32| NumberRow {
-        name,
-        summary,
-        value: f64::from(value),
-        default: None,
-        range: [f64::from(min.min(low)), f64::from(max)],
-        unit: "",
-        decimals,
-    };
-    if let Some(change) = row(w().lowest, w().lowest_hint, low.min(max)).ui(ui) {
-        let change = change.map(|v| with_range(recipe, [v as f32, high.max(v as f32)]));
-        set(recipe, change, commands);
-    }
-    if let Some(change) = row(w().highest, w().highest_hint, shown_high).ui(ui) {
-        // At the end of the scale there is no end.
-        let end = |v: f64| if v as f32 >= max { f32::MAX } else { v as f32 };
-        let change = change.map(|v| with_range(recipe, [low.min(v as f32), end(v)]));
-        set(recipe, change, commands);
-    }
-}
-
-fn seeds_ui(
-    ui: &mut Ui,
-    session: &Session,
-    recipe: &Recipe,
-    seeds: &[Vec3],
-    commands: &mut Vec<Command>,
-) {
-    let is_on = session.tool() == Tool::Seed(recipe.index);
-    widget::row(ui, |ui| {
-        let mut is_checked = is_on;
-        let check = ui.checkbox(&mut is_checked, w().click);
-        if check.on_hover_text(w().click_hint).changed() {
-            commands.push(Command::Tissue(TissueCommand::Seed(is_checked)));
-        }
-    });
-    widget::row(ui, |ui| {
-        let read = session.view.cross_read;
-        let button = ui.add_enabled(read.is_some(), egui::Button::new(w().from_cross));
-        if button.clicked()
-            && let Some((pos, value)) = read
-        {
-            commands.push(Command::AddSeed(pos, value));
-        }
-        ui.label(fill(w().seeds, &[&seeds.len()]));
-        if !seeds.is_empty() && widget::icon_button(ui, Icon::Trash, w().clear, true).clicked() {
-            set(
-                recipe,
-                Change::Set(with_seeds(recipe, Vec::new())),
-                commands,
-            );
-        }
-    });
-}
-
-/// The clean-up that the panel knows, in its order; `None` where the author's steps are others.
-fn as_panel(clean: &[CleanStep]) -> Option<(f32, u32, bool, f32, f32)> {
-    let mut panel = (0.0, 0, false, 0.0, 0.0);
-    let mut last = 0;
-    for step in clean {
-        let place = match *step {
-            CleanStep::Close(mm) => {
-                panel.0 = mm;
-                1
-            }
-            CleanStep::Largest(count) => {
-                panel.1 = count;
-                2
-            }
-            CleanStep::Fill => {
-                panel.2 = true;
-                3
-            }
-            CleanStep::Smooth(mm) => {
-                panel.3 = mm;
-                4
-            }
-            CleanStep::Grow(mm) => {
-                panel.4 = mm;
-                5
-            }
-            CleanStep::Shrink(mm) => {
-                panel.4 = -mm;
-                5
-            }
-        };
-        if place <= last {
-            return None;
-        }
-        last = place;
-    }
-    Some(panel)
-}
-
-fn from_panel((close, largest, fills, smooth, grow): (f32, u32, bool, f32, f32)) -> Vec<CleanStep> {
-    let steps = [
-        (close > 0.0).then_some(CleanStep::Close(close)),
-        (largest > 0).then_some(CleanStep::Largest(largest)),
-        fills.then_some(CleanStep::Fill),
-        (smooth > 0.0).then_some(CleanStep::Smooth(smooth)),
-        (grow > 0.0).then_some(CleanStep::Grow(grow)),
-        (grow < 0.0).then_some(CleanStep::Shrink(-grow)),
-    ];
-    steps.into_iter().flatten().collect()
-}
-
-fn clean_ui(ui: &mut Ui, recipe: &Recipe, commands: &mut Vec<Command>) {
-    let with = |panel| Recipe {
-        clean: from_panel(panel),
-        ..recipe.clone()
-    };
-    ui.add_space(4.0);
-    ui.label(w().clean);
-    let Some(panel) = as_panel(&recipe.clean) else {
-        let text = fill(w().own_steps, &[&recipe.clean.len()]);
-        ui.add(Label::new(RichText::new(text).color(Palette::get(ui).weak)).wrap());
-        if widget::labelled_button(ui, Icon::Reset, w().reset, false, true).clicked() {
-            let new = with((0.0, 0, false, 0.0, 0.0));
-            set(recipe, Change::Set(new), commands);
-        }
-        return;
-    };
-    let (close, largest, fills, smooth, grow) = panel;
-    let row = |name: &'static str, summary: &'static str, value: f32, range: [f64; 2]| NumberRow {
-        name,
-        summary,
-        value: f64::from(value),
-        default: Some(0.0),
-        range: [
-            range[0].min(f64::from(value)),
-            range[1].max(f64::from(value)),
-        ],
-        unit: " mm",
-        decimals: 1,
-    };
-    let mut change = row(w().close, w().close_hint, close, [0.0, MOST_CLOSE_MM])
-        .ui(ui)
-        .map(|c| c.map(|mm| (mm as f32, largest, fills, smooth, grow)));
-    let parts = NumberRow {
-        unit: "",
-        decimals: 0,
-        ..row(w().largest, w().largest_hint, largest as f32, [0.0, 10.0])
-    };
-    change = change.or(parts
-        .ui(ui)
-        .map(|c| c.map(|n| (close, n as u32, fills, smooth, grow))));
-    let mut is_filled = fills;
-    if ui.checkbox(&mut is_filled, w().fill).changed() {
-        change = Some(Change::Set((close, largest, is_filled, smooth, grow)));
-    }
-    change = change.or(row(
-        w().smooth,
-        w().smooth_hint,
-        smooth,
-        [0.0, f64::from(MAX_SMOOTH_MM).min(5.0)],
-    )
-    .ui(ui)
-    .map(|c| c.map(|mm| (close, largest, fills, mm as f32, grow))));
-    change = change.or(
-        row(w().grow, w().grow_hint, grow, [-MOST_GROW_MM, MOST_GROW_MM])
-            .ui(ui)
-            .map(|c| c.map(|mm| (close, largest, fills, smooth, mm as f32))),
-    );
-    if let Some(change) = change {
-        set(recipe, change.map(with), commands);
-    }
 }

@@ -86,6 +86,11 @@ impl Editor {
         self.held = None;
     }
 
+    /// How often which values occur in the subject that is shown, if it has values.
+    pub(crate) fn histogram(&self) -> Option<&Histogram> {
+        self.histogram.as_ref()
+    }
+
     /// The plot, the selected point, and the window of a preset. `preset` is what the look's colours stand for, none
     /// for listed points.
     pub(crate) fn ui(

@@ -12,6 +12,7 @@ impl Session {
     pub fn advance(&mut self, now: f64) -> bool {
         self.now = now;
         self.notices.expire(now);
+        self.advance_tissues();
         if self.copied_at.is_some_and(|at| now - at > COPIED_SECONDS) {
             self.copied_at = None;
         }
@@ -37,10 +38,16 @@ impl Session {
             .link_stale_since
             .map(|since| since + LINK_DELAY - self.now);
         let copied = self.copied_at.map(|at| at + COPIED_SECONDS - self.now);
-        [link, copied, self.notices.seconds_to_expiry(self.now)]
-            .into_iter()
-            .flatten()
-            .map(|seconds| seconds.max(0.0) + 0.01)
-            .min_by(f64::total_cmp)
+        let glimpse = self.seconds_of_glimpse();
+        [
+            link,
+            copied,
+            glimpse,
+            self.notices.seconds_to_expiry(self.now),
+        ]
+        .into_iter()
+        .flatten()
+        .map(|seconds| seconds.max(0.0) + 0.01)
+        .min_by(f64::total_cmp)
     }
 }

@@ -47,6 +47,10 @@ pub enum Effect {
     AllowHost(Ticket),
     /// Say how the voxels of the file lie that a load asked about.
     AnswerRaw(Ticket, RawVoxels),
+    /// Stop finding the tissues of the document.
+    StopTissues,
+    /// Go on finding them after a stop.
+    FindTissues,
     /// Show a dialog for a scan or a document.
     OpenFile,
     /// Give bytes to the user as a file.

@@ -11,7 +11,7 @@
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
 //! | `notices`, `view`, `tissues`, `files`, `clipboard`, `library` | other parts of the state |
 //! | `session` | the state itself |
-//! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw` | what can be done with it |
+//! | `run`, `using`, `surface`, `templates`, `making`, `opening`, `starting`, `raw` | what can be done with it |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
 
 pub mod camera;
@@ -24,6 +24,7 @@ mod found;
 mod lending;
 mod library;
 mod link;
+mod making;
 mod measures;
 mod mode;
 mod notices;

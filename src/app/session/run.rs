@@ -7,7 +7,6 @@ use super::command::Command;
 use super::effect::{Effect, Focus};
 use super::question::{Place, Question};
 use super::session::{Session, Tab};
-use super::tissues::TissueCommand;
 use super::tool::Tool;
 use super::view::See;
 use crate::app::words;
@@ -221,6 +220,8 @@ impl Session {
             self.take_tool(Tool::Measure(None));
         } else if self.tool != Tool::Look {
             self.take_tool(Tool::Look);
+        } else if self.leave_making() {
+            // The tissue is not made.
         } else if self.view.expanded.take().is_some() {
             // All views are back.
         } else if !self.search.is_empty() {
@@ -231,6 +232,7 @@ impl Session {
             self.are_panels_hidden = false;
         } else {
             self.selected = None;
+            self.tissues.selected = None;
         }
     }
 
@@ -326,28 +328,6 @@ impl Session {
                 });
             }
             See::RemoveMeasure(index) => view.measures.remove(index),
-        }
-    }
-
-    fn run_tissue(&mut self, command: TissueCommand) {
-        self.revision += 1;
-        let is_seeding = matches!(self.tool, Tool::Seed(_));
-        match command {
-            TissueCommand::Open(index) => {
-                self.tissues.open = index;
-                if is_seeding {
-                    self.take_tool(Tool::Look);
-                }
-            }
-            TissueCommand::Alone(name) => self.tissues.alone = name,
-            TissueCommand::Look(name) => self.tissues.look = name,
-            TissueCommand::Seed(true) => {
-                if let Some(open) = self.tissues.open {
-                    self.take_tool(Tool::Seed(open));
-                }
-            }
-            TissueCommand::Seed(false) if is_seeding => self.take_tool(Tool::Look),
-            TissueCommand::Seed(false) => {}
         }
     }
 

@@ -367,7 +367,12 @@ impl Session {
         if matches!(self.tool, Tool::Seed(_)) {
             self.tool = Tool::Look;
         }
-        if self.tissues.alone.take().is_some() {
+        let tissues = &mut self.tissues;
+        (tissues.making, tissues.selected) = (None, None);
+        let is_seen = tissues.alone.is_some() || tissues.glimpse.is_some();
+        if is_seen {
+            tissues.show_alone(None);
+            tissues.glimpse = None;
             self.revision += 1;
         }
     }

@@ -4,6 +4,7 @@ use super::effect::LinkChange;
 use super::mode::Mode;
 use super::notices::{Gravity, Offer};
 use super::session::{Session, Tab};
+use super::tissues::Tissues;
 use super::tool::Tool;
 use crate::app::words::messages::w;
 use crate::document::{Document, Edit, Outlook, SubjectRef, carried_templates};
@@ -73,8 +74,10 @@ impl Session {
         if self.tool.is_for_authors() {
             self.tool = Tool::Look;
         }
-        self.tissues.open = None;
-        self.tissues.alone = None;
+        self.tissues = Tissues {
+            counts: std::mem::take(&mut self.tissues.counts),
+            ..Tissues::default()
+        };
     }
 
     /// Where one looks at the document from. At a step it is the author's camera: the one that the step turned would be
@@ -113,6 +116,8 @@ impl Session {
             self.take_outlook(outlook);
         }
         self.document_changed(LinkChange::Push);
+        let recipes = &self.history.document().illustration().recipes;
+        self.tissues.keep_to(recipes);
         self.load_subject();
     }
 

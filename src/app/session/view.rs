@@ -80,6 +80,17 @@ impl SubjectFacts {
         }
     }
 
+    /// Mean length of a voxel's sides, mm; `None` if the subject has no values.
+    pub fn voxel_mm(&self) -> Option<f64> {
+        let volume_mm3 = self.voxel_cm3? * 1000.0;
+        (volume_mm3 > 0.0).then(|| volume_mm3.cbrt())
+    }
+
+    /// True if a segment has this name.
+    pub fn has_segment(&self, name: &str) -> bool {
+        self.segments.values().any(|other| other == name)
+    }
+
     /// The scanner's space, mm, from a point of the subject.
     pub fn world_from_subject(&self, pos: Vec3) -> Vec3 {
         (self.middle_mm + pos.as_dvec3() * f64::from(self.mm_per_unit)).as_vec3()

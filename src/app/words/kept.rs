@@ -25,14 +25,23 @@ words! {
         weaker: "Weaker", "Schwächer", "Más débil", "减弱";
         weaker_hint: "The template acts less beside the protected tissue", "Die Vorlage wirkt neben dem geschützten Gewebe schwächer", "La plantilla actúa menos junto al tejido protegido", "模板在受保护组织旁作用减弱";
         no_segments: "There are no tissues yet: make one in the panel “Tissues”.", "Es gibt noch keine Gewebe: im Bereich „Gewebe“ eines anlegen.", "Todavía no hay tejidos: cree uno en el panel «Tejidos».", "尚无组织：请在“组织”面板中创建。";
+        inside: "Inside lies {0}: it would be dragged through what encloses it.", "Darin liegt {0}: Es würde durch das Umschließende gezogen.", "Dentro está {0}: se arrastraría a través de lo que lo rodea.", "其内有{0}：会被拖拽穿过包裹它的结构。";
+        keep_inside: "Also keep what lies inside", "Auch das Innere bewahren", "Conservar también lo de dentro", "一并保留内部组织";
+        keep_inside_hint: "Keeps the tissue inside in place too", "Lässt auch das Gewebe im Inneren an seinem Platz", "Deja también en su sitio el tejido del interior", "使内部的组织也留在原位";
         whole: "Rigid", "Starr", "Rígido", "刚性";
         whole_hint: "The protected tissue moves along in one piece and keeps its shape", "Das geschützte Gewebe bewegt sich als ein Stück mit und behält seine Form", "El tejido protegido se mueve en una pieza y conserva su forma", "受保护组织作为整体移动，形状不变";
         constraint: "constraint", "Rücksicht", "la restricción", "约束";
     }
 }
 
-/// What a segment of a built-in subject is called; names that a file brought stay as they are.
+/// What a segment is called: those of built-in subjects in the language of the interface, also where a number tells a
+/// second one apart; names that a file brought stay as they are.
 pub(crate) fn segment(name: &str) -> String {
+    if let Some((before, number)) = name.rsplit_once(' ')
+        && number.parse::<u32>().is_ok()
+    {
+        return format!("{} {number}", segment(before));
+    }
     let line = match name {
         "airway" => ["Airway", "Atemweg", "Vía aérea", "气道"],
         "arteries" => ["Arteries", "Arterien", "Arterias", "动脉"],

@@ -22,6 +22,7 @@ words! {
         group: "Group {0}", "{0} gruppieren", "Agrupar {0}", "编组{0}";
         ungroup: "Ungroup {0}", "{0} aus der Gruppe nehmen", "Desagrupar {0}", "取消编组{0}";
         group_named: "group {0}", "Gruppe {0}", "grupo {0}", "组{0}";
+        make: "Make {0}", "{0} anlegen", "Crear {0}", "创建{0}";
         rename: "Rename {0}", "{0} umbenennen", "Cambiar el nombre de {0}", "重命名{0}";
         mode: "mode", "Wirkung", "el modo", "组合方式";
         alignment: "alignment", "Ausrichtung", "la alineación", "对齐";
@@ -155,6 +156,7 @@ pub(crate) fn edit_title(name: &str) -> String {
         "Place" => w.place,
         "Show" => w.show,
         "Hide" => w.hide,
+        "Make" => w.make,
         "Rename" => w.rename,
         "Group" => w.group,
         "Ungroup" => w.ungroup,

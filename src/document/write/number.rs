@@ -4,7 +4,7 @@ use crate::math::round_to;
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 
-/// A length, rounded to four decimals: 0.025 mm for a subject of 25 cm.
+/// A length, rounded to four decimals: 0.025 mm for a subject of 25 cm, or a hundredth of a fine voxel in mm.
 pub(crate) fn rounded(value: f32) -> Value {
     json!(round_to(f64::from(value), 4))
 }
@@ -24,7 +24,7 @@ pub(crate) fn rounded_value(value: f32) -> Value {
     }
 }
 
-/// A length of a clean-up or an end of a range of values, rounded to hundredths.
+/// An end of a recipe's range of values, rounded to hundredths.
 pub(crate) fn hundredths(value: f32) -> Value {
     json!(round_to(f64::from(value), 2))
 }

@@ -87,16 +87,16 @@ fn clean_step(step: CleanStep) -> Value {
     match step {
         CleanStep::Largest(count) => json!({ "largest": count }),
         CleanStep::Fill => json!({ "fill": true }),
-        CleanStep::Close(by) => json!({ "close": hundredths(by) }),
-        CleanStep::Smooth(by) => json!({ "smooth": hundredths(by) }),
-        CleanStep::Grow(by) => json!({ "grow": hundredths(by) }),
-        CleanStep::Shrink(by) => json!({ "shrink": hundredths(by) }),
+        CleanStep::Close(by) => json!({ "close": rounded(by) }),
+        CleanStep::Smooth(by) => json!({ "smooth": rounded(by) }),
+        CleanStep::Grow(by) => json!({ "grow": rounded(by) }),
+        CleanStep::Shrink(by) => json!({ "shrink": rounded(by) }),
     }
 }
 
 impl Recipe {
-    /// The recipe as an entry of `subject.features`. Seeds are rounded to four decimals; lengths, in mm, and values are
-    /// rounded to hundredths.
+    /// The recipe as an entry of `subject.features`. Seeds and lengths, in mm, are rounded to four decimals, values to
+    /// hundredths.
     pub fn to_value(&self) -> Value {
         let range = |range: &[f32; 2]| {
             let mut list = vec![hundredths(range[0])];
