@@ -1,5 +1,3 @@
-use super::fault::FaultKind;
-
 /// Why a file gave no volume: what was expected, what was found, and where. One line each, in plain words, file name
 /// last.
 ///
@@ -169,4 +167,48 @@ pub enum LoadError {
         /// What it holds instead.
         what: String,
     },
+}
+
+/// What the owner of a file would call its fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FaultKind {
+    /// The file is a photo or a drawing.
+    Picture,
+    /// The file is a surface model.
+    Surface,
+    /// The file is an archive, in which a scan may be.
+    Archive,
+    /// The file is no scan in a format that is read.
+    Unknown,
+    /// The file has no bytes.
+    Empty,
+    /// The file ends too early.
+    CutShort,
+    /// The packed data are damaged, which may mean that the file ends too early.
+    Damaged,
+    /// The system does not let the file be read.
+    Unreadable,
+    /// Another file goes with this one.
+    Lacks,
+    /// The header holds what cannot be.
+    Header,
+    /// The file holds more voxels than can be opened.
+    TooLarge,
+}
+
+impl FaultKind {
+    /// Each kind with its word in messages between threads.
+    pub const WORDS: [(Self, &'static str); 11] = [
+        (Self::Picture, "picture"),
+        (Self::Surface, "surface"),
+        (Self::Archive, "archive"),
+        (Self::Unknown, "unknown"),
+        (Self::Empty, "empty"),
+        (Self::CutShort, "cut-short"),
+        (Self::Damaged, "damaged"),
+        (Self::Unreadable, "unreadable"),
+        (Self::Lacks, "lacks"),
+        (Self::Header, "header"),
+        (Self::TooLarge, "too-large"),
+    ];
 }

@@ -1,6 +1,6 @@
 //! What is wrong with a file, as far as its owner can tell and mend it. The errors themselves name bytes and fields.
 
-use super::error::LoadError;
+use super::error::{FaultKind, LoadError};
 
 /// What is wrong with a file, for its owner.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,50 +13,6 @@ pub struct FileFault {
     pub bytes: [u64; 2],
     /// Name of the file that is missing beside this one; else empty.
     pub needed: String,
-}
-
-/// Kinds of faults.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FaultKind {
-    /// The file is a photo or a drawing.
-    Picture,
-    /// The file is a surface model.
-    Surface,
-    /// The file is an archive, in which a scan may be.
-    Archive,
-    /// The file is no scan in a format that is read.
-    Unknown,
-    /// The file has no bytes.
-    Empty,
-    /// The file ends too early.
-    CutShort,
-    /// The packed data are damaged, which may mean that the file ends too early.
-    Damaged,
-    /// The system does not let the file be read.
-    Unreadable,
-    /// Another file goes with this one.
-    Lacks,
-    /// The header holds what cannot be.
-    Header,
-    /// The file holds more voxels than can be opened.
-    TooLarge,
-}
-
-impl FaultKind {
-    /// Each kind with its word in messages between threads.
-    pub const WORDS: [(Self, &'static str); 11] = [
-        (Self::Picture, "picture"),
-        (Self::Surface, "surface"),
-        (Self::Archive, "archive"),
-        (Self::Unknown, "unknown"),
-        (Self::Empty, "empty"),
-        (Self::CutShort, "cut-short"),
-        (Self::Damaged, "damaged"),
-        (Self::Unreadable, "unreadable"),
-        (Self::Lacks, "lacks"),
-        (Self::Header, "header"),
-        (Self::TooLarge, "too-large"),
-    ];
 }
 
 /// Endings of pictures whose first bytes are not looked at.

@@ -53,8 +53,8 @@ mod voxels;
 
 pub use describe::{Description, describe, describe_raw};
 pub use dicom::{is_segmentation, main_name};
-pub use error::LoadError;
-pub use fault::{FaultKind, FileFault};
+pub use error::{FaultKind, LoadError};
+pub use fault::FileFault;
 pub use field::{FieldFile, FieldUse, is_field, read_field};
 pub use files::{ALL_FILES, FileHandle, FileSet, MemoryFiles, OneFile};
 pub use geometry::orientation_code;

@@ -1,4 +1,4 @@
-use super::fault::FaultKind;
+use super::error::FaultKind;
 use super::{dicom, metaimage, nifti, nrrd};
 
 /// Bytes looked at to tell what a file is.

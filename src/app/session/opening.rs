@@ -135,7 +135,7 @@ impl Session {
         check.err().filter(|_| is_answer)
     }
 
-    /// The document's own file could not be had, and was asked for in this session: a file that is opened is the answer.
+    /// The document's own file could not be had, and was asked for in this session: a file that is opened answers.
     fn waits_for_file(&self) -> bool {
         let subject = &self.illustration().subject;
         let is_here = is_of(&self.requested, subject);
@@ -240,8 +240,8 @@ impl Session {
         }
     }
 
-    /// The document names a label volume beside its scan, behind those that it names already. `is_with_scan`: the volume
-    /// came with the scan, and both are one step of undo.
+    /// The document names a label volume beside its scan, behind those that it names already. `is_with_scan`:
+    /// it came with the scan, and both are one step of undo.
     pub fn add_label_file(&mut self, sha256: &str, is_with_scan: bool) {
         let at = "/subject/segments";
         let mut list = match self.document().get(at) {

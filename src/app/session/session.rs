@@ -9,7 +9,6 @@ use super::files::{FileChoice, RawDraft};
 use super::library::Library;
 use super::mode::Mode;
 use super::notices::{Gravity, Notices};
-use super::starting::Left;
 use super::ticket::Ticket;
 use super::tissues::Tissues;
 use super::tool::Tool;
@@ -93,6 +92,15 @@ pub(super) struct Glide {
     pub to: Camera,
     /// When it began, seconds on the clock of the interface.
     pub since: f64,
+}
+
+/// A document that was left for a new one.
+#[derive(Clone, Debug)]
+pub(super) struct Left {
+    /// The document as it was left.
+    pub document: Document,
+    /// Number of the message that offers its templates.
+    pub notice: u64,
 }
 
 /// A panel that is open, beside the picture or as a drawer.

@@ -3,19 +3,11 @@
 use super::effect::LinkChange;
 use super::mode::Mode;
 use super::notices::{Gravity, Offer};
-use super::session::{Session, Tab};
+use super::session::{Left, Session, Tab};
 use super::tissues::Tissues;
 use super::tool::Tool;
 use crate::app::words::messages::w;
 use crate::document::{Document, Edit, Outlook, SubjectRef, carried_templates};
-
-/// A document that was left for a new one.
-#[derive(Clone, Debug)]
-pub(super) struct Left {
-    document: Document,
-    /// Number of the message that offers its templates.
-    notice: u64,
-}
 
 impl Session {
     /// Shows another subject. It is of another shape, so that a new document begins; another volume of the file that
@@ -29,8 +21,8 @@ impl Session {
         self.load_subject();
     }
 
-    /// Begins a new document with a subject, as one step of undo, and offers to bring the templates along. True if there
-    /// can be such a document; else a message tells why.
+    /// Begins a new document with a subject, as one step of undo, and offers to bring the templates along. True if
+    /// there can be such a document; else a message tells why.
     pub(super) fn start_with(&mut self, subject: SubjectRef) -> bool {
         let edit = Edit::SetSubject(subject);
         match edit.apply(&Document::new()) {
