@@ -12,8 +12,8 @@ use super::write::Edit;
 ///
 /// With the templates come the steps of `from`, as far as they change templates, if `into` has no steps of its own; and
 /// the recipes by threshold of tissue that the templates keep in place or give way to. Recipes that grow from seeds
-/// stay behind, since their seeds are places in another subject, and so do recipes of names that `into` or `segments`, the
-/// segments of its subject, has already.
+/// stay behind, since their seeds are places in another subject, and so do recipes of names that `into` or `segments`,
+/// the segments of its subject, has already.
 pub fn carried_templates(from: &Document, into: &Document, segments: &[&str]) -> Option<Edit> {
     let mut templates = list(from, "/templates").to_vec();
     if templates.is_empty() {
