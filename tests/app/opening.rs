@@ -63,13 +63,13 @@ fn steps_are_walked_and_an_edit_leaves_them() {
     let link = fabrica::link::fragment(&document, 1);
     let mut window = Window::open_with(DESK, egui::Theme::Light, Fake::default(), Some(&link));
     assert_eq!(window.harness.state().step(), 1);
-    window.harness.get_by_label("1 / 2   Incision");
+    window.harness.get_by_label("Step 1 of 2   Incision");
     let at_one = window.harness.render().expect("a picture");
     window.look("steps_one");
 
     window.click("Next step");
     window.settle();
-    window.harness.get_by_label("2 / 2   Wide");
+    window.harness.get_by_label("Step 2 of 2   Wide");
     let address = |window: &Window| {
         window
             .log
@@ -109,7 +109,7 @@ fn steps_are_walked_and_an_edit_leaves_them() {
         0,
         "what is edited is the document as it stands"
     );
-    window.harness.get_by_label("0 / 2   A cut");
+    window.harness.get_by_label("Start, 2 steps follow   A cut");
     assert!(address(&window).is_some_and(|link| !link.contains("step=")));
 }
 

@@ -12,6 +12,7 @@ use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget;
 use crate::app::session::Command;
 use crate::app::session::Session;
+use crate::app::words::fill;
 use crate::app::words::keys::w;
 
 /// Widest bar over a picture, and under panes, points.
@@ -31,12 +32,16 @@ fn texts(session: &Session, step: usize) -> (&str, &str) {
     }
 }
 
-/// Number of the step, number of steps, and the title where there is one.
+/// Number of the step (0 is the start), number of steps, and the title where there is one.
 fn heading(number: usize, count: usize, title: &str) -> String {
+    let place = match number {
+        0 => fill(w().start_of, &[&count]),
+        _ => fill(w().step_of, &[&number, &count]),
+    };
     if title.is_empty() {
-        format!("{number} / {count}")
+        place
     } else {
-        format!("{number} / {count}   {title}")
+        format!("{place}   {title}")
     }
 }
 

@@ -343,8 +343,8 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     explained(ui, name, &options, current)
 }
 
-/// A choice among a few entries, side by side: value, word, and a sentence on the entry, shown while the pointer is over
-/// it (none where that is empty). Returns the entry that was chosen in this frame.
+/// A choice among a few entries, side by side: value, word, and a sentence that is shown while the pointer is over the
+/// entry (none where the sentence is empty). Returns the entry that was chosen in this frame.
 pub(crate) fn explained<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,

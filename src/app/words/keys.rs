@@ -57,6 +57,8 @@ words! {
         earlier: "Let the template act earlier", "Vorlage früher wirken lassen", "Que la plantilla actúe antes", "让模板更早作用";
         later: "Let the template act later", "Vorlage später wirken lassen", "Que la plantilla actúe después", "让模板更晚作用";
         next_step: "Next step", "Nächster Schritt", "Paso siguiente", "下一步";
+        step_of: "Step {0} of {1}", "Schritt {0} von {1}", "Paso {0} de {1}", "第 {0} 步，共 {1} 步";
+        start_of: "Start, {0} steps follow", "Anfang, {0} Schritte folgen", "Inicio, siguen {0} pasos", "起始，后有 {0} 步";
         step_before: "Step before", "Schritt davor", "Paso anterior", "上一步";
         picture_alone: "Present: the picture without panels", "Präsentieren: das Bild ohne Bereiche", "Presentar: la imagen sin paneles", "演示：仅显示图像";
         this_sheet: "This sheet", "Dieses Blatt", "Esta hoja", "此页";

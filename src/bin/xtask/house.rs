@@ -70,6 +70,7 @@ pub(crate) const ORDER: [(&str, &[&[&str]]); 3] = [
                 "arrivals.rs",
                 "fields.rs",
                 "provisional.rs",
+                "saving.rs",
                 "window_title.rs",
             ],
         ],
