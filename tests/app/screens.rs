@@ -125,7 +125,7 @@ fn the_dark_theme_and_the_look_panel() {
         look.background,
         fabrica::document::Background::Color([246, 241, 231])
     );
-    window.click("Opacity: Mass");
+    window.click("Opacity: Keep mass");
     assert_eq!(
         window.document().illustration().look.opacity,
         fabrica::document::OpacityMode::Mass

@@ -183,8 +183,8 @@ fn the_path_by_keys_alone() {
         // The look: panel by panel, then control by control.
         press(&tab, "e").await;
         press(&tab, "e").await;
-        find(&tab, "Opacity: Mass").await;
-        tab_to(&tab, "Opacity: Mass").await;
+        find(&tab, "Opacity: Keep mass").await;
+        tab_to(&tab, "Opacity: Keep mass").await;
         press(&tab, "Enter").await;
         tab.wait_until(
             "JSON.parse(window.fabrica.viewer.get_document()).look?.opacity === 'mass'",
