@@ -456,3 +456,91 @@ fn slices_of_the_head_to_look_at() {
         }
     }
 }
+
+// --------------------------------------------------------------------------------------------- window and level
+
+impl Window {
+    fn drag_with(&mut self, button: egui::PointerButton, from: Pos2, by: egui::Vec2) {
+        let press = |pos, pressed| egui::Event::PointerButton {
+            pos,
+            button,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        self.harness.hover_at(from);
+        self.harness.step();
+        self.harness.event(press(from, true));
+        self.harness.step();
+        for i in 1..=6 {
+            self.harness.hover_at(from + by * (i as f32 / 6.0));
+            self.harness.step();
+        }
+        self.look("levelling");
+        self.harness.event(press(from + by, false));
+        self.settle();
+    }
+}
+
+#[test]
+fn a_right_drag_over_a_slice_changes_window_and_level() {
+    let shown = |window: &Window| match window.document().illustration().look.window {
+        ValueWindow::Range(range) => Some(range),
+        ValueWindow::Auto => None,
+    };
+    let width = |[from, to]: [f32; 2]| to - from;
+    let mut window = Window::open(DESK, CUBE);
+    window.press(Key::V);
+    window.settle();
+    let middle = slice_rect(&window, "Axial").center();
+    let untouched = window.document();
+    window.drag_with(egui::PointerButton::Secondary, middle, vec2(40.0, 0.0));
+    let wider = shown(&window).expect("a window of its own");
+    window.drag_with(egui::PointerButton::Secondary, middle, vec2(0.0, 40.0));
+    let raised = shown(&window).expect("a window of its own");
+    assert!(
+        raised[0] > wider[0] && raised[1] > wider[1],
+        "{wider:?} {raised:?}"
+    );
+    assert!((width(raised) - width(wider)).abs() < 1e-2 * width(wider));
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(shown(&window), Some(wider), "a drag is one step of undo");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.document(), untouched);
+    // With its key a plain drag does the same; without it the plain drag moves the crosshair.
+    window.press(Key::W);
+    window.drag_with(egui::PointerButton::Primary, middle, vec2(40.0, 0.0));
+    let by_key = shown(&window).expect("a window of its own");
+    assert!((width(by_key) - width(wider)).abs() < 1e-2 * width(wider));
+    window.press(Key::Escape);
+    window.drag_with(egui::PointerButton::Primary, middle, vec2(40.0, 0.0));
+    assert_eq!(shown(&window), Some(by_key));
+}
+
+/// What is known of the scan stands in one place, in the words of the field.
+#[test]
+fn the_facts_of_the_scan_are_told() {
+    let mut window = Window::open(DESK, CUBE);
+    window.click("About this scan");
+    window.look("about_scan");
+    let told: Vec<String> = window
+        .harness
+        .get_all_by_role(Role::Label)
+        .filter_map(|node| node.accesskit_node().value())
+        .collect();
+    let side = RESOLUTION.to_string();
+    let voxels = format!("{side} × {side} × {side}");
+    let spacing = fabrica_number(100.0 / f64::from(RESOLUTION));
+    for line in [
+        voxels,
+        format!("{spacing} × {spacing} × {spacing} mm"),
+        "100 × 100 × 100 mm".to_owned(),
+    ] {
+        assert!(told.contains(&line), "{line} in {told:?}");
+    }
+}
+
+/// A number with at most three decimals, as the window writes it.
+fn fabrica_number(value: f64) -> String {
+    let text = format!("{value:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

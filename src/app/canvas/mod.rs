@@ -8,6 +8,7 @@ pub(crate) mod foot;
 pub(crate) mod gizmo;
 pub(crate) mod hint;
 pub(crate) mod lettering;
+pub(crate) mod levelling;
 pub(crate) mod measure;
 pub(crate) mod orientation;
 pub(crate) mod panes;

@@ -10,6 +10,7 @@ use egui::{
 };
 use glam::Vec3;
 
+use super::levelling;
 use super::measure::Distances;
 use crate::app::canvas::panes::{ONE_PANE, Places, pane_name};
 use crate::app::canvas::slice_plot::{
@@ -151,6 +152,14 @@ impl Slices {
             WidgetInfo::labeled(Role::Image, ui.is_enabled(), fill(w().slice, &[&name]))
         });
         let map = self.map(i, axes, rect, *cross, bounds);
+        let by = levelling::drag(ui, &response, session);
+        let is_levelling = by.is_some() || session.tool().is_levelling();
+        let shown = picture.as_deref().filter(|_| is_levelling);
+        let shown =
+            shown.and_then(|p| Some((grey_window(session, p)?, p.subject_info()?.value_range)));
+        if let (Some(by), Some((window, values))) = (by, shown) {
+            commands.extend(levelling::command(by, window, values));
+        }
         self.gestures(ui, i, &response, &map, (session, facts), cross, commands);
         self.keys(ui, &response, axes, cross, facts);
         let map = self.map(i, axes, rect, *cross, bounds);
@@ -182,6 +191,12 @@ impl Slices {
         // Lines in the slice are bright, lines a tenth of the object away are faint.
         let nearness = |pos: Vec3| (1.0 - 10.0 * map.height(pos).abs()).max(0.0);
         let seen = |pos: Vec3| Some(map.ui(pos));
+        if let Some((window, _)) = shown {
+            let at = rect.center_bottom() - vec2(0.0, 30.0);
+            let font = theme::strong_font(13.0);
+            let text = levelling::in_words(window);
+            painter.text(at, Align2::CENTER_BOTTOM, text, font, letters);
+        }
         let distances = Distances::of(session);
         distances.paint(&painter, facts.mm_per_unit, seen, nearness);
         if let (Some(kind), Some(pos)) = (session.tool().placing(), response.hover_pos()) {
@@ -242,7 +257,6 @@ impl Slices {
         let pane = &mut self.panes[i];
         if let Some(touch) = touch {
             pane.zoom_about(touch.zoom_delta, touch.center_pos, map);
-            pane.pan -= touch.translation_delta * map.units_per_point;
             pane.held = None;
             return;
         }
@@ -257,11 +271,14 @@ impl Slices {
             }
         }
         let pointer = response.interact_pointer_pos();
-        let is_pan = response.dragged_by(PointerButton::Secondary)
-            || response.dragged_by(PointerButton::Middle)
+        let is_pan = response.dragged_by(PointerButton::Middle)
             || (response.dragged() && ui.input(|i| i.modifiers.shift));
         if is_pan {
             pane.pan -= response.drag_delta() * map.units_per_point;
+            return;
+        }
+        if levelling::drag(ui, response, session).is_some() {
+            pane.held = None;
             return;
         }
         if response.drag_started() && session.tool().placing().is_none() {

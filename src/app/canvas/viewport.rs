@@ -176,11 +176,11 @@ impl Viewport {
                 let texts = [words.tap_where, words.click_where];
                 asking_ui(ui, bars, texts, words.cancel, commands);
             }
-            Tool::Look | Tool::Seed(_) | Tool::Measure(_) => {
+            Tool::Look | Tool::Seed(_) | Tool::Measure(_) | Tool::Level => {
                 self.templates_ui(ui, (&response, bars), &view, session, commands);
             }
         }
-        let selects = matches!(session.tool(), Tool::Look | Tool::Seed(_));
+        let selects = matches!(session.tool(), Tool::Look | Tool::Seed(_) | Tool::Level);
         if response.clicked() && selects && !self.gizmo.is_hot() && session.selected.is_some() {
             commands.push(Command::Select(None));
         }

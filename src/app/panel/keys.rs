@@ -9,14 +9,16 @@ use crate::app::kit::widget;
 use crate::app::session::Command;
 use crate::app::words::authoring;
 use crate::app::words::keys::w;
+use crate::app::words::slices;
 
 /// What the mouse and fingers do in the picture.
-fn gestures() -> [(&'static str, &'static str); 9] {
+fn gestures() -> [(&'static str, &'static str); 10] {
     let w = w();
     [
         (w.drag, w.turn_object),
         (w.pan, w.pan_does),
         (w.wheel, w.wheel_does),
+        (slices::w().level_drag, slices::w().level_does),
         (w.double_click, w.double_click_does),
         (w.right_click, w.right_click_does),
         (w.handle, authoring::w().step_handles),

@@ -117,6 +117,7 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
             Command::See(See::ToggleMeasure),
             s.key_measure,
         ),
+        entry(NONE, Key::W, Command::See(See::ToggleLevel), s.key_level),
         entry(NONE, Key::F1, Command::ToggleKeys, ""),
         entry(NONE, Key::Questionmark, Command::ToggleKeys, w.this_sheet),
     ];

@@ -9,7 +9,7 @@ use crate::app::kit::widget::{self, Named as _};
 use crate::app::session::Session;
 use crate::app::session::{Command, LibraryCommand};
 use crate::app::words::bar::w;
-use crate::app::words::{self, Lang, fill, names};
+use crate::app::words::{self, Lang, facts, fill, names};
 use crate::document::SubjectRef;
 
 /// Width of the bar in points from which on the examples have a button in it; else they are in the menu.
@@ -28,6 +28,10 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut
             ui.add_space(10.0);
         }
         subject_ui(ui, session, commands);
+        if !is_narrow {
+            let about = widget::icon_button(ui, Icon::Info, facts::w().about, has_facts(session));
+            egui::Popup::menu(&about).show(|ui| facts_ui(ui, session));
+        }
         if !is_narrow
             && widget::labelled_button(ui, Icon::Folder, w().open, false, true)
                 .on_hover_text(w().open_hint)
@@ -214,6 +218,60 @@ fn more_menu(
                     .small()
                     .color(weak),
             );
+            if has_facts(session) {
+                ui.separator();
+                facts_ui(ui, session);
+            }
         }
     });
+}
+
+fn has_facts(session: &Session) -> bool {
+    let facts = session.view.subject.as_ref();
+    facts.is_some_and(|facts| facts.scan.is_some())
+}
+
+/// What is known of the scan: name, voxels, spacing, size, values, segments. Nothing here names a patient, for no reader
+/// takes such a name in.
+fn facts_ui(ui: &mut Ui, session: &Session) {
+    let Some((facts, scan)) = session
+        .view
+        .subject
+        .as_ref()
+        .and_then(|f| Some((f, f.scan.as_ref()?)))
+    else {
+        return;
+    };
+    ui.set_min_width(230.0);
+    let w = facts::w();
+    let number = |value: f64, decimals: usize| widget::plain(value, decimals);
+    let mm = |lengths: [f64; 3], decimals: usize| {
+        let [x, y, z] = lengths.map(|length| number(length, decimals));
+        format!("{x} × {y} × {z} mm")
+    };
+    let [x, y, z] = scan.dims;
+    let sizes = std::array::from_fn(|i| f64::from(scan.dims[i]) * scan.spacing_mm[i]);
+    let [low, high] = scan.value_range.map(|value| number(f64::from(value), 1));
+    let count = facts.segments.len().to_string();
+    let lines = [
+        (
+            w.name,
+            names::subject_title(&session.illustration().subject),
+        ),
+        (w.voxels, format!("{x} × {y} × {z}")),
+        (w.spacing, mm(scan.spacing_mm, 3)),
+        (w.size, mm(sizes, 1)),
+        (w.values, fill(w.from_to, &[&low, &high])),
+        (w.segments, count),
+    ];
+    egui::Grid::new("facts of the scan")
+        .num_columns(2)
+        .spacing(egui::vec2(14.0, 4.0))
+        .show(ui, |ui| {
+            for (name, value) in lines {
+                ui.label(theme::strong(name).size(12.5));
+                ui.label(value);
+                ui.end_row();
+            }
+        });
 }

@@ -71,5 +71,5 @@ pub use self::session::{Load, LoadOf, STORED_DOCUMENT, Session, Tab};
 pub use self::ticket::Ticket;
 pub use self::tissues::{TissueCommand, Tissues};
 pub use self::tool::Tool;
-pub use self::view::{Pane, See, SubjectFacts, ViewState};
+pub use self::view::{Pane, ScanFacts, See, SubjectFacts, ViewState};
 pub use self::walk::Walk;

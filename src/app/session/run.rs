@@ -327,6 +327,12 @@ impl Session {
                     Tool::Measure(None)
                 });
             }
+            See::ToggleLevel => {
+                let is_on = self.tool.is_levelling();
+                self.take_tool(if is_on { Tool::Look } else { Tool::Level });
+                // There is nothing to drag over without slices.
+                self.view.is_split |= !is_on;
+            }
             See::RemoveMeasure(index) => view.measures.remove(index),
         }
     }

@@ -93,7 +93,7 @@ fn growing() -> Session {
 // ---------------------------------------------------------------------------------------- tools
 
 /// Every way to take a tool in hand, with the tool.
-fn ways() -> [(Command, Tool); 4] {
+fn ways() -> [(Command, Tool); 5] {
     [
         (
             Command::StartPlacing(TemplateKind::Peel),
@@ -102,6 +102,7 @@ fn ways() -> [(Command, Tool); 4] {
         (Command::ToggleCaptioning, Tool::Caption),
         (Command::Tissue(TissueCommand::Seed(true)), Tool::Seed(0)),
         (Command::See(See::ToggleMeasure), Tool::Measure(None)),
+        (Command::See(See::ToggleLevel), Tool::Level),
     ]
 }
 

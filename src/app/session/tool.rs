@@ -18,6 +18,8 @@ pub enum Tool {
     Seed(usize),
     /// Clicks measure distances. Holds the first point of the distance under way, subject space.
     Measure(Option<Vec3>),
+    /// Drags over slices widen and raise the window of values.
+    Level,
 }
 
 impl Tool {
@@ -37,6 +39,11 @@ impl Tool {
     /// True while clicks measure.
     pub fn is_measuring(self) -> bool {
         matches!(self, Self::Measure(_))
+    }
+
+    /// True while drags over slices change the window of values.
+    pub fn is_levelling(self) -> bool {
+        matches!(self, Self::Level)
     }
 
     /// True if every click counts, however quickly the clicks come: ends of distances, seeds.

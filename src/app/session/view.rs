@@ -42,10 +42,23 @@ pub enum See {
     ToggleGhost,
     /// Clicks measure distances, or not.
     ToggleMeasure,
+    /// Drags over slices change the window of values, or not.
+    ToggleLevel,
     /// Tells what the crosshair lies on: where that is at rest, and its value; nothing where it lies outside.
     ReadCross(Option<(Vec3, f32)>),
     /// Drops one distance by its place in the list.
     RemoveMeasure(usize),
+}
+
+/// What is known of a scan's voxels, or of those of a built-in subject.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScanFacts {
+    /// Voxels along each axis of the file.
+    pub dims: [u32; 3],
+    /// Distance of their middles along the same axes, mm.
+    pub spacing_mm: [f64; 3],
+    /// Smallest and largest value.
+    pub value_range: [f32; 2],
 }
 
 /// What panels want to know of the subject that is shown.
@@ -62,6 +75,8 @@ pub struct SubjectFacts {
     /// Volume of one of its voxels, cubic centimetres; `None` if the subject has no values. Then windows, thresholds
     /// and recipes mean nothing, and panels do not offer them.
     pub voxel_cm3: Option<f64>,
+    /// Its voxels; `None` if it has none.
+    pub scan: Option<ScanFacts>,
     /// Names of its segments by label.
     pub segments: BTreeMap<u16, String>,
 }
@@ -75,6 +90,11 @@ impl SubjectFacts {
             middle_mm: frame.middle_mm,
             bounds: frame.bounds,
             detail: frame.detail,
+            scan: subject.values().map(|volume| ScanFacts {
+                dims: volume.grid.dims.to_array(),
+                spacing_mm: volume.grid.spacing_mm().to_array(),
+                value_range: volume.value_range,
+            }),
             voxel_cm3: subject.values().map(|volume| volume_of_voxel(&volume.grid)),
             segments: names_of(subject.segments()),
         }

@@ -35,6 +35,7 @@ pub(crate) mod bar;
 pub(crate) mod captions;
 pub(crate) mod catalogue;
 pub(crate) mod curve;
+pub(crate) mod facts;
 pub(crate) mod faults;
 pub(crate) mod files;
 pub(crate) mod kept;

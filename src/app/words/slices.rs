@@ -32,6 +32,9 @@ words! {
         amount_hint: "From closed to what is set below", "Von geschlossen bis zu dem, was unten eingestellt ist", "De cerrado a lo que se indica abajo", "从闭合到下方设置的程度";
         key_slices: "Slices", "Schnitte", "Cortes", "切片";
         key_ghost: "Compare with the original", "Mit dem Original vergleichen", "Comparar con el original", "与原始状态对比";
+        key_level: "Window and level: drag over a slice", "Fenster und Lage: über einen Schnitt ziehen", "Ventana y nivel: arrastrar sobre un corte", "窗宽窗位：在切片上拖动";
+        level_drag: "Right drag over a slice, two fingers", "Rechts über einen Schnitt ziehen, zwei Finger", "Arrastrar con el derecho sobre un corte, dos dedos", "在切片上右键拖动、双指";
+        level_does: "Window (right, left) and level (up, down)", "Fenster (rechts, links) und Lage (auf, ab)", "Ventana (derecha, izquierda) y nivel (arriba, abajo)", "窗宽（左右）与窗位（上下）";
         key_measure: "Measure", "Messen", "Medir", "测量";
     }
 }

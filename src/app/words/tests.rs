@@ -8,6 +8,7 @@ fn every_line_has_the_same_gaps_in_every_language() {
         bar::LINES,
         catalogue::LINES,
         faults::LINES,
+        facts::LINES,
         files::LINES,
         kept::LINES,
         keys::LINES,
