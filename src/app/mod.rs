@@ -32,6 +32,8 @@ mod fields;
 #[cfg(feature = "app")]
 mod kit;
 #[cfg(feature = "app")]
+mod layout;
+#[cfg(feature = "app")]
 mod panel;
 #[cfg(feature = "app")]
 mod picture;

@@ -69,6 +69,7 @@ pub(crate) const ORDER: [(&str, &[&[&str]]); 3] = [
             &[
                 "arrivals.rs",
                 "fields.rs",
+                "layout.rs",
                 "provisional.rs",
                 "saving.rs",
                 "window_title.rs",
