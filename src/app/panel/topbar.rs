@@ -231,8 +231,8 @@ fn has_facts(session: &Session) -> bool {
     facts.is_some_and(|facts| facts.scan.is_some())
 }
 
-/// What is known of the scan: name, voxels, spacing, size, values, segments. Nothing here names a patient, for no reader
-/// takes such a name in.
+/// What is known of the scan: name, voxels, spacing, size, values, segments. Nothing here names a patient, for no
+/// reader takes such a name in.
 fn facts_ui(ui: &mut Ui, session: &Session) {
     let Some((facts, scan)) = session
         .view
