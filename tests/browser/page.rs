@@ -270,3 +270,39 @@ fn page_without_webgpu_names_remedies() {
         tab.assert_no_complaints().await;
     });
 }
+
+/// The page with `?bench` measures the rows of `fabrica bench` and shows them as a table; scripts get the same report.
+#[test]
+fn bench_page_ends_in_a_table() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tab = session.open("?bench=1").await;
+        tab.wait_until("document.documentElement.dataset.state === 'measured'", 300)
+            .await;
+        let report: serde_json::Value = tab.eval("window.fabrica.report").await;
+        println!("{report:#}");
+        let frames = report["frames"].as_array().expect("a list of rows");
+        let names: Vec<&str> = frames
+            .iter()
+            .filter_map(|row| row["name"].as_str())
+            .collect();
+        assert_eq!(names.len(), 12, "{names:?}");
+        assert_eq!((names[0], &frames[0]["ratio"]), ("undeformed", &1.0.into()));
+        assert!(
+            frames.iter().all(|row| row["ms"].as_f64() > Some(0.0)),
+            "{report}"
+        );
+        let table: Vec<String> = tab
+            .eval("[...document.querySelectorAll('#remedies tr')].map((row) => row.textContent)")
+            .await;
+        assert_eq!(table.len(), 1 + names.len(), "{table:?}");
+        for (name, line) in names.iter().zip(&table[1..]) {
+            assert!(line.starts_with(name), "{line}");
+        }
+        let buttons: Vec<String> = tab
+            .eval("[...document.querySelectorAll('#remedies button')].map((button) => button.textContent)")
+            .await;
+        assert_eq!(buttons, ["Copy"]);
+        tab.picture("bench").await;
+        tab.assert_no_complaints().await;
+    });
+}
