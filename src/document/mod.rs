@@ -73,5 +73,5 @@ pub use model::{
 pub use text::{DocumentError, Notice, NoticeKind, pointer};
 pub use tree::Document;
 pub use write::Edit;
-#[cfg(feature = "app")]
+#[cfg(any(feature = "app", feature = "session"))]
 pub(crate) use write::color_text;

@@ -35,8 +35,6 @@ use harness::{Gpu as BrowserGpu, from_base64, with_browser};
 
 /// Size of the page in these tests, CSS pixels: wide enough for the panels, small enough for a software GPU.
 const PAGE: (u32, u32) = (780, 420);
-/// The picture's place in it: beside the panels, under the bar.
-const PICTURE: (f64, f64, f64, f64) = (218.0, 46.0, 258.0, 374.0);
 
 const WHITE: [u8; 3] = [255; 3];
 

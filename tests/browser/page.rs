@@ -49,15 +49,17 @@ fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
         let document = Document::from_json(PEEL).expect("a good document");
         let template = &document.illustration().templates[0];
         let handle = fabrica::placed::handle(template).expect("a peel has a handle");
-        let size = [PICTURE.2 as u32, PICTURE.3 as u32];
+        // Where the picture lies with the bar of tools over it.
+        let place = super::hand::find(&tab, "Picture").await;
+        let size = [place.size.0 as u32, place.size.1 as u32];
         let view = View::new(&document.illustration().camera, size);
         let pixel_of = |pos| {
             let pixel = view
                 .pixel_from_subject(pos)
                 .expect("in front of the camera");
             (
-                PICTURE.0 + f64::from(pixel.x),
-                PICTURE.1 + f64::from(pixel.y),
+                place.at.0 + f64::from(pixel.x),
+                place.at.1 + f64::from(pixel.y),
             )
         };
         let from = pixel_of(handle.at);

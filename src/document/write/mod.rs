@@ -9,6 +9,6 @@ mod set;
 mod value;
 
 pub use edit::Edit;
-#[cfg(feature = "app")]
+#[cfg(any(feature = "app", feature = "session"))]
 pub(crate) use number::color_text;
 pub(super) use set::set;
