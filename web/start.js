@@ -108,7 +108,7 @@ async function main() {
   const query = new URLSearchParams(location.search);
   if (query.has("bench")) {
     early?.worker.terminate();
-    await bench(fabrica, Number.parseInt(query.get("bench"), 10) || 0);
+    await bench(fabrica, ...["bench", "size"].map((key) => Number.parseInt(query.get(key), 10) || 0));
     return;
   }
   const host = fabrica.foreign_document_host();
@@ -135,12 +135,12 @@ async function main() {
 }
 
 /** Frame times in place of the viewer. */
-async function bench(fabrica, repeats) {
+async function bench(fabrica, repeats, side) {
   window.fabrica = { module: fabrica };
   show("Frame times on this device");
   try {
     const { showBench } = await import("./bench.js");
-    window.fabrica.report = await showBench(fabrica, element("remedies"), repeats);
+    window.fabrica.report = await showBench(fabrica, element("remedies"), repeats, side);
     document.documentElement.dataset.state = "measured";
   } catch (error) {
     console.error(error);

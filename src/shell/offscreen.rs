@@ -69,13 +69,17 @@ pub async fn render_png(
 }
 
 /// Times frames of the built-in head on this browser's adapter, the rows of `fabrica bench`, and gives the report as
-/// JSON and as text: `[json, text]`. `repeats` frames per row count; 0 takes as many as the command does. `on_progress`
-/// is called with how much is measured, 0 to 1.
+/// JSON and as text: `[json, text]`. `repeats` frames per row count, of pictures `side_px` wide and high; 0 takes what
+/// the command does. `on_progress` is called with how much is measured, 0 to 1.
 ///
 /// # Errors
 /// What is wrong with the subject or the device, in words.
 #[wasm_bindgen]
-pub async fn bench(repeats: u32, on_progress: js_sys::Function) -> Result<Vec<String>, JsValue> {
+pub async fn bench(
+    repeats: u32,
+    side_px: u32,
+    on_progress: js_sys::Function,
+) -> Result<Vec<String>, JsValue> {
     let illustration = Document::new().illustration().clone();
     let SubjectRef::Builtin { name } = &illustration.subject else {
         return Err("an empty document shows a built-in subject".into());
@@ -85,7 +89,10 @@ pub async fn bench(repeats: u32, on_progress: js_sys::Function) -> Result<Vec<St
     let report = crate::render::bench(
         &gpu,
         (&subject, &illustration.subject),
-        BENCH_SIZE_PX,
+        match side_px {
+            0 => BENCH_SIZE_PX,
+            side => [side; 2],
+        },
         match repeats {
             0 => BENCH_REPEATS,
             n => n as usize,

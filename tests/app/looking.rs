@@ -488,7 +488,7 @@ fn a_right_drag_over_a_slice_changes_window_and_level() {
         ValueWindow::Auto => None,
     };
     let width = |[from, to]: [f32; 2]| to - from;
-    let mut window = Window::open(DESK, CUBE);
+    let mut window = Window::open(FOUR, CUBE);
     window.press(Key::V);
     window.settle();
     let middle = slice_rect(&window, "Axial").center();
