@@ -47,7 +47,7 @@ fn label_volumes_open_as_in_a_command() {
             }
             if case.is_error {
                 // It goes on: another document opens.
-                let cube = payload(r#"{"fabrica":1,"subject":{"builtin":"cube"}}"#);
+                let cube = payload(PLAIN);
                 tab.eval::<bool>(&format!("(location.hash = '{cube}', true)"))
                     .await;
                 find(&tab, "Show top alone").await;

@@ -11,8 +11,6 @@ use serde_json::Value;
 
 /// A phone, CSS pixels.
 const PHONE: (u32, u32) = (360, 640);
-/// A cube with nothing placed: quick to draw.
-const PLAIN: &str = r#"{"fabrica":1,"subject":{"builtin":"cube"}}"#;
 /// What is there before the author chooses.
 const OTHER: &str = r#"{"fabrica":1,"subject":{"builtin":"bar"}}"#;
 

@@ -10,9 +10,8 @@ const MOST_BYTES: u64 = 400_000;
 fn examples_are_fetched_when_they_are_looked_at() {
     const SIZE: (u32, u32) = (960, 540);
     with_browser(BrowserGpu::Software, |session| async move {
-        let start = r#"{"fabrica":1,"subject":{"builtin":"cube"}}"#;
         let tab = session
-            .viewer_sized(&format!("#{}", payload(start)), SIZE)
+            .viewer_sized(&format!("#{}", payload(PLAIN)), SIZE)
             .await;
         tab.settled().await;
         let asked = || {

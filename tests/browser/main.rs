@@ -38,6 +38,9 @@ const PAGE: (u32, u32) = (780, 420);
 
 const WHITE: [u8; 3] = [255; 3];
 
+/// A cube with nothing placed: quick to draw.
+const PLAIN: &str = r#"{"fabrica":1,"subject":{"builtin":"cube"}}"#;
+
 /// A peel on the side of the head.
 const PEEL: &str = r#"{"fabrica":1,"title":"Scalp","templates":[{"kind":"peel","at":[0,0.1,0.3],"size":[0.5,0.4,0.2],"params":{"progress":0.2}}]}"#;
 

@@ -90,7 +90,7 @@ fn a_control_point_and_a_curve_are_dragged() {
 #[test]
 fn fields_and_segmentations_are_dropped() {
     with_browser(BrowserGpu::Software, |session| async move {
-        let tab = opened(&session, r#"{"fabrica":1,"subject":{"builtin":"cube"}}"#).await;
+        let tab = opened(&session, PLAIN).await;
         let first = object(&tab, "no_field").await;
         let mut table = String::from("x,y,z,dx,dy,dz\n");
         for i in 0..125 {
@@ -123,7 +123,7 @@ fn fields_and_segmentations_are_dropped() {
         else {
             return;
         };
-        let tab = opened(&session, r#"{"fabrica":1,"subject":{"builtin":"cube"}}"#).await;
+        let tab = opened(&session, PLAIN).await;
         let names = [
             "IMG0001.dcm",
             "IMG0002.dcm",

@@ -140,7 +140,7 @@ fn bone_is_found_in_a_scan_and_laid_bare() {
             &data.join("ct/chest_ct_2mm.nii.gz"),
             "chest.nii.gz",
         );
-        let plain = payload(r#"{"fabrica":1,"subject":{"builtin":"cube"}}"#);
+        let plain = payload(PLAIN);
         let tab = session.viewer_sized(&format!("#{plain}"), HIGH).await;
         focus(&tab).await;
         drop_files(&tab, &["chest.nii.gz"]).await;
