@@ -99,7 +99,7 @@ fn another_file_than_the_one_waited_for_is_an_error() {
     let before = window.document().to_json();
     let [_, (_, parts)] = segment_files::files();
     for (ticket, name) in [(Ticket(90), "parts.nii"), (Ticket(91), "scan.nii")] {
-        say(&window, Message::FileStarted { ticket });
+        window.log.file_starts(ticket);
         arrives(&window, name, ticket);
         window.settle();
         assert_eq!(

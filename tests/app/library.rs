@@ -50,16 +50,20 @@ fn examples_are_fetched_when_they_are_looked_at() {
     assert_eq!(offered(&window).len(), EXAMPLES);
 }
 
+fn search(window: &mut Window, text: &str) {
+    window.harness.get_by_label("Search the examples").focus();
+    window.steps(2);
+    let search = window.harness.get_by_label("Search the examples");
+    search.type_text(text);
+    window.steps(3);
+}
+
 #[test]
 fn examples_are_searched_and_filtered() {
     let mut window = Window::open(DESK, CUBE);
     window.click("Examples");
     window.settle();
-    window.harness.get_by_label("Search the examples").focus();
-    window.steps(2);
-    let search = window.harness.get_by_label("Search the examples");
-    search.type_text("knee flap");
-    window.steps(3);
+    search(&mut window, "knee flap");
     let found = offered(&window);
     assert!(!found.is_empty() && found.len() < 6, "{found:?}");
     window.click("Clear the search for examples");
@@ -72,11 +76,7 @@ fn examples_are_searched_and_filtered() {
     window.click("Wave");
     assert_eq!(offered(&window), ["Order matters"]);
     window.look("examples_found");
-    window.harness.get_by_label("Search the examples").focus();
-    window.steps(2);
-    let search = window.harness.get_by_label("Search the examples");
-    search.type_text("spleen");
-    window.steps(3);
+    search(&mut window, "spleen");
     window.harness.get_by_label("No example is like that");
 }
 
@@ -85,13 +85,7 @@ fn a_click_opens_an_example_as_its_link_would() {
     let mut window = Window::open(DESK, CUBE);
     window.click("Examples");
     window.settle();
-    window.harness.get_by_label("Search the examples").focus();
-    window.steps(2);
-    window
-        .harness
-        .get_by_label("Search the examples")
-        .type_text("tomato");
-    window.steps(3);
+    search(&mut window, "tomato");
     let name = offered(&window)[0].clone();
     window.click(&format!("Open the example {name}"));
     window.settle();

@@ -223,10 +223,7 @@ fn one_of_several_volumes_is_chosen_and_taken_back() {
     let log = Fake::default();
     let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(CUBE));
     let ticket = Ticket(99);
-    log.0
-        .borrow_mut()
-        .queue
-        .push(Message::FileStarted { ticket });
+    log.file_starts(ticket);
     window.steps(2);
     file_arrives(&log, ticket, Some(LoadEvent::Frames { count: 20 }));
     window.settle();
@@ -270,9 +267,9 @@ fn bare_voxels_are_opened_by_what_one_says_of_them() {
             skip_bytes: 0,
         }),
     };
+    log.file_starts(ticket);
     {
         let queue = &mut log.0.borrow_mut().queue;
-        queue.push(Message::FileStarted { ticket });
         queue.push(Message::Load {
             ticket,
             event: LoadEvent::AskRaw(question),
@@ -321,7 +318,7 @@ fn an_opened_file_becomes_the_subject_by_its_hash() {
     let ticket = Ticket(99);
     {
         let log = &mut *log.0.borrow_mut();
-        log.queue.push(Message::FileStarted { ticket });
+        log.file_starts(ticket);
         fabrica::subjects::generate("bar", 32, &mut Queue(log, ticket))
             .expect("a built-in subject");
         let sha256 = Some("ab".repeat(32));
@@ -363,10 +360,7 @@ fn an_opened_scan_starts_a_document_and_may_keep_the_templates() {
     let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(json));
     let before = window.document();
     let ticket = Ticket(99);
-    log.0
-        .borrow_mut()
-        .queue
-        .push(Message::FileStarted { ticket });
+    log.file_starts(ticket);
     window.steps(2);
     file_arrives(&log, ticket, None);
     window.settle();

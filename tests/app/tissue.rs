@@ -33,7 +33,7 @@ impl Window {
         let log = &mut *self.log.0.borrow_mut();
         log.next_ticket += 1;
         let ticket = Ticket(log.next_ticket);
-        log.queue.push(Message::FileStarted { ticket });
+        log.file_starts(ticket);
         let mut report = LoadReport::default();
         read_subject(
             &mut files,
@@ -193,7 +193,7 @@ fn finding_a_tissue_can_be_stopped() {
         let log = &mut *window.log.0.borrow_mut();
         log.next_ticket += 1;
         let ticket = Ticket(log.next_ticket);
-        log.queue.push(Message::FileStarted { ticket });
+        log.file_starts(ticket);
         fabrica::subjects::generate("cube", 160, &mut Queue(log, ticket)).expect("the cube");
         let sha256 = Some("5c".repeat(32));
         let event = LoadEvent::Done { sha256 };
@@ -294,7 +294,7 @@ fn label_files_become_tissues_of_the_scan() {
         let log = &mut *window.log.0.borrow_mut();
         log.next_ticket += 1;
         let ticket = Ticket(log.next_ticket);
-        log.queue.push(Message::FileStarted { ticket });
+        log.file_starts(ticket);
         for (hash, from) in labels {
             let grid = fabrica::subjects::Generator::new("cube", RESOLUTION)
                 .expect("the cube")

@@ -38,10 +38,22 @@ pub(crate) struct Log {
     pub(crate) title: String,
 }
 
+impl Log {
+    /// A file that the user opened begins to load.
+    pub(crate) fn file_starts(&mut self, ticket: Ticket) {
+        self.queue.push(Message::FileStarted { ticket });
+    }
+}
+
 #[derive(Clone, Default)]
 pub(crate) struct Fake(pub(crate) Rc<RefCell<Log>>);
 
 impl Fake {
+    /// A file that the user opened begins to load.
+    pub(crate) fn file_starts(&self, ticket: Ticket) {
+        self.0.borrow_mut().file_starts(ticket);
+    }
+
     /// As if it had been kept from the last time.
     pub(crate) fn store_value(&self, key: &str, value: &str) {
         let mut log = self.0.borrow_mut();
