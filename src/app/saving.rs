@@ -15,10 +15,11 @@ impl App {
         let illustration = self.session.shown_as_seen();
         let shown_px = self.viewport.size_px(pixels_per_point);
         let is_for_script = std::mem::take(&mut self.wants_shown_size);
-        let size_px = match picture.bounds() {
-            // A script asks for the picture as the window shows it, without lettering.
-            _ if is_for_script => shown_px,
-            bounds => file_size(shown_px, &illustration.camera, bounds),
+        // A script asks for the picture as the window shows it, without lettering.
+        let size_px = if is_for_script {
+            shown_px
+        } else {
+            file_size(shown_px, &illustration.camera, picture.bounds())
         };
         picture.start_file(&illustration, size_px);
         let is_lettered = self.session.is_lettering && !is_for_script;

@@ -2,6 +2,7 @@
 
 use egui::{FontId, Rect, Role, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
+use crate::app::canvas::tools::bar_bottom;
 use crate::app::canvas::view_bar;
 use crate::app::kit::float;
 use crate::app::kit::icon::Icon;
@@ -58,13 +59,7 @@ pub(crate) fn ui(
         return None;
     }
     let corner = if is_narrow {
-        let has_bar = session.tool().placing().is_some() || session.selected_template().is_some();
-        let top = picture.top()
-            + if has_bar {
-                theme::control_height() + 28.0
-            } else {
-                8.0
-            };
+        let top = bar_bottom(picture, session).map_or(picture.top() + 8.0, |bar| bar + 6.0);
         pos2(picture.center().x + 0.5 * width, top + height)
     } else {
         picture.right_bottom() - vec2(view_bar::column_width(picture), 14.0)

@@ -153,14 +153,15 @@ impl Slices {
         });
         let map = self.map(i, axes, rect, *cross, bounds);
         let by = levelling::drag(ui, &response, session);
-        let is_levelling = by.is_some() || session.tool().is_levelling();
-        let shown = picture.as_deref().filter(|_| is_levelling);
+        let has_window = by.is_some() || session.tool().is_levelling();
+        let shown = picture.as_deref().filter(|_| has_window);
         let shown =
             shown.and_then(|p| Some((grey_window(session, p)?, p.subject_info()?.value_range)));
         if let (Some(by), Some((window, values))) = (by, shown) {
             commands.extend(levelling::command(by, window, values));
         }
-        self.gestures(ui, i, &response, &map, (session, facts), cross, commands);
+        let hand = (&response, by.is_some());
+        self.gestures(ui, i, hand, &map, (session, facts), cross, commands);
         self.keys(ui, &response, axes, cross, facts);
         let map = self.map(i, axes, rect, *cross, bounds);
 
@@ -244,7 +245,7 @@ impl Slices {
         &mut self,
         ui: &Ui,
         i: usize,
-        response: &Response,
+        (response, is_levelling): (&Response, bool),
         map: &Map<'_>,
         (session, facts): (&Session, &SubjectFacts),
         cross: &mut Vec3,
@@ -277,7 +278,7 @@ impl Slices {
             pane.pan -= response.drag_delta() * map.units_per_point;
             return;
         }
-        if levelling::drag(ui, response, session).is_some() {
+        if is_levelling {
             pane.held = None;
             return;
         }

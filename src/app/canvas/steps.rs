@@ -75,10 +75,10 @@ pub(crate) fn place(ui: &Ui, area: Rect, session: &Session) -> Option<Rect> {
         return None;
     }
     let is_split = session.view.is_split;
-    let (free, widest) = if is_split {
-        (area, WIDEST_UNDER_PANES)
-    } else {
-        (view_bar::above_foot(area), WIDEST)
+    let free = view_bar::above_foot(area, session);
+    let widest = match is_split {
+        true => WIDEST_UNDER_PANES,
+        false => WIDEST,
     };
     let width = (free.width() - 16.0).min(widest);
     let shown = if is_split {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{FontId, Galley, Rect, Role, Sense, Ui, UiBuilder, Vec2, WidgetInfo, vec2};
 
-use super::tools::bar_rect;
+use super::tools::bar_bottom;
 use crate::app::canvas::view_bar;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
@@ -15,12 +15,7 @@ use crate::app::words::picture;
 /// The title at the head of the picture, if it is wished there. Returns where the rest of the picture begins, points
 /// from the top of the window.
 pub(crate) fn head_ui(ui: &Ui, picture: Rect, session: &Session) -> f32 {
-    let has_bar = session.tool().wants_place() || session.selected_template().is_some();
-    let top = if has_bar {
-        bar_rect(picture, 0.0).bottom() + 8.0
-    } else {
-        picture.top() + 30.0
-    };
+    let top = bar_bottom(picture, session).map_or(picture.top() + 30.0, |bar| bar + 8.0);
     let title = session.illustration().title.trim();
     // Alone, the picture has its title at the foot.
     if !session.has_title || title.is_empty() || session.are_panels_hidden {
@@ -59,7 +54,7 @@ pub(crate) fn way_back_ui(ui: &mut Ui, rect: Rect, commands: &mut Vec<Command>) 
 
 /// The texts of the document that are not empty, as wide as there is room for.
 fn galleys(ui: &Ui, area: Rect, session: &Session) -> Vec<Arc<Galley>> {
-    let free = free(area, session);
+    let free = view_bar::above_foot(area, session);
     let width = (free.width() - 40.0).clamp(160.0, 640.0);
     let illustration = session.illustration();
     let texts = [
@@ -75,15 +70,6 @@ fn galleys(ui: &Ui, area: Rect, session: &Session) -> Vec<Arc<Galley>> {
         .collect()
 }
 
-/// The part of the window at whose foot the card lies.
-fn free(area: Rect, session: &Session) -> Rect {
-    if session.view.is_split {
-        area
-    } else {
-        view_bar::above_foot(area)
-    }
-}
-
 /// Where the card of title, legend and credit lies in the part of the window that shows the object: over the foot of
 /// the picture, under the panes where slices are shown. None without texts.
 pub(crate) fn place(ui: &Ui, area: Rect, session: &Session) -> Option<Rect> {
@@ -92,7 +78,8 @@ pub(crate) fn place(ui: &Ui, area: Rect, session: &Session) -> Option<Rect> {
     let widths = galleys.iter().map(|galley| galley.size().x);
     let size = vec2(widths.reduce(f32::max)?, height) + vec2(28.0, 16.0);
     let below = if session.view.is_split { 8.0 } else { 18.0 };
-    let corner = free(area, session).center_bottom() - vec2(0.5 * size.x, size.y + below);
+    let free = view_bar::above_foot(area, session);
+    let corner = free.center_bottom() - vec2(0.5 * size.x, size.y + below);
     Some(Rect::from_min_size(corner, size))
 }
 

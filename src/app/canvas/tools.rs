@@ -12,10 +12,16 @@ use crate::app::words::picture::w;
 use crate::document::PlacedTemplate;
 
 /// The bar at the head of the picture, of a width where there is room for it.
-pub(crate) fn bar_rect(rect: Rect, width: f32) -> Rect {
+fn bar_rect(rect: Rect, width: f32) -> Rect {
     let height = theme::control_height() + 12.0;
     let center = pos2(rect.center().x, rect.top() + 10.0 + 0.5 * height);
     Rect::from_center_size(center, vec2(width.min(rect.width() - 12.0), height))
+}
+
+/// Where the bar at the head of the picture ends, points from the top of the window; `None` while there is no bar.
+pub(crate) fn bar_bottom(rect: Rect, session: &Session) -> Option<f32> {
+    let has_bar = session.tool().wants_place() || session.selected_template().is_some();
+    has_bar.then(|| bar_rect(rect, 0.0).bottom())
 }
 
 /// Floating over the picture: what the handles do, and the commonest commands of the selected template.

@@ -13,7 +13,7 @@ use super::gizmo::Gizmo;
 use super::measure::Distances;
 use super::panes::ONE_PANE;
 use super::projection::{self, Projection};
-use super::tools::{asking_ui, bar_rect, tools_ui};
+use super::tools::{asking_ui, bar_bottom, tools_ui};
 use super::{curve, orientation, points, slice_plot, view_bar};
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, template_menu, widget};
@@ -112,16 +112,17 @@ impl Viewport {
             self.unseen_ui(ui, session, picture);
             return;
         };
-        let has_bar = session.tool().wants_place() || session.selected_template().is_some();
         let bars = rect;
+        let bar = bar_bottom(bars, session);
         // Where there is little room the bar lies above the picture, else over its head.
-        let rect = if has_bar && rect.width() < ONE_PANE {
-            let rect = rect.with_min_y(bar_rect(bars, 0.0).bottom() + 6.0);
-            ui.painter()
-                .rect_filled(bars.with_max_y(rect.top()), 0.0, Palette::get(ui).panel);
-            rect
-        } else {
-            rect
+        let rect = match bar {
+            Some(bar) if bars.width() < ONE_PANE => {
+                let rect = bars.with_min_y(bar + 6.0);
+                ui.painter()
+                    .rect_filled(bars.with_max_y(rect.top()), 0.0, Palette::get(ui).panel);
+                rect
+            }
+            _ => bars,
         };
         let id = ui.scope_id().with("picture");
         let response = ui.interact(rect, id, Sense::click_and_drag());
@@ -151,10 +152,9 @@ impl Viewport {
         } else {
             Color32::from_black_alpha(150)
         };
-        let free = if has_bar && bars == rect {
-            rect.with_min_y(bar_rect(rect, 0.0).bottom() + 2.0)
-        } else {
-            rect
+        let free = match bar {
+            Some(bar) if bars == rect => rect.with_min_y(bar + 2.0),
+            _ => rect,
         };
         let free = if rect.height() < view_bar::LOW {
             free.with_max_y(rect.bottom() - theme::control_height() - 18.0)

@@ -106,7 +106,7 @@ fn making_ui(ui: &mut Ui, recipe: &Recipe, commands: &mut Vec<Command>) {
 /// The volume of a tissue in words. While the tissue is being found it is what the range of values takes before the
 /// clean-up, or else what was counted before, and said to be provisional.
 fn volume(session: &Session, recipe: &Recipe, histogram: Option<&Histogram>) -> Option<String> {
-    let voxel_cm3 = session.view.subject.as_ref()?.voxel_cm3?;
+    let voxel_cm3 = session.view.subject.as_ref()?.voxel_cm3()?;
     let counted = session.tissues.counts.get(position(session, recipe));
     let counted = counted.map(|&count| count as f64);
     let in_words = |count: f64| {

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use glam::{DVec3, Vec3};
 
 use super::measures::Measures;
-use crate::data::{Grid, Segment, Subject};
+use crate::data::{Segment, Subject};
 use crate::math::Aabb;
 
 /// A part of the window in which the object is seen.
@@ -72,10 +72,8 @@ pub struct SubjectFacts {
     pub bounds: Aabb,
     /// Length of its finest detail, subject units.
     pub detail: f32,
-    /// Volume of one of its voxels, cubic centimetres; `None` if the subject has no values. Then windows, thresholds
-    /// and recipes mean nothing, and panels do not offer them.
-    pub voxel_cm3: Option<f64>,
-    /// Its voxels; `None` if it has none.
+    /// Its voxels; `None` if the subject has no values. Then windows, thresholds and recipes mean nothing, and panels do
+    /// not offer them.
     pub scan: Option<ScanFacts>,
     /// Names of its segments by label.
     pub segments: BTreeMap<u16, String>,
@@ -84,7 +82,6 @@ pub struct SubjectFacts {
 impl SubjectFacts {
     fn new(subject: &Subject) -> Self {
         let frame = subject.frame();
-        let volume_of_voxel = |grid: &Grid| grid.spacing_mm().element_product() / 1000.0;
         Self {
             mm_per_unit: frame.mm_per_unit as f32,
             middle_mm: frame.middle_mm,
@@ -95,15 +92,23 @@ impl SubjectFacts {
                 spacing_mm: volume.grid.spacing_mm().to_array(),
                 value_range: volume.value_range,
             }),
-            voxel_cm3: subject.values().map(|volume| volume_of_voxel(&volume.grid)),
             segments: names_of(subject.segments()),
         }
     }
 
+    /// Volume of a voxel, cubic millimetres; `None` if the subject has no values.
+    fn voxel_mm3(&self) -> Option<f64> {
+        Some(self.scan.as_ref()?.spacing_mm.iter().product())
+    }
+
+    /// Volume of a voxel, cubic centimetres; `None` if the subject has no values.
+    pub fn voxel_cm3(&self) -> Option<f64> {
+        Some(self.voxel_mm3()? / 1000.0)
+    }
+
     /// Mean length of a voxel's sides, mm; `None` if the subject has no values.
     pub fn voxel_mm(&self) -> Option<f64> {
-        let volume_mm3 = self.voxel_cm3? * 1000.0;
-        (volume_mm3 > 0.0).then(|| volume_mm3.cbrt())
+        self.voxel_mm3().filter(|mm3| *mm3 > 0.0).map(f64::cbrt)
     }
 
     /// True if a segment has this name.
@@ -194,6 +199,6 @@ impl ViewState {
     /// False if a subject is shown that has no values: panels leave out what is about values.
     pub fn has_values(&self) -> bool {
         let subject = self.subject.as_ref();
-        subject.is_none_or(|subject| subject.voxel_cm3.is_some())
+        subject.is_none_or(|subject| subject.scan.is_some())
     }
 }
