@@ -137,8 +137,11 @@ impl App {
                 }
             }
             LoadEvent::Notice(text) => self.session.notify(Gravity::Warning, text, ""),
-            LoadEvent::Fault(fault) => self.fault = Some(fault),
-            LoadEvent::Failed { message, details } => match self.fault.take() {
+            LoadEvent::Failed {
+                message,
+                details,
+                fault,
+            } => match fault {
                 Some(fault) => {
                     let details = [message, details].join("\n");
                     self.refuse(&words::faults::text(&fault), details.trim_end().to_owned());
@@ -269,7 +272,6 @@ impl App {
     fn drop_incoming(&mut self) {
         self.incoming = SubjectBuilder::default();
         self.incoming_labels.clear();
-        self.fault = None;
         if let Some(LoadOf::Segments(want)) = self.session.load.as_ref().map(|load| &load.of) {
             self.assets.refuse(want);
         }

@@ -22,7 +22,7 @@ use crate::app::words::{self, Lang};
 use crate::assets::{Assets, SegmentationsExpected, Want};
 use crate::data::{Resources, SubjectBuilder};
 use crate::document::{Document, SegmentsRef};
-use crate::load::{FileFault, LabelFile};
+use crate::load::LabelFile;
 use crate::render::{Clock, RenderNotice};
 
 /// Width in points below which panels become drawers.
@@ -85,8 +85,6 @@ pub struct App {
     pub(crate) slices: Slices,
     /// The segments of the subject in the making.
     pub(crate) tissue: tissue_work::TissueWork,
-    /// What is wrong with the file of the load under way.
-    pub(crate) fault: Option<FileFault>,
     /// What lies inside of the tissue that the selected template keeps.
     pub(crate) inside: kept::Inside,
     /// Label volumes of the load under way.
@@ -193,7 +191,6 @@ impl App {
             transfer: transfer::Editor::default(),
             slices: Slices::default(),
             tissue: tissue_work::TissueWork::new(start.clock),
-            fault: None,
             inside: kept::Inside::default(),
             incoming_labels: Vec::new(),
             labels_expected: SegmentationsExpected::default(),

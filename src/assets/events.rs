@@ -45,14 +45,14 @@ pub enum LoadEvent {
     },
     /// Something was not as expected but the subject is usable.
     Notice(String),
-    /// What is wrong with the file, for its owner. `Failed` follows.
-    Fault(FileFault),
     /// There will be no subject.
     Failed {
         /// One line in plain words.
         message: String,
         /// More, shown on demand; may be empty.
         details: String,
+        /// What is wrong with the file, for its owner; `None` where the message says that best.
+        fault: Option<FileFault>,
     },
     /// Stopped by the user.
     Cancelled,

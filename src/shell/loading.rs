@@ -53,6 +53,7 @@ pub fn make_subject(
                 post.post(LoadEvent::Failed {
                     message: error.to_string(),
                     details: String::new(),
+                    fault: None,
                 });
                 return;
             }
@@ -203,22 +204,13 @@ pub fn read_segments(files: &mut dyn FileSet, name: &str, post: &mut dyn Post) {
             }
             LoadEvent::Done { sha256: None }
         }
-        Err(error) => {
-            tell_fault(&error, post);
-            LoadEvent::Failed {
-                message: error.to_string(),
-                details: String::new(),
-            }
-        }
+        Err(error) => LoadEvent::Failed {
+            message: error.to_string(),
+            details: String::new(),
+            fault: error.fault(),
+        },
     };
     post.post(event);
-}
-
-/// Posts what the owner of a file can make of an error.
-fn tell_fault(error: &LoadError, post: &mut dyn Post) {
-    if let Some(fault) = error.fault() {
-        post.post(LoadEvent::Fault(fault));
-    }
 }
 
 /// Reads a subject from a file and posts its pieces and how the load ended.
@@ -265,10 +257,10 @@ pub fn read_file(
             post.post(LoadEvent::AskRaw(question(files, name)));
         }
         Err(error) => {
-            tell_fault(&error, post);
             post.post(LoadEvent::Failed {
                 message: error.to_string(),
                 details: report.notices().join("\n"),
+                fault: error.fault(),
             });
         }
     }

@@ -230,6 +230,7 @@ impl NativeServices {
         let event = LoadEvent::Failed {
             message,
             details: String::new(),
+            fault: None,
         };
         self.send(Message::Load { ticket, event });
         ticket

@@ -249,6 +249,7 @@ impl PageServices {
         let event = LoadEvent::Failed {
             message,
             details: String::new(),
+            fault: None,
         };
         page.send(Message::Load { ticket, event });
         ticket
@@ -339,6 +340,7 @@ fn not_started(error: &JsValue) -> LoadEvent {
     LoadEvent::Failed {
         message: "This browser cannot load scans in the background".to_owned(),
         details: text_of(error),
+        fault: None,
     }
 }
 

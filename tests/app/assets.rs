@@ -89,6 +89,7 @@ fn another_file_than_the_one_waited_for_is_an_error() {
     let lost = LoadEvent::Failed {
         message: "open the file".to_owned(),
         details: String::new(),
+        fault: None,
     };
     let ticket = Ticket(window.log.0.borrow().next_ticket);
     let say = |window: &Window, message| window.log.0.borrow_mut().queue.push(message);

@@ -171,6 +171,7 @@ fn loading_shows_its_progress_and_is_stopped() {
     let late = LoadEvent::Failed {
         message: "late".to_owned(),
         details: String::new(),
+        fault: None,
     };
     log.0.borrow_mut().queue.push(Message::Load {
         ticket,

@@ -82,15 +82,11 @@ impl Log {
         };
         let event = match outcome {
             Ok(sha256) => LoadEvent::Done { sha256 },
-            Err(error) => {
-                let fault = error.fault().map(LoadEvent::Fault);
-                let fault = fault.map(|event| Message::Load { ticket, event });
-                self.queue.extend(fault);
-                LoadEvent::Failed {
-                    message: error.to_string(),
-                    details: String::new(),
-                }
-            }
+            Err(error) => LoadEvent::Failed {
+                message: error.to_string(),
+                details: String::new(),
+                fault: error.fault(),
+            },
         };
         self.queue.push(Message::Load { ticket, event });
     }
@@ -157,6 +153,7 @@ impl Services for Fake {
                 Err(error) => LoadEvent::Failed {
                     message: error.to_string(),
                     details: String::new(),
+                    fault: None,
                 },
             };
             log.queue.push(Message::Load { ticket, event });

@@ -4,8 +4,8 @@
 //! `["begin", header as JSON]`, `["scalars", typed array]`, `["labels", Uint8Array]`, `["progress", fraction, what]`,
 //! `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`, `["label-file", sha256, header as JSON, Uint8Array]`,
 //! `["frames", count]`, `["raw", bytes or undefined, is packed, guess or undefined]`,
-//! `["fault", kind, name of the file, bytes found, bytes expected, file that is missing]`,
-//! `["failed", message, details]`, `["cancelled"]`.
+//! `["failed", message, details]`, where the owner of the file can mend it followed by the kind of fault, the name of the
+//! file, bytes found, bytes expected and the file that is missing; `["cancelled"]`.
 
 use js_sys::{Array, Float32Array, Reflect, Uint8Array};
 use serde_json::Value;
@@ -183,26 +183,41 @@ pub mod post {
                 push(&"notice".into());
                 push(&text.into());
             }
-            LoadEvent::Fault(fault) => {
-                let word = FaultKind::WORDS
-                    .iter()
-                    .find(|(kind, _)| *kind == fault.kind);
-                push(&"fault".into());
-                push(&word.map(|(_, word)| *word).into());
-                push(&fault.name.into());
-                push(&(fault.bytes[0] as f64).into());
-                push(&(fault.bytes[1] as f64).into());
-                push(&fault.needed.into());
-            }
-            LoadEvent::Failed { message, details } => {
+            LoadEvent::Failed {
+                message,
+                details,
+                fault,
+            } => {
                 push(&"failed".into());
                 push(&message.into());
                 push(&details.into());
+                if let Some(fault) = fault {
+                    let mut words = FaultKind::WORDS.iter();
+                    let word = words.find(|(kind, _)| *kind == fault.kind);
+                    push(&word.map(|(_, word)| *word).into());
+                    push(&fault.name.into());
+                    push(&(fault.bytes[0] as f64).into());
+                    push(&(fault.bytes[1] as f64).into());
+                    push(&fault.needed.into());
+                }
             }
             LoadEvent::Cancelled => push(&"cancelled".into()),
         }
         send(&message, moved)
     }
+}
+
+/// The fault that ends a message of a failure, if there is one.
+fn fault_of(message: &Array) -> Option<FileFault> {
+    let text = |index: u32| message.get(index).as_string();
+    let count = |index: u32| message.get(index).as_f64().map(|n| n as u64);
+    let word = text(3)?;
+    Some(FileFault {
+        kind: FaultKind::WORDS.iter().find(|(_, w)| *w == word)?.0,
+        name: text(4)?,
+        bytes: [count(5)?, count(6)?],
+        needed: text(7)?,
+    })
 }
 
 fn event_of(message: &Array) -> Option<LoadEvent> {
@@ -220,6 +235,7 @@ fn event_of(message: &Array) -> Option<LoadEvent> {
                 details:
                     "fabrica.js and worker.js may be of different versions: load the page again."
                         .to_owned(),
+                fault: None,
             },
         },
         "scalars" => LoadEvent::Part(SubjectPart::Scalars(voxels_of(&message.get(1))?)),
@@ -256,19 +272,10 @@ fn event_of(message: &Array) -> Option<LoadEvent> {
             sha256: message.get(1).as_string(),
         },
         "notice" => LoadEvent::Notice(text(1)),
-        "fault" => {
-            let count = |index: u32| message.get(index).as_f64().map(|n| n as u64);
-            let (word, name) = (text(1), text(2));
-            LoadEvent::Fault(FileFault {
-                kind: FaultKind::WORDS.iter().find(|(_, w)| *w == word)?.0,
-                name,
-                bytes: [count(3)?, count(4)?],
-                needed: text(5),
-            })
-        }
         "failed" => LoadEvent::Failed {
             message: text(1),
             details: text(2),
+            fault: fault_of(message),
         },
         "cancelled" => LoadEvent::Cancelled,
         _ => return None,

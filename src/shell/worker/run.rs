@@ -96,6 +96,7 @@ pub fn start(
         (for_error.borrow_mut())(Answer::Event(LoadEvent::Failed {
             message: "This browser did not start the background thread that loads scans".to_owned(),
             details: "Workers of this page may be blocked: by an extension, by the content policy of a page that embeds the viewer, or because worker.js is not beside fabrica.js.".to_owned(),
+            fault: None,
         }));
     });
     worker.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
@@ -152,7 +153,9 @@ pub async fn read_field(
     let task = Task::Scan(ScanTask::Field { name, file });
     let read = to_end(address, &task, UNLIMITED, move |answer| match answer {
         Answer::Field(outcome) => *for_answer.borrow_mut() = *outcome,
-        Answer::Event(LoadEvent::Failed { message, details }) => {
+        Answer::Event(LoadEvent::Failed {
+            message, details, ..
+        }) => {
             *for_answer.borrow_mut() = Err(format!("{message}: {details}"));
         }
         _ => {}

@@ -59,6 +59,7 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
                         "{} The server may be down, or may not let other pages read its files (CORS).",
                         text_of(&error)
                     ),
+                    fault: None,
                 }),
             }
         }
