@@ -37,8 +37,8 @@ const BESIDE_THE_BALL: f32 = 148.0;
 const ABOVE_THE_BALL: f32 = 112.0;
 
 /// The part of the window that shows the object at whose foot a card may lie: all of it where slices are shown, for the
-/// card lies under the panes then. Over the picture beside the ball of axes where there is room for both, else above the
-/// ball, and beside the buttons.
+/// card lies under the panes then. Over the picture beside the ball of axes where there is room for both, else above
+/// the ball, and beside the buttons.
 pub(crate) fn above_foot(picture: Rect, session: &Session) -> Rect {
     if session.view.is_split {
         return picture;

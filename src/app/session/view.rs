@@ -72,8 +72,8 @@ pub struct SubjectFacts {
     pub bounds: Aabb,
     /// Length of its finest detail, subject units.
     pub detail: f32,
-    /// Its voxels; `None` if the subject has no values. Then windows, thresholds and recipes mean nothing, and panels do
-    /// not offer them.
+    /// Its voxels; `None` if the subject has no values. Then windows, thresholds and recipes mean nothing, and panels
+    /// do not offer them.
     pub scan: Option<ScanFacts>,
     /// Names of its segments by label.
     pub segments: BTreeMap<u16, String>,

@@ -4,8 +4,8 @@
 //! `["begin", header as JSON]`, `["scalars", typed array]`, `["labels", Uint8Array]`, `["progress", fraction, what]`,
 //! `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`, `["label-file", sha256, header as JSON, Uint8Array]`,
 //! `["frames", count]`, `["raw", bytes or undefined, is packed, guess or undefined]`,
-//! `["failed", message, details]`, where the owner of the file can mend it followed by the kind of fault, the name of the
-//! file, bytes found, bytes expected and the file that is missing; `["cancelled"]`.
+//! `["failed", message, details]`, where the owner of the file can mend it followed by the kind of fault, the name of
+//! the file, bytes found, bytes expected and the file that is missing; `["cancelled"]`.
 
 use js_sys::{Array, Float32Array, Reflect, Uint8Array};
 use serde_json::Value;
