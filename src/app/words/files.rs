@@ -8,7 +8,7 @@ words! {
         close_volumes: "Close the choice of volume", "Volumenauswahl schließen", "Cerrar la elección de volumen", "关闭体数据选择";
         volumes_hint: "Time points, or parts of one scan. The document keeps which one it shows.", "Zeitpunkte oder Teile eines Scans. Das Dokument merkt sich, welches Volumen es zeigt.", "Instantes o partes de un estudio. El documento guarda cuál muestra.", "时间点，或一次扫描的各部分。文档会记住显示的是哪一个。";
         volume: "Volume", "Volumen", "Volumen", "体数据";
-        bare: "Bare voxels", "Bloße Voxel", "Vóxeles sin cabecera", "裸体素数据";
+        bare: "Raw voxels", "Rohe Voxel", "Vóxeles sin cabecera", "原始体素数据";
         bare_hint: "This file does not say how its voxels lie. Where it comes from, that is written down; a wrong size shows as a slanted picture.", "Diese Datei sagt nicht, wie ihre Voxel liegen. Wo sie herkommt, steht es geschrieben; eine falsche Größe zeigt sich als schräges Bild.", "Este archivo no dice cómo están dispuestos sus vóxeles. Consta en el lugar de donde procede; un tamaño erróneo se ve como una imagen inclinada.", "此文件没有说明体素的排列方式，其来源处会有记载；尺寸有误时图像会倾斜。";
         voxels: "Voxels", "Voxel", "Vóxeles", "体素数";
         width: "Width", "Breite", "Anchura", "宽";

@@ -14,13 +14,13 @@ words! {
         tissue: "Tissue", "Gewebe", "Tejido", "组织";
         tissue_hint: "The tissues that you tick stay in place, bone for example", "Die angekreuzten Gewebe bleiben an ihrem Platz, etwa Knochen", "Los tejidos marcados se quedan en su sitio, por ejemplo el hueso", "勾选的组织保持原位，例如骨";
         depth: "Depth", "Tiefe", "Profundidad", "深度";
-        depth_hint: "How far under the skin untouched tissue begins, in parts of the longest side", "Wie weit unter der Haut das Unberührte beginnt, in Teilen der längsten Seite", "A qué profundidad bajo la piel empieza lo intacto, en partes del lado más largo", "不触及的组织从皮肤下多深开始，以最长边为单位";
+        depth_hint: "How far under the skin untouched tissue begins, in parts of the longest side", "Wie weit unter der Haut das Unberührte beginnt, in Teilen der längsten Seite", "A qué profundidad bajo la piel empieza lo intacto, en partes del lado más largo", "保持原位的组织从皮肤下多深开始，以最长边为单位";
         blend: "Blend", "Übergang", "Transición", "过渡";
         blend_hint: "How far on either side of the parted surfaces their light is taken from them", "Wie weit beiderseits der getrennten Flächen das Licht von ihnen bestimmt wird", "Hasta qué distancia a cada lado de las superficies separadas la luz se toma de ellas", "分离面两侧多大范围内的光照取自该面";
         yields: "Protect", "Schützen", "Proteger", "保护";
         yields_hint: "Tissue that is neither bent nor passed through: the movement fades towards it", "Gewebe, das weder verbogen noch durchdrungen wird: Die Bewegung lässt zu ihm hin nach", "Tejido que no se dobla ni se atraviesa: el movimiento se desvanece hacia él", "不弯曲也不被穿过的组织：越靠近它，移动越弱";
         unprotected_hint: "No tissue is protected", "Kein Gewebe wird geschützt", "No se protege ningún tejido", "不保护任何组织";
-        shorter: "Shorter path", "Kürzerer Weg", "Menos recorrido", "缩短位移";
+        shorter: "Shorter path", "Kürzerer Weg", "Trayecto más corto", "缩短位移";
         shorter_hint: "Tissue beside the protected one moves less far", "Gewebe neben dem geschützten bewegt sich weniger weit", "El tejido junto al protegido se mueve menos", "受保护组织旁的组织移动得更少";
         weaker: "Weaker", "Schwächer", "Más débil", "减弱";
         weaker_hint: "The template acts less beside the protected tissue", "Die Vorlage wirkt neben dem geschützten Gewebe schwächer", "La plantilla actúa menos junto al tejido protegido", "模板在受保护组织旁作用减弱";

@@ -54,13 +54,13 @@ words! {
         hide: "Hide or show the template", "Vorlage aus- oder einblenden", "Ocultar o mostrar la plantilla", "隐藏或显示模板";
         duplicate: "Duplicate the template", "Vorlage verdoppeln", "Duplicar la plantilla", "复制一份模板";
         delete: "Delete the template", "Vorlage löschen", "Eliminar la plantilla", "删除模板";
-        earlier: "Let the template act earlier", "Vorlage früher wirken lassen", "Que la plantilla actúe antes", "让模板更早作用";
-        later: "Let the template act later", "Vorlage später wirken lassen", "Que la plantilla actúe después", "让模板更晚作用";
+        earlier: "Move the template up: it acts earlier", "Vorlage nach oben: wirkt früher", "Subir la plantilla: actúa antes", "上移模板：更早起效";
+        later: "Move the template down: it acts later", "Vorlage nach unten: wirkt später", "Bajar la plantilla: actúa después", "下移模板：更晚起效";
         next_step: "Next step", "Nächster Schritt", "Paso siguiente", "下一步";
         step_of: "Step {0} of {1}", "Schritt {0} von {1}", "Paso {0} de {1}", "第 {0} 步，共 {1} 步";
         start_of: "Start, {0} steps follow", "Anfang, {0} Schritte folgen", "Inicio, siguen {0} pasos", "起始，后有 {0} 步";
         step_before: "Step before", "Schritt davor", "Paso anterior", "上一步";
-        picture_alone: "Present: the picture without panels", "Präsentieren: das Bild ohne Bereiche", "Presentar: la imagen sin paneles", "演示：仅显示图像";
+        picture_alone: "Present: the picture without panels", "Präsentieren: das Bild ohne Bereiche", "Presentar: la imagen sin paneles", "演示：不显示面板";
         this_sheet: "This sheet", "Dieses Blatt", "Esta hoja", "此页";
         front: "From the front", "Von vorn", "Desde delante", "从前面看";
         back: "From the back", "Von hinten", "Desde detrás", "从后面看";

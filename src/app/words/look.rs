@@ -9,7 +9,7 @@ words! {
         automatic: "Automatic", "Automatisch", "Automático", "自动";
         automatic_is: "Automatic ({0})", "Automatisch ({0})", "Automático ({0})", "自动（{0}）";
         any_scan: "scan", "Scan", "estudio", "扫描";
-        own_points: "Own points ({0})", "Eigene Punkte ({0})", "Puntos propios ({0})", "自定义点（{0}）";
+        own_points: "Custom ({0} points)", "Eigene ({0} Punkte)", "Propios ({0} puntos)", "自定义（{0} 个点）";
         colour_n: "Colour {0}", "Farbe {0}", "Color {0}", "颜色 {0}";
         value_n: "Value {0}", "Wert {0}", "Valor {0}", "数值 {0}";
         opacity_n: "Opacity {0}", "Deckkraft {0}", "Opacidad {0}", "不透明度 {0}";

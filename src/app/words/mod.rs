@@ -6,6 +6,10 @@
 //!
 //! A new language is a variant of [`Lang`] and one more column; texts hold `{0}`, `{1}` where [`fill`] puts words and
 //! numbers, in the order that the language wants.
+//!
+//! # Glossary
+//!
+#![doc = include_str!("glossary.md")]
 
 use std::cell::Cell;
 

@@ -13,7 +13,7 @@ words! {
         value: "value {0}", "Wert {0}", "valor {0}", "数值 {0}";
         nothing: "nothing", "nichts", "nada", "空";
         show: "Slices beside the picture", "Schnitte neben dem Bild", "Cortes junto a la imagen", "在图像旁显示切片";
-        hide: "The picture without slices", "Das Bild ohne Schnitte", "La imagen sin cortes", "仅显示图像";
+        hide: "The picture without slices", "Das Bild ohne Schnitte", "La imagen sin cortes", "隐藏切片";
         expand: "{0} alone", "Nur {0}", "Solo {0}", "仅{0}";
         all: "All four views", "Alle vier Ansichten", "Las cuatro vistas", "四个视图";
         colours: "Slices in colour", "Schnitte in Farbe", "Cortes en color", "彩色切片";

@@ -6,8 +6,8 @@ words! {
         heading: "Templates", "Vorlagen", "Plantillas", "模板";
         unknown_kind: "This version does not know this kind of template. It is kept as it is, and not drawn.", "Diese Version kennt diese Art von Vorlage nicht. Sie bleibt erhalten und wird nicht gezeichnet.", "Esta versión no conoce este tipo de plantilla. Se conserva tal cual y no se dibuja.", "此版本不认识这种模板。它会原样保留，但不绘制。";
         delete: "Delete", "Löschen", "Eliminar", "删除";
-        later: "Move down: acts later", "Nach unten: wirkt später", "Bajar: actúa después", "下移：更晚作用";
-        earlier: "Move up: acts earlier", "Nach oben: wirkt früher", "Subir: actúa antes", "上移：更早作用";
+        later: "Move down: acts later", "Nach unten: wirkt später", "Bajar: actúa después", "下移：更晚起效";
+        earlier: "Move up: acts earlier", "Nach oben: wirkt früher", "Subir: actúa antes", "上移：更早起效";
         nothing_placed: "Nothing is placed yet. Choose a template, then click on the object.", "Noch nichts platziert. Eine Vorlage wählen, dann auf das Objekt klicken.", "Aún no hay nada colocado. Elija una plantilla y haga clic en el objeto.", "尚未放置任何模板。选择一个模板，然后点击对象。";
         order: "They act from top to bottom.", "Sie wirken von oben nach unten.", "Actúan de arriba abajo.", "从上到下依次作用。";
         unknown: "Unknown template", "Unbekannte Vorlage", "Plantilla desconocida", "未知模板";
@@ -29,7 +29,7 @@ words! {
         unfold_placement: "Unfold placement", "Lage ausklappen", "Desplegar ubicación", "展开位置";
         centre: "Centre", "Mitte", "Centro", "中心";
         centre_hint: "Centre, in parts of the subject's longest side: right, front, up", "Mitte, in Teilen der längsten Seite des Objekts: rechts, vorn, oben", "Centro, en partes del lado más largo del objeto: derecha, delante, arriba", "中心，以对象最长边为单位：右、前、上";
-        turned: "Turned", "Gedreht", "Girado", "旋转";
+        turned: "Rotation", "Drehung", "Rotación", "旋转";
         turned_hint: "About x, y and z, in this order", "Um x, y und z, in dieser Folge", "En torno a x, y y z, en este orden", "依次绕 x、y、z";
         size: "Size", "Größe", "Tamaño", "大小";
         size_hint: "Sides of the box", "Seiten des Quaders", "Lados de la caja", "盒子的边长";

@@ -2,8 +2,10 @@
 
 use super::*;
 
-#[test]
-fn every_line_has_the_same_gaps_in_every_language() {
+type Line = (&'static str, [&'static str; Lang::COUNT]);
+
+/// The lines of all tables.
+fn lines() -> impl Iterator<Item = &'static Line> {
     let tables = [
         bar::LINES,
         catalogue::LINES,
@@ -27,8 +29,13 @@ fn every_line_has_the_same_gaps_in_every_language() {
         tissue::LINES,
         transfer::LINES,
     ];
+    tables.into_iter().flatten()
+}
+
+#[test]
+fn every_line_has_the_same_gaps_in_every_language() {
     let mut count = 0;
-    for (key, line) in tables.into_iter().flatten() {
+    for (key, line) in lines() {
         for text in line {
             assert!(!text.trim().is_empty(), "{key} says nothing");
             for index in 0..4 {
@@ -69,4 +76,100 @@ fn numbers_are_read_as_they_are_written() {
     assert_eq!(parse_number("inf"), None);
     set_lang(Lang::English);
     assert_eq!(localized("0.25".to_owned()), "0.25");
+}
+
+#[test]
+fn the_glossary_has_the_words_of_the_tables() {
+    let mut count = 0;
+    for row in include_str!("glossary.md").lines() {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let Ok::<[&str; 9], _>([_, what, en, de, es, zh, _, _, _]) = cells.try_into() else {
+            continue;
+        };
+        if what == "What it is" || what.starts_with("---") {
+            continue;
+        }
+        let has = |(_, line): &Line| *line == [en, de, es, zh];
+        assert!(
+            lines().any(has),
+            "no table has the line: {en}, {de}, {es}, {zh}"
+        );
+        count += 1;
+    }
+    assert!(count > 30, "only {count} rows were seen");
+}
+
+#[test]
+fn words_that_nobody_could_guess_do_not_come_back() {
+    // These tell nothing alone, and may stand in a sentence.
+    const ALONE_GONE: &[&str] = &[
+        "Moves less far",
+        "Acts less",
+        "As it is",
+        "Wie sie ist",
+        "Tal cual",
+        "Mass",
+        "Surfaces",
+        "After",
+        "Added",
+        "整体移动",
+        "避让",
+        "原样",
+    ];
+    const GONE: &[&str] = &[
+        "Leaves alone",
+        "Gives way to",
+        "As a whole",
+        "Picture alone",
+        "Colours of the program",
+        "what was before",
+        "under deformation",
+        "Joins",
+        "Lay on the surface",
+        "Let it act earlier",
+        "closed in",
+        "brings no tissues",
+        "Lässt unberührt",
+        "Weicht aus",
+        "Kürzere Wege",
+        "Als Ganzes",
+        "Nur das Bild",
+        "Farben des Programms",
+        "was vorher war",
+        "bei Verformung",
+        "Wieder an die Oberfläche",
+        "Früher wirken lassen",
+        "Eingeschlossenes",
+        "bringt keine Gewebe mit",
+        "Deja intacto",
+        "Cede ante",
+        "Menos recorrido",
+        "Menos efecto",
+        "Como un todo",
+        "Solo la imagen",
+        "Colores del programa",
+        "al deformar",
+        "Se une",
+        "Ajustar de nuevo",
+        "Que actúe antes",
+        "lo encerrado",
+        "no trae tejidos",
+        "不触及",
+        "仅显示图像",
+        "界面颜色",
+        "变形时的不透明度",
+        "重新贴合",
+        "更早作用",
+        "封闭空腔",
+        "自身不含",
+    ];
+    for (key, line) in lines() {
+        for text in line {
+            assert!(!ALONE_GONE.contains(text), "{key}: {text}");
+            let gone = GONE
+                .iter()
+                .find(|gone| text.to_lowercase().contains(&gone.to_lowercase()));
+            assert_eq!(gone, None, "{key}: {text}");
+        }
+    }
 }

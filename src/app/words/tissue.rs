@@ -5,7 +5,7 @@ words! {
     Tissue {
         heading: "Tissues", "Gewebe", "Tejidos", "组织";
         add: "Make a tissue", "Gewebe anlegen", "Crear un tejido", "创建组织";
-        add_hint: "Finds a tissue by its values in the scan, so that templates can leave it alone", "Findet ein Gewebe an seinen Werten im Scan, damit Vorlagen es unberührt lassen können", "Encuentra un tejido por sus valores en la imagen, para que las plantillas lo dejen intacto", "按扫描数值找出组织，使模板可以不触及它";
+        add_hint: "Finds a tissue by its values in the scan, so that templates can keep it in place", "Findet ein Gewebe an seinen Werten im Scan, damit Vorlagen es unberührt lassen können", "Encuentra un tejido por sus valores en la imagen, para que las plantillas lo dejen intacto", "按扫描数值找出组织，使模板可以让它保持原位";
         none: "This scan comes without segments. Make a tissue out of its values.", "Dieser Scan kommt ohne Segmente. Ein Gewebe aus seinen Werten erstellen.", "Este estudio no trae segmentos. Cree un tejido a partir de sus valores.", "此扫描没有分割标签。可根据其数值创建组织。";
         loading: "As soon as the scan is loaded", "Sobald der Scan geladen ist", "En cuanto la imagen esté cargada", "扫描加载完成后可用";
         alone: "Show {0} alone", "Nur {0} zeigen", "Mostrar solo {0}", "仅显示{0}";
@@ -14,7 +14,7 @@ words! {
         look: "How {0} is drawn", "Wie {0} gezeichnet wird", "Cómo se dibuja {0}", "{0}的绘制方式";
         drawn: "Drawn", "Gezeichnet", "Dibujo", "绘制";
         as_scan: "As scanned", "Wie im Scan", "Como en la imagen", "按扫描";
-        body: "As a body", "Als Körper", "Como cuerpo", "实体";
+        body: "Solid", "Massiv", "Sólido", "实体";
         hidden: "Hidden", "Verborgen", "Oculto", "隐藏";
         opacity: "Opacity", "Deckkraft", "Opacidad", "不透明度";
         opacity_hint: "Less lets what lies behind shine through", "Weniger lässt durchscheinen, was dahinter liegt", "Menos deja ver lo que hay detrás", "数值越低，越能透出后方结构";
@@ -42,7 +42,7 @@ words! {
         clean: "Clean up, in voxels of {0} mm", "Bereinigen, in Voxeln zu {0} mm", "Limpiar, en vóxeles de {0} mm", "清理（体素，边长 {0} mm）";
         close: "Close gaps", "Lücken zu", "Unir huecos", "闭合缝隙";
         close_hint: "Closes gaps up to twice as wide, in voxels", "Schließt Lücken bis zur doppelten Breite, in Voxeln", "Cierra huecos de hasta el doble de ancho, en vóxeles", "闭合宽度不超过两倍此值的缝隙（体素）";
-        largest: "Parts", "Teile", "Partes", "部分数";
+        largest: "Largest parts", "Größte Teile", "Partes mayores", "最大的部分";
         largest_hint: "Keeps so many of the largest parts; 0 keeps all", "Behält so viele der größten Teile; 0 behält alle", "Conserva tantas de las partes mayores; 0 las conserva todas", "保留最大的若干部分；0 表示全部";
         fill: "Fill holes", "Löcher füllen", "Rellenar agujeros", "填充孔洞";
         smooth: "Smooth", "Glätten", "Suavizar", "平滑";
