@@ -226,7 +226,7 @@ fn seeds_widen_the_range_of_their_recipe() {
     };
     answer(&mut session, &asked, Some(low));
     let from = &session.illustration().recipes[0].from;
-    assert_eq!(from.range(), [40.0, 200.0]);
+    assert_eq!(from.range(), Some([40.0, 200.0]));
     assert_eq!(session.tool(), Tool::Seed(0), "more may follow");
     run(&mut session, Command::Tissue(TissueCommand::Open(None)));
     assert_eq!(session.tool(), Tool::Look, "closed, it grows no more");
