@@ -76,7 +76,11 @@ fn box_around(
 ) -> Option<[UVec3; 2]> {
     // The ball is as wide along an axis of the grid as the row of the inverse is long. A voxel more than needed.
     let rows = mm_from_voxel.inverse().transpose();
-    let reach = DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length());
+    let reach = DVec3::new(
+        rows.x_axis.length(),
+        rows.y_axis.length(),
+        rows.z_axis.length(),
+    );
     let reach = reach * radius + 1.0;
     let (low, high) = (start.min(end) - reach, start.max(end) + reach);
     let last = dims.as_dvec3() - 1.0;

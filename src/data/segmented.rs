@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use glam::{DVec3, UVec3};
 
+use super::made::{KnownMasks, made};
 use super::mask::Mask;
 use super::time_slices::TimeSlices;
-use super::made::{KnownMasks, made};
 use super::{Grid, Resources, Segment, Segmentation, Subject, Volume, resized};
 use crate::document::{Recipe, RecipeSource};
 
@@ -123,7 +123,15 @@ pub async fn segment_with(
         time_slices.set_progress(done as f32 / steps.max(1) as f32);
     };
     for (recipe, listed) in recipes.iter().zip(listed) {
-        let mask = made(volume, recipe, known, &mut notices, &time_slices, &mut has_done).await;
+        let mask = made(
+            volume,
+            recipe,
+            known,
+            &mut notices,
+            &time_slices,
+            &mut has_done,
+        )
+        .await;
         let count = mask.bits.iter().map(|&bit| u64::from(bit)).sum();
         // What is yet to be painted is not missed.
         let is_begun = recipe.from != RecipeSource::Nothing || !recipe.paint.is_empty();

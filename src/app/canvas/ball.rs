@@ -177,7 +177,12 @@ pub(crate) fn paint_in_slice(
         });
     }
     if let Some(pos) = response.hover_pos() {
-        ring(painter, pos, radius / map.units_per_point, is_erasing(ui, session));
+        ring(
+            painter,
+            pos,
+            radius / map.units_per_point,
+            is_erasing(ui, session),
+        );
     }
 }
 
@@ -315,7 +320,9 @@ fn touched(session: &Session, mut ball: impl FnMut(&Painted, Vec3, f32)) {
         let place = |i: usize| Painted::in_rest(stroke.places[i]).as_vec3();
         for i in 0..stroke.places.len() {
             let (end, start) = (place(i), place(i.saturating_sub(1)));
-            let steps = (end.distance(start) / (0.4 * radius)).ceil().clamp(1.0, 200.0);
+            let steps = (end.distance(start) / (0.4 * radius))
+                .ceil()
+                .clamp(1.0, 200.0);
             for k in 1..=steps as u32 {
                 ball(stroke, start.lerp(end, k as f32 / steps), radius);
             }

@@ -391,7 +391,9 @@ impl Viewport {
             paint_progress(ui, rect, picture.state.progress);
         }
         self.click(ui, response, session, picture, size, commands);
-        let hand = self.ball.ui(ui, response, session, (picture, size), commands);
+        let hand = self
+            .ball
+            .ui(ui, response, session, (picture, size), commands);
         self.questions.extend(hand);
         self.ask(session, camera, picture, size, commands);
         self.captions

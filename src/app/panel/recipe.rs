@@ -98,7 +98,11 @@ fn from_ui(ui: &mut Ui, recipe: &Recipe, info: Option<&SubjectInfo>, commands: &
         return;
     };
     // The brighter half of the usual window, where there was no range before.
-    let usual = || info.map_or(0.0, |info| 0.5 * (info.window_auto[0] + info.window_auto[1]));
+    let usual = || {
+        info.map_or(0.0, |info| {
+            0.5 * (info.window_auto[0] + info.window_auto[1])
+        })
+    };
     let range = recipe.from.range().unwrap_or_else(|| [usual(), f32::MAX]);
     let seeds = Vec::new();
     let new = Recipe {

@@ -5,7 +5,7 @@ use glam::{IVec3, Vec3};
 use crate::document::{MAX_STROKE_PLACES, Stroke};
 
 /// Part of the ball's radius by which the way may be off.
-const OFF: f32 = 1.0 / 6.0;
+const OFF: f32 = 1.0 / 8.0;
 /// Points that wait at most for the next place of the way.
 const MOST_WAITING: usize = 200;
 
@@ -126,9 +126,15 @@ mod tests {
         assert_eq!((stroke.erases, stroke.radius_mm), (true, 7.5));
         let count = stroke.places.len();
         assert!((3..=6).contains(&count), "{count} places");
-        let places: Vec<Vec3> = stroke.places.iter().map(|&p| Stroke::in_rest(p).as_vec3()).collect();
+        let places: Vec<Vec3> = stroke
+            .places
+            .iter()
+            .map(|&p| Stroke::in_rest(p).as_vec3())
+            .collect();
         for pos in points {
-            let off = places.windows(2).map(|ends| distance_to_line(pos, [ends[0], ends[1]]));
+            let off = places
+                .windows(2)
+                .map(|ends| distance_to_line(pos, [ends[0], ends[1]]));
             let off = off.fold(f32::INFINITY, f32::min);
             assert!(off < radius * OFF + 0.001, "{off} off at {pos}");
         }
@@ -150,7 +156,11 @@ mod tests {
         assert_eq!(strokes.len(), 4, "{} places", 201);
         for pair in strokes.windows(2) {
             assert_eq!(pair[0].places.len(), MAX_STROKE_PLACES);
-            assert_eq!(pair[0].places.last(), pair[1].places.first(), "without a gap");
+            assert_eq!(
+                pair[0].places.last(),
+                pair[1].places.first(),
+                "without a gap"
+            );
         }
     }
 }

@@ -12,7 +12,8 @@
 //! | `line`, `brush` | the way of a hand, and the ball that paints along it |
 //! | `notices`, `view`, `tissues`, `files`, `clipboard`, `library` | other parts of the state |
 //! | `session` | the state itself |
-//! | `run`, `using`, `surface`, `templates`, `making`, `painting`, `opening`, `starting`, `raw` | what can be done with it |
+//! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw` | what can be done with it |
+//! | `making`, `painting` | what can be done with tissues |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
 
 pub mod brush;

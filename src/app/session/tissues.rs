@@ -161,7 +161,8 @@ fn alone_in(shown: &Illustration, name: &str) -> Illustration {
     alone
 }
 
-/// A tissue is drawn as a body, so that it is seen where it is painted; others are drawn as the scan has them, or hidden.
+/// A tissue is drawn as a body, so that it is seen where it is painted; others are drawn as the scan has them, or
+/// hidden.
 pub(super) fn marked_in(shown: &Illustration, name: &str) -> Illustration {
     let mut marked = shown.clone();
     let looks = &mut marked.look.segments;

@@ -37,11 +37,9 @@ impl Session {
         let reply: fn(usize, Option<Found>) -> Command = match self.tool {
             Tool::Place(_) => |_, found| Command::PlaceOnOrAtTarget(found),
             Tool::Caption => |_, found| Command::CaptionOn(found),
-            Tool::Look
-            | Tool::Seed(_)
-            | Tool::Paint { .. }
-            | Tool::Measure(_)
-            | Tool::Level => return,
+            Tool::Look | Tool::Seed(_) | Tool::Paint { .. } | Tool::Measure(_) | Tool::Level => {
+                return;
+            }
         };
         self.effect(Effect::Ask(Question::new(Place::Middle, reply)));
     }

@@ -5,14 +5,15 @@
 //!     { "name": "bone", "color": "#eadfc4", "from": { "threshold": [200, 3000] },
 //!       "clean": [ { "largest": 1 }, { "close": 2 }, { "fill": true }, { "smooth": 1 } ] },
 //!     { "name": "aorta", "from": { "grow": { "seeds": [[0.02, 0.05, 0.1]], "range": [150, 400] } },
-//!       "paint": [ { "radius": 3, "path": [20, 50, 100, 12, 0, -4] }, { "erase": true, "radius": 2, "path": [21, 52, 99] } ] } ] } }
+//!       "paint": [ { "radius": 3, "path": [20, 50, 100, 12, 0, -4] },
+//!                  { "erase": true, "radius": 2, "path": [21, 52, 99] } ] } ] } }
 //! ```
 //!
 //! Values are the scan's own (Hounsfield units for a CT), seeds lie in the undeformed subject, lengths of the clean-up
-//! are millimetres. The steps of the clean-up run in the order in which they are listed, then the strokes of a ball that
-//! paints or erases. A stroke's places are whole thousandths of a subject unit in the undeformed subject: the first, then
-//! each less the one before. A recipe that has `paint` needs no `from`: then all of the tissue is painted. The result
-//! depends on the recipe and the voxels alone and is the same on every machine, bit for bit.
+//! are millimetres. The steps of the clean-up run in the order in which they are listed, then the strokes of a ball
+//! that paints or erases. A stroke's places are whole thousandths of a subject unit in the undeformed subject: the
+//! first, then each less the one before. A recipe that has `paint` needs no `from`: then all of the tissue is painted.
+//! The result depends on the recipe and the voxels alone and is the same on every machine, bit for bit.
 
 use glam::{DVec3, IVec3, Vec3};
 

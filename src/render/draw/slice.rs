@@ -342,7 +342,11 @@ impl SliceBoard {
                 marks_bodies,
             } => {
                 let width = (white - black).max(f32::MIN_POSITIVE);
-                let mode = if marks_bodies { SLICE_MARKED } else { SLICE_GREY };
+                let mode = if marks_bodies {
+                    SLICE_MARKED
+                } else {
+                    SLICE_GREY
+                };
                 (mode, [(high - low) / width, (low - black) / width])
             }
             SliceColors::Look => (SLICE_COLORS, [0.0; 2]),
