@@ -172,6 +172,7 @@ struct Slice {
 /// How a slice is shown.
 const SLICE_GREY: u32 = 0u;
 const SLICE_COLORS: u32 = 1u;
+const SLICE_MARKED: u32 = 2u;
 
 /// The lattice on which points of tissue are looked for in the deformed object (pass/follow.wgsl).
 struct Lattice {

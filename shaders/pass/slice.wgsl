@@ -15,6 +15,9 @@ const SLICE_THICKNESS: f32 = 0.03;
 /// How opaque tissue must be to have a colour of its own; below it fades into the background.
 const SLICE_OPACITY_LENGTH: f32 = 0.01;
 
+/// How much of a body's colour lies over the grey where bodies are marked.
+const SLICE_MARK: f32 = 0.45;
+
 /// What the object has at a point.
 struct Here {
     /// Where the material was at rest, rest space.
@@ -58,10 +61,15 @@ fn color_at(pixel: vec2f) -> vec3f {
     if !here.is_there {
         return slice.background.rgb;
     }
-    if slice.mode == SLICE_GREY {
+    if slice.mode != SLICE_COLORS {
         let level = clamp(here.texel * slice.grey_scale + slice.grey_offset, 0.0, 1.0);
         // The window is linear in what a screen is sent, as on every radiologist's workstation.
-        return linear_from_srgb(vec3f(level));
+        let grey = linear_from_srgb(vec3f(level));
+        let mark = bodies.items[here.label & 255u];
+        if slice.mode == SLICE_MARKED && mark.a > 0.0 {
+            return mix(grey, mark.rgb, SLICE_MARK);
+        }
+        return grey;
     }
     let known = textureSampleLevel(lut, linear_sampler, vec2f(here.texel * look.table_scale + look.table_offset, 0.5), 0.0);
     let tint = textureLoad(palette, vec2i(i32(here.label), 0), 0);

@@ -161,6 +161,7 @@ impl App {
     pub(crate) fn advance_tissue(&mut self, ui: &egui::Ui) {
         let is_dragging = ui.input(|i| i.pointer.any_down());
         self.look_after_segments();
+        self.tissue.set_edited(self.session.tissues.open.is_some());
         let shown = self.session.shown();
         let made = self
             .tissue

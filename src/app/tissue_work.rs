@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use crate::app::picture::pending::{Pending, poll_once};
 use crate::assets::Assets;
-use crate::data::{Resources, Segmented, TimeSlices, segment};
+use crate::data::{KnownMasks, Resources, Segmented, TimeSlices, segment_with};
 use crate::document::{Illustration, Recipe, SegmentsRef};
 use crate::render::Clock;
 
@@ -25,6 +25,8 @@ pub(crate) struct TissueWork {
     job: Option<Job>,
     /// What was not to be found: it is not begun again by itself.
     stopped: Option<MadeOf>,
+    /// What the clean-up of recipes left, while one is edited: a stroke does not cost it again.
+    known: Option<KnownMasks>,
     /// Voxels of each recipe, in order, as of the last result.
     pub(crate) counts: Vec<u64>,
 }
@@ -64,6 +66,7 @@ impl TissueWork {
             made_of: None,
             job: None,
             stopped: None,
+            known: None,
             counts: Vec::new(),
         }
     }
@@ -71,6 +74,7 @@ impl TissueWork {
     /// Another subject is shown, with the segments that it came with.
     pub(crate) fn restart(&mut self) {
         (self.job, self.stopped) = (None, None);
+        self.known = None;
         self.made_of = Some(MadeOf::default());
         self.counts.clear();
     }
@@ -107,6 +111,15 @@ impl TissueWork {
     /// How far the work under way is, 0 to 1.
     pub(crate) fn progress(&self) -> Option<f32> {
         self.job.as_ref().map(|job| job.time_slices.progress())
+    }
+
+    /// A recipe is edited, or none is any more.
+    pub(crate) fn set_edited(&mut self, is_edited: bool) {
+        if !is_edited {
+            self.known = None;
+        } else if self.known.is_none() {
+            self.known = Some(KnownMasks::default());
+        }
     }
 
     /// Goes on for its share of a frame. A result is to be shown. `resources` is what has come of the files of the
@@ -150,7 +163,8 @@ impl TissueWork {
         let deadline = Rc::clone(&until);
         let time_slices = TimeSlices::until(move || clock() > deadline.get());
         let recipes = made_of.recipes.clone();
-        let work = segment(resources.clone(), recipes, time_slices.clone());
+        let known = self.known.clone();
+        let work = segment_with(resources.clone(), recipes, known, time_slices.clone());
         Job {
             made_of,
             until,

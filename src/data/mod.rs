@@ -6,10 +6,12 @@
 //! in between makes what is too large coarser. [`segment`] finds the segments that the recipes of a document describe,
 //! and joins them with the segments of label volumes.
 
+mod ball;
 mod builder;
 mod field;
 mod frame;
 mod inside;
+mod made;
 mod mask;
 mod material;
 mod parts;
@@ -25,12 +27,13 @@ pub use builder::{BuildError, VolumeBuilder};
 pub use field::{FieldSamples, SampledField};
 pub use frame::SubjectFrame;
 pub use inside::CoarseLabels;
+pub use made::KnownMasks;
 pub use mask::Mask;
 pub use material::Material;
 pub use parts::{SubjectBuilder, SubjectPart};
 pub use reduce::{Reducer, Reduction, VolumeLimits, dims_that_fit, resized};
 pub use resources::{FieldKey, Resources};
-pub use segmented::{RECIPE_COLORS_SRGB, Segmented, segment};
+pub use segmented::{RECIPE_COLORS_SRGB, Segmented, segment, segment_with};
 pub use statistics::{Histogram, Statistics};
 pub use subject::{Space, Subject};
 pub use time_slices::TimeSlices;

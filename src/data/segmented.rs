@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use glam::{DVec3, UVec3};
 
+use super::made::{KnownMasks, made};
 use super::mask::Mask;
 use super::time_slices::TimeSlices;
-use super::{Grid, Resources, Segment, Segmentation, Subject, Volume, Voxels, resized};
-use crate::document::{CleanStep, Recipe, RecipeSource};
+use super::{Grid, Resources, Segment, Segmentation, Subject, Volume, resized};
+use crate::document::{Recipe, RecipeSource};
 
 /// Colours of segments whose recipe names none, in turn; told apart by those who see few colours too (after Okabe and
 /// Ito 2008).
@@ -68,6 +69,19 @@ pub async fn segment(
     recipes: Vec<Recipe>,
     time_slices: TimeSlices,
 ) -> Segmented {
+    segment_with(resources, recipes, None, time_slices).await
+}
+
+/// Like [`segment`], with the cleaned sets of earlier runs on the same subject at hand: of a recipe whose `from` and
+/// `clean` are as they were, only the strokes are done anew. The result is the same. Holds a bit per voxel and recipe
+/// in `known` from then on.
+pub async fn segment_with(
+    resources: Resources,
+    recipes: Vec<Recipe>,
+    known: Option<KnownMasks>,
+    time_slices: TimeSlices,
+) -> Segmented {
+    let known = known.as_ref();
     let mut notices = Vec::new();
     let own = resources.own_segmentation();
     let files = &resources.segmentations;
@@ -102,32 +116,26 @@ pub async fn segment(
             .await;
     }
     let mut counts = Vec::with_capacity(recipes.len());
-    let steps: usize = recipes.iter().map(|recipe| recipe.clean.len() + 2).sum();
+    let steps: usize = recipes.iter().map(|recipe| recipe.clean.len() + 3).sum();
     let mut done = 0;
     let mut has_done = |n: usize| {
         done += n;
         time_slices.set_progress(done as f32 / steps.max(1) as f32);
     };
     for (recipe, listed) in recipes.iter().zip(listed) {
-        let mut mask = draft(volume, recipe, &mut notices, &time_slices).await;
-        has_done(1);
-        let spacing = volume.grid.spacing_mm().as_vec3().to_array();
-        for step in &recipe.clean {
-            match *step {
-                CleanStep::Largest(count) => mask.keep_largest(count as usize, &time_slices).await,
-                CleanStep::Fill => mask.fill(&time_slices).await,
-                CleanStep::Close(mm) => {
-                    mask.spread(1, spacing, mm, &time_slices).await;
-                    mask.spread(0, spacing, mm, &time_slices).await;
-                }
-                CleanStep::Smooth(mm) => mask.smooth(spacing, mm, &time_slices).await,
-                CleanStep::Grow(mm) => mask.spread(1, spacing, mm, &time_slices).await,
-                CleanStep::Shrink(mm) => mask.spread(0, spacing, mm, &time_slices).await,
-            }
-            has_done(1);
-        }
+        let mask = made(
+            volume,
+            recipe,
+            known,
+            &mut notices,
+            &time_slices,
+            &mut has_done,
+        )
+        .await;
         let count = mask.bits.iter().map(|&bit| u64::from(bit)).sum();
-        if count == 0 {
+        // What is yet to be painted is not missed.
+        let is_begun = recipe.from != RecipeSource::Nothing || !recipe.paint.is_empty();
+        if count == 0 && is_begun {
             notices.push(format!(
                 "/subject/features/{}: no voxel of the scan is in “{}”",
                 recipe.index, recipe.name
@@ -147,6 +155,9 @@ pub async fn segment(
             .await;
         }
         has_done(1);
+    }
+    if let Some(known) = known {
+        known.keep_to(&recipes);
     }
     Segmented {
         segmentation: Some(Arc::new(join.finish())),
@@ -177,63 +188,6 @@ fn grid_of_labels(volume: &Volume, files: &[Arc<Segmentation>]) -> Grid {
         return volume.grid;
     }
     resized(&volume.grid, dims)
-}
-
-/// The first draft of a segment, on the scan's grid.
-async fn draft(
-    volume: &Volume,
-    recipe: &Recipe,
-    notices: &mut Vec<String>,
-    time_slices: &TimeSlices,
-) -> Mask {
-    let dims = volume.grid.dims;
-    let slice = dims.x as usize * dims.y as usize;
-    let mut bits = Vec::with_capacity(volume.voxels.len());
-    let range = recipe.from.range();
-    while bits.len() < volume.voxels.len() {
-        within(volume, range, bits.len()..bits.len() + slice, &mut bits);
-        time_slices.give_way().await;
-    }
-    let mut mask = Mask { dims, bits };
-    if let RecipeSource::Grow { seeds, .. } = &recipe.from {
-        let voxel_from_subject = volume.grid.subject_from_voxel().inverse();
-        let mut inside = Vec::new();
-        for (i, seed) in seeds.iter().enumerate() {
-            let voxel = (voxel_from_subject.transform_point3(seed.as_dvec3()) + 0.5).floor();
-            let at = format!("/subject/features/{}/from/grow/seeds/{i}", recipe.index);
-            let is_outside = voxel.cmplt(DVec3::ZERO).any() || voxel.cmpge(dims.as_dvec3()).any();
-            if is_outside {
-                notices.push(format!(
-                    "{at}: the seed lies outside the scan; nothing grows from it"
-                ));
-                continue;
-            }
-            let voxel = voxel.as_uvec3();
-            match volume.value_at(voxel) {
-                Some(value) if !(range[0]..=range[1]).contains(&value) => notices.push(format!(
-                    "{at}: the scan has the value {value} there, outside the range; nothing grows from it"
-                )),
-                _ => inside.push(voxel),
-            }
-        }
-        mask.keep_parts_at(&inside, time_slices).await;
-    }
-    mask
-}
-
-/// Appends 1 for each voxel with a value in the range, else 0.
-fn within(volume: &Volume, [low, high]: [f32; 2], part: std::ops::Range<usize>, out: &mut Vec<u8>) {
-    let (slope, intercept) = (volume.slope, volume.intercept);
-    let test = |stored: f32| {
-        let value = stored * slope + intercept;
-        u8::from(low <= value && value <= high)
-    };
-    match &volume.voxels {
-        Voxels::U8(v) => out.extend(v[part].iter().map(|&x| test(f32::from(x)))),
-        Voxels::I16(v) => out.extend(v[part].iter().map(|&x| test(f32::from(x)))),
-        Voxels::U16(v) => out.extend(v[part].iter().map(|&x| test(f32::from(x)))),
-        Voxels::F32(v) => out.extend(v[part].iter().map(|&x| test(x))),
-    }
 }
 
 /// Segments from several sources, put into one label volume.

@@ -82,6 +82,7 @@ fn is_default(value: &Value, kind: Kind) -> bool {
         Kind::Rotation => is_numbers(value, &IDENTITY),
         Kind::Pairs { .. }
         | Kind::Vectors { .. }
+        | Kind::Path { .. }
         | Kind::Segments
         | Kind::List { .. }
         | Kind::FirstOf { .. } => is_empty_list(value),

@@ -26,6 +26,14 @@ pub const MAX_RECIPES: usize = 16;
 pub const MAX_CLEAN_STEPS: usize = 16;
 /// Most seeds of one recipe.
 pub const MAX_SEEDS: usize = 64;
+/// Most strokes of a ball in one recipe.
+pub const MAX_STROKES: usize = 1000;
+/// Most places of one stroke.
+pub const MAX_STROKE_PLACES: usize = 64;
+/// Largest radius of a ball that paints, mm.
+pub const MAX_BALL_MM: f32 = 50.0;
+/// Smallest radius of a ball that paints, mm.
+pub const MIN_BALL_MM: f32 = 0.01;
 /// Longest reach of one step of a clean-up, mm.
 pub const MAX_CLEAN_MM: f32 = 50.0;
 /// Widest smoothing of a clean-up, mm (standard deviation).

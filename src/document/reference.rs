@@ -111,6 +111,10 @@ fn values(kind: Kind) -> String {
                 range(-max, max)
             )
         }
+        Kind::Path { most, max } => format!(
+            "list of whole numbers, three for each of at most {most} points, which lie within {}",
+            range(-max, max)
+        ),
         Kind::Segments => "list of names or label numbers".to_owned(),
         Kind::Labels => "object: text by label number".to_owned(),
         Kind::Looks(_) => "object: by name of a segment a number, 0 … 1, or an object".to_owned(),

@@ -8,8 +8,9 @@
 //! To add a key: one line here, its field in `model`, and the line that reads it in `read`.
 
 use super::limits::{
-    MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CURVE, MAX_CUT, MAX_LABEL_FILES, MAX_LABELS, MAX_POINTS,
-    MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_TEMPLATES,
+    MAX_BALL_MM, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CURVE, MAX_CUT, MAX_LABEL_FILES, MAX_LABELS,
+    MAX_POINTS, MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES, MAX_STROKES,
+    MAX_TEMPLATES, MIN_BALL_MM,
 };
 use super::model::{
     Align, Camera, ConstrainBy, OpacityMode, ParamKind, RawVoxels, TemplateKind, TemplateMode,
@@ -123,6 +124,14 @@ pub(crate) enum Kind {
         /// The entries' name in a message.
         what: &'static str,
         /// Greatest absolute value of a number.
+        max: f64,
+    },
+    /// A list of whole numbers, three for each place: the first place, then each less the one before; more than `most`
+    /// places are refused.
+    Path {
+        /// Number of places at most.
+        most: usize,
+        /// Greatest absolute value of a coordinate of a place.
         max: f64,
     },
     /// A list of names or numbers of segments.
@@ -288,8 +297,17 @@ pub(crate) const SEGMENTATION: &[Key] = &[
 pub(crate) const RECIPE: &[Key] = &[
     key(250, "name", Kind::Text, "name of the segment; without it `feature 1` and so on"),
     key(520, "color", Kind::Color, "colour of the segment; without it one that the program picks").optional(),
-    key(530, "from", Kind::Object(FROM), "the first draft of the segment").stays().unmade(),
+    key(530, "from", Kind::Object(FROM), "the first draft of the segment; without it, where there is `paint`, nothing").stays().unmade(),
     key(570, "clean", Kind::List { of: CLEAN, most: MAX_CLEAN_STEPS, what: "steps of a clean-up" }, "steps of a clean-up, each an object of one key").unmade(),
+    key(575, "paint", Kind::List { of: PAINT, most: MAX_STROKES, what: "strokes" }, "strokes of a ball that adds or erases voxels after the clean-up, in this order").stays().unmade(),
+];
+
+/// Keys of a stroke in a recipe's `paint`.
+#[rustfmt::skip]
+pub(crate) const PAINT: &[Key] = &[
+    key(BY_NAME, "erase", Kind::Flag { default: false }, "true: what the ball touches is taken out of the segment, not added"),
+    key(BY_NAME, "radius", number(1.0, MIN_BALL_MM as f64, MAX_BALL_MM as f64), "radius of the ball, mm; a voxel is touched if its centre is"),
+    key(BY_NAME, "path", Kind::Path { most: MAX_STROKE_PLACES, max: FAR }, "the line that the ball's centre goes along, thousandths of a subject unit in the undeformed subject: x, y and z of its first point, then of each further one less the one before").stays().unmade(),
 ];
 
 /// Keys of a recipe's `from`.
@@ -477,6 +495,7 @@ impl Kind {
             | Self::FirstOf { .. }
             | Self::Pairs { .. }
             | Self::Vectors { .. }
+            | Self::Path { .. }
             | Self::Segments => json!([]),
             Self::Object(_)
             | Self::OneOrMore { .. }

@@ -253,6 +253,163 @@ fn what_lies_inside_is_kept_too() {
     assert_eq!(keeps(&window), ["bone"], "one step of undo");
 }
 
+/// Volume of the tissue that is open, cubic centimetres, as the panel tells it.
+fn told_volume(window: &Window) -> f32 {
+    let Some(node) = window.harness.query_by_label_contains("cm³") else {
+        window.harness.get_by_label("nothing found");
+        return 0.0;
+    };
+    let node = node.accesskit_node();
+    let text = node.value().or(node.label()).unwrap_or_default();
+    let number = text.split(' ').next().unwrap_or_default();
+    number.parse().expect("a volume")
+}
+
+fn slice_of(window: &Window, name: &str) -> egui::Rect {
+    let label = format!("{name} slice");
+    let node = window.harness.get_by_role_and_label(Role::Image, &label);
+    node.rect()
+}
+
+#[test]
+fn a_tissue_is_painted_in_the_picture_and_in_slices() {
+    let mut window = Window::open(DESK, CUBE);
+    window.click("Panel: Tissues");
+    window.click("Paint a tissue");
+    window.settle();
+    let made = window.document().to_json();
+    assert_eq!(window.recipes()[0].from, RecipeSource::Nothing);
+    assert_eq!(told_volume(&window), 0.0);
+    let strokes = |window: &Window| window.recipes()[0].paint.clone();
+    // In the picture, over its surface; the object does not turn meanwhile.
+    let camera = window.document().illustration().camera;
+    let center = window.picture_center();
+    window.drag(center - vec2(50.0, 0.0), vec2(100.0, 30.0));
+    window.look("paint_picture");
+    let [stroke] = &strokes(&window)[..] else {
+        panic!("one drag, one stroke: {:?}", strokes(&window));
+    };
+    assert!(!stroke.erases && stroke.places.len() >= 2, "{stroke:?}");
+    assert_eq!(window.document().illustration().camera, camera);
+    let in_picture = told_volume(&window);
+    assert!(in_picture > 0.0);
+    // In a slice, from the middle to the right.
+    window.press(Key::V);
+    window.settle();
+    let axial = slice_of(&window, "Axial");
+    window.drag(axial.center(), vec2(40.0, 10.0));
+    let painted = strokes(&window);
+    assert_eq!(painted.len(), 2);
+    assert_eq!(painted[1].places[0], glam::IVec3::ZERO, "the middle");
+    let in_slice = told_volume(&window);
+    assert!(in_slice > in_picture, "{in_slice}, not {in_picture}");
+    window.harness.hover_at(axial.center() - vec2(30.0, 20.0));
+    window.settle();
+    window.look("paint_slices");
+    // The ball and its keys; what the last drag has painted is taken away again.
+    window.press(Key::CloseBracket);
+    window.press(Key::CloseBracket);
+    window.click("Erase");
+    window.drag(axial.center(), vec2(40.0, 10.0));
+    let erased = strokes(&window);
+    assert!(erased.len() == 3 && erased[2].erases, "{erased:?}");
+    assert!(erased[2].radius_mm > erased[1].radius_mm, "{erased:?}");
+    let left = told_volume(&window);
+    assert!(left < in_slice, "{left}, not {in_slice}");
+    window.harness.hover_at(axial.center() - vec2(30.0, 20.0));
+    window.settle();
+    window.look("paint_erased");
+    window.harness.get_by_label("Strokes: 3");
+    // Each drag is one step of undo.
+    for volume in [in_slice, in_picture, 0.0] {
+        window.press_with(Modifiers::COMMAND, Key::Z);
+        window.settle();
+        assert_eq!(told_volume(&window), volume);
+    }
+    assert_eq!(window.document().to_json(), made);
+    window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    window.settle();
+    assert_eq!(told_volume(&window), in_picture);
+    // Without the ball a drag is what it was.
+    window.press(Key::Escape);
+    window.drag(axial.center(), vec2(20.0, 0.0));
+    assert_eq!(strokes(&window).len(), 1);
+}
+
+/// Where the object is opened, the ball paints the tissue that is seen under it, which lies elsewhere at rest.
+#[test]
+fn painting_in_an_opened_object_paints_its_tissue() {
+    let first_place = |templates: &str| {
+        let json = format!(
+            r#"{{ "fabrica": 1, "subject": {{ "builtin": "cube", "features": [ {{ "name": "mine", "paint": [] }} ] }}, "templates": [{templates}] }}"#
+        );
+        let mut window = Window::open(DESK, &json);
+        window.click("Panel: Tissues");
+        window.click("Edit mine");
+        window.click("Paint");
+        window.press(Key::V);
+        window.settle();
+        let axial = slice_of(&window, "Axial");
+        let by = 0.2 * axial.size().min_elem();
+        window.drag(axial.center() + vec2(by, 0.0), vec2(8.0, 0.0));
+        let recipes = window.recipes();
+        recipes[0].paint[0].places[0]
+    };
+    let [closed, open] =
+        ["", r#"{ "kind": "split", "params": { "amount": 0.2 } }"#].map(first_place);
+    let moved = (closed - open).as_vec3().length();
+    assert!(moved > 20.0, "{closed} at rest, {open} where it is opened");
+}
+
+/// The ball on the head, to be looked at: over the skin, and in slices while the hand is on its way.
+#[test]
+#[ignore = "only drawn to be looked at: cargo xtask look"]
+fn painting_on_the_head_to_look_at() {
+    let json = r#"{ "fabrica": 1, "subject": { "builtin": "head" } }"#;
+    let mut window = Window::open(DESK, json);
+    window.click("Panel: Tissues");
+    window.click("Paint a tissue");
+    window.settle();
+    let center = window.picture_center();
+    let drag = |window: &mut Window, from: egui::Pos2, by: Vec2, is_dropped: bool| {
+        window.harness.hover_at(from);
+        window.harness.step();
+        window.harness.drag_at(from);
+        window.harness.step();
+        for i in 1..=12 {
+            window.harness.hover_at(from + by * (i as f32 / 12.0));
+            window.harness.step();
+            window.harness.step();
+        }
+        if is_dropped {
+            window.harness.drop_at(from + by);
+        }
+    };
+    drag(
+        &mut window,
+        center - vec2(90.0, 60.0),
+        vec2(180.0, 40.0),
+        false,
+    );
+    window.look("paint_head_under_way");
+    window.harness.drop_at(center + vec2(90.0, -20.0));
+    window.settle();
+    window.look("paint_head");
+    window.press(Key::V);
+    window.settle();
+    let axial = slice_of(&window, "Axial");
+    drag(
+        &mut window,
+        axial.center() - vec2(60.0, 20.0),
+        vec2(120.0, 60.0),
+        false,
+    );
+    window.look("paint_head_slice_under_way");
+    window.harness.drop_at(axial.center() + vec2(60.0, 40.0));
+    window.settle();
+    window.look("paint_head_slices");
+}
+
 /// The author's path on real scans, to be looked at; the link and the same file give the same again.
 #[test]
 #[ignore = "only drawn to be looked at: cargo xtask look"]

@@ -146,6 +146,7 @@ fn constants_agree() {
         ("OPACITY_NONE", gpu_types::OPACITY_NONE),
         ("SLICE_GREY", gpu_types::SLICE_GREY),
         ("SLICE_COLORS", gpu_types::SLICE_COLORS),
+        ("SLICE_MARKED", gpu_types::SLICE_MARKED),
         ("KEEPS_DEEP", gpu_types::KEEPS_DEEP),
         ("MATERIAL_SHIFTED", gpu_types::MATERIAL_SHIFTED),
         ("MATERIAL_WITHIN", gpu_types::MATERIAL_WITHIN),

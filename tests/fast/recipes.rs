@@ -2,8 +2,8 @@
 //! joined.
 
 use fabrica::data::{
-    Grid, Mask, Resources, Segment, Segmentation, Segmented, TimeSlices, Volume, VolumeBuilder,
-    Voxels, segment,
+    Grid, KnownMasks, Mask, Resources, Segment, Segmentation, Segmented, TimeSlices, Volume,
+    VolumeBuilder, Voxels, segment, segment_with,
 };
 use fabrica::document::{Document, Recipe};
 use glam::{DAffine3, DMat3, DVec3, IVec3, UVec3, Vec3};
@@ -299,7 +299,7 @@ fn segmented(
 
 const RECIPES: &str = r#"[
     {"name":"bone","from":{"threshold":[90]},"clean":[{"close":2},{"largest":2},{"fill":true},{"smooth":1}]},
-    {"name":"soft","from":{"threshold":[20,120]},"clean":[{"grow":1.5},{"shrink":2}]},
+    {"name":"soft","from":{"threshold":[20,120]},"clean":[{"grow":1.5},{"shrink":2}],"paint":[{"path":[10,-20,30,5,0,-7],"radius":2.5},{"erase":true,"path":[0,0,0],"radius":1.5}]},
     {"name":"grown","from":{"grow":{"seeds":[[0,0,0],[0.1,0.1,0],[9,9,9]],"range":[-10,150]}}}]"#;
 
 #[test]
@@ -513,5 +513,138 @@ fn recipes_and_label_names_survive_the_link() {
     assert!(
         error.starts_with("/subject/segments: 9 label volumes"),
         "{error}"
+    );
+}
+
+/// Distance of a point from a line between two others, mm, found by narrowing down: the plain reading of what a stroke
+/// touches.
+fn distance_mm(pos: DVec3, [start, end]: [DVec3; 2]) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..200 {
+        let third = (high - low) / 3.0;
+        let off = |part: f64| (pos - start.lerp(end, part)).length();
+        if off(low + third) <= off(high - third) {
+            high -= third;
+        } else {
+            low += third;
+        }
+    }
+    (pos - start.lerp(end, low)).length()
+}
+
+#[test]
+fn strokes_touch_what_is_near_their_line_in_order() {
+    let mut random = Random(21);
+    let mut touched = 0;
+    for round in 0..60 {
+        let dims = UVec3::new(4, 3, 2) + random.dims();
+        // Turned, with voxels of 1 by 1.5 by 2 mm, the last axis backwards.
+        let volume = scan(&mut random, dims);
+        let grid = volume.grid;
+        let world = |place: [i32; 3]| {
+            let subject = DVec3::from(place.map(f64::from)) / 1000.0;
+            let voxel = grid
+                .subject_from_voxel()
+                .inverse()
+                .transform_point3(subject);
+            grid.world_from_voxel.transform_point3(voxel)
+        };
+        let mut expected = vec![false; volume.voxels.len()];
+        let mut strokes = Vec::new();
+        // How near to its border a ball comes to the middle of a voxel.
+        let mut nearest = f64::INFINITY;
+        for _ in 0..1 + random.below(4) {
+            let place = |random: &mut Random| -> [i32; 3] {
+                std::array::from_fn(|_| random.below(1400) as i32 - 700)
+            };
+            let places: Vec<[i32; 3]> = (0..1 + random.below(4))
+                .map(|_| place(&mut random))
+                .collect();
+            let radius = 0.3 + 4.0 * random.unit();
+            let erases = random.below(3) == 0;
+            for v in voxels(dims) {
+                let pos = grid.world_from_voxel.transform_point3(v.as_dvec3());
+                let ends = |i: usize| [world(places[i.saturating_sub(1)]), world(places[i])];
+                let off = (0..places.len()).map(|i| distance_mm(pos, ends(i)));
+                let off = off.fold(f64::INFINITY, f64::min);
+                nearest = nearest.min((off - f64::from(radius)).abs());
+                if off <= f64::from(radius) {
+                    expected[index(dims, v)] = !erases;
+                    touched += 1;
+                }
+            }
+            let mut before = [0; 3];
+            let mut path = Vec::new();
+            for place in places {
+                path.extend((0..3).map(|k| (place[k] - before[k]).to_string()));
+                before = place;
+            }
+            strokes.push(format!(
+                r#"{{"erase":{erases},"radius":{radius},"path":[{}]}}"#,
+                path.join(",")
+            ));
+        }
+        if nearest < 1e-6 {
+            continue;
+        }
+        let text = format!(r#"[{{"name":"x","paint":[{}]}}]"#, strokes.join(","));
+        let made = segmented(&volume, &[], &text, TimeSlices::unlimited());
+        let labels = made.segmentation.expect("labels");
+        let found: Vec<bool> = labels.labels.iter().map(|&label| label > 0).collect();
+        assert_eq!(found, expected, "round {round}: {text}");
+    }
+    assert!(touched > 2000, "only {touched} voxels were touched");
+}
+
+#[test]
+fn strokes_come_after_the_clean_up_and_far_ones_touch_nothing() {
+    let volume = scan(&mut Random(22), UVec3::new(9, 8, 7));
+    let all = r#"{"name":"x","from":{"threshold":[-9999]}"#;
+    let none =
+        r#"{"name":"y","from":{"threshold":[9998,9999]},"clean":[{"largest":1},{"shrink":50}]"#;
+    let far =
+        r#"{"path":[10000,10000,10000],"radius":1},{"path":[-10000,0,0,0,10000,0],"radius":1}"#;
+    let text = format!(
+        r#"[{all},"clean":[{{"fill":true}}],"paint":[{{"erase":true,"radius":50,"path":[0,0,0]}},{{"radius":2,"path":[0,0,0]}}]}},
+            {none},"paint":[{far}]}},{{"name":"z","paint":[]}}]"#
+    );
+    let made = segmented(&volume, &[], &text, TimeSlices::unlimited());
+    let ball = segmented(
+        &volume,
+        &[],
+        r#"[{"name":"x","paint":[{"radius":2,"path":[0,0,0]}]}]"#,
+        TimeSlices::unlimited(),
+    );
+    assert!(ball.counts[0] > 5, "{:?}", ball.counts);
+    assert_eq!(
+        made.counts,
+        [ball.counts[0], 0, 0],
+        "erased whole, then a ball"
+    );
+    assert_eq!(
+        made.notices,
+        ["/subject/features/1: no voxel of the scan is in “y”"],
+        "what is yet to be painted is not missed"
+    );
+    // The same with the clean-up at hand, time slice by time slice.
+    let known = KnownMasks::default();
+    for _ in 0..2 {
+        let resources = Resources {
+            subject: Some(volume.clone().into()),
+            ..Resources::default()
+        };
+        let again = done(segment_with(
+            resources,
+            recipes(&text),
+            Some(known.clone()),
+            TimeSlices::until(|| true),
+        ));
+        assert_eq!(again.segmentation, made.segmentation);
+        assert_eq!(again.counts, made.counts);
+    }
+    assert_eq!(
+        known.byte_count(),
+        2 * 8 * 504_usize.div_ceil(64),
+        "a bit per voxel"
     );
 }

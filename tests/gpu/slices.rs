@@ -250,7 +250,14 @@ fn a_slice_shows_what_it_reads() {
     let studio = studio_of(software(), &subject, true);
     let illustration = illustration(DEFORMED);
     let window = [-200.0, 300.0];
-    let view = axial(0.15, 160, SliceColors::Grey { window });
+    let view = axial(
+        0.15,
+        160,
+        SliceColors::Grey {
+            window,
+            marks_bodies: false,
+        },
+    );
     let image = pollster::block_on(studio.slice_image(&illustration, &view)).expect("drawn");
     println!("{}", save("slice_grey", &image).display());
     let colored = axial(0.15, 160, SliceColors::Look);

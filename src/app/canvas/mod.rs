@@ -1,6 +1,7 @@
 //! What lies on the picture and on the slices: handles, captions, measures, the bars over them.
 
 pub(crate) mod apart;
+pub(crate) mod ball;
 pub(crate) mod caption_layout;
 pub(crate) mod captions;
 pub(crate) mod curve;

@@ -10,6 +10,7 @@ use egui::{
 };
 use glam::Vec3;
 
+use super::ball::{self, SliceBall};
 use super::levelling;
 use super::measure::Distances;
 use crate::app::canvas::panes::{ONE_PANE, Places, pane_name};
@@ -78,6 +79,7 @@ pub(crate) struct Slices {
     /// A pane has the keyboard: page up and down are for it.
     pub(crate) has_keyboard: bool,
     has_failed: bool,
+    ball: SliceBall,
     /// Where the line about a point was painted last: the lower letter of that pane makes way.
     readout: Option<Rect>,
 }
@@ -142,7 +144,7 @@ impl Slices {
         session: &Session,
         cross: &mut Vec3,
         (facts, bounds): (&SubjectFacts, Aabb),
-        picture: Option<&mut Picture>,
+        mut picture: Option<&mut Picture>,
         commands: &mut Vec<Command>,
     ) -> Option<Vec3> {
         let name = pane_name(axes.pane);
@@ -160,7 +162,11 @@ impl Slices {
         if let (Some(by), Some((window, values))) = (by, shown) {
             commands.extend(levelling::command(by, window, values));
         }
-        let hand = (&response, by.is_some());
+        let at = (i, &response, &map);
+        let paints = self
+            .ball
+            .ui(ui, at, session, picture.as_deref_mut(), commands);
+        let hand = (&response, by.is_some() || paints);
         self.gestures(ui, i, hand, &map, (session, facts), cross, commands);
         self.keys(ui, &response, axes, cross, facts);
         let map = self.map(i, axes, rect, *cross, bounds);
@@ -189,6 +195,7 @@ impl Slices {
         edges(&painter, axes, rect, [Some(head), self.readout], letters);
         paint_crosshair(&painter, axes, &map, *cross);
         self.templates_ui(ui, &painter, i, &map, session);
+        ball::paint_in_slice(ui, &painter, &response, &map, session);
         // Lines in the slice are bright, lines a tenth of the object away are faint.
         let nearness = |pos: Vec3| (1.0 - 10.0 * map.height(pos).abs()).max(0.0);
         let seen = |pos: Vec3| Some(map.ui(pos));
@@ -245,7 +252,7 @@ impl Slices {
         &mut self,
         ui: &Ui,
         i: usize,
-        (response, is_levelling): (&Response, bool),
+        (response, is_taken): (&Response, bool),
         map: &Map<'_>,
         (session, facts): (&Session, &SubjectFacts),
         cross: &mut Vec3,
@@ -271,15 +278,15 @@ impl Slices {
                 *cross += by;
             }
         }
+        if is_taken {
+            pane.held = None;
+            return;
+        }
         let pointer = response.interact_pointer_pos();
         let is_pan = response.dragged_by(PointerButton::Middle)
             || (response.dragged() && ui.input(|i| i.modifiers.shift));
         if is_pan {
             pane.pan -= response.drag_delta() * map.units_per_point;
-            return;
-        }
-        if is_levelling {
-            pane.held = None;
             return;
         }
         if response.drag_started() && session.tool().placing().is_none() {
@@ -398,7 +405,10 @@ impl Slices {
             colors: if session.view.has_slice_colors {
                 SliceColors::Look
             } else {
-                SliceColors::Grey { window }
+                SliceColors::Grey {
+                    window,
+                    marks_bodies: session.tool().ball().is_some(),
+                }
             },
             background_srgb,
             samples: if is_moving { 1 } else { 2 },

@@ -12,7 +12,7 @@ use crate::app::words::picture::w;
 use crate::document::PlacedTemplate;
 
 /// The bar at the head of the picture, of a width where there is room for it.
-fn bar_rect(rect: Rect, width: f32) -> Rect {
+pub(super) fn bar_rect(rect: Rect, width: f32) -> Rect {
     let height = theme::control_height() + 12.0;
     let center = pos2(rect.center().x, rect.top() + 10.0 + 0.5 * height);
     Rect::from_center_size(center, vec2(width.min(rect.width() - 12.0), height))
@@ -20,7 +20,9 @@ fn bar_rect(rect: Rect, width: f32) -> Rect {
 
 /// Where the bar at the head of the picture ends, points from the top of the window; `None` while there is no bar.
 pub(crate) fn bar_bottom(rect: Rect, session: &Session) -> Option<f32> {
-    let has_bar = session.tool().wants_place() || session.selected_template().is_some();
+    let has_bar = session.tool().wants_place()
+        || session.tool().ball().is_some()
+        || session.selected_template().is_some();
     has_bar.then(|| bar_rect(rect, 0.0).bottom())
 }
 

@@ -7,6 +7,7 @@ use egui::{
 };
 use glam::Vec3;
 
+use super::ball::{self, PictureBall};
 use super::caption_layout::CaptionPlace;
 use super::captions::Followed;
 use super::gizmo::Gizmo;
@@ -68,6 +69,7 @@ pub(crate) struct Viewport {
     /// The picture could not be drawn; a message told so.
     has_failed: bool,
     captions: Followed,
+    ball: PictureBall,
     /// The picture still shows another object than the document's, and is drawn faintly.
     pub(crate) is_earlier: bool,
 }
@@ -91,7 +93,10 @@ impl Viewport {
 
     /// True while questions to the picture are open.
     pub(crate) fn is_waiting(&self) -> bool {
-        !self.questions.is_empty() || self.preview_pick.is_some() || self.captions.is_waiting()
+        !self.questions.is_empty()
+            || self.preview_pick.is_some()
+            || self.captions.is_waiting()
+            || self.ball.is_waiting()
     }
 
     /// Identity of the picture as a widget, once it has been shown.
@@ -176,6 +181,11 @@ impl Viewport {
                 let texts = [words.tap_where, words.click_where];
                 asking_ui(ui, bars, texts, words.cancel, commands);
             }
+            Tool::Paint { erases, .. } => {
+                self.gizmo.release();
+                self.ball.paint(ui, &response, &view, session);
+                ball::bar_ui(ui, bars, session, erases, commands);
+            }
             Tool::Look | Tool::Seed(_) | Tool::Measure(_) | Tool::Level => {
                 self.templates_ui(ui, (&response, bars), &view, session, commands);
             }
@@ -185,7 +195,7 @@ impl Viewport {
             commands.push(Command::Select(None));
         }
         self.seen_ui(ui, rect, &view, session, commands);
-        if session.tool().placing().is_none() {
+        if session.tool().placing().is_none() && session.tool().ball().is_none() {
             // The right button or a long press. A finger that opened the menu no longer drags a handle.
             let menu = response.context_menu(|ui| template_menu::ui(ui, session, commands));
             if menu.is_some() {
@@ -257,13 +267,18 @@ impl Viewport {
         session: &Session,
     ) -> Camera {
         let mut camera = session.camera;
+        let is_painting = session.tool().ball().is_some()
+            && ui.input(|i| !i.pointer.secondary_down() && !i.pointer.middle_down());
         let touch = ui
             .input(|i| i.multi_touch())
             .filter(|touch| view.rect.contains(touch.center_pos));
         if let Some(touch) = touch {
             camera::zoom(&mut camera, touch.zoom_delta);
             projection::pan(&mut camera, view, touch.translation_delta);
-        } else if response.dragged() && !self.gizmo.is_held() && response.drag_delta() != Vec2::ZERO
+        } else if response.dragged()
+            && !self.gizmo.is_held()
+            && !is_painting
+            && response.drag_delta() != Vec2::ZERO
         {
             let delta = response.drag_delta();
             let shift = ui.input(|i| i.modifiers.shift);
@@ -376,6 +391,10 @@ impl Viewport {
             paint_progress(ui, rect, picture.state.progress);
         }
         self.click(ui, response, session, picture, size, commands);
+        let hand = self
+            .ball
+            .ui(ui, response, session, (picture, size), commands);
+        self.questions.extend(hand);
         self.ask(session, camera, picture, size, commands);
         self.captions
             .update(ui.ctx(), session, camera, picture, view, size);
@@ -710,8 +729,7 @@ fn paint_preview(ui: &Ui, rect: Rect, view: &Projection, placement: &Placement) 
 
 /// Hands the illustration to the picture: as the document has it, or as the work on tissues wants it seen.
 fn set_seen(picture: &mut Picture, session: &Session, camera: &Camera) {
-    let facts = session.view.subject.as_ref();
-    match session.tissues.seen_in(session.shown(), facts) {
+    match session.seen() {
         Some(seen) => picture.set(&seen, camera),
         None => picture.set(session.shown(), camera),
     }

@@ -9,6 +9,7 @@ pub(crate) mod keys;
 pub(crate) mod library;
 pub(crate) mod look;
 pub(crate) mod notice;
+mod paint;
 pub(crate) mod points;
 pub(crate) mod raw;
 pub(crate) mod recipe;

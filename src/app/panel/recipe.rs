@@ -4,6 +4,7 @@
 use egui::{Label, Rect, RichText, Role, Sense, TextEdit, Ui, WidgetInfo, vec2};
 use glam::Vec3;
 
+use super::paint;
 use super::transfer_plot::{Axis, paint_histogram, paint_ticks};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::Palette;
@@ -45,40 +46,26 @@ pub(crate) fn ui(
     let info = scan.map(|(info, _)| info);
     let histogram = scan.and_then(|(_, histogram)| histogram);
     name_ui(ui, session, recipe, commands);
-    let is_grown = matches!(recipe.from, RecipeSource::Grow { .. });
-    let options = [(false, w().values), (true, w().points)];
-    if let Some(grows) = widget::segmented(ui, w().from, &options, is_grown) {
-        let range = recipe.from.range();
-        let seeds = Vec::new();
-        let from = match grows {
-            true => RecipeSource::Grow { seeds, range },
-            false => RecipeSource::Threshold { range },
-        };
-        let new = Recipe {
-            from,
-            ..recipe.clone()
-        };
-        set(recipe, Change::Set(new), commands);
-        commands.push(Command::Tissue(TissueCommand::Seed(grows)));
-    }
-    range_ui(ui, recipe, info, commands);
-    if let Some(histogram) = histogram {
-        histogram_ui(ui, recipe, histogram);
-    }
-    if info.is_some_and(|info| takes_vessels(recipe.from.range(), info)) {
-        let weak = Palette::get(ui).weak;
-        ui.add(Label::new(RichText::new(w().vessels).small().color(weak)).wrap());
+    from_ui(ui, recipe, info, commands);
+    if let Some(range) = recipe.from.range() {
+        range_ui(ui, recipe, range, info, commands);
+        if let Some(histogram) = histogram {
+            histogram_ui(ui, range, histogram);
+        }
+        if info.is_some_and(|info| takes_vessels(range, info)) {
+            let weak = Palette::get(ui).weak;
+            ui.add(Label::new(RichText::new(w().vessels).small().color(weak)).wrap());
+        }
     }
     if let RecipeSource::Grow { seeds, .. } = &recipe.from {
         seeds_ui(ui, session, recipe, seeds, commands);
     }
     let facts = session.view.subject.as_ref();
-    clean_ui(
-        ui,
-        recipe,
-        facts.and_then(|facts| facts.voxel_mm()),
-        commands,
-    );
+    let voxel_mm = facts.and_then(|facts| facts.voxel_mm());
+    if recipe.from != RecipeSource::Nothing {
+        clean_ui(ui, recipe, voxel_mm, commands);
+    }
+    paint::ui(ui, session, recipe, voxel_mm, commands);
     if let Some(text) = volume(session, recipe, histogram) {
         let weak = Palette::get(ui).weak;
         ui.label(RichText::new(text).small().color(weak));
@@ -86,6 +73,51 @@ pub(crate) fn ui(
     if session.tissues.making == Some(recipe.index) {
         making_ui(ui, recipe, commands);
     }
+}
+
+/// What makes the first draft of a tissue.
+#[derive(Clone, Copy, PartialEq)]
+enum Draft {
+    Values,
+    Points,
+    Hand,
+}
+
+fn from_ui(ui: &mut Ui, recipe: &Recipe, info: Option<&SubjectInfo>, commands: &mut Vec<Command>) {
+    let current = match recipe.from {
+        RecipeSource::Threshold { .. } => Draft::Values,
+        RecipeSource::Grow { .. } => Draft::Points,
+        RecipeSource::Nothing => Draft::Hand,
+    };
+    let options = [
+        (Draft::Values, w().values),
+        (Draft::Points, w().points),
+        (Draft::Hand, w().by_hand),
+    ];
+    let Some(from) = widget::segmented(ui, w().from, &options, current) else {
+        return;
+    };
+    // The brighter half of the usual window, where there was no range before.
+    let usual = || {
+        info.map_or(0.0, |info| {
+            0.5 * (info.window_auto[0] + info.window_auto[1])
+        })
+    };
+    let range = recipe.from.range().unwrap_or_else(|| [usual(), f32::MAX]);
+    let seeds = Vec::new();
+    let new = Recipe {
+        from: match from {
+            Draft::Values => RecipeSource::Threshold { range },
+            Draft::Points => RecipeSource::Grow { seeds, range },
+            Draft::Hand => RecipeSource::Nothing,
+        },
+        ..recipe.clone()
+    };
+    set(recipe, Change::Set(new), commands);
+    commands.push(Command::Tissue(match from {
+        Draft::Hand => TissueCommand::Ball(Some(false)),
+        _ => TissueCommand::Seed(from == Draft::Points),
+    }));
 }
 
 /// What ends the making of a tissue.
@@ -168,8 +200,13 @@ fn name_ui(ui: &mut Ui, session: &Session, recipe: &Recipe, commands: &mut Vec<C
     }
 }
 
-fn range_ui(ui: &mut Ui, recipe: &Recipe, info: Option<&SubjectInfo>, commands: &mut Vec<Command>) {
-    let [low, high] = recipe.from.range();
+fn range_ui(
+    ui: &mut Ui,
+    recipe: &Recipe,
+    [low, high]: [f32; 2],
+    info: Option<&SubjectInfo>,
+    commands: &mut Vec<Command>,
+) {
     let [min, max] = info.map_or([low, high], |info| info.value_range);
     let shown_high = high.min(max);
     let decimals = if max - min > 50.0 { 0 } else { 3 };
@@ -195,7 +232,7 @@ fn range_ui(ui: &mut Ui, recipe: &Recipe, info: Option<&SubjectInfo>, commands: 
 }
 
 /// How often which values occur, and which of them the tissue takes.
-fn histogram_ui(ui: &mut Ui, recipe: &Recipe, histogram: &Histogram) {
+fn histogram_ui(ui: &mut Ui, range: [f32; 2], histogram: &Histogram) {
     let palette = Palette::get(ui);
     let size = vec2(ui.available_width(), HISTOGRAM + TICKS);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -206,10 +243,7 @@ fn histogram_ui(ui: &mut Ui, recipe: &Recipe, histogram: &Histogram) {
         curve: curve.with_max_y(rect.bottom() - TICKS),
         range: [min, max.max(min + 1e-4)],
     };
-    let [left, right] = recipe
-        .from
-        .range()
-        .map(|value| axis.x(value.clamp(axis.range[0], axis.range[1])));
+    let [left, right] = range.map(|value| axis.x(value.clamp(axis.range[0], axis.range[1])));
     let taken = Rect::from_x_y_ranges(left..=right.max(left + 1.0), axis.curve.y_range());
     let painter = ui.painter_at(rect);
     painter.rect_filled(axis.curve, 3.0, palette.raised);

@@ -111,6 +111,12 @@ pub(crate) fn ui(
         {
             commands.push(make(session, info));
         }
+        let by_hand = widget::labelled_button(ui, Icon::Brush, w().add_by_hand, false, can_add);
+        if by_hand.on_hover_text(w().add_by_hand_hint).clicked() {
+            let number = recipes.len() + 1;
+            let name = fill(w().tissue_n, &[&number]);
+            commands.push(Command::Tissue(TissueCommand::MakeByHand(name)));
+        }
     }
     remember_height(ui, ui.cursor().top() - below);
 }

@@ -18,14 +18,22 @@ impl Session {
     pub(super) fn run_tissue(&mut self, command: TissueCommand) {
         self.revision += 1;
         let is_seeding = matches!(self.tool(), Tool::Seed(_));
+        let has_tool = self.tool().is_for_tissue();
         match command {
-            TissueCommand::Make(name, range) => self.make_tissue(&name, range),
+            TissueCommand::Make(name, range) => {
+                self.make_tissue(&name, RecipeSource::Threshold { range });
+            }
+            TissueCommand::MakeByHand(name) => {
+                if self.make_tissue(&name, RecipeSource::Nothing) {
+                    self.take_ball(Some(false));
+                }
+            }
             TissueCommand::Rename(index, name) => self.rename_tissue(index, &name),
             TissueCommand::Remove(index) => self.remove_tissue(index),
             TissueCommand::Open(index) => {
                 self.tissues.open = index;
                 self.tissues.making = None;
-                if is_seeding {
+                if has_tool {
                     self.take_tool(Tool::Look);
                 }
             }
@@ -43,6 +51,12 @@ impl Session {
             }
             TissueCommand::Seed(false) if is_seeding => self.take_tool(Tool::Look),
             TissueCommand::Seed(false) => {}
+            TissueCommand::Ball(erases) => self.take_ball(erases),
+            TissueCommand::BallRadius(mm) => self.set_ball(mm),
+            TissueCommand::PressBall => self.press_ball(),
+            TissueCommand::PaintOn(code, found) => self.paint_on(code, found),
+            TissueCommand::PaintAt(code, pos) => self.paint_at(code, pos),
+            TissueCommand::DropStrokes(all) => self.drop_strokes(all),
             TissueCommand::Stop => self.effect(Effect::StopTissues),
             TissueCommand::Find => self.effect(Effect::FindTissues),
         }
@@ -65,7 +79,8 @@ impl Session {
         })
     }
 
-    fn recipe(&self, index: usize) -> Option<Recipe> {
+    /// The recipe of this index in `subject.features`.
+    pub(super) fn recipe(&self, index: usize) -> Option<Recipe> {
         let mut recipes = self.illustration().recipes.iter();
         recipes.find(|recipe| recipe.index == index).cloned()
     }
@@ -76,7 +91,8 @@ impl Session {
         list.cloned().unwrap_or_default()
     }
 
-    fn make_tissue(&mut self, wanted: &str, range: [f32; 2]) {
+    /// False if the document does not take it.
+    fn make_tissue(&mut self, wanted: &str, from: RecipeSource) -> bool {
         let name = self.free_name(wanted, None);
         let facts = self.view.subject.as_ref();
         let voxel_mm = facts.and_then(|facts| facts.voxel_mm()).unwrap_or(1.0);
@@ -84,12 +100,17 @@ impl Session {
             && facts.is_none_or(|facts| facts.segments.is_empty());
         let mut list = self.recipe_values();
         let index = list.len();
+        let clean = match from {
+            RecipeSource::Nothing => Vec::new(),
+            _ => first_steps(voxel_mm),
+        };
         let recipe = Recipe {
             index,
             name: name.clone(),
             color_srgb: None,
-            from: RecipeSource::Threshold { range },
-            clean: first_steps(voxel_mm),
+            from,
+            clean,
+            paint: Vec::new(),
         };
         list.push(recipe.to_value());
         let mut edits = vec![Edit::Set {
@@ -108,11 +129,13 @@ impl Session {
             name: format!("Make {name}"),
             edits,
         };
-        if self.apply(&edit, false) {
+        let is_made = self.apply(&edit, false);
+        if is_made {
             self.tissues.open = Some(index);
             self.tissues.making = Some(index);
             self.tissues.show_alone(Some(name));
         }
+        is_made
     }
 
     fn rename_tissue(&mut self, index: usize, wanted: &str) {
@@ -191,7 +214,7 @@ impl Session {
         if !self.apply(&edit, false) {
             return;
         }
-        if matches!(self.tool(), Tool::Seed(_)) {
+        if self.tool().is_for_tissue() {
             self.take_tool(Tool::Look);
         }
         let tissues = &mut self.tissues;

@@ -9,11 +9,14 @@
 //! | `tool`, `mode`, `walk` | the active tool; author or lesson; the steps of a lesson |
 //! | `command`, `effect`, `question`, `found`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
+//! | `line`, `brush` | the way of a hand, and the ball that paints along it |
 //! | `notices`, `view`, `tissues`, `files`, `clipboard`, `library` | other parts of the state |
 //! | `session` | the state itself |
-//! | `run`, `using`, `surface`, `templates`, `making`, `opening`, `starting`, `raw` | what can be done with it |
+//! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw` | what can be done with it |
+//! | `making`, `painting` | what can be done with tissues |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
 
+pub mod brush;
 pub mod camera;
 mod clipboard;
 mod clock;
@@ -23,12 +26,14 @@ mod files;
 mod found;
 mod lending;
 mod library;
+mod line;
 mod link;
 mod making;
 mod measures;
 mod mode;
 mod notices;
 mod opening;
+mod painting;
 mod question;
 mod raw;
 mod run;

@@ -29,9 +29,11 @@ impl Session {
             Command::Undo => self.undo_or_redo(true),
             Command::Redo => self.undo_or_redo(false),
             Command::Apply(edit) => {
+                self.close_drags();
                 self.apply(&self.with_group(edit), false);
             }
             Command::Drag(edit) => {
+                self.close_drags();
                 self.apply(&self.with_group(edit), true);
             }
             Command::GoToStep(step) => self.go_to_step(step),
@@ -97,6 +99,8 @@ impl Session {
                 }
             }
             Command::ShiftSelected(by) => self.shift_selected(by),
+            // The keys are those of the ball while it is in hand.
+            Command::NudgeMain(by) if self.tool().ball().is_some() => self.resize_ball(by > 0.0),
             Command::NudgeMain(hundredths) => self.nudge_main(hundredths),
             Command::SetGizmo(mode) => self.gizmo = mode,
             Command::View(view) => self.glide_to(Camera {

@@ -364,6 +364,10 @@ impl Session {
 
     /// Takes a tool in hand, in place of the one before. A tool that changes the document ends the lesson.
     pub fn take_tool(&mut self, tool: Tool) {
+        if self.tool.ball().is_some() || tool.ball().is_some() {
+            // The tissue that is painted is marked.
+            self.revision += 1;
+        }
         self.tool = tool;
         if tool.is_for_authors() {
             self.leave_lesson();
@@ -372,8 +376,8 @@ impl Session {
 
     /// Other things are done than with tissues: everything is shown, and clicks add no more seeds.
     pub fn end_tissues(&mut self) {
-        if matches!(self.tool, Tool::Seed(_)) {
-            self.tool = Tool::Look;
+        if self.tool.is_for_tissue() {
+            self.take_tool(Tool::Look);
         }
         let tissues = &mut self.tissues;
         (tissues.making, tissues.selected) = (None, None);
@@ -392,7 +396,7 @@ impl Session {
         self.glide = None;
         self.selected = None;
         if self.tool.is_for_authors() {
-            self.tool = Tool::Look;
+            self.take_tool(Tool::Look);
         }
         let document = self.history.document();
         if let Some(camera) = self.mode.go(document, step, self.now, self.camera) {

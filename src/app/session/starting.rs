@@ -107,9 +107,13 @@ impl Session {
             self.put_down();
             self.take_outlook(outlook);
         }
+        self.close_drags();
         self.document_changed(LinkChange::Push);
         let recipes = &self.history.document().illustration().recipes;
         self.tissues.keep_to(recipes);
+        if self.tool().is_for_tissue() && self.tissues.open.is_none() {
+            self.take_tool(Tool::Look);
+        }
         self.load_subject();
     }
 

@@ -93,7 +93,7 @@ fn growing() -> Session {
 // ---------------------------------------------------------------------------------------- tools
 
 /// Every way to take a tool in hand, with the tool.
-fn ways() -> [(Command, Tool); 5] {
+fn ways() -> [(Command, Tool); 6] {
     [
         (
             Command::StartPlacing(TemplateKind::Peel),
@@ -101,6 +101,13 @@ fn ways() -> [(Command, Tool); 5] {
         ),
         (Command::ToggleCaptioning, Tool::Caption),
         (Command::Tissue(TissueCommand::Seed(true)), Tool::Seed(0)),
+        (
+            Command::Tissue(TissueCommand::Ball(Some(false))),
+            Tool::Paint {
+                recipe: 0,
+                erases: false,
+            },
+        ),
         (Command::See(See::ToggleMeasure), Tool::Measure(None)),
         (Command::See(See::ToggleLevel), Tool::Level),
     ]
@@ -141,7 +148,7 @@ fn a_caption_under_way_ends_when_a_template_is_placed() {
 #[test]
 fn the_same_command_again_puts_the_tool_away() {
     for (command, tool) in ways() {
-        if matches!(tool, Tool::Seed(_)) {
+        if tool.is_for_tissue() {
             continue;
         }
         let mut session = empty();
@@ -226,7 +233,7 @@ fn seeds_widen_the_range_of_their_recipe() {
     };
     answer(&mut session, &asked, Some(low));
     let from = &session.illustration().recipes[0].from;
-    assert_eq!(from.range(), [40.0, 200.0]);
+    assert_eq!(from.range(), Some([40.0, 200.0]));
     assert_eq!(session.tool(), Tool::Seed(0), "more may follow");
     run(&mut session, Command::Tissue(TissueCommand::Open(None)));
     assert_eq!(session.tool(), Tool::Look, "closed, it grows no more");
@@ -281,7 +288,7 @@ fn a_lesson_has_no_tools_of_authors() {
     for (command, tool) in ways() {
         let mut session = growing();
         session.open_document(Document::from_json(LESSON).expect("valid"), 0);
-        let is_there = !matches!(tool, Tool::Seed(_));
+        let is_there = !tool.is_for_tissue();
         run(&mut session, command.clone());
         assert_eq!(session.tool() == tool, is_there, "{tool:?}");
         run(&mut session, Command::GoToStep(2));

@@ -4,10 +4,12 @@
 use glam::{Quat, Vec3};
 use serde_json::Value;
 
+use super::brush::Brush;
+use super::found::Found;
 use super::view::SubjectFacts;
 use crate::document::{
     Align, CleanStep, Constrain, Edit, Illustration, PlacedTemplate, Recipe, RecipeSource,
-    TemplateKind, color_text, pointer,
+    SegmentLook, TemplateKind, color_text, pointer,
 };
 use crate::math::Placement;
 
@@ -45,6 +47,8 @@ pub struct Tissues {
     pub is_stopped: bool,
     /// The picture is complete.
     pub is_drawn: bool,
+    /// The ball that paints.
+    pub brush: Brush,
 }
 
 /// A segment that is shown alone for a moment.
@@ -75,6 +79,20 @@ pub enum TissueCommand {
     Look(Option<String>),
     /// Clicks add seeds to the recipe that is open, or not.
     Seed(bool),
+    /// Makes a tissue of this name, or of one like it that is free, that is only painted, and takes the ball in hand.
+    MakeByHand(String),
+    /// Takes the ball in hand that paints, or with `true` the one that erases, or puts it away.
+    Ball(Option<bool>),
+    /// Gives the ball this radius, mm.
+    BallRadius(f32),
+    /// A drag with the ball begins.
+    PressBall,
+    /// Goes on with a drag (its [`drag_code`](super::brush::drag_code)) to what the picture has under the hand.
+    PaintOn(usize, Option<Found>),
+    /// Goes on with a drag to a point of rest space.
+    PaintAt(usize, Vec3),
+    /// Takes the last stroke of the open recipe away, or with `true` all of them.
+    DropStrokes(bool),
     /// Stops finding tissues; those found before stay.
     Stop,
     /// Goes on after a stop.
@@ -141,6 +159,22 @@ fn alone_in(shown: &Illustration, name: &str) -> Illustration {
     let looks = &mut alone.look.segments;
     looks.retain(|look| look.name != name || !is_hidden(look.opacity));
     alone
+}
+
+/// A tissue is drawn as a body, so that it is seen where it is painted; others are drawn as the scan has them, or
+/// hidden.
+pub(super) fn marked_in(shown: &Illustration, name: &str) -> Illustration {
+    let mut marked = shown.clone();
+    let looks = &mut marked.look.segments;
+    let own = looks.iter().find(|look| look.name == name);
+    let color_srgb = own.and_then(|look| look.color_srgb);
+    looks.retain(|look| look.name != name && look.opacity <= 0.0);
+    looks.push(SegmentLook {
+        name: name.to_owned(),
+        opacity: 1.0,
+        color_srgb,
+    });
+    marked
 }
 
 /// A length, mm, for the recipe of a new tissue: two voxels, or one where two would be longer than [`CLOSE_MM`].
@@ -245,17 +279,18 @@ pub fn with_range(recipe: &Recipe, range: [f32; 2]) -> Recipe {
         RecipeSource::Threshold { range: old } | RecipeSource::Grow { range: old, .. } => {
             *old = range;
         }
+        RecipeSource::Nothing => {}
     }
     new
 }
 
 /// The recipe growing from other seeds, rest space.
 pub fn with_seeds(recipe: &Recipe, seeds: Vec<Vec3>) -> Recipe {
+    let Some(range) = recipe.from.range() else {
+        return recipe.clone();
+    };
     Recipe {
-        from: RecipeSource::Grow {
-            seeds,
-            range: recipe.from.range(),
-        },
+        from: RecipeSource::Grow { seeds, range },
         ..recipe.clone()
     }
 }

@@ -16,6 +16,13 @@ pub enum Tool {
     Caption,
     /// Clicks on the object add seeds to the recipe of this index in `subject.features`.
     Seed(usize),
+    /// Drags paint tissue with a ball.
+    Paint {
+        /// Index in `subject.features` of the recipe that is painted.
+        recipe: usize,
+        /// The ball takes away what it touches.
+        erases: bool,
+    },
     /// Clicks measure distances. Holds the first point of the distance under way, subject space.
     Measure(Option<Vec3>),
     /// Drags over slices widen and raise the window of values.
@@ -46,6 +53,19 @@ impl Tool {
         matches!(self, Self::Level)
     }
 
+    /// True if the tool works on a tissue.
+    pub fn is_for_tissue(self) -> bool {
+        matches!(self, Self::Seed(_) | Self::Paint { .. })
+    }
+
+    /// Whether the ball in hand erases; `None` while there is none in hand.
+    pub fn ball(self) -> Option<bool> {
+        match self {
+            Self::Paint { erases, .. } => Some(erases),
+            _ => None,
+        }
+    }
+
     /// True if every click counts, however quickly the clicks come: ends of distances, seeds.
     pub fn adds_up(self) -> bool {
         matches!(self, Self::Seed(_) | Self::Measure(_))
@@ -53,6 +73,6 @@ impl Tool {
 
     /// True if the tool changes the document, so that it cannot be used in a lesson.
     pub fn is_for_authors(self) -> bool {
-        matches!(self, Self::Place(_) | Self::Caption | Self::Seed(_))
+        self.is_for_tissue() || self.wants_place()
     }
 }

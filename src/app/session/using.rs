@@ -20,7 +20,7 @@ impl Session {
     /// Asks about a pixel of the picture for the active tool.
     pub(super) fn use_tool_at(&mut self, pixel: [f32; 2]) {
         let reply: fn(usize, Option<Found>) -> Command = match self.tool {
-            Tool::Look | Tool::Level => return,
+            Tool::Look | Tool::Level | Tool::Paint { .. } => return,
             Tool::Place(_) => |_, found| Command::PlaceOn(found),
             Tool::Caption => |_, found| Command::CaptionOn(found),
             Tool::Seed(_) => |_, found| Command::SeedOn(found),
@@ -37,7 +37,9 @@ impl Session {
         let reply: fn(usize, Option<Found>) -> Command = match self.tool {
             Tool::Place(_) => |_, found| Command::PlaceOnOrAtTarget(found),
             Tool::Caption => |_, found| Command::CaptionOn(found),
-            Tool::Look | Tool::Seed(_) | Tool::Measure(_) | Tool::Level => return,
+            Tool::Look | Tool::Seed(_) | Tool::Paint { .. } | Tool::Measure(_) | Tool::Level => {
+                return;
+            }
         };
         self.effect(Effect::Ask(Question::new(Place::Middle, reply)));
     }

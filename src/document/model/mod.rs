@@ -16,7 +16,7 @@ pub use curve::Curve;
 pub use illustration::{Camera, Caption, Illustration, Step};
 pub use look::{Background, Look, OpacityMode, SegmentLook, Transfer, TransferPoint, Window};
 pub use preset::{PRESETS, Preset, PresetSubject, preset, presets};
-pub use recipe::{CleanStep, Recipe, RecipeSource};
+pub use recipe::{CleanStep, Recipe, RecipeSource, Stroke};
 pub use subject::{RawVoxels, Reading, SegmentsRef, SubjectRef};
 pub use template::{
     Align, Constrain, ConstrainBy, FieldRef, PlacedTemplate, TemplateData, TemplateMode, keep_set,

@@ -4,14 +4,18 @@
 //! { "subject": { "sha256": "…", "features": [
 //!     { "name": "bone", "color": "#eadfc4", "from": { "threshold": [200, 3000] },
 //!       "clean": [ { "largest": 1 }, { "close": 2 }, { "fill": true }, { "smooth": 1 } ] },
-//!     { "name": "aorta", "from": { "grow": { "seeds": [[0.02, 0.05, 0.1]], "range": [150, 400] } } } ] } }
+//!     { "name": "aorta", "from": { "grow": { "seeds": [[0.02, 0.05, 0.1]], "range": [150, 400] } },
+//!       "paint": [ { "radius": 3, "path": [20, 50, 100, 12, 0, -4] },
+//!                  { "erase": true, "radius": 2, "path": [21, 52, 99] } ] } ] } }
 //! ```
 //!
 //! Values are the scan's own (Hounsfield units for a CT), seeds lie in the undeformed subject, lengths of the clean-up
-//! are millimetres. The steps of the clean-up run in the order in which they are listed. The result depends on the
-//! recipe and the voxels alone and is the same on every machine, bit for bit.
+//! are millimetres. The steps of the clean-up run in the order in which they are listed, then the strokes of a ball
+//! that paints or erases. A stroke's places are whole thousandths of a subject unit in the undeformed subject: the
+//! first, then each less the one before. A recipe that has `paint` needs no `from`: then all of the tissue is painted.
+//! The result depends on the recipe and the voxels alone and is the same on every machine, bit for bit.
 
-use glam::Vec3;
+use glam::{DVec3, IVec3, Vec3};
 
 /// How one segment is found in the voxels of a scan.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +30,29 @@ pub struct Recipe {
     pub from: RecipeSource,
     /// The clean-up of the draft, in this order.
     pub clean: Vec<CleanStep>,
+    /// What was painted and erased after that, in this order.
+    pub paint: Vec<Stroke>,
+}
+
+/// The way of a ball through the undeformed subject: all that it touches is added to a segment, or taken out of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    /// True: what the ball touches is taken out.
+    pub erases: bool,
+    /// Radius of the ball, mm.
+    pub radius_mm: f32,
+    /// Where the ball went, straight from each to the next, thousandths of a subject unit in rest space.
+    pub places: Vec<IVec3>,
+}
+
+impl Stroke {
+    /// Places in one subject unit.
+    pub const PER_UNIT: f64 = 1000.0;
+
+    /// A place in rest space, subject units.
+    pub fn in_rest(place: IVec3) -> DVec3 {
+        place.as_dvec3() / Self::PER_UNIT
+    }
 }
 
 /// The first draft of a segment.
@@ -43,13 +70,16 @@ pub enum RecipeSource {
         /// Lowest and highest value, ends included.
         range: [f32; 2],
     },
+    /// No voxel: all of the segment is painted.
+    Nothing,
 }
 
 impl RecipeSource {
-    /// Lowest and highest value, ends included.
-    pub fn range(&self) -> [f32; 2] {
+    /// Lowest and highest value, ends included; `None` where values do not count.
+    pub fn range(&self) -> Option<[f32; 2]> {
         match self {
-            Self::Threshold { range } | Self::Grow { range, .. } => *range,
+            Self::Threshold { range } | Self::Grow { range, .. } => Some(*range),
+            Self::Nothing => None,
         }
     }
 }

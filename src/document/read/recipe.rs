@@ -1,12 +1,12 @@
 //! Reads recipes: the entries of `subject.features`.
 
-use super::object::{Object, numbers, wrong};
+use super::object::{Object, number, numbers, wrong};
 use super::reader::Reader;
-use crate::document::model::{CleanStep, Recipe, RecipeSource};
+use crate::document::model::{CleanStep, Recipe, RecipeSource, Stroke};
 use crate::document::schema::{Kind, find};
 use crate::document::text::pointer::join;
 use crate::document::text::{DocumentError, NoticeKind, shortened};
-use glam::{DVec3, Vec3};
+use glam::{DVec3, IVec3, Vec3};
 use serde_json::Value;
 
 impl Reader {
@@ -42,6 +42,8 @@ impl Reader {
             Some(RecipeSource::Threshold {
                 range: self.value_range(&from, "threshold")?,
             })
+        } else if object.map.contains_key("paint") && !object.map.contains_key("from") {
+            Some(RecipeSource::Nothing)
         } else {
             self.note(
                 from.pointer.clone(),
@@ -55,13 +57,63 @@ impl Reader {
         for step in object.children("clean")? {
             clean.extend(self.clean_step(&step?)?);
         }
+        let mut paint = Vec::new();
+        for stroke in object.children("paint")? {
+            paint.push(self.stroke(&stroke?)?);
+        }
         Ok(from.map(|from| Recipe {
             index,
             name,
             color_srgb,
             from,
             clean,
+            paint,
         }))
+    }
+
+    fn stroke(&mut self, object: &Object<'_>) -> Result<Stroke, DocumentError> {
+        self.unknown_keys(object);
+        Ok(Stroke {
+            erases: object.flag("erase")?,
+            radius_mm: self.number(object, "radius")?,
+            places: self.places(object, "path")?,
+        })
+    }
+
+    /// The places of a path: the first, then each less the one before.
+    fn places(&mut self, object: &Object<'_>, key: &str) -> Result<Vec<IVec3>, DocumentError> {
+        let (most, max) = match object.kind(key) {
+            Kind::Path { most, max } => (most, max),
+            _ => (usize::MAX, f64::MAX),
+        };
+        let items = object.list(key)?;
+        if items.is_empty() || items.len() % 3 != 0 {
+            let found = object.map.get(key).unwrap_or(&Value::Null);
+            let expected = "a list of whole numbers, three for each place";
+            return Err(wrong(&object.at(key), expected, found));
+        }
+        if items.len() / 3 > most {
+            return Err(DocumentError::TooMany {
+                pointer: object.at(key),
+                what: "places",
+                found: items.len() / 3,
+                limit: most,
+            });
+        }
+        let mut places = Vec::with_capacity(items.len() / 3);
+        let mut place = DVec3::ZERO;
+        for (i, step) in items.chunks_exact(3).enumerate() {
+            let at = |k: usize| join(&object.at(key), &(3 * i + k).to_string());
+            for k in 0..3 {
+                let value = number(&at(k), &step[k])?;
+                let whole = (value + 0.5).floor();
+                let drawn = (place[k] + whole).clamp(-max, max) - place[k];
+                let [step] = self.clamped(|| at(k), [value], [drawn]);
+                place[k] += step;
+            }
+            places.push(place.as_ivec3());
+        }
+        Ok(places)
     }
 
     fn seeds(&mut self, object: &Object<'_>) -> Result<Vec<Vec3>, DocumentError> {

@@ -1,5 +1,6 @@
 use crate::document::{
-    CleanStep, Document, DocumentError, MAX_CLEAN_MM, MAX_RECIPES, MAX_SEEDS, Recipe,
+    CleanStep, Document, DocumentError, MAX_BALL_MM, MAX_CLEAN_MM, MAX_RECIPES, MAX_SEEDS,
+    MAX_STROKE_PLACES, MAX_STROKES, MIN_BALL_MM, Recipe, RecipeSource,
 };
 use serde_json::Value;
 
@@ -19,7 +20,7 @@ fn recipes_are_read_and_written_as_they_are() {
     assert_eq!(recipes[0].clean.len(), 6);
     assert_eq!(recipes[0].clean[3], CleanStep::Smooth(1.5));
     assert!(
-        recipes[0].from.range()[1] > 1e30,
+        recipes[0].from.range().is_some_and(|range| range[1] > 1e30),
         "one number has no upper end"
     );
     let written: Vec<Value> = recipes.iter().map(Recipe::to_value).collect();
@@ -103,7 +104,7 @@ fn hostile_recipes_are_refused_or_clamped_in_words() {
     let recipes = &odd.illustration().recipes;
     assert_eq!(recipes.len(), 1, "the one that is known");
     assert_eq!(recipes[0].name, "feature 1");
-    assert_eq!(recipes[0].from.range(), [3.0, 9.0]);
+    assert_eq!(recipes[0].from.range(), Some([3.0, 9.0]));
     assert_eq!(
         recipes[0].clean,
         [
@@ -112,4 +113,108 @@ fn hostile_recipes_are_refused_or_clamped_in_words() {
             CleanStep::Smooth(0.0)
         ]
     );
+}
+
+#[test]
+fn strokes_are_read_and_written_as_they_are() {
+    let text = r#"[{"name":"bone","from":{"threshold":[200]},"paint":[{"path":[20,50,-100,12,0,-4],"radius":3},{"erase":true,"path":[21,52,99],"radius":0.25}]},{"name":"by hand","paint":[]}]"#;
+    let document = read(text).expect("a document");
+    assert_eq!(document.notices(), &[], "nothing to say");
+    let recipes = &document.illustration().recipes;
+    let [painted, erased] = &recipes[0].paint[..] else {
+        panic!("{recipes:?}");
+    };
+    assert!(!painted.erases && erased.erases);
+    assert_eq!([painted.radius_mm, erased.radius_mm], [3.0, 0.25]);
+    let places: Vec<[i32; 3]> = painted.places.iter().map(|p| p.to_array()).collect();
+    assert_eq!(places, [[20, 50, -100], [32, 50, -104]]);
+    assert_eq!(recipes[1].from, RecipeSource::Nothing, "it is only painted");
+    let whole = document.to_json_compact();
+    assert!(
+        whole.contains(text),
+        "keys in their order, and `paint` where it is empty: {whole}"
+    );
+    let written: Vec<Value> = recipes.iter().map(Recipe::to_value).collect();
+    let again = read(&Value::from(written).to_string()).expect("as written");
+    assert_eq!(again.to_json_compact(), whole);
+}
+
+#[test]
+fn hostile_strokes_are_refused_or_clamped_in_words() {
+    let of =
+        |stroke: &str| format!(r#"[{{"name":"x","from":{{"threshold":[1]}},"paint":[{stroke}]}}]"#);
+    let at = "/subject/features/0/paint";
+    for (stroke, fault) in [
+        ("7".to_owned(), "/0: expected an object"),
+        ("{}".to_owned(), "/0/path: expected a list of whole numbers"),
+        (
+            r#"{"path":[]}"#.to_owned(),
+            "/0/path: expected a list of whole numbers",
+        ),
+        (
+            r#"{"path":[1,2,3,4]}"#.to_owned(),
+            "/0/path: expected a list of whole numbers",
+        ),
+        (
+            r#"{"path":[1,"a",3]}"#.to_owned(),
+            "/0/path/1: expected a number",
+        ),
+        (
+            r#"{"path":[1,2,3],"radius":"wide"}"#.to_owned(),
+            "/0/radius: expected a number",
+        ),
+        (
+            r#"{"path":[1,2,3],"erase":1}"#.to_owned(),
+            "/0/erase: expected true or false",
+        ),
+        (
+            format!(
+                r#"{{"path":[{}]}}"#,
+                vec!["1"; 3 * MAX_STROKE_PLACES + 3].join(",")
+            ),
+            "/0/path: 65 places, at most 64",
+        ),
+        (
+            vec![r#"{"path":[0,0,0]}"#; MAX_STROKES + 1].join(","),
+            ": 1001 strokes, at most 1000",
+        ),
+    ] {
+        let error = read(&of(&stroke)).expect_err(fault).to_string();
+        assert!(error.starts_with(&format!("{at}{fault}")), "{error}");
+    }
+    for text in ["NaN", "1e999", "-Infinity"] {
+        read(&of(&format!(r#"{{"path":[0,{text},0]}}"#))).expect_err(text);
+        read(&of(&format!(r#"{{"path":[0,0,0],"radius":{text}}}"#))).expect_err(text);
+    }
+    let odd = of(
+        r#"{"path":[1000000,0.4,-1e300, -30000,0,1e300],"radius":1e9},{"path":[0,0,0],"radius":-3,"soft":1}"#,
+    );
+    let odd = read(&odd).expect("clamped");
+    let lines: Vec<String> = odd.notices().iter().map(ToString::to_string).collect();
+    for part in [
+        "0/path/0: 1000000",
+        "0/path/1: 0.4",
+        "0/path/2: -",
+        "0/path/3: -30000",
+        "0/path/5: ",
+        "0/radius: 1000000000",
+        "1/radius: -3",
+        "1/soft: ",
+    ] {
+        let part = format!("{at}/{part}");
+        assert!(
+            lines.iter().any(|line| line.starts_with(&part)),
+            "{part}: {lines:#?}"
+        );
+    }
+    let paint = &odd.illustration().recipes[0].paint;
+    let places: Vec<[i32; 3]> = paint[0].places.iter().map(|p| p.to_array()).collect();
+    assert_eq!(places, [[10_000, 0, -10_000], [-10_000, 0, 10_000]]);
+    assert_eq!(
+        [paint[0].radius_mm, paint[1].radius_mm],
+        [MAX_BALL_MM, MIN_BALL_MM]
+    );
+    // Drafts of later versions stay unread, whatever is painted over them.
+    let later = read(r#"[{"name":"x","from":{"thicket":1},"paint":[]}]"#).expect("a document");
+    assert!(later.illustration().recipes.is_empty());
 }

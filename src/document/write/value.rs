@@ -2,10 +2,11 @@
 
 use super::number::{color_text, hundredths, rounded, rounded_value, vector};
 use crate::document::model::{
-    Caption, CleanStep, ControlPoints, Curve, RawVoxels, Recipe, RecipeSource, TransferPoint,
+    Caption, CleanStep, ControlPoints, Curve, RawVoxels, Recipe, RecipeSource, Stroke,
+    TransferPoint,
 };
 use crate::document::schema::MAX_VALUE;
-use glam::Vec3;
+use glam::{IVec3, Vec3};
 use serde_json::{Value, json};
 
 /// The points of a transfer function.
@@ -110,21 +111,45 @@ impl Recipe {
         if let Some(color_srgb) = self.color_srgb {
             set("color", json!(color_text(color_srgb)));
         }
-        set(
-            "from",
-            match &self.from {
-                RecipeSource::Threshold { range: ends } => json!({ "threshold": range(ends) }),
-                RecipeSource::Grow { seeds, range: ends } => {
-                    let seeds: Vec<Value> = seeds.iter().map(|seed| vector(*seed)).collect();
-                    json!({ "grow": { "seeds": seeds, "range": range(ends) } })
-                }
-            },
-        );
+        match &self.from {
+            RecipeSource::Threshold { range: ends } => {
+                set("from", json!({ "threshold": range(ends) }));
+            }
+            RecipeSource::Grow { seeds, range: ends } => {
+                let seeds: Vec<Value> = seeds.iter().map(|seed| vector(*seed)).collect();
+                set(
+                    "from",
+                    json!({ "grow": { "seeds": seeds, "range": range(ends) } }),
+                );
+            }
+            RecipeSource::Nothing => {}
+        }
         if !self.clean.is_empty() {
             set(
                 "clean",
                 self.clean.iter().copied().map(clean_step).collect(),
             );
+        }
+        // What is painted only, and nothing yet, is a recipe too.
+        if !self.paint.is_empty() || self.from == RecipeSource::Nothing {
+            set("paint", self.paint.iter().map(Stroke::to_value).collect());
+        }
+        value
+    }
+}
+
+impl Stroke {
+    /// The stroke as an entry of a recipe's `paint`.
+    pub fn to_value(&self) -> Value {
+        let mut before = IVec3::ZERO;
+        let mut path = Vec::with_capacity(3 * self.places.len());
+        for &place in &self.places {
+            path.extend((place - before).to_array());
+            before = place;
+        }
+        let mut value = json!({ "path": path, "radius": rounded(self.radius_mm) });
+        if self.erases {
+            value["erase"] = json!(true);
         }
         value
     }

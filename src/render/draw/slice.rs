@@ -12,7 +12,7 @@ use crate::render::device::readback::Readback;
 use crate::render::device::textures::{
     OUTPUT_FORMAT, PICK_FORMAT, Target, read_texture, row_pitch,
 };
-use crate::render::pack::gpu_types::{Affine, SLICE_COLORS, SLICE_GREY, Slice};
+use crate::render::pack::gpu_types::{Affine, SLICE_COLORS, SLICE_GREY, SLICE_MARKED, Slice};
 use crate::render::pack::look::linear_color;
 use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::scene::Scene;
@@ -44,6 +44,8 @@ pub enum SliceColors {
     Grey {
         /// Value of black and of white.
         window: [f32; 2],
+        /// Bodies lie over the grey in their colours.
+        marks_bodies: bool,
     },
     /// In the look's colours.
     Look,
@@ -337,9 +339,15 @@ impl SliceBoard {
         let (mode, [grey_scale, grey_offset]) = match view.colors {
             SliceColors::Grey {
                 window: [black, white],
+                marks_bodies,
             } => {
                 let width = (white - black).max(f32::MIN_POSITIVE);
-                (SLICE_GREY, [(high - low) / width, (low - black) / width])
+                let mode = if marks_bodies {
+                    SLICE_MARKED
+                } else {
+                    SLICE_GREY
+                };
+                (mode, [(high - low) / width, (low - black) / width])
             }
             SliceColors::Look => (SLICE_COLORS, [0.0; 2]),
         };

@@ -478,6 +478,8 @@ pub struct Slice {
 pub const SLICE_GREY: u32 = 0;
 /// [`Slice::mode`]: the look's colours.
 pub const SLICE_COLORS: u32 = 1;
+/// [`Slice::mode`]: as `SLICE_GREY`, with bodies over it in their colours.
+pub const SLICE_MARKED: u32 = 2;
 
 /// The lattice on which points of tissue are looked for in the deformed object.
 #[repr(C)]
