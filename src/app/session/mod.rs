@@ -9,7 +9,7 @@
 //! | `tool`, `mode`, `walk` | the active tool; author or lesson; the steps of a lesson |
 //! | `command`, `effect`, `question`, `found`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
-//! | `notices`, `view`, `tissues`, `files`, `clipboard`, `library` | other parts of the state |
+//! | `notices`, `view`, `tissues`, `taken`, `files`, `clipboard`, `library` | other parts of the state |
 //! | `session` | the state itself |
 //! | `run`, `using`, `surface`, `templates`, `making`, `opening`, `starting`, `raw` | what can be done with it |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
@@ -40,6 +40,7 @@ mod session;
 pub mod shape;
 mod starting;
 mod surface;
+mod taken;
 mod templates;
 mod ticket;
 pub mod tissues;
@@ -68,6 +69,7 @@ pub use self::notices::{Gravity, Notice, Notices, Offer};
 pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_TITLE};
 pub use self::session::{Load, LoadOf, STORED_DOCUMENT, Session, Tab};
+pub use self::taken::Taken;
 pub use self::ticket::Ticket;
 pub use self::tissues::{TissueCommand, Tissues};
 pub use self::tool::Tool;
