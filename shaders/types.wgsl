@@ -167,6 +167,11 @@ struct Slice {
     mode: u32,
     /// Samples per pixel along each side.
     samples: u32,
+    /// rgb: the colour of marked values, linear. w: its strength, 0 to 1; at 0 no values are marked.
+    marked: vec4f,
+    /// The lowest and the highest marked value, normalised.
+    marked_from: f32,
+    marked_to: f32,
 }
 
 /// How a slice is shown.

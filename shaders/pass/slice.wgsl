@@ -55,12 +55,21 @@ fn subject_from_pixel(pixel: vec2f) -> vec3f {
     return apply_affine(slice.subject_from_pixel, vec3f(pixel, 0.0));
 }
 
-/// Linear RGB of the object at a place, over the background.
+/// Linear RGB of the object at a place, over the background; marked values are tinted.
 fn color_at(pixel: vec2f) -> vec3f {
     let here = object_at(subject_from_pixel(pixel));
     if !here.is_there {
         return slice.background.rgb;
     }
+    let color = color_of(here);
+    if slice.marked.w > 0.0 && here.texel >= slice.marked_from && here.texel <= slice.marked_to {
+        return mix(color, slice.marked.rgb, slice.marked.w);
+    }
+    return color;
+}
+
+/// Linear RGB of the object where there is something, over the background.
+fn color_of(here: Here) -> vec3f {
     if slice.mode != SLICE_COLORS {
         let level = clamp(here.texel * slice.grey_scale + slice.grey_offset, 0.0, 1.0);
         // The window is linear in what a screen is sent, as on every radiologist's workstation.

@@ -2,7 +2,7 @@
 
 use crate::app::picture::host::Picture;
 use crate::app::services::{Message, SavedTo};
-use crate::app::session::{Gravity, Load, LoadOf, Shipped};
+use crate::app::session::{Gravity, Load, LoadOf, Shipped, Taken};
 use crate::app::window::App;
 use crate::app::words::{self, fill};
 use crate::assets::{Data, LoadEvent, Role, SegmentationsExpected, Want};
@@ -169,10 +169,14 @@ impl App {
         let shown = self.session.shown();
         let is_behind = self.tissue.is_behind(&self.assets, shown);
         let is_stopped = self.tissue.is_stopped(&self.assets, shown);
+        let taken = Taken::of(self.tissue.found(), &shown.recipes).filter(|_| is_behind);
         let is_done = |picture: &Picture| picture.state.is_done;
         let tissues = &mut self.session.tissues;
         tissues.progress = self.tissue.progress();
         (tissues.is_behind, tissues.is_stopped) = (is_behind, is_stopped);
+        if taken != std::mem::replace(&mut tissues.taken, taken) {
+            self.session.revision += 1;
+        }
         if is_behind {
             ui.ctx().request_repaint();
         }

@@ -108,6 +108,13 @@ impl TissueWork {
         self.stopped = None;
     }
 
+    /// The recipes whose tissues are shown.
+    pub(crate) fn found(&self) -> &[Recipe] {
+        self.made_of
+            .as_ref()
+            .map_or(&[], |made_of| &made_of.recipes)
+    }
+
     /// How far the work under way is, 0 to 1.
     pub(crate) fn progress(&self) -> Option<f32> {
         self.job.as_ref().map(|job| job.time_slices.progress())

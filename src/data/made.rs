@@ -123,8 +123,9 @@ async fn cleaned_mask(
             CleanStep::Largest(count) => mask.keep_largest(count as usize, time_slices).await,
             CleanStep::Fill => mask.fill(time_slices).await,
             CleanStep::Close(mm) => {
-                mask.spread(1, spacing, mm, time_slices).await;
-                mask.spread(0, spacing, mm, time_slices).await;
+                let [first, second] = [time_slices.part(0.0, 0.5), time_slices.part(0.5, 1.0)];
+                mask.spread(1, spacing, mm, &first).await;
+                mask.spread(0, spacing, mm, &second).await;
             }
             CleanStep::Smooth(mm) => mask.smooth(spacing, mm, time_slices).await,
             CleanStep::Grow(mm) => mask.spread(1, spacing, mm, time_slices).await,
@@ -149,8 +150,11 @@ async fn draft(
         return Mask { dims, bits };
     };
     let mut bits = Vec::with_capacity(volume.voxels.len());
+    let is_grown = matches!(recipe.from, RecipeSource::Grow { .. });
+    let reading = time_slices.part(0.0, if is_grown { 0.2 } else { 1.0 });
     while bits.len() < volume.voxels.len() {
         within(volume, range, bits.len()..bits.len() + slice, &mut bits);
+        reading.has_done(bits.len(), volume.voxels.len());
         time_slices.give_way().await;
     }
     let mut mask = Mask { dims, bits };
@@ -175,7 +179,8 @@ async fn draft(
                 _ => inside.push(voxel),
             }
         }
-        mask.keep_parts_at(&inside, time_slices).await;
+        let growing = time_slices.part(0.2, 1.0);
+        mask.keep_parts_at(&inside, &growing).await;
     }
     mask
 }

@@ -124,6 +124,7 @@ impl Mask {
                 parts.join_rows(row, row - height);
             }
             if row % height == 0 {
+                time_slices.has_done(row, height * self.slices());
                 time_slices.give_way().await;
             }
         }
@@ -153,6 +154,7 @@ impl Mask {
                 }
             }
             if row % height == 0 {
+                time_slices.has_done(row, height * self.slices());
                 time_slices.give_way().await;
             }
         }
@@ -160,7 +162,8 @@ impl Mask {
 
     /// Keeps the largest parts; of parts of one size the one that comes first.
     pub async fn keep_largest(&mut self, count: usize, time_slices: &TimeSlices) {
-        let parts = self.parts(1, time_slices).await;
+        let [finding, setting] = found_and_set(time_slices);
+        let parts = self.parts(1, &finding).await;
         let mut sizes = vec![0u64; parts.runs.len()];
         for (index, run) in parts.runs.iter().enumerate() {
             sizes[parts.root(index as u32) as usize] += u64::from(run.end - run.start);
@@ -173,12 +176,13 @@ impl Mask {
             sizes[root as usize] = 0;
         }
         let goes = |root: u32| sizes[root as usize] > 0;
-        self.set_parts(&parts, 0, goes, time_slices).await;
+        self.set_parts(&parts, 0, goes, &setting).await;
     }
 
     /// Keeps the parts that hold one of these voxels.
     pub async fn keep_parts_at(&mut self, seeds: &[UVec3], time_slices: &TimeSlices) {
-        let parts = self.parts(1, time_slices).await;
+        let [finding, setting] = found_and_set(time_slices);
+        let parts = self.parts(1, &finding).await;
         let mut kept = Vec::new();
         for seed in seeds.iter().filter(|seed| seed.cmplt(self.dims).all()) {
             let row = (seed.y + self.dims.y * seed.z) as usize;
@@ -188,13 +192,14 @@ impl Mask {
             };
             kept.extend(parts.row(row).find(holds).map(|run| parts.root(run)));
         }
-        self.set_parts(&parts, 0, |root| !kept.contains(&root), time_slices)
+        self.set_parts(&parts, 0, |root| !kept.contains(&root), &setting)
             .await;
     }
 
     /// Adds every enclosed hole: parts of the rest that touch no end of the grid.
     pub async fn fill(&mut self, time_slices: &TimeSlices) {
-        let parts = self.parts(0, time_slices).await;
+        let [finding, setting] = found_and_set(time_slices);
+        let parts = self.parts(0, &finding).await;
         let (height, rows) = (self.dims.y as usize, parts.rows.len() - 1);
         let mut is_open = vec![false; parts.runs.len()];
         for row in 0..rows {
@@ -207,7 +212,7 @@ impl Mask {
                 }
             }
         }
-        self.set_parts(&parts, 1, |root| !is_open[root as usize], time_slices)
+        self.set_parts(&parts, 1, |root| !is_open[root as usize], &setting)
             .await;
     }
 
@@ -276,6 +281,7 @@ impl Mask {
                 }
                 ring.push_back(flat);
                 next += 1;
+                time_slices.has_done(next + z, 2 * slices);
                 time_slices.give_way().await;
             }
             while first + rz < z {
@@ -296,6 +302,7 @@ impl Mask {
                     *bit = wanted;
                 }
             }
+            time_slices.has_done(next + z + 1, 2 * slices);
         }
     }
 
@@ -332,12 +339,14 @@ impl Mask {
                 }
                 ring.push_back(sums.iter().map(|&sum| (sum >> 16) as u16).collect());
                 next += 1;
+                time_slices.has_done(next + z, 2 * slices);
             }
             while first + rz < z {
                 ring.pop_front();
                 first += 1;
             }
             weigh(&mut sums, kz, z, slices, |z| &ring[z - first]);
+            time_slices.has_done(next + z + 1, 2 * slices);
             time_slices.give_way().await;
             let bits = &mut self.bits[z * length..(z + 1) * length];
             for (bit, &sum) in bits.iter_mut().zip(&sums) {
@@ -345,6 +354,11 @@ impl Mask {
             }
         }
     }
+}
+
+/// Finding the parts of a set, and changing some of them: most of the time goes into the first.
+fn found_and_set(time_slices: &TimeSlices) -> [TimeSlices; 2] {
+    [time_slices.part(0.0, 0.8), time_slices.part(0.8, 1.0)]
 }
 
 /// Squared distance along a row to the nearest of its voxels that are `wanted`, as far as `reach` voxels.

@@ -117,6 +117,7 @@ pub async fn segment_with(
     }
     let mut counts = Vec::with_capacity(recipes.len());
     let steps: usize = recipes.iter().map(|recipe| recipe.clean.len() + 3).sum();
+    time_slices.set_steps(steps);
     let mut done = 0;
     let mut has_done = |n: usize| {
         done += n;
@@ -364,6 +365,7 @@ impl Join {
                     out += 1;
                 }
             }
+            time_slices.has_done(z as usize + 1, dims.z as usize);
             time_slices.give_way().await;
         }
         self.report_lost(lost, at, notices);

@@ -35,7 +35,7 @@ pub use draw::image::{Image, decode_png, encode_png};
 pub use draw::pick::{PendingPick, Pick};
 pub use draw::probe::{Probe, Sample};
 pub use draw::renderer::{DrawState, Renderer};
-pub use draw::slice::{PendingSlice, SliceColors, SlicePlane, SliceTexel, SliceView};
+pub use draw::slice::{MarkedValues, PendingSlice, SliceColors, SlicePlane, SliceTexel, SliceView};
 pub use draw::studio::{Studio, render_image};
 pub use pack::gpu_types;
 pub use pack::kept::KeptTissue;

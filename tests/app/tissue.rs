@@ -10,13 +10,33 @@ impl Window {
         self.document().illustration().recipes.clone()
     }
 
-    /// Pixels of the picture in which something is seen.
-    fn drawn(&mut self) -> usize {
-        let rect = self.harness.get_by_role(Role::Image).rect();
+    /// The window as it is drawn, a part of it.
+    fn pixels(&mut self, rect: egui::Rect) -> image::RgbaImage {
         let image = self.harness.render().expect("the window can be drawn");
         let [x, y] = [rect.left() as u32, rect.top() as u32];
         let [w, h] = [rect.width() as u32, rect.height() as u32];
-        let picture = image::imageops::crop_imm(&image, x, y, w, h).to_image();
+        image::imageops::crop_imm(&image, x, y, w, h).to_image()
+    }
+
+    /// Shows a scan with enough voxels for many frames of work.
+    fn drop_large_cube(&mut self) {
+        {
+            let log = &mut *self.log.0.borrow_mut();
+            log.next_ticket += 1;
+            let ticket = Ticket(log.next_ticket);
+            log.file_starts(ticket);
+            fabrica::subjects::generate("cube", 160, &mut Queue(log, ticket)).expect("the cube");
+            let sha256 = Some("5c".repeat(32));
+            let event = LoadEvent::Done { sha256 };
+            log.queue.push(Message::Load { ticket, event });
+        }
+        self.settle();
+    }
+
+    /// Pixels of the picture in which something is seen.
+    fn drawn(&mut self) -> usize {
+        let rect = self.harness.get_by_role(Role::Image).rect();
+        let picture = self.pixels(rect);
         let is_white = |p: &image::Rgba<u8>| p.0.iter().all(|c| *c > 250);
         picture.pixels().filter(|p| !is_white(p)).count()
     }
@@ -188,18 +208,7 @@ fn the_list_uses_the_panel_and_names_can_be_clicked() {
 fn finding_a_tissue_can_be_stopped() {
     const SMALL: Vec2 = Vec2::new(780.0, 640.0);
     let mut window = Window::open(SMALL, CUBE);
-    {
-        // Enough voxels for many frames.
-        let log = &mut *window.log.0.borrow_mut();
-        log.next_ticket += 1;
-        let ticket = Ticket(log.next_ticket);
-        log.file_starts(ticket);
-        fabrica::subjects::generate("cube", 160, &mut Queue(log, ticket)).expect("the cube");
-        let sha256 = Some("5c".repeat(32));
-        let event = LoadEvent::Done { sha256 };
-        log.queue.push(Message::Load { ticket, event });
-    }
-    window.settle();
+    window.drop_large_cube();
     window.click("Panel: Tissues");
     window.settle();
     let before = window.drawn();
@@ -222,6 +231,95 @@ fn finding_a_tissue_can_be_stopped() {
             .is_none()
     );
     window.look("found");
+}
+
+/// While the lowest value is dragged, what the range takes is seen at once, in the slices and in the picture; the
+/// tissue follows.
+#[test]
+fn a_range_is_seen_while_it_is_dragged() {
+    const PANES: [&str; 2] = ["Axial slice", "Picture of "];
+    let mut window = Window::open(DESK, CUBE);
+    window.drop_large_cube();
+    window.press(Key::V);
+    window.click("Panel: Tissues");
+    window.click("Make a tissue");
+    window.settle();
+    let pane = |window: &mut Window, name: &str| {
+        let images = window.harness.get_all_by_role(Role::Image);
+        let named = |node: &egui_kittest::Node<'_>| {
+            let label = node.accesskit_node().label();
+            label.is_some_and(|label| label.starts_with(name))
+        };
+        let rect = images.into_iter().find(named).expect("a pane").rect();
+        window.pixels(rect)
+    };
+    let differ = |a: &image::RgbaImage, b: &image::RgbaImage| {
+        let pairs = a.pixels().zip(b.pixels());
+        let is_other = |(a, b): &(&image::Rgba<u8>, &image::Rgba<u8>)| {
+            a.0.iter().zip(&b.0).any(|(a, b)| a.abs_diff(*b) > 40)
+        };
+        pairs.filter(is_other).count()
+    };
+    let before = PANES.map(|name| pane(&mut window, name));
+    window.look("range_before");
+    let slider = window
+        .harness
+        .get_by_role_and_label(Role::Slider, "Lowest slider")
+        .rect();
+    let range = window.recipes()[0].from.range();
+    let at = |part: f32| pos2(slider.left() + part * slider.width(), slider.center().y);
+    window.harness.hover_at(at(0.5));
+    window.harness.step();
+    window.harness.drag_at(at(0.5));
+    window.harness.step();
+    window.harness.hover_at(at(0.45));
+    window.steps(3);
+    assert_ne!(window.recipes()[0].from.range(), range, "it is dragged");
+    window.harness.get_by_label_contains("provisional");
+    let during = PANES.map(|name| pane(&mut window, name));
+    window.look("range_dragged");
+    for ((name, before), during) in ["slice", "picture"].iter().zip(&before).zip(&during) {
+        let changed = differ(before, during);
+        assert!(
+            changed > 400,
+            "{changed} pixels of the {name} show the range"
+        );
+    }
+    window.harness.get_by_label_contains("provisional");
+    // Another value, other pixels, still before any tissue is found.
+    window.harness.hover_at(at(0.97));
+    window.steps(3);
+    window.harness.get_by_label_contains("provisional");
+    let later = PANES.map(|name| pane(&mut window, name));
+    window.look("range_dragged_on");
+    for ((name, during), later) in ["slice", "picture"].iter().zip(&during).zip(&later) {
+        let changed = differ(during, later);
+        assert!(
+            changed > 400,
+            "{changed} pixels of the {name} follow the hand"
+        );
+    }
+    window.harness.drop_at(at(0.97));
+    window.settle();
+    window.look("range_found");
+    let is_open = window.harness.query_by_label_contains("provisional");
+    assert!(is_open.is_none(), "the tissue is found");
+    let accent = |image: &image::RgbaImage| {
+        let is_tinted =
+            |p: &&image::Rgba<u8>| p[2] > p[0].saturating_add(30) && p[1].abs_diff(p[2]) < 25;
+        image.pixels().filter(is_tinted).count()
+    };
+    let after = pane(&mut window, "Axial slice");
+    assert!(
+        accent(&during[0]) > 400,
+        "the slice is tinted: {}",
+        accent(&during[0])
+    );
+    assert!(
+        accent(&after) < 100,
+        "and is not any more: {}",
+        accent(&after)
+    );
 }
 
 /// What lies inside of the skull is offered to whoever keeps the bone.

@@ -46,7 +46,9 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Grid { origin_min, cell_size, cells, is_used }
         Baked { origin_min, per_unit, texels, map_step, first_slab }
         Resolve { scale, end, background, is_straight }
-        Slice { subject_from_pixel, background, grey_scale, grey_offset, mode, samples }
+        Slice {
+            subject_from_pixel, background, grey_scale, grey_offset, mode, samples, marked, marked_from, marked_to,
+        }
         Lattice { corner, cells, side, count }
         KeptGroup { keeps, run, gives_way_to, constraint, depth, blend, longest, fade }
         Kept {

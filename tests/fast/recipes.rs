@@ -325,6 +325,44 @@ fn interruptions_change_nothing() {
     );
 }
 
+/// What is told of the work moves within each of its steps, and never back.
+#[test]
+fn progress_moves_within_each_step() {
+    let volume = scan(&mut Random(13), UVec3::new(40, 36, 48));
+    let text = r#"[ {"name":"bone","from":{"grow":{"seeds":[[0,0,0]],"range":[-10,150]}},"clean":
+        [{"close":2},{"largest":1},{"fill":true},{"smooth":1},{"grow":1.5},{"shrink":2}]} ]"#;
+    let resources = Resources {
+        subject: Some(volume.into()),
+        ..Resources::default()
+    };
+    let time_slices = TimeSlices::until(|| true);
+    let mut work = Box::pin(segment(resources, recipes(text), time_slices.clone()));
+    let mut context = std::task::Context::from_waker(std::task::Waker::noop());
+    let mut told = Vec::new();
+    while work.as_mut().poll(&mut context).is_pending() {
+        told.push(time_slices.progress());
+    }
+    assert!(told.is_sorted(), "never back: {told:?}");
+    assert_eq!(time_slices.progress(), 1.0);
+    // Finding the voxels, six steps of the clean-up, and joining.
+    for step in 0..8_u8 {
+        let within = f32::from(step) / 8.0..f32::from(step + 1) / 8.0;
+        let mut values: Vec<f32> = told
+            .iter()
+            .copied()
+            .filter(|at| within.contains(at))
+            .collect();
+        values.dedup();
+        assert!(values.len() > 20, "step {step}: {values:?}");
+        let jumps = values.windows(2).map(|pair| pair[1] - pair[0]);
+        let largest = jumps.fold(0.0, f32::max);
+        assert!(
+            largest < 0.25 / 8.0,
+            "step {step} leaps by {largest}: {values:?}"
+        );
+    }
+}
+
 /// Names at a voxel, whatever label stands for them.
 fn names_at(labels: &Segmentation, i: usize) -> Vec<String> {
     let label = u16::from(labels.labels[i]);

@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 use fabrica::data::Volume;
 use fabrica::document::{Document, Illustration};
-use fabrica::render::{Image, SliceColors, SlicePlane, SliceView, encode_png};
+use fabrica::render::{Image, MarkedValues, SliceColors, SlicePlane, SliceView, encode_png};
 use fabrica::subjects::FINE_RESOLUTION;
 use glam::{DVec3, Vec2, Vec3};
 
@@ -241,6 +241,61 @@ fn axial(z: f32, side: u32, colors: SliceColors) -> SliceView {
         colors,
         background_srgb: [26, 30, 34],
         samples: 1,
+        marked: None,
+    }
+}
+
+/// Exactly the values of a range are tinted; everything else is as without a mark, bit for bit.
+#[test]
+fn a_slice_marks_a_range_of_values() {
+    let subject = builtin("head", 96);
+    let studio = studio_of(software(), &subject, true);
+    let illustration = illustration(DEFORMED);
+    for colors in [
+        SliceColors::Look,
+        SliceColors::Grey {
+            window: [-200.0, 300.0],
+            marks_bodies: false,
+        },
+    ] {
+        let plain = axial(0.15, 160, colors);
+        let range = [200.0, 1000.0];
+        let marked = SliceView {
+            marked: Some(MarkedValues {
+                range,
+                color_srgb: [255, 0, 0],
+            }),
+            ..plain
+        };
+        let draw = |view: &SliceView| {
+            pollster::block_on(studio.slice_image(&illustration, view)).expect("drawn")
+        };
+        let (without, with) = (draw(&plain), draw(&marked));
+        save("slice_marked", &with);
+        let read = studio.read_slice(&illustration, &plain.plane, plain.size_px);
+        let texels = pollster::block_on(read.expect("asked")).expect("read");
+        let pixels = without.rgba.chunks_exact(4).zip(with.rgba.chunks_exact(4));
+        let (mut taken, mut left) = (0, 0);
+        for (texel, (without, with)) in texels.iter().zip(pixels) {
+            // On the brink two programs may round differently.
+            if range.iter().any(|end| (texel.value - end).abs() < 0.1) {
+                continue;
+            }
+            if texel.is_there && (range[0]..range[1]).contains(&texel.value) {
+                taken += 1;
+                assert!(
+                    with[0] > 190 && with[1] < without[1].max(1),
+                    "{texel:?}: {with:?}"
+                );
+            } else {
+                left += 1;
+                assert_eq!(with, without, "{texel:?}");
+            }
+        }
+        assert!(
+            taken > 500 && left > 5000,
+            "{taken} are marked, {left} are not"
+        );
     }
 }
 

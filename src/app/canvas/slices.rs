@@ -30,7 +30,7 @@ use crate::data::Resources;
 use crate::document::{Background, Edit, PlacedTemplate};
 use crate::math::{Aabb, Placement};
 use crate::placed::deformed_bounds;
-use crate::render::{PendingSlice, SliceColors, SlicePlane, SliceTexel, SliceView};
+use crate::render::{MarkedValues, PendingSlice, SliceColors, SlicePlane, SliceTexel, SliceView};
 
 /// Points of the wheel for one voxel.
 const WHEEL_PER_VOXEL: f32 = 16.0;
@@ -395,6 +395,12 @@ impl Slices {
             .map(|side| (side * ppp).round().clamp(1.0, 4096.0) as u32);
         let step = map.units_per_point / ppp;
         let is_moving = ui.input(|i| i.pointer.any_down());
+        // Over grey, so that what the range leaves out is seen beside what it takes.
+        let [r, g, b, _] = ink::TAKEN.to_array();
+        let marked = session.tissues.taken.map(|taken| MarkedValues {
+            range: taken.range,
+            color_srgb: [r, g, b],
+        });
         let view = SliceView {
             plane: SlicePlane {
                 corner: map.subject(map.rect.min),
@@ -402,7 +408,7 @@ impl Slices {
                 down: map.axes.down * step,
             },
             size_px,
-            colors: if session.view.has_slice_colors {
+            colors: if session.view.has_slice_colors && marked.is_none() {
                 SliceColors::Look
             } else {
                 SliceColors::Grey {
@@ -412,6 +418,7 @@ impl Slices {
             },
             background_srgb,
             samples: if is_moving { 1 } else { 2 },
+            marked,
         };
         match picture.slice(i, &view) {
             Ok(Some(texture)) => {

@@ -171,6 +171,8 @@ pub(crate) mod over_picture {
     pub(crate) const HANDLE: Color32 = rgb(0xf2a900);
     /// Under the pointer or held.
     pub(crate) const HOT: Color32 = rgb(0xffd34d);
+    /// Values that a range takes, over the grey of slices: the interface's own colour, light enough on black.
+    pub(crate) const TAKEN: Color32 = rgb(0x4fb9b0);
     /// Around lines and letters, so that they read on flesh, bone, white and black.
     pub(crate) const HALO_LIGHT: Color32 = Color32::from_rgba_premultiplied(215, 215, 215, 215);
     /// A dark halo, for the same purpose as `HALO_LIGHT`.

@@ -263,10 +263,11 @@ impl Session {
 mod tests {
     use glam::{DAffine3, DVec3, UVec3};
 
-    use super::super::{Command, Session};
+    use super::super::tissues::with_range;
+    use super::super::{Command, Session, Taken};
     use super::*;
     use crate::data::{Grid, Segment, Segmentation, Subject, Volume, Voxels};
-    use crate::document::{Align, CleanStep, Document};
+    use crate::document::{Align, CleanStep, Document, Transfer};
 
     /// A session with a scan of eight voxels of these sides, mm, and these segments, that shows the tissues.
     fn session_of(json: &str, voxel_mm: f64, segments: &[&str]) -> Session {
@@ -463,6 +464,65 @@ mod tests {
         assert_eq!(seen(&session).as_deref(), Some("bone"), "until it is drawn");
         session.advance(10.0);
         assert_eq!(seen(&session), None, "however long that takes");
+    }
+
+    /// While the tissue of a new range is looked for, its values are seen; a tissue that is new is waited for.
+    #[test]
+    fn what_a_range_takes_is_seen_until_its_tissue_is_found() {
+        let mut session = session_of(KEEPS_NONE, 1.0, &["skin"]);
+        make(&mut session, "bone");
+        let taken =
+            |session: &Session, found: &[Recipe]| Taken::of(found, &session.illustration().recipes);
+        assert_eq!(taken(&session, &[]), None, "a new one has nothing to show");
+        let found = session.illustration().recipes.clone();
+        assert_eq!(taken(&session, &found), None, "it is there");
+        let mut change = |edit: &dyn Fn(&mut Recipe)| {
+            let mut new = found[0].clone();
+            edit(&mut new);
+            let edit = Edit::Set {
+                pointer: format!("{RECIPES}/0"),
+                value: new.to_value(),
+                name: String::new(),
+            };
+            session.run(Command::Drag(edit), 0.0);
+            taken(&session, &found)
+        };
+        let cleaned = change(&|new| new.clean.clear());
+        assert_eq!(cleaned, None, "the same values, cleaned up otherwise");
+        let colored = change(&|new| {
+            *new = with_range(new, [300.0, f32::MAX]);
+            new.color_srgb = Some([1, 2, 3]);
+        });
+        let Some(Taken { range, color_srgb }) = colored else {
+            panic!("other values");
+        };
+        assert_eq!((range[0], color_srgb), (300.0, [1, 2, 3]));
+        assert!(range[1] > 1e30, "no end above");
+        // What is seen: the values from 300 on and nothing else, without the templates while the tissue is alone.
+        session.tissues.taken = colored;
+        let facts = session.view.subject.as_mut().expect("a subject");
+        facts.scan.as_mut().expect("values").value_range = [-1000.0, 2000.0];
+        for is_alone in [true, false] {
+            session
+                .tissues
+                .show_alone(is_alone.then(|| "bone".to_owned()));
+            let facts = session.view.subject.as_ref();
+            let seen = session.tissues.seen_in(session.shown(), facts);
+            let seen = seen.expect("the values in place of the document");
+            assert_eq!(seen.templates.is_empty(), is_alone);
+            let Transfer::Points(points) = &seen.look.transfer else {
+                panic!("{:?}", seen.look);
+            };
+            let opacity: Vec<f32> = points.iter().map(|point| point.opacity).collect();
+            assert_eq!(opacity, [0.0, 1.0, 1.0], "no end above: {points:?}");
+            assert!((points[0].value..=points[1].value).contains(&298.0));
+            assert_eq!(points[1].value, 300.0);
+            assert!(points.is_sorted_by(|a, b| a.value < b.value), "{points:?}");
+            assert!(points.iter().all(|p| p.value.abs() < 3000.0), "{points:?}");
+        }
+        session.tissues.taken = None;
+        let facts = session.view.subject.as_ref();
+        assert_eq!(session.tissues.seen_in(session.shown(), facts), None);
     }
 
     #[test]

@@ -10,7 +10,7 @@
 //! | `command`, `effect`, `question`, `found`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
 //! | `line`, `brush` | the way of a hand, and the ball that paints along it |
-//! | `notices`, `view`, `tissues`, `files`, `clipboard`, `library` | other parts of the state |
+//! | `notices`, `view`, `tissues`, `taken`, `files`, `clipboard`, `library` | other parts of the state |
 //! | `session` | the state itself |
 //! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw` | what can be done with it |
 //! | `making`, `painting` | what can be done with tissues |
@@ -45,6 +45,7 @@ mod session;
 pub mod shape;
 mod starting;
 mod surface;
+mod taken;
 mod templates;
 mod ticket;
 pub mod tissues;
@@ -73,6 +74,7 @@ pub use self::notices::{Gravity, Notice, Notices, Offer};
 pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_TITLE};
 pub use self::session::{Load, LoadOf, STORED_DOCUMENT, Session, Tab};
+pub use self::taken::Taken;
 pub use self::ticket::Ticket;
 pub use self::tissues::{TissueCommand, Tissues};
 pub use self::tool::Tool;

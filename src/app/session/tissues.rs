@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::brush::Brush;
 use super::found::Found;
+use super::taken::Taken;
 use super::view::SubjectFacts;
 use crate::document::{
     Align, CleanStep, Constrain, Edit, Illustration, PlacedTemplate, Recipe, RecipeSource,
@@ -45,6 +46,8 @@ pub struct Tissues {
     pub is_behind: bool,
     /// The work was stopped before they were.
     pub is_stopped: bool,
+    /// What the range of a recipe takes, until the tissue of it is found.
+    pub taken: Option<Taken>,
     /// The picture is complete.
     pub is_drawn: bool,
     /// The ball that paints.
@@ -100,8 +103,8 @@ pub enum TissueCommand {
 }
 
 impl Tissues {
-    /// The illustration in place of the shown one: a segment alone. `None` while everything is shown, also while the
-    /// segment is not found yet.
+    /// The illustration in place of the shown one: a segment alone, or what a range takes. `None` while everything is
+    /// shown, also while the segment is not found yet.
     pub fn seen_in(
         &self,
         shown: &Illustration,
@@ -111,6 +114,9 @@ impl Tissues {
         let glimpse = self.glimpse.as_ref().map(|glimpse| &glimpse.name);
         if let Some(name) = glimpse.filter(is_here) {
             return Some(alone_in(shown, name));
+        }
+        if let Some(taken) = &self.taken {
+            return Some(taken.seen_in(shown, self.alone.is_some(), facts));
         }
         let mut alone = [self.alone.as_ref()?].into_iter().chain(&self.alone_before);
         Some(alone_in(shown, alone.find(is_here)?))

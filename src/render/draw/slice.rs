@@ -51,6 +51,18 @@ pub enum SliceColors {
     Look,
 }
 
+/// Values that a slice shows in a colour, whatever else it shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MarkedValues {
+    /// The lowest and the highest of them, in the subject's own values.
+    pub range: [f32; 2],
+    /// Their colour, sRGB bytes. What lies below still shows through.
+    pub color_srgb: [u8; 3],
+}
+
+/// How much of their colour marked values take, 0 to 1: the tissue below stays readable.
+const MARK_STRENGTH: f32 = 0.75;
+
 /// A slice to be shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliceView {
@@ -64,6 +76,8 @@ pub struct SliceView {
     pub background_srgb: [u8; 3],
     /// Samples per pixel along each side, 1 to 4.
     pub samples: u32,
+    /// Values that are tinted; `None` for none.
+    pub marked: Option<MarkedValues>,
 }
 
 /// What the object has at one pixel of a slice.
@@ -351,12 +365,25 @@ impl SliceBoard {
             }
             SliceColors::Look => (SLICE_COLORS, [0.0; 2]),
         };
+        let (marked, [marked_from, marked_to]) = match view.marked {
+            Some(MarkedValues { range, color_srgb }) => {
+                let span = (high - low).max(f32::MIN_POSITIVE);
+                let color = linear_color(color_srgb).extend(MARK_STRENGTH).to_array();
+                // Beyond the subject's values nothing is told apart.
+                let texel = |value: f32| ((value - low) / span).clamp(-1.0, 2.0);
+                (color, range.map(texel))
+            }
+            None => ([0.0; 4], [0.0; 2]),
+        };
         let slice = Slice {
             background: linear_color(view.background_srgb).extend(1.0).to_array(),
             grey_scale,
             grey_offset,
             mode,
             samples: view.samples.clamp(1, 4),
+            marked,
+            marked_from,
+            marked_to,
             ..uniform_of(&view.plane)
         };
         let mut encoder = encoder(scene.gpu);

@@ -472,6 +472,14 @@ pub struct Slice {
     pub mode: u32,
     /// Samples per pixel along each side.
     pub samples: u32,
+    /// Linear RGB of marked values, and the strength of that colour, 0 to 1; at 0 no values are marked.
+    pub marked: [f32; 4],
+    /// The lowest marked value, normalised.
+    pub marked_from: f32,
+    /// The highest marked value, normalised.
+    pub marked_to: f32,
+    /// The end of the row.
+    pub padding: [u32; 2],
 }
 
 /// [`Slice::mode`]: values as grey, by the window.
