@@ -434,29 +434,41 @@ fn a_tissue_is_painted_in_the_picture_and_in_slices() {
     assert_eq!(strokes(&window).len(), 1);
 }
 
-/// Where the object is opened, the ball paints the tissue that is seen under it, which lies elsewhere at rest.
+/// Where the object is opened, the ball paints the tissue that is seen under it, which lies elsewhere at rest, and in
+/// the gap nothing.
 #[test]
 fn painting_in_an_opened_object_paints_its_tissue() {
-    let first_place = |templates: &str| {
-        let json = format!(
-            r#"{{ "fabrica": 1, "subject": {{ "builtin": "cube", "features": [ {{ "name": "mine", "paint": [] }} ] }}, "templates": [{templates}] }}"#
-        );
-        let mut window = Window::open(DESK, &json);
-        window.click("Panel: Tissues");
-        window.click("Edit mine");
-        window.click("Paint");
-        window.press(Key::V);
-        window.settle();
-        let axial = slice_of(&window, "Axial");
-        let by = 0.2 * axial.size().min_elem();
-        window.drag(axial.center() + vec2(by, 0.0), vec2(8.0, 0.0));
-        let recipes = window.recipes();
-        recipes[0].paint[0].places[0]
-    };
-    let [closed, open] =
-        ["", r#"{ "kind": "split", "params": { "amount": 0.2 } }"#].map(first_place);
-    let moved = (closed - open).as_vec3().length();
-    assert!(moved > 20.0, "{closed} at rest, {open} where it is opened");
+    let mut window = Window::open(
+        DESK,
+        r#"{ "fabrica": 1, "subject": { "builtin": "cube", "features": [ { "name": "mine", "paint": [] } ] },
+            "templates": [ { "kind": "split", "params": { "amount": 0.3 } } ] }"#,
+    );
+    window.click("Panel: Tissues");
+    window.click("Edit mine");
+    window.click("Paint");
+    window.press(Key::V);
+    window.settle();
+    let axial = slice_of(&window, "Axial");
+    window.drag(axial.center(), vec2(6.0, 0.0));
+    window.look("paint_gap");
+    assert!(window.recipes()[0].paint.is_empty(), "there is nothing");
+    let spot = axial.center() + vec2(0.25 * axial.size().min_elem(), 0.0);
+    window.harness.hover_at(spot);
+    window.settle();
+    // As the slice tells the place of what is seen, mm.
+    let node = window.harness.get_by_label_contains("mm · value");
+    let node = node.accesskit_node();
+    let text = node.value().or(node.label()).unwrap_or_default();
+    let x = text.split(',').next().unwrap_or_default();
+    let seen: f32 = x.replace('\u{2212}', "-").parse().expect("a number");
+    window.drag(spot, vec2(0.0, 6.0));
+    window.look("paint_open");
+    // The cube is 100 mm wide.
+    let at_rest = window.recipes()[0].paint[0].places[0].x as f32 / 10.0;
+    assert!(
+        seen.abs() - at_rest.abs() > 3.0,
+        "{at_rest} mm at rest, {seen} mm where it is seen"
+    );
 }
 
 /// The ball on the head, to be looked at: over the skin, and in slices while the hand is on its way.

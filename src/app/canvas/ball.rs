@@ -1,7 +1,7 @@
 //! The ball that paints tissue: drags over slices and picture, the ring under the pointer, what the drag under way has
 //! touched, and the bar that holds the ball.
 
-use egui::{Event, Painter, Pos2, Rect, Response, Stroke, Ui, UiBuilder, vec2};
+use egui::{CursorIcon, Event, Painter, Pos2, Rect, Response, Stroke, Ui, UiBuilder, vec2};
 use glam::Vec3;
 
 use super::projection::Projection;
@@ -294,6 +294,7 @@ fn is_erasing(ui: &Ui, session: &Session) -> bool {
 /// The outline of the ball: struck through where it erases.
 fn ring(painter: &Painter, at: Pos2, radius: f32, erases: bool) {
     let radius = radius.max(2.0);
+    painter.ctx().set_cursor_icon(CursorIcon::Crosshair);
     painter.circle_stroke(at, radius, Stroke::new(3.6, ink::HALO_DARK));
     let color = if erases { ink::X } else { ink::HOT };
     painter.circle_stroke(at, radius, Stroke::new(1.6, color));

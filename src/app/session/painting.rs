@@ -246,7 +246,7 @@ mod tests {
             let v = DVec3::new((i % n) as f64, (i / n % n) as f64, (i / n / n) as f64);
             let off = (v - half).length() / half;
             match off {
-                _ if i % 4099 == 0 => 300,
+                _ if i.is_multiple_of(4099) => 300,
                 o if o < 0.2 => 40,
                 o if o < 0.6 => 400,
                 _ => 0,

@@ -38,7 +38,7 @@ words! {
         erase_hint: "Drag over slices or picture: the ball takes away what it touches. With Shift or Alt it paints", "Über Schnitte oder Bild ziehen: Die Kugel nimmt weg, was sie berührt. Mit Umschalt oder Alt malt sie", "Arrastre sobre los cortes o la imagen: la bola quita lo que toca. Con Mayús o Alt pinta", "在切面或图像上拖动：球会移除所接触的部分。按住 Shift 或 Alt 则涂绘";
         ball: "Ball", "Kugel", "Bola", "球";
         ball_hint: "Radius of the ball in mm, in voxels beside it (keys [ and ])", "Radius der Kugel in mm, daneben in Voxeln (Tasten [ und ])", "Radio de la bola en mm, al lado en vóxeles (teclas [ y ])", "球的半径（毫米），旁边为体素数（按键 [ 和 ]）";
-        voxels: "{0} voxels", "{0} Voxel", "{0} vóxeles", "{0} 体素";
+        voxels: "{0} vox.", "{0} Vox.", "{0} vóx.", "{0} 体素";
         smaller: "Smaller ball ([)", "Kleinere Kugel ([)", "Bola menor ([)", "缩小球（[）";
         larger: "Larger ball (])", "Größere Kugel (])", "Bola mayor (])", "放大球（]）";
         put_away: "Put the ball away (Esc)", "Kugel weglegen (Esc)", "Dejar la bola (Esc)", "放下球（Esc）";
