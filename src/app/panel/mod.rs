@@ -12,6 +12,7 @@ pub(crate) mod notice;
 pub(crate) mod points;
 pub(crate) mod raw;
 pub(crate) mod recipe;
+mod seek;
 pub(crate) mod shortcuts;
 pub(crate) mod templates;
 pub(crate) mod text;

@@ -87,6 +87,10 @@ impl Session {
                 self.tab = Some(Tab::Add);
                 self.effect(Effect::Focus(Focus::Search));
             }
+            Command::StartSeeking => self.start_seeking(),
+            Command::Seek(sought) => self.seek(sought),
+            Command::SeekFirst => self.seek_first(),
+            Command::TurnTo(sought, site) => self.turn_to(&sought, site),
             Command::ToggleSelected => {
                 if let Some(template) = self.selected_template() {
                     let edit = Edit::SetEnabled {
@@ -226,6 +230,8 @@ impl Session {
             // All views are back.
         } else if !self.search.is_empty() {
             self.search.clear();
+        } else if !self.tissues.search.is_empty() {
+            self.tissues.search.clear();
         } else if self.tab.is_some() {
             self.tab = None;
         } else if self.are_panels_hidden {
