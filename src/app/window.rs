@@ -15,7 +15,7 @@ use crate::app::picture::host::Picture;
 use crate::app::services::{MissingDocument, Services};
 use crate::app::session::{
     Command, Effect, Focus, Gravity, Listing, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING,
-    STORED_RECENT, STORED_TITLE, Session, Sought, Ticket, changed_recent,
+    STORED_RECENT, STORED_SLOW, STORED_TITLE, Session, Sought, Ticket, changed_recent,
 };
 use crate::app::tissue_work;
 use crate::app::words::{self, Lang};
@@ -141,6 +141,7 @@ impl App {
             && start.document.is_none()
             && start.missing.is_none()
             && services.stored(STORED_DOCUMENT).is_none();
+        session.has_told_slow = services.stored(STORED_SLOW).is_some();
         session.has_hint = is_first && services.stored(STORED_HINT).is_none();
         let earlier = services.stored(STORED_DOCUMENT);
         match (start.text, start.document, start.missing) {
@@ -514,6 +515,8 @@ impl App {
             if picture.is_waiting() {
                 ctx.request_repaint();
             }
+            let whole_seconds = picture.state.whole_seconds;
+            self.session.take_pace(whole_seconds);
             self.look_after_device();
         }
         if let Some(seconds) = self.session.seconds_to_next_change() {

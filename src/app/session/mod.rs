@@ -69,7 +69,7 @@ pub use self::measures::Measures;
 pub use self::mode::Mode;
 pub use self::notices::{Gravity, Notice, Notices, Offer};
 pub use self::question::{Place, Question, Sight};
-pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_TITLE};
+pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
 pub use self::session::{Load, LoadOf, STORED_DOCUMENT, Session, Tab};
 pub use self::sought::Sought;
 pub use self::ticket::Ticket;
