@@ -190,7 +190,7 @@ impl App {
                 let segments = self.picture.as_ref().map_or(&[][..], Picture::segments);
                 let info = self.picture.as_ref().and_then(Picture::subject_info);
                 let scan = info.as_ref().map(|info| (info, self.transfer.histogram()));
-                tissue::ui(ui, &self.session, segments, scan, commands);
+                tissue::ui(ui, &self.session, segments, scan, self.focus, commands);
             }
             Tab::Look => {
                 let info = self.picture.as_ref().and_then(Picture::subject_info);

@@ -7,10 +7,11 @@
 
 use std::cell::Cell;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use crate::app::picture::pending::{Pending, poll_once};
 use crate::assets::Assets;
-use crate::data::{KnownMasks, Resources, Segmented, TimeSlices, segment_with};
+use crate::data::{KnownMasks, Resources, Segmentation, Segmented, TimeSlices, segment_with};
 use crate::document::{Illustration, Recipe, SegmentsRef};
 use crate::render::Clock;
 
@@ -29,6 +30,8 @@ pub(crate) struct TissueWork {
     known: Option<KnownMasks>,
     /// Voxels of each recipe, in order, as of the last result.
     pub(crate) counts: Vec<u64>,
+    /// The segments of the last result.
+    segmentation: Option<Arc<Segmentation>>,
 }
 
 /// Inputs of the segments: the label volumes of the document that have arrived, and the recipes.
@@ -68,7 +71,14 @@ impl TissueWork {
             stopped: None,
             known: None,
             counts: Vec::new(),
+            segmentation: None,
         }
+    }
+
+    /// The segments that are shown: those of the last result, else those that the subject came with.
+    pub(crate) fn segmentation<'a>(&'a self, assets: &'a Assets) -> Option<&'a Segmentation> {
+        let own = || assets.subject()?.values()?.segmentation.as_ref();
+        self.segmentation.as_deref().or_else(own)
     }
 
     /// Another subject is shown, with the segments that it came with.
@@ -77,6 +87,7 @@ impl TissueWork {
         self.known = None;
         self.made_of = Some(MadeOf::default());
         self.counts.clear();
+        self.segmentation = None;
     }
 
     /// True while the segments that are shown are not yet those that the document describes, but will be.
@@ -162,6 +173,7 @@ impl TissueWork {
         let job = self.job.take()?;
         self.made_of = Some(job.made_of);
         self.counts.clone_from(&made.counts);
+        self.segmentation.clone_from(&made.segmentation);
         Some(made)
     }
 

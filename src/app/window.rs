@@ -15,12 +15,12 @@ use crate::app::picture::host::Picture;
 use crate::app::services::{MissingDocument, Services};
 use crate::app::session::{
     Command, Effect, Focus, Gravity, Listing, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING,
-    STORED_RECENT, STORED_TITLE, Session, Ticket, changed_recent,
+    STORED_RECENT, STORED_SLOW, STORED_TITLE, Session, Sought, Ticket, changed_recent,
 };
 use crate::app::tissue_work;
 use crate::app::words::{self, Lang};
 use crate::assets::{Assets, SegmentationsExpected, Want};
-use crate::data::{Resources, SubjectBuilder};
+use crate::data::{Resources, Site, SubjectBuilder};
 use crate::document::{Document, SegmentsRef};
 use crate::load::LabelFile;
 use crate::render::{Clock, RenderNotice};
@@ -141,6 +141,7 @@ impl App {
             && start.document.is_none()
             && start.missing.is_none()
             && services.stored(STORED_DOCUMENT).is_none();
+        session.has_told_slow = services.stored(STORED_SLOW).is_some();
         session.has_hint = is_first && services.stored(STORED_HINT).is_none();
         let earlier = services.stored(STORED_DOCUMENT);
         match (start.text, start.document, start.missing) {
@@ -260,6 +261,7 @@ impl App {
     /// Does what goes to the surroundings at once; what needs the window waits for the end of the frame.
     fn perform(&mut self, effects: Vec<Effect>) {
         let services = self.services.as_mut();
+        let mut located = Vec::new();
         for effect in effects {
             match effect {
                 Effect::LoadSubject(subject) => {
@@ -294,12 +296,31 @@ impl App {
                     }
                 }
                 Effect::Ask(question) => self.viewport.take_question(question),
+                Effect::Locate(sought) => located.push(sought),
                 Effect::Focus(focus) => self.focus = Some(focus),
                 Effect::SavePicture
                 | Effect::StopSaving
                 | Effect::ToggleTheme
                 | Effect::ToggleContrast
                 | Effect::Scale(_) => self.pending.push(effect),
+            }
+        }
+        for sought in located {
+            let site = self.site_of(&sought);
+            self.run(Command::TurnTo(sought, site));
+        }
+    }
+
+    /// Where something lies: a caption where its tissue is now, a segment in the untouched subject, as it is shown alone
+    /// for a moment.
+    fn site_of(&self, sought: &Sought) -> Option<Site> {
+        match sought {
+            Sought::Tissue(name) => self.tissue.segmentation(&self.assets)?.site_of(name),
+            Sought::Caption(index) => {
+                let places = self.viewport.caption_places();
+                let seen = places.get(*index).copied().flatten();
+                let caption = self.session.shown().captions.get(*index)?;
+                Some(Site::point(seen.map_or(caption.at, |(place, _)| place)))
             }
         }
     }
@@ -389,7 +410,8 @@ impl App {
             self.session.end_drag();
         }
         // The field was there to take it in this frame.
-        self.focus.take_if(|focus| *focus == Focus::Search);
+        self.focus
+            .take_if(|focus| matches!(focus, Focus::Search | Focus::Tissues));
         let has_commands = !commands.is_empty();
         let before = self.session.tool();
         for command in commands {
@@ -420,7 +442,8 @@ impl App {
     }
 
     fn keys(&mut self, ui: &Ui, commands: &mut Vec<Command>) {
-        let mut is_typing = ui.ctx().text_edit_focused() || self.focus == Some(Focus::Search);
+        let mut is_typing = ui.ctx().text_edit_focused()
+            || matches!(self.focus, Some(Focus::Search | Focus::Tissues));
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
         let is_sheet_open = self.session.is_keys_sheet_open
             || self.session.is_messages_open
@@ -435,9 +458,9 @@ impl App {
                 }));
             });
             // A slow frame may hold the words too: the field is there to take them in this very frame.
-            if ui.input_mut(|i| take_slash(&mut i.events)) {
+            if let Some(search) = ui.input_mut(|i| take_search(&mut i.events)) {
                 is_typing = true;
-                self.run(Command::StartSearch);
+                self.run(search);
             }
         }
         for shortcut in shortcuts::shortcuts() {
@@ -492,6 +515,8 @@ impl App {
             if picture.is_waiting() {
                 ctx.request_repaint();
             }
+            let whole_seconds = picture.state.whole_seconds;
+            self.session.take_pace(whole_seconds);
             self.look_after_device();
         }
         if let Some(seconds) = self.session.seconds_to_next_change() {
@@ -542,23 +567,30 @@ impl eframe::App for App {
     }
 }
 
-/// Removes the key of the search and all events before that key from the events of a frame; text that was typed after
-/// the key stays. False if the key was not pressed.
-fn take_slash(events: &mut Vec<egui::Event>) -> bool {
-    let is_slash = |event: &egui::Event| match event {
+/// Removes the key that starts a search and all events before that key from the events of a frame; text that was typed
+/// after the key stays. Returns what the key does; nothing if no such key was pressed.
+fn take_search(events: &mut Vec<egui::Event>) -> Option<Command> {
+    let starts = |event: &egui::Event| match event {
         egui::Event::Key {
-            key: egui::Key::Slash,
-            pressed,
+            key,
+            pressed: true,
             modifiers,
             ..
-        } => *pressed && !(modifiers.command || modifiers.ctrl || modifiers.alt),
-        _ => false,
+        } if !(modifiers.ctrl || modifiers.alt || modifiers.command) => match key {
+            egui::Key::Slash => Some((Command::StartSearch, "/")),
+            egui::Key::F => Some((Command::StartSeeking, "f")),
+            _ => None,
+        },
+        _ => None,
     };
-    let Some(at) = events.iter().position(is_slash) else {
-        return false;
-    };
-    let is_its_text = |event: &egui::Event| matches!(event, egui::Event::Text(text) if text == "/");
-    let own = events[at..].iter().position(is_its_text);
-    events.drain(..=at + own.unwrap_or(0));
-    true
+    let found = events.iter().enumerate();
+    let (at, (command, letter)) = found
+        .filter_map(|(i, event)| Some((i, starts(event)?)))
+        .next()?;
+    let is_its_text = |i: usize| matches!(events.get(i), Some(egui::Event::Text(text)) if text.eq_ignore_ascii_case(letter));
+    // The letter that the key writes comes before the key or after it.
+    let is_before = at.checked_sub(1).is_some_and(is_its_text);
+    let end = at + usize::from(!is_before && is_its_text(at + 1));
+    events.drain(..=end);
+    Some(command)
 }

@@ -4,7 +4,7 @@
 //! [`VolumeSink`]: [`VolumeBuilder`] collects them into a [`Volume`]; a browser's worker posts them to the page as
 //! [`SubjectPart`]s, of which [`SubjectBuilder`] makes a [`Subject`]. [`Statistics`] counts as they pass; a [`Reducer`]
 //! in between makes what is too large coarser. [`segment`] finds the segments that the recipes of a document describe,
-//! and joins them with the segments of label volumes.
+//! and joins them with the segments of label volumes; a [`Site`] tells where a segment lies.
 
 mod ball;
 mod builder;
@@ -18,6 +18,7 @@ mod parts;
 mod reduce;
 mod resources;
 mod segmented;
+mod site;
 mod statistics;
 mod subject;
 mod time_slices;
@@ -34,6 +35,7 @@ pub use parts::{SubjectBuilder, SubjectPart};
 pub use reduce::{Reducer, Reduction, VolumeLimits, dims_that_fit, resized};
 pub use resources::{FieldKey, Resources};
 pub use segmented::{RECIPE_COLORS_SRGB, Segmented, segment, segment_with};
+pub use site::Site;
 pub use statistics::{Histogram, Statistics};
 pub use subject::{Space, Subject};
 pub use time_slices::TimeSlices;

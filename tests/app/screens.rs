@@ -207,6 +207,31 @@ fn every_control_has_a_name() {
     }
 }
 
+/// A device that is a hundred times slower than this one, and one that is a thousand times faster.
+#[test]
+fn slow_graphics_are_told_of_once() {
+    const TOLD: &str = "Slow graphics: pictures come in steps";
+    fn slow() -> f64 {
+        clock() * 100.0
+    }
+    fn fast() -> f64 {
+        clock() * 1e-3
+    }
+    let open = |clock: fn() -> f64, log: &Fake| {
+        log.0.borrow_mut().clock = Some(clock);
+        log.0.borrow_mut().said.clear();
+        let size = vec2(780.0, 420.0);
+        Window::open_with(size, egui::Theme::Light, log.clone(), Some(CUBE));
+        // The message itself may have gone by meanwhile.
+        let said = &log.0.borrow().said;
+        said.iter().any(|line| line == TOLD)
+    };
+    assert!(!open(fast, &Fake::default()), "there is nothing to tell");
+    let log = Fake::default();
+    assert!(open(slow, &log), "it is told");
+    assert!(!open(slow, &log), "once");
+}
+
 #[test]
 fn at_rest_nothing_repaints() {
     let mut window = Window::open(DESK, CUBE);

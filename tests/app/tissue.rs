@@ -203,6 +203,98 @@ fn the_list_uses_the_panel_and_names_can_be_clicked() {
     );
 }
 
+/// The head from behind, with a label at the back of it.
+const FROM_BEHIND: &str = r#"{ "fabrica": 1, "subject": { "builtin": "head" }, "camera": { "rotate": [0, 0, 1, 0] },
+    "labels": [ { "text": "Vía occipital", "at": [0.02, -0.38, 0.1] } ] }"#;
+
+/// Right, up and backward of the camera as it stands.
+fn backward(window: &Window) -> glam::Vec3 {
+    window.document().illustration().camera.rotate * glam::Vec3::Y
+}
+
+/// In one frame as in many, and whatever else the letters do as keys.
+#[test]
+fn a_structure_is_found_by_its_name_and_turned_to() {
+    let mut window = Window::open(DESK, FROM_BEHIND);
+    assert!(backward(&window).y < -0.99, "from behind");
+    let word = [(Key::F, "f"), (Key::E, "e"), (Key::Y, "y"), (Key::E, "e")];
+    for (key, letter) in word {
+        let event = egui::Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        let text = egui::Event::Text(letter.to_owned());
+        window.harness.input_mut().events.extend([event, text]);
+    }
+    window.steps(3);
+    let field = |window: &Window| {
+        let field = window
+            .harness
+            .get_by_role_and_label(Role::TextInput, "Search tissues and labels");
+        field.value()
+    };
+    assert_eq!(field(&window).as_deref(), Some("eye"));
+    assert!(window.harness.query_by_label("Bone").is_none(), "not found");
+    window.look("seek_eyes_typed");
+    window.press(Key::Enter);
+    window.steps(20);
+    window.look("seek_eyes_glimpse");
+    let eyes = window.harness.get_by_label("Eyes");
+    let is_chosen = eyes.accesskit_node().toggled();
+    assert_eq!(is_chosen, Some(egui::accesskit::Toggled::True));
+    window.settle();
+    window.settle();
+    let back = backward(&window);
+    assert!(back.y > 0.7, "from the front: {back}");
+    window.look("seek_eyes");
+
+    // A label, without its accent, and by a click.
+    window.click("Clear the search for tissues");
+    window.press_with(Modifiers::COMMAND, Key::F);
+    window
+        .harness
+        .event(egui::Event::Text("via occ".to_owned()));
+    window.steps(3);
+    window.look("seek_label_typed");
+    // The label's text stands in the picture too.
+    let rows = window
+        .harness
+        .get_all_by_role_and_label(Role::Button, "Vía occipital");
+    rows.last().expect("a row").click();
+    window.steps(30);
+    window.settle();
+    let back = backward(&window);
+    assert!(back.y < -0.9, "from behind: {back}");
+    window.look("seek_label");
+    window.press(Key::F);
+    window.harness.event(egui::Event::Text(" xyz".to_owned()));
+    window.steps(3);
+    window
+        .harness
+        .get_by_label("No tissue and no label is called that");
+}
+
+#[test]
+fn a_phone_has_the_search_for_structures() {
+    let mut window = Window::open(vec2(390.0, 844.0), FROM_BEHIND);
+    window.click("Tissues");
+    let field = window.harness.get_by_label("Search tissues and labels");
+    field.focus();
+    window.steps(2);
+    window.harness.event(egui::Event::Text("tongue".to_owned()));
+    window.steps(3);
+    window.click("Tongue");
+    window.steps(30);
+    window.look("seek_phone");
+    let back = backward(&window);
+    assert!(back.y > 0.5, "from the front: {back}");
+    window.click("Clear the search for tissues");
+    window.harness.get_by_label("Bone");
+}
+
 /// While a tissue is found the picture is what it was, and the search can be stopped and goes on when that is wanted.
 #[test]
 fn finding_a_tissue_can_be_stopped() {

@@ -13,6 +13,7 @@ use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget::{self, Named as _};
 use crate::app::session::{Command, Focus, Session, Tool};
 use crate::app::words::catalogue::{Catalogue, w};
+use crate::app::words::search::has_words;
 use crate::app::words::{authoring, fill, in_sentence, kinds};
 use crate::displace::Group;
 use crate::document::TemplateKind;
@@ -158,10 +159,8 @@ fn is_found(kind: TemplateKind, group: &str, wanted: &str) -> bool {
         kinds::title(kind),
         kinds::summary(kind),
         kind.spec().name
-    )
-    .to_lowercase();
-    let wanted = wanted.to_lowercase();
-    wanted.split_whitespace().all(|word| text.contains(word))
+    );
+    has_words(&text, wanted)
 }
 
 fn cell_ui(

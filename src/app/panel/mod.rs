@@ -13,6 +13,7 @@ mod paint;
 pub(crate) mod points;
 pub(crate) mod raw;
 pub(crate) mod recipe;
+mod seek;
 pub(crate) mod shortcuts;
 pub(crate) mod templates;
 pub(crate) mod text;

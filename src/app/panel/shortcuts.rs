@@ -100,6 +100,8 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
             crate::app::words::captions::w().add,
         ),
         entry(NONE, Key::Slash, Command::StartSearch, w.search),
+        entry(NONE, Key::F, Command::StartSeeking, w.seek),
+        entry(COMMAND, Key::F, Command::StartSeeking, ""),
         entry(NONE, Key::Delete, Command::DeleteSelected, w.delete),
         entry(NONE, Key::Backspace, Command::DeleteSelected, ""),
         entry(NONE, Key::PageUp, Command::ShiftSelected(-1), w.earlier),

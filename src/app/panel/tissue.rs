@@ -4,12 +4,12 @@
 
 use egui::{Color32, Label, RichText, Sense, Stroke, Ui, vec2};
 
-use super::recipe;
+use super::{recipe, seek};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{Palette, control_height};
 use crate::app::kit::widget::{self, NumberRow};
 use crate::app::session::tissues::set_look;
-use crate::app::session::{Command, LoadOf, Session, TissueCommand};
+use crate::app::session::{Command, Focus, LoadOf, Session, Sought, TissueCommand};
 use crate::app::words::kept::segment;
 use crate::app::words::tissue::w;
 use crate::app::words::{fill, in_sentence};
@@ -40,6 +40,7 @@ pub(crate) fn ui(
     session: &Session,
     segments: &[Segment],
     scan: Option<(&SubjectInfo, Option<&Histogram>)>,
+    focus: Option<Focus>,
     commands: &mut Vec<Command>,
 ) {
     let recipes = &session.illustration().recipes;
@@ -66,17 +67,30 @@ pub(crate) fn ui(
     if listed.is_empty() && recipes.is_empty() {
         ui.add(Label::new(RichText::new(w().none).color(weak)).wrap());
     }
+    if !(listed.is_empty() && recipes.is_empty() && session.shown().captions.is_empty()) {
+        seek::field_ui(ui, session, focus == Some(Focus::Tissues), commands);
+        ui.add_space(2.0);
+    }
+    let found = is_searching(session).then(|| session.found_by_name());
+    let is_found = |name: &str| {
+        let is_it = |sought: &Sought| matches!(sought, Sought::Tissue(other) if other == name);
+        found.as_ref().is_none_or(|found| found.iter().any(is_it))
+    };
     let rows = |ui: &mut Ui| {
         // A segment that a recipe is being run for has a row already.
-        for recipe in recipes {
+        for recipe in recipes.iter().filter(|recipe| is_found(&recipe.name)) {
             let color = RECIPE_COLORS_SRGB[recipe.index % RECIPE_COLORS_SRGB.len()];
             let color = recipe.color_srgb.unwrap_or(color);
             row_ui(ui, session, &recipe.name, color, Some(recipe), commands);
         }
         let is_recipe = |s: &&&Segment| recipes.iter().all(|recipe| recipe.name != s.name);
-        for entry in listed.iter().filter(is_recipe) {
+        let others = listed.iter().filter(is_recipe);
+        for entry in others.filter(|entry| is_found(&entry.name)) {
             let color = entry.color_srgb.unwrap_or([160; 3]);
             row_ui(ui, session, &entry.name, color, None, commands);
+        }
+        if let Some(found) = &found {
+            seek::captions_ui(ui, session, found, commands);
         }
     };
     let least = match session.tissues.open {
@@ -119,6 +133,11 @@ pub(crate) fn ui(
         }
     }
     remember_height(ui, ui.cursor().top() - below);
+}
+
+/// Tissues are searched for by their names.
+fn is_searching(session: &Session) -> bool {
+    !session.tissues.search.trim().is_empty()
 }
 
 /// Where the height of what stands below the list is kept from frame to frame.
@@ -242,7 +261,7 @@ fn row_ui(
     }
 }
 
-/// The name of a tissue: a click chooses it, and shows it for a moment.
+/// The name of a tissue: a click chooses it, and shows it for a moment. What was searched for is turned to.
 fn name_ui(ui: &mut Ui, session: &Session, name: &str, is_open: bool, commands: &mut Vec<Command>) {
     let palette = Palette::get(ui);
     let title = segment(name);
@@ -276,10 +295,17 @@ fn name_ui(ui: &mut Ui, session: &Session, name: &str, is_open: bool, commands: 
     let spot = widget::sided(rect, egui::Rect::from_min_size(at, galley.size()));
     ui.painter().galley(spot.min, galley, color);
     widget::focus_ring(ui, &response, rect);
-    let hint = fill(w().glimpse, &[&in_sentence(&title)]);
+    let hint = match is_searching(session) {
+        true => w().turn_to,
+        false => w().glimpse,
+    };
+    let hint = fill(hint, &[&in_sentence(&title)]);
     if response.on_hover_text(hint).clicked() {
-        let select = TissueCommand::Select(name.to_owned());
-        commands.push(Command::Tissue(select));
+        let name = name.to_owned();
+        commands.push(match is_searching(session) {
+            true => Command::Seek(Sought::Tissue(name)),
+            false => Command::Tissue(TissueCommand::Select(name)),
+        });
     }
 }
 

@@ -69,6 +69,7 @@ impl Picture {
                 progress: 0.0,
                 has_picture: false,
                 uploading: None,
+                whole_seconds: None,
             },
         }
     }

@@ -7,9 +7,11 @@ use super::files::RawCommand;
 use super::found::Found;
 use super::library::LibraryCommand;
 use super::notices::Gravity;
+use super::sought::Sought;
 use super::tissues::TissueCommand;
 use super::view::See;
 use crate::app::words::Lang;
+use crate::data::Site;
 use crate::document::{Camera, Edit, Plane, SubjectRef, TemplateKind};
 
 /// One thing to do.
@@ -91,6 +93,14 @@ pub enum Command {
     Search(String),
     /// Puts the keyboard into the search over the catalogue.
     StartSearch,
+    /// Puts the keyboard into the search over tissues and captions.
+    StartSeeking,
+    /// Turns the view to what is sought, and shows a tissue for a moment.
+    Seek(Sought),
+    /// Turns the view to the first that the search over tissues and captions finds.
+    SeekFirst,
+    /// Turns the view to where that lies; there is none of it where no place is known.
+    TurnTo(Sought, Option<Site>),
     /// Shows or hides the selected template.
     ToggleSelected,
     /// Makes the selected template act earlier (`-1`) or later (`1`).

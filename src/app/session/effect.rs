@@ -2,6 +2,7 @@
 
 use super::library::{RecentChange, Shipped};
 use super::question::Question;
+use super::sought::Sought;
 use super::ticket::Ticket;
 use crate::document::{RawVoxels, SubjectRef};
 
@@ -32,6 +33,8 @@ pub enum Focus {
     Panel,
     /// The search over the catalogue.
     Search,
+    /// The search over tissues and captions.
+    Tissues,
     /// The text field of the caption of this index.
     Caption(usize),
 }
@@ -75,6 +78,8 @@ pub enum Effect {
     Recent(RecentChange),
     /// Ask the picture a question; its answer is a command.
     Ask(Question),
+    /// Find out where that lies; the answer is `Command::TurnTo`.
+    Locate(Sought),
     /// Give a control the keyboard.
     Focus(Focus),
     /// Change between the light and the dark theme.

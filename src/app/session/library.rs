@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::app::words::search::has_words;
 use crate::app::words::{kinds, names};
 use crate::document::{Document, SubjectRef, TemplateKind};
 use crate::link;
@@ -104,9 +105,7 @@ impl Example {
             text.push(' ');
             text.push_str(&step.title);
         }
-        let text = text.to_lowercase();
-        let wanted = wanted.to_lowercase();
-        wanted.split_whitespace().all(|word| text.contains(word))
+        has_words(&text, wanted)
     }
 }
 

@@ -43,6 +43,7 @@ impl Session {
                 self.tissues.selected = Some(name.clone());
                 self.tissues.glimpse = Some(Glimpse { name, since });
             }
+            TissueCommand::Search(text) => self.tissues.search = text,
             TissueCommand::Look(name) => self.tissues.look = name,
             TissueCommand::Seed(true) => {
                 if let Some(open) = self.tissues.open {

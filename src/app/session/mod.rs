@@ -7,13 +7,14 @@
 //! | file | holds |
 //! |---|---|
 //! | `tool`, `mode`, `walk` | the active tool; author or lesson; the steps of a lesson |
-//! | `command`, `effect`, `question`, `found`, `ticket` | what goes in and out |
+//! | `command`, `effect`, `question`, `found`, `sought`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
 //! | `line`, `brush` | the way of a hand, and the ball that paints along it |
 //! | `notices`, `view`, `tissues`, `taken`, `files`, `clipboard`, `library` | other parts of the state |
 //! | `session` | the state itself |
 //! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw` | what can be done with it |
 //! | `making`, `painting` | what can be done with tissues |
+//! | `seeking` | the search for a structure by name |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
 
 pub mod brush;
@@ -37,12 +38,14 @@ mod painting;
 mod question;
 mod raw;
 mod run;
+mod seeking;
 #[expect(
     clippy::module_inception,
     reason = "the room is named for the type that this file holds"
 )]
 mod session;
 pub mod shape;
+mod sought;
 mod starting;
 mod surface;
 mod taken;
@@ -72,9 +75,10 @@ pub use self::measures::Measures;
 pub use self::mode::Mode;
 pub use self::notices::{Gravity, Notice, Notices, Offer};
 pub use self::question::{Place, Question, Sight};
-pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_TITLE};
+pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
 pub use self::session::{Load, LoadOf, STORED_DOCUMENT, Session, Tab};
 pub use self::taken::Taken;
+pub use self::sought::Sought;
 pub use self::ticket::Ticket;
 pub use self::tissues::{TissueCommand, Tissues};
 pub use self::tool::Tool;

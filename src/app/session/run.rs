@@ -5,19 +5,25 @@ use glam::{Vec2, Vec3};
 use super::camera;
 use super::command::Command;
 use super::effect::{Effect, Focus};
+use super::notices::Gravity;
 use super::question::{Place, Question};
 use super::session::{Session, Tab};
 use super::tool::Tool;
 use super::view::See;
-use crate::app::words;
+use crate::app::words::{self, fill};
 use crate::document::{Camera, Document, Edit, ParamKind, ParamValue, TemplateKind};
 
 /// The key under which it is kept that the first hint was seen.
 pub const STORED_HINT: &str = "hint";
+/// The key under which it is kept that the reader was told of slow graphics.
+pub const STORED_SLOW: &str = "slow";
 /// The key under which it is kept whether title and credit are written into saved pictures.
 pub const STORED_LETTERING: &str = "lettering";
 /// The key under which it is kept whether the title stands over the picture.
 pub const STORED_TITLE: &str = "title";
+
+/// Graphics are slow if a whole picture takes longer, seconds.
+const SLOW_SECONDS: f32 = 1.0;
 
 impl Session {
     /// Runs a command at the time `now`, seconds on the clock of the interface. Returns the effects for the app, in
@@ -89,6 +95,10 @@ impl Session {
                 self.tab = Some(Tab::Add);
                 self.effect(Effect::Focus(Focus::Search));
             }
+            Command::StartSeeking => self.start_seeking(),
+            Command::Seek(sought) => self.seek(sought),
+            Command::SeekFirst => self.seek_first(),
+            Command::TurnTo(sought, site) => self.turn_to(&sought, site),
             Command::ToggleSelected => {
                 if let Some(template) = self.selected_template() {
                     let edit = Edit::SetEnabled {
@@ -230,6 +240,8 @@ impl Session {
             // All views are back.
         } else if !self.search.is_empty() {
             self.search.clear();
+        } else if !self.tissues.search.is_empty() {
+            self.tissues.search.clear();
         } else if self.tab.is_some() {
             self.tab = None;
         } else if self.are_panels_hidden {
@@ -363,6 +375,20 @@ impl Session {
         self.side_tab = panels[next];
         self.tab = self.are_drawers.then_some(panels[next]);
         self.effect(Effect::Focus(Focus::Panel));
+    }
+
+    /// The device takes so many seconds for a whole picture, as far as was measured. Where that is long the reader is
+    /// told, once for all: the picture comes in steps, and that is no fault.
+    pub fn take_pace(&mut self, whole_seconds: Option<f32>) {
+        let slow = whole_seconds.filter(|seconds| *seconds > SLOW_SECONDS);
+        let Some(seconds) = slow.filter(|_| !self.has_told_slow && !self.are_panels_hidden) else {
+            return;
+        };
+        self.has_told_slow = true;
+        self.store(STORED_SLOW, "told");
+        let w = words::messages::w();
+        let seconds = words::localized(format!("{seconds:.1}"));
+        self.notify(Gravity::Info, w.slow, fill(w.slow_details, &[&seconds]));
     }
 
     /// The first hint was read or followed to its end: it does not come again.

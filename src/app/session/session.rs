@@ -175,6 +175,8 @@ pub struct Session {
     pub copied_at: Option<f64>,
     /// The first hint is shown.
     pub has_hint: bool,
+    /// The reader has been told that the graphics are slow.
+    pub has_told_slow: bool,
     /// Title and credit are written into saved pictures.
     pub is_lettering: bool,
     /// The title stands over the picture.
@@ -239,6 +241,7 @@ impl Session {
             link_change: LinkChange::Replace,
             copied_at: None,
             has_hint: false,
+            has_told_slow: false,
             is_lettering: false,
             has_title: false,
             is_snapping: false,

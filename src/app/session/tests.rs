@@ -581,6 +581,31 @@ fn what_only_a_window_can_do_is_an_effect() {
 }
 
 #[test]
+fn slow_graphics_are_told_of_once_for_all() {
+    let mut session = empty();
+    let tell = |session: &mut Session, seconds: Option<f32>| {
+        session.take_pace(seconds);
+        let effects = session.take_effects();
+        let is_kept = matches!(effects[..], [Effect::Store("slow", _)]);
+        assert!(is_kept || effects.is_empty(), "{effects:?}");
+        is_kept
+    };
+    assert!(!tell(&mut session, None), "not measured");
+    assert!(!tell(&mut session, Some(0.9)), "fast enough");
+    session.are_panels_hidden = true;
+    assert!(!tell(&mut session, Some(3.0)), "a picture in a lecture");
+    session.are_panels_hidden = false;
+    assert!(tell(&mut session, Some(3.0)));
+    let all = session.notices.all();
+    assert!(
+        all.len() == 1 && all[0].details.contains("3.0 s"),
+        "{all:?}"
+    );
+    assert!(!tell(&mut session, Some(9.0)), "once");
+    assert_eq!(session.notices.all().len(), 1);
+}
+
+#[test]
 fn panels_are_turned_through_with_the_keyboard() {
     let mut session = empty();
     let mut tabs = Vec::new();

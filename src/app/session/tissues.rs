@@ -36,6 +36,8 @@ pub struct Tissues {
     pub selected: Option<String>,
     /// The segment that is shown alone for a moment.
     pub glimpse: Option<Glimpse>,
+    /// The text that tissues and captions are searched for.
+    pub search: String,
     /// Name of the segment whose look is edited.
     pub look: Option<String>,
     /// Voxels of each recipe's segment, as last counted.
@@ -78,6 +80,8 @@ pub enum TissueCommand {
     Alone(Option<String>),
     /// Chooses the segment of this name, and shows it for a moment.
     Select(String),
+    /// Searches tissues and captions for a text.
+    Search(String),
     /// Opens the look of the segment of this name for editing, or closes it.
     Look(Option<String>),
     /// Clicks add seeds to the recipe that is open, or not.

@@ -77,6 +77,8 @@ pub struct SubjectFacts {
     pub scan: Option<ScanFacts>,
     /// Names of its segments by label.
     pub segments: BTreeMap<u16, String>,
+    /// Names of its segments, each once, in the order of its file; labels that stand for an overlap are left out.
+    pub tissues: Vec<String>,
 }
 
 impl SubjectFacts {
@@ -93,6 +95,7 @@ impl SubjectFacts {
                 value_range: volume.value_range,
             }),
             segments: names_of(subject.segments()),
+            tissues: each_once(subject.segments()),
         }
     }
 
@@ -133,6 +136,13 @@ fn names_of(segments: &[Segment]) -> BTreeMap<u16, String> {
         name.push_str(&segment.name);
     }
     names
+}
+
+/// Names of the segments that have a label of their own.
+fn each_once(segments: &[Segment]) -> Vec<String> {
+    let is_single = |label: u16| segments.iter().filter(|other| other.label == label).count() == 1;
+    let single = segments.iter().filter(|s| is_single(s.label));
+    single.map(|segment| segment.name.clone()).collect()
 }
 
 /// How one looks, beside the camera.
@@ -182,6 +192,7 @@ impl ViewState {
             return;
         };
         facts.segments = names_of(segments);
+        facts.tissues = each_once(segments);
         self.subject_revision += 1;
     }
 

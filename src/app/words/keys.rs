@@ -27,6 +27,7 @@ words! {
         snap: "Handles in steps or not", "Griffe in Schritten oder nicht", "Tiradores por pasos o no", "手柄步进开关";
         next_panel: "Next panel", "Nächster Bereich", "Panel siguiente", "下一个面板";
         search: "Search the catalogue", "Im Katalog suchen", "Buscar en el catálogo", "搜索目录";
+        seek: "Find a tissue or a label", "Gewebe oder Beschriftung finden", "Encontrar un tejido o un rótulo", "查找组织或标注";
         alt_drag: "Alt drag", "Alt + Ziehen", "Alt + arrastrar", "Alt 拖动";
         alt_drag_does: "Roll", "Rollen", "Rodar", "滚转";
         arrows: "Arrows", "Pfeile", "Flechas", "方向键";

@@ -46,6 +46,8 @@ words! {
         server_answered: "The server answered {0}.", "Der Server hat {0} geantwortet.", "El servidor respondió {0}.", "服务器返回 {0}。";
         new_for_subject: "A new document was started for this subject", "Für dieses Objekt wurde ein neues Dokument begonnen", "Se ha empezado un documento nuevo para este objeto", "已为此对象新建文档";
         keep_templates: "Keep my templates", "Meine Vorlagen behalten", "Conservar mis plantillas", "保留我的模板";
+        slow: "Slow graphics: pictures come in steps", "Langsame Grafik: Bilder entstehen schrittweise", "Gráficos lentos: las imágenes llegan por pasos", "图形设备较慢：图像会分步呈现";
+        slow_details: "A whole picture takes {0} s on this device. While something moves it is drawn coarsely; afterwards it becomes sharp by itself.", "Ein ganzes Bild dauert auf diesem Gerät {0} s. Solange sich etwas bewegt, wird es grob gezeichnet; danach wird es von selbst scharf.", "Una imagen completa tarda {0} s en este equipo. Mientras algo se mueve se dibuja de forma tosca; después se afina por sí sola.", "在此设备上，一幅完整图像需要 {0} 秒。移动时以较粗的方式绘制，之后会自动变清晰。";
         nothing_so_far: "Nothing so far.", "Bisher nichts.", "Nada por ahora.", "暂无消息。";
     }
 }

@@ -51,6 +51,7 @@ pub(crate) mod messages;
 pub(crate) mod names;
 pub(crate) mod picture;
 pub(crate) mod points;
+pub(crate) mod search;
 pub(crate) mod slices;
 pub(crate) mod templates;
 #[cfg(test)]

@@ -11,6 +11,13 @@ words! {
         alone: "Show {0} alone", "Nur {0} zeigen", "Mostrar solo {0}", "仅显示{0}";
         glimpse: "Show {0} for a moment", "{0} kurz zeigen", "Mostrar {0} un momento", "短暂显示{0}";
         all: "Show everything again", "Wieder alles zeigen", "Mostrar todo de nuevo", "重新显示全部";
+        search: "Search tissues and labels", "Gewebe und Beschriftungen suchen", "Buscar tejidos y rótulos", "搜索组织和标注";
+        search_hint: "Search: heart, vein …", "Suchen: Herz, Vene …", "Buscar: corazón, vena…", "搜索：心、静脉…";
+        clear_search: "Clear the search for tissues", "Gewebesuche leeren", "Borrar la búsqueda de tejidos", "清除组织搜索";
+        turn_to: "Turn to {0}", "Zu {0} drehen", "Girar hacia {0}", "转到{0}";
+        found_nothing: "No tissue and no label is called that", "Kein Gewebe und keine Beschriftung heißt so", "Ningún tejido ni rótulo se llama así", "没有这样名称的组织或标注";
+        nowhere: "There is no {0} in this scan", "In diesem Scan ist nichts von: {0}", "En esta imagen no hay nada de: {0}", "此扫描中没有{0}";
+        not_yet: "Still being found: {0}", "Wird noch gesucht: {0}", "Todavía se busca: {0}", "仍在查找：{0}";
         look: "How {0} is drawn", "Wie {0} gezeichnet wird", "Cómo se dibuja {0}", "{0}的绘制方式";
         drawn: "Drawn", "Gezeichnet", "Dibujo", "绘制";
         as_scan: "As scanned", "Wie im Scan", "Como en la imagen", "按扫描";

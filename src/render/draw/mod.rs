@@ -10,6 +10,7 @@ pub(crate) mod passes;
 pub(crate) mod pick;
 pub(crate) mod picture;
 pub(crate) mod probe;
+pub(crate) mod quality;
 pub(crate) mod raycast;
 pub(crate) mod renderer;
 pub(crate) mod resolve;

@@ -4,6 +4,7 @@ use super::image::{Image, read_picture};
 use super::pace::{Pace, Work};
 use super::passes::Passes;
 use super::pick::{PendingPick, encode_pick};
+use super::quality::{WholePicture, least_scale, samples, steady_scale};
 use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
@@ -27,9 +28,6 @@ use std::sync::Arc;
 const SAMPLES_HARDWARE: u32 = 16;
 const SAMPLES_SOFTWARE: u32 = 5;
 
-/// The quick picture is at least this part of the full one along each side.
-const LEAST_SCALE: f32 = 0.14;
-
 /// Refining waits so long after the last change, so that a drag is not slowed down by tiles nobody will see, seconds.
 const CALM_SECONDS: f64 = 0.12;
 
@@ -51,6 +49,8 @@ pub struct DrawState {
     pub has_picture: bool,
     /// A subject is on its way to the GPU: fraction done.
     pub uploading: Option<f32>,
+    /// Seconds that the device takes for a whole picture at rest, of one sample per pixel, as far as was measured.
+    pub whole_seconds: Option<f32>,
 }
 
 /// Draws progressively: at once at the resolution that holds the frame rate, then, tile by tile, the full picture.
@@ -77,6 +77,9 @@ pub struct Renderer {
     stage: Stage,
     changed_at: f64,
     pace: Pace,
+    /// Scale of the last quick picture.
+    quick_scale: Option<f32>,
+    whole: WholePicture,
     /// The quick picture by the formulas could not hold the full resolution.
     is_coarse: bool,
     under_way: Option<UnderWay>,
@@ -104,6 +107,8 @@ struct UnderWay {
     started: f64,
     pixels: u32,
     work: Work,
+    /// These are the last tiles of a sample.
+    ends_sample: bool,
     checks: u32,
 }
 
@@ -132,6 +137,8 @@ impl Renderer {
             stage: Stage::Stale,
             changed_at: f64::NEG_INFINITY,
             pace: Pace::new([cost, BAKED_HOPE * cost, 1.5 * cost, 0.05 * cost]),
+            quick_scale: None,
+            whole: WholePicture::default(),
             is_coarse: false,
             under_way: None,
             generation: 0,
@@ -591,6 +598,9 @@ impl Renderer {
         let elapsed = (self.clock)() - work.started;
         self.pace
             .learn(elapsed, work.pixels, work.checks, work.work);
+        if work.work == Work::Refine {
+            self.whole.took(elapsed, work.ends_sample);
+        }
         self.under_way = None;
     }
 
@@ -648,11 +658,9 @@ impl Renderer {
             None => (Work::Quick, scene.key(false)),
         };
         let affordable = self.pace.affordable(budget, work);
-        // In sixteenths, so that the resolution does not flicker from frame to frame.
-        let scale = (affordable as f32 / (width * height))
-            .sqrt()
-            .clamp(LEAST_SCALE, 1.0);
-        let scale = ((scale * 16.0).floor() / 16.0).max(LEAST_SCALE);
+        let affordable = (affordable as f32 / (width * height)).sqrt();
+        let scale = steady_scale(affordable, self.quick_scale, least_scale(targets.size));
+        self.quick_scale = Some(scale);
         let small = targets
             .size
             .map(|side| ((side as f32 * scale).round() as u32).clamp(1, side));
@@ -690,6 +698,9 @@ impl Renderer {
             return;
         };
         let affordable = self.pace.affordable(budget, Work::Refine);
+        if first == 0 {
+            self.whole.begins();
+        }
         let mut pixels = 0;
         let mut end = first;
         while let Some(&[_, _, w, h]) = targets.tiles.get(end) {
@@ -716,6 +727,7 @@ impl Renderer {
             shown: tiles,
         };
         targets.draw(studio, scene, &shot);
+        let ends_sample = end >= targets.tiles.len();
         self.stage = if end < targets.tiles.len() {
             Stage::Refining { sample, tile: end }
         } else if sample + 1 < self.samples() {
@@ -727,6 +739,9 @@ impl Renderer {
             Stage::Done
         };
         self.follow(pixels, Work::Refine);
+        if let Some(work) = &mut self.under_way {
+            work.ends_sample = ends_sample;
+        }
     }
 
     /// Bakes on where the next movement would gain by it: the formulas are too slow for the full resolution. True if
@@ -760,16 +775,17 @@ impl Renderer {
             started: (self.clock)(),
             pixels,
             work,
+            ends_sample: false,
             checks: 0,
         });
     }
 
     fn samples(&self) -> u32 {
-        if self.gpu.is_software() {
-            SAMPLES_SOFTWARE
-        } else {
-            SAMPLES_HARDWARE
-        }
+        let usual = match self.gpu.is_software() {
+            true => SAMPLES_SOFTWARE,
+            false => SAMPLES_HARDWARE,
+        };
+        samples(usual, self.whole.seconds())
     }
 
     fn state(&self) -> DrawState {
@@ -789,6 +805,7 @@ impl Renderer {
             progress,
             has_picture: self.targets.is_some() && self.drawn_generation() == self.generation,
             uploading: self.upload.as_ref().map(|(upload, _)| upload.progress()),
+            whole_seconds: self.whole.seconds().map(|seconds| seconds as f32),
         }
     }
 }
