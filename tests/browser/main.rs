@@ -17,12 +17,14 @@ mod making;
 mod native;
 mod page;
 mod parts;
+mod path;
 mod running;
 #[path = "../support/segment_files.rs"]
 mod segment_files;
 mod server;
 mod size;
 mod slices;
+mod slow;
 mod tissue;
 
 use compare::{difference, drawn_pixels, object_part};
