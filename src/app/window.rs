@@ -311,8 +311,8 @@ impl App {
         }
     }
 
-    /// Where something lies: a caption where its tissue is now, a segment in the untouched subject, as it is shown alone
-    /// for a moment.
+    /// Where something lies: a caption where its tissue is now, a segment in the untouched subject, as it is shown
+    /// alone for a moment.
     fn site_of(&self, sought: &Sought) -> Option<Site> {
         match sought {
             Sought::Tissue(name) => self.tissue.segmentation(&self.assets)?.site_of(name),

@@ -74,8 +74,12 @@ impl KnownMasks {
     }
 }
 
-/// The voxels of a recipe, on the scan's grid. Tells `has_done` how many of its steps are done: those of the clean-up
-/// and two.
+/// Steps of a recipe: finding its voxels, its clean-up, what is painted, and joining the voxels with other segments.
+pub(super) fn step_count(recipe: &Recipe) -> usize {
+    recipe.clean.len() + usize::from(!recipe.paint.is_empty()) + 2
+}
+
+/// The voxels of a recipe, on the scan's grid. Tells `has_done` how many of its steps are done: all but joining.
 pub(super) async fn made(
     volume: &Volume,
     recipe: &Recipe,
@@ -101,8 +105,12 @@ pub(super) async fn made(
         }
     };
     time_slices.give_way().await;
-    for stroke in &recipe.paint {
+    if recipe.paint.is_empty() {
+        return mask;
+    }
+    for (i, stroke) in recipe.paint.iter().enumerate() {
         mask.paint(&volume.grid, stroke, time_slices).await;
+        time_slices.has_done(i + 1, recipe.paint.len());
     }
     has_done(1);
     mask

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, UVec3};
 
-use super::made::{KnownMasks, made};
+use super::made::{KnownMasks, made, step_count};
 use super::mask::Mask;
 use super::time_slices::TimeSlices;
 use super::{Grid, Resources, Segment, Segmentation, Subject, Volume, resized};
@@ -116,7 +116,7 @@ pub async fn segment_with(
             .await;
     }
     let mut counts = Vec::with_capacity(recipes.len());
-    let steps: usize = recipes.iter().map(|recipe| recipe.clean.len() + 3).sum();
+    let steps: usize = recipes.iter().map(step_count).sum();
     time_slices.set_steps(steps);
     let mut done = 0;
     let mut has_done = |n: usize| {
