@@ -10,6 +10,7 @@ pub(crate) mod library;
 pub(crate) mod look;
 pub(crate) mod notice;
 pub(crate) mod points;
+pub(crate) mod presets;
 pub(crate) mod raw;
 pub(crate) mod recipe;
 pub(crate) mod shortcuts;
