@@ -199,6 +199,7 @@ impl App {
                     &self.session,
                     info.as_ref(),
                     &mut self.transfer,
+                    &mut self.preset_pictures,
                     commands,
                 );
             }

@@ -10,7 +10,9 @@ use crate::app::canvas::steps;
 use crate::app::canvas::viewport::{self, Viewport};
 use crate::app::kit::theme;
 use crate::app::kit::{slow_click, widget};
-use crate::app::panel::{catalogue, frames, kept, keys, library, notice, raw, shortcuts, transfer};
+use crate::app::panel::{
+    catalogue, frames, kept, keys, library, notice, presets, raw, shortcuts, transfer,
+};
 use crate::app::picture::host::Picture;
 use crate::app::services::{MissingDocument, Services};
 use crate::app::session::{
@@ -81,6 +83,8 @@ pub struct App {
     pub(crate) resources: Resources,
     /// The plot of the transfer function.
     pub(crate) transfer: transfer::Editor,
+    /// The small pictures of presets.
+    pub(crate) preset_pictures: presets::Pictures,
     /// The slices beside the picture.
     pub(crate) slices: Slices,
     /// The segments of the subject in the making.
@@ -190,6 +194,7 @@ impl App {
             fields_asked: Vec::new(),
             resources: Resources::default(),
             transfer: transfer::Editor::default(),
+            preset_pictures: presets::Pictures::default(),
             slices: Slices::default(),
             tissue: tissue_work::TissueWork::new(start.clock),
             inside: kept::Inside::default(),
@@ -229,6 +234,7 @@ impl App {
             && self.pending.is_empty()
             && self.session.library.listing != Listing::Asked
             && !self.viewport.is_waiting()
+            && !self.preset_pictures.is_waiting()
             && self.picture.as_ref().is_none_or(is_picture_done)
     }
 
@@ -503,6 +509,10 @@ impl App {
         self.perform_in_window(ui);
         let ctx = ui.ctx();
         self.advance_saving(ctx);
+        let is_held = ui.input(|i| i.pointer.any_down());
+        let picture = self.picture.as_ref();
+        self.preset_pictures
+            .advance(ctx, &self.session, picture, is_held);
         if let Some(picture) = &mut self.picture {
             for notice in picture.take_notices() {
                 // A file that is not there yet may be on its way.

@@ -181,6 +181,85 @@ fn a_preset_is_taken_from_its_group() {
     assert_eq!(window.document().illustration().look.tint, None);
 }
 
+/// Each preset is offered as a picture of the scan that is open; of another scan there are other pictures.
+#[test]
+fn presets_are_pictures_of_the_scan() {
+    let mut window = Window::open(DESK, CUBE);
+    window.click("Panel: Look");
+    let open_list = |window: &mut Window| {
+        window
+            .harness
+            .get_by_role_and_label(Role::ComboBox, "Colours")
+            .click();
+        window.steps(2);
+    };
+    // The field above the name, without its frame.
+    let tile = |window: &mut Window, name: &str| {
+        let node = window.harness.get_by_role_and_label(Role::Button, name);
+        let rect = node.rect();
+        let field = rect.with_max_y(rect.top() + 63.0).shrink(8.0);
+        assert!(field.width() > 60.0, "a tile: {rect}");
+        let image = window.harness.render().expect("the window can be drawn");
+        let [x, y] = [field.left() as u32, field.top() as u32];
+        let [w, h] = [field.width() as u32, field.height() as u32];
+        image::imageops::crop_imm(&image, x, y, w, h).to_image()
+    };
+    let colors = |image: &image::RgbaImage| {
+        let all: std::collections::BTreeSet<[u8; 4]> = image.pixels().map(|p| p.0).collect();
+        all.len()
+    };
+    open_list(&mut window);
+    let first = tile(&mut window, "Tissue");
+    window.look("presets_before");
+    window.settle();
+    window.look("presets");
+    let names = ["Tissue", "CT soft tissue", "CT bone"];
+    let of_cube = names.map(|name| tile(&mut window, name));
+    assert_eq!(colors(&first), 1, "a plain field while there is no picture");
+    for (name, image) in names.iter().zip(&of_cube) {
+        let colors = colors(image);
+        assert!(colors > 50, "{name}: {colors} colours");
+    }
+    assert_ne!(of_cube[0], of_cube[1], "each in its own colours");
+    // The keyboard reaches each, and takes it.
+    let bone = window
+        .harness
+        .get_by_role_and_label(Role::Button, "CT bone");
+    bone.focus();
+    window.steps(2);
+    window.press(Key::Enter);
+    assert_eq!(transfer(&window), Transfer::Preset("ct-bone".to_owned()));
+    let is_open = |window: &Window| {
+        let all = window.harness.query_all_by_role(Role::Button);
+        let mut labels = all.filter_map(|node| node.accesskit_node().label());
+        labels.any(|label| label == "CT bone")
+    };
+    assert!(!is_open(&window), "the list is closed");
+    // Another subject: the pictures of the earlier one are gone at once.
+    window.settle();
+    {
+        let log = &mut *window.log.0.borrow_mut();
+        log.next_ticket += 1;
+        let ticket = Ticket(log.next_ticket);
+        log.file_starts(ticket);
+        fabrica::subjects::generate("bar", 32, &mut Queue(log, ticket)).expect("the bar");
+        let sha256 = Some("5d".repeat(32));
+        let event = LoadEvent::Done { sha256 };
+        log.queue.push(Message::Load { ticket, event });
+    }
+    window.settle();
+    open_list(&mut window);
+    let now = tile(&mut window, "CT bone");
+    assert_ne!(now, of_cube[2], "no picture of another subject");
+    window.settle();
+    window.look("presets_other");
+    let of_bar = tile(&mut window, "CT soft tissue");
+    assert!(
+        colors(&of_bar) > 50 && of_bar != of_cube[1],
+        "its own picture"
+    );
+}
+
 #[test]
 #[ignore = "only drawn to be looked at: cargo xtask look"]
 fn the_transfer_function_of_the_head_to_look_at() {

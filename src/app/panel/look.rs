@@ -5,14 +5,15 @@ use egui::{Ui, vec2};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{Palette, control_height};
 use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
-use crate::app::panel::transfer::{self, Editor};
+use crate::app::panel::presets::{self, Pictures};
+use crate::app::panel::transfer::Editor;
 use crate::app::session::Command;
 use crate::app::session::Session;
 use crate::app::words::look::{Look as Words, w};
 use crate::app::words::transfer::w as transfer_words;
 use crate::app::words::{fill, names};
 use crate::document::{
-    Background, Edit, Look, OpacityMode, Preset, PresetSubject, Transfer, Window, preset, presets,
+    Background, Edit, Look, OpacityMode, Preset, PresetSubject, Transfer, Window, preset,
 };
 use crate::render::{SubjectInfo, auto_preset, window_of};
 
@@ -34,11 +35,12 @@ pub(crate) fn ui(
     session: &Session,
     info: Option<&SubjectInfo>,
     editor: &mut Editor,
+    pictures: &mut Pictures,
     commands: &mut Vec<Command>,
 ) {
     let look = &session.illustration().look;
     if session.view.has_values() {
-        values_ui(ui, session, info, editor, commands);
+        values_ui(ui, session, info, (editor, pictures), commands);
         widget::divider(ui);
     }
     widget::heading(ui, w().opacity_heading, |_| {});
@@ -67,13 +69,13 @@ fn values_ui(
     ui: &mut Ui,
     session: &Session,
     info: Option<&SubjectInfo>,
-    editor: &mut Editor,
+    (editor, pictures): (&mut Editor, &mut Pictures),
     commands: &mut Vec<Command>,
 ) {
     let look = &session.illustration().look;
     widget::heading(ui, w().heading, |_| {});
     let auto = info.map(|info| auto_preset(&session.illustration().subject, info));
-    transfer_ui(ui, &look.transfer, info, auto, commands);
+    transfer_ui(ui, &look.transfer, info, auto, pictures, commands);
     // Listed points ignore the window, which then only sets the grey of slices.
     let name = match &look.transfer {
         Transfer::Preset(name) => Some(name.as_str()),
@@ -96,18 +98,16 @@ fn transfer_ui(
     transfer: &Transfer,
     info: Option<&SubjectInfo>,
     auto: Option<&str>,
+    pictures: &mut Pictures,
     commands: &mut Vec<Command>,
 ) {
     let title = |name: &str| {
-        presets()
-            .iter()
-            .find(|preset| preset.name == name)
-            .map_or_else(
-                || name.to_owned(),
-                |p| names::preset(p.name, p.title).to_owned(),
-            )
+        preset(name).map_or_else(
+            || name.to_owned(),
+            |p| names::preset(p.name, p.title).to_owned(),
+        )
     };
-    let auto = auto.map_or_else(
+    let auto_title = auto.map_or_else(
         || w().automatic.to_owned(),
         |name| {
             // Values without a unit say nothing of the machine that they come from.
@@ -120,7 +120,7 @@ fn transfer_ui(
         },
     );
     let selected = match transfer {
-        Transfer::Auto => auto.clone(),
+        Transfer::Auto => auto_title.clone(),
         Transfer::Preset(name) => title(name),
         Transfer::Points(points) => fill(w().own_points, &[&points.len()]),
     };
@@ -128,24 +128,8 @@ fn transfer_ui(
         widget::row_label(ui, w().colours, w().colours_hint);
         let combo = widget::combo("preset", &selected, ui.available_width() - 2.0);
         let shown = combo.height(420.0).show_ui(ui, |ui| {
-            if ui
-                .selectable_label(*transfer == Transfer::Auto, auto)
-                .clicked()
-            {
-                commands.push(Command::Apply(Edit::SetTransfer(Transfer::Auto)));
-            }
-            for (title, presets) in transfer::grouped_presets(info) {
-                transfer::group_heading(ui, title);
-                for preset in presets {
-                    let is_selected =
-                        matches!(transfer, Transfer::Preset(name) if name == preset.name);
-                    let title = names::preset(preset.name, preset.title);
-                    if ui.selectable_label(is_selected, title).clicked() {
-                        let transfer = Transfer::Preset(preset.name.to_owned());
-                        commands.push(Command::Apply(Edit::SetTransfer(transfer)));
-                    }
-                }
-            }
+            let auto = (auto, auto_title.as_str());
+            presets::list_ui(ui, transfer, info, auto, pictures, commands);
         });
         shown.response.named(w().colours);
     });

@@ -11,6 +11,7 @@ pub(crate) mod look;
 pub(crate) mod notice;
 mod paint;
 pub(crate) mod points;
+pub(crate) mod presets;
 pub(crate) mod raw;
 pub(crate) mod recipe;
 mod seek;

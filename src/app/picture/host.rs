@@ -285,6 +285,16 @@ impl Picture {
         });
     }
 
+    /// Starts drawing a small picture of the subject, beside the one that is shown.
+    pub(crate) fn start_small(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+    ) -> Pending<Result<Image, RenderError>> {
+        let (renderer, samples) = (&self.renderer, SMALL_SAMPLES);
+        Box::pin(renderer.render_image(illustration, size_px, samples, |_| {}))
+    }
+
     /// The picture for a file once it is there.
     pub(crate) fn poll_file(&mut self) -> Option<Result<Image, RenderError>> {
         let image = poll_once(&mut self.file.as_mut()?.picture)?;
@@ -340,6 +350,8 @@ fn registered(
 
 /// Samples per pixel of a saved picture.
 const FILE_SAMPLES: u32 = 4;
+/// Samples per pixel of a small picture.
+const SMALL_SAMPLES: u32 = 4;
 /// Pixels of the view of its own that a question may name.
 const SIGHT_PX: u32 = 256;
 

@@ -6,6 +6,7 @@ words! {
         heading: "Look", "Aussehen", "Aspecto", "外观";
         colours: "Colours", "Farben", "Colores", "颜色";
         colours_hint: "Which values are seen, in which colour", "Welche Werte man sieht, und in welcher Farbe", "Qué valores se ven y de qué color", "显示哪些数值，用什么颜色";
+        preset_hint: "{0}: this scan in these colours", "{0}: dieser Scan in diesen Farben", "{0}: este estudio con estos colores", "{0}：以这些颜色显示此扫描";
         automatic: "Automatic", "Automatisch", "Automático", "自动";
         automatic_is: "Automatic ({0})", "Automatisch ({0})", "Automático ({0})", "自动（{0}）";
         any_scan: "scan", "Scan", "estudio", "扫描";
