@@ -563,6 +563,94 @@ fn painting_in_an_opened_object_paints_its_tissue() {
     );
 }
 
+/// What a finger does, as the window tells it: the first finger is the pointer too.
+fn finger(window: &mut Window, id: u64, phase: egui::TouchPhase, pos: Pos2) {
+    window.harness.event(egui::Event::Touch {
+        device_id: egui::TouchDeviceId(1),
+        id: egui::TouchId(id),
+        phase,
+        pos,
+        force: None,
+    });
+    if id == 1 {
+        let button = |pressed| egui::Event::PointerButton {
+            pos,
+            button: egui::PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        window.harness.event(egui::Event::PointerMoved(pos));
+        match phase {
+            egui::TouchPhase::Start => window.harness.event(button(true)),
+            egui::TouchPhase::Move => {}
+            egui::TouchPhase::End | egui::TouchPhase::Cancel => {
+                window.harness.event(button(false));
+                window.harness.event(egui::Event::PointerGone);
+            }
+        }
+    }
+    window.harness.step();
+}
+
+/// On a phone one finger paints and two move; Shift turns painting into erasing where there is a keyboard.
+#[test]
+fn a_finger_paints_and_two_fingers_move() {
+    use egui::TouchPhase::{End, Move, Start};
+    let mut window = Window::open(vec2(390.0, 844.0), CUBE);
+    window.click("Tissues");
+    window.steps(5);
+    window.click("Paint a tissue");
+    window.settle();
+    let strokes = |window: &Window| window.recipes()[0].paint.len();
+    let camera = |window: &Window| window.document().illustration().camera;
+    let (home, center) = (camera(&window), window.picture_center());
+    finger(&mut window, 1, Start, center);
+    for i in 1..=8 {
+        finger(&mut window, 1, Move, center + vec2(6.0 * i as f32, 0.0));
+    }
+    window.look("paint_phone");
+    finger(&mut window, 1, End, center + vec2(48.0, 0.0));
+    window.settle();
+    assert_eq!(
+        (strokes(&window), camera(&window)),
+        (1, home),
+        "one finger paints"
+    );
+    // Apart: closer. The finger that stays longer does not paint either.
+    let by = vec2(30.0, 0.0);
+    finger(&mut window, 1, Start, center - by);
+    finger(&mut window, 2, Start, center + by);
+    for i in 1..=6 {
+        let by = by * (1.0 + 0.2 * i as f32);
+        finger(&mut window, 1, Move, center - by);
+        finger(&mut window, 2, Move, center + by);
+    }
+    finger(&mut window, 2, End, center + 2.2 * by);
+    for i in 1..=6 {
+        let down = vec2(0.0, 8.0 * i as f32);
+        finger(&mut window, 1, Move, center - 2.2 * by + down);
+    }
+    finger(&mut window, 1, End, center - 2.2 * by + vec2(0.0, 48.0));
+    window.settle();
+    assert_eq!(strokes(&window), 1, "two fingers paint nothing");
+    assert!(camera(&window).distance < home.distance, "they move");
+    // Shift, in the picture.
+    window
+        .harness
+        .event(egui::Event::ModifiersChanged(Modifiers::SHIFT));
+    window.drag(center, vec2(40.0, 0.0));
+    window
+        .harness
+        .event(egui::Event::ModifiersChanged(Modifiers::NONE));
+    let paint = window.recipes()[0].paint.clone();
+    let erases: Vec<bool> = paint.iter().map(|stroke| stroke.erases).collect();
+    assert_eq!(erases, [false, true]);
+    window.click("Put the ball away (Esc)");
+    window.settle();
+    let bar = window.harness.query_by_label("Put the ball away (Esc)");
+    assert!(bar.is_none(), "the bar goes with it");
+}
+
 /// The ball on the head, to be looked at: over the skin, and in slices while the hand is on its way.
 #[test]
 #[ignore = "only drawn to be looked at: cargo xtask look"]

@@ -340,6 +340,48 @@ fn a_slice_shows_what_it_reads() {
     assert_ne!(image.rgba, colored.rgba);
 }
 
+/// While tissue is painted, grey slices mark it, and nothing else.
+#[test]
+fn bodies_are_marked_over_grey() {
+    let subject = builtin("head", 64);
+    let studio = studio_of(software(), &subject, true);
+    let illustration = illustration(
+        r##"{ "fabrica": 1, "look": { "segments": { "brain": { "opacity": 1, "color": "#ff0000" }, "skin": 0 } } }"##,
+    );
+    let drawn = |marks_bodies| {
+        let window = [-200.0, 300.0];
+        let colors = SliceColors::Grey {
+            window,
+            marks_bodies,
+        };
+        let view = axial(0.15, 128, colors);
+        pollster::block_on(studio.slice_image(&illustration, &view)).expect("drawn")
+    };
+    let (grey, marked) = (drawn(false), drawn(true));
+    let view = axial(0.15, 128, SliceColors::Look);
+    let read = studio.read_slice(&illustration, &view.plane, view.size_px);
+    let texels = pollster::block_on(read.expect("asked")).expect("read");
+    let labels = subject.segmentation.as_ref().expect("segments");
+    let brain: Vec<u16> = labels
+        .segments
+        .iter()
+        .filter(|segment| segment.name == "brain")
+        .map(|segment| segment.label)
+        .collect();
+    let mut count = 0;
+    let pixels = grey.rgba.chunks_exact(4).zip(marked.rgba.chunks_exact(4));
+    for (texel, (grey, marked)) in texels.iter().zip(pixels) {
+        let is_brain = texel.is_there && texel.segment.is_some_and(|label| brain.contains(&label));
+        if is_brain {
+            count += 1;
+            assert!(marked[0] > marked[1] + 30, "{texel:?}: {marked:?} is red");
+        } else {
+            assert_eq!(marked, grey, "{texel:?}");
+        }
+    }
+    assert!(count > 500, "only {count} of the brain");
+}
+
 #[test]
 fn a_slice_of_no_size_is_refused() {
     let subject = builtin("bar", 16);

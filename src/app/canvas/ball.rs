@@ -41,6 +41,8 @@ struct Hand {
     /// The drag under way, as its answers name it.
     code: Option<usize>,
     last: Option<Pos2>,
+    /// Two fingers have moved since the last time that none was down: what the one does that stays is no stroke.
+    has_moved: bool,
 }
 
 impl Hand {
@@ -53,13 +55,14 @@ impl Hand {
         session: &Session,
         commands: &mut Vec<Command>,
     ) -> (Vec<(usize, Pos2)>, bool) {
-        let touches = ui.input(|i| (i.any_touches(), i.multi_touch().is_some()));
-        let (Some(erases), (is_finger, false)) = (session.tool().ball(), touches) else {
-            // Two fingers move.
-            *self = Self::default();
+        let (is_finger, has_two) = ui.input(|i| (i.any_touches(), i.multi_touch().is_some()));
+        let is_main = ui.input(|i| i.pointer.primary_down());
+        let has_moved = self.has_moved || has_two;
+        self.has_moved = has_moved && (is_finger || is_main);
+        let Some(erases) = session.tool().ball().filter(|_| !has_moved) else {
+            self.code = None;
             return (Vec::new(), false);
         };
-        let is_main = ui.input(|i| i.pointer.primary_down());
         let is_down = response.is_pointer_button_down_on() && is_main;
         let mut places = Vec::new();
         // A second finger may follow the first one, until that has gone some way.

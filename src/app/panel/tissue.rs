@@ -113,24 +113,26 @@ pub(crate) fn ui(
     }
     if has_values {
         ui.add_space(4.0);
-        let add = widget::labelled_button(ui, Icon::Plus, w().add, false, can_add);
-        let add = add.on_hover_text(w().add_hint);
-        let add = add.on_disabled_hover_text(if is_loading {
-            w().loading
-        } else {
-            w().add_hint
+        ui.horizontal_wrapped(|ui| {
+            let add = widget::labelled_button(ui, Icon::Plus, w().add, false, can_add);
+            let add = add.on_hover_text(w().add_hint);
+            let add = add.on_disabled_hover_text(if is_loading {
+                w().loading
+            } else {
+                w().add_hint
+            });
+            if add.clicked()
+                && let Some((info, _)) = scan
+            {
+                commands.push(make(session, info));
+            }
+            let by_hand = widget::labelled_button(ui, Icon::Brush, w().add_by_hand, false, can_add);
+            if by_hand.on_hover_text(w().add_by_hand_hint).clicked() {
+                let number = recipes.len() + 1;
+                let name = fill(w().tissue_n, &[&number]);
+                commands.push(Command::Tissue(TissueCommand::MakeByHand(name)));
+            }
         });
-        if add.clicked()
-            && let Some((info, _)) = scan
-        {
-            commands.push(make(session, info));
-        }
-        let by_hand = widget::labelled_button(ui, Icon::Brush, w().add_by_hand, false, can_add);
-        if by_hand.on_hover_text(w().add_by_hand_hint).clicked() {
-            let number = recipes.len() + 1;
-            let name = fill(w().tissue_n, &[&number]);
-            commands.push(Command::Tissue(TissueCommand::MakeByHand(name)));
-        }
     }
     remember_height(ui, ui.cursor().top() - below);
 }

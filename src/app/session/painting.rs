@@ -74,6 +74,9 @@ impl Session {
             // What is painted on has to be seen.
             self.tissues.show_alone(None);
             self.tissues.glimpse = None;
+            if self.are_drawers {
+                self.tab = None;
+            }
         }
         self.take_tool(tool);
     }
