@@ -9,7 +9,7 @@
 //! | `tool`, `mode`, `walk` | the active tool; author or lesson; the steps of a lesson |
 //! | `command`, `effect`, `question`, `found`, `sought`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
-//! | `notices`, `view`, `tissues`, `files`, `clipboard`, `library` | other parts of the state |
+//! | `notices`, `view`, `tissues`, `files`, `clipboard`, `library`, `small_picture` | other parts of the state |
 //! | `session` | the state itself |
 //! | `run`, `using`, `surface`, `templates`, `making`, `opening`, `starting`, `raw` | what can be done with it |
 //! | `seeking` | the search for a structure by name |
@@ -40,6 +40,7 @@ mod seeking;
 )]
 mod session;
 pub mod shape;
+mod small_picture;
 mod sought;
 mod starting;
 mod surface;
@@ -71,6 +72,9 @@ pub use self::notices::{Gravity, Notice, Notices, Offer};
 pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
 pub use self::session::{Load, LoadOf, STORED_DOCUMENT, Session, Tab};
+pub use self::small_picture::{
+    STORED_PICTURE, STORED_RECENT_PICTURES, SmallPicture, changed_pictures, picture_of,
+};
 pub use self::sought::Sought;
 pub use self::ticket::Ticket;
 pub use self::tissues::{TissueCommand, Tissues};

@@ -91,8 +91,8 @@ mod tests {
     const FRAME: f64 = 1.0 / 60.0;
     const BUDGET: f64 = 0.03;
 
-    /// Scales of quick pictures, and the seconds that they took, on a device that takes so long for a pixel, give or take
-    /// a part of it.
+    /// Scales of quick pictures, and the seconds that they took, on a device that takes so long for a pixel, give or
+    /// take a part of it.
     fn drag(cost: f64, unsteady: f64, frames: usize) -> Vec<(f32, f64)> {
         let mut pace = Pace::new([3e-8; 4]);
         let mut before = None;
