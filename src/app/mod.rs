@@ -12,6 +12,7 @@
 //! | `panel` | one panel or dialog each | `kit`, `picture` |
 //! | `services`, `arrivals`, `fields`, `tissue_work` | what the shell does for the app, and what comes back | all |
 //! | `provisional`, `window_title` | what the picture still waits for; the name of the window | all |
+//! | `recents` | pictures of recent documents | all |
 //! | `window` | the app itself: input becomes commands, commands change the session | all |
 //!
 //! Nothing here knows where it runs. The picture is drawn when something changed; at rest nothing repaints.
@@ -39,6 +40,8 @@ mod panel;
 mod picture;
 #[cfg(feature = "app")]
 mod provisional;
+#[cfg(feature = "app")]
+mod recents;
 #[cfg(feature = "app")]
 mod saving;
 #[cfg(feature = "app")]

@@ -14,10 +14,11 @@ use crate::app::panel::{
     catalogue, frames, kept, keys, library, notice, presets, raw, shortcuts, transfer,
 };
 use crate::app::picture::host::Picture;
+use crate::app::picture::small::OpenPicture;
 use crate::app::services::{MissingDocument, Services};
 use crate::app::session::{
     Command, Effect, Focus, Gravity, Listing, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING,
-    STORED_RECENT, STORED_SLOW, STORED_TITLE, Session, Sought, Ticket, changed_recent,
+    STORED_PICTURE, STORED_SLOW, STORED_TITLE, Session, Sought, Ticket,
 };
 use crate::app::tissue_work;
 use crate::app::words::{self, Lang};
@@ -101,6 +102,8 @@ pub struct App {
     pub(crate) is_other_uploading: bool,
     /// The title that the window was last given.
     pub(crate) window_title: String,
+    /// The small picture of the open document.
+    pub(crate) open_picture: OpenPicture,
     /// Since when the picture waits for something, seconds on the clock of the interface.
     pub(crate) provisional_since: Option<f64>,
 }
@@ -173,6 +176,7 @@ impl App {
         if let Some(ticket) = start.subject {
             session.instead_started(ticket);
         }
+        let open_picture = OpenPicture::kept(services.stored(STORED_PICTURE));
         let mut app = Self {
             session,
             services,
@@ -203,6 +207,7 @@ impl App {
             reported_segments: Vec::new(),
             is_other_uploading: false,
             provisional_since: None,
+            open_picture,
             window_title: String::new(),
         };
         app.do_outside();
@@ -267,7 +272,7 @@ impl App {
     /// Does what goes to the surroundings at once; what needs the window waits for the end of the frame.
     fn perform(&mut self, effects: Vec<Effect>) {
         let services = self.services.as_mut();
-        let mut located = Vec::new();
+        let (mut located, mut recent) = (Vec::new(), Vec::new());
         for effect in effects {
             match effect {
                 Effect::LoadSubject(subject) => {
@@ -291,16 +296,7 @@ impl App {
                 Effect::SetLink(tail, change) => services.set_link(&tail, change),
                 Effect::Store(key, value) => services.store(key, &value),
                 Effect::FetchShipped(file) => services.fetch_shipped(file),
-                Effect::Recent(change) => {
-                    let kept = services.stored(STORED_RECENT).unwrap_or_default();
-                    let list = changed_recent(&kept, &change);
-                    if list != kept {
-                        services.store(STORED_RECENT, &list);
-                    }
-                    if self.session.library.is_open {
-                        self.session.library.take_recent(&list);
-                    }
-                }
+                Effect::Recent(change) => recent.push(change),
                 Effect::Ask(question) => self.viewport.take_question(question),
                 Effect::Locate(sought) => located.push(sought),
                 Effect::Focus(focus) => self.focus = Some(focus),
@@ -310,6 +306,9 @@ impl App {
                 | Effect::ToggleContrast
                 | Effect::Scale(_) => self.pending.push(effect),
             }
+        }
+        for change in recent {
+            self.change_recent(&change);
         }
         for sought in located {
             let site = self.site_of(&sought);
@@ -529,6 +528,7 @@ impl App {
             self.session.take_pace(whole_seconds);
             self.look_after_device();
         }
+        self.advance_open_picture(&ctx.clone());
         if let Some(seconds) = self.session.seconds_to_next_change() {
             ctx.request_repaint_after(Duration::from_secs_f64(seconds));
         }

@@ -196,6 +196,60 @@ fn what_makes_room_is_listed_and_comes_back() {
     assert_eq!(recent(&window), 0);
 }
 
+/// The pictures that are kept of recent documents.
+fn kept_pictures(window: &Window) -> Vec<String> {
+    let log = window.log.0.borrow();
+    let kept = log.stored.get("recent-pictures").cloned();
+    kept.unwrap_or_default()
+        .lines()
+        .map(str::to_owned)
+        .collect()
+}
+
+/// What is left for another document is listed with the picture that it had, which goes when the entry goes.
+#[test]
+fn recent_documents_have_pictures() {
+    let log = Fake::default();
+    let without = r#"{ "fabrica": 1, "title": "Without" }"#;
+    let without = Document::from_json(without).expect("a document");
+    log.store_value("recent", &fabrica::link::encode(&without));
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log, Some(OWN));
+    let rest = |window: &mut Window| {
+        // Two seconds at rest, on the clock of the interface.
+        window.steps(130);
+        window.settle();
+    };
+    rest(&mut window);
+    let own = window.log.0.borrow().stored.get("picture").cloned();
+    let own = own.expect("a small picture of the open document");
+    assert!(own.len() < 9_000, "{} characters", own.len());
+    let open = |window: &mut Window, text: &str| {
+        let text = text.to_owned();
+        let log = &window.log.0;
+        log.borrow_mut().queue.push(Message::OpenText { text });
+        window.settle();
+    };
+    window.press(Key::N);
+    window.press(Key::H);
+    rest(&mut window);
+    open(&mut window, CUBE);
+    assert_eq!(recent(&window), 2);
+    assert_eq!(kept_pictures(&window).len(), 1, "of what was left");
+    window.click("Examples");
+    window.click("Show: Recent documents");
+    window.steps(3);
+    window.look("recent_pictures");
+    window.click("Remove My work from the list");
+    assert_eq!(kept_pictures(&window).len(), 0, "it goes with its document");
+    window.click("Remove Without from the list");
+    // Then there is silence.
+    window.click("Close the examples");
+    rest(&mut window);
+    window.steps(600);
+    let delay = window.harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay;
+    assert!(delay > std::time::Duration::from_secs(1), "{delay:?}");
+}
+
 /// The document of the last visit is not lost when a link is opened.
 #[test]
 fn a_link_keeps_the_document_of_the_last_visit() {

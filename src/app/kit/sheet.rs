@@ -2,7 +2,7 @@
 
 use egui::{ColorImage, Context, Rect, TextureHandle, TextureId, TextureOptions, Vec2, pos2, vec2};
 
-use crate::render::{RenderError, decode_png};
+use crate::render::{Image, RenderError, decode_png};
 
 /// A picture of equal tiles, counted row by row from the top left. Made once per window; holds one texture.
 pub(crate) struct Sheet {
@@ -22,15 +22,27 @@ impl Sheet {
         png: &[u8],
         tile_px: [u32; 2],
     ) -> Result<Self, RenderError> {
+        Ok(Self::of(ctx, name, &decode_png(png)?, tile_px))
+    }
+
+    /// A picture of one tile.
+    ///
+    /// # Errors
+    /// [`RenderError::NotPng`].
+    pub(crate) fn whole(ctx: &Context, name: &str, png: &[u8]) -> Result<Self, RenderError> {
         let image = decode_png(png)?;
+        Ok(Self::of(ctx, name, &image, image.size))
+    }
+
+    fn of(ctx: &Context, name: &str, image: &Image, tile_px: [u32; 2]) -> Self {
         let size = image.size.map(|side| side as usize);
         let pixels = ColorImage::from_rgba_unmultiplied(size, &image.rgba);
         let [width, height] = tile_px;
-        Ok(Self {
+        Self {
             texture: ctx.load_texture(name, pixels, TextureOptions::LINEAR),
             tile_px: vec2(width as f32, height as f32),
             columns: (image.size[0] / width.max(1)).max(1) as usize,
-        })
+        }
     }
 
     /// The texture and the part of it that the tile of this index covers. A margin of half a pixel keeps the neighbours

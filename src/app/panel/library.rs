@@ -18,11 +18,13 @@ use crate::app::session::{
     Command, Example, Library, LibraryCommand, LibraryPage, Listing, Recent, Session,
 };
 use crate::app::words::library::w;
-use crate::app::words::{fill, kinds, messages, names};
+use crate::app::words::{self, fill, kinds, messages, names};
 use crate::document::TemplateKind;
 
 /// Points between cards.
 const GAP: f32 = 10.0;
+/// Points of the picture of a recent document.
+const RECENT: egui::Vec2 = vec2(64.0, 48.0);
 /// Points of a card's texts under its picture.
 const TEXTS: f32 = 92.0;
 
@@ -31,6 +33,8 @@ const TEXTS: f32 = 92.0;
 pub(crate) struct Pictures {
     png: Vec<u8>,
     sheet: Option<Sheet>,
+    /// Those of recent documents that were shown, with the files that they are of.
+    recent: Vec<(Vec<u8>, Sheet)>,
 }
 
 impl Pictures {
@@ -38,6 +42,25 @@ impl Pictures {
     pub(crate) fn take(&mut self, png: Vec<u8>) {
         self.png = png;
         self.sheet = None;
+    }
+
+    /// The picture of a recent document; a broken one is none.
+    fn recent(&mut self, ui: &Ui, png: Option<&Vec<u8>>) -> Option<&Sheet> {
+        let png = png?;
+        let known = self.recent.iter().position(|(other, _)| other == png);
+        let at = match known {
+            Some(at) => at,
+            None => {
+                let sheet = Sheet::whole(ui.ctx(), "recent document", png).ok()?;
+                // More than are ever listed: older ones are of documents that are gone.
+                if self.recent.len() > 32 {
+                    self.recent.clear();
+                }
+                self.recent.push((png.clone(), sheet));
+                self.recent.len() - 1
+            }
+        };
+        self.recent.get(at).map(|(_, sheet)| sheet)
     }
 
     fn sheet(&mut self, ui: &Ui, tile_px: [u32; 2]) -> Option<&Sheet> {
@@ -77,7 +100,7 @@ pub(crate) fn ui(ui: &Ui, session: &Session, pictures: &mut Pictures, commands: 
         ui.add_space(6.0);
         match library.page {
             LibraryPage::Examples => examples_ui(ui, library, pictures, commands),
-            LibraryPage::Recent => recent_ui(ui, library, commands),
+            LibraryPage::Recent => recent_ui(ui, library, pictures, commands),
         }
     });
     if modal.should_close() {
@@ -372,7 +395,7 @@ fn elided(
 
 // ---------------------------------------------------------------------------------------------------- recent ones
 
-fn recent_ui(ui: &mut Ui, library: &Library, commands: &mut Vec<Command>) {
+fn recent_ui(ui: &mut Ui, library: &Library, pictures: &mut Pictures, commands: &mut Vec<Command>) {
     if library.recent.is_empty() {
         let weak = Palette::get(ui).weak;
         let text = egui::RichText::new(w().no_recent).color(weak);
@@ -381,19 +404,26 @@ fn recent_ui(ui: &mut Ui, library: &Library, commands: &mut Vec<Command>) {
     }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for (index, recent) in library.recent.iter().enumerate() {
-            recent_row(ui, index, recent, commands);
+            let sheet = pictures.recent(ui, recent.png.as_ref());
+            recent_row(ui, index, recent, sheet, commands);
         }
     });
 }
 
-/// One document that was open before: its title, what is in it, and a button that takes it from the list.
-fn recent_row(ui: &mut Ui, index: usize, recent: &Recent, commands: &mut Vec<Command>) {
+/// One document that was open before: its picture, its title, what is in it, and a button that takes it from the list.
+fn recent_row(
+    ui: &mut Ui,
+    index: usize,
+    recent: &Recent,
+    sheet: Option<&Sheet>,
+    commands: &mut Vec<Command>,
+) {
     let palette = Palette::get(ui);
     let name = recent.name();
     let side = theme::control_height();
     ui.horizontal(|ui| {
         let width = ui.available_width() - side - 24.0;
-        let (rect, response) = ui.allocate_exact_size(vec2(width, side + 12.0), Sense::click());
+        let (rect, response) = ui.allocate_exact_size(vec2(width, RECENT.y + 8.0), Sense::click());
         let enabled = ui.is_enabled();
         let spoken = fill(w().open_recent, &[&name]);
         response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, &spoken));
@@ -411,6 +441,26 @@ fn recent_row(ui: &mut Ui, index: usize, recent: &Recent, commands: &mut Vec<Com
         } else {
             format!("{subject}: {kinds}")
         };
+        let tile = Rect::from_min_size(rect.min + vec2(4.0, 4.0), RECENT);
+        let tile = widget::sided(rect, tile);
+        let rect = match words::is_rtl() {
+            true => rect.with_max_x(tile.left()),
+            false => rect.with_min_x(tile.right()),
+        };
+        let radius = CornerRadius::same(6);
+        match sheet {
+            Some(sheet) => {
+                let (texture, uv) = sheet.tile(0);
+                let image = egui::Image::new((texture, RECENT));
+                image.uv(uv).corner_radius(radius).paint_at(ui, tile);
+            }
+            None => {
+                ui.painter().rect_filled(tile, radius, palette.sunken);
+            }
+        }
+        let line = Stroke::new(1.0, palette.line);
+        ui.painter()
+            .rect_stroke(tile, radius, line, StrokeKind::Inside);
         let room = rect.width() - 16.0;
         let title = elided(ui, &name, theme::strong_font(13.0), palette.text, room, 1);
         let about = elided(

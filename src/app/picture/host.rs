@@ -39,6 +39,8 @@ pub(crate) struct Picture {
     clock: Clock,
     questions: Vec<(Question, PendingPick)>,
     file: Option<FileJob>,
+    /// The picture as it was shown, on its way back.
+    read_back: Option<Pending<Result<Image, RenderError>>>,
     /// As of the last frame.
     pub(crate) state: DrawState,
 }
@@ -64,6 +66,7 @@ impl Picture {
             clock,
             questions: Vec::new(),
             file: None,
+            read_back: None,
             state: DrawState {
                 is_done: false,
                 progress: 0.0,
@@ -310,6 +313,28 @@ impl Picture {
     /// Stops drawing the picture for a file.
     pub(crate) fn stop_file(&mut self) {
         self.file = None;
+    }
+
+    /// Starts reading the picture back that is shown at this moment.
+    pub(crate) fn start_reading(&mut self) {
+        self.read_back = Some(Box::pin(self.renderer.read_output()));
+    }
+
+    /// Forgets the picture that is being read back.
+    pub(crate) fn stop_reading(&mut self) {
+        self.read_back = None;
+    }
+
+    /// A picture is being read back.
+    pub(crate) fn is_reading(&self) -> bool {
+        self.read_back.is_some()
+    }
+
+    /// The picture that was read back, once it is there.
+    pub(crate) fn poll_reading(&mut self) -> Option<Result<Image, RenderError>> {
+        let image = poll_once(self.read_back.as_mut()?)?;
+        self.read_back = None;
+        Some(image)
     }
 
     /// Box of the deformed object as it was last drawn, subject space.

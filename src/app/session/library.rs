@@ -118,6 +118,8 @@ pub struct Recent {
     pub document: Document,
     /// The step at which it was left.
     pub step: usize,
+    /// A small picture of it, a PNG, if one is kept.
+    pub png: Option<Vec<u8>>,
 }
 
 impl Recent {
@@ -209,14 +211,16 @@ impl Library {
         };
     }
 
-    /// Takes the list of documents that were open before, as it is kept. What cannot be read is left out.
-    pub fn take_recent(&mut self, kept: &str) {
+    /// Takes the list of documents that were open before, as it is kept, and gives each the picture that there is for
+    /// its link. What cannot be read is left out.
+    pub fn take_recent(&mut self, kept: &str, picture_of: impl Fn(&str) -> Option<Vec<u8>>) {
         let read = |tail: &str| {
             let link = link::decode(tail).ok()?;
             Some(Recent {
                 tail: tail.to_owned(),
                 document: link.document,
                 step: link.step,
+                png: picture_of(tail),
             })
         };
         self.recent = kept.lines().filter_map(read).collect();
@@ -274,7 +278,7 @@ mod tests {
     fn what_cannot_be_read_is_left_out() {
         let mut library = Library::default();
         let good = link::encode(&Document::new());
-        library.take_recent(&format!("nonsense\n\n{good}&step=0\n{good}"));
+        library.take_recent(&format!("nonsense\n\n{good}&step=0\n{good}"), |_| None);
         assert_eq!(library.recent.len(), 2, "{:?}", library.recent);
         for broken in ["", "{}", r#"{"tile":[1,1],"examples":[{}]}"#] {
             library.take_list(Ok(broken.as_bytes()));

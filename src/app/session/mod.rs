@@ -10,7 +10,7 @@
 //! | `command`, `effect`, `question`, `found`, `sought`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
 //! | `line`, `brush` | the way of a hand, and the ball that paints along it |
-//! | `notices`, `view`, `tissues`, `taken`, `files`, `clipboard`, `library` | other parts of the state |
+//! | `notices`, `view`, `tissues`, `taken`, `files`, `clipboard`, `library`, `small_picture` | other parts of the state |
 //! | `session` | the state itself |
 //! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw` | what can be done with it |
 //! | `making`, `painting` | what can be done with tissues |
@@ -45,6 +45,7 @@ mod seeking;
 )]
 mod session;
 pub mod shape;
+mod small_picture;
 mod sought;
 mod starting;
 mod surface;
@@ -77,6 +78,9 @@ pub use self::notices::{Gravity, Notice, Notices, Offer};
 pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
 pub use self::session::{Load, LoadOf, STORED_DOCUMENT, Session, Tab};
+pub use self::small_picture::{
+    STORED_PICTURE, STORED_RECENT_PICTURES, SmallPicture, changed_pictures, picture_of,
+};
 pub use self::sought::Sought;
 pub use self::taken::Taken;
 pub use self::ticket::Ticket;

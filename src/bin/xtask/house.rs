@@ -71,6 +71,7 @@ pub(crate) const ORDER: [(&str, &[&[&str]]); 3] = [
                 "fields.rs",
                 "layout.rs",
                 "provisional.rs",
+                "recents.rs",
                 "saving.rs",
                 "window_title.rs",
             ],
