@@ -259,8 +259,8 @@ impl<'a> Touch<'a> {
         self.press_at(at, 1200).await;
     }
 
-    /// Swipes in the drawer until a control stands within it.
-    pub(crate) async fn scroll_to(&self, name: &str) {
+    /// Swipes in the drawer until a control stands within it; how many swipes that took.
+    pub(crate) async fn scroll_to(&self, name: &str) -> u32 {
         let tabs = find(self.0, "Add").await;
         let picture = find(self.0, "Picture").await;
         let (top, bottom) = (picture.at.1 + picture.size.1, tabs.at.1);
@@ -269,7 +269,7 @@ impl<'a> Touch<'a> {
             let (_, y) = control.middle();
             println!("{name} at {y}, the drawer from {top} to {bottom}");
             if y < bottom - 24.0 {
-                return;
+                return i;
             }
             // By the edge, where the names stand and not the sliders; each time from elsewhere, for what lies under the
             // finger may be drawn itself.
@@ -301,6 +301,12 @@ pub(crate) async fn focus(tab: &Tab) {
 
 /// A key with others held; `command` is what the browser's own editing would do with it.
 pub(crate) async fn press_with(tab: &Tab, modifiers: i64, key: &str, command: Option<&str>) {
+    strike(tab, modifiers, key, command).await;
+    tab.frames(2).await;
+}
+
+/// The same, without waiting for the page to deal with it.
+pub(crate) async fn strike(tab: &Tab, modifiers: i64, key: &str, command: Option<&str>) {
     for kind in [DispatchKeyEventType::KeyDown, DispatchKeyEventType::KeyUp] {
         let mut params = DispatchKeyEventParams::new(kind.clone());
         params.modifiers = Some(modifiers);
@@ -335,11 +341,24 @@ pub(crate) async fn press_with(tab: &Tab, modifiers: i64, key: &str, command: Op
         }
         tab.page.execute(params).await.expect("a key");
     }
-    tab.frames(2).await;
 }
 
 pub(crate) async fn press(tab: &Tab, key: &str) {
     press_with(tab, 0, key, None).await;
+}
+
+/// Types a text, as fast as the browser takes the keys: no letter waits for a frame.
+pub(crate) async fn write(tab: &Tab, text: &str) {
+    for letter in text.chars() {
+        for kind in [DispatchKeyEventType::KeyDown, DispatchKeyEventType::KeyUp] {
+            let mut params = DispatchKeyEventParams::new(kind.clone());
+            params.key = Some(letter.to_string());
+            params.windows_virtual_key_code = Some(i64::from(letter.to_ascii_uppercase() as u32));
+            params.text = (kind == DispatchKeyEventType::KeyDown).then(|| letter.to_string());
+            tab.page.execute(params).await.expect("a key");
+        }
+    }
+    tab.frames(2).await;
 }
 
 /// Waits until the page says something aloud.

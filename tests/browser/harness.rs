@@ -150,15 +150,32 @@ fn newest_under(path: &Path) -> Option<(SystemTime, PathBuf)> {
 
 /// What one test has: a context of the browser, and a server.
 pub(crate) struct Session {
-    browser: Arc<Browser>,
-    context: BrowserContextId,
+    /// The browser of all tests.
+    pub(crate) browser: Arc<Browser>,
+    /// The context of this test alone.
+    pub(crate) context: BrowserContextId,
     /// Serves the page.
     pub(crate) server: Server,
 }
 
 impl Session {
     async fn start(running: &Running, server: Server) -> Self {
-        let browser = Arc::clone(&running.browser);
+        Self::within(Arc::clone(&running.browser), server).await
+    }
+
+    /// The same page in a context of its own, as on another machine: end it before the test ends.
+    pub(crate) async fn elsewhere(&self) -> Self {
+        Self::within(Arc::clone(&self.browser), self.server.clone()).await
+    }
+
+    /// Closes a context that [`Session::elsewhere`] made.
+    pub(crate) async fn end(self) {
+        let closing = self.browser.dispose_browser_context(self.context);
+        let closed = timeout(CLOSING, closing).await;
+        closed.expect("it closes in time").expect("it closes");
+    }
+
+    async fn within(browser: Arc<Browser>, server: Server) -> Self {
         let context = browser
             .create_browser_context(CreateBrowserContextParams::default())
             .await

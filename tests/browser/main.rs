@@ -17,6 +17,7 @@ mod making;
 mod native;
 mod page;
 mod parts;
+mod path;
 mod running;
 #[path = "../support/segment_files.rs"]
 mod segment_files;

@@ -117,6 +117,53 @@ fn a_link_to_a_scan_fetches_no_maker_of_subjects() {
     });
 }
 
+/// A real panic in a part: the program as it is shipped, in a browser that says that a file's piece has more bytes than
+/// this machine can hold. The viewer tells it in words with the panic's own beside them, and the next scan is read.
+#[test]
+fn a_panic_in_a_part_is_a_message() {
+    const FAULTY: &str = "
+        const read = FileReaderSync.prototype.readAsArrayBuffer;
+        FileReaderSync.prototype.readAsArrayBuffer = function (...piece) {
+            const bytes = read.apply(this, piece);
+            Object.defineProperty(Uint8Array.prototype, 'length', { get: () => 0xffffffff });
+            return bytes;
+        };";
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.server.add("ball.nrrd", small_scan());
+        let tab = session.viewer_sized("", PAGE).await;
+        tab.drawn("panic_before", |page| is_drawn(&object_part(page)))
+            .await;
+        let bindings = std::fs::read_to_string(harness::dist().join("fabrica_scans.js"));
+        let bindings = bindings.expect("the script of the part");
+        let faulty = format!("{bindings}\n{FAULTY}").into_bytes();
+        session.server.add("fabrica_scans.js", faulty);
+        drop_files(&tab, &["ball.nrrd"]).await;
+        hand::hear(&tab, "stopped because of a fault").await;
+        hand::click(&tab, "Details").await;
+        let words = hand::listed(&tab).await;
+        assert!(words.contains("capacity overflow"), "{words}");
+        assert!(
+            !tab.eval::<bool>("window.fabrica.viewer.has_panicked()")
+                .await,
+            "the page itself goes on"
+        );
+        let document: String = tab.eval("window.fabrica.viewer.get_document()").await;
+        assert!(!document.contains("sha256"), "as it was: {document}");
+        assert_head_is_drawn(&tab, "panic_after").await;
+
+        session
+            .server
+            .add("fabrica_scans.js", bindings.into_bytes());
+        drop_files(&tab, &["ball.nrrd"]).await;
+        tab.wait_until(
+            "JSON.parse(window.fabrica.viewer.get_document()).subject?.sha256 !== undefined",
+            60,
+        )
+        .await;
+        tab.assert_no_complaints().await;
+    });
+}
+
 /// A part that cannot be loaded, or stops with a fault, becomes a message; the page goes on.
 #[test]
 fn a_part_that_fails_is_a_message() {

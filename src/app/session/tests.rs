@@ -154,6 +154,7 @@ fn the_same_command_again_puts_the_tool_away() {
 #[test]
 fn a_click_asks_for_its_tool_and_looking_asks_nothing() {
     let mut session = empty();
+    session.are_drawers = true;
     let click = || Command::UseToolAt([12.0, 34.0]);
     assert!(run(&mut session, click()).is_empty());
     run(&mut session, Command::ToggleCaptioning);
@@ -173,7 +174,8 @@ fn a_click_asks_for_its_tool_and_looking_asks_nothing() {
     );
     let captions = &session.illustration().captions;
     assert_eq!(captions[0].at, found().pos_in_rest, "fastened to tissue");
-    assert_eq!(session.side_tab, Tab::Text);
+    let drawer = session.tab;
+    assert_eq!((session.side_tab, drawer), (Tab::Text, Some(Tab::Text)));
     // An answer that comes too late does nothing.
     answer(&mut session, &asked, Some(found()));
     assert_eq!(session.illustration().captions.len(), 1);

@@ -112,10 +112,10 @@ impl Session {
         }
     }
 
-    /// Opens the field of a caption.
+    /// Opens the field of a caption, in a narrow window the drawer that holds it too.
     pub(super) fn edit_caption(&mut self, index: usize) {
         self.side_tab = Tab::Text;
-        self.tab = self.tab.map(|_| Tab::Text);
+        self.tab = self.are_drawers.then_some(Tab::Text);
         self.effect(Effect::Focus(Focus::Caption(index)));
     }
 
