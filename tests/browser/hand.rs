@@ -301,6 +301,12 @@ pub(crate) async fn focus(tab: &Tab) {
 
 /// A key with others held; `command` is what the browser's own editing would do with it.
 pub(crate) async fn press_with(tab: &Tab, modifiers: i64, key: &str, command: Option<&str>) {
+    strike(tab, modifiers, key, command).await;
+    tab.frames(2).await;
+}
+
+/// The same, without waiting for the page to deal with it.
+pub(crate) async fn strike(tab: &Tab, modifiers: i64, key: &str, command: Option<&str>) {
     for kind in [DispatchKeyEventType::KeyDown, DispatchKeyEventType::KeyUp] {
         let mut params = DispatchKeyEventParams::new(kind.clone());
         params.modifiers = Some(modifiers);
@@ -335,7 +341,6 @@ pub(crate) async fn press_with(tab: &Tab, modifiers: i64, key: &str, command: Op
         }
         tab.page.execute(params).await.expect("a key");
     }
-    tab.frames(2).await;
 }
 
 pub(crate) async fn press(tab: &Tab, key: &str) {

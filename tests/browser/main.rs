@@ -24,7 +24,6 @@ mod segment_files;
 mod server;
 mod size;
 mod slices;
-mod slow;
 mod tissue;
 
 use compare::{difference, drawn_pixels, object_part};
