@@ -52,7 +52,7 @@ impl App {
                 .frame(side)
                 .show(ui, |ui| {
                     widget::directed(ui, |ui| widget::heading(ui, words::bar::w().add, |_| {}));
-                    scroll(ui, |ui| {
+                    scroll(ui, Tab::Add, |ui| {
                         catalogue::ui(ui, &self.session, &self.icons, self.focus, commands)
                     });
                 });
@@ -80,7 +80,7 @@ impl App {
                     });
                     ui.add_space(6.0);
                     let tab = self.session.side_tab;
-                    scroll(ui, |ui| self.tab_ui(ui, tab, commands));
+                    scroll(ui, tab, |ui| self.tab_ui(ui, tab, commands));
                 });
         }
         if self.session.side_tab != Tab::Tissues {
@@ -124,7 +124,7 @@ impl App {
                     .resizable(false)
                     .frame(drawer)
                     .show(ui, |ui| {
-                        scroll(ui, |ui| match tab {
+                        scroll(ui, tab, |ui| match tab {
                             Tab::Add => {
                                 catalogue::ui(ui, &self.session, &self.icons, self.focus, commands)
                             }
@@ -261,9 +261,12 @@ impl App {
         });
     }
 }
-/// A panel's contents, scrolled when they do not fit, with room for the bar at the right.
-fn scroll(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+
+/// Contents of the panel, scrolled when they do not fit, with room for the bar at the right. Each panel keeps its own
+/// place: another one in the same drawer begins at its top.
+fn scroll(ui: &mut Ui, panel: Tab, contents: impl FnOnce(&mut Ui)) {
+    let area = ScrollArea::vertical().id_salt(panel).auto_shrink(false);
+    area.show(ui, |ui| {
         ui.set_max_width(ui.available_width() - 8.0);
         widget::directed(ui, contents);
         ui.add_space(12.0);

@@ -144,3 +144,30 @@ fn clicks_count_on_slow_devices() {
     window.steps(2);
     assert!(is_open(&window), "it was clicked");
 }
+
+/// A drawer begins at its top, wherever the one before it was scrolled to.
+#[test]
+fn each_drawer_begins_at_its_top() {
+    let peeled =
+        r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [{ "kind": "peel" }] }"#;
+    let mut window = Window::open(vec2(390.0, 844.0), peeled);
+    window.click("Select Peel");
+    window.steps(2);
+    window.click("Templates");
+    window.steps(5);
+    window.harness.hover_at(egui::pos2(195.0, 650.0));
+    window.harness.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: vec2(0.0, -400.0),
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+        modifiers: Modifiers::NONE,
+    });
+    window.steps(20);
+    window.click("Text");
+    window.steps(5);
+    assert!(
+        window.harness.query_by_label("Title").is_some(),
+        "the first field is in the drawer"
+    );
+}

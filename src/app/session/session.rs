@@ -104,7 +104,7 @@ pub(super) struct Left {
 }
 
 /// A panel that is open, beside the picture or as a drawer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Tab {
     /// The catalogue of templates.
     Add,
