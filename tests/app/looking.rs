@@ -283,9 +283,6 @@ fn the_transfer_function_of_the_head_to_look_at() {
 
 // ---------------------------------------------------------------------------------------------------- slices
 
-/// Room for all four views.
-const FOUR: Vec2 = Vec2::new(1100.0, 700.0);
-
 /// A cube with a piece cut out at its upper corner in front, on the patient's right.
 const CUT: &str = r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [
     { "kind": "cut", "at": [0.3, 0.3, 0.3], "size": [0.4, 0.4, 0.4] } ] }"#;

@@ -29,4 +29,4 @@ use fabrica::app::{
 };
 use fabrica::data::{SubjectPart, Volume, VolumeSink, Voxels};
 use fabrica::document::{Document, ParamValue, RawVoxels, SubjectRef, TemplateMode};
-use window::{CUBE, DESK, Fake, Queue, RESOLUTION, Window, clock};
+use window::{CUBE, DESK, FOUR, Fake, Queue, RESOLUTION, Window, clock};

@@ -330,7 +330,7 @@ fn finding_a_tissue_can_be_stopped() {
 #[test]
 fn a_range_is_seen_while_it_is_dragged() {
     const PANES: [&str; 2] = ["Axial slice", "Picture of "];
-    let mut window = Window::open(DESK, CUBE);
+    let mut window = Window::open(FOUR, CUBE);
     window.drop_large_cube();
     window.press(Key::V);
     window.click("Panel: Tissues");
@@ -463,7 +463,7 @@ fn slice_of(window: &Window, name: &str) -> egui::Rect {
 
 #[test]
 fn a_tissue_is_painted_in_the_picture_and_in_slices() {
-    let mut window = Window::open(DESK, CUBE);
+    let mut window = Window::open(FOUR, CUBE);
     window.click("Panel: Tissues");
     window.click("Paint a tissue");
     window.settle();
@@ -531,7 +531,7 @@ fn a_tissue_is_painted_in_the_picture_and_in_slices() {
 #[test]
 fn painting_in_an_opened_object_paints_its_tissue() {
     let mut window = Window::open(
-        DESK,
+        FOUR,
         r#"{ "fabrica": 1, "subject": { "builtin": "cube", "features": [ { "name": "mine", "paint": [] } ] },
             "templates": [ { "kind": "split", "params": { "amount": 0.3 } } ] }"#,
     );

@@ -249,6 +249,9 @@ pub(crate) fn clock() -> f64 {
         .map_or(0.0, |since| since.as_secs_f64())
 }
 
+/// Wide enough for the slices beside the picture.
+pub(crate) const FOUR: Vec2 = Vec2::new(1100.0, 700.0);
+
 /// Small, since lavapipe draws it; 1280 by 800 to be looked at.
 pub(crate) const DESK: Vec2 = if option_env!("FABRICA_LOOK_AT").is_some() {
     Vec2::new(1280.0, 800.0)
