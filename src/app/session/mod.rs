@@ -10,7 +10,8 @@
 //! | `command`, `effect`, `question`, `found`, `sought`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
 //! | `line`, `brush` | the way of a hand, and the ball that paints along it |
-//! | `notices`, `view`, `tissues`, `taken`, `files`, `clipboard`, `library`, `small_picture` | other parts of the state |
+//! | `notices`, `view`, `tissues`, `taken` | other parts of the state |
+//! | `files`, `clipboard`, `library`, `small_picture` | files, and what is kept beside the document |
 //! | `session` | the state itself |
 //! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw` | what can be done with it |
 //! | `making`, `painting` | what can be done with tissues |
