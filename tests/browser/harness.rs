@@ -76,6 +76,10 @@ window.framesLater = async (viewer, wanted) => {
 };
 "#;
 
+/// The machine of the tests is slow, and its reader has been told so: the message would lie over what is looked at.
+const KNOWN_TO_BE_SLOW: &str =
+    "try { localStorage.setItem('fabrica.slow', 'told'); } catch { /* a page without storage */ }";
+
 /// Root of the repository.
 pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -218,6 +222,10 @@ impl Session {
     pub(crate) async fn viewer_at(&self, address: &str, size: (u32, u32)) -> Tab {
         let tab = self.tab().await;
         tab.resize(size.0, size.1).await;
+        tab.page
+            .evaluate_on_new_document(KNOWN_TO_BE_SLOW)
+            .await
+            .expect("a script for the next page");
         tab.page.goto(address).await.expect("the page loads");
         tab.wait_for_state("started").await;
         tab
