@@ -109,7 +109,7 @@ impl Session {
         self.tissues.brush.close();
     }
 
-    /// Goes on with a drag ([`drag_code`]) to what the picture has under the hand.
+    /// Goes on with a drag ([`drag_code`](super::brush::drag_code)) to what the picture has under the hand.
     pub(super) fn paint_on(&mut self, code: usize, found: Option<Found>) {
         let Some(found) = found else {
             return;
@@ -128,7 +128,7 @@ impl Session {
         self.paint_at(code, found.pos_in_rest);
     }
 
-    /// Goes on with a drag ([`drag_code`]) to a point of rest space.
+    /// Goes on with a drag ([`drag_code`](super::brush::drag_code)) to a point of rest space.
     pub(super) fn paint_at(&mut self, code: usize, pos: Vec3) {
         let (number, erases) = (code / 2, code % 2 == 1);
         let Tool::Paint { recipe: index, .. } = self.tool() else {
