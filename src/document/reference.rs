@@ -1,8 +1,9 @@
 //! The reference of the document format, rendered from the schema and the catalogue into `reference.md`.
 
 use super::model::{ParamKind, ParamSpec, TemplateKind, presets};
-use super::schema::{FIELD, Key, Kind, LeftOut, RBF, visit};
+use super::schema::{Key, Kind, LeftOut, visit};
 use super::text::json::{number, number_text};
+use crate::displace::Holds;
 use crate::math::plain_f64;
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -16,7 +17,7 @@ fn render() -> String {
          document is written, unless its line says otherwise. Values outside a range are kept, and the nearest value is drawn.\n\
          Unknown keys, kinds and names are kept and named in a notice.\n",
     );
-    visit(&mut |at, keys| object(&mut page, at, keys));
+    visit(&mut |at, holds, keys| object(&mut page, at, holds, keys));
     page.push_str("\n## Parameters of templates\n\nThe keys of `/templates/*/params`, by kind.\n");
     for kind in TemplateKind::ALL {
         let spec = kind.spec();
@@ -38,15 +39,15 @@ fn render() -> String {
 }
 
 /// The section of one object.
-fn object(page: &mut String, at: &str, keys: &'static [Key]) {
+fn object(page: &mut String, at: &str, holds: Option<Holds>, keys: &[Key]) {
     let title = match at {
         "" => "The document".to_owned(),
         at => format!("`{at}`"),
     };
-    let of = match () {
-        () if std::ptr::eq(keys, RBF) => " of an `rbf`, besides its parameters",
-        () if std::ptr::eq(keys, FIELD) => " of a `field`, besides its parameters",
-        () => "",
+    let of = match holds {
+        Some(Holds::Points) => " of an `rbf`, besides its parameters",
+        Some(Holds::File) => " of a `field`, besides its parameters",
+        Some(Holds::Parameters) | None => "",
     };
     _ = write!(
         page,
@@ -224,7 +225,7 @@ fn the_page_is_up_to_date() {
 #[test]
 fn every_key_has_its_line() {
     let page = render();
-    visit(&mut |at, keys| {
+    visit(&mut |at, _, keys| {
         for key in keys {
             let line = format!("| `{}` | ", key.name);
             assert!(page.contains(&line), "{at}/{}", key.name);

@@ -548,34 +548,40 @@ pub(crate) fn is_fixed(key: &str) -> bool {
     find(ROOT, key).is_some_and(|key| key.is_fixed)
 }
 
-/// Calls `visit` with the JSON pointer and the keys of every object of the document; `*` stands for an index or a name.
-pub(crate) fn visit(visit: &mut impl FnMut(&str, &'static [Key])) {
-    fn inside(at: &str, keys: &'static [Key], visit: &mut impl FnMut(&str, &'static [Key])) {
-        visit(at, keys);
+/// Calls `visit` with every object of the document: its JSON pointer, where `*` stands for an index or a name; what a
+/// template kind's `params` hold besides parameters, where the keys belong to that; the keys.
+pub(crate) fn visit(visit: &mut impl FnMut(&str, Option<Holds>, &'static [Key])) {
+    fn inside(
+        at: &str,
+        holds: Option<Holds>,
+        visit: &mut impl FnMut(&str, Option<Holds>, &'static [Key]),
+        keys: &'static [Key],
+    ) {
+        visit(at, holds, keys);
         for key in keys {
             let at = pointer::join(at, key.name);
             let entry = pointer::join(&at, "*");
             match key.kind {
-                Kind::Object(of) | Kind::OneOrMore { of, .. } => inside(&at, of, visit),
+                Kind::Object(of) | Kind::OneOrMore { of, .. } => inside(&at, None, visit, of),
                 Kind::List { of, .. }
                 | Kind::FirstOf { of, .. }
                 | Kind::Looks(of)
-                | Kind::Transfer(of) => inside(&entry, of, visit),
+                | Kind::Transfer(of) => inside(&entry, None, visit, of),
                 Kind::Params => {
-                    inside(&at, RBF, visit);
-                    inside(&at, FIELD, visit);
+                    inside(&at, Some(Holds::Points), visit, RBF);
+                    inside(&at, Some(Holds::File), visit, FIELD);
                 }
                 _ => {}
             }
         }
     }
-    inside("", ROOT, visit);
+    inside("", None, visit, ROOT);
 }
 
 /// Place of every known name among the keys of an object.
 static ORDER: LazyLock<HashMap<&'static str, u16>> = LazyLock::new(|| {
     let mut order: HashMap<&'static str, u16> = HashMap::new();
-    visit(&mut |_, keys| {
+    visit(&mut |_, _, keys| {
         for key in keys {
             order.insert(key.name, key.order);
         }
@@ -596,7 +602,7 @@ mod tests {
     fn a_name_has_one_place_and_an_object_no_name_twice() {
         let mut order: HashMap<&str, u16> = HashMap::new();
         let mut names: HashMap<u16, &str> = HashMap::new();
-        visit(&mut |at, keys| {
+        visit(&mut |at, _, keys| {
             for (i, key) in keys.iter().enumerate() {
                 let before = order.insert(key.name, key.order);
                 assert!(
