@@ -28,7 +28,7 @@ fn label_volumes_open_as_in_a_command() {
         for case in segment_files::cases() {
             let document = serde_json::json!({ "fabrica": 1, "subject": case.subject });
             let link = payload(&document.to_string());
-            let tab = session.viewer_sized(&format!("#{link}"), HIGH).await;
+            let tab = session.coarse_viewer(&format!("#{link}"), HIGH).await;
             tab.settled().await;
             // An error stays over the picture, with the hashes behind a button.
             let list = listed(&tab).await;
@@ -68,7 +68,7 @@ fn a_foreign_label_volume_waits_for_a_tap() {
         let src = format!("{}/{parts}", other.address());
         let document = serde_json::json!({ "fabrica": 1, "subject": { "src": scan, "segments": { "src": src } } });
         let link = payload(&document.to_string());
-        let tab = session.viewer_sized(&format!("#{link}"), HIGH).await;
+        let tab = session.coarse_viewer(&format!("#{link}"), HIGH).await;
         tab.wait_until("window.fabrica.viewer.controls().includes('Fetch')", 60)
             .await;
         let host = other.address().replace("http://", "");

@@ -28,7 +28,7 @@ fn the_path_by_touch_alone() {
     with_browser(BrowserGpu::Software, |session| async move {
         session.allow_clipboard().await;
         let tab = session
-            .viewer_sized(&format!("#{}", payload(OTHER)), PHONE)
+            .coarse_viewer(&format!("#{}", payload(OTHER)), PHONE)
             .await;
         let hand = Touch::new(&tab).await;
         hand.scenery().await;
@@ -131,7 +131,7 @@ fn the_path_by_touch_alone() {
         hand.tap("Copy link").await;
         let link = clipboard(&tab, &session.server.address()).await;
         let sent = document(&tab).await;
-        let other = session.viewer_at(&link, PHONE).await;
+        let other = session.coarse_viewer_at(&link, PHONE).await;
         other
             .wait_until("window.fabrica.viewer.get_document() !== ''", 60)
             .await;
@@ -147,7 +147,7 @@ fn the_path_by_keys_alone() {
     with_browser(BrowserGpu::Software, |session| async move {
         session.allow_clipboard().await;
         let tab = session
-            .viewer_sized(&format!("#{}", payload(PLAIN)), PAGE)
+            .coarse_viewer(&format!("#{}", payload(PLAIN)), PAGE)
             .await;
         focus(&tab).await;
         scenery(&tab, "keys_0").await;
@@ -208,7 +208,7 @@ fn the_path_by_keys_alone() {
         press_with(&tab, CTRL | SHIFT, "L", None).await;
         let link = clipboard(&tab, &session.server.address()).await;
         hear(&tab, "clipboard").await;
-        let other = session.viewer_at(&link, PAGE).await;
+        let other = session.coarse_viewer_at(&link, PAGE).await;
         other
             .wait_until("window.fabrica.viewer.get_document() !== ''", 60)
             .await;
@@ -244,7 +244,7 @@ fn two_tabs_share_templates_and_nothing_else() {
         let poke =
             r#"{"kind":"poke","name":"nose","group":"face","at":[0.1,0.4,0.2],"later":true}"#;
         let first = session
-            .viewer_sized(&format!("#{}", with_title("first", poke)), SIZE)
+            .coarse_viewer(&format!("#{}", with_title("first", poke)), SIZE)
             .await;
         focus(&first).await;
         scenery(&first, "tabs_first").await;
@@ -254,7 +254,7 @@ fn two_tabs_share_templates_and_nothing_else() {
         assert!(text.contains("nose") && text.contains("later"), "{text}");
 
         let second = session
-            .viewer_sized(&format!("#{}", with_title("second", "")), SIZE)
+            .coarse_viewer(&format!("#{}", with_title("second", "")), SIZE)
             .await;
         focus(&second).await;
         scenery(&second, "tabs_second").await;
@@ -314,7 +314,7 @@ fn two_tabs_share_templates_and_nothing_else() {
 fn a_sleeping_page_draws_nothing() {
     with_browser(BrowserGpu::Software, |session| async move {
         let tab = session
-            .viewer_sized(&format!("#{}", payload(PLAIN)), (420, 380))
+            .coarse_viewer(&format!("#{}", payload(PLAIN)), (420, 380))
             .await;
         tab.eval::<bool>(
             "(() => { const submit = GPUQueue.prototype.submit; window.submits = 0; GPUQueue.prototype.submit = function (...a) { window.submits++; return submit.apply(this, a) }; return true })()",

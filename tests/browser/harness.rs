@@ -80,6 +80,13 @@ window.framesLater = async (viewer, wanted) => {
 const KNOWN_TO_BE_SLOW: &str =
     "try { localStorage.setItem('fabrica.slow', 'told'); } catch { /* a page without storage */ }";
 
+/// The canvas has one pixel for two of CSS along a side, as on a page that is zoomed out: a quarter of the work for the
+/// software GPU, with the same layout. The viewer counts them by the ratio where a browser does not tell them itself.
+const COARSE: &str = "
+Object.defineProperty(window, 'devicePixelRatio', { get: () => 0.5 });
+delete ResizeObserverEntry.prototype.devicePixelContentBoxSize;
+";
+
 /// Root of the repository.
 pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -220,10 +227,25 @@ impl Session {
 
     /// Opens a tab of this size at an address and waits until the viewer has started.
     pub(crate) async fn viewer_at(&self, address: &str, size: (u32, u32)) -> Tab {
+        self.viewer_with("", address, size).await
+    }
+
+    /// As [`Session::viewer_sized`], with a coarse canvas: for tests of what the page does, not of how it looks.
+    pub(crate) async fn coarse_viewer(&self, path: &str, size: (u32, u32)) -> Tab {
+        let address = format!("{}/{path}", self.server.address());
+        self.coarse_viewer_at(&address, size).await
+    }
+
+    /// As [`Session::viewer_at`], with a coarse canvas.
+    pub(crate) async fn coarse_viewer_at(&self, address: &str, size: (u32, u32)) -> Tab {
+        self.viewer_with(COARSE, address, size).await
+    }
+
+    async fn viewer_with(&self, before: &str, address: &str, size: (u32, u32)) -> Tab {
         let tab = self.tab().await;
         tab.resize(size.0, size.1).await;
         tab.page
-            .evaluate_on_new_document(KNOWN_TO_BE_SLOW)
+            .evaluate_on_new_document(format!("{KNOWN_TO_BE_SLOW}{before}"))
             .await
             .expect("a script for the next page");
         tab.page.goto(address).await.expect("the page loads");

@@ -1,6 +1,6 @@
 //! The examples in the page: fetched when they are looked at and not before, and opened by a click.
 
-use super::hand::{self, click, document, find, focus, press};
+use super::hand::{self, click, document, find, focus, strike};
 use super::harness::Tab;
 use super::*;
 use std::collections::BTreeSet;
@@ -13,7 +13,7 @@ fn examples_are_fetched_when_they_are_looked_at() {
     const SIZE: (u32, u32) = (960, 540);
     with_browser(BrowserGpu::Software, |session| async move {
         let tab = session
-            .viewer_sized(&format!("#{}", payload(PLAIN)), SIZE)
+            .coarse_viewer(&format!("#{}", payload(PLAIN)), SIZE)
             .await;
         tab.settled().await;
         let asked = || {
@@ -121,7 +121,9 @@ async fn each_is_reached(tab: &Tab, page: &image::RgbaImage) {
     let said = "document.getElementById('said').textContent";
     let mut left = titles.clone();
     for _ in 0..3 * titles.len() + 20 {
-        press(tab, "Tab").await;
+        // One frame takes the key in and says where it went, at the latest in the next round.
+        strike(tab, 0, "Tab", None).await;
+        tab.frames(1).await;
         let heard: String = tab.eval(said).await;
         left.retain(|title| !heard.contains(&format!("Open the example {title}")));
         if left.is_empty() {

@@ -10,7 +10,7 @@ const TALL: (u32, u32) = (800, 760);
 /// A document in a page that is at rest.
 async fn opened(session: &Session, json: &str) -> Tab {
     let tab = session
-        .viewer_sized(&format!("#{}", payload(json)), TALL)
+        .coarse_viewer(&format!("#{}", payload(json)), TALL)
         .await;
     focus(&tab).await;
     tab.settled().await;

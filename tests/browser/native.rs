@@ -266,6 +266,17 @@ impl Native {
         let document = Document::from_json(&document.to_string()).expect("a good document");
         drawn(&studio, document.illustration(), SIZE).await
     }
+
+    /// The picture of a case, and those without what it is about.
+    async fn draw_case(&mut self, case: &Case) -> (RgbaImage, Vec<(&'static str, RgbaImage)>) {
+        let image = self.draw(&case.document).await;
+        let mut plain = Vec::new();
+        for pointer in case.about {
+            let rest = without(&case.document, pointer);
+            plain.push((*pointer, self.draw(&rest).await));
+        }
+        (image, plain)
+    }
 }
 
 async fn drawn(studio: &Studio, illustration: &Illustration, size: [u32; 2]) -> RgbaImage {
@@ -298,15 +309,9 @@ fn browser_draws_what_the_native_program_draws() {
                 "window.fabrica.module.render_png({quoted},{},{},{SAMPLES},{RESOLUTION})",
                 SIZE[0], SIZE[1]
             );
-            let page = promised(&tab, &script).await;
-            let image = native.draw(&case.document).await;
-            let mut plain = Vec::new();
-            for pointer in case.about {
-                plain.push((
-                    *pointer,
-                    native.draw(&without(&case.document, pointer)).await,
-                ));
-            }
+            // The page is asked first, and draws while the native program does.
+            let (page, (image, plain)) =
+                tokio::join!(promised(&tab, &script), native.draw_case(&case));
             findings.compare(&case.name, &page, &image, &plain);
         }
         let Findings { worst, faults } = findings;

@@ -145,7 +145,7 @@ fn history_and_reload_restore_documents() {
         let title = "JSON.parse(window.fabrica.viewer.get_document()).title ?? ''";
         let is = |wanted: &str| format!("({title}) === '{wanted}'");
         let tab = session
-            .viewer_sized(&format!("#{}", titled("one")), (420, 360))
+            .coarse_viewer(&format!("#{}", titled("one")), (420, 360))
             .await;
         tab.wait_until(&is("one"), 30).await;
         tab.eval::<bool>(&format!("(location.hash = '{}', true)", titled("two")))
@@ -155,17 +155,17 @@ fn history_and_reload_restore_documents() {
         tab.wait_until(&is("one"), 30).await;
         tab.eval::<bool>("(history.forward(), true)").await;
         tab.wait_until(&is("two"), 30).await;
-        let plain = session.viewer_sized("", (420, 360)).await;
+        let plain = session.coarse_viewer("", (420, 360)).await;
         plain.wait_until(&is("two"), 30).await;
         let given = session
-            .viewer_sized(&format!("?s={}", titled("three")), (420, 360))
+            .coarse_viewer(&format!("?s={}", titled("three")), (420, 360))
             .await;
         given.wait_until(&is("three"), 30).await;
         session.server.add(
             "lesson.json",
             br#"{"fabrica":1,"title":"four","subject":{"builtin":"bar"}}"#.to_vec(),
         );
-        let from_file = session.viewer_sized("?doc=lesson.json", (420, 360)).await;
+        let from_file = session.coarse_viewer("?doc=lesson.json", (420, 360)).await;
         from_file.wait_until(&is("four"), 30).await;
         let called = "document.title === 'four \u{2013} Fabrica'";
         from_file.wait_until(called, 30).await;
@@ -177,7 +177,7 @@ fn history_and_reload_restore_documents() {
 #[test]
 fn missing_document_is_told_in_a_working_viewer() {
     with_browser(BrowserGpu::Software, |session| async move {
-        let tab = session.viewer_sized("?doc=missing.json", PAGE).await;
+        let tab = session.coarse_viewer("?doc=missing.json", PAGE).await;
         let said =
             "document.getElementById('said').textContent.includes('no document at this address')";
         tab.wait_until(said, 30).await;
@@ -207,7 +207,7 @@ fn hostile_link_leaves_a_working_viewer() {
             // What a page's own router keeps there is no link at all.
             ("route", "/route/to?page", ""),
         ] {
-            let tab = session.viewer_sized(&format!("#{bad}"), PAGE).await;
+            let tab = session.coarse_viewer(&format!("#{bad}"), PAGE).await;
             let before: String = tab.eval("location.hash").await;
             // The viewer draws the head.
             let is_head = |page: &image::RgbaImage| drawn_pixels(&object_part(page)) > 5000;

@@ -60,7 +60,7 @@ fn small_scan() -> Vec<u8> {
 fn each_part_is_fetched_when_it_is_needed() {
     with_browser(BrowserGpu::Software, |session| async move {
         session.server.add("ball.nrrd", small_scan());
-        let tab = session.viewer_sized("", PAGE).await;
+        let tab = session.coarse_viewer("", PAGE).await;
         tab.settled().await;
         let picture = object_part(&tab.picture("parts_head").await);
         assert!(is_drawn(&picture), "the head is drawn");
@@ -101,7 +101,7 @@ fn a_link_to_a_scan_fetches_no_maker_of_subjects() {
     with_browser(BrowserGpu::Software, |session| async move {
         session.server.add("ball.nrrd", small_scan());
         let link = payload(r#"{"fabrica":1,"subject":{"src":"ball.nrrd"}}"#);
-        let tab = session.viewer_sized(&format!("#{link}"), PAGE).await;
+        let tab = session.coarse_viewer(&format!("#{link}"), PAGE).await;
         // The ball is drawn.
         tab.drawn("parts_link", |page| is_drawn(&object_part(page)))
             .await;
@@ -130,7 +130,7 @@ fn a_panic_in_a_part_is_a_message() {
         };";
     with_browser(BrowserGpu::Software, |session| async move {
         session.server.add("ball.nrrd", small_scan());
-        let tab = session.viewer_sized("", PAGE).await;
+        let tab = session.coarse_viewer("", PAGE).await;
         tab.drawn("panic_before", |page| is_drawn(&object_part(page)))
             .await;
         let bindings = std::fs::read_to_string(harness::dist().join("fabrica_scans.js"));
@@ -169,7 +169,7 @@ fn a_panic_in_a_part_is_a_message() {
 fn a_part_that_fails_is_a_message() {
     with_browser(BrowserGpu::Software, |session| async move {
         session.server.add("ball.nrrd", small_scan());
-        let tab = session.viewer_sized("", PAGE).await;
+        let tab = session.coarse_viewer("", PAGE).await;
         tab.drawn("parts_before", |page| is_drawn(&object_part(page)))
             .await;
         // It loads, and stops in the midst of its task.

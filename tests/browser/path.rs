@@ -312,7 +312,7 @@ async fn walk(session: &Session, scan: &Path, with: With) {
     let folder = downloads(session, with).await;
     let start = Instant::now();
     let tab = session
-        .viewer_sized(&format!("#{}", payload(PLAIN)), with.size())
+        .coarse_viewer(&format!("#{}", payload(PLAIN)), with.size())
         .await;
     let mut author = Author::new(&tab, with).await;
     scenery(&tab, "path_start").await;
@@ -403,7 +403,7 @@ async fn walk(session: &Session, scan: &Path, with: With) {
 
     // Elsewhere: nothing of this visit is known there.
     let elsewhere = session.elsewhere().await;
-    let other = elsewhere.viewer_at(&link, with.size()).await;
+    let other = elsewhere.coarse_viewer_at(&link, with.size()).await;
     let mut reader = Author::new(&other, with).await;
     let asks = format!(
         "{TOLD}.some((line) => line.includes('{NAME_OF_SCAN}') && line.includes('open the file'))"

@@ -10,7 +10,7 @@ fn series_is_dropped_and_a_template_placed_on_a_slice() {
     const SIZE: (u32, u32) = (1280, 720);
     with_browser(BrowserGpu::Software, |session| async move {
         let tab = session
-            .viewer_sized(&format!("#{}", payload(PLAIN)), SIZE)
+            .coarse_viewer(&format!("#{}", payload(PLAIN)), SIZE)
             .await;
         focus(&tab).await;
         if let Some(folder) = data_folder("series_is_dropped_and_a_template_placed_on_a_slice")

@@ -141,7 +141,7 @@ fn bone_is_found_in_a_scan_and_laid_bare() {
             "chest.nii.gz",
         );
         let plain = payload(PLAIN);
-        let tab = session.viewer_sized(&format!("#{plain}"), HIGH).await;
+        let tab = session.coarse_viewer(&format!("#{plain}"), HIGH).await;
         focus(&tab).await;
         drop_files(&tab, &["chest.nii.gz"]).await;
         tab.wait_until(
@@ -190,7 +190,7 @@ fn bone_is_found_in_a_scan_and_laid_bare() {
 
         click(&tab, "Copy link").await;
         let link = clipboard(&tab, &session.server.address()).await;
-        let other = session.viewer_at(&link, HIGH).await;
+        let other = session.coarse_viewer_at(&link, HIGH).await;
         other
             .wait_until("window.fabrica.viewer.get_document() !== ''", 60)
             .await;
