@@ -1,7 +1,9 @@
 //! What a template does, in one sentence, and how far.
 
 use super::lang::{Lang, Line, one_line};
-use crate::document::{Align, ConstrainBy, ParamValue, PlacedTemplate, TemplateData, TemplateKind};
+use crate::document::{
+    Align, ConstrainBy, ParamKind, ParamValue, PlacedTemplate, TemplateData, TemplateKind,
+};
 
 /// What one template of a document does.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,35 +121,32 @@ fn doing(template: &PlacedTemplate) -> Option<(Line, Option<Extent>)> {
     let some = |value: f32| (value.abs() > NOTHING).then_some(value);
     let length = |value: f32, line: Line| Some((line, Some(Extent::Length(some(value)?))));
     let part = |value: f32, line: Line| Some((line, Some(Extent::Part(some(value)?))));
+    // Openings are told as parts of the widest that there is: how wide they are at the surface depends on where it lies in
+    // the template's box.
+    let of_most = |line: Line| part(part_of_most(template), line);
     let degrees =
         |value: f32, line: Line| Some((line, Some(Extent::Angle(some(value)?.to_degrees()))));
     match template.kind {
         K::Poke => match number("amount") {
-            amount if amount > 0.0 => length(
-                amount * size.z,
-                [
-                    "A bump is pulled out, {0} high",
-                    "Eine Beule ist herausgezogen, {0} hoch",
-                    "Se ha sacado un bulto de {0} de altura",
-                    "向外拉出一个凸起，高 {0}",
-                ],
-            ),
-            amount => length(
-                amount * size.z,
-                [
-                    "A dent is pushed in, {0} deep",
-                    "Eine Delle ist eingedrückt, {0} tief",
-                    "Se ha hundido un hoyo de {0} de profundidad",
-                    "向内压出一个凹陷，深 {0}",
-                ],
-            ),
+            amount if amount > 0.0 => of_most([
+                "A bump is pulled out, {0}",
+                "Eine Beule ist herausgezogen, {0}",
+                "Se ha sacado un bulto, {0}",
+                "向外拉出一个凸起，{0}",
+            ]),
+            _ => of_most([
+                "A dent is pushed in, {0}",
+                "Eine Delle ist eingedrückt, {0}",
+                "Se ha hundido un hoyo, {0}",
+                "向内压出一个凹陷，{0}",
+            ]),
         },
         K::Twist => degrees(
             number("angle"),
             [
                 "It is twisted by {0}",
                 "Um {0} verdreht",
-                "Torcido {0}",
+                "Torsión de {0}",
                 "扭转 {0}",
             ],
         ),
@@ -165,8 +164,8 @@ fn doing(template: &PlacedTemplate) -> Option<(Line, Option<Extent>)> {
                 angle,
                 [
                     "It is bent inwards by {0}",
-                    "Nach innen gebogen, um {0}",
-                    "Curvado hacia dentro {0}",
+                    "Um {0} nach innen gebogen",
+                    "Curvatura hacia dentro de {0}",
                     "向内弯曲 {0}",
                 ],
             ),
@@ -174,8 +173,8 @@ fn doing(template: &PlacedTemplate) -> Option<(Line, Option<Extent>)> {
                 -angle,
                 [
                     "It is bent outwards by {0}",
-                    "Nach außen gebogen, um {0}",
-                    "Curvado hacia fuera {0}",
+                    "Um {0} nach außen gebogen",
+                    "Curvatura hacia fuera de {0}",
                     "向外弯曲 {0}",
                 ],
             ),
@@ -217,15 +216,12 @@ fn doing(template: &PlacedTemplate) -> Option<(Line, Option<Extent>)> {
                 "一片皮瓣翻开 {0}",
             ],
         ),
-        K::Split => length(
-            2.0 * number("amount") * size.x,
-            [
-                "Two halves are drawn apart, {0} wide",
-                "Zwei Hälften sind auseinandergezogen, {0} weit",
-                "Dos mitades están separadas {0}",
-                "分成两半并拉开 {0}",
-            ],
-        ),
+        K::Split => of_most([
+            "Two halves are drawn apart, {0}",
+            "Zwei Hälften sind auseinandergezogen, {0}",
+            "Dos mitades están separadas, {0}",
+            "分成两半并拉开，{0}",
+        ]),
         K::Slices if number("count") < 1.5 => None,
         K::Slices if some(number("gap")).or(some(number("shift"))).is_none() => None,
         K::Slices => part(
@@ -233,28 +229,22 @@ fn doing(template: &PlacedTemplate) -> Option<(Line, Option<Extent>)> {
             [
                 "Cut into {1} slices and drawn apart, {0}",
                 "In {1} Scheiben geschnitten und auseinandergezogen, {0}",
-                "Cortado en {1} rodajas y separado, {0}",
+                "Corte en {1} rodajas separadas, {0}",
                 "切成 {1} 片并拉开，{0}",
             ],
         ),
-        K::Retractor => length(
-            2.0 * number("amount") * size.y,
-            [
-                "An incision is drawn open, {0} wide",
-                "Ein Schnitt ist aufgezogen, {0} weit",
-                "Una incisión está abierta con separadores, {0}",
-                "切口已拉开 {0}",
-            ],
-        ),
-        K::Cutquad => length(
-            2.0 * number("amount") * size.x,
-            [
-                "An incision gapes, {0} wide",
-                "Ein Schnitt klafft, {0} weit",
-                "Una incisión está abierta, {0}",
-                "切口张开 {0}",
-            ],
-        ),
+        K::Retractor => of_most([
+            "An incision is drawn open, {0}",
+            "Ein Schnitt ist aufgezogen, {0}",
+            "Una incisión está abierta con separadores, {0}",
+            "切口已拉开，{0}",
+        ]),
+        K::Cutquad => of_most([
+            "An incision gapes, {0}",
+            "Ein Schnitt klafft, {0}",
+            "Una incisión está abierta, {0}",
+            "切口张开，{0}",
+        ]),
         K::Peeler => length(
             number("lift") * size.z,
             [
@@ -274,15 +264,12 @@ fn doing(template: &PlacedTemplate) -> Option<(Line, Option<Extent>)> {
             ],
         ),
         K::Cut => Some((removed(template), None)),
-        K::Hole => length(
-            2.0 * number("amount") * size.x,
-            [
-                "Tissue is pushed aside into a round opening, {0} wide",
-                "Gewebe ist zu einer runden Öffnung beiseitegeschoben, {0} weit",
-                "El tejido está apartado en una abertura redonda de {0}",
-                "组织被推开成圆孔，宽 {0}",
-            ],
-        ),
+        K::Hole => of_most([
+            "Tissue is pushed aside into a round opening, {0}",
+            "Gewebe ist zu einer runden Öffnung beiseitegeschoben, {0}",
+            "El tejido está apartado en una abertura redonda, {0}",
+            "组织被推开成圆孔，{0}",
+        ]),
         K::Lens => part(
             number("strength"),
             [
@@ -347,6 +334,15 @@ fn besides(template: &PlacedTemplate) -> Vec<(Line, Extent)> {
                 besides.push((line, Extent::Length(shift)));
             }
         }
+        TemplateKind::Twist => {
+            let line = [
+                " over {0}",
+                ", auf {0} Länge",
+                " en {0}",
+                "，分布于 {0}长度",
+            ];
+            besides.push((line, Extent::Length(template.placement.size.z)));
+        }
         TemplateKind::Move => {
             let turn = turn_of(template);
             if turn > 0.05 {
@@ -362,6 +358,19 @@ fn besides(template: &PlacedTemplate) -> Vec<(Line, Extent)> {
         _ => {}
     }
     besides
+}
+
+/// The main number of a template, as a part of the most that it can be.
+fn part_of_most(template: &PlacedTemplate) -> f32 {
+    let spec = template.kind.spec();
+    let Some(main) = spec.main_param.and_then(|i| spec.params.get(i)) else {
+        return 0.0;
+    };
+    let ParamKind::Number { min, max, .. } = main.kind else {
+        return 0.0;
+    };
+    let value = template.number(main.name);
+    value / if value < 0.0 { min } else { max }
 }
 
 /// The first vector among the parameters.

@@ -60,16 +60,16 @@ fn all_is_told_in_every_language() {
     assert_eq!(
         words(value, 0, &measured),
         [
-            "Skull. Opened? Object: head. The layer is peeled back, 80 % (“scalp”). It is twisted by −29°. \
+            "Skull. Opened? Object: head. The layer is peeled back, 80 % (“scalp”). It is twisted by −29° over 120 mm. \
          Left in place: bone, brain, 7. Not drawn: hair. Drawn see-through: skin. Seen from the left front (the patient's left). \
          In sight: bone 42 %, skin 31 %, Tumor 20 %, without a name 7 %. The object covers 34 % of the picture.",
-            "Skull. Opened? Objekt: Kopf. Die Schicht ist abgerollt, 80 % („scalp“). Um −29° verdreht. \
+            "Skull. Opened? Objekt: Kopf. Die Schicht ist abgerollt, 80 % („scalp“). Um −29° verdreht, auf 120 mm Länge. \
          Am Platz gelassen: Knochen, Gehirn, 7. Nicht gezeichnet: Haar. Durchscheinend gezeichnet: Haut. Ansicht von vorn links (vom Patienten aus links). \
          Zu sehen: Knochen 42 %, Haut 31 %, Tumor 20 %, ohne Namen 7 %. Das Objekt nimmt 34 % des Bildes ein.",
-            "Skull. Opened? Objeto: cabeza. La capa está enrollada, 80 % («scalp»). Torcido −29°. \
-         Sin mover: hueso, cerebro, 7. Sin dibujar: pelo. Dibujado con transparencia: piel. Vista desde delante y desde la izquierda del paciente. \
+            "Skull. Opened? Objeto: cabeza. La capa está enrollada, 80 % («scalp»). Torsión de −29° en 120 mm. \
+         Sin mover: hueso, cerebro, 7. Sin dibujar: pelo. Con transparencia: piel. Vista desde delante y desde la izquierda del paciente. \
          A la vista: hueso 42 %, piel 31 %, Tumor 20 %, sin nombre 7 %. El objeto ocupa el 34 % de la imagen.",
-            "Skull。Opened?对象：头部。表层已卷起，80%（“scalp”）。扭转 −29°。\
+            "Skull。Opened?对象：头部。表层已卷起，80%（“scalp”）。扭转 −29°，分布于 120 毫米长度。\
          保持原位：骨、大脑、7。未绘制：毛发。半透明绘制：皮肤。从患者左前方观看。\
          可见：骨 42%、皮肤 31%、Tumor 20%、未命名 7%。对象占图像的 34%。",
         ]
@@ -79,29 +79,28 @@ fn all_is_told_in_every_language() {
 #[test]
 fn lengths_are_in_millimetres_where_they_are_known() {
     let value = json!({ "fabrica": 1, "subject": { "builtin": "bar" },
-        "templates": [{ "kind": "split", "size": [0.5, 1, 1], "params": { "amount": 0.25 } }] });
+        "templates": [{ "kind": "move", "size": [0.5, 1, 1], "params": { "offset": [0.5, 0, 0] } }] });
     let known = Measured {
         sight: None,
         mm_per_unit: Some(22.0),
     };
     let told = words(value.clone(), 0, &known);
-    assert!(told[0].contains("drawn apart, 5.5 mm wide"), "{told:?}");
-    assert!(
-        told[1].contains("auseinandergezogen, 5,5 mm weit"),
-        "{told:?}"
-    );
-    assert!(told[3].contains("拉开 5.5 毫米"), "{told:?}");
+    for (told, part) in told.iter().zip([
+        "put 5.5 mm away",
+        "um 5,5 mm versetzt",
+        "a 5,5 mm",
+        "移开 5.5 毫米",
+    ]) {
+        assert!(told.contains(part), "{told}");
+    }
     for mm_per_unit in [None, Some(0.0), Some(f64::NAN)] {
-        let told = words(
-            value.clone(),
-            0,
-            &Measured {
-                sight: None,
-                mm_per_unit,
-            },
-        );
+        let measured = Measured {
+            sight: None,
+            mm_per_unit,
+        };
+        let told = words(value.clone(), 0, &measured);
         assert!(
-            told[0].contains("apart, 25 % of the longest side wide"),
+            told[0].contains("put 25 % of the longest side away"),
             "{told:?}"
         );
     }
@@ -127,7 +126,7 @@ fn every_kind_has_a_sentence_of_its_own_and_none_at_rest() {
             let nothing = [
                 "Nothing is deformed",
                 "Nichts ist verformt",
-                "Nada está deformado",
+                "Sin deformación",
                 "没有任何变形",
             ][lang];
             assert!(rest[lang].contains(nothing), "{name}: {}", rest[lang]);
@@ -274,7 +273,7 @@ fn numbers_come_with_the_words() {
         value["done"],
         json!([
         { "template": 0, "kind": "flap", "name": "door", "degrees": 180.0 },
-        { "template": 1, "kind": "hole", "length": 0.2 },
+        { "template": 1, "kind": "hole", "part": 0.4444 },
         { "template": 2, "kind": "cut" }])
     );
     assert_eq!(value["from"], json!(["front"]));

@@ -200,7 +200,7 @@ fn done(deeds: &[Deed], lang: Lang, sentences: &mut Vec<String>) {
         let line = [
             "Nothing is deformed",
             "Nichts ist verformt",
-            "Nada está deformado",
+            "Sin deformación",
             "没有任何变形",
         ];
         sentences.push(lang.of(line).to_owned());
@@ -255,7 +255,7 @@ fn drawn(shown: &Illustration, lang: Lang, sentences: &mut Vec<String>) {
     const CLEAR: Line = [
         "Drawn see-through: {0}",
         "Durchscheinend gezeichnet: {0}",
-        "Dibujado con transparencia: {0}",
+        "Con transparencia: {0}",
         "半透明绘制：{0}",
     ];
     let looks = || shown.look.segments.iter();
