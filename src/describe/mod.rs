@@ -21,6 +21,7 @@ mod deeds;
 mod lang;
 mod names;
 mod sight;
+mod snippet;
 #[cfg(test)]
 mod tests;
 mod text;
@@ -30,5 +31,6 @@ pub use deeds::{Deed, Extent};
 pub use lang::{Lang, Line};
 pub use names::{has_patient, segment, subject};
 pub use sight::{Seen, Sight};
+pub use snippet::{Snippet, snippet};
 pub use text::{Description, Measured, describe};
 pub use view::Sides;
