@@ -121,8 +121,8 @@ fn doing(template: &PlacedTemplate) -> Option<(Line, Option<Extent>)> {
     let some = |value: f32| (value.abs() > NOTHING).then_some(value);
     let length = |value: f32, line: Line| Some((line, Some(Extent::Length(some(value)?))));
     let part = |value: f32, line: Line| Some((line, Some(Extent::Part(some(value)?))));
-    // Openings are told as parts of the widest that there is: how wide they are at the surface depends on where it lies in
-    // the template's box.
+    // Openings are told as parts of the widest that there is: how wide they are at the surface depends on where it
+    // lies in the template's box.
     let of_most = |line: Line| part(part_of_most(template), line);
     let degrees =
         |value: f32, line: Line| Some((line, Some(Extent::Angle(some(value)?.to_degrees()))));

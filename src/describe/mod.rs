@@ -13,7 +13,8 @@
 //!     "align": { "to": "segment", "keep": ["bone"] } }] }"#;
 //! let document = Document::from_json(text)?;
 //! let words = describe(&document, 0, &Measured::default(), Lang::English)?;
-//! assert_eq!(words.text(), "Scalp. Object: head. The layer is peeled back, 80 %. Left in place: bone. Seen from the front.");
+//! let expected = "Scalp. Object: head. The layer is peeled back, 80 %. Left in place: bone. Seen from the front.";
+//! assert_eq!(words.text(), expected);
 //! # Ok::<(), fabrica::document::DocumentError>(())
 //! ```
 

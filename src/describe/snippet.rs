@@ -18,7 +18,7 @@ pub enum Snippet {
 }
 
 impl Snippet {
-    /// All forms.
+    /// Every form, in the order in which they are offered.
     pub const ALL: [Self; 3] = [Self::Element, Self::Frame, Self::Plain];
 }
 

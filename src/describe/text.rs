@@ -182,7 +182,7 @@ fn heading(title: &str, step: usize, last: usize, lang: Lang) -> String {
     lang.fill(line, &[&step, &last, &title])
 }
 
-/// What is illustrated.
+/// The sentence that names the object of the picture.
 fn object(shown: &Illustration, lang: Lang) -> String {
     let name = subject_in_sentence(&shown.subject, lang);
     let name = name.unwrap_or_else(|| lang.of(["scan", "Scan", "estudio", "扫描"]).to_owned());

@@ -127,7 +127,8 @@ fn shares_agree_with_full_pictures() {
     }
 }
 
-/// All of it in full size, by `cargo test --test gpu -- --ignored whole_gallery --nocapture`: minutes on a software GPU.
+/// All of it in full size, by `cargo test --test gpu -- --ignored whole_gallery --nocapture`: minutes on a software
+/// GPU.
 #[test]
 #[ignore = "minutes on a software GPU"]
 fn the_whole_gallery_agrees_with_full_pictures() {

@@ -42,9 +42,9 @@ pub enum NoticeKind {
     },
     /// A text of more characters than count.
     TooLong {
-        /// Its characters.
+        /// Characters of the text in the document.
         found: usize,
-        /// Those that count.
+        /// Characters that count, from its beginning.
         most: usize,
     },
     /// A rotation that is no unit quaternion; its direction is drawn.

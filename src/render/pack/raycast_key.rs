@@ -31,7 +31,7 @@ pub(crate) struct RaycastKey {
 /// What a ray march is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Finds {
-    /// The picture.
+    /// The colour of each pixel.
     Picture,
     /// Everything about the surface under one pixel.
     Pick,
