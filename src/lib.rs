@@ -12,6 +12,7 @@
 //! | [`load`] | 4 | files in, subjects out |
 //! | [`subjects`] | 4 | the built-in subjects, generated |
 //! | [`placed`] | 4 | what a placed template reaches, where it is grabbed, its icon |
+//! | [`describe`] | 4 | a picture in words, for who cannot see it |
 //! | [`assets`] | 5 | what a document needs from outside, and what has come of it |
 //! | `render` | 5 | everything GPU |
 //! | `app` | 6 | the viewer's panels and commands |
@@ -60,6 +61,7 @@ pub mod document;
 pub mod data;
 pub mod link;
 
+pub mod describe;
 pub mod load;
 pub mod placed;
 pub mod subjects;

@@ -138,14 +138,8 @@ fn draw(@builtin(position) at: vec4f) -> @location(0) vec4f {
     return march(floor(at.xy) + frame.jitter).color;
 }
 
-/// The surface at one pixel, as four texels: position and distance from the eye (below 0: no surface); normal and
-/// segment; rest position and value; accumulated opacity.
-@fragment
-fn pick(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    let found = march(frame.pick);
-    let pos = apply_affine(frame.subject_from_view, dir_in_view_of(frame.pick) * found.surface_t);
-    // On the surface itself half of the voxels are air: a little deeper along the ray segment and value are read.
-    let dir = normalize(pos - offset_of(frame.subject_from_view));
+/// Segment (0: none) and value a little deeper along a ray than its surface, on which half of the voxels are air.
+fn tissue_under(pos: vec3f, dir: vec3f) -> vec2f {
     var segment = 0.0;
     var value = 0.0;
     for (var k = 1; k <= 4; k++) {
@@ -158,15 +152,36 @@ fn pick(@builtin(position) at: vec4f) -> @location(0) vec4f {
             break;
         }
     }
+    return vec2f(segment, value);
+}
+
+/// The surface at one pixel, as four texels: position and distance from the eye (below 0: no surface); normal and
+/// segment; rest position and value; accumulated opacity.
+@fragment
+fn pick(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    let found = march(frame.pick);
+    let pos = apply_affine(frame.subject_from_view, dir_in_view_of(frame.pick) * found.surface_t);
+    let tissue = tissue_under(pos, normalize(pos - offset_of(frame.subject_from_view)));
     let part = u32(at.x);
     if part == 0u {
         return vec4f(pos, found.surface_t);
     }
     if part == 1u {
-        return vec4f(found.surface_normal, segment);
+        return vec4f(found.surface_normal, tissue.x);
     }
     if part == 2u {
-        return vec4f(found.surface_rest, value);
+        return vec4f(found.surface_rest, tissue.y);
     }
     return found.color;
+}
+
+/// What each pixel of a picture shows: the distance of its surface from the eye (below 0: no surface) and the segment
+/// there (0: none).
+@fragment
+fn identify(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    let pixel = floor(at.xy) + frame.jitter;
+    let found = march(pixel);
+    let pos = apply_affine(frame.subject_from_view, dir_in_view_of(pixel) * found.surface_t);
+    let tissue = tissue_under(pos, normalize(pos - offset_of(frame.subject_from_view)));
+    return vec4f(found.surface_t, tissue.x, 0.0, found.color.w);
 }

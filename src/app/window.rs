@@ -11,7 +11,7 @@ use crate::app::canvas::viewport::{self, Viewport};
 use crate::app::kit::theme;
 use crate::app::kit::{slow_click, widget};
 use crate::app::panel::{
-    catalogue, frames, kept, keys, library, notice, presets, raw, shortcuts, transfer,
+    catalogue, frames, kept, keys, library, notice, presets, raw, share, shortcuts, transfer,
 };
 use crate::app::picture::host::Picture;
 use crate::app::picture::small::OpenPicture;
@@ -68,6 +68,7 @@ pub struct App {
     pub(crate) wants_shown_size: bool,
     /// The picture on its way into a file.
     pub(crate) saving: Option<Saving>,
+    share: share::Share,
     /// The window is narrow: panels open as drawers over the picture.
     pub(crate) is_narrow: bool,
     /// Fingers point first, so that controls are large in a wide window too.
@@ -191,6 +192,7 @@ impl App {
             announced: Announced::default(),
             wants_shown_size: false,
             saving: None,
+            share: share::Share::default(),
             is_narrow: false,
             incoming: SubjectBuilder::default(),
             assets: Assets::default(),
@@ -291,6 +293,10 @@ impl App {
                     let page = services.page_address();
                     let page = page.split('#').next().unwrap_or_default();
                     services.copy_text(format!("{page}#{tail}"));
+                }
+                Effect::CopySnippet(form) => {
+                    let page = services.page_address();
+                    services.copy_text(self.session.snippet(form, &page));
                 }
                 Effect::Paste => services.paste_text(),
                 Effect::SetLink(tail, change) => services.set_link(&tail, change),
@@ -397,6 +403,10 @@ impl App {
         if self.session.is_keys_sheet_open {
             keys::ui(ui, &mut commands);
         }
+        if self.session.is_share_open {
+            let page = self.services.page_address();
+            share::ui(ui, &self.session, &mut self.share, &page, &mut commands);
+        }
         if self.session.is_messages_open {
             notice::messages_ui(ui, &self.session, &mut commands);
         }
@@ -451,6 +461,7 @@ impl App {
             || matches!(self.focus, Some(Focus::Search | Focus::Tissues));
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
         let is_sheet_open = self.session.is_keys_sheet_open
+            || self.session.is_share_open
             || self.session.is_messages_open
             || self.session.library.is_open
             || self.session.raw_draft().is_some();

@@ -70,7 +70,7 @@ fn inside(value: &mut Value, holds: Kind, kind: Option<TemplateKind>) {
 /// True if a value is what a missing key of this kind means.
 fn is_default(value: &Value, kind: Kind) -> bool {
     match kind {
-        Kind::Text => value.as_str() == Some(""),
+        Kind::Text | Kind::Limited { .. } => value.as_str() == Some(""),
         Kind::Builtin => value.as_str() == Some(DEFAULT_SUBJECT),
         Kind::Name(names) => value.as_str() == names.first().copied(),
         Kind::Background => value.as_str() == Some("#ffffff"),

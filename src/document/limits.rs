@@ -18,6 +18,8 @@ pub const MAX_CUT: usize = 16;
 pub const MAX_CURVE: usize = 9;
 /// Most captions in a document.
 pub const MAX_LABELS: usize = 256;
+/// Most characters of a text in place of a picture (`alt`) that count.
+pub const MAX_ALT: usize = 2000;
 /// Most steps in a document.
 pub const MAX_STEPS: usize = 100;
 /// Most recipes in a document.

@@ -85,6 +85,7 @@ fn values(kind: Kind) -> String {
     match kind {
         Kind::Format => format!("{}", super::FORMAT),
         Kind::Text => "text".to_owned(),
+        Kind::Limited { most } => format!("text, of which the first {most} characters count"),
         Kind::Address => "text, an address relative to the document or absolute".to_owned(),
         Kind::Hash => "SHA-256, 64 hexadecimal digits".to_owned(),
         Kind::Builtin => listed(&super::BUILTIN_SUBJECTS),

@@ -8,9 +8,9 @@
 //! To add a key: one line here, its field in `model`, and the line that reads it in `read`.
 
 use super::limits::{
-    MAX_BALL_MM, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CURVE, MAX_CUT, MAX_LABEL_FILES, MAX_LABELS,
-    MAX_POINTS, MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES, MAX_STROKES,
-    MAX_TEMPLATES, MIN_BALL_MM,
+    MAX_ALT, MAX_BALL_MM, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CURVE, MAX_CUT, MAX_LABEL_FILES,
+    MAX_LABELS, MAX_POINTS, MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES,
+    MAX_STROKES, MAX_TEMPLATES, MIN_BALL_MM,
 };
 use super::model::{
     Align, Camera, ConstrainBy, OpacityMode, ParamKind, RawVoxels, TemplateKind, TemplateMode,
@@ -65,6 +65,11 @@ pub(crate) enum Kind {
     Format,
     /// A text; the default is empty.
     Text,
+    /// A text of which the first `most` characters count; the default is empty.
+    Limited {
+        /// Most characters that count.
+        most: usize,
+    },
     /// An address, relative to the document or absolute.
     Address,
     /// SHA-256, 64 hexadecimal digits.
@@ -250,6 +255,7 @@ pub(crate) const ROOT: &[Key] = &[
     key(10, "fabrica", Kind::Format, "number of the document format; the one key that a document must have").stays().fixed(),
     key(20, "title", Kind::Text, "title of the illustration"),
     key(30, "caption", Kind::Text, "text under the picture"),
+    key(35, "alt", Kind::Limited { most: MAX_ALT }, "text in place of the picture at step 0, for who cannot see it; without it the program describes the picture. A step may have its own"),
     key(40, "credit", Kind::Text, "credit line"),
     key(50, "lang", Kind::Text, "language of the texts, a BCP 47 tag such as `en`"),
     key(60, "subject", Kind::Object(SUBJECT), "what is illustrated").fixed(),
@@ -446,6 +452,7 @@ pub(crate) const CAPTION: &[Key] = &[
 pub(crate) const STEP: &[Key] = &[
     key(20, "title", Kind::Text, "title of the step"),
     key(30, "caption", Kind::Text, "text under the picture at this step"),
+    key(35, "alt", Kind::Limited { most: MAX_ALT }, "text in place of the picture at this step; without it the program describes the picture"),
     key(680, "set", Kind::Set, "JSON pointers into the document and the values that they get"),
     key(690, "seconds", number(1.0, 0.0, 3600.0), "length of the passage to this step"),
 ];

@@ -20,7 +20,9 @@ mod address;
 mod error;
 mod model;
 mod payload;
+mod qr;
 mod v1;
 
 pub use address::{ADVISED_LENGTH, Link, decode, encode, fragment, has_payload};
 pub use error::LinkError;
+pub use qr::{DENSE_QR, LONGEST_QR, Qr, TooLongForQr};

@@ -31,6 +31,7 @@ pub use draw::clock::Clock;
 #[cfg(not(target_arch = "wasm32"))]
 pub use draw::clock::system_clock;
 pub use draw::follow::PendingPlaces;
+pub use draw::identify::{SIGHT_PX, Sighting};
 pub use draw::image::{Image, decode_png, encode_png};
 pub use draw::pick::{PendingPick, Pick};
 pub use draw::probe::{Probe, Sample};

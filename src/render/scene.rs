@@ -10,7 +10,7 @@ use crate::render::device::programs::SubjectShader;
 use crate::render::pack::frame::longest_step;
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::notice::RenderNotice;
-use crate::render::pack::raycast_key::RaycastKey;
+use crate::render::pack::raycast_key::{Finds, RaycastKey};
 use crate::render::pack::stamps::MadeFrom;
 use crate::render::stage::baked::BakedTexture;
 use crate::render::stage::bodies::BodyTextures;
@@ -191,7 +191,18 @@ impl Scene {
             kept_by: kept.map_or(0, KeptTissue::kept_by),
             has_bodies: self.inputs.bodies.get().is_any(),
             has_edges: table.is_some_and(|table| table.gradient > 0.0),
-            is_pick,
+            finds: match is_pick {
+                true => Finds::Pick,
+                false => Finds::Picture,
+            },
+        }
+    }
+
+    /// The pipeline that finds the segment under each pixel.
+    pub(crate) fn segments_key(&self) -> RaycastKey {
+        RaycastKey {
+            finds: Finds::Segments,
+            ..self.key(false)
         }
     }
 

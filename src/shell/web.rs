@@ -457,16 +457,17 @@ pub fn part_of_address() -> Option<String> {
     first_part(&text, &here()?.href())
 }
 
-/// Title, legend and steps of the document in a link or JSON, as lines of text, for where no picture can be drawn.
+/// Title, legend, steps and the author's texts in place of pictures, of the document in a link or JSON, as lines of text, for where no picture can be drawn.
 ///
 /// # Errors
 /// What is wrong with the link or the document.
 #[wasm_bindgen]
 pub fn describe(text: &str) -> Result<String, JsValue> {
     let illustration = open(text)?.illustration().clone();
-    let mut lines = vec![illustration.title, illustration.legend];
+    let mut lines = vec![illustration.title, illustration.legend, illustration.alt];
     for (index, step) in illustration.steps.iter().enumerate() {
-        lines.push(format!("{}. {} {}", index + 1, step.title, step.legend));
+        let line = format!("{}. {} {} {}", index + 1, step.title, step.legend, step.alt);
+        lines.push(line.trim_end().to_owned());
     }
     lines.retain(|line| !line.trim().is_empty());
     Ok(lines.join("\n"))

@@ -7,7 +7,7 @@ use crate::examples;
 use fabrica::document::{Document, SubjectRef};
 use fabrica::link;
 
-fn files() -> Vec<PathBuf> {
+pub(crate) fn files() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("web/gallery");
     let entries = fs::read_dir(&folder).expect("the gallery's folder");
     let mut files: Vec<PathBuf> = entries

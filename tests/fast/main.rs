@@ -2,6 +2,7 @@
 
 #[path = "../support/data.rs"]
 mod data;
+mod describe;
 #[path = "../../src/bin/xtask/examples.rs"]
 mod examples;
 mod gallery;

@@ -302,6 +302,150 @@ fn bad_usage_is_2() {
 }
 
 #[test]
+fn pictures_are_described_in_words() {
+    const LESSON: &str = r#"{"fabrica":1,"title":"Frucht","lang":"de-AT","subject":{"builtin":"tomato"},
+        "templates":[{"kind":"peel","at":[0,0.3,0],"rotate":[-0.7071,0,0,0.7071],"size":[0.8,0.7,0.44],
+            "params":{"depth":1,"progress":0.8,"radius":0.12},"align":{"to":"segment","keep":["jelly","seeds","core","calyx"]}}],
+        "steps":[{"title":"Closed","set":{"/templates/0/params/progress":0}},{"title":"Own","alt":"In my words."}]}"#;
+    let folder = folder();
+    let path = write(&folder, "lesson.json", LESSON);
+    let path = text(&path);
+    let told = fabrica(&["describe", path]).ok().out;
+    let paragraphs: Vec<&str> = told.trim_end().split("\n\n").collect();
+    let [first, closed, own] = paragraphs[..] else {
+        panic!("three paragraphs: {told}")
+    };
+    for part in [
+        "Frucht. Objekt: Tomate. Die Schicht ist abgerollt, 80 %. Am Platz gelassen: Gelee, Kerne, Kern, Kelch. Ansicht von vorn. Zu sehen: ",
+        "Haut ",
+        "Fruchtfleisch ",
+        " % des Bildes ein.",
+    ] {
+        assert!(first.contains(part), "“{part}” is not in {first}");
+    }
+    assert!(
+        closed.starts_with("Schritt 1 von 2: Closed. Objekt: Tomate. Nichts ist verformt."),
+        "{closed}"
+    );
+    assert_eq!(own, "In my words.");
+    // One step, of a link, in another language.
+    let link = fabrica(&["link", path]).ok().out;
+    let one = fabrica(&["describe", link.trim(), "--step", "1", "--lang", "en"])
+        .ok()
+        .out;
+    assert!(
+        one.starts_with("Step 1 of 2: Closed. Object: tomato. Nothing is deformed."),
+        "{one}"
+    );
+    assert_eq!(one.lines().count(), 1, "{one}");
+    let named = format!("{}&step=1", link.trim());
+    assert_eq!(fabrica(&["describe", &named, "--lang", "en"]).ok().out, one);
+    let piped = fabrica_with(
+        folder.path(),
+        &["describe", "-", "--json", "--lang", "zh"],
+        LESSON.as_bytes(),
+    );
+    let steps: Value = serde_json::from_str(&piped.ok().out).expect("JSON");
+    assert_eq!(steps.as_array().map(Vec::len), Some(3));
+    assert_eq!(
+        steps[0]["done"],
+        json!([{ "template": 0, "kind": "peel", "part": 0.8 }])
+    );
+    assert_eq!(
+        (&steps[2]["is_by_author"], &steps[2]["text"]),
+        (&json!(true), &json!("In my words."))
+    );
+    let segments = steps[0]["segments"].as_array().expect("segments");
+    let share = |segment: &Value| segment["share"].as_f64().expect("a share");
+    let all: f64 = segments.iter().map(share).sum();
+    let unnamed = steps[0]["unnamed"].as_f64().expect("a share");
+    assert!((all + unnamed - 1.0).abs() < 1e-3, "{steps}");
+    let is_large = |segment: &&Value| share(segment) > 0.05;
+    assert!(segments.iter().filter(is_large).count() >= 2, "{steps}");
+    fabrica(&["describe", path, "--step", "3"]).failed(&["3", "2", "step"]);
+    fabrica(&["describe", "no/such/file.json"]).failed(&["no/such/file.json"]);
+    let unknown = fabrica(&["describe", path, "--lang", "fr"]);
+    assert_eq!(unknown.status, 2);
+    assert!(unknown.err.contains("en, de, es, zh"), "{}", unknown.err);
+    // A file that the reader has to supply is named.
+    let supplied = format!(
+        r#"{{"fabrica":1,"subject":{{"sha256":"{}","name":"CT"}}}}"#,
+        "a".repeat(64)
+    );
+    fabrica_with(folder.path(), &["describe", "-"], supplied.as_bytes())
+        .failed(&["CT", "--subject"]);
+}
+
+#[test]
+fn a_link_becomes_a_qr_code() {
+    let folder = folder();
+    let path = write(&folder, "peel.json", PEEL);
+    let page = "https://fabrica.example/v/";
+    let png = folder.path().join("code.PNG");
+    let outcome = fabrica(&["link", text(&path), "--page", page, "--qr", text(&png)]).ok();
+    assert_eq!(outcome.err, "", "nothing to say of a short link");
+    let gray = image::open(&png).expect("a PNG").to_luma8();
+    let (width, height) = (gray.width() as usize, gray.height() as usize);
+    let mut prepared = rqrr::PreparedImage::prepare_from_greyscale(width, height, |x, y| {
+        gray.get_pixel(x as u32, y as u32)[0]
+    });
+    let codes = prepared.detect_grids();
+    assert_eq!(codes.len(), 1, "one code");
+    let (_, read) = codes[0].decode().expect("a sound code");
+    assert_eq!(read, outcome.out.trim());
+    assert_eq!(
+        fabrica(&["doc", &read]).ok().out,
+        fabrica(&["doc", text(&path)]).ok().out
+    );
+    let svg = folder.path().join("code.svg");
+    let bare = fabrica(&["link", text(&path), "--qr", text(&svg)]).ok();
+    assert!(bare.err.contains("--page"), "{}", bare.err);
+    let drawn = std::fs::read_to_string(&svg).expect("an SVG");
+    assert!(
+        drawn.starts_with("<svg ") && drawn.contains("viewBox"),
+        "{drawn}"
+    );
+    // Digits that no model of text foresees make a link as long as wanted.
+    let labels = |n: u64, words: u64| -> String {
+        let word = |i: u64| {
+            let i = (i + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let i = (i ^ (i >> 31)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            format!("{:016x}", i ^ (i >> 27))
+        };
+        let text = |i: u64| (0..words).map(|k| word(words * i + k)).collect::<String>();
+        let all: Vec<String> = (0..n)
+            .map(|i| format!(r#"{{"text":"{}"}}"#, text(i)))
+            .collect();
+        format!(r#"{{"fabrica":1,"labels":[{}]}}"#, all.join(","))
+    };
+    let args = ["link", "-", "--page", page, "--qr", text(&svg)];
+    let dense = fabrica_with(folder.path(), &args, labels(140, 1).as_bytes()).ok();
+    let length = dense.out.trim().len();
+    assert!((1201..=2900).contains(&length), "{length}");
+    assert!(dense.err.contains("above 1200"), "{}", dense.err);
+    let before = std::fs::read(&svg).expect("an SVG");
+    let long = labels(256, 2);
+    let length = fabrica_with(folder.path(), &args[..4], long.as_bytes())
+        .ok()
+        .out
+        .len();
+    assert!(length > 2901, "{length}");
+    fabrica_with(folder.path(), &args, long.as_bytes()).failed(&["2900", "document file"]);
+    assert_eq!(
+        std::fs::read(&svg).expect("an SVG"),
+        before,
+        "nothing is written"
+    );
+    let other = fabrica(&["link", text(&path), "--qr", "code.jpg"]);
+    assert_eq!((other.status, other.out.as_str()), (2, ""), "{}", other.err);
+    assert!(
+        other.err.contains(".svg") && other.err.contains(".png"),
+        "{}",
+        other.err
+    );
+}
+
+#[test]
 fn the_catalogue_is_listed() {
     let catalogue: Value =
         serde_json::from_str(&fabrica(&["templates", "--json"]).ok().out).expect("JSON");

@@ -6,6 +6,7 @@ mod bodies;
 mod captions;
 mod cli;
 mod coarse;
+mod describe;
 mod fields;
 mod grid;
 mod icons;

@@ -15,6 +15,7 @@ pub(crate) mod presets;
 pub(crate) mod raw;
 pub(crate) mod recipe;
 mod seek;
+pub(crate) mod share;
 pub(crate) mod shortcuts;
 pub(crate) mod templates;
 pub(crate) mod text;

@@ -169,6 +169,8 @@ fn more_menu(
             item(ui, Icon::Book, words::library::w().examples, command);
         }
         item(ui, Icon::Plus, w().new_document, Command::New);
+        let share = words::share::w().share;
+        item(ui, Icon::Link, share, Command::ToggleShare);
         item(ui, Icon::Download, w().save_document, Command::SaveDocument);
         item(ui, Icon::Picture, w().save_picture, Command::SavePicture);
         ui.separator();

@@ -15,6 +15,8 @@ pub enum Copied {
     /// The link to the document.
     #[default]
     Link,
+    /// HTML for a page.
+    Snippet,
     /// Templates, and how many.
     Templates(usize),
 }

@@ -12,6 +12,7 @@ use super::tissues::TissueCommand;
 use super::view::See;
 use crate::app::words::Lang;
 use crate::data::Site;
+use crate::describe::Snippet;
 use crate::document::{Camera, Edit, Plane, SubjectRef, TemplateKind};
 
 /// One thing to do.
@@ -148,6 +149,10 @@ pub enum Command {
     Raw(RawCommand),
     /// Shows or hides the sheet of keys.
     ToggleKeys,
+    /// Opens or closes the dialog that shares the illustration.
+    ToggleShare,
+    /// Put HTML for a page on the clipboard.
+    CopySnippet(Snippet),
     /// Shows or hides every message so far.
     ToggleMessages,
     /// Shows a message: how grave, one line, details.

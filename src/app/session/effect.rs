@@ -4,6 +4,7 @@ use super::library::{RecentChange, Shipped};
 use super::question::Question;
 use super::sought::Sought;
 use super::ticket::Ticket;
+use crate::describe::Snippet;
 use crate::document::{RawVoxels, SubjectRef};
 
 /// Bytes on their way out.
@@ -66,6 +67,8 @@ pub enum Effect {
     Copy(String),
     /// Put the link on the clipboard; the text goes behind the `#` of the page's address.
     CopyLink(String),
+    /// Put HTML for a page on the clipboard, made of the document as it is seen and the page's address.
+    CopySnippet(Snippet),
     /// Read the clipboard, for templates to paste.
     Paste,
     /// Show a link in the address bar; the text goes behind its `#`.

@@ -4,7 +4,9 @@ use super::clipboard::Copied;
 use super::effect::{Effect, SaveFile};
 use super::notices::Gravity;
 use super::session::{STORED_DOCUMENT, Session, payload_of};
-use crate::app::words::{fill, messages};
+use crate::app::words::{fill, lang, messages, share};
+use crate::assets::{Source, Wanted};
+use crate::describe::{Snippet, snippet};
 use crate::link::ADVISED_LENGTH;
 
 /// Seconds of rest before the link in the address bar is renewed.
@@ -53,6 +55,9 @@ impl Session {
                 let text = fill(crate::app::words::authoring::w().on_clipboard, &[&number]);
                 self.notify(Gravity::Success, text, "");
             }
+            (Ok(()), Copied::Snippet) => {
+                self.notify(Gravity::Success, share::w().on_clipboard, "");
+            }
             (Ok(()), Copied::Link) => {
                 self.copied_at = Some(self.now);
                 self.notify(Gravity::Success, w.link_on_clipboard, "");
@@ -62,6 +67,37 @@ impl Session {
                 }
             }
         }
+    }
+
+    pub(super) fn toggle_share(&mut self) {
+        self.is_share_open = !self.is_share_open;
+        if self.is_share_open {
+            self.renew_link();
+        }
+    }
+
+    pub(super) fn copy_snippet(&mut self, form: Snippet) {
+        self.clipboard.last = Copied::Snippet;
+        self.effect(Effect::CopySnippet(form));
+    }
+
+    /// HTML of the illustration as it is seen, for a page; `page` is the address that links open at. Empty where the
+    /// document has no such step, which cannot be.
+    pub fn snippet(&self, form: Snippet, page: &str) -> String {
+        let lang = lang().of_descriptions();
+        let html = snippet(&self.document_as_seen(), self.step(), page, form, lang);
+        html.unwrap_or_default()
+    }
+
+    /// True if the illustration needs a file that a link does not bring to others: one that the reader supplies, or one
+    /// of this machine.
+    pub fn needs_own_file(&self) -> bool {
+        let wanted = Wanted::of(self.illustration()).0;
+        wanted.iter().any(|want| match &want.source {
+            Source::Builtin(_) => false,
+            Source::File { src: None, .. } => true,
+            Source::File { src: Some(src), .. } => is_local(src),
+        })
     }
 
     pub(super) fn save_document(&mut self) {
@@ -93,6 +129,44 @@ impl Session {
         match stem.trim_matches('-') {
             "" => "fabrica".to_owned(),
             stem => stem.to_owned(),
+        }
+    }
+}
+
+/// True for an address that begins at the root of a machine, and not of a host: `/home/a.nii`, `C:\a.nii`, `file:…`.
+fn is_local(src: &str) -> bool {
+    let drive = src.as_bytes().get(1) == Some(&b':');
+    let scheme = src.get(..5).unwrap_or_default();
+    let is_rooted = src.starts_with('/') && !src.starts_with("//");
+    is_rooted || drive || src.starts_with('\\') || scheme.eq_ignore_ascii_case("file:")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_this_machine_are_told_from_addresses() {
+        for src in [
+            "/home/a.nii",
+            "C:\\a.nii",
+            "c:/a.nii",
+            "file:///a.nii",
+            "FILE:/a",
+            "\\\\host\\a",
+        ] {
+            assert!(is_local(src), "{src}");
+        }
+        for src in [
+            "a.nii",
+            "scans/a.nii",
+            "../a.nii",
+            "https://h.example/a.nii",
+            "//h.example/a",
+            "",
+            "é",
+        ] {
+            assert!(!is_local(src), "{src}");
         }
     }
 }

@@ -157,6 +157,8 @@ impl Session {
             Command::Tissue(command) => self.run_tissue(command),
             Command::Library(command) => self.run_library(command),
             Command::ToggleKeys => self.is_keys_sheet_open = !self.is_keys_sheet_open,
+            Command::ToggleShare => self.toggle_share(),
+            Command::CopySnippet(form) => self.copy_snippet(form),
             Command::ToggleFrames => self.files.is_open = !self.files.is_open,
             Command::ToggleMessages => self.is_messages_open = !self.is_messages_open,
             Command::Notify(gravity, message, details) => self.notify(gravity, message, details),
@@ -225,7 +227,9 @@ impl Session {
 
     /// Closes or ends the topmost thing: one at a time.
     fn escape(&mut self) {
-        if self.is_keys_sheet_open || self.is_messages_open {
+        if self.is_share_open {
+            self.is_share_open = false;
+        } else if self.is_keys_sheet_open || self.is_messages_open {
             self.is_keys_sheet_open = false;
             self.is_messages_open = false;
         } else if self.library.is_open {

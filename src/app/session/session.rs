@@ -163,6 +163,8 @@ pub struct Session {
     pub are_panels_hidden: bool,
     /// True while the sheet of keys lies over the window.
     pub is_keys_sheet_open: bool,
+    /// The dialog that shares the illustration is open.
+    pub is_share_open: bool,
     /// The list of all messages is open.
     pub is_messages_open: bool,
     /// The link of the document with the present camera, without the step.
@@ -235,6 +237,7 @@ impl Session {
             are_drawers: false,
             are_panels_hidden: false,
             is_keys_sheet_open: false,
+            is_share_open: false,
             is_messages_open: false,
             payload,
             link_stale_since: None,

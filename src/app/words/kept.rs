@@ -1,6 +1,7 @@
 //! What a template leaves alone, and what the tissues of the built-in subjects are called.
 
 use super::of;
+use crate::describe;
 
 words! {
     /// Tissue that a template leaves alone.
@@ -42,56 +43,8 @@ pub(crate) fn segment(name: &str) -> String {
     {
         return format!("{} {number}", segment(before));
     }
-    let line = match name {
-        "airway" => ["Airway", "Atemweg", "Vía aérea", "气道"],
-        "arteries" => ["Arteries", "Arterien", "Arterias", "动脉"],
-        "bone" => ["Bone", "Knochen", "Hueso", "骨"],
-        "brain" => ["Brain", "Gehirn", "Cerebro", "大脑"],
-        "brain stem" => ["Brain stem", "Hirnstamm", "Tronco encefálico", "脑干"],
-        "cartilage" => ["Cartilage", "Knorpel", "Cartílago", "软骨"],
-        "cerebellum" => ["Cerebellum", "Kleinhirn", "Cerebelo", "小脑"],
-        "coins" => ["Coins", "Münzen", "Monedas", "硬币"],
-        "core" => ["Core", "Kern", "Núcleo", "核心"],
-        "csf" => [
-            "Cerebrospinal fluid",
-            "Hirnwasser",
-            "Líquido cefalorraquídeo",
-            "脑脊液",
-        ],
-        "dura" => ["Dura", "Harte Hirnhaut", "Duramadre", "硬脑膜"],
-        "eyes" => ["Eyes", "Augen", "Ojos", "眼"],
-        "fat" => ["Fat", "Fett", "Grasa", "脂肪"],
-        "femur" => ["Femur", "Oberschenkelknochen", "Fémur", "股骨"],
-        "fibula" => ["Fibula", "Wadenbein", "Peroné", "腓骨"],
-        "flesh" => ["Flesh", "Fruchtfleisch", "Pulpa", "果肉"],
-        "glands" => ["Glands", "Drüsen", "Glándulas", "腺体"],
-        "hair" => ["Hair", "Haar", "Pelo", "毛发"],
-        "jelly" => ["Jelly", "Gelee", "Gelatina", "果冻"],
-        "joint fluid" => [
-            "Joint fluid",
-            "Gelenkflüssigkeit",
-            "Líquido articular",
-            "关节液",
-        ],
-        "ligaments" => ["Ligaments", "Bänder", "Ligamentos", "韧带"],
-        "menisci" => ["Menisci", "Menisken", "Meniscos", "半月板"],
-        "mucosa" => ["Mucosa", "Schleimhaut", "Mucosa", "黏膜"],
-        "muscle" => ["Muscle", "Muskel", "Músculo", "肌肉"],
-        "nails" => ["Nails", "Nägel", "Uñas", "指甲"],
-        "nerves" => ["Nerves", "Nerven", "Nervios", "神经"],
-        "patella" => ["Patella", "Kniescheibe", "Rótula", "髌骨"],
-        "seeds" => ["Seeds", "Kerne", "Semillas", "种子"],
-        "shell" => ["Shell", "Hülle", "Cubierta", "外壳"],
-        "skin" => ["Skin", "Haut", "Piel", "皮肤"],
-        "teeth" => ["Teeth", "Zähne", "Dientes", "牙齿"],
-        "tendons" => ["Tendons", "Sehnen", "Tendones", "肌腱"],
-        "tibia" => ["Tibia", "Schienbein", "Tibia", "胫骨"],
-        "tongue" => ["Tongue", "Zunge", "Lengua", "舌"],
-        "veins" => ["Veins", "Venen", "Venas", "静脉"],
-        "ventricles" => ["Ventricles", "Hirnkammern", "Ventrículos", "脑室"],
-        "wall" => ["Wall", "Wand", "Pared", "壁"],
-        "white matter" => ["White matter", "Weiße Substanz", "Sustancia blanca", "白质"],
-        _ => return name.to_owned(),
-    };
-    of(line).to_owned()
+    match describe::segment(name) {
+        Some(line) => of(line).to_owned(),
+        None => name.to_owned(),
+    }
 }

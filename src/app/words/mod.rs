@@ -52,6 +52,7 @@ pub(crate) mod names;
 pub(crate) mod picture;
 pub(crate) mod points;
 pub(crate) mod search;
+pub(crate) mod share;
 pub(crate) mod slices;
 pub(crate) mod templates;
 #[cfg(test)]
@@ -144,6 +145,17 @@ impl Lang {
         match self {
             Self::German | Self::Spanish => ',',
             Self::English | Self::Chinese | Self::Mirrored => '.',
+        }
+    }
+
+    /// The language that pictures are described in.
+    pub(crate) fn of_descriptions(self) -> crate::describe::Lang {
+        use crate::describe::Lang as Told;
+        match self {
+            Self::English | Self::Mirrored => Told::English,
+            Self::German => Told::German,
+            Self::Spanish => Told::Spanish,
+            Self::Chinese => Told::Chinese,
         }
     }
 

@@ -32,18 +32,10 @@ words! {
 
 /// What a built-in subject is called.
 pub(crate) fn subject(name: &str) -> String {
-    let line = match name {
-        "bar" => ["Bar", "Balken", "Barra", "长条"],
-        "cube" => ["Cube", "Würfel", "Cubo", "立方体"],
-        "tomato" => ["Tomato", "Tomate", "Tomate", "番茄"],
-        "piggybank" => ["Piggybank", "Sparschwein", "Hucha", "存钱罐"],
-        "head" => ["Head", "Kopf", "Cabeza", "头部"],
-        "hand" => ["Hand", "Hand", "Mano", "手"],
-        "knee" => ["Knee", "Knie", "Rodilla", "膝"],
-        "torso" => ["Torso", "Rumpf", "Torso", "躯干"],
-        _ => return capitalized(name),
-    };
-    of(line).to_owned()
+    match crate::describe::subject(name) {
+        Some(line) => of(line).to_owned(),
+        None => capitalized(name),
+    }
 }
 
 /// What a preset is called, by its name and its English title.

@@ -23,6 +23,7 @@ fn lines() -> impl Iterator<Item = &'static Line> {
         curve::LINES,
         points::LINES,
         messages::LINES,
+        share::LINES,
         slices::LINES,
         templates::LINES,
         text::LINES,

@@ -14,6 +14,8 @@ pub struct Illustration {
     pub title: String,
     /// The text under the picture (`caption` in a document), or empty.
     pub legend: String,
+    /// The author's text in place of the picture, for who cannot see it, or empty.
+    pub alt: String,
     /// Credit line, or empty.
     pub credit: String,
     /// BCP 47 language of the texts, or empty.
@@ -45,6 +47,7 @@ impl Illustration {
         Self {
             title: String::new(),
             legend: String::new(),
+            alt: String::new(),
             credit: String::new(),
             lang: String::new(),
             subject: SubjectRef::Builtin {
@@ -109,6 +112,8 @@ pub struct Step {
     pub title: String,
     /// The text under the picture (`caption` in a document), or empty.
     pub legend: String,
+    /// The author's text in place of the picture at this step, or empty.
+    pub alt: String,
     /// Length of the passage to this step, seconds.
     pub seconds: f32,
 }

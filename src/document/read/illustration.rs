@@ -93,6 +93,7 @@ impl Reader {
         Ok(Illustration {
             title: root.string("title")?,
             legend: root.string("caption")?,
+            alt: self.limited_text(&root, "alt")?,
             credit: root.string("credit")?,
             lang: root.string("lang")?,
             subject,
@@ -124,6 +125,7 @@ impl Reader {
         Ok(Step {
             title: object.string("title")?,
             legend: object.string("caption")?,
+            alt: self.limited_text(object, "alt")?,
             seconds: self.number(object, "seconds")?,
         })
     }

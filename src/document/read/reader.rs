@@ -200,6 +200,30 @@ impl Reader {
         Ok(found)
     }
 
+    /// The text under a key, as far as it counts; a notice says if it is longer.
+    pub(super) fn limited_text(
+        &mut self,
+        object: &Object<'_>,
+        key: &str,
+    ) -> Result<String, DocumentError> {
+        let Kind::Limited { most } = object.kind(key) else {
+            debug_assert!(false, "{key} has no limit in the schema");
+            return object.string(key);
+        };
+        let text = object.text(key)?.unwrap_or_default();
+        let Some((end, _)) = text.char_indices().nth(most) else {
+            return Ok(text.to_owned());
+        };
+        self.note(
+            object.at(key),
+            NoticeKind::TooLong {
+                found: text.chars().count(),
+                most,
+            },
+        );
+        Ok(text.get(..end).unwrap_or_default().to_owned())
+    }
+
     /// The pairs of numbers of a list, as many as are drawn.
     pub(super) fn pairs(
         &mut self,

@@ -1,5 +1,6 @@
 use super::{document, lesson};
 use crate::document::blend::blend;
+use crate::document::{Document, MAX_ALT};
 use serde_json::json;
 use std::sync::Arc;
 
@@ -86,4 +87,43 @@ fn the_states_of_a_document_are_resolved_once() {
         "another revision does not"
     );
     assert_eq!(state(&edited).title, "one", "as the step sets it");
+}
+
+#[test]
+fn texts_in_place_of_pictures_are_kept_and_bounded() {
+    let text = r#"{"fabrica":1,"title":"T","caption":"C","alt":"A skull.","credit":"D","steps":[{"title":"S","alt":"Open.","set":{"/alt":"B"}}]}"#;
+    let read = Document::from_json(text).expect("a document");
+    assert_eq!(read.to_json_compact(), text, "in its place");
+    assert!(read.notices().is_empty(), "{:?}", read.notices());
+    let shown = read.illustration();
+    assert_eq!(
+        (shown.alt.as_str(), shown.steps[0].alt.as_str()),
+        ("A skull.", "Open.")
+    );
+    let step = read.at_step(1).expect("a step");
+    assert_eq!(step.illustration().alt, "B", "a step may set it");
+    let empty = document(json!({ "fabrica": 1, "alt": "", "steps": [{ "alt": "" }] }));
+    assert_eq!(empty.to_json_compact(), r#"{"fabrica":1,"steps":[{}]}"#);
+    // Of a text without an end the first characters count; it is kept.
+    let long = "ß".repeat(MAX_ALT + 1);
+    let kept = document(json!({ "fabrica": 1, "alt": long, "steps": [{ "alt": long }] }));
+    assert_eq!(kept.illustration().alt, long[..2 * MAX_ALT]);
+    assert_eq!(kept.get("/alt"), Some(&json!(long)));
+    assert_eq!(
+        super::notices(&kept),
+        [
+            "/alt: 2001 characters; it is kept, and the first 2000 count",
+            "/steps/0/alt: 2001 characters; it is kept, and the first 2000 count"
+        ]
+    );
+    let whole = document(json!({ "fabrica": 1, "alt": "ß".repeat(MAX_ALT) }));
+    assert!(whole.notices().is_empty(), "{:?}", whole.notices());
+    for wrong in [json!(1), json!(null), json!(["a"]), json!({ "en": "a" })] {
+        let at = super::error(json!({ "fabrica": 1, "alt": wrong }));
+        assert!(at.contains("/alt") && at.contains("a text"), "{at}");
+        let at = super::error(json!({ "fabrica": 1, "steps": [{ "alt": wrong }] }));
+        assert!(at.contains("/steps/0/alt"), "{at}");
+        let at = super::error(json!({ "fabrica": 1, "steps": [{ "set": { "/alt": wrong } }] }));
+        assert!(at.contains("/alt") && at.contains("step 1"), "{at}");
+    }
 }

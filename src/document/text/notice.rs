@@ -40,6 +40,13 @@ pub enum NoticeKind {
         /// The value that is drawn.
         drawn: String,
     },
+    /// A text of more characters than count.
+    TooLong {
+        /// Characters of the text in the document.
+        found: usize,
+        /// Characters that count, from its beginning.
+        most: usize,
+    },
     /// A rotation that is no unit quaternion; its direction is drawn.
     Normalised,
     /// A built-in subject that this version does not know.
@@ -116,6 +123,10 @@ impl fmt::Display for Notice {
                     "{pointer}: {found} is outside the range; {drawn} is drawn"
                 )
             }
+            NoticeKind::TooLong { found, most } => write!(
+                f,
+                "{pointer}: {found} characters; it is kept, and the first {most} count"
+            ),
             NoticeKind::Normalised => {
                 write!(f, "{pointer}: not of length 1; the direction is drawn")
             }

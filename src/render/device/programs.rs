@@ -410,6 +410,7 @@ pub const PROGRAMS: &[Program] = &[
             ("cover", Stage::Vertex),
             ("draw", Stage::Fragment),
             ("pick", Stage::Fragment),
+            ("identify", Stage::Fragment),
         ],
     },
     Program {
@@ -428,6 +429,7 @@ pub const PROGRAMS: &[Program] = &[
             ("cover", Stage::Vertex),
             ("draw", Stage::Fragment),
             ("pick", Stage::Fragment),
+            ("identify", Stage::Fragment),
         ],
     },
     Program {
@@ -439,6 +441,7 @@ pub const PROGRAMS: &[Program] = &[
             ("cover", Stage::Vertex),
             ("draw", Stage::Fragment),
             ("pick", Stage::Fragment),
+            ("identify", Stage::Fragment),
         ],
     },
     Program {

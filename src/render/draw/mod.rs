@@ -3,6 +3,7 @@
 pub(crate) mod bench;
 pub(crate) mod clock;
 pub(crate) mod follow;
+pub(crate) mod identify;
 pub(crate) mod image;
 pub(crate) mod object;
 pub(crate) mod pace;

@@ -1,7 +1,7 @@
 use super::image::{Image, read_picture};
 use super::passes::Passes;
 use super::raycast::{March, encode_march, frame_group};
-use super::tiles::{TILE, tiles_of};
+use super::tiles::tiles_of;
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -14,8 +14,8 @@ use crate::render::scene::Scene;
 use crate::render::subject::textures::SubjectTextures;
 use std::sync::Arc;
 
-/// Pixels handed to the GPU before it is waited for: seconds at most on a software GPU.
-const BATCH_PIXELS: u32 = 64 * TILE * TILE;
+/// Tiles handed to the GPU before it is waited for: seconds at most on a software GPU.
+pub(super) const BATCH_TILES: usize = 64;
 
 /// Everything for one picture, so that drawing it borrows nothing.
 pub(crate) struct PictureJob {
@@ -67,7 +67,7 @@ impl PictureJob {
             let detail = self.subject.frame.detail;
             let frame = frame_of(&self.view, &self.view, self.scene.bounds(), detail, index);
             let frame_group = frame_group(&self.gpu, &self.passes.layouts, &frame);
-            for batch in tiles.chunks((BATCH_PIXELS / (TILE * TILE)) as usize) {
+            for batch in tiles.chunks(BATCH_TILES) {
                 let mut encoder = encoder(&self.gpu);
                 encode_march(
                     &mut encoder,

@@ -8,7 +8,7 @@ use crate::render::device::pipelines::{PipelineParts, Pipelines, render_pass, re
 use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
 use crate::render::device::textures::{LINEAR_FORMAT, PICK_FORMAT};
 use crate::render::pack::gpu_types::Frame;
-use crate::render::pack::raycast_key::RaycastKey;
+use crate::render::pack::raycast_key::{Finds, RaycastKey};
 
 /// The programs of the ray march. Built once per device.
 #[derive(Debug)]
@@ -66,10 +66,10 @@ impl RaycastPasses {
             &self.layout
         };
         // Sample k, from 0, has the weight 1/(k + 1), so that the target holds the mean of all samples so far.
-        let (entry, format, blend) = if key.is_pick {
-            ("pick", PICK_FORMAT, None)
-        } else {
-            ("draw", LINEAR_FORMAT, Some(MEAN))
+        let (entry, format, blend) = match key.finds {
+            Finds::Picture => ("draw", LINEAR_FORMAT, Some(MEAN)),
+            Finds::Pick => ("pick", PICK_FORMAT, None),
+            Finds::Segments => ("identify", PICK_FORMAT, None),
         };
         let parts = PipelineParts {
             label: "raycast",

@@ -1,6 +1,7 @@
 //! Pictures without a window.
 
 use super::follow::Follower;
+use super::identify::{Sighting, identify};
 use super::image::Image;
 use super::object::object_samples;
 use super::passes::Passes;
@@ -259,6 +260,19 @@ impl Studio {
     ) -> impl Future<Output = Result<Option<Pick>, RenderError>> + 'static {
         let reading = self.start_pick(illustration, size_px, pixel);
         async move { reading?.await }
+    }
+
+    /// What each pixel of a picture shows: the object or not, and which of its segments. The future owns what it needs.
+    ///
+    /// # Errors
+    /// As [`Studio::render_image`].
+    pub fn identify(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+    ) -> impl Future<Output = Result<Sighting, RenderError>> + 'static + use<> {
+        let job = self.picture(illustration, size_px);
+        async move { identify(&job?).await }
     }
 
     /// Draws one slice of the deformed object. The future owns what it needs.

@@ -24,8 +24,19 @@ pub(crate) struct RaycastKey {
     pub has_bodies: bool,
     /// The map is read from its baked texture.
     pub is_baked: bool,
-    /// For picking instead of drawing.
-    pub is_pick: bool,
+    /// What is wanted of each ray.
+    pub finds: Finds,
+}
+
+/// What a ray march is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Finds {
+    /// The colour of each pixel.
+    Picture,
+    /// Everything about the surface under one pixel.
+    Pick,
+    /// The segment under each pixel.
+    Segments,
 }
 
 impl RaycastKey {

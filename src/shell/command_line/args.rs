@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 
 use super::reading::ReadingFlags;
+use crate::describe::Lang;
 
 /// Opens CT and MRI scans the way a medical illustrator would.
 ///
@@ -96,6 +97,23 @@ pub(super) enum Command {
         /// The page in front of the link.
         #[arg(long, value_name = "URL")]
         page: Option<String>,
+        /// Also writes the link as a QR code: a file that ends in .svg or .png.
+        #[arg(long, value_name = "FILE")]
+        qr: Option<PathBuf>,
+    },
+    /// Tells in words what the pictures of a document show: a paragraph for each step.
+    Describe {
+        /// Document, link or payload to describe; - for a document on standard input.
+        doc: String,
+        /// Only this step; 0 is the document itself.
+        #[arg(long, value_name = "N")]
+        step: Option<usize>,
+        /// Language of the words, en, de, es or zh; without it the document's, else English.
+        #[arg(long, value_name = "LANG", value_parser = parse_lang)]
+        lang: Option<Lang>,
+        /// Prints JSON, with the numbers.
+        #[arg(long)]
+        json: bool,
     },
     /// Prints the document of a link, as canonical JSON.
     Doc {
@@ -144,6 +162,13 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
         .ok_or_else(|| {
             "expected width and height such as 1024x768, each from 1 to 32768".to_owned()
         })
+}
+
+fn parse_lang(text: &str) -> Result<Lang, String> {
+    Lang::from_tag(text).ok_or_else(|| {
+        let tags = Lang::ALL.map(Lang::tag).join(", ");
+        format!("pictures are described in these languages: {tags}")
+    })
 }
 
 fn parse_seconds(text: &str) -> Result<f32, String> {

@@ -5,11 +5,13 @@
 
 mod args;
 mod bench;
+mod describe;
 mod device;
 mod error;
 mod export;
 mod fields;
 mod info;
+mod link;
 mod opening;
 mod output;
 mod probe;

@@ -6,15 +6,16 @@ use clap::Parser as _;
 
 use super::args::{Args, Command};
 use super::bench::bench;
+use super::describe::describe;
 use super::error::CliError;
 use super::export::export_field;
 use super::info::info;
+use super::link::link;
 use super::opening::open;
-use super::output::{notice, one_line, print, write_whole};
+use super::output::{one_line, print, write_whole};
 use super::probe::probe;
 use super::render::{Paper, render};
 use super::templates::{templates_json, templates_text};
-use crate::link;
 use crate::shell::native::{Opening, view};
 
 /// Runs the command line. Without arguments it opens the window.
@@ -100,21 +101,15 @@ fn execute(args: Args) -> Result<(), CliError> {
             let bytes = export_field(common, &open(&doc)?, moment, size)?;
             write_whole(&output, &bytes)
         }
-        Command::Link { doc, page } => {
-            let opened = open(&doc)?;
-            opened.report_notices();
-            let fragment = link::fragment(&opened.document, opened.step);
-            if fragment.len() > link::ADVISED_LENGTH {
-                notice(format!(
-                    "the link has {} characters; above {} some programs cut it, a document file is safer",
-                    fragment.len(),
-                    link::ADVISED_LENGTH
-                ));
-            }
-            let page = page.unwrap_or_default();
-            let page = page.split('#').next().unwrap_or_default();
-            print(&format!("{page}{fragment}\n"))
+        Command::Link { doc, page, qr } => {
+            link(&open(&doc)?, &page.unwrap_or_default(), qr.as_deref())
         }
+        Command::Describe {
+            doc,
+            step,
+            lang,
+            json,
+        } => describe(common, &open(&doc)?, step, lang, json),
         Command::Doc { doc } => {
             let opened = open(&doc)?;
             opened.report_notices();

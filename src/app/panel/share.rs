@@ -1,0 +1,169 @@
+//! The dialog that shares the illustration: link, QR code, HTML for a page, files.
+
+use egui::{
+    Color32, ColorImage, Image, Modal, Role, TextureHandle, TextureOptions, Ui, WidgetInfo,
+};
+
+use crate::app::kit::icon::Icon;
+use crate::app::kit::theme::Palette;
+use crate::app::kit::widget;
+use crate::app::session::{Command, Session};
+use crate::app::words::share::w;
+use crate::app::words::{bar, fill};
+use crate::describe::Snippet;
+use crate::link::{DENSE_QR, LONGEST_QR, Qr};
+
+/// Points along the side of the QR code.
+const CODE: f32 = 220.0;
+
+/// The code of the address that was shown last.
+#[derive(Default)]
+pub(crate) struct Share {
+    address: String,
+    code: Option<TextureHandle>,
+}
+
+impl Share {
+    /// The picture of the code; `None` for an address that is too long. Made anew where the address is another one.
+    fn code(&mut self, ui: &Ui, address: &str) -> Option<&TextureHandle> {
+        if self.address != address {
+            address.clone_into(&mut self.address);
+            self.code = Qr::of(address).ok().map(|qr| {
+                let (side, gray) = qr.to_gray(1);
+                let pixels = ColorImage::from_gray([side; 2], &gray);
+                ui.ctx().load_texture("qr", pixels, TextureOptions::NEAREST)
+            });
+        }
+        self.code.as_ref()
+    }
+}
+
+/// The dialog over everything. `page` is the address of the page, which a window may not have.
+pub(crate) fn ui(
+    ui: &Ui,
+    session: &Session,
+    share: &mut Share,
+    page: &str,
+    commands: &mut Vec<Command>,
+) {
+    let content = ui.ctx().content_rect().size();
+    let frame = egui::Frame::window(ui.style());
+    let modal = Modal::new(egui::Id::unique("share"))
+        .frame(frame)
+        .show(ui.ctx(), |ui| {
+            ui.set_width((content.x - 64.0).min(360.0));
+            widget::heading(ui, w().heading, |ui| {
+                if widget::icon_button(ui, Icon::Close, w().close, true).clicked() {
+                    commands.push(Command::ToggleShare);
+                }
+            });
+            widget::divider(ui);
+            egui::ScrollArea::vertical()
+                .auto_shrink([false, true])
+                .max_height(content.y - 150.0)
+                .show(ui, |ui| inside(ui, session, share, page, commands));
+        });
+    if modal.should_close() {
+        commands.push(Command::ToggleShare);
+    }
+}
+
+fn inside(
+    ui: &mut Ui,
+    session: &Session,
+    share: &mut Share,
+    page: &str,
+    commands: &mut Vec<Command>,
+) {
+    let page = page.split('#').next().unwrap_or_default();
+    let address = format!("{page}#{}", session.link_tail());
+    ui.label(fill(w().length, &[&address.chars().count()]));
+    if session.is_link_long() {
+        warning(ui, w().long);
+    }
+    if session.needs_own_file() {
+        warning(ui, w().local);
+    }
+    if page.is_empty() {
+        warning(ui, w().no_page);
+    }
+    button(
+        ui,
+        Icon::Link,
+        bar::w().copy_link,
+        "",
+        Command::CopyLink,
+        commands,
+    );
+    widget::divider(ui);
+    match share.code(ui, &address) {
+        Some(code) => {
+            ui.vertical_centered(|ui| {
+                let image =
+                    ui.add(Image::new((code.id(), egui::Vec2::splat(CODE))).tint(Color32::WHITE));
+                image.widget_info(|| WidgetInfo::labeled(Role::Image, true, w().qr));
+            });
+            if address.len() > DENSE_QR {
+                warning(ui, w().qr_dense);
+            }
+        }
+        None => warning(ui, &fill(w().qr_none, &[&LONGEST_QR])),
+    }
+    widget::divider(ui);
+    widget::heading(ui, w().for_pages, |_| {});
+    for (form, name, hint) in [
+        (Snippet::Element, w().element, w().element_hint),
+        (Snippet::Frame, w().frame, w().frame_hint),
+        (Snippet::Plain, w().plain, w().plain_hint),
+    ] {
+        button(
+            ui,
+            Icon::Copy,
+            name,
+            hint,
+            Command::CopySnippet(form),
+            commands,
+        );
+    }
+    widget::divider(ui);
+    widget::heading(ui, w().files, |_| {});
+    let bar = bar::w();
+    button(
+        ui,
+        Icon::Download,
+        bar.save_document,
+        "",
+        Command::SaveDocument,
+        commands,
+    );
+    button(
+        ui,
+        Icon::Picture,
+        bar.save_picture,
+        "",
+        Command::SavePicture,
+        commands,
+    );
+}
+
+fn button(
+    ui: &mut Ui,
+    icon: Icon,
+    name: &str,
+    hint: &str,
+    command: Command,
+    commands: &mut Vec<Command>,
+) {
+    let hint = if hint.is_empty() { name } else { hint };
+    if widget::labelled_button(ui, icon, name, false, true)
+        .on_hover_text(hint)
+        .clicked()
+    {
+        commands.push(command);
+    }
+}
+
+fn warning(ui: &mut Ui, text: &str) {
+    let color = Palette::get(ui).warning;
+    ui.label(egui::RichText::new(text).color(color));
+}

@@ -1,0 +1,78 @@
+//! Which segment each pixel of a picture shows.
+
+use super::picture::{BATCH_TILES, PictureJob};
+use super::raycast::{March, encode_march, frame_group};
+use super::tiles::tiles_of;
+use crate::render::device::bindings::encoder;
+use crate::render::device::error::RenderError;
+use crate::render::device::readback::WorkDone;
+use crate::render::device::textures::{PICK_FORMAT, Target, read_texture, row_pitch};
+use crate::render::pack::frame::frame_of;
+
+/// What each pixel of a picture shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sighting {
+    /// Width and height, pixels.
+    pub size_px: [u32; 2],
+    /// Rows from the top. `None`: there is no surface under the pixel; else the label of the segment at the first
+    /// visible surface, 0 where it belongs to none.
+    pub labels: Vec<Option<u16>>,
+}
+
+/// Size of a picture that tells what is in sight, pixels: of the shape of `fabrica render`'s, and large enough that
+/// the share of a segment is that of a full-size picture within two hundredths.
+pub const SIGHT_PX: [u32; 2] = [160, 120];
+
+/// Bytes of a texel of [`PICK_FORMAT`].
+const TEXEL: usize = 16;
+
+/// Marches one ray per pixel, through its middle, and reads back what each found.
+pub(super) async fn identify(job: &PictureJob) -> Result<Sighting, RenderError> {
+    let gpu = &job.gpu;
+    let target = Target::new(gpu, "segments", job.size, PICK_FORMAT);
+    let pipeline = job.passes.raycast.pipeline(gpu, job.scene.segments_key());
+    let detail = job.subject.frame.detail;
+    let frame = frame_of(&job.view, &job.view, job.scene.bounds(), detail, 0);
+    let frame_group = frame_group(gpu, &job.passes.layouts, &frame);
+    for batch in tiles_of(job.size).chunks(BATCH_TILES) {
+        let mut encoder = encoder(gpu);
+        encode_march(
+            &mut encoder,
+            &March {
+                target: &target.view,
+                pipeline: &pipeline,
+                frame: &frame_group,
+                subject: &job.subject.bind_group,
+                scene: &job.scene.bindings,
+                baked: None,
+                viewport: job.size,
+                tiles: batch,
+                weight: 1.0,
+            },
+        );
+        gpu.queue.submit([encoder.finish()]);
+        WorkDone::start(gpu).await?;
+        gpu.check()?;
+    }
+    let width = job.size[0] as usize;
+    let pitch = row_pitch((TEXEL * width) as u32);
+    let bytes = read_texture(gpu, encoder(gpu), &target.texture, pitch).await?;
+    if let Some(message) = gpu.take_errors().into_iter().next() {
+        return Err(RenderError::Refused {
+            pass: "segments",
+            message,
+        });
+    }
+    let has_labels = job.subject.uniform.has_labels != 0;
+    let rows = bytes.chunks_exact(pitch as usize);
+    let texels = rows.flat_map(|row| row.as_chunks::<TEXEL>().0.iter().take(width));
+    let labels = texels.map(|&[a, b, c, d, e, f, g, h, ..]| {
+        let depth = f32::from_le_bytes([a, b, c, d]);
+        let label = f32::from_le_bytes([e, f, g, h]);
+        (depth >= 0.0).then_some(if has_labels { label as u16 } else { 0 })
+    });
+    Ok(Sighting {
+        size_px: job.size,
+        labels: labels.collect(),
+    })
+}
