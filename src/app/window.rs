@@ -211,6 +211,10 @@ impl App {
             window_title: String::new(),
         };
         app.do_outside();
+        if !app.session.is_restored {
+            // It was of the document of the last visit, which is listed with it by now.
+            app.open_picture.small = None;
+        }
         app
     }
 
