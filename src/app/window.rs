@@ -247,6 +247,18 @@ impl App {
             && self.picture.as_ref().is_none_or(is_picture_done)
     }
 
+    /// True if Ctrl and F find a tissue: no sheet lies over the panels.
+    pub fn finds_tissues(&self) -> bool {
+        !self.is_sheet_open()
+    }
+
+    fn is_sheet_open(&self) -> bool {
+        self.session.is_keys_sheet_open
+            || self.session.is_messages_open
+            || self.session.library.is_open
+            || self.session.raw_draft().is_some()
+    }
+
     /// True if the graphics device was lost; whoever embeds the app makes a new one with [`App::document`].
     pub fn is_device_lost(&self) -> bool {
         let gpu = self.picture.as_ref().map(Picture::gpu);
@@ -454,10 +466,7 @@ impl App {
         let mut is_typing = ui.ctx().text_edit_focused()
             || matches!(self.focus, Some(Focus::Search | Focus::Tissues));
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
-        let is_sheet_open = self.session.is_keys_sheet_open
-            || self.session.is_messages_open
-            || self.session.library.is_open
-            || self.session.raw_draft().is_some();
+        let is_sheet_open = self.is_sheet_open();
         if !is_typing && !is_sheet_open {
             ui.input(|i| {
                 commands.extend(i.events.iter().filter_map(|event| match event {

@@ -287,6 +287,12 @@ impl<'a> Touch<'a> {
 pub(crate) const CTRL: i64 = 2;
 pub(crate) const SHIFT: i64 = 8;
 
+/// Keeps the key that was pressed last, for [`IS_PREVENTED`].
+pub(crate) const KEEPS_KEYS: &str =
+    "(addEventListener('keydown', (event) => { window.struck = event; }, true), true)";
+/// The browser's own answer to that key was prevented.
+pub(crate) const IS_PREVENTED: &str = "window.struck.defaultPrevented";
+
 /// Gives the picture the keyboard, as a browser's window does that is in front.
 pub(crate) async fn focus(tab: &Tab) {
     let emulation = SetFocusEmulationEnabledParams::new(true);
