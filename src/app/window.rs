@@ -382,6 +382,9 @@ impl App {
 
     fn frame(&mut self, ui: &mut Ui) {
         let now = ui.input(|i| i.time);
+        if ui.ctx().cumulative_frame_nr() == 0 {
+            theme::warm(ui);
+        }
         self.take_messages();
         self.session.is_reading = self.services.is_reading();
         self.follow_resources();
@@ -451,6 +454,12 @@ impl App {
         }
         if has_commands {
             ui.ctx().request_repaint();
+        }
+        let [has_press, has_key] = ui.input(|i| ends(&i.events));
+        if has_press || (has_key && has_commands) {
+            // The controls are laid out again in this very frame: they show what was done a frame earlier, and the next
+            // press, which may come before that, meets them as they now are.
+            ui.ctx().request_discard("what is shown has changed");
         }
         self.afterwards(ui);
     }
@@ -588,6 +597,17 @@ impl eframe::App for App {
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
     }
+}
+
+/// Whether a button was let go, and whether a key was pressed: no parts of a movement, in which many commands follow
+/// each other.
+fn ends(events: &[egui::Event]) -> [bool; 2] {
+    use egui::Event::{Key, PointerButton};
+    let has = |is: fn(&egui::Event) -> bool| events.iter().any(is);
+    [
+        has(|event| matches!(event, PointerButton { pressed: false, .. })),
+        has(|event| matches!(event, Key { pressed: true, .. })),
+    ]
 }
 
 /// Removes the key that starts a search and all events before that key from the events of a frame; text that was typed

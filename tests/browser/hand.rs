@@ -359,7 +359,11 @@ pub(crate) async fn write(tab: &Tab, text: &str) {
         for kind in [DispatchKeyEventType::KeyDown, DispatchKeyEventType::KeyUp] {
             let mut params = DispatchKeyEventParams::new(kind.clone());
             params.key = Some(letter.to_string());
-            params.windows_virtual_key_code = Some(i64::from(letter.to_ascii_uppercase() as u32));
+            params.windows_virtual_key_code = Some(match letter {
+                // The number of the letter is that of the key that deletes.
+                '.' => 190,
+                _ => i64::from(letter.to_ascii_uppercase() as u32),
+            });
             params.text = (kind == DispatchKeyEventType::KeyDown).then(|| letter.to_string());
             tab.page.execute(params).await.expect("a key");
         }
