@@ -129,9 +129,16 @@ async function main() {
     document.documentElement.dataset.state = "failed";
     return;
   }
+  addEventListener("keydown", (event) => keepFromBrowser(viewer, event), true);
   element("cover").hidden = true;
   document.documentElement.dataset.state = "started";
   watch(viewer, keep);
+}
+
+/** The browser's own search stays closed where the same keys find a tissue. */
+function keepFromBrowser(viewer, event) {
+  const isFind = (event.ctrlKey || event.metaKey) && !event.altKey && event.key.toLowerCase() === "f";
+  if (isFind && viewer.finds_tissues()) event.preventDefault();
 }
 
 /** Frame times in place of the viewer. */

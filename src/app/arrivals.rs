@@ -116,6 +116,11 @@ impl App {
                     load.frame_count = count;
                 }
             }
+            LoadEvent::Modality(code) => {
+                if let Some(load) = &mut self.session.load {
+                    load.modality = Some(code);
+                }
+            }
             LoadEvent::AskRaw(question) => self.session.ask_raw(question),
             LoadEvent::LabelFile(file) => self.incoming_labels.push(*file),
             LoadEvent::Done { sha256 } => {
@@ -301,6 +306,9 @@ impl App {
                 let own = subject.values().and_then(|v| v.segmentation.as_ref());
                 self.inside.set_labels(own);
                 self.session.set_subject(&subject);
+                let load = self.session.load.as_ref();
+                let modality = load.and_then(|load| load.modality.clone());
+                self.session.view.set_modality(modality);
                 self.assets.give(Data::Subject {
                     subject: subject.clone(),
                     sha256: None,

@@ -213,6 +213,10 @@ impl App {
             window_title: String::new(),
         };
         app.do_outside();
+        if !app.session.is_restored {
+            // It was of the document of the last visit, which is listed with it by now.
+            app.open_picture.small = None;
+        }
         app
     }
 
@@ -243,6 +247,19 @@ impl App {
             && !self.viewport.is_waiting()
             && !self.preset_pictures.is_waiting()
             && self.picture.as_ref().is_none_or(is_picture_done)
+    }
+
+    /// True if Ctrl and F find a tissue: no sheet lies over the panels.
+    pub fn finds_tissues(&self) -> bool {
+        !self.is_sheet_open()
+    }
+
+    fn is_sheet_open(&self) -> bool {
+        self.session.is_keys_sheet_open
+            || self.session.is_share_open
+            || self.session.is_messages_open
+            || self.session.library.is_open
+            || self.session.raw_draft().is_some()
     }
 
     /// True if the graphics device was lost; whoever embeds the app makes a new one with [`App::document`].
@@ -372,6 +389,9 @@ impl App {
 
     fn frame(&mut self, ui: &mut Ui) {
         let now = ui.input(|i| i.time);
+        if ui.ctx().cumulative_frame_nr() == 0 {
+            theme::warm(ui);
+        }
         self.take_messages();
         self.session.is_reading = self.services.is_reading();
         self.follow_resources();
@@ -446,6 +466,12 @@ impl App {
         if has_commands {
             ui.ctx().request_repaint();
         }
+        let [has_press, has_key] = ui.input(|i| ends(&i.events));
+        if has_press || (has_key && has_commands) {
+            // The controls are laid out again in this very frame: they show what was done a frame earlier, and the next
+            // press, which may come before that, meets them as they now are.
+            ui.ctx().request_discard("what is shown has changed");
+        }
         self.afterwards(ui);
     }
 
@@ -460,11 +486,7 @@ impl App {
         let mut is_typing = ui.ctx().text_edit_focused()
             || matches!(self.focus, Some(Focus::Search | Focus::Tissues));
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
-        let is_sheet_open = self.session.is_keys_sheet_open
-            || self.session.is_share_open
-            || self.session.is_messages_open
-            || self.session.library.is_open
-            || self.session.raw_draft().is_some();
+        let is_sheet_open = self.is_sheet_open();
         if !is_typing && !is_sheet_open {
             ui.input(|i| {
                 commands.extend(i.events.iter().filter_map(|event| match event {
@@ -586,6 +608,17 @@ impl eframe::App for App {
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
     }
+}
+
+/// Whether a button was let go, and whether a key was pressed: no parts of a movement, in which many commands follow
+/// each other.
+fn ends(events: &[egui::Event]) -> [bool; 2] {
+    use egui::Event::{Key, PointerButton};
+    let has = |is: fn(&egui::Event) -> bool| events.iter().any(is);
+    [
+        has(|event| matches!(event, PointerButton { pressed: false, .. })),
+        has(|event| matches!(event, Key { pressed: true, .. })),
+    ]
 }
 
 /// Removes the key that starts a search and all events before that key from the events of a frame; text that was typed

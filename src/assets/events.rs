@@ -36,6 +36,8 @@ pub enum LoadEvent {
         /// Number of volumes in the file.
         count: u64,
     },
+    /// What made the images, as DICOM abbreviates it: at most 16 capitals, digits and underlines. Told before `Done`.
+    Modality(String),
     /// The file does not say how its voxels lie. The load waits for the answer.
     AskRaw(RawQuestion),
     /// The subject is whole.

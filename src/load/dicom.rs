@@ -1,6 +1,7 @@
 //! DICOM: a volume out of one file or of all files given together. Headers are looked through first, then the images of
-//! the wanted volume are read one after the other. Of a header, only what says how pixels are written and where they
-//! lie is ever taken out: names, dates and whatever else tells who the patient is are stepped over.
+//! the wanted volume are read one after the other. Of a header, only what says what made the images, how pixels are
+//! written and where they lie is ever taken out: names, dates and whatever else tells who the patient is are stepped
+//! over.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -64,6 +65,9 @@ pub(crate) fn read(
             count: found.refused,
         });
     }
+    let drawn = stack.slices.iter().flatten().next();
+    let modality = drawn.map_or("", |frame| &sources[frame.file].modality);
+    report.modality = modality_code(modality);
     for warning in &stack.warnings {
         report.warn(warning.clone());
     }
@@ -98,6 +102,14 @@ pub(crate) fn read(
     let mut all = Sha256::new();
     hashes.iter().for_each(|hash| all.update(hash));
     Ok(all.finalize().into())
+}
+
+/// A code string of the standard (PS3.5, "Value Representation", CS) as it may stand on a screen; nothing for anything
+/// else, since anything may stand in a file.
+fn modality_code(text: &str) -> Option<String> {
+    let is_code = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
+    let is_whole = (1..=16).contains(&text.len()) && text.chars().all(is_code);
+    is_whole.then(|| text.to_owned())
 }
 
 /// What the files hold.

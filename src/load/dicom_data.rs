@@ -23,6 +23,7 @@ const UNDEFINED: u32 = u32::MAX;
 pub(crate) mod tag {
     pub(crate) const TRANSFER_SYNTAX: u32 = 0x0002_0010;
     pub(crate) const SOP_CLASS: u32 = 0x0008_0016;
+    pub(crate) const MODALITY: u32 = 0x0008_0060;
     pub(crate) const ECHO_TIME: u32 = 0x0018_0081;
     pub(crate) const SLICE_THICKNESS: u32 = 0x0018_0050;
     pub(crate) const SPACING_BETWEEN_SLICES: u32 = 0x0018_0088;
@@ -94,6 +95,7 @@ fn wanted(tag: u32) -> Option<Kind> {
         | FRAME_GROUPS => Kind::Sequence,
         TRANSFER_SYNTAX
         | SOP_CLASS
+        | MODALITY
         | ECHO_TIME
         | SLICE_THICKNESS
         | SPACING_BETWEEN_SLICES

@@ -49,6 +49,8 @@ pub(crate) struct Frame {
 pub(crate) struct Source {
     pub(crate) name: String,
     pub(crate) series: String,
+    /// What made the images, as the standard abbreviates it; empty where the file does not tell.
+    pub(crate) modality: String,
     pub(crate) format: PixelFormat,
     pub(crate) frame_count: u64,
     pub(crate) is_segmentation: bool,
@@ -182,6 +184,7 @@ pub(crate) fn frames(
     let source = Source {
         name: name.to_owned(),
         series: root.text(tag::SERIES).unwrap_or_default(),
+        modality: root.text(tag::MODALITY).unwrap_or_default(),
         format,
         frame_count: count,
         is_segmentation,

@@ -234,6 +234,8 @@ pub struct LoadReport {
     pub stored_type: &'static str,
     /// Full size in voxels.
     pub dims: UVec3,
+    /// What made the images, as DICOM abbreviates it ("CT", "MR"); `None` where the file does not tell.
+    pub modality: Option<String>,
     /// Volumes in the file: time points, components.
     pub frame_count: u64,
     /// Names and colours of labels that the file brings.

@@ -239,6 +239,9 @@ pub fn read_file(
                     count: report.frame_count,
                 });
             }
+            if let Some(code) = &report.modality {
+                post.post(LoadEvent::Modality(code.clone()));
+            }
             for warning in &report.warnings {
                 // Which of several volumes is shown stands in a dialog of its own.
                 if !matches!(warning, Warning::Frames { .. }) {

@@ -158,7 +158,7 @@ impl Viewer {
                 // In somebody else's page: the picture alone.
                 app.run(Command::TogglePanels);
             }
-            Ok(Box::new(Shown(app)))
+            Ok(Box::new(Shown { app, is_page }))
         });
         self.runner
             .start(self.canvas.clone(), options, create)
@@ -191,7 +191,7 @@ impl Viewer {
         self.runner
             .app_mut::<Shown>()
             .map(|shown| {
-                let fragment = link::fragment(&shown.0.document(), shown.0.step());
+                let fragment = link::fragment(&shown.app.document(), shown.app.step());
                 fragment.trim_start_matches('#').to_owned()
             })
             .unwrap_or_default()
@@ -204,7 +204,7 @@ impl Viewer {
 
     fn document_text(&self) -> Option<String> {
         let shown = self.runner.app_mut::<Shown>()?;
-        Some(shown.0.document().to_json_compact())
+        Some(shown.app.document().to_json_compact())
     }
 
     /// The controls and texts that are seen, a line each: role, name, value, and where it lies in the canvas (left,
@@ -242,13 +242,26 @@ impl Viewer {
     /// True when the picture is complete and nothing is being loaded.
     pub fn is_at_rest(&self) -> bool {
         let shown = self.runner.app_mut::<Shown>();
-        shown.is_some_and(|shown| shown.0.is_at_rest())
+        shown.is_some_and(|shown| shown.app.is_at_rest())
+    }
+
+    /// True if Ctrl and F find a tissue here, and not words of the page: the viewer has the keyboard, and no sheet lies
+    /// over its panels.
+    pub fn finds_tissues(&self) -> bool {
+        let page = self.page.borrow();
+        let has_keyboard = |ctx: &egui::Context| ctx.input(|i| i.focused);
+        page.place.is_page
+            && page.ctx.as_ref().is_some_and(has_keyboard)
+            && self
+                .runner
+                .app_mut::<Shown>()
+                .is_some_and(|shown| shown.app.finds_tissues())
     }
 
     /// True if the graphics device was lost: [`Viewer::restart`] is due.
     pub fn is_lost(&self) -> bool {
         let shown = self.runner.app_mut::<Shown>();
-        shown.is_some_and(|shown| shown.0.is_device_lost())
+        shown.is_some_and(|shown| shown.app.is_device_lost())
     }
 
     /// True if a fault has stopped the viewer.
@@ -270,7 +283,7 @@ impl Viewer {
                 return;
             };
             self.page.borrow_mut().picture_wanted = Some(resolve);
-            shown.0.ask_for_picture();
+            shown.app.ask_for_picture();
             if let Some(ctx) = &self.page.borrow().ctx {
                 ctx.request_repaint();
             }
@@ -331,11 +344,21 @@ impl egui::Plugin for Controls {
 }
 
 /// The app, as something that can be found again in its runner.
-struct Shown(App);
+struct Shown {
+    app: App,
+    is_page: bool,
+}
 
 impl eframe::App for Shown {
+    fn raw_input_hook(&mut self, _: &egui::Context, input: &mut egui::RawInput) {
+        // In somebody else's page these keys look for words of that page.
+        if !self.is_page {
+            input.events.retain(|event| !finds(event));
+        }
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
-        self.0.ui(ui, frame);
+        self.app.ui(ui, frame);
     }
 
     fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
@@ -343,7 +366,7 @@ impl eframe::App for Shown {
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
-        self.0.clear_color(visuals)
+        self.app.clear_color(visuals)
     }
 
     fn persist_egui_memory(&self) -> bool {
@@ -364,6 +387,14 @@ fn is_ours(event: &egui::Event, is_page: bool) -> bool {
         Event::MouseWheel { modifiers, .. } => is_page || modifiers.command,
         _ => true,
     }
+}
+
+/// Ctrl or Cmd with F.
+fn finds(event: &egui::Event) -> bool {
+    let egui::Event::Key { key, modifiers, .. } = event else {
+        return false;
+    };
+    *key == egui::Key::F && modifiers.command && !modifiers.alt
 }
 
 /// Seconds since the page was opened.

@@ -279,6 +279,13 @@ fn the_whole_path_by_keys_alone() {
     assert_eq!(window.log.0.borrow().copied.len(), 1, "the link is copied");
     window.press(Key::Questionmark);
     assert!(
+        window
+            .harness
+            .query_by_label("A smaller or larger ball")
+            .is_some(),
+        "the ball has keys too"
+    );
+    assert!(
         window.harness.query_by_label("Keys and gestures").is_some(),
         "the sheet of keys"
     );

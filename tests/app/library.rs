@@ -250,6 +250,25 @@ fn recent_documents_have_pictures() {
     assert!(delay > std::time::Duration::from_secs(1), "{delay:?}");
 }
 
+/// The picture that the last visit kept is of its document alone, not of one that is left at once.
+#[test]
+fn a_document_left_at_once_has_no_picture_of_another() {
+    let log = Fake::default();
+    log.store_value("document", &fabrica::link::encode(&Document::new()));
+    log.store_value("picture", "0123456789abcdef iVBORw0KGgo");
+    // No subject comes, so that no picture of it is complete.
+    log.0.borrow_mut().is_slow = true;
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log, Some(OWN));
+    window.press(Key::N);
+    window.press(Key::H);
+    let text = CUBE.to_owned();
+    let log = &window.log.0;
+    log.borrow_mut().queue.push(Message::OpenText { text });
+    window.steps(3);
+    assert_eq!(recent(&window), 1, "what was left");
+    assert_eq!(kept_pictures(&window), [""; 0]);
+}
+
 /// The document of the last visit is not lost when a link is opened.
 #[test]
 fn a_link_keeps_the_document_of_the_last_visit() {

@@ -2,6 +2,7 @@
 
 use super::*;
 use fabrica::assets::Source;
+use fabrica::data::Grid;
 
 #[test]
 fn the_address_follows_what_is_done() {
@@ -219,6 +220,32 @@ fn file_arrives(log: &Fake, ticket: Ticket, before_done: Option<LoadEvent>) {
     }
 }
 
+/// A file of eight bits a voxel and no segments, as many a CT is kept.
+fn bytes_arrive(log: &Fake, ticket: Ticket, before_done: Option<LoadEvent>) {
+    let log = &mut *log.0.borrow_mut();
+    let grid = Grid {
+        dims: glam::UVec3::splat(8),
+        world_from_voxel: glam::DAffine3::IDENTITY,
+    };
+    let voxels: Vec<u8> = (0..512).map(|i| (i / 2) as u8).collect();
+    let header = Volume {
+        grid,
+        voxels: Voxels::U8(Vec::new()),
+        slope: 1.0,
+        intercept: 0.0,
+        value_range: [0.0, 0.0],
+        segmentation: None,
+    };
+    let mut queue = Queue(log, ticket);
+    queue.begin(&header).expect("it is taken");
+    queue.scalars(Voxels::U8(voxels));
+    let sha256 = Some("cd".repeat(32));
+    let events = before_done.into_iter().chain([LoadEvent::Done { sha256 }]);
+    for event in events {
+        log.queue.push(Message::Load { ticket, event });
+    }
+}
+
 #[test]
 fn one_of_several_volumes_is_chosen_and_taken_back() {
     let log = Fake::default();
@@ -250,6 +277,40 @@ fn one_of_several_volumes_is_chosen_and_taken_back() {
     window.click("Undo");
     window.steps(3);
     assert_eq!(frame(&window), Some(0), "and back");
+}
+
+/// A file that tells what made its images is called by that, whatever its values look like.
+#[test]
+fn the_modality_of_a_file_is_told() {
+    let log = Fake::default();
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(CUBE));
+    let told = |window: &mut Window, code: Option<&str>| {
+        let ticket = Ticket(99);
+        log.file_starts(ticket);
+        window.steps(2);
+        let event = code.map(|code| LoadEvent::Modality(code.to_owned()));
+        bytes_arrive(&log, ticket, event);
+        window.settle();
+        window.click("About this scan");
+        let facts: Vec<String> = window
+            .harness
+            .get_all_by_role(Role::Label)
+            .filter_map(|node| node.accesskit_node().value())
+            .collect();
+        window.press(egui::Key::Escape);
+        window.click("Panel: Look");
+        let colours = window
+            .harness
+            .get_by_role_and_label(Role::ComboBox, "Colours");
+        (facts, colours.accesskit_node().value().unwrap_or_default())
+    };
+    let (facts, colours) = told(&mut window, Some("CT"));
+    let at = facts.iter().position(|line| line == "Modality");
+    assert_eq!(facts[at.expect("a line of its own") + 1], "CT", "{facts:?}");
+    assert_eq!(colours, "Automatic (CT)");
+    let (facts, colours) = told(&mut window, None);
+    assert!(!facts.iter().any(|line| line == "Modality"), "{facts:?}");
+    assert_eq!(colours, "Automatic (scan)", "the next file tells nothing");
 }
 
 #[test]

@@ -3,7 +3,8 @@
 
 use super::hand::{CTRL, SHIFT, clipboard, document, kept, mark, pause};
 use super::hand::{
-    Touch, changed, controls, find, focus, hear, press, press_with, scenery, tab_to,
+    Control, IS_PREVENTED, KEEPS_KEYS, Touch, changed, controls, find, focus, hear, press,
+    press_with, scenery, tab_to,
 };
 use super::harness::{Tab, with_browser};
 use super::*;
@@ -217,6 +218,30 @@ fn the_path_by_keys_alone() {
             document(&tab).await,
             "the link is what was made"
         );
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// Ctrl and F find a tissue, and the browser's own search stays closed; where a sheet lies over the panels the keys are
+/// the browser's.
+#[test]
+fn ctrl_f_finds_a_tissue() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tab = session
+            .viewer_sized(&format!("#{}", payload(PLAIN)), PAGE)
+            .await;
+        focus(&tab).await;
+        tab.eval::<bool>(KEEPS_KEYS).await;
+        let field = |list: &[Control]| list.iter().any(|c| c.name == "Search tissues and labels");
+        assert!(!field(&controls(&tab).await), "the panel is another");
+        press(&tab, "?").await;
+        press_with(&tab, CTRL, "f", None).await;
+        assert!(!tab.eval::<bool>(IS_PREVENTED).await, "under the sheet");
+        press(&tab, "Escape").await;
+        press_with(&tab, CTRL, "f", None).await;
+        assert!(tab.eval::<bool>(IS_PREVENTED).await, "it is ours");
+        find(&tab, "Search tissues and labels").await;
+        hear(&tab, "Search tissues and labels").await;
         tab.assert_no_complaints().await;
     });
 }

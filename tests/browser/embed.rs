@@ -1,6 +1,8 @@
 //! The viewer as an element in somebody else's page.
 
+use super::hand::{CTRL, IS_PREVENTED, KEEPS_KEYS, strike};
 use super::*;
+use chromiumoxide::cdp::browser_protocol::emulation::SetFocusEmulationEnabledParams;
 
 const LESSON: &str = r#"{"fabrica":1,"title":"Opening a cube","subject":{"builtin":"cube"},"templates":[{"kind":"split","size":[1.2,1.2,1.2],"params":{"amount":0}}],"steps":[{"title":"Apart","caption":"The halves part.","set":{"/templates/0/params/amount":0.3}}]}"#;
 
@@ -98,6 +100,32 @@ fn embedded_viewer_walks_its_steps() {
             apart < 0.5,
             "the page's own value draws what the step draws: {apart}"
         );
+        // Its keys for a search look for words of the page around it.
+        tab.page
+            .execute(SetFocusEmulationEnabledParams::new(true))
+            .await
+            .expect("a window in front");
+        tab.eval::<bool>(KEEPS_KEYS).await;
+        tab.eval::<bool>(&format!(
+            "({root}.shadowRoot.querySelector('canvas').focus(), true)"
+        ))
+        .await;
+        tab.frames_of(VIEWER, 3).await;
+        for (modifiers, key) in [(CTRL, "f"), (0, "p")] {
+            strike(&tab, modifiers, key, None).await;
+            tab.frames_of(VIEWER, 2).await;
+            let is_prevented: bool = tab.eval(IS_PREVENTED).await;
+            assert!(!is_prevented || key == "p", "{key} is the browser's");
+            // Nothing is listed before the first call.
+            tab.eval::<String>("window.viewer.controls()").await;
+            tab.frames_of(VIEWER, 2).await;
+            let lines: String = tab.eval("window.viewer.controls()").await;
+            assert_eq!(
+                lines.contains("Copy link"),
+                key == "p",
+                "{key}: panels are shown by P alone: {lines}"
+            );
+        }
         tab.assert_no_complaints().await;
         let kept: u32 = tab.eval("localStorage.length").await;
         assert_eq!(kept, 0, "an embedded viewer keeps nothing");

@@ -287,6 +287,12 @@ impl<'a> Touch<'a> {
 pub(crate) const CTRL: i64 = 2;
 pub(crate) const SHIFT: i64 = 8;
 
+/// Keeps the key that was pressed last, for [`IS_PREVENTED`].
+pub(crate) const KEEPS_KEYS: &str =
+    "(addEventListener('keydown', (event) => { window.struck = event; }, true), true)";
+/// The browser's own answer to that key was prevented.
+pub(crate) const IS_PREVENTED: &str = "window.struck.defaultPrevented";
+
 /// Gives the picture the keyboard, as a browser's window does that is in front.
 pub(crate) async fn focus(tab: &Tab) {
     let emulation = SetFocusEmulationEnabledParams::new(true);
@@ -353,7 +359,11 @@ pub(crate) async fn write(tab: &Tab, text: &str) {
         for kind in [DispatchKeyEventType::KeyDown, DispatchKeyEventType::KeyUp] {
             let mut params = DispatchKeyEventParams::new(kind.clone());
             params.key = Some(letter.to_string());
-            params.windows_virtual_key_code = Some(i64::from(letter.to_ascii_uppercase() as u32));
+            params.windows_virtual_key_code = Some(match letter {
+                // The number of the letter is that of the key that deletes.
+                '.' => 190,
+                _ => i64::from(letter.to_ascii_uppercase() as u32),
+            });
             params.text = (kind == DispatchKeyEventType::KeyDown).then(|| letter.to_string());
             tab.page.execute(params).await.expect("a key");
         }

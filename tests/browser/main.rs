@@ -24,6 +24,7 @@ mod segment_files;
 mod server;
 mod size;
 mod slices;
+mod slow;
 mod tissue;
 
 use compare::{difference, drawn_pixels, object_part};

@@ -28,6 +28,7 @@ enum Syntax {
 #[derive(Clone)]
 struct Slice {
     series: &'static str,
+    modality: Option<&'static str>,
     number: u32,
     position: [f64; 3],
     orientation: [f64; 6],
@@ -41,6 +42,7 @@ const AXIAL: [f64; 6] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
 fn slice(number: u32, z: f64) -> Slice {
     Slice {
         series: "1.2.3",
+        modality: None,
         number,
         position: [-10.0, -20.0, z],
         orientation: AXIAL,
@@ -109,6 +111,9 @@ impl Slice {
         let mut out = vec![0; 128];
         out.extend(b"DICM");
         self.element(&mut out, 2, 0x10, b"UI", uid.as_bytes());
+        if let Some(modality) = self.modality {
+            self.element(&mut out, 8, 0x60, b"CS", modality.as_bytes());
+        }
         self.element(&mut out, 0x10, 0x10, b"PN", PATIENT.as_bytes());
         self.element(&mut out, 0x20, 0x0E, b"UI", self.series.as_bytes());
         self.element(
@@ -183,6 +188,28 @@ fn folder(slices: &[Slice]) -> MemoryFiles {
         .enumerate()
         .map(|(i, slice)| (format!("IM{:04}", (i * 7919) % 10_007), slice.bytes()));
     MemoryFiles::new(named)
+}
+
+#[test]
+fn a_series_tells_what_made_it() {
+    let told = |modality: Option<&'static str>, syntax: Syntax| {
+        let slices = [0, 1].map(|i| Slice {
+            modality,
+            syntax,
+            ..slice(i, f64::from(i))
+        });
+        let (_, report) = load_files(&mut folder(&slices), ALL_FILES, 0).expect("it is read");
+        report.modality
+    };
+    for syntax in [Syntax::Explicit, Syntax::Implicit, Syntax::BigEndian] {
+        assert_eq!(told(Some("CT"), syntax).as_deref(), Some("CT"));
+        assert_eq!(told(Some("MR "), syntax).as_deref(), Some("MR"));
+        assert_eq!(told(None, syntax), None);
+    }
+    // Anything may stand there, and none of it comes onto a screen.
+    for other in ["", " ", "Doe^Jane", "ct", "A23456789012345678", "CT\\MR"] {
+        assert_eq!(told(Some(other), Syntax::Explicit), None, "{other:?}");
+    }
 }
 
 #[test]

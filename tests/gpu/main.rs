@@ -1,6 +1,7 @@
 //! Tests that ask a GPU (lavapipe is enough) and draw no window.
 
 mod align;
+mod answers;
 mod baked;
 mod bodies;
 mod captions;

@@ -347,6 +347,11 @@ impl Viewport {
             self.moving_until = now + REST_SECONDS;
             set_seen(picture, session, camera);
         }
+        if ui.input(|i| i.events.iter().any(is_done_by_hand)) {
+            // The control that was meant answers first.
+            self.moving_until = self.moving_until.max(now + REST_SECONDS);
+            picture.hold();
+        }
         let is_moving = now < self.moving_until;
         let size = size_px(rect, ui.pixels_per_point());
         let budget = if is_moving {
@@ -380,7 +385,8 @@ impl Viewport {
             picture,
             (size, budget, is_moving),
         );
-        if !picture.state.is_done && !self.has_failed {
+        let goes_on = !picture.state.is_done && !picture.state.is_held && !self.has_failed;
+        if goes_on && !picture.repaint_when_done(ui.ctx()) {
             ui.ctx().request_repaint();
         } else if is_moving {
             let rest = (self.moving_until - now).max(0.0) + 0.01;
@@ -636,10 +642,22 @@ impl Viewport {
         self.last_camera = None;
         // A failure is reported once the picture is seen again.
         _ = picture.draw([64, 64], BUDGET_REST, false);
-        if !picture.state.is_done {
+        if !picture.state.is_done && !picture.repaint_when_done(ui.ctx()) {
             ui.ctx().request_repaint();
         }
     }
+}
+
+/// Somebody presses, lets go, types or scrolls. Moving the pointer alone does nothing that has to be answered at once.
+fn is_done_by_hand(event: &Event) -> bool {
+    matches!(
+        event,
+        Event::PointerButton { .. }
+            | Event::Key { .. }
+            | Event::Text(_)
+            | Event::MouseWheel { .. }
+            | Event::Touch { .. }
+    )
 }
 
 /// The command that shows a message about a failure.

@@ -220,6 +220,17 @@ pub(crate) fn can_draw(ui: &egui::Ui, text: &str) -> bool {
     cfg!(target_arch = "wasm32") || ui.fonts_mut(|fonts| fonts.has_glyphs(&font, text))
 }
 
+/// Draws letters that none of the fonts has. A browser draws such letters on a canvas and reads them back, and the
+/// first reading waits for all that the graphics device has to do: in the first frame that is nothing, later half a
+/// second.
+pub(crate) fn warm(ui: &egui::Ui) {
+    if cfg!(target_arch = "wasm32") {
+        let font = FontId::proportional(13.0);
+        let letters = crate::app::words::Lang::Chinese.own_name().to_owned();
+        ui.fonts_mut(|fonts| fonts.layout_no_wrap(letters, font, Color32::BLACK));
+    }
+}
+
 /// Puts fonts and both themes into a context. Once, at the start.
 pub(crate) fn install(ctx: &egui::Context) {
     ctx.set_fonts(fonts());

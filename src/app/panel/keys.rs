@@ -12,7 +12,7 @@ use crate::app::words::keys::w;
 use crate::app::words::slices;
 
 /// What the mouse and fingers do in the picture.
-fn gestures() -> [(&'static str, &'static str); 10] {
+fn gestures() -> [(&'static str, &'static str); 11] {
     let w = w();
     [
         (w.drag, w.turn_object),
@@ -25,6 +25,7 @@ fn gestures() -> [(&'static str, &'static str); 10] {
         (w.alt_handle, authoring::w().both_sides),
         (w.shift_handle, authoring::w().alone),
         (w.alt_drag, w.alt_drag_does),
+        (w.ball, w.ball_does),
     ]
 }
 

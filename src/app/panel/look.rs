@@ -11,7 +11,7 @@ use crate::app::session::Command;
 use crate::app::session::Session;
 use crate::app::words::look::{Look as Words, w};
 use crate::app::words::transfer::w as transfer_words;
-use crate::app::words::{fill, names};
+use crate::app::words::{facts, fill, names};
 use crate::document::{
     Background, Edit, Look, OpacityMode, Preset, PresetSubject, Transfer, Window, preset,
 };
@@ -75,7 +75,11 @@ fn values_ui(
     let look = &session.illustration().look;
     widget::heading(ui, w().heading, |_| {});
     let auto = info.map(|info| auto_preset(&session.illustration().subject, info));
+    let facts = session.view.subject.as_ref();
+    let modality = facts.and_then(|facts| facts.scan.as_ref()?.modality.as_deref());
+    let auto = auto.map(|name| (name, modality));
     transfer_ui(ui, &look.transfer, info, auto, pictures, commands);
+    let auto = auto.map(|(name, _)| name);
     // Listed points ignore the window, which then only sets the grey of slices.
     let name = match &look.transfer {
         Transfer::Preset(name) => Some(name.as_str()),
@@ -97,7 +101,7 @@ fn transfer_ui(
     ui: &mut Ui,
     transfer: &Transfer,
     info: Option<&SubjectInfo>,
-    auto: Option<&str>,
+    auto: Option<(&str, Option<&str>)>,
     pictures: &mut Pictures,
     commands: &mut Vec<Command>,
 ) {
@@ -109,12 +113,13 @@ fn transfer_ui(
     };
     let auto_title = auto.map_or_else(
         || w().automatic.to_owned(),
-        |name| {
-            // Values without a unit say nothing of the machine that they come from.
+        |(name, modality)| {
+            // Values without a unit say nothing of the machine that they come from; the file may.
             let is_unknown = preset(name).is_some_and(|p| p.subject == PresetSubject::Mri);
-            let title = match is_unknown {
-                true => w().any_scan.to_owned(),
-                false => title(name),
+            let title = match (is_unknown, modality) {
+                (true, Some(code)) => facts::modality(code).to_owned(),
+                (true, None) => w().any_scan.to_owned(),
+                (false, _) => title(name),
             };
             fill(w().automatic_is, &[&title])
         },
@@ -128,6 +133,7 @@ fn transfer_ui(
         widget::row_label(ui, w().colours, w().colours_hint);
         let combo = widget::combo("preset", &selected, ui.available_width() - 2.0);
         let shown = combo.height(420.0).show_ui(ui, |ui| {
+            let auto = auto.map(|(name, _)| name);
             let auto = (auto, auto_title.as_str());
             presets::list_ui(ui, transfer, info, auto, pictures, commands);
         });

@@ -233,8 +233,8 @@ fn has_facts(session: &Session) -> bool {
     facts.is_some_and(|facts| facts.scan.is_some())
 }
 
-/// What is known of the scan: name, voxels, spacing, size, values, segments. Nothing here names a patient, for no
-/// reader takes such a name in.
+/// What is known of the scan: name, modality, voxels, spacing, size, values, segments. Nothing here names a patient,
+/// for no reader takes such a name in.
 fn facts_ui(ui: &mut Ui, session: &Session) {
     let Some((facts, scan)) = session
         .view
@@ -255,22 +255,24 @@ fn facts_ui(ui: &mut Ui, session: &Session) {
     let sizes = std::array::from_fn(|i| f64::from(scan.dims[i]) * scan.spacing_mm[i]);
     let [low, high] = scan.value_range.map(|value| number(f64::from(value), 1));
     let count = facts.segments.len().to_string();
+    let modality = scan.modality.as_deref().map(facts::modality);
     let lines = [
-        (
+        Some((
             w.name,
             names::subject_title(&session.illustration().subject),
-        ),
-        (w.voxels, format!("{x} × {y} × {z}")),
-        (w.spacing, mm(scan.spacing_mm, 3)),
-        (w.size, mm(sizes, 1)),
-        (w.values, fill(w.from_to, &[&low, &high])),
-        (w.segments, count),
+        )),
+        modality.map(|modality| (w.modality, modality.to_owned())),
+        Some((w.voxels, format!("{x} × {y} × {z}"))),
+        Some((w.spacing, mm(scan.spacing_mm, 3))),
+        Some((w.size, mm(sizes, 1))),
+        Some((w.values, fill(w.from_to, &[&low, &high]))),
+        Some((w.segments, count)),
     ];
     egui::Grid::new("facts of the scan")
         .num_columns(2)
         .spacing(egui::vec2(14.0, 4.0))
         .show(ui, |ui| {
-            for (name, value) in lines {
+            for (name, value) in lines.into_iter().flatten() {
                 ui.label(theme::strong(name).size(12.5));
                 ui.label(value);
                 ui.end_row();

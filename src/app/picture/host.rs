@@ -4,6 +4,8 @@
 use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::Arc;
+use std::task::Wake;
+use std::time::Duration;
 
 use eframe::egui_wgpu::RenderState;
 use glam::{Vec2, Vec3};
@@ -23,6 +25,18 @@ struct FileJob {
     picture: Pending<Result<Image, RenderError>>,
     /// How much of it is drawn, 0 to 1.
     progress: Rc<Cell<f32>>,
+}
+
+/// Work that takes longer is asked for.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Asks for a frame when it is woken.
+struct Repaint(egui::Context);
+
+impl Wake for Repaint {
+    fn wake(self: Arc<Self>) {
+        self.0.request_repaint();
+    }
 }
 
 /// The renderer with what the interface needs around it. Built once per window.
@@ -72,6 +86,7 @@ impl Picture {
                 progress: 0.0,
                 has_picture: false,
                 uploading: None,
+                is_held: false,
                 whole_seconds: None,
             },
         }
@@ -153,6 +168,22 @@ impl Picture {
             }
         }
         Ok(self.texture.filter(|_| self.state.has_picture))
+    }
+
+    /// Somebody does something: the finer picture waits for a moment.
+    pub(crate) fn hold(&mut self) {
+        self.renderer.hold();
+    }
+
+    /// Repaints as soon as the work under way is done, and not before. False where that has to be asked every frame.
+    pub(crate) fn repaint_when_done(&self, ctx: &egui::Context) -> bool {
+        let waker = Arc::new(Repaint(ctx.clone())).into();
+        let will_wake = self.ghost.is_none() && self.renderer.wake_when_done(&waker);
+        if will_wake {
+            // A device that is lost wakes nobody.
+            ctx.request_repaint_after(PATIENCE);
+        }
+        will_wake
     }
 
     /// The texture of a slice, brought up to date. None until there is something to show.

@@ -58,6 +58,8 @@ pub struct Load {
     pub reading: Reading,
     /// Volumes in the file, once that is known.
     pub frame_count: u64,
+    /// What made the images, once that is known, as DICOM abbreviates it.
+    pub modality: Option<String>,
     /// The subject is seen coarsely, until its fine voxels are there.
     pub is_coarse: bool,
 }
@@ -73,6 +75,7 @@ impl Load {
             host: None,
             reading: Reading::default(),
             frame_count: 1,
+            modality: None,
             is_coarse: false,
         }
     }

@@ -59,6 +59,8 @@ pub struct ScanFacts {
     pub spacing_mm: [f64; 3],
     /// Smallest and largest value.
     pub value_range: [f32; 2],
+    /// What made the images, as DICOM abbreviates it, where the file tells.
+    pub modality: Option<String>,
 }
 
 /// What panels want to know of the subject that is shown.
@@ -93,6 +95,7 @@ impl SubjectFacts {
                 dims: volume.grid.dims.to_array(),
                 spacing_mm: volume.grid.spacing_mm().to_array(),
                 value_range: volume.value_range,
+                modality: None,
             }),
             segments: names_of(subject.segments()),
             tissues: each_once(subject.segments()),
@@ -184,6 +187,14 @@ impl ViewState {
         self.subject = Some(facts);
         self.subject_revision += 1;
         is_same_place
+    }
+
+    /// The file tells what made its images, or does not.
+    pub fn set_modality(&mut self, modality: Option<String>) {
+        let scan = self.subject.as_mut().and_then(|facts| facts.scan.as_mut());
+        if let Some(scan) = scan {
+            scan.modality = modality;
+        }
     }
 
     /// The subject has other segments now.

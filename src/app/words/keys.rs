@@ -17,6 +17,8 @@ words! {
         shift_handle: "Shift + handle", "Umschalt + Griff", "Mayús + tirador", "Shift + 手柄";
         right_click: "Right click, long press", "Rechtsklick, langes Drücken", "Clic derecho, pulsación larga", "右键单击、长按";
         right_click_does: "Menu of the template", "Menü der Vorlage", "Menú de la plantilla", "模板菜单";
+        ball: "[ and ] while painting", "[ und ] beim Malen", "[ y ] al pintar", "涂绘时按 [ 和 ]";
+        ball_does: "A smaller or larger ball", "Kleinere oder größere Kugel", "Bola menor o mayor", "缩小或放大球";
         copy: "Copy the template", "Vorlage kopieren", "Copiar la plantilla", "复制模板";
         cut: "Cut the template out", "Vorlage ausschneiden", "Cortar la plantilla", "剪切模板";
         paste: "Paste templates, a link or a document", "Vorlagen, Link oder Dokument einfügen", "Pegar plantillas, un enlace o un documento", "粘贴模板、链接或文档";

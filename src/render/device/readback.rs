@@ -110,9 +110,12 @@ fn turn(gpu: &Gpu) -> Result<(), RenderError> {
     }
 }
 
+/// Callbacks come by themselves, without anybody who polls.
+const TELLS_BY_ITSELF: bool = cfg!(target_arch = "wasm32");
+
 /// True where no callback comes unless somebody polls.
 fn must_be_polled(gpu: &Gpu) -> bool {
-    cfg!(not(target_arch = "wasm32")) && !gpu.waits()
+    !TELLS_BY_ITSELF && !gpu.waits()
 }
 
 /// Resolves when everything submitted so far is done.
@@ -125,17 +128,25 @@ pub struct WorkDone {
 #[derive(Debug, Default)]
 struct WorkState {
     is_done: bool,
+    /// Seconds on the clock of whoever watches, where the device tells by itself.
+    done_at: Option<f64>,
     waker: Option<Waker>,
 }
 
 impl WorkDone {
     /// Starts to watch the work that was submitted before this call.
     pub fn start(gpu: &Gpu) -> Self {
+        Self::timed(gpu, None)
+    }
+
+    /// The same, and notes when it is done, see [`WorkDone::done_at`].
+    pub fn timed(gpu: &Gpu, clock: Option<fn() -> f64>) -> Self {
         let state = Arc::new(Mutex::new(WorkState::default()));
         let on_done = Arc::clone(&state);
         gpu.queue.on_submitted_work_done(move || {
             let mut state = on_done.lock().unwrap_or_else(PoisonError::into_inner);
             state.is_done = true;
+            state.done_at = clock.filter(|_| TELLS_BY_ITSELF).map(|clock| clock());
             if let Some(waker) = state.waker.take() {
                 waker.wake();
             }
@@ -152,6 +163,22 @@ impl WorkDone {
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .is_done
+    }
+
+    /// When it was done, by the clock given at its start; only a browser's device tells that before it is polled.
+    pub fn done_at(&self) -> Option<f64> {
+        let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        state.done_at
+    }
+
+    /// Wakes once it is done. False where it is done already, or where somebody has to poll the device for that.
+    pub fn wake_when_done(&self, waker: &Waker) -> bool {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let will_wake = TELLS_BY_ITSELF && !state.is_done;
+        if will_wake {
+            state.waker = Some(waker.clone());
+        }
+        will_wake
     }
 }
 

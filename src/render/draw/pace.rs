@@ -53,6 +53,11 @@ impl Pace {
         self.cost[work as usize]
     }
 
+    /// Seconds that the device takes for anything at all, as far as was seen.
+    pub(crate) fn shortest(&self) -> f64 {
+        self.shortest
+    }
+
     /// A new map is baked: it is hoped to take so much of what the formulas take.
     pub(crate) fn hope_for_baked(&mut self, share: f64) {
         self.cost[Work::QuickBaked as usize] = share * self.cost(Work::Quick);

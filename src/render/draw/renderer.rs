@@ -23,6 +23,7 @@ use crate::render::scene::Scene;
 use crate::render::subject::upload::{Upload, fitting, with_segmentation};
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
+use std::task::Waker;
 
 /// Samples per pixel of the finished picture.
 const SAMPLES_HARDWARE: u32 = 16;
@@ -30,6 +31,9 @@ const SAMPLES_SOFTWARE: u32 = 5;
 
 /// Refining waits so long after the last change, so that a drag is not slowed down by tiles nobody will see, seconds.
 const CALM_SECONDS: f64 = 0.12;
+
+/// Where anything at all takes the device longer, seconds, the interface is drawn first and the picture a frame later.
+const SLOW_TO_ANSWER: f64 = 0.04;
 
 /// First guesses of the cost of a pixel, seconds; measured from then on.
 const FIRST_COST_SOFTWARE: f64 = 2.5e-6;
@@ -49,6 +53,8 @@ pub struct DrawState {
     pub has_picture: bool,
     /// A subject is on its way to the GPU: fraction done.
     pub uploading: Option<f32>,
+    /// It waits until nobody does anything: no repaint is needed until [`Renderer::draw`] is told so.
+    pub is_held: bool,
     /// Seconds that the device takes for a whole picture at rest, of one sample per pixel, as far as was measured.
     pub whole_seconds: Option<f32>,
 }
@@ -76,6 +82,10 @@ pub struct Renderer {
     targets: Option<Targets>,
     stage: Stage,
     changed_at: f64,
+    /// When somebody last did something, see [`Renderer::hold`].
+    held_at: f64,
+    /// The picture at rest has changed, and the interface goes first.
+    is_after_interface: bool,
     pace: Pace,
     /// Scale of the last quick picture.
     quick_scale: Option<f32>,
@@ -136,6 +146,8 @@ impl Renderer {
             targets: None,
             stage: Stage::Stale,
             changed_at: f64::NEG_INFINITY,
+            held_at: f64::NEG_INFINITY,
+            is_after_interface: false,
             pace: Pace::new([cost, BAKED_HOPE * cost, 1.5 * cost, 0.05 * cost]),
             quick_scale: None,
             whole: WholePicture::default(),
@@ -250,8 +262,23 @@ impl Renderer {
     }
 
     fn touch(&mut self) {
+        // What moves is drawn in every frame.
+        let is_first = (self.clock)() - self.changed_at > CALM_SECONDS;
+        self.is_after_interface = is_first && self.pace.shortest() > SLOW_TO_ANSWER;
         self.stage = Stage::Stale;
         self.changed_at = (self.clock)();
+    }
+
+    /// Somebody does something: tiles wait as after a change, so that the answer has not to wait for them.
+    pub fn hold(&mut self) {
+        self.held_at = (self.clock)();
+    }
+
+    /// Wakes as soon as the work under way is done. False if there is none, or if [`Renderer::draw`] has to be called
+    /// to find out (natively).
+    pub fn wake_when_done(&self, waker: &Waker) -> bool {
+        let under_way = self.under_way.as_ref();
+        under_way.is_some_and(|work| work.done.wake_when_done(waker))
     }
 
     /// One frame's work: `size_px` is the size of the picture in device pixels, `budget_seconds` what the GPU may
@@ -289,26 +316,34 @@ impl Renderer {
         if self.targets.as_ref().is_none_or(|t| t.size != size) && size.iter().all(|&s| s > 0) {
             self.make_targets(size);
         }
+        let mut is_held = false;
         if self.prepare() && self.targets.is_some() {
             // Two submissions in line would show every change a frame late; a resize cannot wait, its picture is empty.
             let is_blank = self.generation_is_blank();
             if self.under_way.is_none() || is_blank {
                 match self.stage {
+                    Stage::Stale if self.is_after_interface && !is_blank => {
+                        self.is_after_interface = false;
+                    }
                     Stage::Stale => self.draw_quick(budget),
                     Stage::Refining { sample, tile } if !is_moving || self.is_calm() => {
                         if !self.bake(budget) {
                             self.refine(sample, tile, budget);
                         }
                     }
-                    Stage::Refining { .. } | Stage::Done => {}
+                    Stage::Refining { .. } => is_held = true,
+                    Stage::Done => {}
                 }
             }
         }
-        Ok(self.state())
+        Ok(DrawState {
+            is_held,
+            ..self.state()
+        })
     }
 
     fn is_calm(&self) -> bool {
-        (self.clock)() - self.changed_at > CALM_SECONDS
+        (self.clock)() - self.changed_at.max(self.held_at) > CALM_SECONDS
     }
 
     /// The picture: Rgba8Unorm, sRGB-encoded, premultiplied after encoding. Made anew when the size changes; see
@@ -595,9 +630,11 @@ impl Renderer {
         if !work.done.is_done() {
             return;
         }
-        let elapsed = (self.clock)() - work.started;
-        self.pace
-            .learn(elapsed, work.pixels, work.checks, work.work);
+        let done_at = work.done.done_at();
+        let elapsed = done_at.unwrap_or_else(self.clock) - work.started;
+        // A time that the device told is exact, whenever it was looked at.
+        let checks = work.checks.max(if done_at.is_some() { 2 } else { 0 });
+        self.pace.learn(elapsed, work.pixels, checks, work.work);
         if work.work == Work::Refine {
             self.whole.took(elapsed, work.ends_sample);
         }
@@ -771,7 +808,7 @@ impl Renderer {
 
     fn follow(&mut self, pixels: u32, work: Work) {
         self.under_way = Some(UnderWay {
-            done: WorkDone::start(&self.gpu),
+            done: WorkDone::timed(&self.gpu, Some(self.clock)),
             started: (self.clock)(),
             pixels,
             work,
@@ -805,6 +842,7 @@ impl Renderer {
             progress,
             has_picture: self.targets.is_some() && self.drawn_generation() == self.generation,
             uploading: self.upload.as_ref().map(|(upload, _)| upload.progress()),
+            is_held: false,
             whole_seconds: self.whole.seconds().map(|seconds| seconds as f32),
         }
     }

@@ -160,6 +160,10 @@ pub mod post {
                 push(&"frames".into());
                 push(&(count as f64).into());
             }
+            LoadEvent::Modality(code) => {
+                push(&"modality".into());
+                push(&code.into());
+            }
             LoadEvent::AskRaw(question) => {
                 push(&"raw".into());
                 push(&question.byte_len.map(|n| n as f64).into());
@@ -263,6 +267,7 @@ fn event_of(message: &Array) -> Option<LoadEvent> {
         "frames" => LoadEvent::Frames {
             count: message.get(1).as_f64()? as u64,
         },
+        "modality" => LoadEvent::Modality(text(1)),
         "raw" => LoadEvent::AskRaw(RawQuestion {
             byte_len: message.get(1).as_f64().map(|n| n as u64),
             is_packed: message.get(2).is_truthy(),
