@@ -51,8 +51,8 @@ pub(crate) fn ui(
                 }
                 if response.changed() {
                     let value = Caption {
-                        at: caption.at,
                         text,
+                        ..caption.clone()
                     };
                     commands.push(Command::Drag(Edit::ReplaceCaption {
                         caption: index,

@@ -84,6 +84,7 @@ impl Reader {
             captions.push(Caption {
                 at: self.vector(&object, "at")?,
                 text: object.string("text")?,
+                enabled: object.flag("enabled")?,
             });
         }
         let mut steps = Vec::new();
@@ -125,6 +126,8 @@ impl Reader {
             title: object.string("title")?,
             legend: object.string("caption")?,
             seconds: self.number(object, "seconds")?,
+            hold_seconds: self.number(object, "hold")?,
+            notes: object.string("notes")?,
         })
     }
 }
