@@ -8,6 +8,7 @@ use super::found::Found;
 use super::library::LibraryCommand;
 use super::notices::Gravity;
 use super::sought::Sought;
+use super::steps::StepCommand;
 use super::tissues::TissueCommand;
 use super::view::See;
 use crate::app::words::Lang;
@@ -132,6 +133,8 @@ pub enum Command {
     GoToStep(usize),
     /// Shows the next step, or with `false` the one before.
     WalkStep(bool),
+    /// Records and plays the steps of the document.
+    Step(StepCommand),
     /// Puts the link on the clipboard.
     CopyLink,
     /// Saves the document as a file.

@@ -53,6 +53,7 @@ pub(crate) mod picture;
 pub(crate) mod points;
 pub(crate) mod search;
 pub(crate) mod slices;
+pub(crate) mod steps;
 pub(crate) mod templates;
 #[cfg(test)]
 mod tests;

@@ -24,6 +24,7 @@ fn lines() -> impl Iterator<Item = &'static Line> {
         points::LINES,
         messages::LINES,
         slices::LINES,
+        steps::LINES,
         templates::LINES,
         text::LINES,
         tissue::LINES,
