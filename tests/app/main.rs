@@ -12,6 +12,7 @@ mod opening;
 mod screens;
 #[path = "../support/segment_files.rs"]
 mod segment_files;
+mod steps;
 mod tissue;
 mod window;
 

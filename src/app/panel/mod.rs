@@ -16,6 +16,8 @@ pub(crate) mod raw;
 pub(crate) mod recipe;
 mod seek;
 pub(crate) mod shortcuts;
+pub(crate) mod steps;
+pub(crate) mod strip;
 pub(crate) mod templates;
 pub(crate) mod text;
 pub(crate) mod tissue;
