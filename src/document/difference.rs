@@ -1,13 +1,13 @@
-//! What has to be set in one state of a document to make another of it: JSON pointers and values, as few and as small as
-//! the schema allows.
+//! What has to be set in one state of a document to make another of it: JSON pointers and values, as few and as small
+//! as the schema allows.
 
 use super::model::TemplateKind;
 use super::schema::{Key, Kind, LeftOut, ROOT, find, param_default, params_of};
 use super::text::pointer::join;
 use serde_json::{Map, Value, json};
 
-/// The pointers and values that turn `old` into `new`, both in canonical form and without steps. A key that `new` leaves
-/// out is set to its default; where it has none, the whole object that holds it is set.
+/// The pointers and values that turn `old` into `new`, both in canonical form and without steps. A key that `new`
+/// leaves out is set to its default; where it has none, the whole object that holds it is set.
 pub(super) fn difference(old: &Value, new: &Value) -> Vec<(String, Value)> {
     let mut out = Vec::new();
     let nothing = Map::new();

@@ -198,8 +198,8 @@ impl Document {
         Self::from_value(steps::at_step(&self.inner.root, step, self.step_count())?)
     }
 
-    /// A step that comes after another one and shows what an edit of that one's state makes of it: its entry of `steps`,
-    /// which sets only what differs.
+    /// A step that comes after another one and shows what an edit of that one's state makes of it: its entry of
+    /// `steps`, which sets only what differs.
     ///
     /// # Errors
     /// [`DocumentError::NoSuchStep`], and as [`Edit::apply`].

@@ -70,7 +70,7 @@ mod tests;
 
 pub use self::camera::StandardView;
 pub use self::clipboard::{Clipboard, Copied};
-pub use self::command::{Command, GizmoMode};
+pub use self::command::{Command, GizmoMode, StepCommand};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};
 pub use self::files::{FileChoice, Fit, RawCommand, RawDraft};
 pub use self::found::Found;
@@ -88,7 +88,6 @@ pub use self::small_picture::{
     STORED_PICTURE, STORED_RECENT_PICTURES, SmallPicture, changed_pictures, picture_of,
 };
 pub use self::sought::Sought;
-pub use self::steps::StepCommand;
 pub use self::taken::Taken;
 pub use self::ticket::Ticket;
 pub use self::tissues::{TissueCommand, Tissues};

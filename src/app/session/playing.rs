@@ -1,15 +1,8 @@
 //! A lesson that plays by itself: it walks to the next step, stays there, and walks on until the last.
 
 use super::effect::LinkChange;
-use super::session::Session;
+use super::session::{Playing, Session};
 use crate::document::Step;
-
-/// A lesson that plays.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Playing {
-    /// Since when it stays at a step, seconds on the clock of the interface; `None` on the way.
-    since: Option<f64>,
-}
 
 impl Session {
     /// True while the lesson plays by itself.

@@ -3,12 +3,11 @@
 use glam::{Vec2, Vec3};
 
 use super::camera;
-use super::command::Command;
+use super::command::{Command, StepCommand};
 use super::effect::{Effect, Focus};
 use super::notices::Gravity;
 use super::question::{Place, Question};
 use super::session::{Session, Tab};
-use super::steps::StepCommand;
 use super::tool::Tool;
 use super::view::See;
 use crate::app::words::{self, fill};

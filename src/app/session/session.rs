@@ -9,7 +9,6 @@ use super::files::{FileChoice, RawDraft};
 use super::library::Library;
 use super::mode::Mode;
 use super::notices::{Gravity, Notices};
-use super::playing::Playing;
 use super::ticket::Ticket;
 use super::tissues::Tissues;
 use super::tool::Tool;
@@ -93,6 +92,13 @@ pub(super) struct Glide {
     pub to: Camera,
     /// When it began, seconds on the clock of the interface.
     pub since: f64,
+}
+
+/// A lesson that plays.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Playing {
+    /// Since when it stays at a step, seconds on the clock of the interface; `None` on the way.
+    pub since: Option<f64>,
 }
 
 /// A document that was left for a new one.

@@ -3,34 +3,11 @@
 
 use serde_json::json;
 
+use super::command::StepCommand;
 use super::notices::Gravity;
 use super::session::Session;
 use crate::app::words::steps::w;
 use crate::document::{Camera, Document, Edit};
-
-/// One thing to do with the steps of the document. Steps are counted as they are shown, 0 is the start.
-#[derive(Clone, Debug, PartialEq)]
-pub enum StepCommand {
-    /// Adds a step after the one that is shown, which shows the same as is seen now, and goes there.
-    Add,
-    /// Makes a copy of a step behind it, and goes there.
-    Duplicate(usize),
-    /// Removes a step above 0.
-    Delete(usize),
-    /// Makes a step above 0 come earlier or later, and goes there.
-    Move {
-        /// Number of the step.
-        from: usize,
-        /// Number of the step afterwards.
-        to: usize,
-    },
-    /// Takes the present view into the step that is shown.
-    Update,
-    /// Starts to play the lesson at what is shown now, or stops it there.
-    TogglePlay,
-    /// Stands still at a place of the lesson: 1.5 is the middle of the passage from step 1 to step 2.
-    Scrub(f32),
-}
 
 impl Session {
     pub(super) fn run_step(&mut self, command: StepCommand) {
