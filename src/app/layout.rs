@@ -9,7 +9,7 @@ use crate::app::canvas::{hint, title};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::Palette;
 use crate::app::kit::widget;
-use crate::app::panel::{catalogue, look, notice, templates, text, tissue, topbar};
+use crate::app::panel::{catalogue, look, notice, strip, templates, text, tissue, topbar};
 use crate::app::picture::host::Picture;
 use crate::app::session::{Command, Focus, Tab};
 use crate::app::window::App;
@@ -143,6 +143,22 @@ impl App {
     fn picture_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
         let provisional = self.provisional(ui.ctx());
         let is_earlier = self.shows_earlier_object();
+        if strip::is_shown(&self.session, ui.ctx().content_rect().height()) {
+            let fill = Palette::get(ui).panel;
+            let frame = Frame::new()
+                .fill(fill)
+                .inner_margin(Margin::symmetric(8, 2));
+            Panel::bottom("strip")
+                .exact_size(strip::height())
+                .resizable(false)
+                .frame(frame)
+                .show(ui, |ui| {
+                    let pictures = &mut self.step_pictures;
+                    widget::directed(ui, |ui| strip::ui(ui, &self.session, pictures, commands));
+                });
+        } else {
+            strip::put_away(&mut self.step_pictures);
+        }
         CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
             let session = &self.session;
             let rect = ui.available_rect_before_wrap();

@@ -63,7 +63,7 @@ pub use self::canvas::lettering::letter;
 pub use self::services::{Message, MissingDocument, SavedTo, Services, WhyMissing};
 pub use self::session::{
     Command, GizmoMode, LinkChange, Pane, STORED_DOCUMENT, SaveFile, See, Shipped, StandardView,
-    Ticket, TissueCommand, Tool,
+    StepCommand, Ticket, TissueCommand, Tool,
 };
 #[cfg(feature = "app")]
 pub use self::window::{App, Start};

@@ -71,6 +71,10 @@ pub trait Services {
     fn wants_contrast(&self) -> bool {
         false
     }
+    /// True if the reader has asked for less motion everywhere: passages between steps are cuts.
+    fn wants_less_motion(&self) -> bool {
+        false
+    }
     /// The text that was last given to [`Services::store`] under this key; `None` if there is none.
     fn stored(&self, key: &str) -> Option<String>;
 

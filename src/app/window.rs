@@ -11,7 +11,7 @@ use crate::app::canvas::viewport::{self, Viewport};
 use crate::app::kit::theme;
 use crate::app::kit::{slow_click, widget};
 use crate::app::panel::{
-    catalogue, frames, kept, keys, library, notice, presets, raw, share, shortcuts, transfer,
+    catalogue, frames, kept, keys, library, notice, presets, raw, share, shortcuts, strip, transfer,
 };
 use crate::app::picture::host::Picture;
 use crate::app::picture::small::OpenPicture;
@@ -87,6 +87,8 @@ pub struct App {
     pub(crate) transfer: transfer::Editor,
     /// The small pictures of presets.
     pub(crate) preset_pictures: presets::Pictures,
+    /// The small pictures of the steps.
+    pub(crate) step_pictures: strip::Pictures,
     /// The slices beside the picture.
     pub(crate) slices: Slices,
     /// The segments of the subject in the making.
@@ -149,6 +151,7 @@ impl App {
             && start.document.is_none()
             && start.missing.is_none()
             && services.stored(STORED_DOCUMENT).is_none();
+        session.has_less_motion = services.wants_less_motion();
         session.has_told_slow = services.stored(STORED_SLOW).is_some();
         session.has_hint = is_first && services.stored(STORED_HINT).is_none();
         let earlier = services.stored(STORED_DOCUMENT);
@@ -201,6 +204,7 @@ impl App {
             resources: Resources::default(),
             transfer: transfer::Editor::default(),
             preset_pictures: presets::Pictures::default(),
+            step_pictures: strip::Pictures::default(),
             slices: Slices::default(),
             tissue: tissue_work::TissueWork::new(start.clock),
             inside: kept::Inside::default(),
@@ -246,6 +250,7 @@ impl App {
             && self.session.library.listing != Listing::Asked
             && !self.viewport.is_waiting()
             && !self.preset_pictures.is_waiting()
+            && !self.step_pictures.is_waiting()
             && self.picture.as_ref().is_none_or(is_picture_done)
     }
 
@@ -544,6 +549,8 @@ impl App {
         let is_held = ui.input(|i| i.pointer.any_down());
         let picture = self.picture.as_ref();
         self.preset_pictures
+            .advance(ctx, &self.session, picture, is_held);
+        self.step_pictures
             .advance(ctx, &self.session, picture, is_held);
         if let Some(picture) = &mut self.picture {
             for notice in picture.take_notices() {

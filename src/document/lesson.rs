@@ -67,6 +67,17 @@ impl Lesson {
         } else {
             1.0
         };
-        Ok(blend(start, end, part * part * (3.0 - 2.0 * part)))
+        Ok(Self::between(start, end, part))
     }
+
+    /// What a passage shows once this part of its time is over (0 to 1), eased like [`Lesson::at`]. What cannot go over
+    /// by and by is as it is at the end.
+    pub fn between(start: &Illustration, end: &Illustration, part: f32) -> Illustration {
+        blend(start, end, eased(part))
+    }
+}
+
+/// How much of a passage is done after this part of its time: it begins and ends slowly.
+pub(super) fn eased(part: f32) -> f32 {
+    part * part * (3.0 - 2.0 * part)
 }

@@ -25,7 +25,7 @@
 //!
 //! Files import only from files before them: `limits` <- `model` (plain types, no JSON) and `text` (JSON, pointers,
 //! errors, notices) <- `schema` (every fixed key once) <- `read` and `write` <- `canonical`, `steps`, `blend` <-
-//! `lesson` <- `tree` <- `naming` <- `history`, `authoring` <- `carry`.
+//! `difference` <- `recording`, `lesson` <- `tree` <- `naming` <- `history`, `authoring` <- `carry`.
 //!
 #![doc = include_str!("reference.md")]
 
@@ -33,12 +33,14 @@ mod authoring;
 mod blend;
 mod canonical;
 mod carry;
+mod difference;
 mod history;
 mod lesson;
 mod limits;
 mod model;
 mod naming;
 mod read;
+mod recording;
 #[cfg(test)]
 mod reference;
 mod schema;

@@ -86,7 +86,12 @@ impl Edit {
             Self::AddCaption(_) => "Add label".to_owned(),
             Self::ReplaceCaption { .. } => "Change label".to_owned(),
             Self::RemoveCaption { .. } => "Remove label".to_owned(),
+            Self::AtStep { step, edit } => match document.at_step(*step) {
+                Ok(state) => edit.name(&state),
+                Err(_) => edit.name(document),
+            },
             Self::AddStep { .. } => "Add step".to_owned(),
+            Self::DuplicateStep { .. } => "Duplicate step".to_owned(),
             Self::RemoveStep { .. } => "Remove step".to_owned(),
             Self::MoveStep { .. } => "Reorder steps".to_owned(),
         }

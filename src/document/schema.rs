@@ -13,7 +13,7 @@ use super::limits::{
     MAX_STROKES, MAX_TEMPLATES, MIN_BALL_MM,
 };
 use super::model::{
-    Align, Camera, ConstrainBy, OpacityMode, ParamKind, RawVoxels, TemplateKind, TemplateMode,
+    Align, Camera, ConstrainBy, OpacityMode, ParamKind, RawVoxels, Step, TemplateKind, TemplateMode,
 };
 use super::text::{json, pointer};
 use crate::displace::Holds;
@@ -445,6 +445,7 @@ pub(crate) const CAMERA: &[Key] = &[
 pub(crate) const CAPTION: &[Key] = &[
     key(320, "at", vector(ORIGIN, -FAR, FAR), "the point of tissue that the text is fastened to, in the undeformed subject"),
     key(670, "text", Kind::Text, "the text"),
+    key(420, "enabled", Kind::Flag { default: true }, "false: the label is left out"),
 ];
 
 /// Keys of an entry of `/steps`.
@@ -455,6 +456,8 @@ pub(crate) const STEP: &[Key] = &[
     key(35, "alt", Kind::Limited { most: MAX_ALT }, "text in place of the picture at this step; without it the program describes the picture"),
     key(680, "set", Kind::Set, "JSON pointers into the document and the values that they get"),
     key(690, "seconds", number(1.0, 0.0, 3600.0), "length of the passage to this step"),
+    key(700, "hold", number(plain(Step::DEFAULT_HOLD), 0.0, 3600.0), "how long a lesson that plays by itself stays at this step, seconds"),
+    key(710, "notes", Kind::Text, "text for the teacher; it is not drawn, but everybody who has the document can read it"),
 ];
 
 /// A default of the model as a decimal number: 0.02, not 0.019999999552965164.
@@ -513,6 +516,33 @@ impl Kind {
             _ => return None,
         })
     }
+
+    /// The JSON that means the same as a missing key of this kind; `None` where there is no such value.
+    pub(crate) fn default_value(self) -> Option<Value> {
+        Some(match self {
+            Self::Text => json!(""),
+            Self::Name(names) => json!(names.first()?),
+            Self::Background => json!("#ffffff"),
+            Self::Transfer(_) | Self::Window => json!("auto"),
+            Self::Flag { default } => json!(default),
+            Self::Whole => json!(0),
+            Self::Number { default, .. } => Value::Number(json::number(default)),
+            other => return other.container(),
+        })
+    }
+}
+
+/// The JSON that means the same as a missing parameter.
+pub(crate) fn param_default(kind: &ParamKind) -> Option<Value> {
+    match kind {
+        ParamKind::Number { default, .. } | ParamKind::Count { default, .. } => {
+            Some(json!(plain_f64(*default)))
+        }
+        ParamKind::Flag { default } => Some(json!(default)),
+        ParamKind::Choice { names } => Some(json!(names.first()?)),
+        ParamKind::Vector { default, .. } => Some(json!(default.map(plain_f64))),
+        ParamKind::Rotation => Kind::Rotation.container(),
+    }
 }
 
 /// What stands at a path when the document says nothing: a list, an object or a vector. `kind` is that of the template
@@ -544,8 +574,7 @@ pub(crate) fn default_at(path: &[String], kind: Option<TemplateKind>) -> Option<
 fn param_at(kind: TemplateKind, name: &str) -> Option<Value> {
     let spec = kind.spec().params.iter().find(|spec| spec.name == name)?;
     match spec.kind {
-        ParamKind::Vector { default, .. } => Some(json!(default.map(plain_f64))),
-        ParamKind::Rotation => Kind::Rotation.container(),
+        ParamKind::Vector { .. } | ParamKind::Rotation => param_default(&spec.kind),
         _ => None,
     }
 }

@@ -6,7 +6,7 @@ use super::model::Illustration;
 use super::read::resolve;
 use super::text::{DocumentError, Notice, NoticeKind, json, pointer};
 use super::write::{Edit, json as writing, set};
-use super::{canonical, steps};
+use super::{canonical, recording, steps};
 use serde_json::Value;
 use std::sync::{Arc, OnceLock};
 
@@ -198,6 +198,15 @@ impl Document {
         Self::from_value(steps::at_step(&self.inner.root, step, self.step_count())?)
     }
 
+    /// A step that comes after another one and shows what an edit of that one's state makes of it: its entry of
+    /// `steps`, which sets only what differs.
+    ///
+    /// # Errors
+    /// [`DocumentError::NoSuchStep`], and as [`Edit::apply`].
+    pub fn step_after(&self, step: usize, edit: &Edit) -> Result<Value, DocumentError> {
+        recording::step_after(&self.inner.root, step, edit)
+    }
+
     /// What the document means at each of its steps, resolved when it is first asked for. Copies of a document share
     /// it.
     ///
@@ -234,6 +243,6 @@ impl Edit {
     /// # Errors
     /// If there is no such template, caption or step, or a limit would be passed.
     pub fn apply(&self, document: &Document) -> Result<Document, DocumentError> {
-        document.edited(|root| self.change(root))
+        document.edited(|root| recording::apply(root, self))
     }
 }

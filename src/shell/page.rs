@@ -757,6 +757,10 @@ impl Services for PageServices {
         matches_media("(prefers-contrast: more)")
     }
 
+    fn wants_less_motion(&self) -> bool {
+        matches_media("(prefers-reduced-motion: reduce)")
+    }
+
     fn stored(&self, key: &str) -> Option<String> {
         if !self.0.borrow().place.is_page {
             return None;

@@ -104,7 +104,7 @@ fn the_bar_of_steps_covers_no_slice() {
     }
 }
 
-/// Who selects a template at a step stays there; who changes it is back at the document.
+/// Who selects a template at a step stays there, and so does who changes it: the step sets what was changed.
 #[test]
 fn selecting_at_a_step_keeps_its_picture() {
     let mut window = Window::open(LAPTOP, LESSON);
@@ -122,13 +122,18 @@ fn selecting_at_a_step_keeps_its_picture() {
     window.settle();
     assert_eq!(window.harness.state().step(), 2, "by the keyboard");
     assert_eq!(window.harness.state().selected(), Some(0));
+    let before = window.document();
     window.press(Key::CloseBracket);
     window.settle();
-    assert_eq!(
-        window.harness.state().step(),
-        0,
-        "an edit leaves the lesson"
-    );
+    assert_eq!(window.harness.state().step(), 2, "an edit is the step's");
+    let after = window.document();
+    let params = |document: &fabrica::document::Document, step: usize| {
+        let state = document.at_step(step).expect("a step");
+        state.illustration().templates[0].params.clone()
+    };
+    assert_ne!(params(&before, 2), params(&after, 2));
+    assert_eq!(params(&before, 1), params(&after, 1));
+    assert_eq!(params(&before, 0), params(&after, 0));
 }
 
 // ---------------------------------------------------------------------------------------------------- slices

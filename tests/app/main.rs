@@ -13,6 +13,7 @@ mod screens;
 #[path = "../support/segment_files.rs"]
 mod segment_files;
 mod share;
+mod steps;
 mod tissue;
 mod window;
 

@@ -158,6 +158,25 @@ fn any_document_survives() {
     }
 }
 
+/// The keys of recorded steps are carried, and cost nothing where they are not used.
+#[test]
+fn recorded_steps_are_carried() {
+    let with = document(
+        json!({ "fabrica": 1, "labels": [{ "text": "a", "enabled": false }],
+        "steps": [{ "title": "s", "notes": "Ask first.", "hold": 7.5, "set": { "/labels/0/enabled": true } }] }),
+    );
+    let read = link::decode(&link::encode(&with)).expect("a link").document;
+    assert_eq!(read, with);
+    assert_eq!(read.illustration().steps[0].notes, "Ask first.");
+    let at_default = document(
+        json!({ "fabrica": 1, "labels": [{ "text": "a", "enabled": true }],
+        "steps": [{ "title": "s", "notes": "", "hold": 4, "seconds": 1 }] }),
+    );
+    let without =
+        document(json!({ "fabrica": 1, "labels": [{ "text": "a" }], "steps": [{ "title": "s" }] }));
+    assert_eq!(link::encode(&at_default), link::encode(&without));
+}
+
 #[test]
 fn order_of_keys_and_written_defaults_make_no_difference() {
     let a = r#"{"templates":[{"params":{"progress":0.50,"depth":0.2},"kind":"peel","rotate":[0,0,0,1.0],"at":[0,0,0]}],"title":"","fabrica":1.0,"camera":{}}"#;

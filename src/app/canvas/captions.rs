@@ -33,8 +33,9 @@ struct Cause {
     recipes: Vec<Recipe>,
     segments: usize,
     templates: Vec<PlacedTemplate>,
-    /// Points of tissue that are followed, rest space: one per caption.
+    /// Points of tissue that are followed, rest space: one per caption; and whether that is drawn.
     points: Vec<Vec3>,
+    drawn: Vec<bool>,
 }
 
 impl Cause {
@@ -45,6 +46,11 @@ impl Cause {
             segments,
             templates: shown.templates.clone(),
             points: shown.captions.iter().map(|caption| caption.at).collect(),
+            drawn: shown
+                .captions
+                .iter()
+                .map(|caption| caption.enabled)
+                .collect(),
         }
     }
 
@@ -54,10 +60,10 @@ impl Cause {
             && self.subject == shown.subject
             && self.recipes == shown.recipes
             && self.templates == shown.templates
-            && self
-                .points
+            && self.points.iter().zip(&self.drawn).eq(shown
+                .captions
                 .iter()
-                .eq(shown.captions.iter().map(|caption| &caption.at))
+                .map(|caption| (&caption.at, &caption.enabled)))
     }
 }
 
@@ -130,14 +136,23 @@ impl Followed {
         } else if self.sight != Some(*camera) && picture.state.is_done {
             self.sight = Some(*camera);
             self.hidden.resize(self.places.len(), false);
-            self.ask_sight(picture, view, size);
+            self.ask_sight(shown, picture, view, size);
         }
     }
 
-    fn ask_sight(&mut self, picture: &mut Picture, view: &Projection, size: [u32; 2]) {
+    fn ask_sight(
+        &mut self,
+        shown: &Illustration,
+        picture: &mut Picture,
+        view: &Projection,
+        size: [u32; 2],
+    ) {
         let scale = size[0] as f32 / view.rect.width().max(1.0);
         self.sights.clear();
-        for (index, place) in self.places.iter().enumerate().take(MOST_SEEN) {
+        let is_drawn =
+            |(index, _): &(usize, _)| shown.captions.get(*index).is_some_and(|c| c.enabled);
+        let drawn = self.places.iter().enumerate().filter(is_drawn);
+        for (index, place) in drawn.take(MOST_SEEN) {
             let at = place.and_then(|place| view.ui_from_subject(place));
             if let Some(at) = at.filter(|at| view.rect.contains(*at)) {
                 let pixel = (at - view.rect.min) * scale;
@@ -177,7 +192,7 @@ impl Followed {
     fn in_picture(&self, shown: &Illustration, view: &Projection) -> Vec<(usize, Pos2, bool)> {
         let captions = shown.captions.iter().enumerate();
         captions
-            .filter(|(_, caption)| !caption.text.trim().is_empty())
+            .filter(|(_, caption)| caption.enabled && !caption.text.trim().is_empty())
             .filter_map(|(index, _)| {
                 let place = self.places.get(index).copied().flatten()?;
                 let at = view.ui_from_subject(place)?;
@@ -247,8 +262,8 @@ impl Followed {
                 chosen = Some(index);
             }
         }
-        // In a lesson there is no field to go to.
-        if let Some(index) = chosen.filter(|_| !session.are_panels_hidden && session.step() == 0) {
+        // In a picture alone there is no field to go to.
+        if let Some(index) = chosen.filter(|_| !session.are_panels_hidden) {
             commands.push(Command::EditCaption(index));
         }
     }
@@ -273,6 +288,11 @@ pub async fn caption_places(
     let view = View::new(&illustration.camera, size_px);
     let mut captions = Vec::with_capacity(places.len());
     for (index, place) in places.into_iter().enumerate() {
+        let is_drawn = illustration
+            .captions
+            .get(index)
+            .is_some_and(|caption| caption.enabled);
+        let place = place.filter(|_| is_drawn);
         let pixel = place.and_then(|place| view.pixel_from_subject(place));
         let pick = match pixel.filter(|_| index < MOST_SEEN) {
             Some(pixel) => studio.pick(illustration, size_px, pixel).await?,

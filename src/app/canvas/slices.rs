@@ -173,7 +173,7 @@ impl Slices {
 
         let background = match (
             session.view.has_slice_colors,
-            session.illustration().look.background,
+            session.shown().look.background,
         ) {
             (false, _) => NOTHING_SRGB,
             (true, Background::Color(color)) => color,
@@ -695,7 +695,7 @@ impl PaneView {
 
 /// The box that slices are laid out for: the object, and what templates (but fields) draw out of it within reason.
 fn shown_bounds(facts: &SubjectFacts, session: &Session) -> Aabb {
-    let templates = &session.illustration().templates;
+    let templates = &session.shown().templates;
     let deformed = deformed_bounds(templates, &Resources::default(), facts.bounds);
     let size = facts.bounds.max - facts.bounds.min;
     let limit = 0.15 * size.max_element();
@@ -714,7 +714,7 @@ fn grey_window(session: &Session, picture: &Picture) -> Option<[f32; 2]> {
     use crate::document::{Transfer, preset};
     use crate::render::{auto_preset, window_of};
     let info = picture.subject_info()?;
-    let look = &session.illustration().look;
+    let look = &session.shown().look;
     let name = match &look.transfer {
         Transfer::Preset(name) => name.as_str(),
         Transfer::Auto | Transfer::Points(_) => auto_preset(&session.illustration().subject, &info),

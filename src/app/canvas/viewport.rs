@@ -218,9 +218,7 @@ impl Viewport {
         commands: &mut Vec<Command>,
     ) {
         self.markers_ui(ui, view, session, commands);
-        let (Some(template), Some(in_document)) =
-            (session.selected_as_shown(), session.selected_template())
-        else {
+        let Some(template) = session.selected_template() else {
             self.gizmo.release();
             return;
         };
@@ -232,7 +230,7 @@ impl Viewport {
         } else if let Some(edit) = self.gizmo.ui(ui, response, view, template, session) {
             commands.push(Command::Drag(edit));
         }
-        tools_ui(ui, bars, session, in_document, commands);
+        tools_ui(ui, bars, session, template, commands);
     }
 
     fn announce(&self, response: &Response, session: &Session) {

@@ -47,6 +47,8 @@ pub(crate) enum Icon {
     Mirror,
     Snap,
     Book,
+    Play,
+    Stop,
     Brush,
     Eraser,
 }
@@ -172,6 +174,8 @@ impl Icon {
             Self::Down | Self::ChevronDown => &[Line(&[(6.0, 9.5), (12.0, 15.5), (18.0, 9.5)])],
             Self::Previous => &[Line(&[(14.5, 5.0), (7.5, 12.0), (14.5, 19.0)])],
             Self::Next => &[Line(&[(9.5, 5.0), (16.5, 12.0), (9.5, 19.0)])],
+            Self::Play => &[Ring(&[(8.0, 5.0), (18.5, 12.0), (8.0, 19.0)])],
+            Self::Stop => &[Ring(&[(6.5, 6.5), (17.5, 6.5), (17.5, 17.5), (6.5, 17.5)])],
             Self::ChevronRight => &[Line(&[(9.5, 6.0), (15.5, 12.0), (9.5, 18.0)])],
             Self::Close => &[
                 Line(&[(6.5, 6.5), (17.5, 17.5)]),

@@ -6,7 +6,7 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget::{self, Named as _};
 use crate::app::session::{Command, Focus, Session};
-use crate::app::words::{captions::w, fill};
+use crate::app::words::{captions::w, fill, steps};
 use crate::document::{Caption, Edit};
 
 /// Draws the list of captions, a row each, with buttons to add and to remove one.
@@ -16,7 +16,7 @@ pub(crate) fn ui(
     focus: &mut Option<Focus>,
     commands: &mut Vec<Command>,
 ) {
-    let captions = &session.illustration().captions;
+    let captions = &session.shown().captions;
     widget::heading(ui, w().heading, |ui| {
         let name = w().add;
         if widget::icon_button(ui, Icon::Plus, name, true).clicked() {
@@ -44,17 +44,32 @@ pub(crate) fn ui(
                     .id(id)
                     .align(Align2::LEFT_CENTER)
                     .min_size(vec2(0.0, theme::control_height()))
-                    .desired_width(ui.available_width() - theme::control_height() - 8.0);
+                    .desired_width(ui.available_width() - 2.0 * (theme::control_height() + 8.0));
                 let response = ui.add(edit).named(fill(w().text_n, &[&(index + 1)]));
                 if wants_focus {
                     response.scroll_to_me(None);
                 }
                 if response.changed() {
                     let value = Caption {
-                        at: caption.at,
                         text,
+                        ..caption.clone()
                     };
                     commands.push(Command::Drag(Edit::ReplaceCaption {
+                        caption: index,
+                        value,
+                    }));
+                }
+                let (icon, show) = match caption.enabled {
+                    true => (Icon::Eye, steps::w().hide_caption),
+                    false => (Icon::EyeOff, steps::w().show_caption),
+                };
+                let show = format!("{show}: {}", caption.text);
+                if widget::icon_button(ui, icon, &show, true).clicked() {
+                    let value = Caption {
+                        enabled: !caption.enabled,
+                        ..caption.clone()
+                    };
+                    commands.push(Command::Apply(Edit::ReplaceCaption {
                         caption: index,
                         value,
                     }));

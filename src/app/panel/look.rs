@@ -38,7 +38,7 @@ pub(crate) fn ui(
     pictures: &mut Pictures,
     commands: &mut Vec<Command>,
 ) {
-    let look = &session.illustration().look;
+    let look = &session.shown().look;
     if session.view.has_values() {
         values_ui(ui, session, info, (editor, pictures), commands);
         widget::divider(ui);
@@ -72,7 +72,7 @@ fn values_ui(
     (editor, pictures): (&mut Editor, &mut Pictures),
     commands: &mut Vec<Command>,
 ) {
-    let look = &session.illustration().look;
+    let look = &session.shown().look;
     widget::heading(ui, w().heading, |_| {});
     let auto = info.map(|info| auto_preset(&session.illustration().subject, info));
     let facts = session.view.subject.as_ref();

@@ -17,6 +17,8 @@ pub(crate) mod recipe;
 mod seek;
 pub(crate) mod share;
 pub(crate) mod shortcuts;
+pub(crate) mod steps;
+pub(crate) mod strip;
 pub(crate) mod templates;
 pub(crate) mod text;
 pub(crate) mod tissue;

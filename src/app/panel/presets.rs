@@ -49,7 +49,7 @@ impl Common {
                 // A preset brings its own.
                 tint: None,
                 background: Background::None,
-                ..session.illustration().look.clone()
+                ..session.shown().look.clone()
             },
         }
     }

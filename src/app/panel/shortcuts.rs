@@ -2,7 +2,7 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-use crate::app::session::{Command, GizmoMode, See, StandardView};
+use crate::app::session::{Command, GizmoMode, See, StandardView, StepCommand};
 use crate::app::words::keys::w;
 use crate::document::Plane;
 
@@ -93,6 +93,12 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         ),
         entry(NONE, Key::L, Command::LayOnSurface, w.lay),
         entry(NONE, Key::K, Command::ToggleSnap, w.snap),
+        entry(
+            SHIFT,
+            Key::A,
+            Command::Step(StepCommand::Add),
+            crate::app::words::steps::w().add,
+        ),
         entry(
             NONE,
             Key::A,

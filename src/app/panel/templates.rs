@@ -113,11 +113,7 @@ fn list_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 /// One entry; returns its rectangle.
 fn row_ui(ui: &mut Ui, session: &Session, index: usize, commands: &mut Vec<Command>) -> Rect {
     let palette = Palette::get(ui);
-    let template = session
-        .illustration()
-        .templates
-        .iter()
-        .find(|t| t.index == index);
+    let template = session.template(index);
     let title = template.map_or_else(|| w().unknown.to_owned(), names::template_title);
     let is_selected = session.selected == Some(index);
     let (rect, response) =
@@ -296,7 +292,7 @@ fn template_ui(
         group_ui(ui, session, index, commands);
     }
     widget::divider(ui);
-    let illustration = session.illustration();
+    let illustration = session.shown();
     kept::ui(ui, template, illustration, segments, inside, commands);
     widget::divider(ui);
     placement_ui(ui, template, commands);

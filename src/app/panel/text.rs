@@ -2,7 +2,7 @@
 
 use egui::{Label, TextEdit, Ui};
 
-use super::captions;
+use super::{captions, steps};
 use crate::app::kit::theme::Palette;
 use crate::app::kit::widget;
 use crate::app::panel::frames;
@@ -18,6 +18,7 @@ pub(crate) fn ui(
     focus: &mut Option<Focus>,
     commands: &mut Vec<Command>,
 ) {
+    steps::ui(ui, session, commands);
     let illustration = session.illustration();
     widget::heading(ui, w().heading, |_| {});
     let mut field =
@@ -102,6 +103,7 @@ pub(crate) fn ui(
         ui.add(Label::new(egui::RichText::new(hint).small().color(weak)).wrap());
     }
     captions::ui(ui, session, focus, commands);
+    steps::first_ui(ui, session, commands);
     if frames::row_ui(ui, session) {
         commands.push(Command::ToggleFrames);
     }

@@ -312,7 +312,7 @@ fn name_ui(ui: &mut Ui, session: &Session, name: &str, is_open: bool, commands: 
 }
 
 fn look_of<'a>(session: &'a Session, name: &str) -> Option<&'a SegmentLook> {
-    let mut looks = session.illustration().look.segments.iter();
+    let mut looks = session.shown().look.segments.iter();
     looks.find(|look| look.name == name)
 }
 

@@ -102,7 +102,7 @@ impl Editor {
         window: [f32; 2],
         commands: &mut Vec<Command>,
     ) {
-        let look = &session.illustration().look;
+        let look = &session.shown().look;
         let shown = Shown {
             points: match (&look.transfer, preset) {
                 (Transfer::Points(points), _) => points.clone(),

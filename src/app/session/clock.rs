@@ -29,7 +29,8 @@ impl Session {
             }
             self.revision += 1;
         }
-        self.advance_glide() || is_walking
+        let is_going_on = self.advance_playing();
+        self.advance_glide() || is_walking || is_going_on
     }
 
     /// Seconds until [`Self::advance`] has something to do although nothing else happens.
@@ -40,6 +41,7 @@ impl Session {
         let copied = self.copied_at.map(|at| at + COPIED_SECONDS - self.now);
         let glimpse = self.seconds_of_glimpse();
         [
+            self.seconds_to_next_step(),
             link,
             copied,
             glimpse,

@@ -133,6 +133,8 @@ pub enum Command {
     GoToStep(usize),
     /// Shows the next step, or with `false` the one before.
     WalkStep(bool),
+    /// Records and plays the steps of the document.
+    Step(StepCommand),
     /// Puts the link on the clipboard.
     CopyLink,
     /// Saves the document as a file.
@@ -189,6 +191,30 @@ pub enum Command {
     Library(LibraryCommand),
     /// Edits or shows tissues.
     Tissue(TissueCommand),
+}
+
+/// One thing to do with the steps of the document. Steps are counted as they are shown, 0 is the start.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StepCommand {
+    /// Adds a step after the one that is shown, which shows the same as is seen now, and goes there.
+    Add,
+    /// Makes a copy of a step behind it, and goes there.
+    Duplicate(usize),
+    /// Removes a step above 0.
+    Delete(usize),
+    /// Makes a step above 0 come earlier or later, and goes there.
+    Move {
+        /// Number of the step.
+        from: usize,
+        /// Number of the step afterwards.
+        to: usize,
+    },
+    /// Takes the present view into the step that is shown.
+    Update,
+    /// Starts to play the lesson at what is shown now, or stops it there.
+    TogglePlay,
+    /// Stands still at a place of the lesson: 1.5 is the middle of the passage from step 1 to step 2.
+    Scrub(f32),
 }
 
 /// What the handles in the picture do.

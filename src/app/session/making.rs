@@ -130,7 +130,7 @@ impl Session {
             name: format!("Make {name}"),
             edits,
         };
-        let is_made = self.apply(&edit, false);
+        let is_made = self.apply_to_document(&edit, false);
         if is_made {
             self.tissues.open = Some(index);
             self.tissues.making = Some(index);
@@ -171,7 +171,8 @@ impl Session {
             name: format!("Rename {}", recipe.name),
             edits,
         };
-        if self.apply(&edit, false) && self.tissues.alone.as_ref() == Some(&recipe.name) {
+        if self.apply_to_document(&edit, false) && self.tissues.alone.as_ref() == Some(&recipe.name)
+        {
             self.tissues.show_alone(Some(name));
         }
     }
@@ -212,7 +213,7 @@ impl Session {
             name: format!("Remove {}", recipe.name),
             edits,
         };
-        if !self.apply(&edit, false) {
+        if !self.apply_to_document(&edit, false) {
             return;
         }
         if self.tool().is_for_tissue() {

@@ -14,6 +14,7 @@
 //! | `files`, `clipboard`, `library`, `small_picture` | files, and what is kept beside the document |
 //! | `session` | the state itself |
 //! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw` | what can be done with it |
+//! | `steps`, `playing` | recording the steps of a lesson, and playing them |
 //! | `making`, `painting` | what can be done with tissues |
 //! | `seeking` | the search for a structure by name |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
@@ -36,6 +37,7 @@ mod mode;
 mod notices;
 mod opening;
 mod painting;
+mod playing;
 mod question;
 mod raw;
 mod run;
@@ -49,6 +51,7 @@ pub mod shape;
 mod small_picture;
 mod sought;
 mod starting;
+mod steps;
 mod surface;
 mod taken;
 mod templates;
@@ -61,11 +64,13 @@ mod view;
 mod walk;
 
 #[cfg(test)]
+mod recording_tests;
+#[cfg(test)]
 mod tests;
 
 pub use self::camera::StandardView;
 pub use self::clipboard::{Clipboard, Copied};
-pub use self::command::{Command, GizmoMode};
+pub use self::command::{Command, GizmoMode, StepCommand};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};
 pub use self::files::{FileChoice, Fit, RawCommand, RawDraft};
 pub use self::found::Found;

@@ -1,9 +1,9 @@
-//! Whether a document is edited or its lesson is walked.
+//! Which state of a document is shown: that of its start, or of a step or a passage of its lesson.
 
 use super::walk::Walk;
 use crate::document::{Camera, Document, Illustration};
 
-/// Who uses the viewer: the author of the document, or a student who walks through the steps of its lesson.
+/// Where one stands in the lesson of a document. What is edited is what is shown.
 #[derive(Debug, Default)]
 pub enum Mode {
     /// The document as it stands is shown and edited.
@@ -43,22 +43,58 @@ impl Mode {
         }
     }
 
-    /// Goes to a step, by a passage that starts at the time `now` (seconds) and at the camera `from`. A step that is no
-    /// neighbour is shown at once; its camera is returned if it differs from that of the step before.
+    /// True in the middle of a passage, whether it goes on or stands still.
+    pub fn is_between(&self) -> bool {
+        matches!(self, Self::Lesson(walk) if walk.is_between())
+    }
+
+    /// Where one stands in the lesson: see [`Walk::position`].
+    pub fn position(&self) -> f32 {
+        match self {
+            Self::Author => 0.0,
+            Self::Lesson(walk) => walk.position(),
+        }
+    }
+
+    /// Goes to a step: see [`Walk::go`]. A passage starts at the time `now` (seconds) and at the camera `from`.
     pub fn go(
         &mut self,
         document: &Document,
         step: usize,
-        now: f64,
-        from: Camera,
+        (now, from): (f64, Camera),
+        is_cut: bool,
     ) -> Option<Camera> {
-        let mut walk = match std::mem::take(self) {
-            Self::Author => Walk::default(),
-            Self::Lesson(walk) => walk,
-        };
-        let camera = walk.go(document, step, now, from);
+        let mut walk = self.take_walk();
+        let camera = walk.go(document, step, (now, from), is_cut);
         self.settle(walk);
         camera
+    }
+
+    /// Stands still at a place of the lesson: see [`Walk::scrub`].
+    pub fn scrub(&mut self, document: &Document, position: f32) -> Option<Camera> {
+        let mut walk = self.take_walk();
+        let camera = walk.scrub(document, position);
+        self.settle(walk);
+        camera
+    }
+
+    /// A passage that goes on stands still.
+    pub fn pause(&mut self) {
+        if let Self::Lesson(walk) = self {
+            walk.pause();
+        }
+    }
+
+    /// Rests at the step that is shown or under way to, as the document has it now.
+    pub fn rest(&mut self, document: &Document) {
+        *self = Self::at(document, self.step());
+    }
+
+    fn take_walk(&mut self) -> Walk {
+        match std::mem::take(self) {
+            Self::Author => Walk::default(),
+            Self::Lesson(walk) => walk,
+        }
     }
 
     /// Advances a passage to the time `now`, seconds. Returns the camera of that time if the passage moves the camera.
@@ -75,7 +111,7 @@ impl Mode {
 
     /// Stays in the lesson while a step or a passage is shown; at rest on step 0 the author's mode is back.
     fn settle(&mut self, walk: Walk) {
-        if walk.step() > 0 || walk.is_moving() {
+        if walk.step() > 0 || walk.is_between() {
             *self = Self::Lesson(walk);
         }
     }

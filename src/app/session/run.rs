@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::camera;
-use super::command::Command;
+use super::command::{Command, StepCommand};
 use super::effect::{Effect, Focus};
 use super::notices::Gravity;
 use super::question::{Place, Question};
@@ -42,7 +42,11 @@ impl Session {
                 self.close_drags();
                 self.apply(&self.with_group(edit), true);
             }
-            Command::GoToStep(step) => self.go_to_step(step),
+            Command::GoToStep(step) => {
+                self.playing = None;
+                self.go_to_step(step);
+            }
+            Command::Step(command) => self.run_step(command),
             Command::WalkStep(forward) => self.walk_step(forward),
             Command::StartPlacing(kind) => self.start_placing(kind),
             Command::PlaceInMiddle => self.use_tool_in_middle(),
@@ -191,11 +195,13 @@ impl Session {
     }
 
     fn walk_step(&mut self, forward: bool) {
+        self.playing = None;
         let step = self.step();
-        let next = if forward {
-            step + 1
-        } else {
-            step.saturating_sub(1)
+        let next = match forward {
+            // First to the end of a passage that stands still.
+            true if self.is_paused() => step,
+            true => step + 1,
+            false => step.saturating_sub(1),
         };
         if self.document().step_count() > 0 {
             self.go_to_step(next);
@@ -205,7 +211,6 @@ impl Session {
     fn start_placing(&mut self, kind: TemplateKind) {
         self.end_tissues();
         let is_same = self.tool == Tool::Place(kind);
-        self.leave_lesson();
         self.take_tool(if is_same {
             Tool::Look
         } else {
@@ -232,6 +237,8 @@ impl Session {
         } else if self.is_keys_sheet_open || self.is_messages_open {
             self.is_keys_sheet_open = false;
             self.is_messages_open = false;
+        } else if self.playing.is_some() {
+            self.run_step(StepCommand::TogglePlay);
         } else if self.library.is_open {
             self.library.is_open = false;
         } else if matches!(self.tool, Tool::Measure(Some(_))) {
@@ -282,9 +289,13 @@ impl Session {
 
     fn delete_selected(&mut self) {
         if let Some(template) = self.selected {
+            let before = self.template_count();
             self.apply(&Edit::RemoveTemplate { template }, false);
             let count = self.template_count();
-            self.selected = count.checked_sub(1).map(|last| template.min(last));
+            // At a step it may stay in the list, switched off.
+            let is_gone = count < before;
+            let last = count.checked_sub(1).filter(|_| is_gone);
+            self.selected = last.map(|last| template.min(last));
         }
     }
 

@@ -97,6 +97,13 @@ pub(super) struct Glide {
     pub since: f64,
 }
 
+/// A lesson that plays.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Playing {
+    /// Since when it stays at a step, seconds on the clock of the interface; `None` on the way.
+    pub since: Option<f64>,
+}
+
 /// A document that was left for a new one.
 #[derive(Clone, Debug)]
 pub(super) struct Left {
@@ -199,6 +206,10 @@ pub struct Session {
     pub(super) tracing: Option<Tracing>,
     /// Seconds on the clock of the interface.
     pub now: f64,
+    /// A lesson plays by itself.
+    pub(super) playing: Option<Playing>,
+    /// The reader wants nothing to move by itself: passages and glides are cuts.
+    pub has_less_motion: bool,
     /// Grows with every change of the illustration that is shown.
     pub revision: u64,
     /// Settings of the view besides the camera: panes, slices, measures.
@@ -257,6 +268,8 @@ impl Session {
             left: None,
             tracing: None,
             now: 0.0,
+            playing: None,
+            has_less_motion: false,
             revision: 0,
             view: ViewState::default(),
             tissues: Tissues::default(),
@@ -303,21 +316,14 @@ impl Session {
         self.mode.step()
     }
 
-    /// The selected template, if its kind can be drawn.
+    /// The selected template as the picture shows it, if its kind can be drawn.
     pub fn selected_template(&self) -> Option<&PlacedTemplate> {
         self.template(self.selected?)
     }
 
-    /// The selected template as the picture shows it: at a step of a lesson with what the step sets.
-    pub fn selected_as_shown(&self) -> Option<&PlacedTemplate> {
-        let index = self.selected?;
-        let mut templates = self.shown().templates.iter();
-        templates.find(|template| template.index == index)
-    }
-
-    /// The template of this index in the document, if its kind can be drawn.
+    /// The template of this index in the document as the picture shows it, if its kind can be drawn.
     pub fn template(&self, index: usize) -> Option<&PlacedTemplate> {
-        let mut templates = self.illustration().templates.iter();
+        let mut templates = self.shown().templates.iter();
         templates.find(|template| template.index == index)
     }
 
@@ -371,16 +377,13 @@ impl Session {
         self.tool
     }
 
-    /// Takes a tool in hand, in place of the one before. A tool that changes the document ends the lesson.
+    /// Takes a tool in hand, in place of the one before.
     pub fn take_tool(&mut self, tool: Tool) {
         if self.tool.ball().is_some() || tool.ball().is_some() {
             // The tissue that is painted is marked.
             self.revision += 1;
         }
         self.tool = tool;
-        if tool.is_for_authors() {
-            self.leave_lesson();
-        }
     }
 
     /// Other things are done than with tissues: everything is shown, and clicks add no more seeds.
@@ -402,26 +405,23 @@ impl Session {
 
     /// Goes to a step. Nothing is selected at first, and no tool of authors is active, for a step is looked at.
     pub(super) fn go_to_step(&mut self, step: usize) {
+        self.go(step, self.has_less_motion);
+    }
+
+    /// Goes to a step, by a passage to a neighbour unless `is_cut`.
+    pub(super) fn go(&mut self, step: usize, is_cut: bool) {
         self.glide = None;
         self.selected = None;
         if self.tool.is_for_authors() {
             self.take_tool(Tool::Look);
         }
         let document = self.history.document();
-        if let Some(camera) = self.mode.go(document, step, self.now, self.camera) {
+        let now = (self.now, self.camera);
+        if let Some(camera) = self.mode.go(document, step, now, is_cut) {
             self.camera = camera;
         }
         self.revision += 1;
         self.touch_link(LinkChange::Push);
-    }
-
-    /// Leaves the lesson and shows the document as it stands, which is the state that is edited.
-    pub(super) fn leave_lesson(&mut self) {
-        if matches!(self.mode, Mode::Lesson(_)) {
-            self.mode = Mode::Author;
-            self.revision += 1;
-            self.touch_link(LinkChange::Replace);
-        }
     }
 
     // ------------------------------------------------------------------------------------------------ the camera
@@ -434,6 +434,9 @@ impl Session {
     }
 
     pub(super) fn glide_to(&mut self, to: Camera) {
+        if self.has_less_motion {
+            return self.move_camera(to);
+        }
         self.glide = Some(Glide {
             from: self.camera,
             to,
@@ -474,9 +477,20 @@ impl Session {
         self.history.end_drag();
     }
 
-    /// Changes the document, as a part of a drag or as one step of undo. True if the document took the change; else a
-    /// message tells why.
+    /// Changes what is shown, as a part of a drag or as one step of undo: the document, at a step above 0 what that
+    /// sets. True if the document took the change; else a message tells why.
     pub fn apply(&mut self, edit: &Edit, is_drag: bool) -> bool {
+        let before = self.template_count() + self.illustration().captions.len();
+        let is_done = self.apply_to_document(&self.at_step_shown(edit), is_drag);
+        if is_done {
+            self.tell_of_steps(edit, before);
+        }
+        is_done
+    }
+
+    /// Changes the document itself, whatever step is shown. True if the document took the change; else a message tells
+    /// why.
+    pub(super) fn apply_to_document(&mut self, edit: &Edit, is_drag: bool) -> bool {
         let result = if is_drag {
             self.history.drag(edit)
         } else {
@@ -488,7 +502,7 @@ impl Session {
     /// Changes the document as a part of the last step of undo. True if the document took the change; else a message
     /// tells why.
     pub(super) fn amend(&mut self, edit: &Edit) -> bool {
-        let result = self.history.amend(edit);
+        let result = self.history.amend(&self.at_step_shown(edit));
         self.applied(result, false)
     }
 
@@ -510,7 +524,8 @@ impl Session {
     }
 
     pub(super) fn document_changed(&mut self, change: LinkChange) {
-        self.leave_lesson();
+        self.playing = None;
+        self.mode.rest(self.history.document());
         self.revision += 1;
         if self
             .selected

@@ -46,6 +46,7 @@ impl Session {
         let outlook = self.outlook();
         self.put_down();
         self.mode = Mode::Author;
+        self.playing = None;
         if document != *self.document() {
             self.history.start(document, name, outlook);
         }
@@ -91,6 +92,7 @@ impl Session {
     /// Takes a change back, or makes it again.
     pub(super) fn undo_or_redo(&mut self, is_undo: bool) {
         self.history.end_drag();
+        let (before, step) = (self.document().clone(), self.step());
         let outlook = self.outlook();
         let other = self.history.outlook_mut(is_undo);
         let other = other.map(|kept| std::mem::replace(kept, outlook));
@@ -102,13 +104,18 @@ impl Session {
         if !did {
             return;
         }
+        let is_other = other.is_some();
         if let Some(outlook) = other {
             self.withdraw_templates();
             self.put_down();
+            self.mode = Mode::Author;
             self.take_outlook(outlook);
         }
         self.close_drags();
         self.document_changed(LinkChange::Push);
+        if !is_other {
+            self.show_change(&before, step);
+        }
         let recipes = &self.history.document().illustration().recipes;
         self.tissues.keep_to(recipes);
         if self.tool().is_for_tissue() && self.tissues.open.is_none() {

@@ -21,7 +21,7 @@ impl Session {
     fn sight_along(&self, template: usize) -> Option<Arc<Sight>> {
         let placed = self.template(template)?;
         let camera = camera_along(&placed.placement);
-        let mut illustration = self.illustration().clone();
+        let mut illustration = self.shown().clone();
         illustration
             .templates
             .retain(|other| other.index < template);

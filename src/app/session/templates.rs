@@ -77,7 +77,6 @@ impl Session {
         let Some(last) = templates.len().checked_sub(1) else {
             return true;
         };
-        self.leave_lesson();
         self.rename_groups(&mut templates);
         let index = self
             .selected
@@ -232,7 +231,7 @@ impl Session {
             template,
             placement,
         }];
-        for other in &self.illustration().templates {
+        for other in &self.shown().templates {
             if other.index != template && group_of(self.document(), other.index) == group {
                 let offset = turn * (other.placement.at - before.at);
                 let limit = Vec3::splat(4.0);

@@ -301,12 +301,7 @@ fn a_lesson_has_no_tools_of_authors() {
         };
         assert_eq!((session.step(), session.tool()), (2, kept));
         run(&mut session, command);
-        let step = if session.tool().is_for_authors() {
-            0
-        } else {
-            2
-        };
-        assert_eq!(session.step(), step, "taking {tool:?} ends the lesson");
+        assert_eq!(session.step(), 2, "taking {tool:?} stays at the step");
     }
 }
 
@@ -331,7 +326,7 @@ fn a_passage_goes_with_the_clock_and_back() {
 }
 
 #[test]
-fn a_change_ends_the_lesson() {
+fn a_change_stays_at_its_step() {
     let mut session = lesson();
     run(&mut session, Command::GoToStep(2));
     assert_ne!(session.shown(), session.illustration());
@@ -340,13 +335,13 @@ fn a_change_ends_the_lesson() {
     assert_eq!((session.step(), session.selected), (2, Some(0)));
     run(&mut session, Command::Select(Some(0)));
     assert_eq!((session.step(), session.selected), (2, Some(0)));
-    let shown = session.selected_as_shown();
+    let shown = session.selected_template();
     assert_eq!(shown, session.shown().templates.first());
-    assert_ne!(shown, session.selected_template());
+    assert_ne!(shown, session.illustration().templates.first());
     let edit = Edit::SetTitle("Other".to_owned());
     run(&mut session, Command::Apply(edit));
-    assert_eq!(session.step(), 0);
-    assert_eq!(session.shown(), session.illustration());
+    assert_eq!((session.step(), session.selected), (2, Some(0)));
+    assert_eq!(session.illustration().title, "Other");
 }
 
 // ---------------------------------------------------------------------------------------- changes

@@ -107,6 +107,7 @@ impl Session {
                 || fill(captions::w().caption_n, &[&(index + 1)]),
                 |name| capitalized(&kept::segment(name)),
             ),
+            enabled: true,
         };
         if self.apply(&Edit::AddCaption(caption), false) {
             self.are_panels_hidden = false;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::camera;
-use crate::document::{Camera, Document, Illustration};
+use crate::document::{Camera, Document, Illustration, Lesson};
 
 /// Where one stands in the steps of the document. Step 0 is the document as it stands.
 #[derive(Debug, Default)]
@@ -14,18 +14,48 @@ pub struct Walk {
     passage: Option<Passage>,
 }
 
-/// The way from one step to its neighbour.
+/// The way to a step, from a step at rest or from the middle of another passage.
 #[derive(Debug)]
 struct Passage {
-    /// The later of the two, whose entry has the length of the passage.
-    later: usize,
+    /// The step that was left.
+    before: usize,
+    /// Where in the lesson it began; see [`Walk::position`].
+    at: f32,
+    /// What was shown when it began, and what is shown when it is over.
+    ends: [Arc<Illustration>; 2],
+    /// It leads to an earlier step: what cannot go over by and by stays as it is until the end.
     is_backwards: bool,
-    /// When it began, seconds on the clock of the interface.
-    since: f64,
-    /// How long it takes.
+    /// When it began, seconds on the clock of the interface; `None` while it stands still.
+    since: Option<f64>,
+    /// How much of its time is over, 0 to 1.
+    part: f32,
+    /// How long it takes, seconds.
     seconds: f64,
+    /// How long the way from the step that was left to its beginning takes, seconds.
+    behind: f64,
     /// The cameras at both ends, if the step turns the camera at all.
-    cameras: Option<(Camera, Camera)>,
+    cameras: Option<[Camera; 2]>,
+}
+
+impl Passage {
+    fn shown(&self) -> Illustration {
+        let [start, end] = &self.ends;
+        match self.is_backwards {
+            true => Lesson::between(end, start, 1.0 - self.part),
+            false => Lesson::between(start, end, self.part),
+        }
+    }
+
+    fn camera(&self) -> Option<Camera> {
+        let [from, to] = self.cameras?;
+        Some(camera::between(&from, &to, self.part))
+    }
+
+    /// How long the way takes that is done, and the way that is left, at the pace of the whole passage, seconds.
+    fn done_and_left(&self) -> [f64; 2] {
+        let done = f64::from(self.part * self.part * (3.0 - 2.0 * self.part));
+        [done * self.seconds, (1.0 - done) * self.seconds]
+    }
 }
 
 impl Walk {
@@ -49,74 +79,149 @@ impl Walk {
         self.shown.as_deref()
     }
 
-    /// True while a passage goes on.
-    pub fn is_moving(&self) -> bool {
+    /// True in the middle of a passage, whether it goes on or stands still.
+    pub fn is_between(&self) -> bool {
         self.passage.is_some()
     }
 
-    /// Goes to a step: to a neighbour by the passage between them, further at once. Returns the camera that is taken at
-    /// once.
+    /// True while a passage goes on.
+    pub fn is_moving(&self) -> bool {
+        self.passage.as_ref().is_some_and(|p| p.since.is_some())
+    }
+
+    /// Where one stands: the number of the step, in a passage between those of its ends.
+    pub fn position(&self) -> f32 {
+        let to = self.step as f32;
+        match &self.passage {
+            Some(passage) => passage.at + (to - passage.at) * passage.part,
+            None => to,
+        }
+    }
+
+    /// Goes to a step from what is shown now: to a neighbour by a passage, unless `is_cut`, further at once. A passage
+    /// that stands still goes on if it leads there. Returns the camera that is taken at once.
+    ///
+    /// A passage that begins in the middle of another takes as long as the way back to where that came from, or as the
+    /// rest of that and its own: nothing moves faster than in an undisturbed passage.
     pub fn go(
         &mut self,
         document: &Document,
         step: usize,
-        now: f64,
-        from: Camera,
+        (now, from): (f64, Camera),
+        is_cut: bool,
     ) -> Option<Camera> {
         let step = step.min(document.step_count());
-        if step == self.step {
-            return None;
-        }
         let before = std::mem::replace(&mut self.step, step);
-        let camera_at = |step| match shown_at(document, step) {
-            Some(shown) => shown.camera,
-            None => document.illustration().camera,
-        };
-        let (start, end) = (camera_at(before), camera_at(step));
-        // A step that does not turn the camera leaves it where the student has turned it.
-        let cameras = (start != end).then_some((from, end));
-        if step.abs_diff(before) > 1 {
+        let camera_at = |step| state_at(document, step).map(|state| state.camera);
+        let turns = camera_at(before) != camera_at(step);
+        // A step that does not turn the camera leaves it where the student has turned it, but a turn is completed.
+        let is_turning = self.passage.as_ref().is_some_and(|p| p.cameras.is_some());
+        let end = camera_at(step).filter(|_| turns || is_turning);
+        if is_cut || step.abs_diff(before) > 1 {
+            let is_elsewhere = step != before || self.passage.is_some();
             self.passage = None;
             self.shown = shown_at(document, step);
-            return cameras.map(|(_, end)| end);
+            return end.filter(|_| is_elsewhere);
         }
-        let later = step.max(before);
+        if step == before && self.passage.as_ref().is_none_or(|p| p.since.is_some()) {
+            return None;
+        }
         let steps = &document.illustration().steps;
-        let seconds = steps
-            .get(later - 1)
-            .map_or(0.0, |step| f64::from(step.seconds));
-        self.passage = Some(Passage {
-            later,
+        let later = steps.get(step.max(before).saturating_sub(1));
+        let own = later.map_or(0.0, |step| f64::from(step.seconds));
+        let position = self.position();
+        let mut next = Passage {
+            before,
+            at: position,
+            ends: [
+                self.shown.take().or_else(|| state_at(document, before))?,
+                state_at(document, step)?,
+            ],
             is_backwards: step < before,
-            since: now,
-            seconds,
-            cameras,
-        });
+            since: Some(now),
+            part: 0.0,
+            seconds: own,
+            behind: 0.0,
+            cameras: end.map(|end| [from, end]),
+        };
+        if let Some(passage) = &self.passage {
+            let [done, left] = passage.done_and_left();
+            if step == before {
+                // The rest of a passage that stood still.
+                next.before = passage.before;
+                next.is_backwards = passage.is_backwards;
+                (next.seconds, next.behind) = (left, done + passage.behind);
+            } else if step == passage.before {
+                (next.seconds, next.behind) = (done + passage.behind, left);
+            } else {
+                (next.seconds, next.behind) = (left + own, left);
+            }
+        }
+        self.shown = Some(Arc::clone(&next.ends[0]));
+        self.passage = Some(next);
         None
+    }
+
+    /// Stands still at a place of the lesson: a whole number is a step, what lies between two is in the passage from
+    /// one to the other. Returns the camera of that place, if any step turns the camera.
+    pub fn scrub(&mut self, document: &Document, position: f32) -> Option<Camera> {
+        let count = document.step_count();
+        let position = position.clamp(0.0, count as f32);
+        let states = 0..=count;
+        let first = state_at(document, 0)?.camera;
+        let turns = states
+            .filter_map(|step| state_at(document, step))
+            .any(|state| state.camera != first);
+        let step = position.ceil() as usize;
+        let part = position + 1.0 - step as f32;
+        self.step = step;
+        self.passage = None;
+        self.shown = shown_at(document, step);
+        let end = state_at(document, step)?;
+        if part >= 1.0 || step == 0 {
+            return turns.then_some(end.camera);
+        }
+        let start = state_at(document, step - 1)?;
+        let steps = &document.illustration().steps;
+        let passage = Passage {
+            before: step - 1,
+            at: (step - 1) as f32,
+            cameras: turns.then_some([start.camera, end.camera]),
+            ends: [start, end],
+            is_backwards: false,
+            since: None,
+            part,
+            seconds: steps
+                .get(step - 1)
+                .map_or(0.0, |step| f64::from(step.seconds)),
+            behind: 0.0,
+        };
+        let camera = passage.camera();
+        self.shown = Some(Arc::new(passage.shown()));
+        self.passage = Some(passage);
+        camera
+    }
+
+    /// A passage that goes on stands still.
+    pub fn pause(&mut self) {
+        if let Some(passage) = &mut self.passage {
+            passage.since = None;
+        }
     }
 
     /// Goes on to a time, seconds on the clock of the interface; returns the camera of the passage, if it has one.
     pub fn advance(&mut self, document: &Document, now: f64) -> Option<Camera> {
-        let passage = self.passage.as_ref()?;
-        let past = (now - passage.since).max(0.0);
+        let passage = self.passage.as_mut()?;
+        let past = (now - passage.since?).max(0.0);
         if past >= passage.seconds {
-            let end = passage.cameras.map(|(_, end)| end);
+            let end = passage.cameras.map(|[_, end]| end);
             self.passage = None;
             self.shown = shown_at(document, self.step);
             return end;
         }
-        let at = if passage.is_backwards {
-            passage.seconds - past
-        } else {
-            past
-        };
-        if let Ok(shown) = document.at_time(passage.later, at as f32) {
-            self.shown = Some(Arc::new(shown));
-        }
-        let part = (past / passage.seconds) as f32;
-        passage
-            .cameras
-            .map(|(from, end)| camera::between(&from, &end, part))
+        passage.part = (past / passage.seconds) as f32;
+        self.shown = Some(Arc::new(passage.shown()));
+        passage.camera()
     }
 }
 
@@ -125,6 +230,11 @@ fn shown_at(document: &Document, step: usize) -> Option<Arc<Illustration>> {
     if step == 0 {
         return None;
     }
+    state_at(document, step)
+}
+
+/// The state of the lesson at a step.
+fn state_at(document: &Document, step: usize) -> Option<Arc<Illustration>> {
     let state = document.lesson().ok()?.at_step(step).ok()?;
     Some(Arc::clone(state))
 }

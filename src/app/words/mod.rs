@@ -54,6 +54,7 @@ pub(crate) mod points;
 pub(crate) mod search;
 pub(crate) mod share;
 pub(crate) mod slices;
+pub(crate) mod steps;
 pub(crate) mod templates;
 #[cfg(test)]
 mod tests;

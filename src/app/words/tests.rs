@@ -25,6 +25,7 @@ fn lines() -> impl Iterator<Item = &'static Line> {
         messages::LINES,
         share::LINES,
         slices::LINES,
+        steps::LINES,
         templates::LINES,
         text::LINES,
         tissue::LINES,

@@ -103,6 +103,8 @@ pub struct Caption {
     pub at: Vec3,
     /// The text beside the point; any script, one line.
     pub text: String,
+    /// False: it is not drawn.
+    pub enabled: bool,
 }
 
 /// One step of a lesson.
@@ -116,4 +118,13 @@ pub struct Step {
     pub alt: String,
     /// Length of the passage to this step, seconds.
     pub seconds: f32,
+    /// How long a lesson that plays by itself stays at this step, seconds.
+    pub hold_seconds: f32,
+    /// Text for the teacher; may be empty. It is not drawn.
+    pub notes: String,
+}
+
+impl Step {
+    /// How long a lesson that plays by itself stays at a step that does not say, seconds.
+    pub const DEFAULT_HOLD: f32 = 4.0;
 }

@@ -84,6 +84,7 @@ impl Reader {
             captions.push(Caption {
                 at: self.vector(&object, "at")?,
                 text: object.string("text")?,
+                enabled: object.flag("enabled")?,
             });
         }
         let mut steps = Vec::new();
@@ -127,6 +128,8 @@ impl Reader {
             legend: object.string("caption")?,
             alt: self.limited_text(object, "alt")?,
             seconds: self.number(object, "seconds")?,
+            hold_seconds: self.number(object, "hold")?,
+            notes: object.string("notes")?,
         })
     }
 }

@@ -1,6 +1,7 @@
 mod curves;
 mod lessons;
 mod recipes;
+mod recording;
 
 use super::*;
 use crate::math::Placement;
@@ -476,6 +477,7 @@ fn typed_edits_write_what_they_say() {
         Edit::AddCaption(Caption {
             at: Vec3::X,
             text: "a".to_owned(),
+            enabled: true,
         }),
         Edit::AddStep {
             index: 0,

@@ -6,7 +6,7 @@ use super::number::{color_text, rotation, rounded, rounded_size, rounded_value, 
 use super::set::set;
 use super::value;
 use crate::displace::Holds;
-use crate::document::limits::{MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
+use crate::document::limits::{MAX_LABELS, MAX_TEMPLATES};
 use crate::document::model::{
     Align, Background, Constrain, ConstrainBy, OpacityMode, ParamKind, ParamValue, Reading,
     SubjectRef, TemplateKind, TemplateMode, Transfer, Window,
@@ -16,10 +16,11 @@ use crate::document::text::pointer::{self, join};
 use serde_json::{Value, json};
 
 impl Edit {
-    /// Does the edit in a tree.
+    /// Does the edit in a tree. Those that are made of others or need to know the steps are done by
+    /// `document::recording`.
     ///
     /// # Errors
-    /// If there is no such template, caption or step, or a limit would be passed.
+    /// If there is no such template or caption, a limit would be passed, or the edit is one of the steps.
     pub(crate) fn change(&self, root: &mut Value) -> Result<(), DocumentError> {
         let template = |i: &usize| format!("/templates/{i}");
         match self {
@@ -174,7 +175,6 @@ impl Edit {
                 }
                 Ok(())
             }
-            Self::All { edits, .. } => edits.iter().try_for_each(|edit| edit.change(root)),
             Self::SetTransfer(transfer) => {
                 let value = match transfer {
                     Transfer::Auto => json!("auto"),
@@ -269,12 +269,18 @@ impl Edit {
                     return Err(DocumentError::NotFound { pointer: at });
                 }
                 set(root, &join(&at, "at"), vector(value.at))?;
-                set(root, &join(&at, "text"), json!(value.text))
+                set(root, &join(&at, "text"), json!(value.text))?;
+                set(root, &join(&at, "enabled"), json!(value.enabled))
             }
             Self::RemoveCaption { caption } => take(root, "labels", *caption).map(|_| ()),
-            Self::AddStep { index, step } => insert(root, "steps", MAX_STEPS, *index, step.clone()),
-            Self::RemoveStep { step } => take(root, "steps", *step).map(|_| ()),
-            Self::MoveStep { from, to } => reorder(root, "steps", *from, *to),
+            Self::All { .. }
+            | Self::AtStep { .. }
+            | Self::AddStep { .. }
+            | Self::RemoveStep { .. }
+            | Self::DuplicateStep { .. }
+            | Self::MoveStep { .. } => Err(DocumentError::Refused {
+                pointer: "/steps".to_owned(),
+            }),
         }
     }
 }

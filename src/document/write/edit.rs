@@ -190,19 +190,35 @@ pub enum Edit {
         /// Index of the caption in `labels`, from 0.
         caption: usize,
     },
-    /// Adds a step before the one of that index, counted from 0 for the first after step 0.
+    /// Does an edit while a step is shown. What it changes goes into what the step sets and holds from there on, until
+    /// another step sets it. A template or caption that it adds is switched off before the step, one that it removes is
+    /// switched off from the step on. Order and names of templates, the texts of the document and its subject are those
+    /// of all steps.
+    AtStep {
+        /// The step that is shown; 0 is the document itself.
+        step: usize,
+        /// What is done.
+        edit: Box<Edit>,
+    },
+    /// Adds a step before the one of that index, counted from 0 for the first after step 0. All others go on to show
+    /// what they showed.
     AddStep {
         /// Index of the new step after the edit; larger than the number of steps means last.
         index: usize,
-        /// The step as JSON: `title`, `caption`, `set`, `seconds`.
+        /// The step as JSON: `title`, `caption`, `set`, `seconds`, `hold`, `notes`.
         step: Value,
     },
-    /// Removes a step; later steps come one earlier.
+    /// Removes a step; later steps come one earlier and go on to show what they showed.
     RemoveStep {
         /// Index of the step, from 0 for the first after step 0.
         step: usize,
     },
-    /// Changes when a step comes.
+    /// Makes a copy of a step right after it, which shows the same.
+    DuplicateStep {
+        /// Index of the step, from 0 for the first after step 0.
+        step: usize,
+    },
+    /// Changes when a step comes. All steps go on to show what they showed.
     MoveStep {
         /// Index of the step, from 0 for the first after step 0.
         from: usize,
@@ -251,7 +267,9 @@ impl Edit {
             Self::AddCaption(_) => "/labels/-".to_owned(),
             Self::ReplaceCaption { caption, .. } => format!("/labels/{caption}"),
             Self::RemoveCaption { caption } => format!("/labels/{caption}/remove"),
+            Self::AtStep { step, edit } => format!("/steps/{step}{}", edit.target()),
             Self::AddStep { index, .. } => format!("/steps/{index}/add"),
+            Self::DuplicateStep { step } => format!("/steps/{step}/duplicate"),
             Self::RemoveStep { step } => format!("/steps/{step}/remove"),
             Self::MoveStep { from, to } => format!("/steps/{from}/to/{to}"),
         }

@@ -5,7 +5,7 @@ use crate::document::text::pointer::{self, join};
 use serde_json::{Map, Value, json};
 
 /// A list of the document; created if the key is missing.
-pub(super) fn list<'a>(
+pub(crate) fn list<'a>(
     root: &'a mut Value,
     key: &'static str,
 ) -> Result<&'a mut Vec<Value>, DocumentError> {
@@ -18,7 +18,7 @@ pub(super) fn list<'a>(
 }
 
 /// Inserts a value before the entry of an index, or last; pointers in steps follow the entries that move up.
-pub(super) fn insert(
+pub(crate) fn insert(
     root: &mut Value,
     key: &'static str,
     limit: usize,
@@ -41,7 +41,7 @@ pub(super) fn insert(
 }
 
 /// Removes an entry; pointers in steps follow the entries that move down, and those to the entry itself go.
-pub(super) fn take(
+pub(crate) fn take(
     root: &mut Value,
     key: &'static str,
     index: usize,

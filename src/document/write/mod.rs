@@ -9,6 +9,7 @@ mod set;
 mod value;
 
 pub use edit::Edit;
+pub(super) use lists::{insert, list, take};
 #[cfg(any(feature = "app", feature = "session"))]
 pub(crate) use number::color_text;
 pub(super) use set::set;

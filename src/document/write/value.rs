@@ -38,7 +38,11 @@ pub(super) fn curve(curve: &Curve) -> Value {
 
 /// An entry of `labels`.
 pub(super) fn caption(caption: &Caption) -> Value {
-    json!({ "at": vector(caption.at), "text": caption.text })
+    let mut value = json!({ "at": vector(caption.at), "text": caption.text });
+    if !caption.enabled {
+        value["enabled"] = json!(false);
+    }
+    value
 }
 
 /// The layout of bare voxels.
