@@ -488,7 +488,8 @@ pub fn part_of_address() -> Option<String> {
     first_part(&text, &here()?.href())
 }
 
-/// Title, legend, steps and the author's texts in place of pictures, of the document in a link or JSON, as lines of text, for where no picture can be drawn.
+/// Title, legend, steps and the author's texts in place of pictures, of the document in a link or JSON, as lines of
+/// text, for where no picture can be drawn.
 ///
 /// # Errors
 /// What is wrong with the link or the document.

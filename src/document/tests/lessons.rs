@@ -112,8 +112,8 @@ fn texts_in_place_of_pictures_are_kept_and_bounded() {
     assert_eq!(
         super::notices(&kept),
         [
-            "/alt: 2001 characters; it is kept, and the first 2000 count",
-            "/steps/0/alt: 2001 characters; it is kept, and the first 2000 count"
+            "/steps/0/alt: 2001 characters; it is kept, and the first 2000 count",
+            "/alt: 2001 characters; it is kept, and the first 2000 count"
         ]
     );
     let whole = document(json!({ "fabrica": 1, "alt": "ß".repeat(MAX_ALT) }));
