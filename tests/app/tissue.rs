@@ -796,16 +796,25 @@ fn label_files_become_tissues_of_the_scan() {
     assert_eq!(named(&window).len(), 1, "one step of undo");
     // Who opens the document is asked for what it names, until it is there.
     let json = window.document().to_json();
-    let mut window = Window::open(SMALL, &json);
+    // It is not at rest before it has what it waits for.
+    let log = Fake::default();
+    log.0.borrow_mut().is_slow = true;
+    let mut window = Window::open_with(SMALL, egui::Theme::Light, log, Some(&json));
     dropped(&mut window, true, &[]);
-    window.settle();
     let asks = |window: &Window| {
         let all = window
             .harness
             .query_all_by_label_contains("needs a label file");
         all.count() > 0
     };
+    for _ in 0..100 {
+        window.steps(1);
+        if asks(&window) {
+            break;
+        }
+    }
     assert!(asks(&window), "it is asked for");
+    window.log.0.borrow_mut().is_slow = false;
     dropped(&mut window, false, &[("aa", 10)]);
     window.settle();
     assert!(!asks(&window), "it is there");
