@@ -129,10 +129,7 @@ mod tests {
     use std::pin::pin;
     use std::task::{Context, Poll, Waker};
 
-    use glam::DAffine3;
-
     use super::*;
-    use crate::data::Grid;
 
     fn inside(labels: &Segmentation, keep: &[&str]) -> Vec<String> {
         let coarse = CoarseLabels::of(labels);
@@ -148,47 +145,29 @@ mod tests {
     /// A ball of skin (4) around a shell of bone (1) around a brain (2) with a vessel (3, also under 5 with the brain),
     /// all of 80 voxels; a hole of the given radius goes through skin and bone from below.
     fn head(hole: f32) -> Segmentation {
-        let n = 80;
-        let middle = Vec3::splat(39.5);
-        let mut labels = Vec::new();
-        for z in 0..n {
-            for y in 0..n {
-                for x in 0..n {
-                    let pos = Vec3::new(x as f32, y as f32, z as f32) - middle;
-                    let is_hole = pos.z < 0.0 && pos.truncate().length() < hole;
-                    labels.push(match pos.length() {
-                        r if r < 5.0 => 3,
-                        r if r < 7.0 => 5,
-                        r if r < 28.0 => 2,
-                        _ if is_hole => 0,
-                        r if r < 31.0 => 1,
-                        r if r < 35.0 => 4,
-                        _ => 0,
-                    });
-                }
+        let label = |voxel: UVec3| {
+            let pos = voxel.as_vec3() - Vec3::splat(39.5);
+            let is_hole = pos.z < 0.0 && pos.truncate().length() < hole;
+            match pos.length() {
+                r if r < 5.0 => 3,
+                r if r < 7.0 => 5,
+                r if r < 28.0 => 2,
+                _ if is_hole => 0,
+                r if r < 31.0 => 1,
+                r if r < 35.0 => 4,
+                _ => 0,
             }
-        }
-        let segment = |label, name: &str| Segment {
-            label,
-            name: name.to_owned(),
-            color_srgb: None,
         };
-        Segmentation {
-            grid: Grid {
-                dims: UVec3::splat(n),
-                world_from_voxel: DAffine3::IDENTITY,
-            },
-            labels,
-            segments: vec![
-                segment(1, "bone"),
-                segment(2, "brain"),
-                segment(3, "vessel"),
-                segment(4, "skin"),
-                segment(5, "brain"),
-                segment(5, "vessel"),
-                segment(6, "absent"),
-            ],
-        }
+        let segments = [
+            (1, "bone"),
+            (2, "brain"),
+            (3, "vessel"),
+            (4, "skin"),
+            (5, "brain"),
+            (5, "vessel"),
+            (6, "absent"),
+        ];
+        Segmentation::cube(80, 1.0, label, &segments)
     }
 
     #[test]

@@ -99,37 +99,14 @@ impl Segmentation {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DAffine3, UVec3};
+    use glam::UVec3;
 
     use super::*;
-    use crate::data::{Grid, Segment};
 
     /// Voxels of 2 mm, `n` along each side, with labels by their indices.
     fn labelled(n: u32, label: impl Fn(UVec3) -> u8) -> Segmentation {
-        let mut labels = Vec::new();
-        for z in 0..n {
-            for y in 0..n {
-                labels.extend((0..n).map(|x| label(UVec3::new(x, y, z))));
-            }
-        }
-        let segment = |label, name: &str| Segment {
-            label,
-            name: name.to_owned(),
-            color_srgb: None,
-        };
-        Segmentation {
-            grid: Grid {
-                dims: UVec3::splat(n),
-                world_from_voxel: DAffine3::from_scale(DVec3::splat(2.0)),
-            },
-            labels,
-            segments: vec![
-                segment(1, "box"),
-                segment(2, "box"),
-                segment(3, "dot"),
-                segment(4, "absent"),
-            ],
-        }
+        let segments = [(1, "box"), (2, "box"), (3, "dot"), (4, "absent")];
+        Segmentation::cube(n, 2.0, label, &segments)
     }
 
     #[test]

@@ -155,6 +155,32 @@ pub struct Segmentation {
     pub segments: Vec<Segment>,
 }
 
+#[cfg(test)]
+impl Segmentation {
+    /// For unit tests: `n` voxels of `mm` along each side with labels by their indices, and segments by labels and names.
+    pub(crate) fn cube(
+        n: u32,
+        mm: f64,
+        label: impl Fn(UVec3) -> u8,
+        segments: &[(u16, &str)],
+    ) -> Self {
+        let voxels = (0..n).flat_map(|z| (0..n).flat_map(move |y| (0..n).map(move |x| [x, y, z])));
+        let segment = |&(label, name): &(u16, &str)| Segment {
+            label,
+            name: name.to_owned(),
+            color_srgb: None,
+        };
+        Self {
+            grid: Grid {
+                dims: UVec3::splat(n),
+                world_from_voxel: DAffine3::from_scale(DVec3::splat(mm)),
+            },
+            labels: voxels.map(|voxel| label(UVec3::from(voxel))).collect(),
+            segments: segments.iter().map(segment).collect(),
+        }
+    }
+}
+
 /// A scalar volume in memory: `value = stored · slope + intercept`. Built once per subject.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Volume {

@@ -184,7 +184,7 @@ fn a_preset_is_taken_from_its_group() {
 /// Each preset is offered as a picture of the scan that is open; of another scan there are other pictures.
 #[test]
 fn presets_are_pictures_of_the_scan() {
-    let mut window = Window::open(DESK, CUBE);
+    let mut window = Window::fine(DESK, CUBE);
     window.click("Panel: Look");
     let open_list = |window: &mut Window| {
         window
@@ -199,10 +199,7 @@ fn presets_are_pictures_of_the_scan() {
         let rect = node.rect();
         let field = rect.with_max_y(rect.top() + 63.0).shrink(8.0);
         assert!(field.width() > 60.0, "a tile: {rect}");
-        let image = window.harness.render().expect("the window can be drawn");
-        let [x, y] = [field.left() as u32, field.top() as u32];
-        let [w, h] = [field.width() as u32, field.height() as u32];
-        image::imageops::crop_imm(&image, x, y, w, h).to_image()
+        window.pixels(field)
     };
     let colors = |image: &image::RgbaImage| {
         let all: std::collections::BTreeSet<[u8; 4]> = image.pixels().map(|p| p.0).collect();
@@ -237,17 +234,7 @@ fn presets_are_pictures_of_the_scan() {
     assert!(!is_open(&window), "the list is closed");
     // Another subject: the pictures of the earlier one are gone at once.
     window.settle();
-    {
-        let log = &mut *window.log.0.borrow_mut();
-        log.next_ticket += 1;
-        let ticket = Ticket(log.next_ticket);
-        log.file_starts(ticket);
-        fabrica::subjects::generate("bar", 32, &mut Queue(log, ticket)).expect("the bar");
-        let sha256 = Some("5d".repeat(32));
-        let event = LoadEvent::Done { sha256 };
-        log.queue.push(Message::Load { ticket, event });
-    }
-    window.settle();
+    window.drop_built_in("bar", 32, &"5d".repeat(32));
     open_list(&mut window);
     let now = tile(&mut window, "CT bone");
     assert_ne!(now, of_cube[2], "no picture of another subject");

@@ -10,27 +10,9 @@ impl Window {
         self.document().illustration().recipes.clone()
     }
 
-    /// The window as it is drawn, a part of it.
-    fn pixels(&mut self, rect: egui::Rect) -> image::RgbaImage {
-        let image = self.harness.render().expect("the window can be drawn");
-        let [x, y] = [rect.left() as u32, rect.top() as u32];
-        let [w, h] = [rect.width() as u32, rect.height() as u32];
-        image::imageops::crop_imm(&image, x, y, w, h).to_image()
-    }
-
     /// Shows a scan with enough voxels for many frames of work.
     fn drop_large_cube(&mut self) {
-        {
-            let log = &mut *self.log.0.borrow_mut();
-            log.next_ticket += 1;
-            let ticket = Ticket(log.next_ticket);
-            log.file_starts(ticket);
-            fabrica::subjects::generate("cube", 160, &mut Queue(log, ticket)).expect("the cube");
-            let sha256 = Some("5c".repeat(32));
-            let event = LoadEvent::Done { sha256 };
-            log.queue.push(Message::Load { ticket, event });
-        }
-        self.settle();
+        self.drop_built_in("cube", 160, &"5c".repeat(32));
     }
 
     /// Pixels of the picture in which something is seen.
@@ -330,7 +312,7 @@ fn finding_a_tissue_can_be_stopped() {
 #[test]
 fn a_range_is_seen_while_it_is_dragged() {
     const PANES: [&str; 2] = ["Axial slice", "Picture of "];
-    let mut window = Window::open(FOUR, CUBE);
+    let mut window = Window::fine(FOUR, CUBE);
     window.drop_large_cube();
     window.press(Key::V);
     window.click("Panel: Tissues");
@@ -352,6 +334,14 @@ fn a_range_is_seen_while_it_is_dragged() {
         };
         pairs.filter(is_other).count()
     };
+    let assert_changed = |earlier: &[image::RgbaImage; 2],
+                          later: &[image::RgbaImage; 2],
+                          what: &str| {
+        for (name, (earlier, later)) in ["slice", "picture"].iter().zip(earlier.iter().zip(later)) {
+            let changed = differ(earlier, later);
+            assert!(changed > 400, "{changed} pixels of the {name} {what}");
+        }
+    };
     let before = PANES.map(|name| pane(&mut window, name));
     window.look("range_before");
     let slider = window
@@ -370,13 +360,7 @@ fn a_range_is_seen_while_it_is_dragged() {
     window.harness.get_by_label_contains("provisional");
     let during = PANES.map(|name| pane(&mut window, name));
     window.look("range_dragged");
-    for ((name, before), during) in ["slice", "picture"].iter().zip(&before).zip(&during) {
-        let changed = differ(before, during);
-        assert!(
-            changed > 400,
-            "{changed} pixels of the {name} show the range"
-        );
-    }
+    assert_changed(&before, &during, "show the range");
     window.harness.get_by_label_contains("provisional");
     // Another value, other pixels, still before any tissue is found.
     window.harness.hover_at(at(0.97));
@@ -384,13 +368,7 @@ fn a_range_is_seen_while_it_is_dragged() {
     window.harness.get_by_label_contains("provisional");
     let later = PANES.map(|name| pane(&mut window, name));
     window.look("range_dragged_on");
-    for ((name, during), later) in ["slice", "picture"].iter().zip(&during).zip(&later) {
-        let changed = differ(during, later);
-        assert!(
-            changed > 400,
-            "{changed} pixels of the {name} follow the hand"
-        );
-    }
+    assert_changed(&during, &later, "follow the hand");
     window.harness.drop_at(at(0.97));
     window.settle();
     window.look("range_found");
@@ -661,26 +639,7 @@ fn painting_on_the_head_to_look_at() {
     window.click("Paint a tissue");
     window.settle();
     let center = window.picture_center();
-    let drag = |window: &mut Window, from: egui::Pos2, by: Vec2, is_dropped: bool| {
-        window.harness.hover_at(from);
-        window.harness.step();
-        window.harness.drag_at(from);
-        window.harness.step();
-        for i in 1..=12 {
-            window.harness.hover_at(from + by * (i as f32 / 12.0));
-            window.harness.step();
-            window.harness.step();
-        }
-        if is_dropped {
-            window.harness.drop_at(from + by);
-        }
-    };
-    drag(
-        &mut window,
-        center - vec2(90.0, 60.0),
-        vec2(180.0, 40.0),
-        false,
-    );
+    window.drag_on(center - vec2(90.0, 60.0), vec2(180.0, 40.0), 24);
     window.look("paint_head_under_way");
     window.harness.drop_at(center + vec2(90.0, -20.0));
     window.settle();
@@ -688,12 +647,7 @@ fn painting_on_the_head_to_look_at() {
     window.press(Key::V);
     window.settle();
     let axial = slice_of(&window, "Axial");
-    drag(
-        &mut window,
-        axial.center() - vec2(60.0, 20.0),
-        vec2(120.0, 60.0),
-        false,
-    );
+    window.drag_on(axial.center() - vec2(60.0, 20.0), vec2(120.0, 60.0), 24);
     window.look("paint_head_slice_under_way");
     window.harness.drop_at(axial.center() + vec2(60.0, 40.0));
     window.settle();
@@ -796,16 +750,25 @@ fn label_files_become_tissues_of_the_scan() {
     assert_eq!(named(&window).len(), 1, "one step of undo");
     // Who opens the document is asked for what it names, until it is there.
     let json = window.document().to_json();
-    let mut window = Window::open(SMALL, &json);
+    // It is not at rest before it has what it waits for.
+    let log = Fake::default();
+    log.0.borrow_mut().is_slow = true;
+    let mut window = Window::open_with(SMALL, egui::Theme::Light, log, Some(&json));
     dropped(&mut window, true, &[]);
-    window.settle();
     let asks = |window: &Window| {
         let all = window
             .harness
             .query_all_by_label_contains("needs a label file");
         all.count() > 0
     };
+    for _ in 0..100 {
+        window.steps(1);
+        if asks(&window) {
+            break;
+        }
+    }
     assert!(asks(&window), "it is asked for");
+    window.log.0.borrow_mut().is_slow = false;
     dropped(&mut window, false, &[("aa", 10)]);
     window.settle();
     assert!(!asks(&window), "it is there");

@@ -259,6 +259,9 @@ pub(crate) const DESK: Vec2 = if option_env!("FABRICA_LOOK_AT").is_some() {
     Vec2::new(940.0, 700.0)
 };
 
+/// Pixels for each point along a side of a window that is not looked at: a quarter of the work, with the same layout.
+const COARSE: f32 = 0.5;
+
 /// The app in a window of a size, on the software device.
 pub(crate) struct Window {
     pub(crate) harness: Harness<'static, App>,
@@ -272,7 +275,24 @@ impl Window {
         Self::open_with(size, egui::Theme::Light, Fake::default(), Some(json))
     }
 
+    /// The same with a pixel for each point, for tests of pixels.
+    pub(crate) fn fine(size: Vec2, json: &str) -> Self {
+        Self::open_in(1.0, size, egui::Theme::Light, Fake::default(), Some(json))
+    }
+
     pub(crate) fn open_with(size: Vec2, theme: egui::Theme, log: Fake, text: Option<&str>) -> Self {
+        let is_looked_at = std::env::var_os("FABRICA_LOOK_AT").is_some();
+        let scale = if is_looked_at { 1.0 } else { COARSE };
+        Self::open_in(scale, size, theme, log, text)
+    }
+
+    fn open_in(
+        pixels_per_point: f32,
+        size: Vec2,
+        theme: egui::Theme,
+        log: Fake,
+        text: Option<&str>,
+    ) -> Self {
         let mut setup = match egui_kittest::wgpu::default_wgpu_setup() {
             eframe::egui_wgpu::WgpuSetup::CreateNew(setup) => setup,
             other => panic!("the harness makes its own device, not {other:?}"),
@@ -285,6 +305,7 @@ impl Window {
         let clock = log.0.borrow().clock.unwrap_or(clock);
         let harness = Harness::builder()
             .with_size(size)
+            .with_pixels_per_point(pixels_per_point)
             .with_theme(theme)
             .with_max_steps(2000)
             .renderer(WgpuTestRenderer::from_setup(
@@ -360,16 +381,47 @@ impl Window {
     }
 
     pub(crate) fn drag(&mut self, from: Pos2, by: Vec2) {
+        self.drag_on(from, by, 6);
+        self.harness.drop_at(from + by);
+        self.settle();
+    }
+
+    /// A drag of so many moves that has not ended.
+    pub(crate) fn drag_on(&mut self, from: Pos2, by: Vec2, moves: u16) {
         self.harness.hover_at(from);
         self.harness.step();
         self.harness.drag_at(from);
         self.harness.step();
-        for i in 1..=6 {
-            self.harness.hover_at(from + by * (i as f32 / 6.0));
+        for i in 1..=moves {
+            let part = f32::from(i) / f32::from(moves);
+            self.harness.hover_at(from + by * part);
             self.harness.step();
         }
-        self.harness.drop_at(from + by);
+    }
+
+    /// A scan is dropped: a built-in subject's voxels, so many along it, in a file of this hash.
+    pub(crate) fn drop_built_in(&mut self, name: &str, resolution: u32, sha256: &str) {
+        {
+            let log = &mut *self.log.0.borrow_mut();
+            log.next_ticket += 1;
+            let ticket = Ticket(log.next_ticket);
+            log.file_starts(ticket);
+            fabrica::subjects::generate(name, resolution, &mut Queue(log, ticket))
+                .expect("a built-in subject");
+            let sha256 = Some(sha256.to_owned());
+            let event = LoadEvent::Done { sha256 };
+            log.queue.push(Message::Load { ticket, event });
+        }
         self.settle();
+    }
+
+    /// The window as it is drawn, a part of it.
+    pub(crate) fn pixels(&mut self, rect: egui::Rect) -> image::RgbaImage {
+        let image = self.harness.render().expect("the window can be drawn");
+        let rect = rect * self.harness.ctx.pixels_per_point();
+        let [x, y] = [rect.left() as u32, rect.top() as u32];
+        let [w, h] = [rect.width() as u32, rect.height() as u32];
+        image::imageops::crop_imm(&image, x, y, w, h).to_image()
     }
 
     /// Writes the window to be looked at, if somebody wants to.

@@ -14,7 +14,7 @@ fn dropped_scan_is_drawn() {
         for name in ["head_ct_headsq.nii.gz", "chest_ct_2mm.nii.gz"] {
             let scan = std::fs::read(data.join("ct").join(name)).expect("a scan");
             session.server.add(name, scan);
-            let tab = session.viewer_sized(&head, PAGE).await;
+            let tab = session.coarse_viewer(&head, PAGE).await;
             tab.wait_until("window.fabrica.viewer.get_document() !== ''", 60)
                 .await;
             let before = format!("{name}_before");

@@ -238,7 +238,10 @@ impl Session {
 
     /// As [`Session::viewer_at`], with a coarse canvas.
     pub(crate) async fn coarse_viewer_at(&self, address: &str, size: (u32, u32)) -> Tab {
-        self.viewer_with(COARSE, address, size).await
+        let tab = self.viewer_with(COARSE, address, size).await;
+        let is_coarse = "document.getElementById('fabrica').width === innerWidth / 2";
+        tab.wait_until(is_coarse, 30).await;
+        tab
     }
 
     async fn viewer_with(&self, before: &str, address: &str, size: (u32, u32)) -> Tab {

@@ -237,7 +237,7 @@ fn hostile_link_leaves_a_working_viewer() {
 fn lost_device_comes_back() {
     with_browser(BrowserGpu::Software, |session| async move {
         let tab = session
-            .viewer_sized(&format!("#{}", payload(PEEL)), PAGE)
+            .coarse_viewer(&format!("#{}", payload(PEEL)), PAGE)
             .await;
         tab.settled().await;
         let before = object_part(&tab.picture("lost_before").await);

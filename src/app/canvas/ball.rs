@@ -1,13 +1,12 @@
 //! The ball that paints tissue: drags over slices and picture, the ring under the pointer, what the drag under way has
 //! touched, and the bar that holds the ball.
 
-use egui::{CursorIcon, Event, Painter, Pos2, Rect, Response, Stroke, Ui, UiBuilder, vec2};
+use egui::{CursorIcon, Event, Painter, Pos2, Rect, Response, Stroke, Ui, vec2};
 use glam::Vec3;
 
 use super::projection::Projection;
 use super::slice_plot::Map;
-use super::tools::bar_rect;
-use crate::app::kit::float::float_frame;
+use super::tools::head_bar;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, over_picture as ink};
 use crate::app::kit::widget;
@@ -342,20 +341,12 @@ pub(crate) fn bar_ui(
     erases: bool,
     commands: &mut Vec<Command>,
 ) {
-    let bar = bar_rect(rect, BAR);
-    float_frame(ui, bar);
-    let mut inner = ui.new_child(
-        UiBuilder::new()
-            .id_salt("ball")
-            .max_rect(bar.shrink2(vec2(6.0, 6.0)))
-            .layout(widget::along()),
-    );
+    let (mut inner, width) = head_bar(ui, rect, BAR, "ball");
     let ui = &mut inner;
-    ui.spacing_mut().item_spacing.x = 2.0;
     let side = theme::control_height();
     let text = format!("{} mm", significant(session.ball_mm()));
     let text_width = 64.0;
-    let choice = (bar.width() - 12.0 - 3.0 * (side + 2.0) - text_width - 8.0).max(60.0);
+    let choice = (width - 12.0 - 3.0 * (side + 2.0) - text_width - 8.0).max(60.0);
     let choices = [
         (false, w().paint, w().paint_hint),
         (true, w().erase, w().erase_hint),

@@ -12,10 +12,24 @@ use crate::app::words::picture::w;
 use crate::document::PlacedTemplate;
 
 /// The bar at the head of the picture, of a width where there is room for it.
-pub(super) fn bar_rect(rect: Rect, width: f32) -> Rect {
+fn bar_rect(rect: Rect, width: f32) -> Rect {
     let height = theme::control_height() + 12.0;
     let center = pos2(rect.center().x, rect.top() + 10.0 + 0.5 * height);
     Rect::from_center_size(center, vec2(width.min(rect.width() - 12.0), height))
+}
+
+/// Draws the frame of that bar and gives what goes into it, from left to right, with the width of the bar.
+pub(super) fn head_bar(ui: &mut Ui, rect: Rect, width: f32, id_salt: &str) -> (Ui, f32) {
+    let bar = bar_rect(rect, width);
+    float_frame(ui, bar);
+    let mut inner = ui.new_child(
+        UiBuilder::new()
+            .id_salt(id_salt)
+            .max_rect(bar.shrink2(vec2(6.0, 6.0)))
+            .layout(widget::along()),
+    );
+    inner.spacing_mut().item_spacing.x = 2.0;
+    (inner, bar.width())
 }
 
 /// Where the bar at the head of the picture ends, points from the top of the window; `None` while there is no bar.
@@ -34,17 +48,8 @@ pub(crate) fn tools_ui(
     template: &PlacedTemplate,
     commands: &mut Vec<Command>,
 ) {
-    let bar = bar_rect(rect, 372.0);
-    let width = bar.width();
-    float_frame(ui, bar);
-    let mut inner = ui.new_child(
-        UiBuilder::new()
-            .id_salt("tools")
-            .max_rect(bar.shrink2(vec2(6.0, 6.0)))
-            .layout(widget::along()),
-    );
+    let (mut inner, width) = head_bar(ui, rect, 372.0, "tools");
     let ui = &mut inner;
-    ui.spacing_mut().item_spacing.x = 2.0;
     let side = theme::control_height();
     // Where a thumb needs room the menu has the rest.
     let is_short = width < 340.0 || theme::is_touch();

@@ -263,39 +263,16 @@ impl Session {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DAffine3, DVec3, UVec3};
-
     use super::super::tissues::with_range;
     use super::super::{Command, Session, Taken};
     use super::*;
-    use crate::data::{Grid, Segment, Segmentation, Subject, Volume, Voxels};
-    use crate::document::{Align, CleanStep, Document, Transfer};
+    use crate::data::Segment;
+    use crate::document::{Align, CleanStep, Transfer};
 
     /// A session with a scan of eight voxels of these sides, mm, and these segments, that shows the tissues.
     fn session_of(json: &str, voxel_mm: f64, segments: &[&str]) -> Session {
-        let grid = Grid {
-            dims: UVec3::splat(2),
-            world_from_voxel: DAffine3::from_scale(DVec3::splat(voxel_mm)),
-        };
-        let named = |(i, name): (usize, &&str)| Segment {
-            label: i as u16 + 1,
-            name: (*name).to_owned(),
-            color_srgb: None,
-        };
-        let segmentation = Segmentation {
-            grid,
-            labels: vec![0; 8],
-            segments: segments.iter().enumerate().map(named).collect(),
-        };
-        let mut session = Session::new(Document::from_json(json).expect("a valid document"));
-        session.set_subject(&Subject::from(Volume {
-            grid,
-            voxels: Voxels::U8(vec![0; 8]),
-            slope: 1.0,
-            intercept: 0.0,
-            value_range: [0.0, 0.0],
-            segmentation: Some(segmentation).filter(|all| !all.segments.is_empty()),
-        }));
+        let segments: Vec<(u16, &str)> = (1..).zip(segments.iter().copied()).collect();
+        let mut session = Session::with_scan(json, voxel_mm, &segments);
         session.side_tab = Tab::Tissues;
         session
     }

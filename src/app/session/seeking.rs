@@ -82,43 +82,18 @@ impl Session {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DAffine3, UVec3, Vec3};
+    use glam::Vec3;
 
     use super::super::{Command, Session};
     use super::*;
-    use crate::data::{Grid, Segment, Segmentation, Subject, Volume, Voxels};
-    use crate::document::Document;
 
     const LABELLED: &str = r#"{ "fabrica": 1,
         "subject": { "builtin": "cube", "features": [ { "name": "aorta 2", "from": { "threshold": [1, 2] } } ] },
         "labels": [ { "text": "Vía aérea", "at": [0, -0.3, 0.1] }, { "text": "Arch of the aorta", "at": [0, 0, 0] } ] }"#;
 
-    /// A session with segments of these names and labels.
+    /// A session with segments of these labels and names.
     fn session(segments: &[(u16, &str)]) -> Session {
-        let document = Document::from_json(LABELLED).expect("a valid document");
-        let mut session = Session::new(document);
-        let grid = Grid {
-            dims: UVec3::splat(2),
-            world_from_voxel: DAffine3::IDENTITY,
-        };
-        let segment = |&(label, name): &(u16, &str)| Segment {
-            label,
-            name: name.to_owned(),
-            color_srgb: None,
-        };
-        session.set_subject(&Subject::from(Volume {
-            grid,
-            voxels: Voxels::U8(vec![0; 8]),
-            slope: 1.0,
-            intercept: 0.0,
-            value_range: [0.0, 0.0],
-            segmentation: Some(Segmentation {
-                grid,
-                labels: vec![0; 8],
-                segments: segments.iter().map(segment).collect(),
-            }),
-        }));
-        session
+        Session::with_scan(LABELLED, 1.0, segments)
     }
 
     fn search(session: &mut Session, text: &str) -> Vec<String> {

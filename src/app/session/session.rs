@@ -559,3 +559,23 @@ fn with_camera(document: &Document, camera: &Camera) -> Document {
 pub(super) fn payload_of(document: &Document, camera: &Camera) -> String {
     link::encode(&with_camera(document, camera))
 }
+
+#[cfg(test)]
+impl Session {
+    /// For unit tests: with a document and a scan of eight voxels of these sides, mm, with segments by labels and names,
+    /// if there are any.
+    pub(super) fn with_scan(json: &str, voxel_mm: f64, segments: &[(u16, &str)]) -> Self {
+        use crate::data::{Segmentation, Volume, Voxels};
+        let segmentation = Segmentation::cube(2, voxel_mm, |_| 0, segments);
+        let mut session = Self::new(Document::from_json(json).expect("a valid document"));
+        session.set_subject(&Subject::from(Volume {
+            grid: segmentation.grid,
+            voxels: Voxels::U8(vec![0; 8]),
+            slope: 1.0,
+            intercept: 0.0,
+            value_range: [0.0, 0.0],
+            segmentation: Some(segmentation).filter(|all| !all.segments.is_empty()),
+        }));
+        session
+    }
+}

@@ -1,15 +1,21 @@
 //! The page: built by Trunk, weighed, served.
 
-use crate::run::{Outcome, cargo, find, program, report, root, run};
+use std::process::Command;
+
+use crate::run::{Outcome, cargo, find, program, report, root, run, run_beside};
 use crate::setup;
+
+const BUILD: &str = "build the page (2 minutes and more on two cores)";
 
 /// Builds the page into dist/.
 pub(crate) fn build() -> Outcome {
     setup::for_page()?;
-    trunk(
-        "build the page (2 minutes and more on two cores)",
-        &["build"],
-    )
+    run(BUILD, &mut trunk(&["build"])?)
+}
+
+/// The same beside something else, once all is set up.
+pub(crate) fn build_beside() -> Outcome {
+    run_beside(BUILD, &mut trunk(&["build"])?)
 }
 
 /// Builds and serves the page until it is stopped.
@@ -23,15 +29,15 @@ pub(crate) fn serve(args: &[String]) -> Outcome {
     report(&format!(
         "the page: http://127.0.0.1:{port}/ (it is built again when a file changes; Ctrl+C ends)"
     ));
-    trunk("serve the page", &["serve", "--port", port])
+    run("serve the page", &mut trunk(&["serve", "--port", port])?)
 }
 
-fn trunk(what: &str, args: &[&str]) -> Outcome {
+fn trunk(args: &[&str]) -> Result<Command, String> {
     let trunk = find("trunk").ok_or("Trunk is not installed: run `cargo xtask setup`")?;
     let mut command = program(trunk);
     // Trunk fails on values of these that it does not know.
     command.env_remove("NO_COLOR").args(args);
-    run(what, &mut command)
+    Ok(command)
 }
 
 /// Weighs the built page; fails above the ceiling of tests/size.rs.

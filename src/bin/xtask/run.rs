@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 use std::time::Instant;
 
 /// Why a command stopped: one message, with what to do about it.
@@ -44,8 +44,31 @@ pub(crate) fn cargo() -> Command {
 pub(crate) fn run(what: &str, command: &mut Command) -> Outcome {
     report(what);
     let start = Instant::now();
-    let status = command
-        .status()
+    let status = command.status();
+    ended(what, command, start, status)
+}
+
+/// Runs to the end beside others, and shows its output then: their lines are not mixed.
+pub(crate) fn run_beside(what: &str, command: &mut Command) -> Outcome {
+    report(&format!("{what}: begun"));
+    let start = Instant::now();
+    let output = command.stdin(Stdio::null()).output();
+    let status = output.map(|output| {
+        report(what);
+        print!("{}", String::from_utf8_lossy(&output.stdout));
+        eprint!("{}", String::from_utf8_lossy(&output.stderr));
+        output.status
+    });
+    ended(what, command, start, status)
+}
+
+fn ended(
+    what: &str,
+    command: &Command,
+    start: Instant,
+    status: std::io::Result<ExitStatus>,
+) -> Outcome {
+    let status = status
         .map_err(|error| format!("{what}: {} could not be started: {error}", shown(command)))?;
     let seconds = start.elapsed().as_secs_f32();
     if status.success() {

@@ -42,9 +42,15 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         return close(start, outcomes);
     }
     setup::for_page()?;
-    let mut outcomes = vec![check::check()];
+    // The page is built beside the checks: for most of its time one core optimises one program, and they have ends that
+    // take one core too.
+    let (checked, built) = std::thread::scope(|scope| {
+        let page = scope.spawn(page::build_beside);
+        (check::check(), page.join())
+    });
+    let mut outcomes = vec![checked];
     // The page before the tests: where it cannot be built there is no use in waiting for the rest.
-    page::build()?;
+    built.map_err(|_panic| "building the page panicked".to_owned())??;
     outcomes.push(run("compile the tests", &mut tests(&["--no-run"])));
     outcomes.push(run("unit tests", &mut tests(&["--lib"])));
     outcomes.extend(BINARIES.map(one));
