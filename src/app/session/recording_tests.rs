@@ -430,7 +430,11 @@ fn every_step_is_what_the_editor_showed() {
                     let seen = Seen::of(session.shown());
                     assert_eq!(seen, after[shown], "{trace}: {edit:?}");
                     let wanted = edit.apply(&before).expect("an edit");
-                    let wanted = Seen::of(wanted.illustration());
+                    let mut wanted = Seen::of(wanted.illustration());
+                    // A template of a later step, which is nothing yet, is whole when it is switched on.
+                    let is_nothing = |t: &&mut PlacedTemplate| t.amount == 0.0;
+                    let nothing = wanted.templates.iter_mut().filter(is_nothing);
+                    nothing.for_each(|template| template.amount = 1.0);
                     assert_eq!(seen, wanted, "{trace}: {edit:?}");
                     expected = after;
                 }
