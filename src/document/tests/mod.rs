@@ -1,4 +1,5 @@
 mod curves;
+mod differences;
 mod lessons;
 mod recipes;
 mod recording;
