@@ -49,6 +49,9 @@ pub(crate) fn is_shown(session: &Session, window_height: f32) -> bool {
 /// A picture that is there, and what it shows; no texture where it could not be drawn.
 type Made = (Arc<Illustration>, Option<TextureHandle>);
 
+/// What is being drawn, and the picture on its way.
+type Job = (Arc<Illustration>, Pending<Result<Image, RenderError>>);
+
 /// The small pictures of the steps of the open document.
 #[derive(Default)]
 pub(crate) struct Pictures {
@@ -61,7 +64,7 @@ pub(crate) struct Pictures {
     made: Vec<Made>,
     /// For each step its place in `made`.
     places: Vec<Option<usize>>,
-    job: Option<(Arc<Illustration>, Pending<Result<Image, RenderError>>)>,
+    job: Option<Job>,
     /// The strip was shown in this frame.
     is_wanted: bool,
     /// The step that was last scrolled to.
@@ -110,8 +113,7 @@ impl Pictures {
         let states = &self.states;
         self.made
             .retain(|(made, _)| states.iter().any(|state| is_seen_alike(made, state)));
-        let is_wanted =
-            |(of, _): &(Arc<Illustration>, _)| states.iter().any(|s| is_seen_alike(of, s));
+        let is_wanted = |(of, _): &Job| states.iter().any(|s| is_seen_alike(of, s));
         if !self.job.as_ref().is_some_and(is_wanted) {
             self.job = None;
         }

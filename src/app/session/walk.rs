@@ -11,7 +11,7 @@ pub struct Walk {
     step: usize,
     /// What is shown at a step above 0, or in the middle of a passage.
     shown: Option<Arc<Illustration>>,
-    passage: Option<Passage>,
+    passage: Option<Box<Passage>>,
 }
 
 /// The way to a step, from a step at rest or from the middle of another passage.
@@ -158,7 +158,7 @@ impl Walk {
             }
         }
         self.shown = Some(Arc::clone(&next.ends[0]));
-        self.passage = Some(next);
+        self.passage = Some(Box::new(next));
         None
     }
 
@@ -198,7 +198,7 @@ impl Walk {
         };
         let camera = passage.camera();
         self.shown = Some(Arc::new(passage.shown()));
-        self.passage = Some(passage);
+        self.passage = Some(Box::new(passage));
         camera
     }
 
