@@ -157,7 +157,8 @@ pub struct Segmentation {
 
 #[cfg(test)]
 impl Segmentation {
-    /// For unit tests: `n` voxels of `mm` along each side with labels by their indices, and segments by labels and names.
+    /// For unit tests: `n` voxels of `mm` along each side with labels by their indices, and segments by labels and
+    /// names.
     pub(crate) fn cube(
         n: u32,
         mm: f64,

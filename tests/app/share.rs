@@ -44,7 +44,11 @@ fn link_code_and_html_are_shared() {
         window.steps(3);
         let link = copied(&window);
         assert!(link.starts_with("https://fabrica.example/#1"), "{link}");
-        assert_eq!(codes(&mut window), [link.clone()], "as seen on the screen");
+        assert_eq!(
+            codes(&mut window),
+            std::slice::from_ref(&link),
+            "as seen on the screen"
+        );
         for (name, tag) in [
             ("Copy as element", "<fabrica-viewer src="),
             ("Copy as frame", "<iframe src="),
@@ -92,7 +96,10 @@ fn what_others_cannot_open_and_what_is_long_is_told() {
         r#"{{ "fabrica": 1, "subject": {{ "sha256": "{}", "name": "CT" }} }}"#,
         "a".repeat(64)
     );
-    let mut window = Window::open_with(DESK, egui::Theme::Light, Fake::default(), Some(&supplied));
+    // The scan never comes.
+    let log = Fake::default();
+    log.0.borrow_mut().is_slow = true;
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log, Some(&supplied));
     window.steps(3);
     window.click("More");
     window.click("Share…");

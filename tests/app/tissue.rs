@@ -312,7 +312,7 @@ fn finding_a_tissue_can_be_stopped() {
 #[test]
 fn a_range_is_seen_while_it_is_dragged() {
     const PANES: [&str; 2] = ["Axial slice", "Picture of "];
-    let mut window = Window::fine(FOUR, CUBE);
+    let mut window = Window::open(FOUR, CUBE);
     window.drop_large_cube();
     window.press(Key::V);
     window.click("Panel: Tissues");

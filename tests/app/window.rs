@@ -259,9 +259,6 @@ pub(crate) const DESK: Vec2 = if option_env!("FABRICA_LOOK_AT").is_some() {
     Vec2::new(940.0, 700.0)
 };
 
-/// Pixels for each point along a side of a window that is not looked at: a quarter of the work, with the same layout.
-const COARSE: f32 = 0.5;
-
 /// The app in a window of a size, on the software device.
 pub(crate) struct Window {
     pub(crate) harness: Harness<'static, App>,
@@ -275,24 +272,7 @@ impl Window {
         Self::open_with(size, egui::Theme::Light, Fake::default(), Some(json))
     }
 
-    /// The same with a pixel for each point, for tests of pixels.
-    pub(crate) fn fine(size: Vec2, json: &str) -> Self {
-        Self::open_in(1.0, size, egui::Theme::Light, Fake::default(), Some(json))
-    }
-
     pub(crate) fn open_with(size: Vec2, theme: egui::Theme, log: Fake, text: Option<&str>) -> Self {
-        let is_looked_at = std::env::var_os("FABRICA_LOOK_AT").is_some();
-        let scale = if is_looked_at { 1.0 } else { COARSE };
-        Self::open_in(scale, size, theme, log, text)
-    }
-
-    fn open_in(
-        pixels_per_point: f32,
-        size: Vec2,
-        theme: egui::Theme,
-        log: Fake,
-        text: Option<&str>,
-    ) -> Self {
         let mut setup = match egui_kittest::wgpu::default_wgpu_setup() {
             eframe::egui_wgpu::WgpuSetup::CreateNew(setup) => setup,
             other => panic!("the harness makes its own device, not {other:?}"),
@@ -305,7 +285,6 @@ impl Window {
         let clock = log.0.borrow().clock.unwrap_or(clock);
         let harness = Harness::builder()
             .with_size(size)
-            .with_pixels_per_point(pixels_per_point)
             .with_theme(theme)
             .with_max_steps(2000)
             .renderer(WgpuTestRenderer::from_setup(

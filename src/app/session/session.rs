@@ -562,8 +562,8 @@ pub(super) fn payload_of(document: &Document, camera: &Camera) -> String {
 
 #[cfg(test)]
 impl Session {
-    /// For unit tests: with a document and a scan of eight voxels of these sides, mm, with segments by labels and names,
-    /// if there are any.
+    /// For unit tests: with a document and a scan of eight voxels of these sides, mm, with segments by labels and
+    /// names, if there are any.
     pub(super) fn with_scan(json: &str, voxel_mm: f64, segments: &[(u16, &str)]) -> Self {
         use crate::data::{Segmentation, Volume, Voxels};
         let segmentation = Segmentation::cube(2, voxel_mm, |_| 0, segments);
