@@ -7,7 +7,7 @@ use fabrica::data::{Subject, VolumeBuilder};
 use fabrica::render::{Gpu, GpuOptions, Image, Studio, decode_png};
 
 /// Small, since lavapipe draws every frame of a passage.
-const SMALL: Vec2 = Vec2::new(790.0, 560.0);
+const SMALL: Vec2 = Vec2::new(790.0, 720.0);
 const PHONE: Vec2 = Vec2::new(390.0, 844.0);
 
 /// Frames of a passage of a second, with those of [`Window::settle`], and some more.

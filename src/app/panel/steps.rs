@@ -111,14 +111,11 @@ pub(crate) fn first_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Comman
     if session.document().step_count() > 0 {
         return;
     }
-    widget::heading(ui, w().heading, |_| {});
-    let weak = Palette::get(ui).weak;
-    let hint = RichText::new(w().none).small().color(weak);
-    ui.add(Label::new(hint).wrap());
-    ui.add_space(4.0);
-    let add = widget::labelled_button(ui, Icon::Plus, w().add, false, true);
-    if add.on_hover_text(w().add_hint).clicked() {
-        commands.push(Command::Step(StepCommand::Add));
-    }
-    ui.add_space(6.0);
+    widget::heading(ui, w().heading, |ui| {
+        let add = widget::icon_button(ui, Icon::Plus, w().add, true);
+        if add.on_hover_text(w().none).clicked() {
+            commands.push(Command::Step(StepCommand::Add));
+        }
+    });
+    widget::divider(ui);
 }

@@ -19,6 +19,11 @@ pub(crate) fn ui(
     commands: &mut Vec<Command>,
 ) {
     steps::ui(ui, session, commands);
+    steps::first_ui(ui, session, commands);
+    if session.step() > 0 {
+        // What is changed at a step stands together; the texts of the document follow.
+        captions::ui(ui, session, focus, commands);
+    }
     let illustration = session.illustration();
     widget::heading(ui, w().heading, |_| {});
     let mut field =
@@ -102,8 +107,9 @@ pub(crate) fn ui(
         let hint = w().scan_stays;
         ui.add(Label::new(egui::RichText::new(hint).small().color(weak)).wrap());
     }
-    captions::ui(ui, session, focus, commands);
-    steps::first_ui(ui, session, commands);
+    if session.step() == 0 {
+        captions::ui(ui, session, focus, commands);
+    }
     if frames::row_ui(ui, session) {
         commands.push(Command::ToggleFrames);
     }
