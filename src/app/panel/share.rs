@@ -58,9 +58,11 @@ pub(crate) fn ui(
                 }
             });
             widget::divider(ui);
+            let height = content.y - 150.0;
             egui::ScrollArea::vertical()
                 .auto_shrink([false, true])
-                .max_height(content.y - 150.0)
+                .max_height(height)
+                .min_scrolled_height(height)
                 .show(ui, |ui| inside(ui, session, share, page, commands));
         });
     if modal.should_close() {
