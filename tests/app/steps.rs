@@ -2,7 +2,7 @@
 
 use super::*;
 use egui::Rect;
-use fabrica::app::Command;
+use fabrica::app::{Command, StepCommand};
 use fabrica::data::{Subject, VolumeBuilder};
 use fabrica::render::{Gpu, GpuOptions, Image, Studio, decode_png};
 
@@ -11,7 +11,7 @@ const SMALL: Vec2 = Vec2::new(790.0, 720.0);
 const PHONE: Vec2 = Vec2::new(390.0, 844.0);
 
 /// Frames of a passage of a second, with those of [`Window::settle`], and some more.
-const PASSAGE: usize = 30;
+const PASSAGE: usize = 24;
 
 const LESSON: &str = r##"{ "fabrica": 1, "title": "The way in", "subject": { "builtin": "cube" },
     "templates": [{ "kind": "peel", "at": [0, 0, 0.25] }],
@@ -94,15 +94,16 @@ fn a_lesson_is_recorded_by_clicks_and_rests_at_its_steps() {
     window.click("Add a label");
     window.click_at(center - vec2(20.0, 20.0));
     window.click("Add step");
-    window.click("Panel: Templates");
-    window.click("Hide Peel");
-    window.click("Add step");
     window.click("Panel: Look");
     window.click("Background: Slate");
     window.click("Add step");
     window.click("Panel: Templates");
     window.click("2. Hole");
-    window.press(Key::Delete);
+    window.click("Delete template");
+    window.click("Add step");
+    window.click("View: Front");
+    window.settle();
+    window.click("Take the present view");
     window.settle();
     window.look("steps_recorded");
     let document = window.document();
@@ -121,7 +122,7 @@ fn a_lesson_is_recorded_by_clicks_and_rests_at_its_steps() {
     let counts: Vec<[usize; 2]> = (0..=6).map(count).collect();
     assert_eq!(
         counts,
-        [[1, 0], [1, 0], [1, 0], [2, 1], [1, 1], [1, 1], [0, 1]]
+        [[1, 0], [1, 0], [1, 0], [2, 1], [2, 1], [1, 1], [1, 1]]
     );
 
     let outside = Outside::new();
@@ -145,31 +146,31 @@ fn a_lesson_is_recorded_by_clicks_and_rests_at_its_steps() {
         );
     };
     rests_at(&mut window, 6, "recorded");
-    window.click("Start");
-    rests_at(&mut window, 0, "by the strip");
-    for step in 1..=6 {
-        window.click("Next step");
-        window.steps(PASSAGE);
-        rests_at(&mut window, step, "forward");
-    }
-    for step in (0..6).rev() {
+    window.click("Step 4");
+    rests_at(&mut window, 4, "by the strip");
+    for step in (3..4).rev() {
         window.click("Step before");
         window.steps(PASSAGE);
         rests_at(&mut window, step, "back");
     }
+    for step in 4..=6 {
+        window.click("Next step");
+        window.steps(PASSAGE);
+        rests_at(&mut window, step, "forward");
+    }
     // Each passage is interrupted: turned round in its middle, and round again.
-    for step in 1..=6 {
-        window.click("Next step");
-        window.steps(20);
+    for step in (0..6).rev() {
         window.click("Step before");
-        window.steps(8);
+        window.steps(12);
         window.click("Next step");
+        window.steps(5);
+        window.click("Step before");
         window.steps(PASSAGE);
         rests_at(&mut window, step, "interrupted");
     }
-    // By the slider: to a place between two steps, and on from there.
-    let slider = window.harness.get_by_label("Place in the lesson").rect();
-    window.click_at(slider.lerp_inside(vec2(0.4, 0.5)));
+    // To a place between two steps, and on from there.
+    let command = Command::Step(StepCommand::Scrub(1.5));
+    window.harness.state_mut().run(command);
     let between = window.shown_picture();
     assert!(
         pictures
@@ -233,6 +234,10 @@ fn the_strip_walks_and_orders_the_steps() {
     window.drag(from, to - from);
     assert_eq!(titles(&window), ["From above", "Dark", "Incision", ""]);
     window.look("strip_ordered");
+    // The slider goes to any place of the lesson: under 0.6 of its way lies the passage to the third step.
+    let slider = window.rect_of_step("Place in the lesson");
+    window.click_at(slider.lerp_inside(vec2(0.6, 0.5)));
+    assert_eq!(window.shown_step(), 3, "{slider}");
     window.press(Key::P);
     window.settle();
     assert!(

@@ -123,9 +123,10 @@ pub(crate) fn ui(ui: &mut Ui, bar: Rect, session: &Session, commands: &mut Vec<C
         });
     });
     inner.with_layout(widget::against(), |ui| {
-        let is_last = number >= count;
+        // A passage that stands still goes on to its end.
+        let is_last = number >= count && !session.is_paused();
         if widget::icon_button(ui, Icon::Next, w().next_step, !is_last).clicked() {
-            commands.push(Command::GoToStep(number + 1));
+            commands.push(Command::WalkStep(true));
         }
     });
     let painter = ui.painter_at(bar);

@@ -29,6 +29,8 @@ const WIDTH: f32 = 76.0;
 const HEIGHT: f32 = 57.0;
 const NAME: f32 = 18.0;
 const GAP: f32 = 5.0;
+/// A place this near to a step is the step, of the way between two.
+const NEAR: f32 = 0.06;
 /// Window heights below this have no room for the strip, points.
 const LEAST_HEIGHT: f32 = 420.0;
 
@@ -225,9 +227,12 @@ fn row_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         ui.spacing_mut().slider_width = (ui.available_width() - buttons).max(40.0);
         let mut position = session.position();
         let slider = Slider::new(&mut position, 0.0..=count as f32).show_value(false);
-        let slider = ui.add(slider).named(w().scrub).on_hover_text(w().scrub);
-        if slider.changed() {
-            step(StepCommand::Scrub(position));
+        let slider = ui.add(slider.smart_aim(false)).named(w().scrub);
+        if slider.on_hover_text(w().scrub).changed() {
+            // Whoever comes near to a step wants the step.
+            let nearest = position.round();
+            let is_near = (position - nearest).abs() < NEAR;
+            step(StepCommand::Scrub(if is_near { nearest } else { position }));
         }
         ui.add_space(4.0);
         let is_other = session.is_view_other();
