@@ -520,7 +520,7 @@ impl Kind {
     /// The JSON that means the same as a missing key of this kind; `None` where there is no such value.
     pub(crate) fn default_value(self) -> Option<Value> {
         Some(match self {
-            Self::Text => json!(""),
+            Self::Text | Self::Limited { .. } => json!(""),
             Self::Name(names) => json!(names.first()?),
             Self::Background => json!("#ffffff"),
             Self::Transfer(_) | Self::Window => json!("auto"),

@@ -55,7 +55,7 @@ fn the_address_follows_what_is_done() {
 }
 
 #[test]
-fn steps_are_walked_and_an_edit_leaves_them() {
+fn steps_are_walked_and_edited_where_they_are() {
     let document = r#"{ "fabrica": 1, "title": "A cut", "subject": { "builtin": "cube" },
         "templates": [{ "kind": "split", "params": { "amount": 0 } }],
         "steps": [{ "title": "Incision", "caption": "It opens.", "seconds": 0.2, "set": { "/templates/0/params/amount": 0.3 } },
@@ -105,13 +105,16 @@ fn steps_are_walked_and_an_edit_leaves_them() {
     );
     window.press(Key::CloseBracket);
     window.settle();
-    assert_eq!(
-        window.harness.state().step(),
-        0,
-        "what is edited is the document as it stands"
-    );
-    window.harness.get_by_label("Start, 2 steps follow   A cut");
-    assert!(address(&window).is_some_and(|link| !link.contains("step=")));
+    assert_eq!(window.harness.state().step(), 2, "it is edited there");
+    window.harness.get_by_label("Step 2 of 2   Wide");
+    assert!(address(&window).is_some_and(|link| link.ends_with("&step=2")));
+    let edited = window.document();
+    let amount = "/templates/0/params/amount";
+    let set = edited.get("/steps/1/set").expect("what the step sets");
+    assert!(set[amount].as_f64() > Some(0.8), "the step sets it: {set}");
+    for at in [amount, "/steps/0/set"] {
+        assert_eq!(edited.get(at), document.get(at), "{at}");
+    }
 }
 
 #[test]
