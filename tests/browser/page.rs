@@ -311,19 +311,3 @@ fn bench_page_ends_in_a_table() {
         tab.assert_no_complaints().await;
     });
 }
-
-/// Draws the page as the README shows it into target/e2e/readme.png. Nothing is tested: run it by name with
-/// `--ignored`, look at the picture, and put it to web/screenshot.png.
-#[test]
-#[ignore = "a picture for the README"]
-fn picture_for_the_readme() {
-    with_browser(BrowserGpu::Software, |session| async move {
-        let name = std::env::var("FABRICA_GALLERY").unwrap_or_else(|_| "face-dissection".into());
-        let path = super::harness::root().join(format!("web/gallery/{name}.json"));
-        let text = std::fs::read_to_string(&path).expect("a document of the gallery");
-        let link = format!("#{}", payload(&text));
-        let tab = session.viewer_sized(&link, (1280, 800)).await;
-        tab.settled().await;
-        tab.picture("readme").await;
-    });
-}
