@@ -1,5 +1,4 @@
 mod curves;
-mod differences;
 mod lessons;
 mod recipes;
 mod recording;

@@ -398,6 +398,11 @@ fn only_what_differs_is_set() {
 
 #[test]
 fn what_has_no_default_is_set_with_what_holds_it() {
+    assert_eq!(
+        differences(r#""alt": "A skull.""#, r#""alt": """#),
+        json!({ "/alt": "" }),
+        "a text that is left out is empty"
+    );
     let tinted = r#""look": { "transfer": "ct-bone", "tint": 0.3, "gradient": 0.5 }"#;
     let plain = r#""look": { "transfer": "ct-bone", "gradient": 0.5 }"#;
     assert_eq!(
