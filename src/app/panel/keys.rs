@@ -1,11 +1,10 @@
 //! The sheet of keys, made of the table that the keys are read from.
 
-use egui::{Modal, Ui, vec2};
+use egui::{Ui, vec2};
 
 use super::shortcuts::{Shortcut, shortcuts};
-use crate::app::kit::icon::Icon;
+use crate::app::kit::dialog;
 use crate::app::kit::theme::{self, Palette};
-use crate::app::kit::widget;
 use crate::app::session::Command;
 use crate::app::words::authoring;
 use crate::app::words::keys::w;
@@ -29,63 +28,47 @@ fn gestures() -> [(&'static str, &'static str); 11] {
     ]
 }
 
-/// The sheet of keys over everything. Returns true if the sheet is to be closed.
+/// The sheet of keys over everything.
 pub(crate) fn ui(ui: &Ui, commands: &mut Vec<Command>) {
-    let content = ui.ctx().content_rect().size();
-    let frame = egui::Frame::window(ui.style());
-    let modal = Modal::new(egui::Id::unique("keys"))
-        .frame(frame)
-        .show(ui.ctx(), |ui| {
-            let is_wide = content.x > 840.0;
-            ui.set_width((content.x - 64.0).min(if is_wide { 760.0 } else { 340.0 }));
-            widget::heading(ui, w().heading, |ui| {
-                if widget::icon_button(ui, Icon::Close, w().close, true).clicked() {
-                    commands.push(Command::ToggleKeys);
-                }
-            });
-            widget::divider(ui);
-            let height = content.y - 150.0;
-            egui::ScrollArea::vertical()
-                .auto_shrink([false, true])
-                .max_height(height)
-                .min_scrolled_height(height)
-                .show(ui, |ui| {
-                    let mut rows: Vec<(String, &str)> = gestures()
-                        .into_iter()
-                        .map(|(what, does)| (what.to_owned(), does))
-                        .collect();
-                    let listed = shortcuts();
-                    rows.extend(
-                        listed
-                            .iter()
-                            .filter(|s| !s.text.is_empty())
-                            .map(|s| (keys_name(ui, s), s.text)),
-                    );
-                    let half = if is_wide {
-                        rows.len().div_ceil(2)
-                    } else {
-                        rows.len()
-                    };
-                    ui.horizontal_top(|ui| {
-                        for (i, column) in rows.chunks(half).enumerate() {
-                            let grid = egui::Grid::new(("keys", i))
-                                .num_columns(2)
-                                .spacing(vec2(14.0, 2.0))
-                                .min_row_height(24.0);
-                            grid.show(ui, |ui| {
-                                for (keys, does) in column {
-                                    let weak = Palette::get(ui).weak;
-                                    ui.label(theme::strong(keys.clone()).size(12.0));
-                                    ui.label(egui::RichText::new(*does).size(12.5).color(weak));
-                                    ui.end_row();
-                                }
-                            });
-                            ui.add_space(20.0);
-                        }
-                    });
+    let is_wide = ui.ctx().content_rect().width() > 840.0;
+    let widest = if is_wide { 760.0 } else { 340.0 };
+    let names = (w().heading, w().close);
+    let is_closed = dialog::is_closed(ui, "keys", names, widest, |ui| {
+        let mut rows: Vec<(String, &str)> = gestures()
+            .into_iter()
+            .map(|(what, does)| (what.to_owned(), does))
+            .collect();
+        let listed = shortcuts();
+        rows.extend(
+            listed
+                .iter()
+                .filter(|s| !s.text.is_empty())
+                .map(|s| (keys_name(ui, s), s.text)),
+        );
+        let half = if is_wide {
+            rows.len().div_ceil(2)
+        } else {
+            rows.len()
+        };
+        ui.horizontal_top(|ui| {
+            for (i, column) in rows.chunks(half).enumerate() {
+                let grid = egui::Grid::new(("keys", i))
+                    .num_columns(2)
+                    .spacing(vec2(14.0, 2.0))
+                    .min_row_height(24.0);
+                grid.show(ui, |ui| {
+                    for (keys, does) in column {
+                        let weak = Palette::get(ui).weak;
+                        ui.label(theme::strong(keys.clone()).size(12.0));
+                        ui.label(egui::RichText::new(*does).size(12.5).color(weak));
+                        ui.end_row();
+                    }
                 });
+                ui.add_space(20.0);
+            }
         });
-    if modal.should_close() {
+    });
+    if is_closed {
         commands.push(Command::ToggleKeys);
     }
 }

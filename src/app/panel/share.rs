@@ -1,9 +1,8 @@
 //! The dialog that shares the illustration: link, QR code, HTML for a page, files.
 
-use egui::{
-    Color32, ColorImage, Image, Modal, Role, TextureHandle, TextureOptions, Ui, WidgetInfo,
-};
+use egui::{Color32, ColorImage, Image, Role, TextureHandle, TextureOptions, Ui, WidgetInfo};
 
+use crate::app::kit::dialog;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::Palette;
 use crate::app::kit::widget;
@@ -46,26 +45,11 @@ pub(crate) fn ui(
     page: &str,
     commands: &mut Vec<Command>,
 ) {
-    let content = ui.ctx().content_rect().size();
-    let frame = egui::Frame::window(ui.style());
-    let modal = Modal::new(egui::Id::unique("share"))
-        .frame(frame)
-        .show(ui.ctx(), |ui| {
-            ui.set_width((content.x - 64.0).min(360.0));
-            widget::heading(ui, w().heading, |ui| {
-                if widget::icon_button(ui, Icon::Close, w().close, true).clicked() {
-                    commands.push(Command::ToggleShare);
-                }
-            });
-            widget::divider(ui);
-            let height = content.y - 150.0;
-            egui::ScrollArea::vertical()
-                .auto_shrink([false, true])
-                .max_height(height)
-                .min_scrolled_height(height)
-                .show(ui, |ui| inside(ui, session, share, page, commands));
-        });
-    if modal.should_close() {
+    let names = (w().heading, w().close);
+    let is_closed = dialog::is_closed(ui, "share", names, 360.0, |ui| {
+        inside(ui, session, share, page, commands);
+    });
+    if is_closed {
         commands.push(Command::ToggleShare);
     }
 }
