@@ -1,13 +1,9 @@
 //! Which segment each pixel of a picture shows.
 
-use super::picture::{BATCH_TILES, PictureJob};
-use super::raycast::{March, encode_march, frame_group};
-use super::tiles::tiles_of;
+use super::picture::PictureJob;
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
-use crate::render::device::readback::WorkDone;
 use crate::render::device::textures::{PICK_FORMAT, Target, read_texture, row_pitch};
-use crate::render::pack::frame::frame_of;
 
 /// What each pixel of a picture shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,30 +26,8 @@ const TEXEL: usize = 16;
 pub(super) async fn identify(job: &PictureJob) -> Result<Sighting, RenderError> {
     let gpu = &job.gpu;
     let target = Target::new(gpu, "segments", job.size, PICK_FORMAT);
-    let pipeline = job.passes.raycast.pipeline(gpu, job.scene.segments_key());
-    let detail = job.subject.frame.detail;
-    let frame = frame_of(&job.view, &job.view, job.scene.bounds(), detail, 0);
-    let frame_group = frame_group(gpu, &job.passes.layouts, &frame);
-    for batch in tiles_of(job.size).chunks(BATCH_TILES) {
-        let mut encoder = encoder(gpu);
-        encode_march(
-            &mut encoder,
-            &March {
-                target: &target.view,
-                pipeline: &pipeline,
-                frame: &frame_group,
-                subject: &job.subject.bind_group,
-                scene: &job.scene.bindings,
-                baked: None,
-                viewport: job.size,
-                tiles: batch,
-                weight: 1.0,
-            },
-        );
-        gpu.queue.submit([encoder.finish()]);
-        WorkDone::start(gpu).await?;
-        gpu.check()?;
-    }
+    job.march(&target.view, (job.scene.segments_key(), None), 0, |_| {})
+        .await?;
     let width = job.size[0] as usize;
     let pitch = row_pitch((TEXEL * width) as u32);
     let bytes = read_texture(gpu, encoder(gpu), &target.texture, pitch).await?;

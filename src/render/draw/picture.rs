@@ -9,13 +9,14 @@ use crate::render::device::readback::WorkDone;
 use crate::render::device::textures::{LINEAR_FORMAT, OUTPUT_FORMAT, Target};
 use crate::render::pack::frame::frame_of;
 use crate::render::pack::gpu_types::Resolve;
+use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::pack::view::View;
 use crate::render::scene::Scene;
 use crate::render::subject::textures::SubjectTextures;
 use std::sync::Arc;
 
 /// Tiles handed to the GPU before it is waited for: seconds at most on a software GPU.
-pub(super) const BATCH_TILES: usize = 64;
+const BATCH_TILES: usize = 64;
 
 /// Everything for one picture, so that drawing it borrows nothing.
 pub(crate) struct PictureJob {
@@ -47,6 +48,43 @@ impl PictureJob {
             .bake(&self.gpu, &mut self.scene, texels_along, u32::MAX);
     }
 
+    /// Marches one ray for each pixel: sample `index`, which is mixed into those before. `key` tells the program,
+    /// `baked` is the group of the baked map if that program reads it. `on_batch` hears how many tiles each batch had.
+    pub(super) async fn march(
+        &self,
+        target: &wgpu::TextureView,
+        (key, baked): (RaycastKey, Option<&wgpu::BindGroup>),
+        index: u32,
+        mut on_batch: impl FnMut(usize),
+    ) -> Result<(), RenderError> {
+        let pipeline = self.passes.raycast.pipeline(&self.gpu, key);
+        let detail = self.subject.frame.detail;
+        let frame = frame_of(&self.view, &self.view, self.scene.bounds(), detail, index);
+        let frame_group = frame_group(&self.gpu, &self.passes.layouts, &frame);
+        for batch in tiles_of(self.size).chunks(BATCH_TILES) {
+            let mut encoder = encoder(&self.gpu);
+            encode_march(
+                &mut encoder,
+                &March {
+                    target,
+                    pipeline: &pipeline,
+                    frame: &frame_group,
+                    subject: &self.subject.bind_group,
+                    scene: &self.scene.bindings,
+                    baked,
+                    viewport: self.size,
+                    tiles: batch,
+                    weight: 1.0 / (index + 1) as f32,
+                },
+            );
+            self.gpu.queue.submit([encoder.finish()]);
+            WorkDone::start(&self.gpu).await?;
+            self.gpu.check()?;
+            on_batch(batch.len());
+        }
+        Ok(())
+    }
+
     /// Draws it, from the start each time, and reports after each batch how much of it is drawn, 0 to 1.
     pub(crate) async fn draw(
         &self,
@@ -60,35 +98,14 @@ impl PictureJob {
             Some(_) => self.scene.baked_key(),
             None => self.scene.key(false),
         };
-        let pipeline = self.passes.raycast.pipeline(&self.gpu, key);
-        let tiles = tiles_of(self.size);
-        let (mut drawn, all) = (0, tiles.len() * samples as usize);
+        let (mut drawn, all) = (0, tiles_of(self.size).len() * samples as usize);
         for index in 0..samples {
-            let detail = self.subject.frame.detail;
-            let frame = frame_of(&self.view, &self.view, self.scene.bounds(), detail, index);
-            let frame_group = frame_group(&self.gpu, &self.passes.layouts, &frame);
-            for batch in tiles.chunks(BATCH_TILES) {
-                let mut encoder = encoder(&self.gpu);
-                encode_march(
-                    &mut encoder,
-                    &March {
-                        target: &linear.view,
-                        pipeline: &pipeline,
-                        frame: &frame_group,
-                        subject: &self.subject.bind_group,
-                        scene: &self.scene.bindings,
-                        baked: baked.map(|baked| &baked.group),
-                        viewport: self.size,
-                        tiles: batch,
-                        weight: 1.0 / (index + 1) as f32,
-                    },
-                );
-                self.gpu.queue.submit([encoder.finish()]);
-                WorkDone::start(&self.gpu).await?;
-                self.gpu.check()?;
-                drawn += batch.len();
+            let group = baked.map(|baked| &baked.group);
+            self.march(&linear.view, (key, group), index, |count| {
+                drawn += count;
                 on_progress(drawn as f32 / all as f32);
-            }
+            })
+            .await?;
         }
         let mut encoder = encoder(&self.gpu);
         let [width, height] = self.size.map(|side| side as f32);
