@@ -16,6 +16,7 @@
 //! | [`assets`] | 5 | what a document needs from outside, and what has come of it |
 //! | `render` | 5 | everything GPU |
 //! | `app` | 6 | the viewer's panels and commands |
+//! | `reader` | 6 | the lesson's viewer, without an editor |
 //! | `shell` | 7 | windows, files, command line, page |
 //!
 //! # Glossary
@@ -74,5 +75,13 @@ pub mod render;
 #[cfg(feature = "session")]
 pub mod app;
 
-#[cfg(any(feature = "app", feature = "part-subjects", feature = "part-scans"))]
+#[cfg(feature = "reader")]
+pub mod reader;
+
+#[cfg(any(
+    feature = "app",
+    feature = "reader",
+    feature = "part-subjects",
+    feature = "part-scans"
+))]
 pub mod shell;

@@ -10,7 +10,7 @@
 //! | `picture` | the renderer in the window, its textures, questions to it | `session` |
 //! | `canvas` | what lies on the picture: handles, captions, slices, measures, bars | `kit`, `picture` |
 //! | `panel` | one panel or dialog each | `kit`, `picture` |
-//! | `services`, `arrivals`, `fields`, `tissue_work` | what the shell does for the app, and what comes back | all |
+//! | `services`, `arrivals`, `fields` | what the shell does for the app, and what comes back | all |
 //! | `provisional`, `window_title` | what the picture still waits for; the name of the window | all |
 //! | `recents` | pictures of recent documents | all |
 //! | `window` | the app itself: input becomes commands, commands change the session | all |
@@ -47,16 +47,13 @@ mod saving;
 #[cfg(feature = "app")]
 mod services;
 #[cfg(feature = "app")]
-mod tissue_work;
 #[cfg(feature = "app")]
 mod window;
 #[cfg(feature = "app")]
 mod window_title;
 
 #[cfg(feature = "app")]
-pub use self::canvas::caption_layout::CaptionPlace;
 #[cfg(feature = "app")]
-pub use self::canvas::captions::caption_places;
 #[cfg(feature = "app")]
 pub use self::canvas::lettering::letter;
 #[cfg(feature = "app")]

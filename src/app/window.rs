@@ -20,9 +20,8 @@ use crate::app::session::{
     Command, Effect, Focus, Gravity, Listing, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING,
     STORED_PICTURE, STORED_SLOW, STORED_TITLE, Session, Sought, Ticket,
 };
-use crate::app::tissue_work;
 use crate::app::words::{self, Lang};
-use crate::assets::{Assets, SegmentationsExpected, Want};
+use crate::assets::{Assets, SegmentationsExpected, TissueWork, Want};
 use crate::data::{Resources, Site, SubjectBuilder};
 use crate::document::{Document, SegmentsRef};
 use crate::load::LabelFile;
@@ -92,7 +91,7 @@ pub struct App {
     /// The slices beside the picture.
     pub(crate) slices: Slices,
     /// The segments of the subject in the making.
-    pub(crate) tissue: tissue_work::TissueWork,
+    pub(crate) tissue: TissueWork,
     /// What lies inside of the tissue that the selected template keeps.
     pub(crate) inside: kept::Inside,
     /// Label volumes of the load under way.
@@ -206,7 +205,7 @@ impl App {
             preset_pictures: presets::Pictures::default(),
             step_pictures: strip::Pictures::default(),
             slices: Slices::default(),
-            tissue: tissue_work::TissueWork::new(start.clock),
+            tissue: TissueWork::new(start.clock),
             inside: kept::Inside::default(),
             incoming_labels: Vec::new(),
             labels_expected: SegmentationsExpected::default(),

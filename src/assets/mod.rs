@@ -21,9 +21,11 @@ mod events;
 mod naming;
 mod news;
 mod store;
+mod tissue_work;
 mod want;
 
 pub use events::{LoadEvent, RawQuestion, SegmentationsExpected};
 pub use news::ResourceNews;
 pub use store::{Assets, Data};
+pub use tissue_work::TissueWork;
 pub use want::{OtherFile, Role, Source, Want, Wanted};

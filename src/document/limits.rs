@@ -22,6 +22,8 @@ pub const MAX_LABELS: usize = 256;
 pub const MAX_ALT: usize = 2000;
 /// Most steps in a document.
 pub const MAX_STEPS: usize = 100;
+/// Most values of a document that readers may move (`controls`).
+pub const MAX_CONTROLS: usize = 16;
 /// Most recipes in a document.
 pub const MAX_RECIPES: usize = 16;
 /// Most steps in the clean-up of one recipe.

@@ -25,11 +25,12 @@
 //!
 //! Files import only from files before them: `limits` <- `model` (plain types, no JSON) and `text` (JSON, pointers,
 //! errors, notices) <- `schema` (every fixed key once) <- `read` and `write` <- `canonical`, `steps`, `blend` <-
-//! `difference` <- `recording`, `lesson` <- `tree` <- `naming` <- `history`, `authoring` <- `carry`.
+//! `difference` <- `recording`, `lesson`, `turn` <- `tree` <- `naming`, `walk`, `autoplay` <- `history`, `authoring` <- `carry`.
 //!
 #![doc = include_str!("reference.md")]
 
 mod authoring;
+mod autoplay;
 mod blend;
 mod canonical;
 mod carry;
@@ -49,6 +50,8 @@ mod steps;
 mod tests;
 mod text;
 mod tree;
+mod turn;
+mod walk;
 mod write;
 
 pub use crate::math::plain_f64;
@@ -56,18 +59,19 @@ pub use authoring::{
     Plane, free_group_name, group_of, groups, mirror, mirrored, templates_from_text,
     templates_to_text,
 };
+pub use autoplay::{Autoplay, Turn};
 pub use carry::carried_templates;
 pub use history::{History, Outlook};
 pub use lesson::Lesson;
 pub use limits::{
     BUILTIN_SUBJECTS, DEFAULT_SUBJECT, FORMAT, MAX_ALT, MAX_BALL_MM, MAX_BYTES, MAX_CLEAN_MM,
-    MAX_CLEAN_STEPS, MAX_CURVE, MAX_CUT, MAX_DEPTH, MAX_FIELDS, MAX_KEEP_SETS, MAX_LABEL_FILES,
+    MAX_CLEAN_STEPS, MAX_CONTROLS, MAX_CURVE, MAX_CUT, MAX_DEPTH, MAX_FIELDS, MAX_KEEP_SETS, MAX_LABEL_FILES,
     MAX_LABELS, MAX_POINTS, MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES,
     MAX_STROKES, MAX_TEMPLATES, MIN_BALL_MM,
 };
 pub use model::{
-    Align, Background, Camera, Caption, CleanStep, Constrain, ConstrainBy, ControlPoint,
-    ControlPoints, Curve, FieldRef, Illustration, Look, MAX_PARAM_FLOATS, OpacityMode, PRESETS,
+    Align, Background, Camera, Caption, CleanStep, Constrain, ConstrainBy, Control, ControlPoint,
+    ControlPoints, ControlRange, Curve, FieldRef, Illustration, Look, MAX_PARAM_FLOATS, OpacityMode, PRESETS,
     ParamKind, ParamSpec, ParamValue, PlacedTemplate, Preset, PresetSubject, RawVoxels, Reading,
     Recipe, RecipeSource, SegmentLook, SegmentsRef, Step, Stroke, SubjectRef, TemplateData,
     TemplateKind, TemplateMode, TemplateSpec, Transfer, TransferPoint, Window, keep_set, keep_sets,
@@ -75,6 +79,8 @@ pub use model::{
 };
 pub use text::{DocumentError, Notice, NoticeKind, pointer};
 pub use tree::Document;
+pub use turn::{DISTANCE_RANGE, axes, between, orbit, roll, zoom};
+pub use walk::Walk;
 pub use write::Edit;
 #[cfg(any(feature = "app", feature = "session"))]
 pub(crate) use write::color_text;

@@ -8,7 +8,7 @@
 //! To add a key: one line here, its field in `model`, and the line that reads it in `read`.
 
 use super::limits::{
-    MAX_ALT, MAX_BALL_MM, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CURVE, MAX_CUT, MAX_LABEL_FILES,
+    MAX_ALT, MAX_BALL_MM, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CONTROLS, MAX_CURVE, MAX_CUT, MAX_LABEL_FILES,
     MAX_LABELS, MAX_POINTS, MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES,
     MAX_STROKES, MAX_TEMPLATES, MIN_BALL_MM,
 };
@@ -182,7 +182,7 @@ pub(crate) enum Kind {
 pub(crate) const BY_NAME: u16 = u16::MAX;
 
 /// Points farther out are clamped: a subject is one unit long, and floats get coarse out there.
-const FAR: f64 = 1e4;
+pub(crate) const FAR: f64 = 1e4;
 /// Largest value of a voxel that is told from infinity.
 pub(crate) const MAX_VALUE: f64 = f32::MAX as f64 / 4.0;
 /// Greatest coordinate of control points, cuts and curves, template units.
@@ -263,6 +263,7 @@ pub(crate) const ROOT: &[Key] = &[
     key(80, "look", Kind::Object(LOOK), "colours, opacity and background"),
     key(90, "camera", Kind::Object(CAMERA), "a perspective camera"),
     key(100, "labels", Kind::List { of: CAPTION, most: MAX_LABELS, what: "labels" }, "texts that follow the tissue that they are fastened to"),
+    key(105, "controls", Kind::List { of: CONTROL, most: MAX_CONTROLS, what: "controls" }, "values that the readers of a lesson may move themselves").fixed(),
     key(110, "steps", Kind::List { of: STEP, most: MAX_STEPS, what: "steps" }, "the steps of a lesson; step 0 is the document itself, each further step changes the one before it").fixed(),
 ];
 
@@ -448,6 +449,15 @@ pub(crate) const CAPTION: &[Key] = &[
     key(420, "enabled", Kind::Flag { default: true }, "false: the label is left out"),
 ];
 
+/// Keys of an entry of `/controls`.
+#[rustfmt::skip]
+pub(crate) const CONTROL: &[Key] = &[
+    key(720, "pointer", Kind::Text, "JSON pointer to a number or a truth value that a step may set"),
+    key(250, "name", Kind::Text, "what the reader reads beside it; without it the name of the value"),
+    key(730, "min", number(0.0, -FAR, FAR), "lowest value that the reader can set; needed where the value has no range of its own").optional(),
+    key(740, "max", number(0.0, -FAR, FAR), "highest value that the reader can set; needed where the value has no range of its own").optional(),
+];
+
 /// Keys of an entry of `/steps`.
 #[rustfmt::skip]
 pub(crate) const STEP: &[Key] = &[
@@ -577,6 +587,86 @@ fn param_at(kind: TemplateKind, name: &str) -> Option<Value> {
         ParamKind::Vector { .. } | ParamKind::Rotation => param_default(&spec.kind),
         _ => None,
     }
+}
+
+/// What a value can be that one number or one truth value stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Scalar {
+    /// True or false; the value of a missing one.
+    Flag(bool),
+    /// A number in a closed range; whole, if `is_whole`.
+    Number {
+        /// The value of a missing one.
+        default: f64,
+        /// Lowest value.
+        min: f64,
+        /// Highest value.
+        max: f64,
+        /// Fractions are rounded.
+        is_whole: bool,
+    },
+}
+
+/// What the value at a path can be, if it is a number, a truth value or a number of three that belong together. `kind`
+/// is that of the template on the way.
+pub(crate) fn scalar_at(path: &[String], kind: Option<TemplateKind>) -> Option<Scalar> {
+    let mut path = path.iter();
+    let mut keys = ROOT;
+    loop {
+        let key = find(keys, path.next()?)?;
+        let rest = path.as_slice();
+        match key.kind {
+            Kind::Flag { default } if rest.is_empty() => return Some(Scalar::Flag(default)),
+            Kind::Number { default, min, max } if rest.is_empty() => {
+                let is_whole = false;
+                return Some(Scalar::Number { default, min, max, is_whole });
+            }
+            Kind::Vector { default, min, max } => return component(rest, default, min, max),
+            Kind::Object(of) => keys = of,
+            Kind::List { of, .. } => {
+                keys = of;
+                pointer::index(path.next()?)?;
+            }
+            Kind::Params => return param_scalar(kind?, rest),
+            _ => return None,
+        }
+    }
+}
+
+/// The number at the path `rest` in a parameter list of a template of this kind.
+fn param_scalar(kind: TemplateKind, rest: &[String]) -> Option<Scalar> {
+    let (name, rest) = rest.split_first()?;
+    let spec = kind.spec().params.iter().find(|spec| spec.name == name)?;
+    match spec.kind {
+        ParamKind::Flag { default } if rest.is_empty() => Some(Scalar::Flag(default)),
+        ParamKind::Number { default, min, max } | ParamKind::Count { default, min, max }
+            if rest.is_empty() =>
+        {
+            Some(Scalar::Number {
+                default: plain_f64(default),
+                min: plain_f64(min),
+                max: plain_f64(max),
+                is_whole: matches!(spec.kind, ParamKind::Count { .. }),
+            })
+        }
+        ParamKind::Vector { default, min, max, .. } => {
+            component(rest, default.map(plain_f64), plain_f64(min), plain_f64(max))
+        }
+        _ => None,
+    }
+}
+
+/// One of three numbers.
+fn component(rest: &[String], default: [f64; 3], min: f64, max: f64) -> Option<Scalar> {
+    let [index] = rest else {
+        return None;
+    };
+    Some(Scalar::Number {
+        default: *default.get(pointer::index(index)?)?,
+        min,
+        max,
+        is_whole: false,
+    })
 }
 
 /// True if a step may not set what stands under this key of the document.

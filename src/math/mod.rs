@@ -3,6 +3,7 @@
 mod aabb;
 mod bent;
 mod color;
+pub mod columns;
 mod number;
 mod placement;
 pub mod space;

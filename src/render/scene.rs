@@ -172,6 +172,25 @@ impl Scene {
         }
     }
 
+    /// Gives its textures back to the device.
+    pub(crate) fn destroy(&self) {
+        let grid = self.grid.as_ref().map(|grid| grid.binding().1);
+        let mut views = vec![
+            &self.kept_textures.view,
+            &self.fields.view,
+            &self.bodies.view,
+            &self.look.view,
+            &self.no_grid.1,
+        ];
+        views.extend(grid);
+        for view in views {
+            view.texture().destroy();
+        }
+        if let Some(baked) = &self.baked {
+            baked.destroy();
+        }
+    }
+
     /// The skip grid; `None` for a scene that draws without one.
     pub(crate) fn grid(&self) -> Option<&SkipGrid> {
         self.grid.as_ref()

@@ -1,9 +1,13 @@
 //! Layer 6: windows, files, the command line and the page. The only room that knows where it runs.
 
+#[cfg(all(target_arch = "wasm32", feature = "reader"))]
+mod address;
 #[cfg(all(target_arch = "wasm32", feature = "app"))]
 pub mod offscreen;
 #[cfg(all(target_arch = "wasm32", feature = "app"))]
 mod page;
+#[cfg(all(target_arch = "wasm32", feature = "reader", not(feature = "app")))]
+pub mod reader;
 #[cfg(all(target_arch = "wasm32", feature = "app"))]
 pub mod web;
 #[cfg(target_arch = "wasm32")]

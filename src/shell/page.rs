@@ -8,6 +8,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storage, Url, Window};
 
+use super::address::{absolute, fetched, foreign_host};
 use super::loading::wanted_file;
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
@@ -344,22 +345,6 @@ fn not_started(error: &JsValue) -> LoadEvent {
     }
 }
 
-/// Fetches what lies beside the page or the program.
-async fn fetched(address: &str) -> Option<Blob> {
-    let response = JsFuture::from(window()?.fetch_with_str(address))
-        .await
-        .ok()?;
-    let response: web_sys::Response = response.dyn_into().ok()?;
-    if !response.ok() {
-        return None;
-    }
-    JsFuture::from(response.blob().ok()?)
-        .await
-        .ok()?
-        .dyn_into()
-        .ok()
-}
-
 /// The bytes of a file that lies beside the program.
 async fn fetched_bytes(address: &str) -> Option<Vec<u8>> {
     let blob = fetched(address).await?;
@@ -419,14 +404,6 @@ pub(super) fn page_address() -> String {
     url.search_params().delete("s");
     url.search_params().delete("doc");
     url.href()
-}
-
-/// `true` if the address, which is absolute, is of another host than the page.
-pub(super) fn foreign_host(address: &str) -> Option<String> {
-    let own = window()?.location().origin().ok()?;
-    let url = Url::new(address).ok()?;
-    let is_own = url.origin() == own || ["blob:", "data:"].contains(&url.protocol().as_str());
-    (!is_own).then(|| url.host())
 }
 
 impl Services for PageServices {
@@ -499,13 +476,10 @@ impl Services for PageServices {
             return ticket;
         };
         let base = self.0.borrow().place.base.clone();
-        let Ok(url) = Url::new_with_base(src, &base) else {
-            return self.fail(format!("This is no address: {src}"));
+        let address = match absolute(src, &base) {
+            Ok(address) => address,
+            Err(why) => return self.fail(why),
         };
-        if !["http:", "https:", "blob:", "data:"].contains(&url.protocol().as_str()) {
-            return self.fail(format!("A page can only fetch from http and https: {src}"));
-        }
-        let address = url.href();
         let mut page = self.0.borrow_mut();
         let ticket = page.new_ticket();
         match foreign_host(&address) {

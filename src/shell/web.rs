@@ -8,7 +8,8 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{HtmlCanvasElement, Url};
 
-use super::page::{Page, PageServices, Place, foreign_host, kept_document};
+use super::address::foreign_host;
+use super::page::{Page, PageServices, Place, kept_document};
 use super::worker::run;
 use super::worker::task::Part;
 use crate::app::{App, Command, Message, MissingDocument, Start, WhyMissing};

@@ -6,10 +6,10 @@ use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align, Color32, Context, FontId, Galley, Pos2, RawInput, Rect, TextFormat, Vec2, vec2};
 use std::sync::Arc;
 
-use super::caption_layout::{self, CaptionPlace, is_dark};
+use super::caption_layout::{self, is_dark};
 use crate::app::kit::theme;
 use crate::document::Illustration;
-use crate::render::{Image, View};
+use crate::render::{CaptionPlace, Image, View};
 
 /// Height of the title's letters, of the picture's shorter side, and of the credit's.
 const TITLE: f32 = 0.045;

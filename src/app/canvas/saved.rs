@@ -2,11 +2,10 @@
 
 use glam::Vec2;
 
-use super::caption_layout::CaptionPlace;
 use super::lettering;
 use crate::document::{Camera, Illustration};
 use crate::math::Aabb;
-use crate::render::{Image, RenderError, View, encode_png};
+use crate::render::{CaptionPlace, Image, RenderError, View, encode_png};
 
 /// Pixels along the longer side of a saved picture at least, and along either side at most.
 const LEAST_PX: f32 = 2000.0;

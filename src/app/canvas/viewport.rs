@@ -8,7 +8,6 @@ use egui::{
 use glam::Vec3;
 
 use super::ball::{self, PictureBall};
-use super::caption_layout::CaptionPlace;
 use super::captions::Followed;
 use super::gizmo::Gizmo;
 use super::measure::Distances;
@@ -26,7 +25,7 @@ use crate::app::words::{self, fill, in_sentence, kinds, messages, names};
 use crate::displace::Holds;
 use crate::document::{Background, Camera};
 use crate::math::Placement;
-use crate::render::{PendingPick, RenderError};
+use crate::render::{CaptionPlace, PendingPick, RenderError};
 
 /// Radians per point of a drag.
 const ORBIT_PER_POINT: f32 = 0.0075;
@@ -401,7 +400,7 @@ impl Viewport {
         self.questions.extend(hand);
         self.ask(session, camera, picture, size, commands);
         self.captions
-            .update(ui.ctx(), session, camera, picture, view, size);
+            .update(ui.ctx(), session, camera, picture, size);
         if picture.is_waiting() || self.is_waiting() {
             ui.ctx().request_repaint();
         }

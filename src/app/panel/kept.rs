@@ -7,11 +7,11 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{Palette, control_height};
 use crate::app::kit::widget::{self, Named as _, NumberRow};
 use crate::app::panel::tissue;
-use crate::app::picture::pending::{Pending, poll_once};
 use crate::app::session::Command;
 use crate::app::words::kept::{segment, w};
 use crate::app::words::{fill, in_sentence};
 use crate::data::{CoarseLabels, RECIPE_COLORS_SRGB, Segment, Segmentation, TimeSlices};
+use crate::data::{Pending, poll_once};
 use crate::document::{
     Align, Constrain, ConstrainBy, Edit, Illustration, PlacedTemplate, Recipe, keep_sets,
 };

@@ -15,9 +15,9 @@ use super::transfer::{group_heading, grouped_presets};
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget;
 use crate::app::picture::host::Picture;
-use crate::app::picture::pending::{Pending, poll_once};
 use crate::app::session::{Command, Session};
 use crate::app::words::{fill, look::w, names};
+use crate::data::{Pending, poll_once};
 use crate::document::{Background, Camera, Document, Edit, Illustration, Look, Transfer, preset};
 use crate::render::{Image, RenderError, SubjectInfo};
 

@@ -8,15 +8,14 @@ use std::task::Wake;
 use std::time::Duration;
 
 use eframe::egui_wgpu::RenderState;
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
-use super::pending::{Pending, poll_once};
 use crate::app::session::{Command, Found, Place, Question};
-use crate::data::{Resources, Segment, Segmentation, Subject};
+use crate::data::{Pending, Resources, Segment, Segmentation, Subject, poll_once};
 use crate::document::{Background, Camera, Illustration};
 use crate::math::Aabb;
 use crate::render::{
-    Clock, DrawState, Gpu, Image, PendingPick, PendingPlaces, PendingSlice, Pick, RenderError,
+    Clock, DrawState, FollowedCaptions, Gpu, Image, PendingPick, PendingSlice, Pick, RenderError,
     RenderNotice, Renderer, SlicePlane, SliceView, SubjectInfo, View,
 };
 
@@ -299,9 +298,15 @@ impl Picture {
         answers
     }
 
-    /// Asks where points of the rest are in the object that is shown.
-    pub(crate) fn follow_points(&mut self, points: &[Vec3]) -> Result<PendingPlaces, RenderError> {
-        self.renderer.follow_points(points)
+    /// Brings up to date where captions are. True if that wants another frame.
+    pub(crate) fn follow_captions(
+        &mut self,
+        followed: &mut FollowedCaptions,
+        shown: (&Illustration, &Camera),
+        size_px: [u32; 2],
+    ) -> bool {
+        let is_done = self.state.is_done;
+        followed.update(&mut self.renderer, shown, size_px, is_done)
     }
 
     /// Starts drawing the picture once more for a file, in place of one that is being drawn.

@@ -1,5 +1,4 @@
 //! Hosts the renderer: the picture and its slices.
 
 pub(crate) mod host;
-pub(crate) mod pending;
 pub(crate) mod small;

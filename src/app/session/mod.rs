@@ -61,7 +61,6 @@ mod tool;
 mod tracing;
 mod using;
 mod view;
-mod walk;
 
 #[cfg(test)]
 mod recording_tests;
@@ -93,4 +92,3 @@ pub use self::ticket::Ticket;
 pub use self::tissues::{TissueCommand, Tissues};
 pub use self::tool::Tool;
 pub use self::view::{Pane, ScanFacts, See, SubjectFacts, ViewState};
-pub use self::walk::Walk;

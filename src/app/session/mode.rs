@@ -1,7 +1,6 @@
 //! Which state of a document is shown: that of its start, or of a step or a passage of its lesson.
 
-use super::walk::Walk;
-use crate::document::{Camera, Document, Illustration};
+use crate::document::{Camera, Document, Illustration, Walk};
 
 /// Where one stands in the lesson of a document. What is edited is what is shown.
 #[derive(Debug, Default)]

@@ -1,8 +1,8 @@
 //! A lesson that plays by itself: it walks to the next step, stays there, and walks on until the last.
 
 use super::effect::LinkChange;
-use super::session::{Playing, Session};
-use crate::document::Step;
+use super::session::Session;
+use crate::document::{Autoplay, Turn};
 
 impl Session {
     /// True while the lesson plays by itself.
@@ -30,14 +30,11 @@ impl Session {
         if count == 0 {
             return;
         }
-        if self.mode.is_between() {
-            self.go_to_step(step);
-        } else if step < count {
-            self.go_to_step(step + 1);
-        } else {
-            self.go(0, true);
+        match Autoplay::first(step, self.mode.is_between(), count) {
+            (first, true) => self.go(first, true),
+            (next, false) => self.go_to_step(next),
         }
-        self.playing = Some(Playing::default());
+        self.playing = Some(Autoplay::default());
     }
 
     /// Stands still at a place of the lesson.
@@ -58,12 +55,8 @@ impl Session {
 
     /// How long it still stays at the step, seconds; `None` while nothing plays or it is on the way.
     pub(super) fn seconds_to_next_step(&self) -> Option<f64> {
-        let since = self.playing?.since?;
-        let step = self.step().checked_sub(1);
-        let steps = &self.illustration().steps;
-        let hold = step.and_then(|index| Some(steps.get(index)?.hold_seconds));
-        let hold = f64::from(hold.unwrap_or(Step::DEFAULT_HOLD));
-        Some(since + hold - self.now)
+        self.playing?
+            .seconds_left(self.step(), &self.illustration().steps, self.now)
     }
 
     /// Goes on to the next step when it is time. True if a passage begins.
@@ -71,22 +64,20 @@ impl Session {
         let Some(playing) = &mut self.playing else {
             return false;
         };
-        if self.mode.is_moving() {
-            playing.since = None;
-            return false;
-        }
         let step = self.mode.step();
-        if step >= self.history.document().step_count() {
-            self.playing = None;
-            return false;
+        let steps = &self.history.document().illustration().steps;
+        match playing.turn(step, self.mode.is_moving(), steps, self.now) {
+            Turn::Walks | Turn::Stays(_) => false,
+            Turn::GoesOn => {
+                self.go_to_step(step + 1);
+                // The history of the page holds where the reader went, not where the lesson went by itself.
+                self.link_change = LinkChange::Replace;
+                true
+            }
+            Turn::Ends => {
+                self.playing = None;
+                false
+            }
         }
-        playing.since.get_or_insert(self.now);
-        if self.seconds_to_next_step().is_some_and(|left| left <= 0.0) {
-            self.go_to_step(step + 1);
-            // The history of the page holds where the reader went, not where the lesson went by itself.
-            self.link_change = LinkChange::Replace;
-            return true;
-        }
-        false
     }
 }

@@ -97,13 +97,6 @@ pub(super) struct Glide {
     pub since: f64,
 }
 
-/// A lesson that plays.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Playing {
-    /// Since when it stays at a step, seconds on the clock of the interface; `None` on the way.
-    pub since: Option<f64>,
-}
-
 /// A document that was left for a new one.
 #[derive(Clone, Debug)]
 pub(super) struct Left {
@@ -207,7 +200,7 @@ pub struct Session {
     /// Seconds on the clock of the interface.
     pub now: f64,
     /// A lesson plays by itself.
-    pub(super) playing: Option<Playing>,
+    pub(super) playing: Option<Autoplay>,
     /// The reader wants nothing to move by itself: passages and glides are cuts.
     pub has_less_motion: bool,
     /// Grows with every change of the illustration that is shown.

@@ -24,6 +24,7 @@ pub(crate) const ROOMS: [(&str, u32); 13] = [
     ("render", 5),
     ("assets", 5),
     ("app", 6),
+    ("reader", 6),
     ("shell", 7),
 ];
 
@@ -39,9 +40,9 @@ pub(crate) const ORDER: [(&str, &[&[&str]]); 3] = [
             &["read", "write"],
             &["canonical.rs", "steps.rs", "blend.rs"],
             &["difference.rs"],
-            &["recording.rs", "lesson.rs"],
+            &["recording.rs", "lesson.rs", "turn.rs"],
             &["tree.rs"],
-            &["naming.rs"],
+            &["naming.rs", "walk.rs", "autoplay.rs"],
             &["history.rs", "authoring.rs", "reference.rs"],
             &["carry.rs"],
             &["tests"],
@@ -65,7 +66,6 @@ pub(crate) const ORDER: [(&str, &[&[&str]]); 3] = [
             &["session"],
             &["services.rs"],
             &["kit", "picture"],
-            &["tissue_work.rs"],
             &["canvas", "panel"],
             &["window.rs"],
             &[

@@ -37,6 +37,8 @@ pub struct Illustration {
     pub camera: Camera,
     /// Texts that follow the tissue that they are fastened to (`labels` in a document).
     pub captions: Vec<Caption>,
+    /// Values that readers may move.
+    pub controls: Vec<Control>,
     /// Steps of the lesson, without step 0.
     pub steps: Vec<Step>,
 }
@@ -68,6 +70,7 @@ impl Illustration {
             },
             camera: Camera::DOCUMENT_DEFAULT,
             captions: Vec::new(),
+            controls: Vec::new(),
             steps: Vec::new(),
         }
     }
@@ -105,6 +108,35 @@ pub struct Caption {
     pub text: String,
     /// False: it is not drawn.
     pub enabled: bool,
+}
+
+/// A value that readers of a lesson may move (an entry of `controls` in a document).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Control {
+    /// JSON pointer to the value.
+    pub pointer: String,
+    /// What the reader reads beside it.
+    pub name: String,
+    /// What it can be set to.
+    pub range: ControlRange,
+}
+
+/// What a reader can set a value to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ControlRange {
+    /// True or false; the value of a document that does not give it.
+    Flag(bool),
+    /// A number.
+    Number {
+        /// The value of a document that does not give it.
+        default: f64,
+        /// Lowest value.
+        min: f64,
+        /// Highest value; above `min`.
+        max: f64,
+        /// Only whole numbers.
+        is_whole: bool,
+    },
 }
 
 /// One step of a lesson.

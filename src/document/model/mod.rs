@@ -13,7 +13,7 @@ pub use crate::displace::{
     TemplateSpec,
 };
 pub use curve::Curve;
-pub use illustration::{Camera, Caption, Illustration, Step};
+pub use illustration::{Camera, Caption, Control, ControlRange, Illustration, Step};
 pub use look::{Background, Look, OpacityMode, SegmentLook, Transfer, TransferPoint, Window};
 pub use preset::{PRESETS, Preset, PresetSubject, preset, presets};
 pub use recipe::{CleanStep, Recipe, RecipeSource, Stroke};

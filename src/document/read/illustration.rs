@@ -87,6 +87,14 @@ impl Reader {
                 enabled: object.flag("enabled")?,
             });
         }
+        let mut controls = Vec::new();
+        for object in root.children("controls")? {
+            let kind_of = |index| {
+                let template = templates.iter().find(|t: &&PlacedTemplate| t.index == index)?;
+                Some(template.kind)
+            };
+            controls.extend(self.control(&object?, kind_of)?);
+        }
         let mut steps = Vec::new();
         for object in root.children("steps")? {
             steps.push(self.step(&object?)?);
@@ -105,6 +113,7 @@ impl Reader {
             look,
             camera,
             captions,
+            controls,
             steps,
         })
     }

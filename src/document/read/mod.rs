@@ -1,5 +1,6 @@
 //! From the JSON tree to the typed illustration.
 
+mod control;
 mod curve;
 mod data;
 mod illustration;

@@ -64,6 +64,11 @@ pub enum NoticeKind {
         /// The pointer in `set`.
         target: String,
     },
+    /// An entry of `controls` that readers are not shown.
+    NoControl {
+        /// The reason, in plain words.
+        why: &'static str,
+    },
     /// There are more notices, which are not listed.
     More,
     /// A curve that is not drawn, or only in part.
@@ -140,6 +145,7 @@ impl fmt::Display for Notice {
             NoticeKind::Dangling { target } => {
                 write!(f, "{pointer}: {target} is not there; left out")
             }
+            NoticeKind::NoControl { why } => write!(f, "{pointer}: {why}; readers cannot move it"),
             NoticeKind::More => write!(f, "there is more that this version does not know"),
             NoticeKind::Curve { what } => write!(f, "{pointer}: {what}"),
             NoticeKind::LeftAside { taken } => {

@@ -1,6 +1,7 @@
 //! Pictures, slices, picks and probes of a scene.
 
 pub(crate) mod bench;
+pub(crate) mod captions;
 pub(crate) mod clock;
 pub(crate) mod follow;
 pub(crate) mod identify;

@@ -352,6 +352,16 @@ impl Renderer {
         self.targets.as_ref().map(|t| &t.output.view)
     }
 
+    /// Copies the picture to a texture of its size and format, such as that of a canvas.
+    pub fn copy_output(&self, to: &wgpu::Texture) {
+        if let Some(targets) = &self.targets {
+            let mut encoder = encoder(&self.gpu);
+            let from = targets.output.texture.as_image_copy();
+            encoder.copy_texture_to_texture(from, to.as_image_copy(), to.size());
+            self.gpu.queue.submit([encoder.finish()]);
+        }
+    }
+
     /// True if the next movement is drawn from the baked map, as far as that is faster.
     pub fn has_baked(&self) -> bool {
         self.scene.as_ref().is_some_and(|p| p.baked().is_some())
@@ -559,6 +569,28 @@ impl Renderer {
             }
             None => Ok(()),
         }
+    }
+
+    /// Gives back what only this renderer holds on the device: its picture and what the scene is made of. A browser frees
+    /// such things late unless it is told. All of it is made anew where something is drawn.
+    pub fn destroy_own(&mut self) {
+        if let Some(targets) = self.targets.take() {
+            targets.linear.texture.destroy();
+            targets.output.texture.destroy();
+        }
+        if let Some(scene) = self.scene.take() {
+            scene.destroy();
+        }
+        (self.stage, self.under_way) = (Stage::Stale, None);
+        self.slices.forget();
+    }
+
+    /// Gives the subject's memory on the device back. Renderers that share the subject have to draw nothing from now on.
+    pub fn destroy_subject(&mut self) {
+        if let Some(studio) = self.studio.take() {
+            studio.subject.destroy();
+        }
+        (self.upload, self.subject, self.fitting) = (None, None, None);
     }
 
     /// Brings the next pieces of a subject to the GPU.

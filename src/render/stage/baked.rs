@@ -60,6 +60,11 @@ pub(crate) struct BakedTexture {
 }
 
 impl BakedTexture {
+    /// Gives the texture back to the device.
+    pub(crate) fn destroy(&self) {
+        self.texture.destroy();
+    }
+
     /// Over a box of the deformed object, with so many texels along its longest side (as many as suit the device if
     /// `None`); holds nothing until [`BakedTexture::advance`] has made all slabs.
     pub(crate) fn new(

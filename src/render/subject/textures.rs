@@ -49,6 +49,15 @@ pub(crate) struct SubjectTextures {
     pub segments: Vec<Segment>,
 }
 
+impl SubjectTextures {
+    /// Gives the textures back to the device.
+    pub(crate) fn destroy(&self) {
+        self.volume_view.texture().destroy();
+        self.label_view.texture().destroy();
+        self.buffer.destroy();
+    }
+}
+
 /// Where the voxels of a grid lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct VoxelFrame {

@@ -50,7 +50,7 @@ pub(super) fn render(
     let drawing = studio.render_image(&illustration, paper.size, paper.samples);
     let mut image = pollster::block_on(drawing)?;
     if paper.lettering {
-        let places = crate::app::caption_places(&studio, &illustration, paper.size);
+        let places = crate::render::caption_places(&studio, &illustration, paper.size);
         let places = pollster::block_on(places)?;
         let missing = crate::app::letter(&mut image, &illustration, &places);
         if !missing.is_empty() {

@@ -10,7 +10,7 @@ pub mod fault;
 pub mod header;
 pub mod task;
 
-#[cfg(feature = "app")]
+#[cfg(feature = "reader")]
 pub mod run;
 
 #[cfg(feature = "part-scans")]

@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
-use super::camera;
-use crate::document::{Camera, Document, Illustration, Lesson};
+use super::lesson::Lesson;
+use super::model::{Camera, Illustration};
+use super::tree::Document;
+use super::turn::between;
 
 /// Where one stands in the steps of the document. Step 0 is the document as it stands.
 #[derive(Debug, Default)]
@@ -48,7 +50,7 @@ impl Passage {
 
     fn camera(&self) -> Option<Camera> {
         let [from, to] = self.cameras?;
-        Some(camera::between(&from, &to, self.part))
+        Some(between(&from, &to, self.part))
     }
 
     /// How long the way takes that is done, and the way that is left, at the pace of the whole passage, seconds.
@@ -200,6 +202,12 @@ impl Walk {
         self.shown = Some(Arc::new(passage.shown()));
         self.passage = Some(Box::new(passage));
         camera
+    }
+
+    /// Shows something else at the step where it stands or that it was under way to, as long as it stays there.
+    pub fn show(&mut self, shown: Arc<Illustration>) {
+        self.passage = None;
+        self.shown = Some(shown);
     }
 
     /// A passage that goes on stands still.

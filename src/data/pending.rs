@@ -5,10 +5,10 @@ use std::pin::Pin;
 use std::task::{Context, Poll, Waker};
 
 /// Work that is asked once per frame whether it is done.
-pub(crate) type Pending<T> = Pin<Box<dyn Future<Output = T>>>;
+pub type Pending<T> = Pin<Box<dyn Future<Output = T>>>;
 
 /// Asks whether it is ready; never waits.
-pub(crate) fn poll_once<T>(pending: &mut Pending<T>) -> Option<T> {
+pub fn poll_once<T>(pending: &mut Pending<T>) -> Option<T> {
     match pending
         .as_mut()
         .poll(&mut Context::from_waker(Waker::noop()))

@@ -9,18 +9,18 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use crate::app::picture::pending::{Pending, poll_once};
-use crate::assets::Assets;
-use crate::data::{KnownMasks, Resources, Segmentation, Segmented, TimeSlices, segment_with};
+use super::store::Assets;
+use crate::data::{
+    KnownMasks, Pending, Resources, Segmentation, Segmented, TimeSlices, poll_once, segment_with,
+};
 use crate::document::{Illustration, Recipe, SegmentsRef};
-use crate::render::Clock;
 
 /// Seconds of each frame that go into it.
 const SHARE: f64 = 0.008;
 
 /// The work under way, and what the last result was made of.
-pub(crate) struct TissueWork {
-    clock: Clock,
+pub struct TissueWork {
+    clock: fn() -> f64,
     /// What the segments that are shown were made of.
     made_of: Option<MadeOf>,
     job: Option<Job>,
@@ -29,7 +29,7 @@ pub(crate) struct TissueWork {
     /// What the clean-up of recipes left, while one is edited: a stroke does not cost it again.
     known: Option<KnownMasks>,
     /// Voxels of each recipe, in order, as of the last result.
-    pub(crate) counts: Vec<u64>,
+    pub counts: Vec<u64>,
     /// The segments of the last result.
     segmentation: Option<Arc<Segmentation>>,
 }
@@ -63,7 +63,8 @@ struct Job {
 }
 
 impl TissueWork {
-    pub(crate) fn new(clock: Clock) -> Self {
+    /// Nothing is under way. `clock` tells seconds since any fixed moment.
+    pub fn new(clock: fn() -> f64) -> Self {
         Self {
             clock,
             made_of: None,
@@ -76,13 +77,13 @@ impl TissueWork {
     }
 
     /// The segments that are shown: those of the last result, else those that the subject came with.
-    pub(crate) fn segmentation<'a>(&'a self, assets: &'a Assets) -> Option<&'a Segmentation> {
+    pub fn segmentation<'a>(&'a self, assets: &'a Assets) -> Option<&'a Segmentation> {
         let own = || assets.subject()?.values()?.segmentation.as_ref();
         self.segmentation.as_deref().or_else(own)
     }
 
     /// Another subject is shown, with the segments that it came with.
-    pub(crate) fn restart(&mut self) {
+    pub fn restart(&mut self) {
         (self.job, self.stopped) = (None, None);
         self.known = None;
         self.made_of = Some(MadeOf::default());
@@ -91,7 +92,7 @@ impl TissueWork {
     }
 
     /// True while the segments that are shown are not yet those that the document describes, but will be.
-    pub(crate) fn is_behind(&self, assets: &Assets, illustration: &Illustration) -> bool {
+    pub fn is_behind(&self, assets: &Assets, illustration: &Illustration) -> bool {
         if !has_values(assets) {
             return false;
         }
@@ -100,14 +101,14 @@ impl TissueWork {
     }
 
     /// True if the segments that the document describes are not found because that was stopped.
-    pub(crate) fn is_stopped(&self, assets: &Assets, illustration: &Illustration) -> bool {
+    pub fn is_stopped(&self, assets: &Assets, illustration: &Illustration) -> bool {
         self.stopped
             .as_ref()
             .is_some_and(|stopped| *stopped == MadeOf::of(assets, illustration))
     }
 
     /// Stops finding the segments that the document describes; those that are shown stay.
-    pub(crate) fn stop(&mut self, assets: &Assets, illustration: &Illustration) {
+    pub fn stop(&mut self, assets: &Assets, illustration: &Illustration) {
         if self.is_behind(assets, illustration) {
             self.job = None;
             self.stopped = Some(MadeOf::of(assets, illustration));
@@ -115,24 +116,24 @@ impl TissueWork {
     }
 
     /// Goes on after a stop.
-    pub(crate) fn find(&mut self) {
+    pub fn find(&mut self) {
         self.stopped = None;
     }
 
     /// The recipes whose tissues are shown.
-    pub(crate) fn found(&self) -> &[Recipe] {
+    pub fn found(&self) -> &[Recipe] {
         self.made_of
             .as_ref()
             .map_or(&[], |made_of| &made_of.recipes)
     }
 
     /// How far the work under way is, 0 to 1.
-    pub(crate) fn progress(&self) -> Option<f32> {
+    pub fn progress(&self) -> Option<f32> {
         self.job.as_ref().map(|job| job.time_slices.progress())
     }
 
     /// A recipe is edited, or none is any more.
-    pub(crate) fn set_edited(&mut self, is_edited: bool) {
+    pub fn set_edited(&mut self, is_edited: bool) {
         if !is_edited {
             self.known = None;
         } else if self.known.is_none() {
@@ -143,7 +144,7 @@ impl TissueWork {
     /// Goes on for its share of a frame. A result is to be shown. `resources` is what has come of the files of the
     /// illustration. `is_dragging`: more changes are about to come; what has begun is then ended first, so that
     /// something is seen on the way.
-    pub(crate) fn advance(
+    pub fn advance(
         &mut self,
         assets: &Assets,
         resources: &Resources,
@@ -199,8 +200,8 @@ mod tests {
 
     use glam::{DAffine3, UVec3};
 
+    use super::super::store::Data;
     use super::*;
-    use crate::assets::Data;
     use crate::data::{Grid, Subject, Volume, Voxels};
     use crate::document::Document;
 

@@ -1,0 +1,202 @@
+//! One visit, drawn.
+
+use glam::Vec2;
+
+use super::stock::Stock;
+use super::visit::Visit;
+use crate::document::Illustration;
+use crate::math::columns;
+use crate::render::{Clock, FollowedCaptions, Gpu, Image, RenderError, Renderer, View};
+
+/// Samples per pixel of a picture that is read back.
+const SAMPLES: u32 = 4;
+
+/// What became of a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Drawn {
+    /// There is a picture to be shown, and its captions are known.
+    pub has_picture: bool,
+    /// Nothing is left to do until something changes.
+    pub is_done: bool,
+}
+
+/// A visit with the renderer of its picture.
+pub struct Picture {
+    /// What is seen.
+    pub visit: Visit,
+    renderer: Renderer,
+    captions: FollowedCaptions,
+    /// What the picture shows, with its camera.
+    seen: Option<Box<Illustration>>,
+    /// Revisions of the visit and of the stock that the renderer was given.
+    given: (u64, u64),
+    size_px: [u32; 2],
+    is_complete: bool,
+}
+
+impl Picture {
+    /// Nothing is drawn before [`Picture::draw`].
+    pub fn new(gpu: Gpu, clock: Clock, visit: Visit) -> Self {
+        Self {
+            visit,
+            renderer: Renderer::new(gpu, clock),
+            captions: FollowedCaptions::default(),
+            seen: None,
+            given: (0, 0),
+            size_px: [0, 0],
+            is_complete: false,
+        }
+    }
+
+    /// True while a frame is drawn whose captions are still being asked for. It is shown with them, so nothing that is
+    /// to be drawn should change before.
+    pub fn is_asking(&self) -> bool {
+        self.captions.is_asking()
+    }
+
+    /// One frame's work for a picture of this size, pixels. `budget` is what the GPU may spend on it, seconds.
+    ///
+    /// # Errors
+    /// Those of the renderer; a lost device has to be replaced by [`Picture::recover`].
+    pub fn draw(
+        &mut self,
+        stock: &mut Stock,
+        size_px: [u32; 2],
+        budget: f32,
+        is_moving: bool,
+    ) -> Result<Drawn, RenderError> {
+        if self.captions.is_asking() {
+            self.follow();
+            let has_picture = !self.captions.is_asking();
+            return Ok(Drawn {
+                has_picture,
+                is_done: false,
+            });
+        }
+        let stocked = (self.visit.revision(), stock.revision());
+        if self.given != stocked {
+            self.given = stocked;
+            self.renderer
+                .set_resources(stock.resources(self.visit.shown()));
+        }
+        self.renderer.share_subject(stock.host());
+        let seen = self.seen();
+        self.renderer.set_illustration(&seen);
+        let state = self.renderer.draw(size_px, budget, is_moving)?;
+        self.seen = Some(Box::new(seen));
+        self.size_px = self.renderer.output_size().unwrap_or(size_px);
+        let has_picture = state.has_picture && stock.host().subject_info().is_some();
+        self.is_complete = has_picture && state.is_done;
+        let is_waiting = has_picture && self.follow();
+        Ok(Drawn {
+            has_picture: has_picture && !self.captions.is_asking(),
+            is_done: state.is_done && !is_waiting,
+        })
+    }
+
+    /// Asks where captions are in the picture that was drawn. True if it has to be asked again soon.
+    fn follow(&mut self) -> bool {
+        let Some(seen) = &self.seen else {
+            return false;
+        };
+        let about = (&**seen, &seen.camera);
+        self.captions
+            .update(&mut self.renderer, about, self.size_px, self.is_complete)
+    }
+
+    /// The illustration with the reader's camera.
+    fn seen(&self) -> Illustration {
+        let mut seen = self.visit.shown().clone();
+        seen.camera = *self.visit.camera();
+        seen
+    }
+
+    /// The last frame's picture is complete.
+    pub fn is_complete(&self) -> bool {
+        self.is_complete
+    }
+
+    /// Width and height of the picture that was drawn, pixels.
+    pub fn size_px(&self) -> [u32; 2] {
+        self.size_px
+    }
+
+    /// The renderer, to show its picture.
+    pub fn renderer(&self) -> &Renderer {
+        &self.renderer
+    }
+
+    /// Where captions go in the picture that was drawn: for each one that is switched on and has a text six numbers: its
+    /// index, its state (0: in sight, 1: something lies before its tissue, 2: its tissue was cut away, 3: its tissue is
+    /// outside of the frame), the place of its tissue, and the top left corner of its text; those of the states 2 and 3
+    /// have no places. `sizes` has the width and height of each caption's text. Lengths are of the unit of `area`, the
+    /// width and height of the picture as it is shown; `gap` lies between texts and around them.
+    pub fn captions(&self, area: [f32; 2], sizes: &[f32], gap: f32) -> Vec<f32> {
+        let Some(seen) = &self.seen else {
+            return Vec::new();
+        };
+        let area = Vec2::from(area);
+        let view = View::new(&seen.camera, self.size_px);
+        let scale = area / view.size_px;
+        let mut found = Vec::new();
+        let mut absent = Vec::new();
+        for ((index, caption), size) in seen.captions.iter().enumerate().zip(sizes.as_chunks::<2>().0) {
+            if !caption.enabled || caption.text.trim().is_empty() {
+                continue;
+            }
+            let Some((place, is_hidden)) = self.captions.place(index) else {
+                absent.extend([index as f32, 2.0, 0.0, 0.0, 0.0, 0.0]);
+                continue;
+            };
+            let at = view.pixel_from_subject(place).map(|pixel| pixel * scale);
+            match at.filter(|at| at.cmpge(Vec2::ZERO).all() && at.cmple(area).all()) {
+                Some(at) => found.push((index, at, is_hidden, Vec2::from(*size))),
+                None => absent.extend([index as f32, 3.0, 0.0, 0.0, 0.0, 0.0]),
+            }
+        }
+        let points: Vec<Vec2> = found.iter().map(|found| found.1).collect();
+        let sizes: Vec<Vec2> = found.iter().map(|found| found.3).collect();
+        let room = [Vec2::splat(gap), area - Vec2::splat(gap)];
+        let corners = columns::arranged(&points, &sizes, gap, room);
+        let rows = found.iter().zip(corners);
+        let rows = rows.flat_map(|(&(index, at, is_hidden, _), corner)| {
+            let is_hidden = f32::from(u8::from(is_hidden));
+            [index as f32, is_hidden, at.x, at.y, corner.x, corner.y]
+        });
+        rows.chain(absent).collect()
+    }
+
+    /// The picture as it stands, drawn once more in full.
+    ///
+    /// # Errors
+    /// [`RenderError::NoSubject`] before there is anything to draw, and those of the renderer.
+    pub fn image(&self) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        self.renderer.render_image(
+            &self.seen(),
+            self.size_px.map(|side| side.max(1)),
+            SAMPLES,
+            |_| {},
+        )
+    }
+
+    /// Another stock serves the visit.
+    pub fn restock(&mut self) {
+        self.given = (0, 0);
+    }
+
+    /// Gives back what only this picture holds on the device. It is made anew where the picture is drawn again.
+    pub fn destroy(&mut self) {
+        (self.given, self.is_complete) = ((0, 0), false);
+        self.renderer.destroy_own();
+    }
+
+    /// Goes on with another device after the old one was lost.
+    ///
+    /// # Errors
+    /// Those of the renderer.
+    pub fn recover(&mut self, gpu: Gpu) -> Result<(), RenderError> {
+        self.given = (0, 0);
+        self.captions = FollowedCaptions::default();
+        self.renderer.recover(gpu)
+    }
+}

@@ -1,0 +1,311 @@
+//! The data of documents: a subject with its segments, on the GPU once for all pictures that show it.
+
+use crate::assets::{Assets, Data, LoadEvent, Role, TissueWork, Want};
+use crate::data::{Resources, SubjectBuilder};
+use crate::document::{Illustration, Recipe, SegmentsRef, SubjectRef};
+use crate::load::{FieldFile, LabelFile};
+use crate::render::{Clock, Gpu, RenderError, Renderer};
+
+/// What a stock is made of: pictures with equal keys share one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StockKey {
+    subject: SubjectRef,
+    segments: Vec<SegmentsRef>,
+    recipes: Vec<Recipe>,
+    /// What relative addresses start from, for a document that has any.
+    base: String,
+}
+
+impl StockKey {
+    /// The key of an illustration whose relative addresses start from `base`.
+    pub fn new(illustration: &Illustration, base: &str) -> Self {
+        let is_builtin = matches!(illustration.subject, SubjectRef::Builtin { .. });
+        let has_addresses = !is_builtin || !illustration.segments.is_empty();
+        Self {
+            subject: illustration.subject.clone(),
+            segments: illustration.segments.clone(),
+            recipes: illustration.recipes.clone(),
+            base: if has_addresses { base } else { "" }.to_owned(),
+        }
+    }
+
+    /// What relative addresses start from.
+    pub fn base(&self) -> &str {
+        &self.base
+    }
+}
+
+/// Why a picture is not what its document says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trouble {
+    /// One line in plain words.
+    pub message: String,
+    /// There is no subject at all.
+    pub is_fatal: bool,
+}
+
+/// A subject with its segments. Somebody else fetches: [`Stock::next`] says what, [`Stock::take`] hears what comes.
+pub struct Stock {
+    key: StockKey,
+    /// A document of this key; only its subject, segments and recipes are looked at.
+    illustration: Illustration,
+    assets: Assets,
+    resources: Resources,
+    work: TissueWork,
+    /// Holds the subject on the GPU and draws nothing.
+    host: Renderer,
+    incoming: SubjectBuilder,
+    incoming_labels: Vec<LabelFile>,
+    /// What is under way.
+    loading: Option<Want>,
+    /// How far that is, 0 to 1.
+    fraction: f32,
+    is_whole: bool,
+    troubles: Vec<Trouble>,
+    /// Grows when the pictures have to be drawn anew.
+    revision: u64,
+}
+
+impl Stock {
+    /// An empty stock for an illustration.
+    pub fn new(gpu: &Gpu, clock: Clock, key: StockKey, illustration: &Illustration) -> Self {
+        Self {
+            key,
+            illustration: illustration.clone(),
+            assets: Assets::default(),
+            resources: Resources::default(),
+            work: TissueWork::new(clock),
+            host: Renderer::new(gpu.clone(), clock),
+            incoming: SubjectBuilder::default(),
+            incoming_labels: Vec::new(),
+            loading: None,
+            fraction: 0.0,
+            is_whole: false,
+            troubles: Vec::new(),
+            revision: 0,
+        }
+    }
+
+    /// Which documents it serves.
+    pub fn key(&self) -> &StockKey {
+        &self.key
+    }
+
+    /// The renderer that has the subject on the GPU.
+    pub fn host(&self) -> &Renderer {
+        &self.host
+    }
+
+    /// Grows when the pictures have to be drawn anew.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// Takes what should be fetched next, if anything, and counts it as under way: the subject, then label volumes.
+    pub fn next(&mut self) -> Option<Want> {
+        if self.loading.is_some() || self.has_failed() {
+            return None;
+        }
+        let mut missing = self.assets.missing(&self.illustration);
+        missing.retain(|want| match want.role {
+            Role::Subject => true,
+            Role::Segments => self.is_whole && want.src().is_some(),
+            Role::Field => false,
+        });
+        missing.retain(|want| !self.assets.is_refused(want));
+        self.loading = missing.into_iter().next();
+        self.fraction = 0.0;
+        self.loading.clone()
+    }
+
+    /// A displacement field that an illustration shows and that has not come, if it was not refused.
+    pub fn missing_fields(&self, shown: &Illustration) -> Vec<Want> {
+        let mut missing = self.assets.missing(shown);
+        missing.retain(|want| want.role == Role::Field && !self.assets.is_refused(want));
+        missing
+    }
+
+    /// What is under way, and how far it is, 0 to 1.
+    pub fn loading(&self) -> Option<(&Want, f32)> {
+        self.loading.as_ref().map(|want| (want, self.fraction))
+    }
+
+    /// Tries again what could not be had, for example because the reader gives a file now. True if the subject is
+    /// wanted.
+    pub fn retry(&mut self) -> bool {
+        self.troubles.clear();
+        self.assets.forget_addresses();
+        (self.loading, self.incoming) = (None, SubjectBuilder::default());
+        !self.is_whole
+    }
+
+    /// What is wrong, the newest last.
+    pub fn troubles(&self) -> &[Trouble] {
+        &self.troubles
+    }
+
+    /// There will be no subject.
+    pub fn has_failed(&self) -> bool {
+        self.troubles.iter().any(|trouble| trouble.is_fatal)
+    }
+
+    /// True when everything has come that will come, and is on the GPU.
+    pub fn is_settled(&self) -> bool {
+        let is_made = !self.work.is_behind(&self.assets, &self.illustration);
+        self.has_failed() || (self.is_whole && self.loading.is_none() && is_made)
+    }
+
+    /// Nothing more will come of what is under way, and why.
+    pub fn fail(&mut self, message: String) {
+        (self.incoming, self.incoming_labels) = (SubjectBuilder::default(), Vec::new());
+        let want = self.loading.take();
+        let is_fatal = want.as_ref().is_none_or(|want| want.role == Role::Subject);
+        if let Some(want) = want {
+            self.assets.refuse(&want);
+        }
+        self.troubles.push(Trouble { message, is_fatal });
+        self.revision += 1;
+    }
+
+    /// Hears what has come of what is under way.
+    pub fn take(&mut self, event: LoadEvent) {
+        match event {
+            LoadEvent::Part(part) => {
+                if let Err(why) = self.incoming.take(part) {
+                    self.fail(why);
+                }
+            }
+            LoadEvent::Progress { fraction, .. } => self.fraction = fraction,
+            LoadEvent::Coarse => self.show_incoming(None),
+            LoadEvent::LabelFile(file) => self.incoming_labels.push(*file),
+            LoadEvent::Done { sha256 } => self.take_end(sha256),
+            LoadEvent::Notice(message) => self.troubles.push(Trouble {
+                message,
+                is_fatal: false,
+            }),
+            LoadEvent::Failed { message, .. } => self.fail(message),
+            LoadEvent::AskRaw(_) => {
+                self.fail("The file does not say how its voxels lie".to_owned());
+            }
+            LoadEvent::Cancelled => self.fail("Loading was stopped".to_owned()),
+            LoadEvent::Frames { .. } | LoadEvent::Modality(_) => {}
+        }
+    }
+
+    /// A load has ended well.
+    fn take_end(&mut self, sha256: Option<String>) {
+        let Some(want) = self.loading.clone() else {
+            return;
+        };
+        if want.role == Role::Subject {
+            if let Some(found) = &sha256
+                && let Err(other) = want.check(found)
+            {
+                return self.fail(other.to_string());
+            }
+            self.show_incoming(sha256);
+            self.is_whole = !self.has_failed();
+        }
+        self.loading = None;
+        for file in std::mem::take(&mut self.incoming_labels) {
+            let data = Data::Segments(file);
+            match want.role {
+                Role::Segments => {
+                    if let Err(other) = self.assets.take(&want, data) {
+                        self.troubles.push(Trouble {
+                            message: other.to_string(),
+                            is_fatal: false,
+                        });
+                    }
+                }
+                _ => self.assets.give(data),
+            }
+        }
+        self.revision += 1;
+    }
+
+    /// A displacement field has come, or why there is none.
+    pub fn take_field(&mut self, want: &Want, outcome: Result<FieldFile, String>) {
+        let refused = match outcome {
+            Ok(file) => self
+                .assets
+                .take(want, Data::Field(file))
+                .map_err(|other| other.to_string()),
+            Err(why) => {
+                self.assets.refuse(want);
+                Err(why)
+            }
+        };
+        if let Err(message) = refused {
+            self.troubles.push(Trouble {
+                message,
+                is_fatal: false,
+            });
+        }
+        self.revision += 1;
+    }
+
+    /// The samples of the fields that an illustration shows, laid over the subject.
+    pub fn resources(&mut self, shown: &Illustration) -> Resources {
+        self.assets.resources(shown).0
+    }
+
+    /// Brings the pieces that have come to the GPU and makes segments, for about `budget` seconds. True if there is
+    /// more to do.
+    ///
+    /// # Errors
+    /// Those of the renderer; a lost device has to be replaced by [`Stock::recover`].
+    pub fn advance(&mut self, budget: f32) -> Result<bool, RenderError> {
+        let state = self.host.draw([0, 0], budget, false)?;
+        let mut is_busy = state.uploading.is_some();
+        if self.assets.subject().is_some() {
+            let (resources, news) = self.assets.resources(&self.illustration);
+            self.resources = resources;
+            self.troubles.extend(news.into_iter().map(|news| Trouble {
+                message: news.to_string(),
+                is_fatal: false,
+            }));
+            let shown = &self.illustration;
+            let made = self
+                .work
+                .advance(&self.assets, &self.resources, shown, false);
+            if let Some(made) = made {
+                self.host.set_segmentation(made.segmentation)?;
+                self.revision += 1;
+            }
+            is_busy |= self.work.is_behind(&self.assets, shown);
+        }
+        Ok(is_busy)
+    }
+
+    /// Gives the subject's memory on the device back, when no picture shows it any more.
+    pub fn destroy(&mut self) {
+        self.host.destroy_own();
+        self.host.destroy_subject();
+    }
+
+    /// Goes on with another device after the old one was lost.
+    ///
+    /// # Errors
+    /// Those of the renderer.
+    pub fn recover(&mut self, gpu: Gpu) -> Result<(), RenderError> {
+        self.revision += 1;
+        self.host.recover(gpu)
+    }
+
+    fn show_incoming(&mut self, sha256: Option<String>) {
+        match std::mem::take(&mut self.incoming).finish() {
+            Some(Ok((subject, _))) => {
+                let shown = subject.clone();
+                self.assets.give(Data::Subject { subject, sha256 });
+                self.work.restart();
+                if let Err(error) = self.host.set_subject(shown) {
+                    self.fail(error.to_string());
+                }
+                self.revision += 1;
+            }
+            Some(Err(error)) => self.fail(error.to_string()),
+            None => {}
+        }
+    }
+}

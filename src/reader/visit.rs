@@ -1,0 +1,382 @@
+//! A document as one reader sees it.
+
+use std::sync::Arc;
+
+use glam::Vec2;
+use serde_json::{Value, json};
+
+use crate::document::{
+    Autoplay, Camera, Control, ControlRange, Document, DocumentError, Illustration, MAX_STEPS, Turn, Walk, axes, orbit,
+    zoom,
+};
+use crate::link;
+
+/// How far from the middle of the subject the camera's target may be moved, subject units.
+const FARTHEST_TARGET: f32 = 2.0;
+
+/// Where a reader stands in a document, from where she looks, and which values she has moved.
+#[derive(Debug)]
+pub struct Visit {
+    /// As the author made it.
+    lesson: Document,
+    /// With the values that the reader or the page has set.
+    document: Document,
+    walk: Walk,
+    playing: Option<Autoplay>,
+    /// Values that were set at this step, which may set them itself: pointer and value.
+    held: Vec<(String, Value)>,
+    camera: Camera,
+    /// The camera was turned by hand since the step was shown.
+    is_turned: bool,
+    revision: u64,
+}
+
+impl Visit {
+    /// Opens a link, a payload or a document as JSON; a link may name a step. A step behind the last is the last.
+    ///
+    /// # Errors
+    /// In words: what is wrong with the link or the document.
+    pub fn open(text: &str, step: Option<usize>) -> Result<Self, String> {
+        let (document, linked_step) = document_of(text)?;
+        let step = step.unwrap_or(linked_step).min(document.step_count());
+        let mut visit = Self {
+            lesson: document.clone(),
+            walk: Walk::at(&document, step),
+            document,
+            playing: None,
+            held: Vec::new(),
+            camera: Camera::DOCUMENT_DEFAULT,
+            is_turned: false,
+            revision: 1,
+        };
+        visit.camera = visit.shown().camera;
+        Ok(visit)
+    }
+
+    /// The document with the values that were set.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// What is to be drawn, apart from the camera.
+    pub fn shown(&self) -> &Illustration {
+        let walked = self.walk.shown();
+        walked.unwrap_or_else(|| self.document.illustration())
+    }
+
+    /// From where it is seen.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// Grows with every change of what is to be drawn.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// The step that is shown, or that a passage leads to.
+    pub fn step(&self) -> usize {
+        self.walk.step()
+    }
+
+    /// True while a passage goes on.
+    pub fn is_moving(&self) -> bool {
+        self.walk.is_moving()
+    }
+
+    /// True if turning, zooming or moving values has led away from what the author shows at this step.
+    pub fn has_strayed(&self) -> bool {
+        self.is_turned || !self.held.is_empty() || self.document != self.lesson
+    }
+
+    /// Where one stands: a whole number is a step, what lies between two is in the passage from one to the other.
+    pub fn position(&self) -> f32 {
+        self.walk.position()
+    }
+
+    /// Goes to a step at the time `now`, seconds: to a neighbour by a passage, unless `is_cut`, further at once. The
+    /// step is held within those that there are.
+    pub fn go(&mut self, step: usize, now: f64, is_cut: bool) {
+        self.playing = None;
+        self.walk_to(step, now, is_cut);
+    }
+
+    fn walk_to(&mut self, step: usize, now: f64, is_cut: bool) {
+        let step = step.min(MAX_STEPS);
+        let camera = if !self.held.is_empty() && step == self.walk.step() {
+            self.walk = Walk::at(&self.document, step);
+            None
+        } else {
+            let from = (now, self.camera);
+            self.walk.go(&self.document, step, from, is_cut)
+        };
+        if let Some(camera) = camera {
+            self.camera = camera;
+            self.is_turned = false;
+        }
+        self.held.clear();
+        self.revision += 1;
+    }
+
+    /// True while the lesson plays by itself.
+    pub fn is_playing(&self) -> bool {
+        self.playing.is_some()
+    }
+
+    /// Begins to play at what is shown at the time `now`, seconds: on to the next step, after the last one from the
+    /// start; or stands still.
+    pub fn toggle_playing(&mut self, now: f64, is_cut: bool) {
+        if self.playing.take().is_some() {
+            self.walk.pause();
+        } else if self.document.step_count() > 0 {
+            let is_paused = self.walk.is_between() && !self.walk.is_moving();
+            let (first, is_start) =
+                Autoplay::first(self.walk.step(), is_paused, self.document.step_count());
+            self.walk_to(first, now, is_cut || is_start);
+            self.playing = Some(Autoplay::default());
+        }
+        self.revision += 1;
+    }
+
+    /// Goes on with a passage, or with a lesson that plays, to the time `now`, seconds. True while a passage is under
+    /// way.
+    pub fn advance(&mut self, now: f64, is_cut: bool) -> bool {
+        if self.walk.is_moving() {
+            if let Some(camera) = self.walk.advance(&self.document, now) {
+                self.camera = camera;
+                self.is_turned = false;
+            }
+            self.revision += 1;
+        }
+        if let Some(mut playing) = self.playing {
+            let (step, steps) = (self.walk.step(), &self.document.illustration().steps);
+            let turn = playing.turn(step, self.walk.is_moving(), steps, now);
+            self.playing = Some(playing).filter(|_| turn != Turn::Ends);
+            if turn == Turn::GoesOn {
+                self.walk_to(step + 1, now, is_cut);
+            }
+        }
+        self.walk.is_moving()
+    }
+
+    /// How long a lesson that plays still stays at its step, seconds.
+    pub fn seconds_to_next_step(&self, now: f64) -> Option<f64> {
+        let steps = &self.document.illustration().steps;
+        self.playing?.seconds_left(self.walk.step(), steps, now)
+    }
+
+    /// Stands still at a place between steps: 1.5 is the middle of the passage from step 1 to step 2.
+    pub fn scrub(&mut self, position: f32) {
+        let position = if position.is_finite() { position } else { 0.0 };
+        self.playing = None;
+        self.held.clear();
+        if let Some(camera) = self.walk.scrub(&self.document, position) {
+            self.camera = camera;
+            self.is_turned = false;
+        }
+        self.revision += 1;
+    }
+
+    /// Sets one value of what is shown, by its JSON pointer. It stays set in the steps that do not set it themselves.
+    /// The camera stays, unless that is what is set.
+    ///
+    /// # Errors
+    /// [`DocumentError`]: what is wrong with the pointer or the value; nothing is changed then.
+    pub fn set(&mut self, pointer: &str, value: Value) -> Result<(), DocumentError> {
+        let document = self.document.with(pointer, value.clone())?;
+        let step = self.walk.step();
+        let mut held = std::mem::take(&mut self.held);
+        held.retain(|(other, _)| other != pointer);
+        held.push((pointer.to_owned(), value));
+        let mut walk = Walk::at(&document, step);
+        if step > 0 {
+            let mut state = document.at_step(step)?;
+            for (pointer, value) in &held {
+                state = state.with(pointer, value.clone())?;
+            }
+            walk.show(Arc::new(state.illustration().clone()));
+        }
+        (self.document, self.walk, self.held, self.playing) = (document, walk, held, None);
+        if pointer.starts_with("/camera") {
+            self.camera = self.shown().camera;
+        }
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// The values of the document's controls at this step, in their order: numbers, or true and false.
+    pub fn control_values(&self) -> Vec<Value> {
+        let state = self.document.at_step(self.walk.step());
+        let state = state.as_ref().unwrap_or(&self.document);
+        let controls = self.document.illustration().controls.iter();
+        let value = |control: &Control| {
+            let held = self.held.iter().find(|(at, _)| *at == control.pointer);
+            let value = held.map(|(_, value)| value).or(state.get(&control.pointer));
+            value.cloned().unwrap_or_else(|| match control.range {
+                ControlRange::Flag(default) => json!(default),
+                ControlRange::Number { default, .. } => json!(default),
+            })
+        };
+        controls.map(value).collect()
+    }
+
+    /// Back to what the author shows at this step: view and values.
+    pub fn reset(&mut self) {
+        let step = self.walk.step();
+        self.document = self.lesson.clone();
+        self.walk = Walk::at(&self.document, step);
+        self.held.clear();
+        self.playing = None;
+        self.camera = self.shown().camera;
+        self.is_turned = false;
+        self.revision += 1;
+    }
+
+    /// Turns the object under the hand: radians to the right and down.
+    pub fn turn(&mut self, right: f32, down: f32) {
+        if right.is_finite() && down.is_finite() {
+            orbit(&mut self.camera, Vec2::new(right, down));
+            self.moved_camera();
+        }
+    }
+
+    /// Comes closer by a factor above 1, goes away by one below.
+    pub fn zoom(&mut self, factor: f32) {
+        zoom(&mut self.camera, factor);
+        self.moved_camera();
+    }
+
+    /// Moves the object in the picture: parts of the picture's shorter side to the right and down.
+    pub fn shift(&mut self, right: f32, down: f32) {
+        if !(right.is_finite() && down.is_finite()) {
+            return;
+        }
+        let camera = &mut self.camera;
+        let [to_right, up, _] = axes(camera.rotate);
+        let side = 2.0 * camera.distance * (0.5 * camera.fov_deg.to_radians()).tan();
+        let target = camera.target + (up * down - to_right * right) * side;
+        camera.target = target.clamp(
+            glam::Vec3::splat(-FARTHEST_TARGET),
+            glam::Vec3::splat(FARTHEST_TARGET),
+        );
+        self.moved_camera();
+    }
+
+    fn moved_camera(&mut self) {
+        self.is_turned = true;
+        self.revision += 1;
+    }
+}
+
+/// The document of a link, a payload or JSON, and the step that a link asks for.
+///
+/// # Errors
+/// In words: what is wrong with it.
+pub(super) fn document_of(text: &str) -> Result<(Document, usize), String> {
+    let text = text.trim_start_matches('\u{feff}').trim();
+    if text.starts_with('{') {
+        let document = Document::from_json(text).map_err(|error| error.to_string())?;
+        return Ok((document, 0));
+    }
+    let link = link::decode(text).map_err(|error| error.to_string())?;
+    Ok((link.document, link.step))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LESSON: &str = r#"{ "fabrica": 1, "title": "Opening", "subject": { "builtin": "cube" },
+        "templates": [{ "kind": "split", "params": { "amount": 0 } }, { "kind": "twist" }],
+        "steps": [{ "set": { "/templates/0/params/amount": 0.3 }, "seconds": 2 },
+                  { "set": { "/camera/distance": 1.5 } }] }"#;
+    const AMOUNT: &str = "/templates/0/params/amount";
+
+    fn amount(visit: &Visit) -> f64 {
+        let spec = visit.shown().templates[0].kind.spec();
+        let index = spec.params.iter().position(|p| p.name == "amount");
+        match visit.shown().templates[0].params[index.expect("an amount")] {
+            crate::document::ParamValue::Number(value) => f64::from(value),
+            _ => panic!("a number"),
+        }
+    }
+
+    fn near(a: f64, b: f64) -> bool {
+        (a - b).abs() < 1e-6
+    }
+
+    #[test]
+    fn steps_are_walked_and_the_camera_stays_where_no_step_turns_it() {
+        let mut visit = Visit::open(LESSON, None).expect("a document");
+        visit.turn(0.5, 0.1);
+        let turned = *visit.camera();
+        assert!(visit.has_strayed());
+        visit.go(1, 10.0, false);
+        assert!(visit.advance(11.0, false) && near(amount(&visit), 0.15));
+        assert!(!visit.advance(12.5, false) && near(amount(&visit), 0.3));
+        assert_eq!(*visit.camera(), turned, "the step leaves the camera alone");
+        visit.go(2, 13.0, true);
+        assert!(!visit.is_moving());
+        assert!(near(f64::from(visit.camera().distance), 1.5));
+        visit.go(99, 14.0, true);
+        assert_eq!(visit.step(), 2, "the last one");
+    }
+
+    #[test]
+    fn a_value_is_moved_at_any_step_and_taken_back() {
+        let mut visit = Visit::open(LESSON, Some(1)).expect("a document");
+        let camera = *visit.camera();
+        visit.set(AMOUNT, json!(0.1)).expect("a number");
+        assert!(near(amount(&visit), 0.1), "over what the step sets");
+        assert_eq!(*visit.camera(), camera);
+        visit.go(0, 0.0, true);
+        assert!(near(amount(&visit), 0.1), "it stays set");
+        visit.go(1, 0.0, true);
+        assert!(near(amount(&visit), 0.3), "the step sets its own");
+        visit.reset();
+        assert!(!visit.has_strayed());
+        visit.go(0, 0.0, true);
+        assert!(near(amount(&visit), 0.0));
+    }
+
+    #[test]
+    fn every_place_between_steps_can_be_shown() {
+        let mut visit = Visit::open(LESSON, None).expect("a document");
+        for (place, wanted) in [
+            (0.5, 0.15),
+            (1.0, 0.3),
+            (0.0, 0.0),
+            (9.0, 0.3),
+            (f64::NAN, 0.0),
+        ] {
+            visit.scrub(place);
+            assert!(near(amount(&visit), wanted), "{place}: {}", amount(&visit));
+        }
+        visit.scrub(1.5);
+        let distance = visit.camera().distance;
+        assert!(distance > 1.5 && distance < 2.5, "{distance}");
+        assert_eq!(visit.step(), 1);
+    }
+
+    #[test]
+    fn wrong_values_change_nothing() {
+        let mut visit = Visit::open(LESSON, Some(1)).expect("a document");
+        let revision = visit.revision();
+        for (pointer, value) in [
+            (AMOUNT, json!("wide")),
+            ("/templates/9/params/amount", json!(1)),
+            ("no pointer", json!(1)),
+            ("/steps/0/set", json!(7)),
+        ] {
+            assert!(visit.set(pointer, value).is_err(), "{pointer}");
+        }
+        visit.turn(f32::NAN, 0.0);
+        visit.shift(f32::INFINITY, 0.0);
+        assert_eq!(visit.revision(), revision);
+        visit.zoom(f32::NAN);
+        assert!(visit.camera().distance.is_finite());
+        for text in ["", "#", "{", r#"{"fabrica":2}"#, "#aGVsbG8"] {
+            assert!(Visit::open(text, None).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,230 @@
+//! Where the tissue of captions is in the deformed object, and whether something lies before it.
+
+use super::follow::PendingPlaces;
+use super::pick::PendingPick;
+use super::renderer::Renderer;
+use super::studio::Studio;
+use crate::document::{Camera, Illustration, PlacedTemplate, Recipe, SubjectRef};
+use crate::render::device::error::RenderError;
+use crate::render::pack::view::View;
+use glam::Vec3;
+
+/// Captions whose sight is asked for; the others are taken as seen.
+const MOST_SEEN: usize = 32;
+/// A caption's tissue nearer to the surface than this is on it, subject units.
+const SKIN: f32 = 0.02;
+
+/// Where the tissue of a caption is, subject space, and whether something lies before it. `None`: it is cut away.
+pub type CaptionPlace = Option<(Vec3, bool)>;
+
+/// What the places of captions depend on.
+#[derive(Clone, Debug)]
+struct Cause {
+    subject: SubjectRef,
+    recipes: Vec<Recipe>,
+    segments: usize,
+    templates: Vec<PlacedTemplate>,
+    /// Points of tissue that are followed, rest space: one per caption; and whether that is drawn.
+    points: Vec<Vec3>,
+    drawn: Vec<bool>,
+}
+
+impl Cause {
+    fn of(shown: &Illustration, segments: usize) -> Self {
+        Self {
+            subject: shown.subject.clone(),
+            recipes: shown.recipes.clone(),
+            segments,
+            templates: shown.templates.clone(),
+            points: shown.captions.iter().map(|caption| caption.at).collect(),
+            drawn: shown
+                .captions
+                .iter()
+                .map(|caption| caption.enabled)
+                .collect(),
+        }
+    }
+
+    /// True if [`Cause::of`] would give an equal value. Copies nothing, since this is asked in every frame.
+    fn is_of(&self, shown: &Illustration, segments: usize) -> bool {
+        self.segments == segments
+            && self.subject == shown.subject
+            && self.recipes == shown.recipes
+            && self.templates == shown.templates
+            && self.points.iter().zip(&self.drawn).eq(shown
+                .captions
+                .iter()
+                .map(|caption| (&caption.at, &caption.enabled)))
+    }
+}
+
+/// True if the surface that is seen there, `seen_depth` from the eye, lies in front of a caption's place. False if
+/// nothing is seen.
+fn is_behind(place: Vec3, seen_depth: Option<f32>, eye: Vec3) -> bool {
+    seen_depth.is_some_and(|depth| depth + SKIN < place.distance(eye))
+}
+
+/// Where the captions' tissue is, asked of the GPU whenever that changes.
+#[derive(Debug, Default)]
+pub struct FollowedCaptions {
+    known: Option<Cause>,
+    /// Subject space; `None`: cut away.
+    places: Vec<Option<Vec3>>,
+    pending: Option<(Cause, PendingPlaces)>,
+    /// The camera that looked whether something lies before each caption.
+    sight: Option<Camera>,
+    hidden: Vec<bool>,
+    /// What lies before which caption, on its way.
+    sights: Vec<(usize, PendingPick)>,
+}
+
+impl FollowedCaptions {
+    /// Takes answers and asks anew. `shown` is what the renderer draws, `camera` where it looks from and `size_px` the
+    /// size of its picture; `is_done` says that the picture is complete. True if it wants to be called again soon.
+    pub fn update(
+        &mut self,
+        renderer: &mut Renderer,
+        (shown, camera): (&Illustration, &Camera),
+        size_px: [u32; 2],
+        is_done: bool,
+    ) -> bool {
+        self.take_sights(&View::new(camera, size_px));
+        let mut is_waiting = !self.sights.is_empty();
+        if let Some((cause, pending)) = &mut self.pending
+            && let Some(answer) = pending.poll_now()
+        {
+            // The picture reports a lost device; with another one the question is asked again.
+            if let Ok(places) = answer {
+                self.places = places;
+                self.known = Some(cause.clone());
+                self.sight = None;
+            }
+            self.pending = None;
+            is_waiting = true;
+        }
+        if shown.captions.is_empty() {
+            *self = Self::default();
+            return is_waiting;
+        }
+        let segments = renderer.segments().len();
+        let is_known = |cause: &Cause| cause.is_of(shown, segments);
+        if self.pending.is_some() {
+            is_waiting = true;
+        } else if !self.known.as_ref().is_some_and(is_known) {
+            let cause = Cause::of(shown, segments);
+            if cause.templates.iter().all(|t| !t.acting().enabled) {
+                self.places = cause.points.iter().copied().map(Some).collect();
+                self.known = Some(cause);
+                self.sight = None;
+            } else if let Ok(pending) = renderer.follow_points(&cause.points) {
+                self.pending = Some((cause, pending));
+                is_waiting = true;
+            }
+        } else if self.sight != Some(*camera) && is_done {
+            self.sight = Some(*camera);
+            self.hidden.resize(self.places.len(), false);
+            self.ask_sight(renderer, shown, &View::new(camera, size_px), size_px);
+        }
+        is_waiting
+    }
+
+    fn ask_sight(
+        &mut self,
+        renderer: &mut Renderer,
+        shown: &Illustration,
+        view: &View,
+        size_px: [u32; 2],
+    ) {
+        self.sights.clear();
+        let is_drawn =
+            |(index, _): &(usize, _)| shown.captions.get(*index).is_some_and(|c| c.enabled);
+        let drawn = self.places.iter().enumerate().filter(is_drawn);
+        for (index, place) in drawn.take(MOST_SEEN) {
+            let pixel = place.and_then(|place| view.pixel_from_subject(place));
+            let is_in_picture =
+                |p: &glam::Vec2| p.cmpge(glam::Vec2::ZERO).all() && p.cmple(view.size_px).all();
+            if let Some(pixel) = pixel.filter(is_in_picture)
+                // A question that cannot be asked is no reason for a message.
+                && let Ok(pending) = renderer.pick(pixel, size_px)
+            {
+                self.sights.push((index, pending));
+            }
+        }
+    }
+
+    /// True while places are asked for that are not known.
+    pub fn is_asking(&self) -> bool {
+        self.pending.is_some()
+    }
+
+    /// True while it is asked what lies before captions.
+    pub fn is_waiting(&self) -> bool {
+        !self.sights.is_empty()
+    }
+
+    /// Takes answers about the surface in front of captions: a surface nearer to the eye than the tissue hides the
+    /// caption.
+    fn take_sights(&mut self, view: &View) {
+        let eye = view.eye();
+        let (places, hidden) = (&self.places, &mut self.hidden);
+        self.sights.retain_mut(|(index, pending)| {
+            let Some(answer) = pending.poll_now() else {
+                return true;
+            };
+            let place = places.get(*index).copied().flatten();
+            // The picture reports a lost device.
+            if let (Ok(pick), Some(place), Some(hidden)) = (answer, place, hidden.get_mut(*index)) {
+                *hidden = is_behind(place, pick.map(|pick| pick.depth), eye);
+            }
+            false
+        });
+    }
+
+    /// Where a caption of the document is, as far as that is known.
+    pub fn place(&self, index: usize) -> CaptionPlace {
+        let place = self.places.get(index).copied().flatten()?;
+        let is_hidden = self.hidden.get(index).copied().unwrap_or_default();
+        Some((place, is_hidden))
+    }
+
+    /// Where each caption of the document is, as far as that is known.
+    pub fn places(&self) -> Vec<CaptionPlace> {
+        (0..self.places.len())
+            .map(|index| self.place(index))
+            .collect()
+    }
+}
+
+/// Where each caption of an illustration is in a picture of that size, for lettering it.
+///
+/// # Errors
+/// Those of the renderer.
+pub async fn caption_places(
+    studio: &Studio,
+    illustration: &Illustration,
+    size_px: [u32; 2],
+) -> Result<Vec<CaptionPlace>, RenderError> {
+    let points: Vec<Vec3> = illustration
+        .captions
+        .iter()
+        .map(|caption| caption.at)
+        .collect();
+    let places = studio.follow_points(illustration, &points).await?;
+    let view = View::new(&illustration.camera, size_px);
+    let mut captions = Vec::with_capacity(places.len());
+    for (index, place) in places.into_iter().enumerate() {
+        let is_drawn = illustration
+            .captions
+            .get(index)
+            .is_some_and(|caption| caption.enabled);
+        let place = place.filter(|_| is_drawn);
+        let pixel = place.and_then(|place| view.pixel_from_subject(place));
+        let pick = match pixel.filter(|_| index < MOST_SEEN) {
+            Some(pixel) => studio.pick(illustration, size_px, pixel).await?,
+            None => None,
+        };
+        let depth = pick.map(|pick| pick.depth);
+        captions.push(place.map(|place| (place, is_behind(place, depth, view.eye()))));
+    }
+    Ok(captions)
+}

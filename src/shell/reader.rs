@@ -1,0 +1,749 @@
+//! The lesson's viewer as `web/reader.js` sees it: one device and one set of data for all pictures of a page.
+
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::{Rc, Weak};
+
+use js_sys::{Array, Function, Uint8ClampedArray};
+use serde_json::{Value, json};
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::spawn_local;
+use web_sys::{Blob, HtmlCanvasElement};
+
+use super::address::{absolute, fetched, foreign_host};
+use super::loading::wanted_file;
+use super::worker::answer::Answer;
+use super::worker::fault::text_of;
+use super::worker::run::{self, WorkerLoad};
+use super::worker::task::{Part, ScanTask, Task};
+use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
+use crate::reader::{Picture, Stock, StockKey, Visit, outline};
+use crate::render::{Gpu, GpuOptions, RenderError};
+
+/// Called once when the program has been loaded.
+pub fn loaded() {}
+
+/// Seconds since the page was opened.
+fn seconds() -> f64 {
+    let performance = web_sys::window().and_then(|w| w.performance());
+    performance.map_or(0.0, |p| p.now() * 1e-3)
+}
+
+/// The texts of a link, a payload or a document, as JSON: see `fabrica::reader::outline`.
+///
+/// # Errors
+/// What is wrong with the link or the document.
+#[wasm_bindgen]
+pub fn outline_of(text: &str) -> Result<String, JsValue> {
+    Ok(outline(text).map_err(JsValue::from)?.to_string())
+}
+
+/// The picture may be shown.
+const HAS_PICTURE: u32 = 1;
+/// The picture is complete, and nothing is under way for it.
+const IS_DONE: u32 = 2;
+/// A passage goes on.
+const IS_MOVING: u32 = 4;
+
+/// A picture and the canvas that it is shown on.
+struct Shown {
+    picture: Picture,
+    canvas: HtmlCanvasElement,
+    surface: Option<wgpu::Surface<'static>>,
+    configured: [u32; 2],
+    stock: u32,
+    base: String,
+}
+
+/// A stock and what is being fetched for it.
+struct Stocked {
+    stock: Stock,
+    load: Option<WorkerLoad>,
+    /// The want of a host that the reader has to agree to, with its address.
+    asks: Option<(Want, String, String)>,
+    /// A file that only the reader has.
+    wants_file: bool,
+    /// Fields that are being fetched.
+    fields: Vec<Want>,
+}
+
+struct Inner {
+    instance: wgpu::Instance,
+    gpu: Gpu,
+    /// Address of worker.js.
+    worker: String,
+    shown: BTreeMap<u32, Shown>,
+    stocks: BTreeMap<u32, Stocked>,
+    next_id: u32,
+    allowed_hosts: BTreeSet<String>,
+    /// Passages are cut, since the reader wants less motion.
+    has_less_motion: bool,
+    /// Called when something has come of a load.
+    on_news: Function,
+}
+
+/// All pictures of a page.
+#[wasm_bindgen]
+pub struct Reader {
+    inner: Rc<RefCell<Inner>>,
+    is_lost: Cell<bool>,
+}
+
+#[wasm_bindgen]
+impl Reader {
+    /// Opens a device. `worker` is the address of worker.js; `on_news` is called when something has come of a load, so
+    /// that a frame is due.
+    ///
+    /// # Errors
+    /// If there is no device.
+    pub async fn start(worker: String, on_news: Function) -> Result<Reader, JsValue> {
+        let gpu = open_gpu().await?;
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+        descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
+        let inner = Inner {
+            instance: wgpu::Instance::new(descriptor),
+            gpu,
+            worker,
+            shown: BTreeMap::new(),
+            stocks: BTreeMap::new(),
+            next_id: 1,
+            allowed_hosts: BTreeSet::new(),
+            has_less_motion: false,
+            on_news,
+        };
+        Ok(Self {
+            inner: Rc::new(RefCell::new(inner)),
+            is_lost: Cell::new(false),
+        })
+    }
+
+    /// Takes a worker that web/parts.js started for the part of this name; the part's next task goes to it.
+    pub fn lend(&self, part: &str, worker: web_sys::Worker) {
+        if let Some(part) = Part::of_name(part) {
+            run::lend(part, worker);
+        }
+    }
+
+    /// Adds a picture of a link, a payload or a document, at a step or at that of the link. `base` is what relative
+    /// addresses start from. Returns the number that the picture has from now on.
+    ///
+    /// # Errors
+    /// What is wrong with the link or the document, or with the canvas.
+    pub fn add(
+        &self,
+        canvas: HtmlCanvasElement,
+        text: &str,
+        base: String,
+        step: Option<usize>,
+    ) -> Result<u32, JsValue> {
+        let visit = Visit::open(text, step).map_err(JsValue::from)?;
+        let mut inner = self.inner.borrow_mut();
+        let inner = &mut *inner;
+        let surface = inner.surface(&canvas)?;
+        let id = inner.new_id();
+        let mut shown = Shown {
+            picture: Picture::new(inner.gpu.clone(), seconds, visit),
+            canvas,
+            surface: Some(surface),
+            configured: [0, 0],
+            stock: 0,
+            base,
+        };
+        shown.stock = inner.stock_for(&shown.picture.visit, &shown.base);
+        inner.shown.insert(id, shown);
+        Ok(id)
+    }
+
+    /// Takes a picture away, with the data that only it has used.
+    pub fn remove(&self, id: u32) {
+        let mut inner = self.inner.borrow_mut();
+        if let Some(mut shown) = inner.shown.remove(&id) {
+            shown.picture.destroy();
+        }
+        inner.drop_unused();
+    }
+
+    /// Gives the picture's memory on the device back; what its canvas shows stays. The next [`Reader::draw`] makes it
+    /// anew.
+    pub fn rest(&self, id: u32) {
+        if let Some(shown) = self.inner.borrow_mut().shown.get_mut(&id) {
+            shown.picture.destroy();
+        }
+    }
+
+    /// Takes everything away, the device too.
+    pub fn destroy(&self) {
+        let mut inner = self.inner.borrow_mut();
+        for shown in inner.shown.values_mut() {
+            shown.picture.destroy();
+        }
+        inner.shown.clear();
+        inner.drop_unused();
+        inner.gpu.device.destroy();
+    }
+
+    /// Goes on with data: fetches, uploads, makes segments, for about `budget` seconds. True if there is more to do at
+    /// once.
+    pub fn tick(&self, budget: f32) -> bool {
+        Inner::fetch(&self.inner);
+        let mut inner = self.inner.borrow_mut();
+        let mut is_busy = false;
+        for stocked in inner.stocks.values_mut() {
+            match stocked.stock.advance(budget) {
+                Ok(more) => is_busy |= more,
+                Err(RenderError::DeviceLost(_)) => self.is_lost.set(true),
+                Err(error) => stocked.stock.fail(error.to_string()),
+            }
+        }
+        is_busy
+    }
+
+    /// One frame of a picture, of this size in pixels, at the time `now` (seconds, as `performance.now()` / 1000).
+    /// `is_moving` says that more changes are about to come. Returns what became of it: the sum of 1 (there is a
+    /// picture, and the canvas has it), 2 (it is complete, with all data), 4 (a passage goes on).
+    ///
+    /// # Errors
+    /// In words: why nothing can be drawn.
+    pub fn draw(
+        &self,
+        id: u32,
+        width: u32,
+        height: u32,
+        now: f64,
+        budget: f32,
+        is_moving: bool,
+    ) -> Result<u32, JsValue> {
+        let mut inner = self.inner.borrow_mut();
+        let inner = &mut *inner;
+        let Some(shown) = inner.shown.get_mut(&id) else {
+            return Ok(0);
+        };
+        let Some(stocked) = inner.stocks.get_mut(&shown.stock) else {
+            return Ok(0);
+        };
+        let is_cut = inner.has_less_motion;
+        let passes = match shown.picture.is_asking() {
+            true => shown.picture.visit.is_moving(),
+            false => shown.picture.visit.advance(now, is_cut),
+        };
+        let size = [width.max(1), height.max(1)];
+        let is_moving = is_moving || passes;
+        let was_complete = shown.picture.is_complete();
+        let drawn = match shown
+            .picture
+            .draw(&mut stocked.stock, size, budget, is_moving)
+        {
+            Ok(drawn) => drawn,
+            Err(RenderError::DeviceLost(_)) => {
+                self.is_lost.set(true);
+                return Ok(0);
+            }
+            Err(error) => return Err(error.to_string().into()),
+        };
+        let mut flags = 0;
+        if drawn.has_picture {
+            if !(was_complete && shown.picture.is_complete()) || shown.configured == [0, 0] {
+                shown.present(&inner.gpu);
+            }
+            flags |= HAS_PICTURE;
+        }
+        if passes {
+            flags |= IS_MOVING;
+        }
+        let is_settled = stocked.stock.is_settled() && stocked.fields.is_empty();
+        if drawn.is_done && is_settled && !passes {
+            flags |= IS_DONE;
+        }
+        Ok(flags)
+    }
+
+    /// Where a picture stands at the time `now`, seconds, and what it waits for, as JSON: `progress` (0 to 1, or null while nothing is loaded), `host` (that the reader
+    /// has to agree to, or null), `file` (true if only the reader has it), `troubles` (texts), `failed` (there is no
+    /// subject), `step`, `position`, `moving`, `playing`, `wait` (seconds to the next step, or null), `strayed`, `values` (of
+    /// the document's controls).
+    pub fn state(&self, id: u32, now: f64) -> String {
+        let inner = self.inner.borrow();
+        let Some(shown) = inner.shown.get(&id) else {
+            return "{}".to_owned();
+        };
+        let Some(stocked) = inner.stocks.get(&shown.stock) else {
+            return "{}".to_owned();
+        };
+        let (stock, visit) = (&stocked.stock, &shown.picture.visit);
+        let troubles: Vec<&str> = stock
+            .troubles()
+            .iter()
+            .map(|t| t.message.as_str())
+            .collect();
+        json!({
+            "progress": stock.loading().map(|(_, fraction)| fraction),
+            "host": stocked.asks.as_ref().map(|(_, _, host)| host),
+            "file": stocked.wants_file,
+            "troubles": troubles,
+            "failed": stock.has_failed(),
+            "step": visit.step(),
+            "position": visit.position(),
+            "moving": visit.is_moving(),
+            "playing": visit.is_playing(),
+            "wait": visit.seconds_to_next_step(now),
+            "strayed": visit.has_strayed(),
+            "values": visit.control_values(),
+        })
+        .to_string()
+    }
+
+    /// The reader agrees to fetch from the host that a picture's data lie on.
+    pub fn allow(&self, id: u32) {
+        let mut inner = self.inner.borrow_mut();
+        let inner = &mut *inner;
+        let stock = inner.shown.get(&id).map(|shown| shown.stock);
+        let asks = stock
+            .and_then(|stock| inner.stocks.get_mut(&stock))
+            .and_then(|stocked| stocked.asks.take());
+        if let (Some((want, address, host)), Some(stock)) = (asks, stock) {
+            inner.allowed_hosts.insert(host);
+            let started = inner.start_load(stock, &address_task(address, &want), &self.inner);
+            inner.loads(stock, started);
+        }
+    }
+
+    /// The reader gives the files that a picture asks for.
+    pub fn give(&self, id: u32, files: Array) {
+        let files: Vec<(String, Blob)> = files
+            .iter()
+            .filter_map(|file| file.dyn_into::<web_sys::File>().ok())
+            .map(|file| (file.name(), file.into()))
+            .collect();
+        let mut inner = self.inner.borrow_mut();
+        let inner = &mut *inner;
+        let Some(stock) = inner.shown.get(&id).map(|shown| shown.stock) else {
+            return;
+        };
+        let Some(stocked) = inner.stocks.get_mut(&stock) else {
+            return;
+        };
+        if files.is_empty() || !stocked.stock.retry() {
+            return;
+        }
+        stocked.wants_file = false;
+        let Some(want) = stocked.stock.next() else {
+            return;
+        };
+        let task = Task::Scan(ScanTask::Files {
+            files,
+            reading: want.reading,
+            segmentations: SegmentationsExpected::default(),
+            may_be_field: false,
+        });
+        let started = inner.start_load(stock, &task, &self.inner);
+        inner.loads(stock, started);
+    }
+
+    /// Whether the reader wants less motion: passages are cut then.
+    pub fn set_less_motion(&self, has_less_motion: bool) {
+        self.inner.borrow_mut().has_less_motion = has_less_motion;
+    }
+
+    /// Goes to a step at the time `now`, seconds. Returns the step that is shown or under way to.
+    pub fn go(&self, id: u32, step: usize, now: f64) -> usize {
+        let is_cut = self.inner.borrow().has_less_motion;
+        self.with(id, |visit| {
+            visit.go(step, now, is_cut);
+            visit.step()
+        })
+    }
+
+    /// Plays the lesson from what is shown at the time `now`, seconds, or stands still.
+    pub fn toggle_playing(&self, id: u32, now: f64) {
+        let is_cut = self.inner.borrow().has_less_motion;
+        self.with(id, |visit| visit.toggle_playing(now, is_cut));
+    }
+
+    /// Shows a place between steps: 1.5 is the middle of the passage from step 1 to step 2.
+    pub fn scrub(&self, id: u32, position: f32) {
+        self.with(id, |visit| visit.scrub(position));
+    }
+
+    /// Turns the object under the hand: radians to the right and down.
+    pub fn turn(&self, id: u32, right: f32, down: f32) {
+        self.with(id, |visit| visit.turn(right, down));
+    }
+
+    /// Comes closer by a factor above 1, goes away by one below.
+    pub fn zoom(&self, id: u32, factor: f32) {
+        self.with(id, |visit| visit.zoom(factor));
+    }
+
+    /// Moves the object in the picture: parts of the picture's shorter side to the right and down.
+    pub fn shift(&self, id: u32, right: f32, down: f32) {
+        self.with(id, |visit| visit.shift(right, down));
+    }
+
+    /// Back to what the author shows at this step.
+    pub fn reset(&self, id: u32) {
+        self.with(id, Visit::reset);
+        self.inner.borrow_mut().restock(id);
+    }
+
+    /// The camera, as the document has it: JSON.
+    pub fn view(&self, id: u32) -> String {
+        self.with(id, |visit| {
+            let camera = visit.camera();
+            json!({
+                "target": camera.target.to_array(),
+                "rotate": camera.rotate.to_array(),
+                "distance": camera.distance,
+                "fov": camera.fov_deg,
+            })
+            .to_string()
+        })
+    }
+
+    /// Sets one value of what is shown, by its JSON pointer, to a value given as JSON.
+    ///
+    /// # Errors
+    /// What is wrong with the pointer or the value.
+    pub fn set(&self, id: u32, pointer: &str, value: &str) -> Result<(), JsValue> {
+        let value: Value = serde_json::from_str(value).map_err(|error| error.to_string())?;
+        self.with(id, |visit| visit.set(pointer, value).err())
+            .map_or(Ok(()), |error| Err(JsValue::from(error.to_string())))?;
+        self.inner.borrow_mut().restock(id);
+        Ok(())
+    }
+
+    /// The document that is shown, with the values that were set, as JSON.
+    pub fn document(&self, id: u32) -> String {
+        self.with(id, |visit| visit.document().to_json_compact())
+    }
+
+    /// Where captions go: six numbers for each one that is in the picture. See `fabrica::reader::Picture::captions`.
+    pub fn captions(&self, id: u32, width: f32, height: f32, sizes: &[f32], gap: f32) -> Vec<f32> {
+        let inner = self.inner.borrow();
+        let shown = inner.shown.get(&id);
+        shown.map_or_else(Vec::new, |shown| {
+            shown.picture.captions([width, height], sizes, gap)
+        })
+    }
+
+    /// The picture, drawn once more in full: a Promise of its bytes (sRGB with straight alpha, rows from
+    /// the top), width and height.
+    pub fn picture(&self, id: u32) -> js_sys::Promise {
+        let image = self
+            .inner
+            .borrow()
+            .shown
+            .get(&id)
+            .map(|s| s.picture.image());
+        wasm_bindgen_futures::future_to_promise(async move {
+            let image = image.ok_or_else(|| JsValue::from("there is no such picture"))?;
+            let image = image.await.map_err(|error| error.to_string())?;
+            let bytes = Uint8ClampedArray::from(image.rgba.as_slice());
+            let [width, height] = image.size;
+            Ok(Array::of3(&bytes, &width.into(), &height.into()).into())
+        })
+    }
+
+    /// Number of volumes on the device.
+    pub fn stock_count(&self) -> usize {
+        self.inner.borrow().stocks.len()
+    }
+
+    /// True if the graphics device was lost: [`Reader::restart`] is due.
+    pub fn is_lost(&self) -> bool {
+        self.is_lost.get()
+    }
+
+    /// Starts again on another device: the same pictures, the same data.
+    ///
+    /// # Errors
+    /// If there is no device any more.
+    pub async fn restart(&self) -> Result<(), JsValue> {
+        let gpu = open_gpu().await?;
+        let mut inner = self.inner.borrow_mut();
+        let inner = &mut *inner;
+        inner.gpu = gpu;
+        for stocked in inner.stocks.values_mut() {
+            let recovered = stocked.stock.recover(inner.gpu.clone());
+            recovered.map_err(|error| error.to_string())?;
+        }
+        let canvases: Vec<(u32, HtmlCanvasElement)> = inner
+            .shown
+            .iter()
+            .map(|(id, shown)| (*id, shown.canvas.clone()))
+            .collect();
+        for (id, canvas) in canvases {
+            let surface = inner.surface(&canvas)?;
+            if let Some(shown) = inner.shown.get_mut(&id) {
+                (shown.surface, shown.configured) = (Some(surface), [0, 0]);
+                let recovered = shown.picture.recover(inner.gpu.clone());
+                recovered.map_err(|error| error.to_string())?;
+            }
+        }
+        self.is_lost.set(false);
+        Ok(())
+    }
+}
+
+impl Reader {
+    fn with<T: Default>(&self, id: u32, act: impl FnOnce(&mut Visit) -> T) -> T {
+        let mut inner = self.inner.borrow_mut();
+        let shown = inner.shown.get_mut(&id);
+        shown.map_or_else(T::default, |shown| act(&mut shown.picture.visit))
+    }
+}
+
+async fn open_gpu() -> Result<Gpu, JsValue> {
+    let gpu = Gpu::open(&GpuOptions::default()).await;
+    gpu.map_err(|error| JsValue::from(error.to_string()))
+}
+
+impl Shown {
+    /// Hands the picture to the canvas.
+    fn present(&mut self, gpu: &Gpu) {
+        let Some(surface) = &self.surface else {
+            return;
+        };
+        let size = self.picture.size_px();
+        if self.configured != size {
+            self.configured = size;
+            surface.configure(
+                &gpu.device,
+                &wgpu::SurfaceConfiguration {
+                    usage: wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::RENDER_ATTACHMENT,
+                    format: wgpu::TextureFormat::Rgba8Unorm,
+                    color_space: wgpu::SurfaceColorSpace::Auto,
+                    width: size[0],
+                    height: size[1],
+                    present_mode: wgpu::PresentMode::Fifo,
+                    desired_maximum_frame_latency: 2,
+                    alpha_mode: wgpu::CompositeAlphaMode::PreMultiplied,
+                    view_formats: Vec::new(),
+                },
+            );
+        }
+        if let wgpu::CurrentSurfaceTexture::Success(frame)
+        | wgpu::CurrentSurfaceTexture::Suboptimal(frame) = surface.get_current_texture()
+        {
+            self.picture.renderer().copy_output(&frame.texture);
+            gpu.queue.present(frame);
+        }
+    }
+}
+
+/// The task to fetch an address and to read the bytes that come.
+fn address_task(address: String, want: &Want) -> Task {
+    Task::Scan(ScanTask::Address {
+        address,
+        are_segments: want.role == Role::Segments,
+        reading: want.reading.clone(),
+    })
+}
+
+/// What has to be done for a want.
+enum Way {
+    Start(Task),
+    Ask(String, String),
+    File(String),
+    Fail(String),
+}
+
+impl Inner {
+    fn new_id(&mut self) -> u32 {
+        let id = self.next_id;
+        self.next_id += 1;
+        id
+    }
+
+    fn surface(&self, canvas: &HtmlCanvasElement) -> Result<wgpu::Surface<'static>, JsValue> {
+        let target = wgpu::SurfaceTarget::Canvas(canvas.clone());
+        let surface = self.instance.create_surface(target);
+        surface.map_err(|error| JsValue::from(error.to_string()))
+    }
+
+    /// The stock for a visit: one that is there, or a new one.
+    fn stock_for(&mut self, visit: &Visit, base: &str) -> u32 {
+        let illustration = visit.document().illustration();
+        let key = StockKey::new(illustration, base);
+        let found = self.stocks.iter().find(|(_, s)| *s.stock.key() == key);
+        if let Some((id, _)) = found {
+            return *id;
+        }
+        let id = self.new_id();
+        let stocked = Stocked {
+            stock: Stock::new(&self.gpu, seconds, key, illustration),
+            load: None,
+            asks: None,
+            wants_file: false,
+            fields: Vec::new(),
+        };
+        self.stocks.insert(id, stocked);
+        id
+    }
+
+    /// A document may have been given another subject.
+    fn restock(&mut self, id: u32) {
+        let Some(mut shown) = self.shown.remove(&id) else {
+            return;
+        };
+        let stock = self.stock_for(&shown.picture.visit, &shown.base);
+        if stock != shown.stock {
+            shown.stock = stock;
+            shown.picture.restock();
+        }
+        self.shown.insert(id, shown);
+        self.drop_unused();
+    }
+
+    fn drop_unused(&mut self) {
+        let used: BTreeSet<u32> = self.shown.values().map(|shown| shown.stock).collect();
+        let unused: Vec<u32> = self
+            .stocks
+            .keys()
+            .filter(|id| !used.contains(id))
+            .copied()
+            .collect();
+        for id in unused {
+            if let Some(mut stocked) = self.stocks.remove(&id) {
+                stocked.stock.destroy();
+            }
+        }
+    }
+
+    /// Starts whatever stocks want and nobody fetches yet.
+    fn fetch(inner: &Rc<RefCell<Self>>) {
+        let mut this = inner.borrow_mut();
+        let this = &mut *this;
+        let ids: Vec<u32> = this.stocks.keys().copied().collect();
+        for id in ids {
+            let Some(want) = this.stocks.get_mut(&id).and_then(|s| s.stock.next()) else {
+                continue;
+            };
+            let way = this.way(id, &want);
+            let Some(stocked) = this.stocks.get_mut(&id) else {
+                continue;
+            };
+            match way {
+                Way::Start(task) => {
+                    let started = this.start_load(id, &task, inner);
+                    this.loads(id, started);
+                }
+                Way::Ask(address, host) => stocked.asks = Some((want, address, host)),
+                Way::File(message) => {
+                    stocked.wants_file = true;
+                    stocked.stock.fail(message);
+                }
+                Way::Fail(message) => stocked.stock.fail(message),
+            }
+        }
+        this.fetch_fields(inner);
+    }
+
+    fn way(&self, stock: u32, want: &Want) -> Way {
+        let (src, name) = match &want.source {
+            Source::Builtin(name) => return Way::Start(Task::Subject(name.clone(), None)),
+            Source::File { src, name, .. } => (src, name),
+        };
+        let Some(src) = src else {
+            return Way::File(wanted_file(name));
+        };
+        let base = self.stocks.get(&stock).map_or("", |s| s.stock.key().base());
+        match absolute(src, base) {
+            Ok(address) => match foreign_host(&address) {
+                Some(host) if !self.allowed_hosts.contains(&host) => Way::Ask(address, host),
+                _ => Way::Start(address_task(address, want)),
+            },
+            Err(why) => Way::Fail(why),
+        }
+    }
+
+    fn start_load(
+        &self,
+        stock: u32,
+        task: &Task,
+        inner: &Rc<RefCell<Self>>,
+    ) -> Result<WorkerLoad, JsValue> {
+        let weak: Weak<RefCell<Self>> = Rc::downgrade(inner);
+        run::start(
+            &self.worker,
+            task,
+            self.gpu.volume_limits(),
+            move |answer| {
+                let (Some(inner), Answer::Event(event)) = (weak.upgrade(), answer) else {
+                    return;
+                };
+                let on_news = {
+                    let mut inner = inner.borrow_mut();
+                    let inner = &mut *inner;
+                    if let Some(stocked) = inner.stocks.get_mut(&stock) {
+                        stocked.stock.take(event);
+                    }
+                    inner.on_news.clone()
+                };
+                let _nobody_listens = on_news.call0(&JsValue::NULL);
+            },
+        )
+    }
+
+    /// Keeps a load, or tells that there is none.
+    fn loads(&mut self, stock: u32, started: Result<WorkerLoad, JsValue>) {
+        let Some(stocked) = self.stocks.get_mut(&stock) else {
+            return;
+        };
+        match started {
+            Ok(load) => stocked.load = Some(load),
+            Err(error) => stocked.stock.take(LoadEvent::Failed {
+                message: format!(
+                    "This browser cannot load scans in the background: {}",
+                    text_of(&error)
+                ),
+                details: String::new(),
+                fault: None,
+            }),
+        }
+    }
+
+    /// Fetches displacement fields that pictures show.
+    fn fetch_fields(&mut self, inner: &Rc<RefCell<Self>>) {
+        for shown in self.shown.values() {
+            let id = shown.stock;
+            let Some(stocked) = self.stocks.get_mut(&id) else {
+                continue;
+            };
+            for want in stocked.stock.missing_fields(shown.picture.visit.shown()) {
+                if stocked.fields.contains(&want) {
+                    continue;
+                }
+                stocked.fields.push(want.clone());
+                let (inner, worker, base) =
+                    (Rc::clone(inner), self.worker.clone(), shown.base.clone());
+                spawn_local(async move {
+                    let outcome = field(&worker, &want, &base).await;
+                    let on_news = {
+                        let mut inner = inner.borrow_mut();
+                        if let Some(stocked) = inner.stocks.get_mut(&id) {
+                            stocked.fields.retain(|other| *other != want);
+                            stocked.stock.take_field(&want, outcome);
+                        }
+                        inner.on_news.clone()
+                    };
+                    let _nobody_listens = on_news.call0(&JsValue::NULL);
+                });
+            }
+        }
+    }
+}
+
+/// Reads a displacement field of the page's own host.
+async fn field(worker: &str, want: &Want, base: &str) -> Result<crate::load::FieldFile, String> {
+    let missing = match &want.source {
+        Source::Builtin(name) | Source::File { name, .. } => wanted_file(name),
+    };
+    let src = want.src().ok_or_else(|| missing.clone())?;
+    let address = absolute(src, base)?;
+    if foreign_host(&address).is_some() {
+        return Err(missing);
+    }
+    let blob = fetched(&address).await.ok_or(missing)?;
+    let name = src.rsplit('/').next().unwrap_or(src).to_owned();
+    run::read_field(worker, name, blob).await
+}
