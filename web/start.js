@@ -116,7 +116,7 @@ async function main() {
     show("The document was not fetched.", [], "The page's address still names it: load the page again to be asked once more.");
     return;
   }
-  const viewer = new fabrica.Viewer(element("fabrica"), WORKER, true);
+  const viewer = new fabrica.Viewer(element("fabrica"), WORKER);
   if (early) viewer.lend(early.part, early.worker);
   viewer.on_copy_refused(offerText);
   // For whoever embeds or tests the page; the viewer itself never reads it.

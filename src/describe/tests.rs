@@ -56,6 +56,7 @@ fn all_is_told_in_every_language() {
     let measured = Measured {
         sight: Some(sight()),
         mm_per_unit: Some(240.0),
+        turned: None,
     };
     assert_eq!(
         words(value, 0, &measured),
@@ -83,6 +84,7 @@ fn lengths_are_in_millimetres_where_they_are_known() {
     let known = Measured {
         sight: None,
         mm_per_unit: Some(22.0),
+        turned: None,
     };
     let told = words(value.clone(), 0, &known);
     for (told, part) in told.iter().zip([
@@ -97,6 +99,7 @@ fn lengths_are_in_millimetres_where_they_are_known() {
         let measured = Measured {
             sight: None,
             mm_per_unit,
+            turned: None,
         };
         let told = words(value.clone(), 0, &measured);
         assert!(
@@ -222,6 +225,7 @@ fn odd_documents_are_described_too() {
             &Measured {
                 sight: Some(sight),
                 mm_per_unit: None,
+                turned: None,
             },
         )
     };
@@ -265,6 +269,7 @@ fn numbers_come_with_the_words() {
     let measured = Measured {
         sight: Some(sight()),
         mm_per_unit: None,
+        turned: None,
     };
     let value = describe(&document, 0, &measured, Lang::English)
         .expect("a step")

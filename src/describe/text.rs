@@ -1,5 +1,6 @@
 //! The description of one step of a document.
 
+use glam::Quat;
 use serde_json::{Value, json};
 
 use super::deeds::{Deed, Extent, Ruler, deed, listed};
@@ -16,6 +17,8 @@ pub struct Measured {
     pub sight: Option<Sight>,
     /// Millimetres in one subject unit; without it lengths are told in parts of the subject's longest side.
     pub mm_per_unit: Option<f64>,
+    /// Rotation of the camera, where the reader has turned the object away from the view of the step.
+    pub turned: Option<Quat>,
 }
 
 /// A picture in words: what was done, what was kept, from where one looks, what is in sight.
@@ -78,7 +81,7 @@ pub fn describe(
         .iter()
         .filter_map(|template| deed(template, ruler))
         .collect();
-    let sides = Sides::of(shown.camera.rotate);
+    let sides = Sides::of(measured.turned.unwrap_or(shown.camera.rotate));
     let mut sentences = vec![
         heading(&title, step, whole.steps.len(), lang),
         legend.clone(),

@@ -3,6 +3,8 @@
 use glam::{Quat, Vec3};
 
 use super::lang::Lang;
+use super::names::has_patient;
+use crate::document::SubjectRef;
 
 /// Sides that a camera looks from; at least one of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +50,11 @@ impl Sides {
             pick(self.above, above),
         ]
     }
+}
+
+/// From where a camera of this rotation looks at a subject: one sentence, without its end.
+pub fn seen_from(rotate: Quat, subject: &SubjectRef, lang: Lang) -> String {
+    sentence(Sides::of(rotate), has_patient(subject), lang)
 }
 
 /// One sentence, without its end. `is_patient`: left and right are the patient's.

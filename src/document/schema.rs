@@ -8,9 +8,9 @@
 //! To add a key: one line here, its field in `model`, and the line that reads it in `read`.
 
 use super::limits::{
-    MAX_ALT, MAX_BALL_MM, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CONTROLS, MAX_CURVE, MAX_CUT, MAX_LABEL_FILES,
-    MAX_LABELS, MAX_POINTS, MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES,
-    MAX_STROKES, MAX_TEMPLATES, MIN_BALL_MM,
+    MAX_ALT, MAX_BALL_MM, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CONTROLS, MAX_CURVE, MAX_CUT,
+    MAX_LABEL_FILES, MAX_LABELS, MAX_POINTS, MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS,
+    MAX_STROKE_PLACES, MAX_STROKES, MAX_TEMPLATES, MIN_BALL_MM,
 };
 use super::model::{
     Align, Camera, ConstrainBy, OpacityMode, ParamKind, RawVoxels, Step, TemplateKind, TemplateMode,
@@ -452,7 +452,7 @@ pub(crate) const CAPTION: &[Key] = &[
 /// Keys of an entry of `/controls`.
 #[rustfmt::skip]
 pub(crate) const CONTROL: &[Key] = &[
-    key(720, "pointer", Kind::Text, "JSON pointer to a number or a truth value that a step may set"),
+    key(245, "pointer", Kind::Text, "JSON pointer to a number or a truth value that a step may set"),
     key(250, "name", Kind::Text, "what the reader reads beside it; without it the name of the value"),
     key(730, "min", number(0.0, -FAR, FAR), "lowest value that the reader can set; needed where the value has no range of its own").optional(),
     key(740, "max", number(0.0, -FAR, FAR), "highest value that the reader can set; needed where the value has no range of its own").optional(),
@@ -619,7 +619,12 @@ pub(crate) fn scalar_at(path: &[String], kind: Option<TemplateKind>) -> Option<S
             Kind::Flag { default } if rest.is_empty() => return Some(Scalar::Flag(default)),
             Kind::Number { default, min, max } if rest.is_empty() => {
                 let is_whole = false;
-                return Some(Scalar::Number { default, min, max, is_whole });
+                return Some(Scalar::Number {
+                    default,
+                    min,
+                    max,
+                    is_whole,
+                });
             }
             Kind::Vector { default, min, max } => return component(rest, default, min, max),
             Kind::Object(of) => keys = of,
@@ -649,9 +654,9 @@ fn param_scalar(kind: TemplateKind, rest: &[String]) -> Option<Scalar> {
                 is_whole: matches!(spec.kind, ParamKind::Count { .. }),
             })
         }
-        ParamKind::Vector { default, min, max, .. } => {
-            component(rest, default.map(plain_f64), plain_f64(min), plain_f64(max))
-        }
+        ParamKind::Vector {
+            default, min, max, ..
+        } => component(rest, default.map(plain_f64), plain_f64(min), plain_f64(max)),
         _ => None,
     }
 }

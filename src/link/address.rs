@@ -31,6 +31,19 @@ pub fn fragment(document: &Document, step: usize) -> String {
     }
 }
 
+/// Reads a link as [`decode`] does, or a document as JSON; a byte order mark before it is left out.
+///
+/// # Errors
+/// In words: the first fault of the link or of the document.
+pub fn document_of(text: &str) -> Result<Link, String> {
+    let text = text.trim_start_matches('\u{feff}').trim();
+    if !text.starts_with('{') {
+        return decode(text).map_err(|error| error.to_string());
+    }
+    let document = Document::from_json(text).map_err(|error| error.to_string())?;
+    Ok(Link { document, step: 0 })
+}
+
 /// Reads a whole address, a fragment, a query with `s=`, or a bare payload.
 ///
 /// Total: any text gives a document or an error, in bounded time and memory, and depends on the text alone.

@@ -23,6 +23,6 @@ mod payload;
 mod qr;
 mod v1;
 
-pub use address::{ADVISED_LENGTH, Link, decode, encode, fragment, has_payload};
+pub use address::{ADVISED_LENGTH, Link, decode, document_of, encode, fragment, has_payload};
 pub use error::LinkError;
 pub use qr::{DENSE_QR, LONGEST_QR, Qr, TooLongForQr};

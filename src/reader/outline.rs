@@ -2,24 +2,30 @@
 
 use serde_json::{Value, json};
 
-use super::visit::document_of;
-use crate::document::{Background, Control, ControlRange, Step};
+use crate::document::{Background, Control, ControlRange, Document, Step};
+use crate::link::{self, Link};
 
-/// The texts of a link, a payload or a document, as JSON: `title`, `legend`, `credit`, `lang`, `steps` (each with
+/// A link, a payload or a document, and its texts as JSON: `title`, `legend`, `credit`, `lang`, `steps` (each with
 /// `title`, `legend`, `alt`, `seconds`), `captions` (texts), `controls` (each with `pointer`, `name` and, for a number,
 /// `min`, `max`, `whole`), `step` (the one that a link asks for), `alt`, and `background` (`#rrggbb`, or null where it is
 /// transparent).
 ///
 /// # Errors
 /// In words: what is wrong with the link or the document.
-pub fn outline(text: &str) -> Result<Value, String> {
-    let (document, step) = document_of(text)?;
+pub fn outline(text: &str) -> Result<(Document, Value), String> {
+    let Link { document, step } = link::document_of(text)?;
     let shown = document.illustration();
     let steps: Vec<Value> = shown
         .steps
         .iter()
         .map(|step| {
-            let Step { title, legend, alt, seconds, .. } = step;
+            let Step {
+                title,
+                legend,
+                alt,
+                seconds,
+                ..
+            } = step;
             json!({ "title": title, "legend": legend, "alt": alt, "seconds": seconds })
         })
         .collect();
@@ -38,7 +44,7 @@ pub fn outline(text: &str) -> Result<Value, String> {
         Background::Color([r, g, b]) => Some(format!("#{r:02x}{g:02x}{b:02x}")),
         Background::None => None,
     };
-    Ok(json!({
+    let found = json!({
         "title": shown.title,
         "legend": shown.legend,
         "credit": shown.credit,
@@ -49,7 +55,8 @@ pub fn outline(text: &str) -> Result<Value, String> {
         "captions": captions,
         "step": step.min(shown.steps.len()),
         "background": background,
-    }))
+    });
+    Ok((document, found))
 }
 
 #[cfg(test)]
@@ -60,7 +67,7 @@ mod tests {
     fn texts_are_told_as_text() {
         let text = r##"{ "fabrica": 1, "title": "<b>A</b>", "lang": "de", "labels": [{ "at": [0,0,0], "text": " Bone " }],
             "look": { "background": "#102030" }, "steps": [{ "title": "One", "caption": "Two" }] }"##;
-        let outline = outline(text).expect("a document");
+        let (_, outline) = outline(text).expect("a document");
         assert_eq!(outline["title"], "<b>A</b>");
         assert_eq!(outline["lang"], "de");
         assert_eq!(outline["captions"], json!(["Bone"]));

@@ -4,9 +4,10 @@ use glam::Vec2;
 
 use super::stock::Stock;
 use super::visit::Visit;
+use crate::describe::{Lang, Measured, Sight, describe};
 use crate::document::Illustration;
 use crate::math::columns;
-use crate::render::{Clock, FollowedCaptions, Gpu, Image, RenderError, Renderer, View};
+use crate::render::{Clock, FollowedCaptions, Gpu, Image, RenderError, Renderer, SIGHT_PX, View};
 
 /// Samples per pixel of a picture that is read back.
 const SAMPLES: u32 = 4;
@@ -140,7 +141,12 @@ impl Picture {
         let scale = area / view.size_px;
         let mut found = Vec::new();
         let mut absent = Vec::new();
-        for ((index, caption), size) in seen.captions.iter().enumerate().zip(sizes.as_chunks::<2>().0) {
+        for ((index, caption), size) in seen
+            .captions
+            .iter()
+            .enumerate()
+            .zip(sizes.as_chunks::<2>().0)
+        {
             if !caption.enabled || caption.text.trim().is_empty() {
                 continue;
             }
@@ -164,6 +170,30 @@ impl Picture {
             [index as f32, is_hidden, at.x, at.y, corner.x, corner.y]
         });
         rows.chain(absent).collect()
+    }
+
+    /// The picture in words: what was done, what was kept, from where one looks and, where it has been drawn, what is in
+    /// sight. The future owns what it needs.
+    pub fn describe(&self, stock: &Stock, lang: Lang) -> impl Future<Output = String> + 'static {
+        let document = self.visit.document().clone();
+        let step = self.visit.step();
+        let segments = stock.host().segments().to_vec();
+        let mm_per_unit = stock.mm_per_unit();
+        let turned = Some(self.visit.camera().rotate);
+        let sighting = (self.is_complete).then(|| self.renderer.identify(&self.seen(), SIGHT_PX));
+        async move {
+            let sighting = match sighting {
+                Some(sighting) => sighting.await.ok(),
+                None => None,
+            };
+            let measured = Measured {
+                sight: sighting.map(|found| Sight::count(found.labels, &segments)),
+                mm_per_unit,
+                turned,
+            };
+            let words = describe(&document, step, &measured, lang);
+            words.map_or_else(|_| String::new(), |words| words.text().to_owned())
+        }
     }
 
     /// The picture as it stands, drawn once more in full.

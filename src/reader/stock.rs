@@ -125,6 +125,12 @@ impl Stock {
         missing
     }
 
+    /// Millimetres in one subject unit, once there is a subject.
+    pub fn mm_per_unit(&self) -> Option<f64> {
+        let subject = self.assets.subject()?;
+        Some(subject.frame().mm_per_unit)
+    }
+
     /// What is under way, and how far it is, 0 to 1.
     pub fn loading(&self) -> Option<(&Want, f32)> {
         self.loading.as_ref().map(|want| (want, self.fraction))

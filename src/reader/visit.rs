@@ -6,8 +6,8 @@ use glam::Vec2;
 use serde_json::{Value, json};
 
 use crate::document::{
-    Autoplay, Camera, Control, ControlRange, Document, DocumentError, Illustration, MAX_STEPS, Turn, Walk, axes, orbit,
-    zoom,
+    Autoplay, Camera, Control, ControlRange, Document, DocumentError, Illustration, MAX_STEPS,
+    Turn, Walk, axes, orbit, zoom,
 };
 use crate::link;
 
@@ -37,8 +37,11 @@ impl Visit {
     /// # Errors
     /// In words: what is wrong with the link or the document.
     pub fn open(text: &str, step: Option<usize>) -> Result<Self, String> {
-        let (document, linked_step) = document_of(text)?;
-        let step = step.unwrap_or(linked_step).min(document.step_count());
+        let link::Link {
+            document,
+            step: linked,
+        } = link::document_of(text)?;
+        let step = step.unwrap_or(linked).min(document.step_count());
         let mut visit = Self {
             lesson: document.clone(),
             walk: Walk::at(&document, step),
@@ -268,20 +271,6 @@ impl Visit {
     }
 }
 
-/// The document of a link, a payload or JSON, and the step that a link asks for.
-///
-/// # Errors
-/// In words: what is wrong with it.
-pub(super) fn document_of(text: &str) -> Result<(Document, usize), String> {
-    let text = text.trim_start_matches('\u{feff}').trim();
-    if text.starts_with('{') {
-        let document = Document::from_json(text).map_err(|error| error.to_string())?;
-        return Ok((document, 0));
-    }
-    let link = link::decode(text).map_err(|error| error.to_string())?;
-    Ok((link.document, link.step))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -347,7 +336,7 @@ mod tests {
             (1.0, 0.3),
             (0.0, 0.0),
             (9.0, 0.3),
-            (f64::NAN, 0.0),
+            (f32::NAN, 0.0),
         ] {
             visit.scrub(place);
             assert!(near(amount(&visit), wanted), "{place}: {}", amount(&visit));

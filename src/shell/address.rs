@@ -4,12 +4,28 @@ use wasm_bindgen::JsCast as _;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{Blob, Url};
 
+use super::worker::task::Part;
+use crate::document::{Document, SubjectRef};
+
 /// The host of an absolute address, if it is another one than the page's: nothing is fetched from there unasked.
 pub(super) fn foreign_host(address: &str) -> Option<String> {
     let own = web_sys::window()?.location().origin().ok()?;
     let url = Url::new(address).ok()?;
     let is_own = url.origin() == own || ["blob:", "data:"].contains(&url.protocol().as_str());
     (!is_own).then(|| url.host())
+}
+
+/// The part that makes or reads a document's subject: the makers for a built-in one, the readers of scans for one at the
+/// page's own host; `base` is what relative addresses start from. None if the reader is to be asked first.
+pub(super) fn part_of(document: &Document, base: &str) -> Option<Part> {
+    match &document.illustration().subject {
+        SubjectRef::Builtin { .. } => Some(Part::Subjects),
+        SubjectRef::Address { src, .. } => {
+            let address = absolute(src, base).ok()?;
+            foreign_host(&address).is_none().then_some(Part::Scans)
+        }
+        SubjectRef::Supplied { .. } => None,
+    }
 }
 
 /// An address that may be fetched, made absolute.

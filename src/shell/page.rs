@@ -30,8 +30,6 @@ const MAX_DOCUMENT_BYTES: f64 = 2e6;
 pub(super) struct Place {
     /// Address of `worker.js`, the script of the workers.
     pub worker: String,
-    /// The viewer is the page: it binds the address bar and keeps the session. Not so when embedded.
-    pub is_page: bool,
     /// What a document's relative addresses start from.
     pub base: String,
 }
@@ -670,9 +668,6 @@ impl Services for PageServices {
             return;
         }
         payload.clone_into(&mut page.payload);
-        if !page.place.is_page {
-            return;
-        }
         let address = format!("{}#{payload}", page_address());
         let history = window().and_then(|w| w.history().ok());
         let written = history.map(|history| match change {
@@ -688,18 +683,14 @@ impl Services for PageServices {
     }
 
     fn announce(&mut self, text: &str) {
-        let is_page = self.0.borrow().place.is_page;
         let document = window().and_then(|w| w.document());
         let line = document.and_then(|d| d.get_element_by_id("said"));
-        if let Some(line) = line.filter(|_| is_page) {
+        if let Some(line) = line {
             line.set_text_content(Some(text));
         }
     }
 
     fn store(&mut self, key: &str, value: &str) {
-        if !self.0.borrow().place.is_page {
-            return;
-        }
         // A tab comes back to its own document; a new one to the last that any tab kept. The rest is for all tabs.
         let of_tab = tab_storage().filter(|_| key == STORED_DOCUMENT);
         for storage in [of_tab, storage()].into_iter().flatten() {
@@ -709,10 +700,7 @@ impl Services for PageServices {
     }
 
     fn set_title(&mut self, title: &str) {
-        // The page around an embedded viewer has a title of its own.
-        if self.0.borrow().place.is_page
-            && let Some(document) = window().and_then(|w| w.document())
-        {
+        if let Some(document) = window().and_then(|w| w.document()) {
             document.set_title(title);
         }
     }
@@ -736,9 +724,6 @@ impl Services for PageServices {
     }
 
     fn stored(&self, key: &str) -> Option<String> {
-        if !self.0.borrow().place.is_page {
-            return None;
-        }
         kept(key)
     }
 }

@@ -10,13 +10,14 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 use web_sys::{Blob, HtmlCanvasElement};
 
-use super::address::{absolute, fetched, foreign_host};
+use super::address::{absolute, fetched, foreign_host, part_of};
 use super::loading::wanted_file;
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
 use super::worker::run::{self, WorkerLoad};
 use super::worker::task::{Part, ScanTask, Task};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
+use crate::describe::{Lang, seen_from};
 use crate::reader::{Picture, Stock, StockKey, Visit, outline};
 use crate::render::{Gpu, GpuOptions, RenderError};
 
@@ -29,13 +30,17 @@ fn seconds() -> f64 {
     performance.map_or(0.0, |p| p.now() * 1e-3)
 }
 
-/// The texts of a link, a payload or a document, as JSON: see `fabrica::reader::outline`.
+/// The texts of a link, a payload or a document, as JSON: see `fabrica::reader::outline`. `part` names the part of the
+/// program that makes or reads its subject, if that can be started at once;
+/// `base` is what relative addresses start from.
 ///
 /// # Errors
 /// What is wrong with the link or the document.
 #[wasm_bindgen]
-pub fn outline_of(text: &str) -> Result<String, JsValue> {
-    Ok(outline(text).map_err(JsValue::from)?.to_string())
+pub fn outline_of(text: &str, base: &str) -> Result<String, JsValue> {
+    let (document, mut found) = outline(text)?;
+    found["part"] = json!(part_of(&document, base).map(Part::name));
+    Ok(found.to_string())
 }
 
 /// The picture may be shown.
@@ -44,6 +49,8 @@ const HAS_PICTURE: u32 = 1;
 const IS_DONE: u32 = 2;
 /// A passage goes on.
 const IS_MOVING: u32 = 4;
+/// All that there is to draw is drawn; more comes when a load goes on.
+const WAITS: u32 = 8;
 
 /// A picture and the canvas that it is shown on.
 struct Shown {
@@ -200,7 +207,8 @@ impl Reader {
 
     /// One frame of a picture, of this size in pixels, at the time `now` (seconds, as `performance.now()` / 1000).
     /// `is_moving` says that more changes are about to come. Returns what became of it: the sum of 1 (there is a
-    /// picture, and the canvas has it), 2 (it is complete, with all data), 4 (a passage goes on).
+    /// picture, and the canvas has it), 2 (it is complete, with all data), 4 (a passage goes on), 8 (nothing is left to draw
+    /// before a load goes on).
     ///
     /// # Errors
     /// In words: why nothing can be drawn.
@@ -251,8 +259,11 @@ impl Reader {
             flags |= IS_MOVING;
         }
         let is_settled = stocked.stock.is_settled() && stocked.fields.is_empty();
-        if drawn.is_done && is_settled && !passes {
+        let has_drawn_all = drawn.is_done || stocked.stock.host().subject_info().is_none();
+        if is_settled && drawn.is_done && !passes {
             flags |= IS_DONE;
+        } else if !is_settled && has_drawn_all && !passes {
+            flags |= WAITS;
         }
         Ok(flags)
     }
@@ -443,9 +454,42 @@ impl Reader {
         })
     }
 
+    /// The picture in words, in a language by its tag (`en` where it has none of this): a Promise of a text.
+    pub fn describe(&self, id: u32, lang: &str) -> js_sys::Promise {
+        let inner = self.inner.borrow();
+        let lang = Lang::from_tag(lang).unwrap_or(Lang::English);
+        let words = inner.shown.get(&id).and_then(|shown| {
+            let stocked = inner.stocks.get(&shown.stock)?;
+            Some(shown.picture.describe(&stocked.stock, lang))
+        });
+        wasm_bindgen_futures::future_to_promise(async move {
+            Ok(match words {
+                Some(words) => words.await.into(),
+                None => JsValue::from(""),
+            })
+        })
+    }
+
+    /// From where one looks, in a language by its tag: a sentence without its end.
+    pub fn side(&self, id: u32, lang: &str) -> String {
+        let lang = Lang::from_tag(lang).unwrap_or(Lang::English);
+        self.with(id, |visit| {
+            seen_from(visit.camera().rotate, &visit.shown().subject, lang)
+        })
+    }
+
     /// Number of volumes on the device.
     pub fn stock_count(&self) -> usize {
         self.inner.borrow().stocks.len()
+    }
+
+    /// A Promise that is kept when the graphics device is lost, also by [`Reader::destroy`].
+    pub fn lost(&self) -> js_sys::Promise {
+        let lost = self.inner.borrow().gpu.until_lost();
+        wasm_bindgen_futures::future_to_promise(async move {
+            lost.await;
+            Ok(JsValue::UNDEFINED)
+        })
     }
 
     /// True if the graphics device was lost: [`Reader::restart`] is due.

@@ -8,13 +8,13 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{HtmlCanvasElement, Url};
 
-use super::address::foreign_host;
+use super::address::{foreign_host, part_of};
 use super::page::{Page, PageServices, Place, kept_document};
 use super::worker::run;
 use super::worker::task::Part;
-use crate::app::{App, Command, Message, MissingDocument, Start, WhyMissing};
+use crate::app::{App, Message, MissingDocument, Start, WhyMissing};
 use crate::data::VolumeLimits;
-use crate::document::{Document, SubjectRef};
+use crate::document::Document;
 use crate::link;
 use crate::render::Gpu;
 
@@ -29,37 +29,32 @@ pub struct Viewer {
     page: Rc<RefCell<Page>>,
     /// Text of a link or a document to open in place of the one in the address.
     text: RefCell<Option<String>>,
-    _on_pop: Option<Closure<dyn FnMut()>>,
+    _on_pop: Closure<dyn FnMut()>,
 }
 
 #[wasm_bindgen]
 impl Viewer {
-    /// A viewer for this canvas; nothing is shown until [`Viewer::start`]. `worker` is the address of worker.js. A
-    /// viewer that `is_page` binds the address bar and keeps the session; one that does not touches neither.
+    /// A viewer for this canvas; nothing is shown until [`Viewer::start`]. `worker` is the address of worker.js.
     #[wasm_bindgen(constructor)]
-    pub fn new(canvas: HtmlCanvasElement, worker: String, is_page: bool) -> Self {
+    pub fn new(canvas: HtmlCanvasElement, worker: String) -> Self {
         let base = web_sys::window().and_then(|w| w.document());
         let base = base.and_then(|d| d.base_uri().ok().flatten());
         let place = Place {
             worker,
-            is_page,
             base: base.unwrap_or_default(),
         };
         run::set_known_address(&place.worker);
         let page = Rc::new(RefCell::new(Page::new(place)));
-        let on_pop = is_page.then(|| {
-            let page = Rc::clone(&page);
-            let closure = Closure::new(move || {
-                let text = address_text().unwrap_or_else(|| EMPTY.to_owned());
-                let mut page = page.borrow_mut();
-                page.payload.clear();
-                page.send(Message::OpenText { text });
-            });
-            if let Some(window) = web_sys::window() {
-                window.set_onpopstate(Some(closure.as_ref().unchecked_ref()));
-            }
-            closure
+        let for_pop = Rc::clone(&page);
+        let on_pop = Closure::new(move || {
+            let text = address_text().unwrap_or_else(|| EMPTY.to_owned());
+            let mut page = for_pop.borrow_mut();
+            page.payload.clear();
+            page.send(Message::OpenText { text });
         });
+        if let Some(window) = web_sys::window() {
+            window.set_onpopstate(Some(on_pop.as_ref().unchecked_ref()));
+        }
         Self {
             runner: eframe::WebRunner::new(),
             canvas,
@@ -83,10 +78,9 @@ impl Viewer {
     /// If there is no WebGPU device for the canvas.
     pub async fn start(&self) -> Result<(), JsValue> {
         let given = self.text.borrow_mut().take();
-        let is_page = self.page.borrow().place.is_page;
         let text = match given {
             Some(text) => Some(text),
-            None if is_page => match document_address() {
+            None => match document_address() {
                 Some(address) => {
                     self.page.borrow_mut().place.base.clone_from(&address);
                     match fetch_text(&address).await {
@@ -99,7 +93,6 @@ impl Viewer {
                 }
                 None => address_text(),
             },
-            None => Some(EMPTY.to_owned()),
         };
         self.run(text, None).await
     }
@@ -123,7 +116,6 @@ impl Viewer {
         let mut setup = eframe::egui_wgpu::WgpuSetupCreateNew::without_display_handle();
         setup.instance_descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
         setup.device_descriptor = Arc::new(Gpu::device_descriptor);
-        let is_page = self.page.borrow().place.is_page;
         let options = eframe::WebOptions {
             renderer: eframe::Renderer::Wgpu,
             dithering: false,
@@ -131,8 +123,8 @@ impl Viewer {
                 wgpu_setup: setup.into(),
                 ..Default::default()
             },
-            should_prevent_default: Box::new(move |event| is_ours(event, is_page)),
-            should_stop_propagation: Box::new(move |event| is_ours(event, is_page)),
+            should_prevent_default: Box::new(is_ours),
+            should_stop_propagation: Box::new(is_ours),
             ..Default::default()
         };
         let page = Rc::clone(&self.page);
@@ -154,12 +146,8 @@ impl Viewer {
                 subject: None,
                 clock: seconds,
             };
-            let mut app = App::new(cc, Box::new(PageServices(page)), start);
-            if !is_page {
-                // In somebody else's page: the picture alone.
-                app.run(Command::TogglePanels);
-            }
-            Ok(Box::new(Shown { app, is_page }))
+            let app = App::new(cc, Box::new(PageServices(page)), start);
+            Ok(Box::new(Shown { app }))
         });
         self.runner
             .start(self.canvas.clone(), options, create)
@@ -180,11 +168,6 @@ impl Viewer {
             page.payload.clear();
             page.send(Message::OpenText { text });
         }
-    }
-
-    /// What a document's relative addresses start from.
-    pub fn set_base(&self, address: String) {
-        self.page.borrow_mut().place.base = address;
     }
 
     /// Payload of the link to the illustration shown now, and `&step=N` if a step is shown.
@@ -251,8 +234,7 @@ impl Viewer {
     pub fn finds_tissues(&self) -> bool {
         let page = self.page.borrow();
         let has_keyboard = |ctx: &egui::Context| ctx.input(|i| i.focused);
-        page.place.is_page
-            && page.ctx.as_ref().is_some_and(has_keyboard)
+        page.ctx.as_ref().is_some_and(has_keyboard)
             && self
                 .runner
                 .app_mut::<Shown>()
@@ -347,17 +329,9 @@ impl egui::Plugin for Controls {
 /// The app, as something that can be found again in its runner.
 struct Shown {
     app: App,
-    is_page: bool,
 }
 
 impl eframe::App for Shown {
-    fn raw_input_hook(&mut self, _: &egui::Context, input: &mut egui::RawInput) {
-        // In somebody else's page these keys look for words of that page.
-        if !self.is_page {
-            input.events.retain(|event| !finds(event));
-        }
-    }
-
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         self.app.ui(ui, frame);
     }
@@ -376,26 +350,16 @@ impl eframe::App for Shown {
 }
 
 /// Whether the page must not also act on an event. Keys that belong to the browser (reload, tools, full screen, what
-/// goes with Ctrl and is no shortcut of ours) stay with it; the wheel scrolls the page around an embedded viewer unless
-/// Ctrl is held, which means zooming.
-fn is_ours(event: &egui::Event, is_page: bool) -> bool {
+/// goes with Ctrl and is no shortcut of ours) stay with it.
+fn is_ours(event: &egui::Event) -> bool {
     use egui::{Event, Key};
     match event {
         Event::Key { key, .. } => !matches!(
             key,
             Key::F1 | Key::F3 | Key::F5 | Key::F6 | Key::F7 | Key::F10 | Key::F11 | Key::F12
         ),
-        Event::MouseWheel { modifiers, .. } => is_page || modifiers.command,
         _ => true,
     }
-}
-
-/// Ctrl or Cmd with F.
-fn finds(event: &egui::Event) -> bool {
-    let egui::Event::Key { key, modifiers, .. } = event else {
-        return false;
-    };
-    *key == egui::Key::F && modifiers.command && !modifiers.alt
 }
 
 /// Seconds since the page was opened.
@@ -459,34 +423,16 @@ pub fn foreign_document_host() -> Option<String> {
     foreign_host(&document_address()?)
 }
 
-/// The name of the part (see web/parts.js) that a document needs first: the makers of subjects for a built-in one, the
-/// readers of scans for one at the page's own host. `text` is a link, a payload or JSON; `base` is what relative
-/// addresses start from. None if the reader is to be asked first, or if the text is no document.
-#[wasm_bindgen]
-pub fn first_part(text: &str, base: &str) -> Option<String> {
-    let document = open(text).ok()?;
-    let part = match &document.illustration().subject {
-        SubjectRef::Builtin { .. } => Part::Subjects,
-        SubjectRef::Address { src, .. } => {
-            let address = Url::new_with_base(src, base).ok()?.href();
-            if foreign_host(&address).is_some() {
-                return None;
-            }
-            Part::Scans
-        }
-        SubjectRef::Supplied { .. } => return None,
-    };
-    Some(part.name().to_owned())
-}
-
-/// [`first_part`] for the page's address, or for what was stored on an earlier visit.
+/// The name of the part (see web/parts.js) that the document of the page's address needs first, or the document that was
+/// stored on an earlier visit: see [`part_of`].
 #[wasm_bindgen]
 pub fn part_of_address() -> Option<String> {
     if document_address().is_some() {
         return None;
     }
-    let text = address_text().or_else(kept_document)?;
-    first_part(&text, &here()?.href())
+    let document = open(&address_text().or_else(kept_document)?).ok()?;
+    let part = part_of(&document, &here()?.href())?;
+    Some(part.name().to_owned())
 }
 
 /// Title, legend, steps and the author's texts in place of pictures, of the document in a link or JSON, as lines of
@@ -506,52 +452,8 @@ pub fn describe(text: &str) -> Result<String, JsValue> {
     Ok(lines.join("\n"))
 }
 
-/// The document of a link, a payload or JSON, as JSON.
-///
-/// # Errors
-/// What is wrong with the link or the document.
-#[wasm_bindgen]
-pub fn to_document(text: &str) -> Result<String, JsValue> {
-    Ok(open(text)?.to_json_compact())
-}
-
-/// The step that a link asks for; 0 for anything else.
-#[wasm_bindgen]
-pub fn step_of(text: &str) -> usize {
-    link::decode(text.trim()).map_or(0, |link| link.step)
-}
-
-/// A document as it stands at a step, as JSON.
-///
-/// # Errors
-/// What is wrong with the document or the step.
-#[wasm_bindgen]
-pub fn at_step(text: &str, step: usize) -> Result<String, JsValue> {
-    let document = open(text)?.at_step(step);
-    let document = document.map_err(|error| JsValue::from(error.to_string()))?;
-    Ok(document.to_json_compact())
-}
-
-/// A document with one value set, by its JSON pointer, to a value given as JSON.
-///
-/// # Errors
-/// What is wrong with the document, the pointer or the value.
-#[wasm_bindgen]
-pub fn with_value(text: &str, pointer: &str, value: &str) -> Result<String, JsValue> {
-    let value = serde_json::from_str(value).map_err(|error| JsValue::from(error.to_string()))?;
-    let document = open(text)?.with(pointer, value);
-    let document = document.map_err(|error| JsValue::from(error.to_string()))?;
-    Ok(document.to_json_compact())
-}
-
 /// The document of a link, a payload or JSON.
 pub(super) fn open(text: &str) -> Result<Document, JsValue> {
-    let text = text.trim();
-    if text.starts_with('{') {
-        return Document::from_json(text).map_err(|error| error.to_string().into());
-    }
-    let decoded = link::decode(text);
-    decoded
-        .map(|l| l.document)
-        .map_err(|error| error.to_string().into())
+    let opened = link::document_of(text);
+    opened.map(|link| link.document).map_err(JsValue::from)
 }

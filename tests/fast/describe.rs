@@ -55,6 +55,7 @@ fn built_in_subjects_and_their_segments_have_names() {
             let measured = Measured {
                 sight: Some(sight),
                 mm_per_unit: None,
+                turned: None,
             };
             let told = describe(&document, 0, &measured, Lang::Chinese).expect("step 0");
             let told = told.text();

@@ -89,6 +89,7 @@ fn check(name: &str, document: &Document, resolution: u32, full_px: [u32; 2]) ->
         let measured = Measured {
             sight: Some(sight),
             mm_per_unit: Some(mm_per_unit),
+            turned: None,
         };
         for (lang, before) in Lang::ALL.into_iter().zip(&mut before) {
             let told = describe(document, step, &measured, lang).expect("a step");

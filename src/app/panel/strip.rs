@@ -16,9 +16,9 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget::{self, Named as _};
 use crate::app::picture::host::Picture;
-use crate::data::pending::{Pending, poll_once};
 use crate::app::session::{Command, Session, StepCommand};
 use crate::app::words::{fill, steps::w};
+use crate::data::{Pending, poll_once};
 use crate::document::{Document, Illustration};
 use crate::render::{Image, RenderError};
 

@@ -17,8 +17,8 @@ use super::view::ViewState;
 use crate::assets::Want;
 use crate::data::Subject;
 use crate::document::{
-    Camera, Document, DocumentError, Edit, History, Illustration, PlacedTemplate, Reading,
-    SubjectRef,
+    Autoplay, Camera, Document, DocumentError, Edit, History, Illustration, PlacedTemplate,
+    Reading, SubjectRef,
 };
 use crate::link;
 

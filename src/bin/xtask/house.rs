@@ -11,7 +11,7 @@ use std::path::Path;
 use super::imports::{self, Graph, Import, Source};
 
 /// Rooms with their layers: a room imports only rooms of lower layers.
-pub(crate) const ROOMS: [(&str, u32); 13] = [
+pub(crate) const ROOMS: [(&str, u32); 14] = [
     ("math", 0),
     ("displace", 1),
     ("document", 2),

@@ -26,7 +26,12 @@ impl Reader {
         let range = match scalar_at(&keys, template).filter(|_| can_be_set) {
             None => Err("no number and no truth value that a step may set stands there"),
             Some(Scalar::Flag(default)) => Ok(ControlRange::Flag(default)),
-            Some(Scalar::Number { default, min: least, max: most, is_whole }) => {
+            Some(Scalar::Number {
+                default,
+                min: least,
+                max: most,
+                is_whole,
+            }) => {
                 let has_range = most - least < FAR;
                 let lowest = min.or(Some(least).filter(|_| has_range));
                 let highest = max.or(Some(most).filter(|_| has_range));
@@ -34,7 +39,12 @@ impl Reader {
                     (Some(lowest), Some(highest)) => {
                         let (min, max) = (lowest.clamp(least, most), highest.clamp(least, most));
                         match min < max {
-                            true => Ok(ControlRange::Number { default, min, max, is_whole }),
+                            true => Ok(ControlRange::Number {
+                                default,
+                                min,
+                                max,
+                                is_whole,
+                            }),
                             false => Err("its `min` is not below its `max`"),
                         }
                     }

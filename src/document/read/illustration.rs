@@ -90,7 +90,9 @@ impl Reader {
         let mut controls = Vec::new();
         for object in root.children("controls")? {
             let kind_of = |index| {
-                let template = templates.iter().find(|t: &&PlacedTemplate| t.index == index)?;
+                let template = templates
+                    .iter()
+                    .find(|t: &&PlacedTemplate| t.index == index)?;
                 Some(template.kind)
             };
             controls.extend(self.control(&object?, kind_of)?);

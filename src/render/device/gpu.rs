@@ -1,6 +1,7 @@
 use super::error::RenderError;
 use crate::data::VolumeLimits;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::task::{Poll, Waker};
 
 /// How a device is chosen.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +29,8 @@ pub struct Gpu {
 #[derive(Debug, Default)]
 struct Health {
     lost: Option<String>,
+    /// Who waits for the loss of the device.
+    waiting: Option<Waker>,
     errors: Vec<String>,
 }
 
@@ -125,6 +128,9 @@ impl Gpu {
         device.set_device_lost_callback(move |reason, message| {
             let mut health = on_loss.lock().unwrap_or_else(PoisonError::into_inner);
             health.lost = Some(format!("{reason:?} {message}"));
+            if let Some(waiting) = health.waiting.take() {
+                waiting.wake();
+            }
         });
         Self {
             device,
@@ -133,6 +139,19 @@ impl Gpu {
             health,
             waits: false,
         }
+    }
+
+    /// Waits until the device is lost, also by being destroyed. Only the last one who waits is told.
+    pub fn until_lost(&self) -> impl Future<Output = ()> + use<> {
+        let health = Arc::clone(&self.health);
+        std::future::poll_fn(move |context| {
+            let mut health = health.lock().unwrap_or_else(PoisonError::into_inner);
+            if health.lost.is_some() {
+                return Poll::Ready(());
+            }
+            health.waiting = Some(context.waker().clone());
+            Poll::Pending
+        })
     }
 
     /// True if futures of this device may block the thread while the GPU works.

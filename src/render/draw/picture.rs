@@ -23,7 +23,8 @@ pub(crate) struct PictureJob {
     pub gpu: Gpu,
     pub passes: Arc<Passes>,
     pub subject: Arc<SubjectTextures>,
-    pub scene: Scene,
+    /// On the heap, as the futures that own a job are moved and a browser's stack is small.
+    pub scene: Box<Scene>,
     pub view: View,
     pub size: [u32; 2],
 }

@@ -1,5 +1,6 @@
 use super::clock::Clock;
 use super::follow::{Follower, PendingPlaces};
+use super::identify::Sighting;
 use super::image::{Image, read_picture};
 use super::pace::{Pace, Work};
 use super::passes::Passes;
@@ -539,6 +540,26 @@ impl Renderer {
         async move {
             match started {
                 Some(picture) => picture.await,
+                None => Err(RenderError::NoSubject),
+            }
+        }
+    }
+
+    /// What each pixel of a picture of the subject shows: see [`Studio::identify`].
+    pub fn identify(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+    ) -> impl Future<Output = Result<Sighting, RenderError>> + 'static + use<> {
+        let resources = self.resources.clone();
+        let studio = self.studio.as_ref();
+        let started = studio.map(|studio| {
+            let studio = studio.clone().with_resources(resources);
+            studio.identify(illustration, size_px)
+        });
+        async move {
+            match started {
+                Some(sighting) => sighting.await,
                 None => Err(RenderError::NoSubject),
             }
         }

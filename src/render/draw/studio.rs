@@ -96,7 +96,7 @@ impl Studio {
         PictureJob::check_size(&self.gpu, size)?;
         Ok(PictureJob {
             view: View::new(&illustration.camera, size),
-            scene: self.scene(illustration, self.wants_grid),
+            scene: Box::new(self.scene(illustration, self.wants_grid)),
             gpu: self.gpu.clone(),
             passes: Arc::clone(&self.passes),
             subject: Arc::clone(&self.subject),

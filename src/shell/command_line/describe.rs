@@ -56,6 +56,7 @@ pub(super) fn describe(
         let measured = Measured {
             sight: Some(Sight::count(sighting.labels, studio.segments())),
             mm_per_unit: Some(subject.frame().mm_per_unit),
+            turned: None,
         };
         told.push(in_words(document, step, &measured, lang).map_err(CliError::Step)?);
     }

@@ -1,0 +1,491 @@
+// One illustration in a page: its picture with captions, its words and controls, around a picture of the engine.
+
+import { Captions } from "./captions.js";
+import { Controls } from "./controls.js";
+import { bindings, seconds, theEngine } from "./engine.js";
+import { Hands } from "./hands.js";
+import { STYLE } from "./style.js";
+import { nearest, wordsOf } from "./words.js";
+
+/** Pixels of a picture at most; it is scaled up beyond. */
+const MOST_PIXELS = 4.2e6;
+
+const sheet = new CSSStyleSheet();
+sheet.replaceSync(STYLE);
+
+/** What `src` means: a link, a payload or a document as text, or the address of a document. */
+export function sourceOf(src) {
+  // What platforms and mails make of a link: line breaks, `&amp;`, an encoded `&` or `#`, added parameters.
+  const text = src
+    .replace(/[\r\n\t]+/g, "")
+    .trim()
+    .replaceAll("&amp;", "&")
+    .replace(/%26step(=|%3D)/gi, "&step=");
+  if (text === "") return { text: '{"fabrica":1}' };
+  if (text.startsWith("{")) return { text };
+  const hash = text.indexOf("#");
+  if (hash >= 0 && hash + 1 < text.length) return { text: text.slice(hash) };
+  const query = new URLSearchParams(text.split("#")[0].split("?")[1] ?? "");
+  if (query.has("s")) return { text: `#${query.get("s")}${query.has("step") ? `&step=${query.get("step")}` : ""}` };
+  if (query.has("doc")) return { address: query.get("doc") };
+  // A payload without its mark: letters of base64url only, and long.
+  if (/^[A-Za-z0-9_-]{16,}(&step=\d+)?$/.test(text)) return { text: `#${text}` };
+  return { address: text };
+}
+
+export class Embed {
+  id = 0;
+  isDirty = false;
+  isSeen = true;
+  isWalking = false;
+  waits = false;
+  isReady = false;
+
+  #host;
+  #root;
+  #engine = null;
+  #outline = null;
+  #state = { step: 0, position: 0, playing: false, strayed: false, values: [] };
+  #wanted;
+  #opening = 0;
+  #isHandled = false;
+  #told = "";
+  #parts = {};
+  #watches = [];
+  #timer = 0;
+  #lang = "en";
+
+  constructor(host, root, step) {
+    this.#host = host;
+    this.#root = root;
+    this.#wanted = step ?? (host.hasAttribute("step") ? Number(host.getAttribute("step")) : null);
+  }
+
+  // ---- What the element has ----
+
+  get steps() {
+    return (this.#outline?.steps ?? []).map(({ title, legend }) => ({ title, caption: legend }));
+  }
+  get step() {
+    return this.#outline ? this.#state.step : (this.#wanted ?? 0);
+  }
+  get position() {
+    return this.#state.position;
+  }
+  get isPlaying() {
+    return this.#state.playing;
+  }
+
+  go(step) {
+    if (!this.#engine) {
+      this.#wanted = step;
+      return;
+    }
+    this.#engine.reader.go(this.id, step, seconds());
+    this.#changed();
+  }
+
+  play(plays) {
+    if (!this.#engine || plays === this.isPlaying) return;
+    this.#engine.reader.toggle_playing(this.id, seconds());
+    this.#changed();
+  }
+
+  scrub(position) {
+    this.#engine?.reader.scrub(this.id, position);
+    this.#changed();
+  }
+
+  setParam(pointer, value) {
+    try {
+      this.#engine.reader.set(this.id, pointer, JSON.stringify(value) ?? "null");
+    } catch (error) {
+      this.#tell("error", { message: String(error.message ?? error) });
+      throw new Error(String(error.message ?? error));
+    }
+    this.#tell("paramchange", { pointer, value });
+    this.#changed();
+  }
+
+  reset() {
+    if (!this.#engine) return;
+    this.#engine.reader.reset(this.id);
+    this.#tell("viewchange", { view: this.view });
+    this.#changed();
+  }
+
+  get view() {
+    return JSON.parse(this.#engine?.reader.view(this.id) || "null");
+  }
+
+  async toDataURL() {
+    const [bytes, width, height] = await this.#engine.reader.picture(this.id);
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [width, height];
+    canvas.getContext("2d").putImageData(new ImageData(bytes, width, height), 0, 0);
+    return canvas.toDataURL("image/png");
+  }
+
+  // ---- What hands and controls do ----
+
+  get isMoving() {
+    return this.#isHandled || this.isWalking;
+  }
+
+  moving(is) {
+    if (this.#isHandled === is) return;
+    this.#isHandled = is;
+    this.#wake();
+    if (!is) this.#turned();
+  }
+
+  turn(right, down) {
+    this.#engine?.reader.turn(this.id, right, down);
+    this.#viewed();
+  }
+  zoom(factor) {
+    this.#engine?.reader.zoom(this.id, factor);
+    this.#viewed();
+  }
+  shift(right, down) {
+    this.#engine?.reader.shift(this.id, right, down);
+    this.#viewed();
+  }
+
+  #viewed() {
+    this.#changed();
+    if (!this.#isHandled) this.#turned();
+  }
+
+  /** The view has come to rest: it is told, with the side that one looks from. */
+  #turned() {
+    if (!this.#engine) return;
+    this.#tell("viewchange", { view: this.view });
+    this.#say(this.#engine.reader.side(this.id, this.#lang));
+  }
+
+  full() {
+    if (document.fullscreenElement) document.exitFullscreen();
+    // Where a frame forbids it, the picture fills the frame.
+    else this.#host.requestFullscreen?.().catch(() => this.#parts.view.classList.toggle("fills"));
+  }
+
+  entered(isInside) {
+    this.#parts.hint.textContent = isInside ? this.#words.leave : this.#words.enter;
+    if (isInside) this.#engine?.use(this);
+  }
+
+  // ---- Opening and ending ----
+
+  /** Shows what `src` names. */
+  async open() {
+    const opening = ++this.#opening;
+    const isStale = () => opening !== this.#opening;
+    try {
+      const source = sourceOf(this.#host.getAttribute("src") ?? "");
+      let base = document.baseURI;
+      const reading = bindings();
+      if (source.address !== undefined) {
+        base = new URL(source.address, document.baseURI).href;
+        source.text = await fetchText(base, source.address);
+      }
+      const { outline_of: outlineOf } = await reading;
+      const outline = JSON.parse(outlineOf(source.text, base));
+      if (isStale()) return;
+      this.#outline = outline;
+      const engine = await theEngine().catch((error) => {
+        if (!isStale()) this.#showWords(outline, error);
+        throw error;
+      });
+      if (isStale()) return;
+      this.#build();
+      const step = this.#wanted ?? outline.step;
+      const canvas = document.createElement("canvas");
+      canvas.part = "picture";
+      canvas.setAttribute("role", "img");
+      const before = this.id;
+      const wanted = { text: source.text, base, step: Math.min(Math.max(Math.round(step) || 0, 0), outline.steps.length), part: outline.part };
+      this.#engine = engine;
+      this.id = engine.add(this, canvas, wanted);
+      if (before) engine.drop(before);
+      this.#parts.canvas?.remove();
+      this.#parts.stage.prepend(canvas);
+      this.#parts.canvas = canvas;
+      this.isReady = false;
+      this.dress();
+      this.#wake();
+    } catch (error) {
+      if (!isStale()) this.fail(error);
+    }
+  }
+
+  /** Gives back what only this embed has used. */
+  end() {
+    this.#opening += 1;
+    clearTimeout(this.#timer);
+    for (const watch of this.#watches) watch();
+    this.#watches = [];
+    this.#engine?.remove(this);
+    this.#engine = null;
+    this.id = 0;
+    this.#parts = {};
+  }
+
+  #build() {
+    if (this.#parts.view) return;
+    const make = (tag, part) => {
+      const element = document.createElement(tag);
+      element.className = part;
+      element.part = part;
+      return element;
+    };
+    this.#root.adoptedStyleSheets = [sheet];
+    const [view, stage, layer, hint, words, controls, said] = [
+      ["div", "frame"], ["div", "stage"], ["div", "layer"], ["p", "hint"], ["div", "words"], ["div", "controls"], ["p", "unseen"],
+    ].map(([tag, part]) => make(tag, part));
+    const legend = make("p", "legend");
+    said.setAttribute("role", "status");
+    stage.tabIndex = 0;
+    stage.setAttribute("role", "group");
+    words.hidden = true;
+    // The poster lies over the picture until the first whole one is there.
+    const poster = make("div", "poster");
+    poster.append(...this.#root.childNodes);
+    for (const image of this.#host.querySelectorAll(":scope > img")) image.slot = "poster";
+    const slot = document.createElement("slot");
+    slot.name = "poster";
+    const image = poster.querySelector("img");
+    stage.append(layer, hint);
+    const cover = make("div", "cover");
+    cover.append(...(image ? [image] : []), slot);
+    cover.classList.toggle("is-poster", image !== null || this.#host.querySelector(":scope > img") !== null);
+    stage.append(cover);
+    view.append(stage, words, legend, controls, said);
+    this.#root.replaceChildren(view, poster);
+    this.#parts = { view, stage, layer, hint, words, controls, legend, said, poster, cover };
+    this.#parts.captions = new Captions(layer);
+    this.#parts.bar = new Controls(controls, this);
+    this.#parts.hands = new Hands(stage, this.#host, this);
+    const sized = new ResizeObserver(() => {
+      this.#parts.captions?.measure();
+      this.#wake();
+    });
+    sized.observe(stage);
+    const seen = new IntersectionObserver((entries) => {
+      this.isSeen = entries.at(-1).isIntersecting;
+      if (this.isSeen && this.isDirty) this.#wake();
+    });
+    seen.observe(this.#host);
+    stage.addEventListener("pointerenter", () => this.#engine?.use(this), { passive: true });
+    document.fonts?.ready.then(() => this.#parts.captions?.measure());
+    this.#watches = [() => sized.disconnect(), () => seen.disconnect(), () => this.#parts.hands.end()];
+  }
+
+  get #words() {
+    return wordsOf(this.#lang);
+  }
+
+  /** Brings words and controls in line with the attributes. */
+  dress() {
+    const { captions, bar, hint, controls, legend, stage } = this.#parts;
+    if (!captions || !this.#outline) return;
+    const own = this.#host.closest("[lang]")?.lang || document.documentElement.lang;
+    this.#lang = nearest(own || this.#outline.lang || navigator.language);
+    const { background, lang } = this.#outline;
+    if (lang) this.#parts.layer.lang = legend.lang = lang;
+    captions.set(this.#outline.captions, this.#words);
+    bar.set(this.#outline, this.#words);
+    controls.hidden = legend.hidden = !this.#host.hasAttribute("controls");
+    controls.lang = this.#lang;
+    hint.textContent = this.#parts.hands.isInside ? this.#words.leave : this.#words.enter;
+    stage.style.background = background ?? "none";
+    stage.classList.toggle("dark", isDark(background));
+    stage.setAttribute("aria-label", this.#words.illustration);
+    this.#wake();
+    this.#show();
+  }
+
+  // ---- What the engine says ----
+
+  /** Width and height of the picture, pixels. */
+  size() {
+    const { stage } = this.#parts;
+    if (!stage?.isConnected) return [0, 0];
+    const { width, height } = stage.getBoundingClientRect();
+    const scale = Math.min(devicePixelRatio, Math.sqrt(MOST_PIXELS / Math.max(width * height, 1)));
+    return [Math.round(width * scale), Math.round(height * scale)];
+  }
+
+  /** A frame was drawn. */
+  drawn(hasPicture, isDone) {
+    const { captions, layer, stage } = this.#parts;
+    if (hasPicture) {
+      const { clientWidth, clientHeight } = stage;
+      captions.place(this.#engine.reader.captions(this.id, clientWidth, clientHeight, captions.sizes(), captions.gap));
+      layer.hidden = false;
+    }
+    this.#look();
+    if (isDone && !this.isReady) this.#reveal();
+    if (isDone && hasPicture) this.#describe();
+  }
+
+  /** The first whole picture takes the place of the poster, one frame after it is there. */
+  #reveal() {
+    if (this.#look().failed) return;
+    this.isReady = true;
+    requestAnimationFrame(() => {
+      this.#parts.view?.classList.add("ready");
+      this.#tell("ready", { step: this.step });
+    });
+  }
+
+  /** Something has come of a load. */
+  hear() {
+    this.#look();
+  }
+
+  #look() {
+    if (!this.#engine) return this.#state;
+    const before = this.#state;
+    this.#state = JSON.parse(this.#engine.reader.state(this.id, seconds()));
+    const { step, host, file, failed, troubles, progress, wait } = this.#state;
+    if (before.step !== step) this.#arrived(step);
+    this.#show();
+    if (failed && !before.failed && !file) this.fail(new Error(troubles.at(-1) ?? ""));
+    else if (host) this.#ask(this.#words.host(host), this.#words.fetch, () => this.#engine.reader.allow(this.id));
+    else if (file) this.#askFile();
+    else if (!this.isReady && progress !== null) this.#wait(progress);
+    else if (!failed) this.#parts.words.hidden = true;
+    clearTimeout(this.#timer);
+    // A lesson that plays by itself sleeps until the next step.
+    if (wait !== null && wait !== undefined) this.#timer = setTimeout(() => this.#wake(), 1000 * Math.max(wait, 0) + 5);
+    return this.#state;
+  }
+
+  #arrived(step) {
+    this.#tell("stepchange", { step });
+    const shown = this.#outline.steps[step - 1] ?? this.#outline;
+    const where = step ? this.#words.step(step, this.#outline.steps.length) : this.#words.start;
+    this.#say([where, shown.title, shown.legend].filter(Boolean).join(": "));
+  }
+
+  #show() {
+    const { bar, legend } = this.#parts;
+    if (!bar || !this.#outline) return;
+    bar.show(this.#state, this.#outline.steps.length);
+    const { title, legend: caption } = this.#outline.steps[this.#state.step - 1] ?? this.#outline;
+    const text = [title, caption].filter(Boolean).join(": ");
+    if (legend.textContent !== text) legend.textContent = text;
+  }
+
+  /** The picture in words takes its place for who cannot see it. */
+  async #describe() {
+    const own = this.#host.getAttribute("alt");
+    const key = `${this.#state.step} ${this.#engine.reader.view(this.id)} ${this.#lang} ${own}`;
+    if (this.#told === key) return;
+    this.#told = key;
+    const { canvas } = this.#parts;
+    const words = own ?? (await this.#engine.reader.describe(this.id, this.#lang));
+    if (this.#told === key && words) canvas.setAttribute("aria-label", words);
+  }
+
+  // ---- Words in place of the picture ----
+
+  #say(text) {
+    if (this.#parts.said) this.#parts.said.textContent = text;
+  }
+
+  #wait(progress) {
+    const { words } = this.#parts;
+    words.hidden = false;
+    words.textContent = `${this.#words.loading} … ${Math.round(100 * progress)} %`;
+  }
+
+  #ask(text, name, act) {
+    const { words } = this.#parts;
+    if (words.dataset.asks === text && !words.hidden) return;
+    words.dataset.asks = text;
+    const button = document.createElement("button");
+    button.part = "button";
+    button.textContent = name;
+    button.onclick = () => {
+      words.hidden = true;
+      act();
+      this.#wake();
+    };
+    words.replaceChildren(`${text} `, button);
+    words.hidden = false;
+  }
+
+  #askFile() {
+    this.#ask(this.#words.file, this.#words.choose, () => {
+      const chooser = document.createElement("input");
+      Object.assign(chooser, { type: "file", multiple: true });
+      chooser.onchange = () => {
+        this.#engine?.reader.give(this.id, [...chooser.files]);
+        this.#wake();
+      };
+      chooser.click();
+    });
+  }
+
+  /** Title, caption and steps as text, where nothing can be drawn. */
+  #showWords(outline, error) {
+    this.#build();
+    const { words } = this.#parts;
+    const line = ({ title, legend }) => [title, legend].filter(Boolean).join(": ");
+    const list = document.createElement("ol");
+    list.append(...outline.steps.map((step) => Object.assign(document.createElement("li"), { textContent: line(step) })));
+    const text = (content) => Object.assign(document.createElement("p"), { textContent: content });
+    words.replaceChildren(text(line(outline)), list, text(navigator.gpu ? String(error.message ?? error) : wordsOf(nearest(this.#host.closest("[lang]")?.lang)).noGpu));
+    words.hidden = false;
+    this.#parts.view.classList.add("words-only");
+  }
+
+  /** What went wrong is told in the embed and by `error`. */
+  fail(error) {
+    const message = String(error?.message ?? error);
+    this.#build();
+    const { words, view } = this.#parts;
+    if (!view.classList.contains("words-only")) {
+      words.textContent = `${this.#words.cannot} ${message}`;
+      words.hidden = false;
+    }
+    this.#tell("error", { message });
+  }
+
+  #tell(name, detail) {
+    this.#host.dispatchEvent(new CustomEvent(name, { bubbles: true, composed: true, detail }));
+  }
+
+  #changed() {
+    if (!this.#engine) return;
+    this.#engine.use(this);
+    this.#look();
+    this.#wake();
+  }
+
+  #wake() {
+    if (this.#engine && this.id) this.#engine.wake(this);
+  }
+}
+
+/** True if letters on a background have to be light. */
+function isDark(background) {
+  if (!background) return false;
+  const [r, g, b] = [1, 3, 5].map((at) => parseInt(background.slice(at, at + 2), 16));
+  return 0.3 * r + 0.59 * g + 0.11 * b < 0.45 * 255;
+}
+
+async function fetchText(address, name) {
+  let response;
+  try {
+    response = await fetch(address, { credentials: "omit" });
+  } catch {
+    throw new Error(
+      `${name} could not be fetched. If it lies on another host, that host has to allow it (Access-Control-Allow-Origin: *).`,
+    );
+  }
+  if (!response.ok) throw new Error(`${name} could not be fetched (${response.status}).`);
+  return response.text();
+}

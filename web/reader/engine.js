@@ -1,0 +1,182 @@
+// One device, one set of data and one frame loop for all pictures of a page (src/shell/reader.rs). At rest there is no frame
+// and no timer.
+
+import { WORKER, startPart } from "../parts.js";
+
+/** What the GPU may spend on a frame while something moves, and at rest: seconds. */
+const MOVING = 0.03;
+const REST = 0.05;
+// What Reader.draw returns.
+const HAS_PICTURE = 1;
+const IS_DONE = 2;
+const IS_MOVING = 4;
+const WAITS = 8;
+
+const beside = (name) => new URL(`../${name}`, import.meta.url).href;
+
+let program;
+/** The reader's program, fetched once; a failed fetch is tried again the next time. */
+export function bindings() {
+  program ??= import("../fabrica_reader.js")
+    .then(async (found) => {
+      await found.default({ module_or_path: beside("fabrica_reader_bg.wasm") });
+      return found;
+    })
+    .catch((error) => {
+      program = undefined;
+      throw new Error(`The viewer could not be fetched (${error.message ?? error}).`);
+    });
+  return program;
+}
+
+let engine;
+/** The page's engine: started by the first picture, ended with the last. */
+export function theEngine() {
+  engine ??= start().catch((error) => {
+    engine = undefined;
+    throw error;
+  });
+  return engine;
+}
+
+async function start() {
+  const { Reader } = await bindings();
+  const made = new Engine();
+  made.reader = await Reader.start(WORKER, () => made.hear());
+  made.watch();
+  const query = matchMedia("(prefers-reduced-motion: reduce)");
+  const heed = () => made.reader?.set_less_motion(query.matches);
+  heed();
+  query.addEventListener("change", heed);
+  made.forget = () => query.removeEventListener("change", heed);
+  return made;
+}
+
+export const seconds = () => performance.now() * 1e-3;
+
+class Engine {
+  reader = null;
+  #embeds = new Set();
+  #frame = 0;
+  /** The picture that was used last keeps its memory on the device; the others give it back when they are complete. */
+  #used = null;
+  #last = null;
+  /** Data came to the device in the frame before. */
+  #wasBusy = false;
+
+  /** Adds the picture of an embed; `part` is the part of the program that its subject needs, if that is known. */
+  add(embed, canvas, { text, base, step, part }) {
+    const early = part ? startPart(part) : null;
+    if (early) this.reader.lend(early.part, early.worker);
+    const id = this.reader.add(canvas, text, base, step);
+    this.#embeds.add(embed);
+    this.#used ??= embed;
+    return id;
+  }
+
+  /** Takes away a picture that another one of its embed has replaced. */
+  drop(id) {
+    this.reader.remove(id);
+  }
+
+  /** Takes the picture of an embed away; with the last one goes the device. */
+  remove(embed) {
+    this.#embeds.delete(embed);
+    if (this.#used === embed) this.#used = null;
+    this.reader.remove(embed.id);
+    if (this.#embeds.size > 0) return;
+    cancelAnimationFrame(this.#frame);
+    engine = undefined;
+    this.forget();
+    const reader = this.reader;
+    this.reader = null;
+    reader.destroy();
+    reader.free();
+  }
+
+  /** The picture that the reader turns to keeps what it needs to be drawn at once. */
+  use(embed) {
+    if (this.#used === embed) return;
+    if (this.#used && !this.#used.isDirty) this.reader.rest(this.#used.id);
+    this.#used = embed;
+  }
+
+  /** A picture has to be drawn. */
+  wake(embed) {
+    embed.isDirty = true;
+    this.#schedule();
+  }
+
+  /** Something has come of a load. */
+  hear() {
+    for (const embed of this.#embeds) {
+      if (embed.waits) embed.isDirty = true;
+      embed.hear();
+    }
+    this.#schedule();
+  }
+
+  #schedule() {
+    if (this.reader && !this.#frame) this.#frame = requestAnimationFrame(() => this.#draw());
+  }
+
+  /** The picture to draw next: one that moves, else the one in use, else the first that is seen. */
+  #next() {
+    const wanting = [...this.#embeds].filter((embed) => embed.isDirty && embed.isSeen);
+    const moving = wanting.filter((embed) => embed.isMoving);
+    if (moving.length > 0) return moving[(moving.indexOf(this.#last) + 1) % moving.length];
+    return wanting.includes(this.#used) ? this.#used : wanting[0];
+  }
+
+  #draw() {
+    this.#frame = 0;
+    if (this.reader.is_lost()) return;
+    const isBusy = this.reader.tick(REST);
+    if (isBusy || this.#wasBusy) {
+      for (const embed of this.#embeds) embed.isDirty ||= embed.waits;
+    }
+    this.#wasBusy = isBusy;
+    const embed = this.#next();
+    if (embed) this.#drawOne(embed);
+    this.#last = embed;
+    if (isBusy || this.#next()) this.#schedule();
+  }
+
+  #drawOne(embed) {
+    const [width, height] = embed.size();
+    embed.waits = false;
+    if (width === 0) {
+      embed.isDirty = false; // It has no room; it is woken when it gets some.
+      return;
+    }
+    let flags;
+    try {
+      const budget = embed.isMoving ? MOVING : REST;
+      flags = this.reader.draw(embed.id, width, height, seconds(), budget, embed.isMoving);
+    } catch (error) {
+      embed.isDirty = false;
+      embed.fail(error);
+      return;
+    }
+    embed.isWalking = Boolean(flags & IS_MOVING);
+    embed.waits = Boolean(flags & WAITS);
+    embed.isDirty = !(flags & IS_DONE) && !embed.waits;
+    embed.drawn(Boolean(flags & HAS_PICTURE), Boolean(flags & IS_DONE));
+    if (flags & IS_DONE && embed !== this.#used) this.reader.rest(embed.id);
+  }
+
+  /** Starts again when the device is lost: the same pictures, the same data. */
+  watch() {
+    this.reader.lost().then(async () => {
+      if (!this.reader) return;
+      try {
+        await this.reader.restart();
+        this.watch();
+        for (const embed of this.#embeds) embed.isDirty = true;
+        this.#schedule();
+      } catch (error) {
+        for (const embed of this.#embeds) embed.fail(error);
+      }
+    });
+  }
+}

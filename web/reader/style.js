@@ -1,0 +1,55 @@
+// How an embed looks. Pages change it by ::part(…) and by --fabrica-ratio, --fabrica-ink and --fabrica-ground.
+
+export const STYLE = `
+  :host { display: block; font: 16px/1.4 system-ui, sans-serif; container-type: inline-size; }
+  :host([hidden]), [hidden] { display: none !important; }
+  .frame { display: flex; flex-direction: column; height: 100%; color: var(--fabrica-ink, inherit); background: var(--fabrica-ground, none); }
+  .stage { position: relative; flex: 1 1 auto; aspect-ratio: var(--fabrica-ratio, 4 / 3); min-height: 8rem; width: 100%;
+    overflow: hidden; cursor: grab; user-select: none; -webkit-user-select: none; color: #1f2426; --halo: rgb(255 255 255 / 0.85); }
+  .stage.dark { color: #fff; --halo: rgb(0 0 0 / 0.75); }
+  .stage:active { cursor: grabbing; }
+  .stage:focus-visible, .stage.inside { outline: 3px solid Highlight; outline-offset: -3px; }
+  .stage.inside { touch-action: none; }
+  canvas, .layer, .layer svg, .cover { position: absolute; inset: 0; width: 100%; height: 100%; }
+  .cover.is-poster { background: Canvas; }
+  .cover img, .cover ::slotted(img) { display: block; width: 100%; height: 100%; object-fit: contain; }
+  .layer { pointer-events: none; z-index: 1; font-size: 13px; }
+  .layer ol { margin: 0; padding: 0; list-style: none; }
+  .layer li { position: absolute; left: 0; top: 0; max-width: min(27cqw, 190px); padding: 1px 4px; border-radius: 4px;
+    background: var(--halo); pointer-events: auto; cursor: text; user-select: text; -webkit-user-select: text; }
+  .layer li.off { visibility: hidden; }
+  .layer .behind { opacity: 0.6; }
+  .layer li.absent, .unseen { clip-path: inset(50%); }
+  .unseen { position: absolute; width: 1px; height: 1px; margin: 0; overflow: hidden; white-space: nowrap; }
+  .layer path { fill: none; stroke: currentColor; stroke-width: 1.2; }
+  .layer path.halo { stroke: var(--halo); stroke-width: 3; }
+  .layer circle { fill: currentColor; stroke: var(--halo); stroke-width: 1.4; }
+  .hint { position: absolute; z-index: 2; left: 50%; bottom: 6px; transform: translateX(-50%); margin: 0; padding: 2px 10px; max-width: 94%;
+    border-radius: 10px; font-size: 13px; background: #000c; color: #fff; opacity: 0; pointer-events: none; }
+  .ready .stage:focus-visible .hint, .ready .stage.inside .hint { opacity: 1; }
+  @media (hover: hover) { .ready .stage:hover .hint { opacity: 1; } }
+  .ready .cover, .ready ~ .poster, .words-only ~ .poster { display: none; }
+  .frame:not(.ready) :is(.controls, .legend) { display: none; }
+  .words { padding: 8px 12px; white-space: pre-line; }
+  .words-only .stage { display: none; }
+  .legend { margin: 0; padding: 8px 12px; min-height: 1.4em; }
+  .controls { display: flex; flex-wrap: wrap; gap: 6px 14px; padding: 6px; }
+  .controls > div { display: flex; flex-wrap: wrap; align-items: center; gap: 4px; }
+  .controls > div:first-child { flex: 1 1 20rem; }
+  button { font: inherit; color: inherit; background: none; border: 1px solid color-mix(in srgb, currentColor 45%, transparent); border-radius: 6px;
+    min-width: 32px; min-height: 32px; padding: 4px 7px; cursor: pointer; }
+  button:disabled { opacity: 0.45; cursor: default; }
+  button svg { display: block; width: 16px; height: 16px; fill: none; stroke: currentColor; stroke-width: 1.8; stroke-linecap: round; stroke-linejoin: round; }
+  button:focus-visible, select:focus-visible, input:focus-visible { outline: 3px solid Highlight; outline-offset: 1px; }
+  input[type="range"] { min-height: 24px; min-width: 6rem; flex: 1 1 8rem; accent-color: currentColor; }
+  input[type="checkbox"] { width: 24px; height: 24px; margin: 0; }
+  select { font: inherit; color: inherit; background: Canvas; min-height: 32px; max-width: 12rem; border-radius: 6px; }
+  fieldset { display: flex; flex-wrap: wrap; gap: 4px 14px; flex: 1 1 100%; margin: 0; border: 0; padding: 2px; min-width: 0; }
+  legend { padding: 0; font-weight: 600; }
+  label { display: flex; align-items: center; gap: 6px; flex: 1 1 14rem; min-height: 28px; }
+  :host(:fullscreen) { background: Canvas; color: CanvasText; }
+  :host(:fullscreen) .stage, .fills .stage { aspect-ratio: auto; min-height: 0; }
+  .fills { position: fixed; inset: 0; z-index: 2147483647; height: auto; background: Canvas; color: CanvasText; }
+  @media print { .controls, .hint { display: none !important; } }
+  @media (forced-colors: active) { .layer li { background: Canvas; color: CanvasText; } }
+`;
