@@ -1,8 +1,16 @@
 // Parts of the viewer are programs that run in workers (src/shell/worker). Here a part is started before the viewer asks for
 // it, so that it is fetched and compiled while the viewer itself is on its way.
 
-/** Address of the script that all parts start in. */
-export const WORKER = new URL("./worker.js", import.meta.url).href;
+const SCRIPT = new URL("./worker.js", import.meta.url);
+
+/**
+ * Address of the script that all parts start in. Browsers start no worker from another host, or from any host where the page
+ * is sandboxed and belongs to none; there a script of the page's own imports it.
+ */
+export const WORKER =
+  SCRIPT.origin === self.origin
+    ? SCRIPT.href
+    : URL.createObjectURL(new Blob([`import ${JSON.stringify(SCRIPT.href)};`], { type: "text/javascript" }));
 
 /** A worker that loads a part and waits for one task, which Viewer.lend gives it; null where there are no workers. */
 export function startPart(part) {

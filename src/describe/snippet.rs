@@ -11,7 +11,7 @@ use crate::link;
 pub enum Snippet {
     /// `<fabrica-viewer>`, with the script that defines it.
     Element,
-    /// The page in an `<iframe>`.
+    /// An `<iframe>` of embed.html, the reader alone.
     Frame,
     /// Text with a link, for platforms that take scripts and frames away.
     Plain,
@@ -23,7 +23,7 @@ impl Snippet {
 }
 
 /// The HTML of a document at a step. `page` is the address of the page that links open in, as far as its `#`; the
-/// element's script lies beside it. Whatever the author wrote is text in it, never markup.
+/// element's script and embed.html lie beside it. Whatever the author wrote is text in it, never markup.
 ///
 /// # Errors
 /// [`DocumentError::NoSuchStep`].
@@ -36,9 +36,10 @@ pub fn snippet(
 ) -> Result<String, DocumentError> {
     let page = page.split('#').next().unwrap_or_default();
     let folder = &page[..page.rfind('/').map_or(0, |at| at + 1)];
-    let address = format!("{page}{}", link::fragment(document, step));
+    let fragment = link::fragment(document, step);
+    let address = format!("{page}{fragment}");
     let told = describe(document, step, &Measured::default(), lang)?;
-    let (address, folder) = (escaped(&address), escaped(folder));
+    let [address, folder, fragment] = [&address, folder, &fragment].map(escaped);
     let (alt, text) = (escaped(told.text()), inside(document, &address));
     Ok(match form {
         Snippet::Element => {
@@ -52,7 +53,7 @@ pub fn snippet(
             )
         }
         Snippet::Frame => format!(
-            "<figure>\n<iframe src=\"{address}\" title=\"{alt}\" width=\"100%\" height=\"480\" loading=\"lazy\" allowfullscreen></iframe>\n\
+            "<figure>\n<iframe src=\"{folder}embed.html{fragment}\" title=\"{alt}\" width=\"100%\" height=\"480\" loading=\"lazy\" allowfullscreen></iframe>\n\
              <figcaption>\n{text}</figcaption>\n</figure>\n"
         ),
         Snippet::Plain => format!("<div>\n{text}<p>{alt}</p>\n</div>\n"),

@@ -101,8 +101,10 @@ impl Picture {
             return false;
         };
         let about = (&**seen, &seen.camera);
-        self.captions
-            .update(&mut self.renderer, about, self.size_px, self.is_complete)
+        let is_waiting =
+            self.captions
+                .update(&mut self.renderer, about, self.size_px, self.is_complete);
+        is_waiting || self.captions.is_waiting()
     }
 
     /// The illustration with the reader's camera.

@@ -284,12 +284,6 @@ impl Stock {
         Ok(is_busy)
     }
 
-    /// Gives the subject's memory on the device back, when no picture shows it any more.
-    pub fn destroy(&mut self) {
-        self.host.destroy_own();
-        self.host.destroy_subject();
-    }
-
     /// Goes on with another device after the old one was lost.
     ///
     /// # Errors

@@ -344,7 +344,7 @@ mod tests {
         visit.scrub(1.5);
         let distance = visit.camera().distance;
         assert!(distance > 1.5 && distance < 2.5, "{distance}");
-        assert_eq!(visit.step(), 1);
+        assert_eq!((visit.step(), visit.position()), (2, 1.5));
     }
 
     #[test]

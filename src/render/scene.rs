@@ -56,6 +56,38 @@ pub(crate) struct Scene {
     bound_from: MadeFrom<3>,
 }
 
+impl Drop for Scene {
+    /// Gives its memory back to the device. A browser would do so late, when it collects what nobody holds.
+    fn drop(&mut self) {
+        let views = [
+            &self.kept_textures.view,
+            &self.fields.view,
+            &self.bodies.view,
+            &self.look.view,
+            &self.no_grid.1,
+        ];
+        for view in views {
+            view.texture().destroy();
+        }
+        let buffers = [
+            &self.templates.uniform,
+            &self.kept_textures.uniform,
+            &self.bodies.uniform,
+            &self.look.uniform,
+            &self.no_grid.0,
+        ];
+        for buffer in buffers {
+            buffer.destroy();
+        }
+        if let Some(grid) = &self.grid {
+            grid.destroy();
+        }
+        if let Some(baked) = &self.baked {
+            baked.destroy();
+        }
+    }
+}
+
 impl Scene {
     /// Holds nothing until [`Scene::update`].
     pub(crate) fn new(gpu: &Gpu, layouts: &Layouts, wants_grid: bool) -> Self {
@@ -169,25 +201,6 @@ impl Scene {
             kept_textures: &self.kept_textures,
             fields: &self.fields,
             bodies: &self.bodies,
-        }
-    }
-
-    /// Gives its textures back to the device.
-    pub(crate) fn destroy(&self) {
-        let grid = self.grid.as_ref().map(|grid| grid.binding().1);
-        let mut views = vec![
-            &self.kept_textures.view,
-            &self.fields.view,
-            &self.bodies.view,
-            &self.look.view,
-            &self.no_grid.1,
-        ];
-        views.extend(grid);
-        for view in views {
-            view.texture().destroy();
-        }
-        if let Some(baked) = &self.baked {
-            baked.destroy();
         }
     }
 

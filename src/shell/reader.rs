@@ -647,9 +647,7 @@ impl Inner {
             .copied()
             .collect();
         for id in unused {
-            if let Some(mut stocked) = self.stocks.remove(&id) {
-                stocked.stock.destroy();
-            }
+            self.stocks.remove(&id);
         }
     }
 

@@ -1,11 +1,15 @@
 //! The reader: illustrations as elements in somebody else's page.
 
-use super::hand::pause;
+use super::hand::{Touch, pause, strike};
 use super::harness::{Session, Tab};
 use super::*;
+use chromiumoxide::cdp::browser_protocol::emulation::SetFocusEmulationEnabledParams;
+use chromiumoxide::cdp::browser_protocol::input::{
+    DispatchMouseEventParams, DispatchMouseEventType,
+};
 
 /// A lesson of the cube with a value that its readers may move.
-pub(crate) const LESSON: &str = r#"{"fabrica":1,"title":"Opening a cube","caption":"It is whole.","subject":{"builtin":"cube"},"templates":[{"kind":"split","size":[1.2,1.2,1.2],"params":{"amount":0}}],"labels":[{"at":[0.3,0.3,0.3],"text":"A corner"},{"at":[0,0,0],"text":"Its middle"}],"controls":[{"pointer":"/templates/0/params/amount","name":"Gap"},{"pointer":"/templates/0/enabled","name":"Split at all"}],"steps":[{"title":"Apart","caption":"The halves part.","set":{"/templates/0/params/amount":0.3}},{"title":"Nearer","set":{"/camera/distance":1.8}}]}"#;
+pub(crate) const LESSON: &str = r#"{"fabrica":1,"title":"Opening a cube","caption":"It is whole.","subject":{"builtin":"cube"},"templates":[{"kind":"split","size":[1.2,1.2,1.2],"params":{"amount":0}}],"labels":[{"at":[0.3,0.49,0.3],"text":"A corner"},{"at":[0,0,0],"text":"Its middle"}],"controls":[{"pointer":"/templates/0/params/amount","name":"Gap"},{"pointer":"/templates/0/enabled","name":"Split at all"}],"steps":[{"title":"Apart","caption":"The halves part.","set":{"/templates/0/params/amount":0.3}},{"title":"Nearer","set":{"/camera/distance":1.8}}]}"#;
 
 /// Counts what a page makes on its graphics device, its workers, frames and timers. Stands before all other scripts.
 const LEDGER: &[u8] = br"
@@ -20,7 +24,7 @@ if (window.GPUDevice) {
     const make = GPUDevice.prototype[name];
     GPUDevice.prototype[name] = function (descriptor) {
       const made = make.call(this, descriptor);
-      ledger[kept].set(made, { bytes: bytes(descriptor), device: this, label: descriptor.label, is3d: descriptor.dimension === '3d' });
+      ledger[kept].set(made, { bytes: bytes(descriptor), device: this, label: descriptor.label });
       const destroy = made.destroy;
       made.destroy = function () { ledger[kept].delete(made); return destroy.call(this); };
       return made;
@@ -39,6 +43,7 @@ if (window.GPUDevice) {
     return device;
   };
 }
+const plainFrame = window.requestAnimationFrame.bind(window);
 const Plain = window.Worker;
 window.Worker = class extends Plain {
   constructor(...args) { super(...args); ledger.workers.add(this); }
@@ -49,7 +54,15 @@ for (const [name, count] of [['requestAnimationFrame', 'frames'], ['setTimeout',
   window[name] = (...args) => { ledger[count] += 1; return plain(...args); };
 }
 ledger.bytes = () => ['textures', 'buffers'].flatMap((kept) => [...ledger[kept].values()]).reduce((sum, { bytes }) => sum + bytes, 0);
-ledger.volumes = () => [...ledger.textures.values()].filter(({ is3d, bytes }) => is3d && bytes > 1e6).length;
+ledger.shares = () => {
+  const sums = {};
+  for (const kept of ['textures', 'buffers']) for (const { bytes, label } of ledger[kept].values()) sums[label] = (sums[label] ?? 0) + bytes;
+  return Object.entries(sums).sort((a, b) => b[1] - a[1]).slice(0, 24);
+};
+ledger.volumes = () => [...ledger.textures.values()].filter(({ label }) => label === 'volume').length;
+// For the waits of the tests: frames of the browser.
+let drawn = 0;
+window.fabrica = { viewer: { frame: () => drawn, request_frame: () => plainFrame(() => (drawn += 1)) } };
 window.told = [];
 for (const name of ['ready', 'stepchange', 'paramchange', 'viewchange', 'error']) {
   document.addEventListener(name, (event) => window.told.push([name, event.target.id, event.detail]));
@@ -64,7 +77,7 @@ fn page_of(embeds: &[String], between: &str) -> Vec<u8> {
         .map(|(index, rest)| format!("<fabrica-viewer id=e{index} {rest}</fabrica-viewer>"))
         .collect();
     format!(
-        "<!doctype html><html lang=en><meta name=viewport content=\"width=device-width\"><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; img-src 'self' data:\"><title>A lesson</title><script src=ledger.js></script><script type=module src=fabrica-viewer.js></script><h1>A lesson</h1>{}</html>",
+        "<!doctype html><html lang=en><meta name=viewport content=\"width=device-width\"><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; img-src 'self' data:; style-src 'self'\"><link rel=stylesheet href=tall.css><title>A lesson</title><script src=ledger.js></script><script type=module src=fabrica-viewer.js></script><h1>A lesson</h1>{}</html>",
         embeds.join(between)
     )
     .into_bytes()
@@ -76,6 +89,10 @@ fn lesson(attributes: &str) -> String {
 
 async fn open(session: &Session, embeds: &[String], between: &str, size: (u32, u32)) -> Tab {
     session.server.add("ledger.js", LEDGER.to_vec());
+    session.server.add(
+        "tall.css",
+        b".tall { height: 5000px } .narrow { max-width: 380px; margin: 8px auto }".to_vec(),
+    );
     session.server.add("lesson.html", page_of(embeds, between));
     let tab = session.open("lesson.html").await;
     tab.resize(size.0, size.1).await;
@@ -89,20 +106,539 @@ async fn ready(tab: &Tab, number: usize) {
         240,
     )
     .await;
-    let faults: Vec<serde_json::Value> = tab.eval("window.told.filter(([name]) => name === 'error')").await;
+    let faults: Vec<serde_json::Value> = tab
+        .eval("window.told.filter(([name]) => name === 'error')")
+        .await;
     assert!(faults.is_empty(), "{faults:?}");
 }
 
+/// The place of an embed's picture: left, top, width, height, CSS pixels.
+async fn stage(tab: &Tab, embed: &str) -> [f64; 4] {
+    tab.eval(&format!(
+        "(({{ x, y, width, height }}) => [x, y, width, height])({embed}.shadowRoot.querySelector('.stage').getBoundingClientRect())"
+    ))
+    .await
+}
+
+/// The middle of an embed's picture.
+async fn middle(tab: &Tab, embed: &str) -> (f64, f64) {
+    let [x, y, width, height] = stage(tab, embed).await;
+    (x + 0.5 * width, y + 0.5 * height)
+}
+
+/// The picture of an embed as it gives it away.
+async fn picture_of(tab: &Tab, embed: &str) -> image::RgbaImage {
+    let url: String = tab.eval(&format!("{embed}.toDataURL()")).await;
+    let data = url.strip_prefix("data:image/png;base64,").expect("a PNG");
+    let picture = image::load_from_memory(&from_base64(data)).expect("a PNG");
+    picture.to_rgba8()
+}
+
+/// Waits until an embed is complete and at rest at a step.
+async fn rests_at(tab: &Tab, embed: &str, step: usize) {
+    let at = format!(
+        "{embed}.step === {step} && Number({embed}.shadowRoot.querySelector('[part=scrub]').value) === {step}"
+    );
+    tab.wait_until(&at, 120).await;
+    rests_quietly(tab).await;
+}
+
+/// The element draws under a strict policy, walks its steps, takes values and gives its picture; its captions are text.
 #[test]
-fn zz_look() {
+fn an_embed_walks_its_steps_and_takes_values() {
     with_browser(BrowserGpu::Software, |session| async move {
-        let tab = open(&session, &[lesson("controls")], "", (480, 760)).await;
+        let tab = open(&session, &[lesson("controls")], "", (480, 700)).await;
         ready(&tab, 1).await;
-        pause(2000).await;
-        for code in ["e.reader.side(1, 'en')", "e.reader.describe(1, 'en')", "e.reader.view(1)", "e.reader.document(1)"] {
-            let said: String = tab.eval(&format!("import('./reader/engine.js').then(m => m.theEngine()).then(async e => String(await ({code}))).catch(e => e.stack ?? String(e))")).await;
-            println!("{code}: {said}");
+        rests_at(&tab, "e0", 0).await;
+        tab.picture("embed_whole").await;
+        let whole = picture_of(&tab, "e0").await;
+        let titles: Vec<String> = tab.eval("e0.steps.map(({ title }) => title)").await;
+        assert_eq!(titles, ["Apart", "Nearer"]);
+        let words = "e0.shadowRoot.querySelector('canvas').getAttribute('aria-label')";
+        tab.wait_until(&format!("({words} ?? '').includes('In sight')"), 60)
+            .await;
+        let captions: Vec<String> = tab
+            .eval("[...e0.shadowRoot.querySelectorAll('ol[part=captions] li')].map((li) => li.textContent)")
+            .await;
+        assert_eq!(captions[0], "A corner");
+        assert!(
+            captions[1].starts_with("Its middle ("),
+            "inside of the cube: {captions:?}"
+        );
+
+        tab.eval::<bool>("(e0.next(), true)").await;
+        rests_at(&tab, "e0", 1).await;
+        tab.picture("embed_apart").await;
+        let apart = picture_of(&tab, "e0").await;
+        assert!(
+            difference(&whole, &apart, WHITE).mean > 1.0,
+            "the step is seen"
+        );
+        tab.eval::<bool>("(e0.step = 9, true)").await;
+        rests_at(&tab, "e0", 2).await;
+        let told: Vec<u32> = tab
+            .eval("told.filter(([name]) => name === 'stepchange').map(([, , { step }]) => step)")
+            .await;
+        assert_eq!(
+            told,
+            [1, 2],
+            "each change is told once, where the page can hear it"
+        );
+
+        // What the step sets, set by the page itself, is the same picture; wrong values change nothing.
+        tab.eval::<bool>("(e0.step = 0, true)").await;
+        rests_at(&tab, "e0", 0).await;
+        let set = |pointer: &str, value: &str| {
+            format!(
+                "(() => {{ try {{ e0.setParam('{pointer}', {value}); return ''; }} catch (e) {{ return String(e); }} }})()"
+            )
+        };
+        for (pointer, value) in [
+            ("/templates/0/params/amount", "'wide'"),
+            ("/templates/7/params/amount", "1"),
+            ("nothing", "1"),
+            ("/subject/builtin", "7"),
+        ] {
+            let refused: String = tab.eval(&set(pointer, value)).await;
+            assert!(!refused.is_empty(), "{pointer}: {value} is refused");
         }
-        println!("{}", tab.messages().await);
+        assert_eq!(
+            tab.eval::<String>(&set("/templates/0/params/amount", "0.3"))
+                .await,
+            ""
+        );
+        rests_at(&tab, "e0", 0).await;
+        let by_page = picture_of(&tab, "e0").await;
+        let off = difference(&by_page, &apart, WHITE).mean;
+        assert!(
+            off < 0.5,
+            "the page's own value draws what the step draws: {off}"
+        );
+        let slider: f64 = tab
+            .eval("Number(e0.shadowRoot.querySelector('[part=slider]').value)")
+            .await;
+        assert!((slider - 0.3).abs() < 0.01, "its control follows: {slider}");
+        tab.eval::<bool>("(e0.reset(), true)").await;
+        rests_at(&tab, "e0", 0).await;
+        let back = picture_of(&tab, "e0").await;
+        assert!(
+            difference(&whole, &back, WHITE).mean < 0.1,
+            "back to the lesson"
+        );
+
+        // Another lesson of the same subject is shown on the same device, from the same volume.
+        let volumes: Vec<u32> = tab.eval("[ledger.devices.size, ledger.volumes()]").await;
+        let plain = payload(PLAIN);
+        tab.eval::<bool>(&format!(
+            "(told.length = 0, e0.setAttribute('src', '#{plain}'), true)"
+        ))
+        .await;
+        ready(&tab, 1).await;
+        assert_eq!(tab.eval::<u32>("e0.steps.length").await, 0);
+        assert_eq!(
+            tab.eval::<Vec<u32>>("[ledger.devices.size, ledger.volumes()]")
+                .await,
+            volumes
+        );
+        assert_eq!(
+            tab.eval::<u32>("localStorage.length + sessionStorage.length")
+                .await,
+            0,
+            "nothing is stored"
+        );
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// Eight embeds of one subject share a device and a volume, and leave the page its wheel, its keyboard and its menu. Removed,
+/// they give everything back.
+#[test]
+fn many_embeds_are_guests_and_share_what_they_need() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let one = open(&session, &[lesson("")], "", (390, 700)).await;
+        ready(&one, 1).await;
+        rests_quietly(&one).await;
+        let alone: f64 = one.eval("ledger.bytes()").await;
+        println!("{}", one.eval::<serde_json::Value>("ledger.shares()").await);
+        one.page.close().await.expect("the tab closes");
+
+        for width in [390, 1280] {
+            let embeds: Vec<String> = (0..8).map(|_| lesson("class=narrow")).collect();
+            let tab = open(&session, &embeds, "<p>Between.</p>", (width, 700)).await;
+            // What is far below is drawn when it comes near.
+            for index in 0..8 {
+                tab.eval::<bool>(&format!("(e{index}.scrollIntoView(), true)"))
+                    .await;
+                tab.wait_until(
+                    &format!("told.some(([name, id]) => name === 'ready' && id === 'e{index}')"),
+                    120,
+                )
+                .await;
+            }
+            rests_quietly(&tab).await;
+            let found: [f64; 4] = tab
+                .eval(
+                    "[ledger.devices.size, ledger.volumes(), ledger.workers.size, ledger.bytes()]",
+                )
+                .await;
+            println!(
+                "{width}: {found:?}, alone {alone}: {}",
+                tab.eval::<serde_json::Value>("ledger.shares()").await
+            );
+            assert_eq!(
+                found[..3],
+                [1.0, 1.0, 0.0],
+                "one device, one volume, no worker"
+            );
+            assert!(found[3] <= 1.3 * alone, "{} bytes, {alone} alone", found[3]);
+            assert!(
+                tab.eval::<bool>("document.activeElement === document.body")
+                    .await,
+                "nobody took the keyboard"
+            );
+            let _: bool = tab.eval("(globalThis.prevented = 0, addEventListener('contextmenu', (event) => { prevented += event.defaultPrevented; }), true)").await;
+            for index in [0, 3, 7] {
+                let embed = format!("e{index}");
+                tab.eval::<bool>(&format!(
+                    "({embed}.scrollIntoView({{ block: 'center' }}), true)"
+                ))
+                .await;
+                tab.frames(2).await;
+                let (x, y) = middle(&tab, &embed).await;
+                let before: f64 = tab.eval("scrollY").await;
+                let mut wheel =
+                    DispatchMouseEventParams::new(DispatchMouseEventType::MouseWheel, x, y);
+                (wheel.delta_x, wheel.delta_y) =
+                    (Some(0.0), Some(if index == 7 { -120.0 } else { 120.0 }));
+                tab.page.execute(wheel).await.expect("a wheel");
+                tab.wait_until(&format!("scrollY !== {before}"), 10).await;
+            }
+            let moved: Vec<serde_json::Value> = tab
+                .eval("told.filter(([name]) => name === 'viewchange')")
+                .await;
+            assert!(moved.is_empty(), "their cameras stay: {moved:?}");
+            tab.eval::<bool>("(document.querySelectorAll('fabrica-viewer').forEach((it) => it.shadowRoot.querySelector('.stage').dispatchEvent(new MouseEvent('contextmenu', { bubbles: true, composed: true, cancelable: true }))), true)").await;
+            assert_eq!(
+                tab.eval::<u32>("prevented").await,
+                0,
+                "the menu is the browser's"
+            );
+
+            // At rest no frame is asked for and no timer is held.
+            tab.eval::<bool>("(ledger.frames = 0, ledger.timers = 0, true)")
+                .await;
+            pause(5000).await;
+            assert_eq!(
+                tab.eval::<[u32; 2]>("[ledger.frames, ledger.timers]").await,
+                [0, 0]
+            );
+
+            // A move in the document keeps everything; removal gives everything back.
+            tab.eval::<bool>("(document.body.append(e0), true)").await;
+            pause(1300).await;
+            assert_eq!(tab.eval::<u32>("ledger.devices.size").await, 1);
+            tab.eval::<bool>(
+                "(document.querySelectorAll('fabrica-viewer').forEach((it) => it.remove()), true)",
+            )
+            .await;
+            tab.wait_until("ledger.devices.size === 0", 10).await;
+            assert_eq!(
+                tab.eval::<[u32; 2]>("[ledger.textures.size, ledger.buffers.size]")
+                    .await,
+                [0, 0]
+            );
+            tab.assert_no_complaints().await;
+            tab.page.close().await.expect("the tab closes");
+        }
+    });
+}
+
+async fn rests_quietly(tab: &Tab) {
+    tab.wait_until(
+        "(globalThis.quiet = ledger.frames === globalThis.was ? (globalThis.quiet ?? 0) + 1 : 0, globalThis.was = ledger.frames, globalThis.quiet > 8)",
+        120,
+    )
+    .await;
+}
+
+/// A guest hears hands and keys only when its reader has entered it, and lets her out again.
+#[test]
+fn an_embed_is_entered_and_left() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tab = open(&session, &[lesson("controls")], "", (480, 700)).await;
+        tab.page
+            .execute(SetFocusEmulationEnabledParams::new(true))
+            .await
+            .expect("a window in front");
+        ready(&tab, 1).await;
+        rests_quietly(&tab).await;
+        let camera =
+            "JSON.stringify(told.findLast(([name]) => name === 'viewchange')?.[2].view ?? null)";
+        let inside = "e0.shadowRoot.querySelector('.stage').classList.contains('inside')";
+        let active =
+            "e0.shadowRoot.activeElement?.getAttribute('part') ?? document.activeElement.tagName";
+        let (x, y) = middle(&tab, "e0").await;
+
+        // Keys are the page's before; Enter leads in, Escape out.
+        strike(&tab, 0, "Tab", None).await;
+        assert_eq!(tab.eval::<String>(active).await, "stage");
+        strike(&tab, 0, "ArrowLeft", None).await;
+        assert_eq!(
+            tab.eval::<String>(camera).await,
+            "null",
+            "outside an arrow is the page's"
+        );
+        strike(&tab, 0, "Enter", None).await;
+        assert!(tab.eval::<bool>(inside).await);
+        strike(&tab, 0, "ArrowLeft", None).await;
+        tab.wait_until(&format!("{camera} !== 'null'"), 20).await;
+        let side: String = tab
+            .eval("e0.shadowRoot.querySelector('[role=status]').textContent")
+            .await;
+        assert!(side.starts_with("Seen from"), "{side}");
+        strike(&tab, 0, "Escape", None).await;
+        assert!(!tab.eval::<bool>(inside).await);
+
+        // Through every control and out at the end.
+        let mut seen = Vec::new();
+        for _ in 0..40 {
+            strike(&tab, 0, "Tab", None).await;
+            let name: String = tab.eval("e0.shadowRoot.activeElement?.getAttribute('aria-label') ?? e0.shadowRoot.activeElement?.closest('label')?.textContent ?? ''").await;
+            if name.is_empty() {
+                break;
+            }
+            seen.push(name);
+        }
+        for wanted in [
+            "Play",
+            "Next step",
+            "Place in the lesson",
+            "Steps",
+            "Turn to the left",
+            "Closer",
+            "Back to the lesson",
+            "Full screen",
+            "Gap",
+            "Split at all",
+        ] {
+            assert!(
+                seen.iter().any(|name| name == wanted),
+                "{wanted} is missing in {seen:?}"
+            );
+        }
+        assert!(seen.len() < 40, "Tab leads out: {seen:?}");
+
+        // A mouse turns the object without entering; a click enters, the wheel zooms, a press elsewhere leaves.
+        tab.eval::<bool>("(e0.reset(), told.length = 0, true)")
+            .await;
+        tab.drag((x - 60.0, y), (x + 60.0, y), 4).await;
+        tab.wait_until(&format!("{camera} !== 'null'"), 20).await;
+        assert!(!tab.eval::<bool>(inside).await, "a drag does not enter");
+        tab.click(x, y + 30.0).await;
+        assert!(tab.eval::<bool>(inside).await, "a click enters");
+        tab.eval::<bool>("(told.length = 0, true)").await;
+        let mut wheel = DispatchMouseEventParams::new(DispatchMouseEventType::MouseWheel, x, y);
+        (wheel.delta_x, wheel.delta_y) = (Some(0.0), Some(-240.0));
+        tab.page.execute(wheel).await.expect("a wheel");
+        tab.wait_until(&format!("(JSON.parse({camera})?.distance ?? 9) < 2.3"), 20)
+            .await;
+        tab.click(240.0, 20.0).await;
+        assert!(!tab.eval::<bool>(inside).await, "a press elsewhere leaves");
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// A finger scrolls the page over a picture that it has not entered, and turns the object after a tap.
+#[test]
+fn a_finger_scrolls_until_it_has_tapped() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tall = "<div class=tall>Below</div>";
+        let tab = open(
+            &session,
+            &[lesson(""), "hidden>".to_owned()],
+            tall,
+            (390, 600),
+        )
+        .await;
+        let touch = Touch::new(&tab).await;
+        ready(&tab, 1).await;
+        let (x, y) = middle(&tab, "e0").await;
+        touch.swipe(&[[(x, y + 60.0), (x, y - 60.0)]]).await;
+        assert!(tab.eval::<f64>("scrollY").await > 20.0, "the page scrolls");
+        assert_eq!(
+            tab.eval::<usize>("told.filter(([name]) => name === 'viewchange').length")
+                .await,
+            0
+        );
+        tab.eval::<bool>("(scrollTo(0, 0), true)").await;
+        touch.tap_at((x, y)).await;
+        tab.wait_until(
+            "e0.shadowRoot.querySelector('.stage').classList.contains('inside')",
+            10,
+        )
+        .await;
+        touch.swipe(&[[(x, y + 60.0), (x, y - 60.0)]]).await;
+        tab.wait_until("told.some(([name]) => name === 'viewchange')", 20)
+            .await;
+        assert_eq!(
+            tab.eval::<f64>("scrollY").await,
+            0.0,
+            "inside the finger is the object's"
+        );
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// The poster is content of the element: there before the program, until the first whole picture.
+#[test]
+fn a_poster_stays_until_there_is_a_picture() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let poster = "<img src=icon.svg alt=Poster width=64 height=48><p>What is to be seen.</p>";
+        let tab = open(
+            &session,
+            &[format!("{}{poster}", lesson("controls"))],
+            "",
+            (480, 700),
+        )
+        .await;
+        let is_shown = "e0.querySelector('img').checkVisibility()";
+        assert!(
+            tab.eval::<bool>(&format!("{is_shown} || told.length > 0"))
+                .await
+        );
+        ready(&tab, 1).await;
+        tab.wait_until(
+            &format!("!{is_shown} && !e0.querySelector('p').checkVisibility()"),
+            10,
+        )
+        .await;
+        tab.picture("embed_after_poster").await;
+
+        // A tap, and nearness, start what waits for them.
+        let wasm = "performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('.wasm')).length";
+        let tap = open(
+            &session,
+            &[format!("{}{poster}", lesson("loading=tap"))],
+            "",
+            (480, 700),
+        )
+        .await;
+        tap.frames(20).await;
+        assert_eq!(tap.eval::<u32>(wasm).await, 0);
+        tap.eval::<bool>("(e0.shadowRoot.querySelector('button').click(), true)")
+            .await;
+        ready(&tap, 1).await;
+        let far = "<div class=tall></div>";
+        let lazy = open(
+            &session,
+            &["hidden loading=lazy>".to_owned(), lesson("loading=lazy")],
+            far,
+            (480, 700),
+        )
+        .await;
+        lazy.frames(20).await;
+        assert_eq!(lazy.eval::<u32>(wasm).await, 0);
+        lazy.eval::<bool>("(e1.scrollIntoView(), true)").await;
+        ready(&lazy, 1).await;
+    });
+}
+
+/// Where there is no WebGPU the poster stays and nothing is fetched; without a poster there are words.
+#[test]
+fn an_embed_without_webgpu_gives_words() {
+    with_browser(BrowserGpu::None, |session| async move {
+        let poster = "<img src=icon.svg alt=Poster><p>What is to be seen.</p>";
+        let tab = open(
+            &session,
+            &[format!("{}{poster}", lesson("")), lesson("")],
+            "",
+            (480, 700),
+        )
+        .await;
+        tab.wait_until("told.filter(([name]) => name === 'error').length === 2", 60)
+            .await;
+        assert!(tab.eval::<bool>("e0.querySelector('img').checkVisibility() && e0.querySelector('p').checkVisibility()").await);
+        let text: String = tab.eval("e1.shadowRoot.textContent").await;
+        for wanted in [
+            "Opening a cube: It is whole.",
+            "Apart: The halves part.",
+            "WebGPU",
+        ] {
+            assert!(text.contains(wanted), "{wanted}: {text}");
+        }
+        let alone = open(
+            &session,
+            &[format!("{}{poster}", lesson(""))],
+            "",
+            (480, 700),
+        )
+        .await;
+        alone.wait_until("told.length > 0", 60).await;
+        let wasm = "performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('.wasm')).length";
+        assert_eq!(
+            alone.eval::<u32>(wasm).await,
+            0,
+            "no program is fetched for nothing"
+        );
+    });
+}
+
+/// What is wrong is named in the embed and by an event, is text, and leaves the others alone.
+#[test]
+fn wrong_embeds_say_so_and_leave_the_others_running() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session
+            .server
+            .add("broken.json", b"{ \"fabrica\": 1, \"camera\": 7 }".to_vec());
+        session.server.add(
+            "hostile.json",
+            br#"{"fabrica":1,"title":"<img src=x onerror=alert(1)>","caption":"</p><script>window.ran=1</script>","subject":{"builtin":"cube"},"labels":[{"at":[0.4,0.4,0.4],"text":"<b onmouseover=alert(1)>b</b>"}],"controls":[{"pointer":"/templates/3/params/x","name":"<i>"},{"pointer":"/camera/fov","name":"<u>Lens</u>","min":20,"max":60}],"steps":[{"title":"<script>window.ran=1</script>"}]}"#.to_vec(),
+        );
+        let embeds = [
+            "src=broken.json>".to_owned(),
+            "src=missing.json>".to_owned(),
+            "src=\"#AAAAAAAAAAAAAAAAAAAAAAAA\">".to_owned(),
+            "src=\"javascript:alert(1)\">".to_owned(),
+            "src=hostile.json controls>".to_owned(),
+            lesson("step=77"),
+        ];
+        let tab = open(&session, &embeds, "", (480, 900)).await;
+        tab.wait_until("told.filter(([name]) => name === 'error').length >= 4", 120)
+            .await;
+        for index in 4..6 {
+            tab.eval::<bool>(&format!("(e{index}.scrollIntoView(), true)"))
+                .await;
+            tab.wait_until(
+                &format!("told.some(([name, id]) => name === 'ready' && id === 'e{index}')"),
+                120,
+            )
+            .await;
+        }
+        for (index, wanted) in ["/camera", "404", "link", "javascript"].iter().enumerate() {
+            let text: String = tab
+                .eval(&format!(
+                    "e{index}.shadowRoot.querySelector('.words').textContent"
+                ))
+                .await;
+            assert!(text.contains(wanted), "{index}: {text}");
+        }
+        assert_eq!(tab.eval::<u32>("e5.step").await, 2, "the last step");
+        tab.eval::<bool>("(e5.step = -3, e5.step = 'x', true)")
+            .await;
+        assert_eq!(tab.eval::<u32>("e5.step").await, 2);
+        let made: u32 = tab
+            .eval(
+                "e4.shadowRoot.querySelectorAll('img, script, b, i, u').length + (window.ran ?? 0)",
+            )
+            .await;
+        assert_eq!(made, 0, "text is text");
+        let names: Vec<String> = tab
+            .eval("[...e4.shadowRoot.querySelectorAll('[part=name]')].map((it) => it.textContent)")
+            .await;
+        assert_eq!(
+            names,
+            ["<u>Lens</u>"],
+            "a control without a value is left out"
+        );
     });
 }

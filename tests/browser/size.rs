@@ -14,11 +14,16 @@ struct Program {
 }
 
 /// The page itself, and the parts that it fetches when it first needs them.
-const PROGRAMS: [Program; 3] = [
+const PROGRAMS: [Program; 4] = [
     Program {
         name: "fabrica",
         sent: 1_650_000,
         packed: 1_500_000,
+    },
+    Program {
+        name: "fabrica_reader",
+        sent: 660_000,
+        packed: 600_000,
     },
     Program {
         name: "fabrica_subjects",
@@ -65,11 +70,41 @@ fn weigh() {
                 program.name
             );
         }
-        if program.name != "fabrica_scans" {
+        if ["fabrica", "fabrica_subjects"].contains(&program.name) {
             head += total[3];
         }
     }
     println!("to show the built-in head: {head} bytes brotli (quality 11)");
+}
+
+/// What a lesson page fetches before any program: the element's own script, and those of the reader.
+#[test]
+fn the_readers_scripts_are_small() {
+    let element = gzip(&built("fabrica-viewer.js"));
+    println!("fabrica-viewer.js: {element} gzip");
+    assert!(element <= 4096, "{element} bytes (gzip)");
+    let folder = super::harness::dist().join("reader");
+    let scripts = std::fs::read_dir(folder).expect("the reader's scripts");
+    let sum: usize = scripts
+        .map(|entry| {
+            brotli(
+                &std::fs::read(entry.expect("a file").path()).expect("a script"),
+                11,
+            )
+        })
+        .sum();
+    let program: usize = ["fabrica_reader_bg.wasm", "fabrica_reader.js"]
+        .map(|name| brotli(&built(name), 11))
+        .iter()
+        .sum();
+    println!(
+        "the reader with its scripts: {} brotli (quality 11)",
+        sum + program
+    );
+    assert!(
+        sum + program <= 600_000,
+        "{sum} and {program} bytes (brotli)"
+    );
 }
 
 /// The names of the program's functions are for debugging and not for visitors.

@@ -193,8 +193,8 @@ export class Embed {
       const outline = JSON.parse(outlineOf(source.text, base));
       if (isStale()) return;
       this.#outline = outline;
-      const engine = await theEngine().catch((error) => {
-        if (!isStale()) this.#showWords(outline, error);
+      const engine = await theEngine(outline.part).catch((error) => {
+        if (!isStale()) this.#showWords(outline);
         throw error;
       });
       if (isStale()) return;
@@ -204,7 +204,7 @@ export class Embed {
       canvas.part = "picture";
       canvas.setAttribute("role", "img");
       const before = this.id;
-      const wanted = { text: source.text, base, step: Math.min(Math.max(Math.round(step) || 0, 0), outline.steps.length), part: outline.part };
+      const wanted = { text: source.text, base, step: Math.min(Math.max(Math.round(step) || 0, 0), outline.steps.length) };
       this.#engine = engine;
       this.id = engine.add(this, canvas, wanted);
       if (before) engine.drop(before);
@@ -430,14 +430,14 @@ export class Embed {
   }
 
   /** Title, caption and steps as text, where nothing can be drawn. */
-  #showWords(outline, error) {
+  #showWords(outline) {
     this.#build();
     const { words } = this.#parts;
     const line = ({ title, legend }) => [title, legend].filter(Boolean).join(": ");
     const list = document.createElement("ol");
     list.append(...outline.steps.map((step) => Object.assign(document.createElement("li"), { textContent: line(step) })));
     const text = (content) => Object.assign(document.createElement("p"), { textContent: content });
-    words.replaceChildren(text(line(outline)), list, text(navigator.gpu ? String(error.message ?? error) : wordsOf(nearest(this.#host.closest("[lang]")?.lang)).noGpu));
+    words.replaceChildren(text(line(outline)), list, text(wordsOf(nearest(this.#host.closest("[lang]")?.lang)).noGpu));
     words.hidden = false;
     this.#parts.view.classList.add("words-only");
   }

@@ -30,19 +30,29 @@ export function bindings() {
 }
 
 let engine;
-/** The page's engine: started by the first picture, ended with the last. */
-export function theEngine() {
-  engine ??= start().catch((error) => {
+/**
+ * The page's engine: started by the first picture, ended with the last. `part` is the part of the program that the first one's
+ * subject needs, if that is known: it is on its way while the device is opened.
+ */
+export function theEngine(part) {
+  engine ??= start(part).catch((error) => {
     engine = undefined;
     throw error;
   });
   return engine;
 }
 
-async function start() {
+async function start(part) {
   const { Reader } = await bindings();
+  const early = part ? startPart(part) : null;
   const made = new Engine();
-  made.reader = await Reader.start(WORKER, () => made.hear());
+  try {
+    made.reader = await Reader.start(WORKER, () => made.hear());
+  } catch (error) {
+    early?.worker.terminate();
+    throw error;
+  }
+  if (early) made.reader.lend(early.part, early.worker);
   made.watch();
   const query = matchMedia("(prefers-reduced-motion: reduce)");
   const heed = () => made.reader?.set_less_motion(query.matches);
@@ -64,10 +74,8 @@ class Engine {
   /** Data came to the device in the frame before. */
   #wasBusy = false;
 
-  /** Adds the picture of an embed; `part` is the part of the program that its subject needs, if that is known. */
-  add(embed, canvas, { text, base, step, part }) {
-    const early = part ? startPart(part) : null;
-    if (early) this.reader.lend(early.part, early.worker);
+  /** Adds the picture of an embed. */
+  add(embed, canvas, { text, base, step }) {
     const id = this.reader.add(canvas, text, base, step);
     this.#embeds.add(embed);
     this.#used ??= embed;

@@ -58,6 +58,19 @@ const CHECKS: [(&str, &[&str]); 9] = [
         ],
     ),
     (
+        "lint, the reader",
+        &[
+            "clippy",
+            "--target",
+            "wasm32-unknown-unknown",
+            "--no-default-features",
+            "--features",
+            "reader",
+            "--bin",
+            "fabrica_reader",
+        ],
+    ),
+    (
         "lint, the part that reads scans",
         &[
             "clippy",

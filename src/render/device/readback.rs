@@ -20,6 +20,12 @@ struct State {
     waker: Option<Waker>,
 }
 
+impl Drop for Readback {
+    fn drop(&mut self) {
+        self.buffer.destroy();
+    }
+}
+
 impl Readback {
     /// Starts reading a buffer with `MAP_READ` usage; the work that fills it must have been submitted.
     pub fn start(gpu: &Gpu, buffer: wgpu::Buffer) -> Self {

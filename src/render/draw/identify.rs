@@ -30,7 +30,9 @@ pub(super) async fn identify(job: &PictureJob) -> Result<Sighting, RenderError> 
         .await?;
     let width = job.size[0] as usize;
     let pitch = row_pitch((TEXEL * width) as u32);
-    let bytes = read_texture(gpu, encoder(gpu), &target.texture, pitch).await?;
+    let bytes = read_texture(gpu, encoder(gpu), &target.texture, pitch).await;
+    target.texture.destroy();
+    let bytes = bytes?;
     if let Some(message) = gpu.take_errors().into_iter().next() {
         return Err(RenderError::Refused {
             pass: "segments",

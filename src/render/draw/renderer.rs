@@ -599,19 +599,9 @@ impl Renderer {
             targets.linear.texture.destroy();
             targets.output.texture.destroy();
         }
-        if let Some(scene) = self.scene.take() {
-            scene.destroy();
-        }
+        self.scene = None;
         (self.stage, self.under_way) = (Stage::Stale, None);
         self.slices.forget();
-    }
-
-    /// Gives the subject's memory on the device back. Renderers that share the subject have to draw nothing from now on.
-    pub fn destroy_subject(&mut self) {
-        if let Some(studio) = self.studio.take() {
-            studio.subject.destroy();
-        }
-        (self.upload, self.subject, self.fitting) = (None, None, None);
     }
 
     /// Brings the next pieces of a subject to the GPU.

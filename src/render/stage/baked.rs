@@ -60,8 +60,9 @@ pub(crate) struct BakedTexture {
 }
 
 impl BakedTexture {
-    /// Gives the texture back to the device.
+    /// Gives its memory back to the device.
     pub(crate) fn destroy(&self) {
+        self.uniform.destroy();
         self.texture.destroy();
     }
 

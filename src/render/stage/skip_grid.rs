@@ -128,6 +128,16 @@ pub(crate) struct GridInput<'a> {
 }
 
 impl SkipGrid {
+    /// Gives its memory back to the device.
+    pub(crate) fn destroy(&self) {
+        self.texture.destroy();
+        let [masks, ways] = [&self.masks, &self.ways];
+        let buffers = [&self.uniform, &self.job].into_iter();
+        for buffer in buffers.chain(masks).chain(ways).chain(&self.sums) {
+            buffer.destroy();
+        }
+    }
+
     /// Holds nothing until [`SkipGrid::update`].
     pub(crate) fn new(gpu: &Gpu) -> Self {
         let usage = wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC;

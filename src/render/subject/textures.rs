@@ -49,9 +49,9 @@ pub(crate) struct SubjectTextures {
     pub segments: Vec<Segment>,
 }
 
-impl SubjectTextures {
-    /// Gives the textures back to the device.
-    pub(crate) fn destroy(&self) {
+impl Drop for SubjectTextures {
+    /// Gives the textures back to the device. A browser would do so late, when it collects what nobody holds.
+    fn drop(&mut self) {
         self.volume_view.texture().destroy();
         self.label_view.texture().destroy();
         self.buffer.destroy();
