@@ -20,7 +20,7 @@ use super::voxels::{Layout, VoxelSource, stream_voxels};
 use super::{ElementType, Format, LoadError, LoadReport, ReadOptions, Warning};
 use crate::data::{Segment, VolumeSink};
 
-pub(crate) use super::dicom_data::is_header;
+pub(crate) use super::dicom_data::{has_mark, is_header};
 
 /// Bytes of a file that are looked at first; a header that is longer doubles them.
 const HEADER_BYTES: usize = 64 * 1024;
@@ -282,11 +282,14 @@ pub fn is_segmentation(files: &mut dyn FileSet, name: &str) -> bool {
     one(files, name, 0).is_ok_and(|(source, _)| source.is_segmentation)
 }
 
+/// How the names of DICOM files end.
+pub(crate) const ENDINGS: [&str; 2] = [".dcm", ".ima"];
+
 /// True if a file is called like a DICOM file.
-pub(crate) fn has_ending(name: &str) -> bool {
+fn has_ending(name: &str) -> bool {
     let lower = name.to_lowercase();
     let lower = lower.strip_suffix(".gz").unwrap_or(&lower);
-    lower.ends_with(".dcm") || lower.ends_with(".ima")
+    ENDINGS.iter().any(|ending| lower.ends_with(ending))
 }
 
 /// A file in memory.
