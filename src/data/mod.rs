@@ -1,12 +1,14 @@
 //! Layer 2: subjects as values. No files, no GPU.
 //!
-//! [`Subject`] is what is illustrated, whatever its kind. A reader or generator hands it over in pieces: [`SubjectPart`]
-//! lists them all, and a [`SubjectSink`] takes them one by one. [`SubjectBuilder`] makes a [`Subject`] of the pieces,
-//! [`VolumeBuilder`] a [`Volume`]; a browser's worker posts them to the page. [`Statistics`] counts voxels as they pass;
-//! a [`Reducer`] in between makes a volume that is too large coarser and passes any other piece on. So a new kind of
-//! subject adds its piece to the list and an arm where that piece is used: in [`SubjectBuilder`] and in the worker's
-//! messages. [`segment`] finds the segments that the recipes of a document describe,
-//! and joins them with the segments of label volumes; a [`Site`] tells where a segment lies.
+//! [`Subject`] is what is illustrated, whatever its kind. A reader or generator hands it over in pieces:
+//! [`SubjectPart`] lists them all, and a [`SubjectSink`] takes them one by one. [`SubjectBuilder`] makes a [`Subject`]
+//! of the pieces, [`VolumeBuilder`] a [`Volume`]; a browser's worker posts them to the page. [`Statistics`] counts
+//! voxels as they pass; a [`Reducer`] in between makes a volume that is too large coarser and passes any other piece
+//! on. So a new kind of subject adds its piece to the list, and an arm where that piece is used: in [`SubjectBuilder`]
+//! and in the worker's messages.
+//!
+//! [`segment`] finds the segments that the recipes of a document describe, and joins them with the segments of label
+//! volumes; a [`Site`] tells where a segment lies.
 
 mod ball;
 mod builder;

@@ -3,12 +3,12 @@ use super::volume::{Volume, Voxels};
 /// A piece of a subject on its way from a reader or a generator to whoever holds, counts or shows the subject.
 ///
 /// A volume is too large to be held twice and comes in pieces; a subject that is small comes whole, as one piece. A new
-/// piece is one more variant here and one more arm where that piece is used. What passes pieces on takes all kinds of
-/// them alike, and what is about volumes alone leaves other pieces to its last arm.
+/// piece is one more variant here, and one more arm where that piece is used. A sink that passes pieces on takes all of
+/// them alike, and a sink for volumes alone leaves other pieces to its last arm.
 #[derive(Clone, Debug)]
 pub enum SubjectPart {
-    /// A volume without its voxels, see [`SubjectPart::header`]. The pieces of this volume follow; earlier pieces belong
-    /// to a coarser volume.
+    /// A volume without its voxels, see [`SubjectPart::header`]. The pieces of this volume follow; earlier pieces
+    /// belong to a coarser volume.
     Volume(Box<Volume>),
     /// Scalars that follow the ones before, in whole z slices, always of the type that the header announced.
     Scalars(Voxels),

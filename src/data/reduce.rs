@@ -90,8 +90,8 @@ pub fn resized(grid: &Grid, dims: UVec3) -> Grid {
 }
 
 /// A sink in front of another sink that makes a volume coarser if it is too large, and passes on what else comes. It
-/// holds one coarse slice and never the full volume. Scalars become the mean over the box that a coarse voxel covers (of fractional size, edges
-/// weighted), labels become the one with the largest share in that box.
+/// holds one coarse slice and never the full volume. Scalars become the mean over the box that a coarse voxel covers
+/// (of fractional size, edges weighted), labels become the one with the largest share in that box.
 pub struct Reducer<'a> {
     inner: &'a mut dyn SubjectSink,
     limits: VolumeLimits,

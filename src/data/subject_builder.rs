@@ -29,13 +29,14 @@ impl SubjectSink for SubjectBuilder {
                 let mut builder = VolumeBuilder::new();
                 builder.take(part)?;
                 self.volume = Some(builder);
-                Ok(())
             }
-            SubjectPart::Scalars(_) | SubjectPart::Labels(_) => self
-                .volume
-                .as_mut()
-                .map_or(Ok(()), |volume| volume.take(part)),
+            SubjectPart::Scalars(_) | SubjectPart::Labels(_) => {
+                if let Some(volume) = &mut self.volume {
+                    volume.take(part)?;
+                }
+            }
         }
+        Ok(())
     }
 
     fn progress(&mut self, fraction: f32) -> bool {

@@ -2,6 +2,7 @@ use std::fmt;
 
 use glam::DVec3;
 
+use super::error::NO_VOLUME;
 use super::{
     FileSet, LoadError, LoadReport, RawLayout, ReadOptions, geometry::orientation_code, read_raw,
     read_volume,
@@ -101,7 +102,7 @@ impl SubjectSink for Counter {
         match part {
             SubjectPart::Volume(header) => self.header = Some(*header),
             SubjectPart::Scalars(next) => self.statistics.add(&next),
-            _ => {}
+            _ => return Err(NO_VOLUME.to_owned()),
         }
         Ok(())
     }

@@ -1,3 +1,6 @@
+/// Why a sink for volumes refuses the pieces of other subjects.
+pub(super) const NO_VOLUME: &str = "this is no volume";
+
 /// Why a file gave no volume: what was expected, what was found, and where. One line each, in plain words, file name
 /// last.
 ///

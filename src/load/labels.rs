@@ -1,5 +1,6 @@
 use std::collections::BTreeMap;
 
+use super::error::NO_VOLUME;
 use super::report::clean_name;
 use super::{FileSet, LoadError, LoadReport, ReadOptions, read_volume};
 use crate::data::{Segment, Segmentation, SubjectPart, SubjectSink, Volume, Voxels};
@@ -20,7 +21,8 @@ pub fn read_header(
             if let SubjectPart::Volume(header) = part {
                 self.0 = Some(*header);
             }
-            Err(String::new())
+            // With a header nobody asks why.
+            Err(NO_VOLUME.to_owned())
         }
         fn progress(&mut self, _fraction: f32) -> bool {
             // Until then: of a series every header is looked at first.
@@ -231,7 +233,7 @@ impl SubjectSink for Collector {
         match part {
             SubjectPart::Volume(header) => self.header = Some(*header),
             SubjectPart::Scalars(next) => self.push_all(next),
-            _ => {}
+            _ => return Err(NO_VOLUME.to_owned()),
         }
         Ok(())
     }

@@ -23,7 +23,7 @@ pub(super) enum Kind {
 type IsHeader = fn(&[u8]) -> bool;
 
 /// Formats that are read, in the order in which they are tried: by how the file begins, or by how its name ends.
-const READ: [(Kind, IsHeader, &[&str]); 4] = [
+const READ: &[(Kind, IsHeader, &[&str])] = &[
     (Kind::Nifti, nifti::is_header, &[".nii", ".hdr"]),
     (Kind::Nrrd, nrrd::is_header, &[]),
     (Kind::MetaImage, metaimage::is_header, &[".mha", ".mhd"]),
@@ -42,7 +42,7 @@ pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
     if start.is_empty() {
         return Kind::Empty;
     }
-    for (kind, is_header, endings) in READ {
+    for &(kind, is_header, endings) in READ {
         if is_header(start) || endings.iter().any(|ending| named(ending)) {
             return kind;
         }
