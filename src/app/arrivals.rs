@@ -6,7 +6,7 @@ use crate::app::session::{Gravity, Load, LoadOf, Shipped, Taken};
 use crate::app::window::App;
 use crate::app::words::{self, fill};
 use crate::assets::{Data, LoadEvent, Role, SegmentationsExpected, Want};
-use crate::data::SubjectBuilder;
+use crate::data::{SubjectBuilder, SubjectSink as _};
 use crate::document::{SegmentsRef, SubjectRef};
 
 impl App {

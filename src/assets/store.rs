@@ -368,7 +368,7 @@ fn number_of_own(segment: &Segment) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::{Volume, VolumeBuilder, VolumeSink as _, Voxels};
+    use crate::data::{SubjectPart, SubjectSink as _, Volume, VolumeBuilder, Voxels};
     use crate::document::Document;
     use glam::{DAffine3, UVec3};
 
@@ -396,9 +396,13 @@ mod tests {
             }),
         };
         let mut builder = VolumeBuilder::new();
-        builder.begin(&header).expect("a small volume");
-        builder.scalars(Voxels::U8(vec![0, 1]));
-        builder.labels(vec![1, 2]);
+        for part in [
+            SubjectPart::header(header),
+            SubjectPart::Scalars(Voxels::U8(vec![0, 1])),
+            SubjectPart::Labels(vec![1, 2]),
+        ] {
+            builder.take(part).expect("a small volume");
+        }
         Arc::new(builder.finish().expect("whole"))
     }
 

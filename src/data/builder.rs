@@ -1,4 +1,4 @@
-use super::{Histogram, Statistics, Volume, VolumeSink, Voxels};
+use super::{Histogram, Statistics, SubjectPart, SubjectSink, Volume, Voxels};
 
 /// Bytes of the first allocation for voxels. A larger one is made only after as many bytes have arrived.
 const FIRST_BYTES: usize = 1024 * 1024;
@@ -20,7 +20,7 @@ pub struct VolumeBuilder<P = fn(f32) -> bool> {
 /// Why the collected pieces make no volume.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
-    /// No header was given.
+    /// No header was given, or none that announces this piece.
     #[error("no volume was given")]
     Nothing,
     /// The memory is not to be had.
@@ -139,8 +139,9 @@ fn append<T: Copy>(held: &mut Vec<T>, next: Vec<T>, total: usize) -> Result<(), 
     Ok(())
 }
 
-impl<P: FnMut(f32) -> bool> VolumeSink for VolumeBuilder<P> {
-    fn begin(&mut self, header: &Volume) -> Result<(), String> {
+impl<P: FnMut(f32) -> bool> VolumeBuilder<P> {
+    /// Drops what came before, and waits for the voxels of another volume.
+    fn begin(&mut self, header: Volume) -> Result<(), String> {
         let dims = header.grid.dims.as_u64vec3();
         let too_large = dims
             .x
@@ -157,57 +158,54 @@ impl<P: FnMut(f32) -> bool> VolumeSink for VolumeBuilder<P> {
             .segmentation
             .as_ref()
             .map_or(0, |labels| labels.grid.voxel_count());
-        self.volume = Some(header.clone());
+        self.volume = Some(header);
         self.statistics = Statistics::new();
         self.failure = None;
         Ok(())
     }
 
-    fn scalars(&mut self, next: Voxels) {
-        if self.failure.is_some() {
-            return;
-        }
-        let Some(volume) = &mut self.volume else {
-            self.failure = Some(BuildError::Nothing);
-            return;
-        };
-        self.statistics.add(&next);
+    /// Adds scalars or labels to the volume that was announced.
+    fn add(&mut self, part: SubjectPart) -> Result<(), BuildError> {
+        let volume = self.volume.as_mut().ok_or(BuildError::Nothing)?;
         let total = volume.grid.voxel_count();
-        let result = match (&mut volume.voxels, next) {
-            (Voxels::U8(held), Voxels::U8(next)) => append(held, next, total),
-            (Voxels::I16(held), Voxels::I16(next)) => append(held, next, total),
-            (Voxels::U16(held), Voxels::U16(next)) => append(held, next, total),
-            (Voxels::F32(held), Voxels::F32(next)) => append(held, next, total),
-            _ => Err(BuildError::Miscounted {
-                what: "voxels of the type",
-                expected: total,
-                found: 0,
-            }),
-        };
-        self.failure = result.err();
-    }
-
-    fn labels(&mut self, next: Vec<u8>) {
-        if self.failure.is_some() {
-            return;
+        match (part, &mut volume.segmentation) {
+            (SubjectPart::Scalars(next), _) => {
+                self.statistics.add(&next);
+                match (&mut volume.voxels, next) {
+                    (Voxels::U8(held), Voxels::U8(next)) => append(held, next, total),
+                    (Voxels::I16(held), Voxels::I16(next)) => append(held, next, total),
+                    (Voxels::U16(held), Voxels::U16(next)) => append(held, next, total),
+                    (Voxels::F32(held), Voxels::F32(next)) => append(held, next, total),
+                    _ => Err(BuildError::Miscounted {
+                        what: "voxels of the type",
+                        expected: total,
+                        found: 0,
+                    }),
+                }
+            }
+            (SubjectPart::Labels(next), Some(segmentation)) => {
+                append(&mut segmentation.labels, next, self.label_total)
+            }
+            // Nothing of this volume.
+            _ => Err(BuildError::Nothing),
         }
-        let Some(labels) = self
-            .volume
-            .as_mut()
-            .and_then(|volume| volume.segmentation.as_mut())
-        else {
-            self.failure = Some(BuildError::Nothing);
-            return;
-        };
-        self.failure = append(&mut labels.labels, next, self.label_total).err();
+    }
+}
+
+impl<P: FnMut(f32) -> bool> SubjectSink for VolumeBuilder<P> {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        if let SubjectPart::Volume(header) = part {
+            return self.begin(*header);
+        }
+        if self.failure.is_none() {
+            self.failure = self.add(part).err();
+        }
+        let failure = self.failure.as_ref();
+        failure.map_or(Ok(()), |failure| Err(failure.to_string()))
     }
 
     fn progress(&mut self, fraction: f32) -> bool {
-        // A collector that failed wants no more.
-        self.failure.is_none()
-            && self
-                .on_progress
-                .as_mut()
-                .is_none_or(|on_progress| on_progress(fraction))
+        let on_progress = self.on_progress.as_mut();
+        on_progress.is_none_or(|on_progress| on_progress(fraction))
     }
 }

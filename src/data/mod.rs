@@ -1,10 +1,14 @@
 //! Layer 2: subjects as values. No files, no GPU.
 //!
-//! [`Subject`] is what is illustrated, whatever its kind. A reader or generator pushes the pieces of a volume into a
-//! [`VolumeSink`]: [`VolumeBuilder`] collects them into a [`Volume`]; a browser's worker posts them to the page as
-//! [`SubjectPart`]s, of which [`SubjectBuilder`] makes a [`Subject`]. [`Statistics`] counts as they pass; a [`Reducer`]
-//! in between makes what is too large coarser. [`segment`] finds the segments that the recipes of a document describe,
-//! and joins them with the segments of label volumes; a [`Site`] tells where a segment lies.
+//! [`Subject`] is what is illustrated, whatever its kind. A reader or generator hands it over in pieces:
+//! [`SubjectPart`] lists them all, and a [`SubjectSink`] takes them one by one. [`SubjectBuilder`] makes a [`Subject`]
+//! of the pieces, [`VolumeBuilder`] a [`Volume`]; a browser's worker posts them to the page. [`Statistics`] counts
+//! voxels as they pass; a [`Reducer`] in between makes a volume that is too large coarser and passes any other piece
+//! on. So a new kind of subject adds its piece to the list, and an arm where that piece is used: in [`SubjectBuilder`]
+//! and in the worker's messages.
+//!
+//! [`segment`] finds the segments that the recipes of a document describe, and joins them with the segments of label
+//! volumes; a [`Site`] tells where a segment lies.
 
 mod ball;
 mod builder;
@@ -22,6 +26,7 @@ mod segmented;
 mod site;
 mod statistics;
 mod subject;
+mod subject_builder;
 mod time_slices;
 mod volume;
 
@@ -32,7 +37,7 @@ pub use inside::CoarseLabels;
 pub use made::KnownMasks;
 pub use mask::Mask;
 pub use material::Material;
-pub use parts::{SubjectBuilder, SubjectPart};
+pub use parts::{SubjectPart, SubjectSink};
 pub use pending::{Pending, poll_once};
 pub use reduce::{Reducer, Reduction, VolumeLimits, dims_that_fit, resized};
 pub use resources::{FieldKey, Resources};
@@ -40,5 +45,6 @@ pub use segmented::{RECIPE_COLORS_SRGB, Segmented, segment, segment_with};
 pub use site::Site;
 pub use statistics::{Histogram, Statistics};
 pub use subject::{Space, Subject};
+pub use subject_builder::SubjectBuilder;
 pub use time_slices::TimeSlices;
-pub use volume::{Grid, Segment, Segmentation, Volume, VolumeSink, Voxels};
+pub use volume::{Grid, Segment, Segmentation, Volume, Voxels};

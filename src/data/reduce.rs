@@ -2,7 +2,7 @@ use std::fmt;
 
 use glam::{DAffine3, DVec3, UVec3};
 
-use super::{Grid, Volume, VolumeSink, Voxels};
+use super::{Grid, SubjectPart, SubjectSink, Volume, Voxels};
 
 /// The most that a device takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,11 +89,11 @@ pub fn resized(grid: &Grid, dims: UVec3) -> Grid {
     }
 }
 
-/// A sink in front of another sink that makes a volume coarser if it is too large. It holds one coarse slice and never
-/// the full volume. Scalars become the mean over the box that a coarse voxel covers (of fractional size, edges
-/// weighted), labels become the one with the largest share in that box.
+/// A sink in front of another sink that makes a volume coarser if it is too large, and passes on what else comes. It
+/// holds one coarse slice and never the full volume. Scalars become the mean over the box that a coarse voxel covers
+/// (of fractional size, edges weighted), labels become the one with the largest share in that box.
 pub struct Reducer<'a> {
-    inner: &'a mut dyn VolumeSink,
+    inner: &'a mut dyn SubjectSink,
     limits: VolumeLimits,
     scalars: Option<MeanAxes>,
     labels: Option<LabelAxes>,
@@ -111,7 +111,7 @@ impl fmt::Debug for Reducer<'_> {
 
 impl<'a> Reducer<'a> {
     /// A reducer in front of `inner`; a volume within `limits` passes unchanged.
-    pub fn new(inner: &'a mut dyn VolumeSink, limits: VolumeLimits) -> Self {
+    pub fn new(inner: &'a mut dyn SubjectSink, limits: VolumeLimits) -> Self {
         Self {
             inner,
             limits,
@@ -244,6 +244,17 @@ impl MeanAxes {
         }
         done
     }
+
+    /// Takes fine slices of voxels, gives the coarse ones that are complete, of the same type.
+    fn push_voxels(&mut self, fine: Voxels) -> Voxels {
+        // A mean lies between the values that it is taken of, so that rounding stays in the type.
+        match fine {
+            Voxels::U8(v) => Voxels::U8(self.push(&v, f32::from, |x| x.round() as u8)),
+            Voxels::I16(v) => Voxels::I16(self.push(&v, f32::from, |x| x.round() as i16)),
+            Voxels::U16(v) => Voxels::U16(self.push(&v, f32::from, |x| x.round() as u16)),
+            Voxels::F32(v) => Voxels::F32(self.push(&v, |x| x, |x| x)),
+        }
+    }
 }
 
 /// Labels that compete for one coarse voxel; more than four in one box are rare, and the fifth is left out.
@@ -350,9 +361,9 @@ impl LabelAxes {
     }
 }
 
-impl VolumeSink for Reducer<'_> {
-    fn begin(&mut self, header: &Volume) -> Result<(), String> {
-        let mut header = header.clone();
+impl Reducer<'_> {
+    /// The header of the volume as it leaves here.
+    fn begin(&mut self, mut header: Box<Volume>) -> Box<Volume> {
         (self.scalars, self.labels, self.reduction) = (None, None, None);
         let (from, to) = (header.grid.dims, dims_that_fit(&header.grid, self.limits));
         if from != to {
@@ -367,33 +378,32 @@ impl VolumeSink for Reducer<'_> {
                 labels.grid = resized(&labels.grid, to);
             }
         }
-        self.inner.begin(&header)
+        header
     }
+}
 
-    fn scalars(&mut self, next: Voxels) {
-        let Some(axes) = &mut self.scalars else {
-            return self.inner.scalars(next);
+impl SubjectSink for Reducer<'_> {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        let part = match part {
+            SubjectPart::Volume(header) => SubjectPart::Volume(self.begin(header)),
+            SubjectPart::Scalars(fine) if let Some(axes) = &mut self.scalars => {
+                let coarse = axes.push_voxels(fine);
+                if coarse.is_empty() {
+                    return Ok(());
+                }
+                SubjectPart::Scalars(coarse)
+            }
+            SubjectPart::Labels(fine) if let Some(axes) = &mut self.labels => {
+                let coarse = axes.push(&fine);
+                if coarse.is_empty() {
+                    return Ok(());
+                }
+                SubjectPart::Labels(coarse)
+            }
+            // What fits, and what has no voxels.
+            other => other,
         };
-        // A mean lies between the values that it is taken of, so that rounding stays in the type.
-        let coarse = match next {
-            Voxels::U8(v) => Voxels::U8(axes.push(&v, f32::from, |x| x.round() as u8)),
-            Voxels::I16(v) => Voxels::I16(axes.push(&v, f32::from, |x| x.round() as i16)),
-            Voxels::U16(v) => Voxels::U16(axes.push(&v, f32::from, |x| x.round() as u16)),
-            Voxels::F32(v) => Voxels::F32(axes.push(&v, |x| x, |x| x)),
-        };
-        if !coarse.is_empty() {
-            self.inner.scalars(coarse);
-        }
-    }
-
-    fn labels(&mut self, next: Vec<u8>) {
-        let Some(axes) = &mut self.labels else {
-            return self.inner.labels(next);
-        };
-        let coarse = axes.push(&next);
-        if !coarse.is_empty() {
-            self.inner.labels(coarse);
-        }
+        self.inner.take(part)
     }
 
     fn progress(&mut self, fraction: f32) -> bool {
@@ -433,7 +443,8 @@ mod tests {
         let volume = header(dims, DVec3::new(1.0, 0.5, 2.0), Voxels::F32(Vec::new()));
         let mut builder = VolumeBuilder::new();
         let mut reducer = Reducer::new(&mut builder, LIMITS);
-        reducer.begin(&volume).expect("it fits");
+        let header = SubjectPart::header(volume.clone());
+        reducer.take(header).expect("it fits");
         let value = |x: f64, y: f64, z: f64| 3.0 * x - 2.0 * y + 0.5 * z;
         for z in 0..dims.z {
             let mut slice = Vec::new();
@@ -442,7 +453,8 @@ mod tests {
                     slice.push(value(x.into(), y.into(), z.into()) as f32);
                 }
             }
-            reducer.scalars(Voxels::F32(slice));
+            let scalars = SubjectPart::Scalars(Voxels::F32(slice));
+            reducer.take(scalars).expect("they fit");
         }
         let reduction = reducer.reduction().expect("reduced");
         assert_eq!(reduction.to, UVec3::new(8, 8, 8));
@@ -477,14 +489,12 @@ mod tests {
         let volume = header(UVec3::new(16, 16, 16), DVec3::ONE, Voxels::I16(Vec::new()));
         let mut builder = VolumeBuilder::new();
         let mut reducer = Reducer::new(&mut builder, LIMITS);
-        reducer.begin(&volume).expect("it fits");
+        reducer.take(SubjectPart::header(volume)).expect("it fits");
         // Slabs of different sizes.
         for slices in [1, 3, 7, 5] {
-            reducer.scalars(Voxels::I16(
-                (0..slices * 256)
-                    .map(|i| if i % 2 == 0 { -1000 } else { 3000 })
-                    .collect(),
-            ));
+            let values = (0..slices * 256).map(|i| if i % 2 == 0 { -1000 } else { 3000 });
+            let scalars = SubjectPart::Scalars(Voxels::I16(values.collect()));
+            reducer.take(scalars).expect("they fit");
         }
         let reduced = builder.finish().expect("all came");
         assert_eq!(reduced.voxels, Voxels::I16(vec![1000; 512]));
@@ -506,8 +516,9 @@ mod tests {
                 max_voxels: 8,
             },
         );
-        reducer.begin(&volume).expect("it fits");
-        reducer.scalars(Voxels::U8(vec![7; 64]));
+        reducer.take(SubjectPart::header(volume)).expect("it fits");
+        let scalars = SubjectPart::Scalars(Voxels::U8(vec![7; 64]));
+        reducer.take(scalars).expect("they fit");
         let labels: Vec<u8> = (0..64)
             .map(|i| {
                 if i % 4 < 2 {
@@ -518,7 +529,8 @@ mod tests {
             })
             .collect();
         for part in labels.chunks(7) {
-            reducer.labels(part.to_vec());
+            let labels = SubjectPart::Labels(part.to_vec());
+            reducer.take(labels).expect("they fit");
         }
         let reduced = builder.finish().expect("all came");
         // Of equal shares 0 and 9, the one that is something.

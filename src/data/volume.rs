@@ -213,17 +213,3 @@ impl Volume {
             .map(|stored| stored * self.slope + self.intercept)
     }
 }
-
-/// Takes a volume in pieces, so that readers and generators never hold it twice: the native program collects the
-/// pieces, a browser's worker posts them to the page.
-pub trait VolumeSink {
-    /// Once, first: an empty volume with everything but voxels (their type given by the empty variant) and
-    /// `value_range`. The sink refuses a volume that is too large by returning a message.
-    fn begin(&mut self, header: &Volume) -> Result<(), String>;
-    /// Scalars that follow the ones given before, always of the type announced, in whole z slices.
-    fn scalars(&mut self, next: Voxels);
-    /// Labels that follow the ones given before; only if the header announced a label volume.
-    fn labels(&mut self, next: Vec<u8>);
-    /// Fraction done, 0 to 1. Returns false if the reader should stop (the user cancelled).
-    fn progress(&mut self, fraction: f32) -> bool;
-}

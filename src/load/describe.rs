@@ -2,11 +2,12 @@ use std::fmt;
 
 use glam::DVec3;
 
+use super::error::NO_VOLUME;
 use super::{
     FileSet, LoadError, LoadReport, RawLayout, ReadOptions, geometry::orientation_code, read_raw,
     read_volume,
 };
-use crate::data::{Segment, Statistics, Volume, VolumeSink, Voxels};
+use crate::data::{Segment, Statistics, SubjectPart, SubjectSink, Volume};
 
 /// Segments listed at most.
 const MAX_SEGMENTS_SHOWN: usize = 300;
@@ -48,7 +49,7 @@ pub fn describe_raw(
 }
 
 fn describe_by(
-    read: impl FnOnce(&mut dyn VolumeSink, &mut LoadReport) -> Result<(), LoadError>,
+    read: impl FnOnce(&mut dyn SubjectSink, &mut LoadReport) -> Result<(), LoadError>,
 ) -> Result<Description, LoadError> {
     let mut report = LoadReport::default();
     let mut counter = Counter {
@@ -96,17 +97,15 @@ struct Counter {
     statistics: Statistics,
 }
 
-impl VolumeSink for Counter {
-    fn begin(&mut self, header: &Volume) -> Result<(), String> {
-        self.header = Some(header.clone());
+impl SubjectSink for Counter {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        match part {
+            SubjectPart::Volume(header) => self.header = Some(*header),
+            SubjectPart::Scalars(next) => self.statistics.add(&next),
+            _ => return Err(NO_VOLUME.to_owned()),
+        }
         Ok(())
     }
-
-    fn scalars(&mut self, next: Voxels) {
-        self.statistics.add(&next);
-    }
-
-    fn labels(&mut self, _next: Vec<u8>) {}
 
     fn progress(&mut self, _fraction: f32) -> bool {
         true

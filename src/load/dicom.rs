@@ -18,9 +18,9 @@ use super::report::clean_name;
 use super::stream::{Packing, SharedHash, Stream};
 use super::voxels::{Layout, VoxelSource, stream_voxels};
 use super::{ElementType, Format, LoadError, LoadReport, ReadOptions, Warning};
-use crate::data::{Segment, VolumeSink};
+use crate::data::{Segment, SubjectPart, SubjectSink};
 
-pub(crate) use super::dicom_data::is_header;
+pub(crate) use super::dicom_data::{has_mark, is_header};
 
 /// Bytes of a file that are looked at first; a header that is longer doubles them.
 const HEADER_BYTES: usize = 64 * 1024;
@@ -35,7 +35,7 @@ pub(crate) fn read(
     files: &mut dyn FileSet,
     name: &str,
     options: &ReadOptions,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<[u8; 32], LoadError> {
     report.format = Some(Format::Dicom);
@@ -123,7 +123,7 @@ struct Survey {
 fn survey(
     files: &mut dyn FileSet,
     name: &str,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
 ) -> Result<Survey, LoadError> {
     let mut survey = Survey {
         sources: Vec::new(),
@@ -282,11 +282,14 @@ pub fn is_segmentation(files: &mut dyn FileSet, name: &str) -> bool {
     one(files, name, 0).is_ok_and(|(source, _)| source.is_segmentation)
 }
 
+/// How the names of DICOM files end.
+pub(crate) const ENDINGS: [&str; 2] = [".dcm", ".ima"];
+
 /// True if a file is called like a DICOM file.
-pub(crate) fn has_ending(name: &str) -> bool {
+fn has_ending(name: &str) -> bool {
     let lower = name.to_lowercase();
     let lower = lower.strip_suffix(".gz").unwrap_or(&lower);
-    lower.ends_with(".dcm") || lower.ends_with(".ima")
+    ENDINGS.iter().any(|ending| lower.ends_with(ending))
 }
 
 /// A file in memory.
@@ -349,7 +352,7 @@ fn read_stack(
     sources: &[Source],
     stack: &Stack,
     hashes: &mut [Option<[u8; 32]>],
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     let first = stack
@@ -428,8 +431,8 @@ fn read_stack(
             report.segments = segments(&loaded.parsed);
         }
     }
-    sink.begin(&header)
-        .map_err(|_refused| LoadError::Cancelled)?;
+    sink.take(SubjectPart::header(header.clone()))
+        .map_err(LoadError::refused(name))?;
     stream_voxels(&mut slices, &layout, &header, sink, report)?;
     report.bytes_read += slices.bytes_read;
     if slices.overlaps > 0 {

@@ -269,9 +269,14 @@ pub(crate) struct Parsed {
 
 const DEFLATED: &str = "1.2.840.10008.1.2.1.99";
 
+/// True if the bytes begin with the preamble of a DICOM file.
+pub(crate) fn has_mark(start: &[u8]) -> bool {
+    start.get(128..132) == Some(b"DICM")
+}
+
 /// True if the bytes begin like a DICOM file, with or without its preamble.
 pub(crate) fn is_header(start: &[u8]) -> bool {
-    if start.get(128..132) == Some(b"DICM") {
+    if has_mark(start) {
         return true;
     }
     // Without: the first element is of group 2 or 8, and its length or type makes sense.

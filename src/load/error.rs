@@ -1,3 +1,6 @@
+/// Why a sink for volumes refuses the pieces of other subjects.
+pub(super) const NO_VOLUME: &str = "this is no volume";
+
 /// Why a file gave no volume: what was expected, what was found, and where. One line each, in plain words, file name
 /// last.
 ///
@@ -140,7 +143,7 @@ pub enum LoadError {
         /// Number of frames in the file.
         count: u64,
     },
-    /// The receiver cannot take the volume.
+    /// The receiver cannot take the subject.
     #[error("{message} ({name})")]
     Refused {
         /// Name of the file, as given.
@@ -167,6 +170,16 @@ pub enum LoadError {
         /// What it holds instead.
         what: String,
     },
+}
+
+impl LoadError {
+    /// The error of the file that was read, for the message of a receiver that takes no more of it.
+    pub(super) fn refused(name: &str) -> impl FnOnce(String) -> Self {
+        move |message| Self::Refused {
+            name: name.to_owned(),
+            message,
+        }
+    }
 }
 
 /// What the owner of a file would call its fault.

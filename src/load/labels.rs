@@ -1,8 +1,9 @@
 use std::collections::BTreeMap;
 
+use super::error::NO_VOLUME;
 use super::report::clean_name;
 use super::{FileSet, LoadError, LoadReport, ReadOptions, read_volume};
-use crate::data::{Segment, Segmentation, Volume, VolumeSink, Voxels};
+use crate::data::{Segment, Segmentation, SubjectPart, SubjectSink, Volume, Voxels};
 
 /// Reads no voxels: size, type and orientation of a file, and what its header gives for the report. Quick, for a choice
 /// of frame or a question before a long load.
@@ -15,13 +16,14 @@ pub fn read_header(
     options: &ReadOptions,
 ) -> Result<(Volume, LoadReport), LoadError> {
     struct Stop(Option<Volume>);
-    impl VolumeSink for Stop {
-        fn begin(&mut self, header: &Volume) -> Result<(), String> {
-            self.0 = Some(header.clone());
-            Err(String::new())
+    impl SubjectSink for Stop {
+        fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+            if let SubjectPart::Volume(header) = part {
+                self.0 = Some(*header);
+            }
+            // With a header nobody asks why.
+            Err(NO_VOLUME.to_owned())
         }
-        fn scalars(&mut self, _next: Voxels) {}
-        fn labels(&mut self, _next: Vec<u8>) {}
         fn progress(&mut self, _fraction: f32) -> bool {
             // Until then: of a series every header is looked at first.
             self.0.is_none()
@@ -203,15 +205,8 @@ impl Collector {
         }
         self.labels.push(position);
     }
-}
 
-impl VolumeSink for Collector {
-    fn begin(&mut self, header: &Volume) -> Result<(), String> {
-        self.header = Some(header.clone());
-        Ok(())
-    }
-
-    fn scalars(&mut self, next: Voxels) {
+    fn push_all(&mut self, next: Voxels) {
         let Some((slope, intercept)) = self
             .header
             .as_ref()
@@ -231,8 +226,17 @@ impl VolumeSink for Collector {
             Voxels::F32(v) => v.iter().for_each(|&x| self.push(value(x))),
         }
     }
+}
 
-    fn labels(&mut self, _next: Vec<u8>) {}
+impl SubjectSink for Collector {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        match part {
+            SubjectPart::Volume(header) => self.header = Some(*header),
+            SubjectPart::Scalars(next) => self.push_all(next),
+            _ => return Err(NO_VOLUME.to_owned()),
+        }
+        Ok(())
+    }
 
     fn progress(&mut self, _fraction: f32) -> bool {
         self.wrong.is_none()

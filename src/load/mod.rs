@@ -1,6 +1,6 @@
-//! Layer 3: files in, subjects out. Bytes come through a [`FileSet`], voxels leave through a
-//! [`VolumeSink`](crate::data::VolumeSink) slab by slab, so nothing is held twice; what had to be decided or repaired
-//! stands in a [`LoadReport`].
+//! Layer 3: files in, subjects out. Bytes come through a [`FileSet`], pieces of the subject leave through a
+//! [`SubjectSink`](crate::data::SubjectSink), voxels slab by slab, so nothing is held twice; what had to be decided or
+//! repaired stands in a [`LoadReport`].
 //!
 //! Nothing here knows paths, threads or browsers: the native program opens files, a browser's worker reads slices of a
 //! dropped file, tests give bytes. Memory follows the bytes that really come, never what a header promises.

@@ -10,7 +10,7 @@ use super::geometry::{self, checked_dims};
 use super::stream::{Packing, Stream};
 use super::voxels::{ElementType, Layout, stream_voxels};
 use super::{Format, LoadError, LoadReport, ReadOptions, Warning};
-use crate::data::{Segment, Volume, VolumeSink};
+use crate::data::{Segment, SubjectPart, SubjectSink, Volume};
 
 const SIZE_1: usize = 348;
 const SIZE_2: usize = 540;
@@ -101,7 +101,7 @@ pub(crate) fn read(
     stream: &mut Stream<'_>,
     name: &str,
     options: &ReadOptions,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<Option<Header>, LoadError> {
     let start = stream.peek(SIZE_2)?;
@@ -627,7 +627,7 @@ pub(crate) fn read_voxels(
     stream: &mut Stream<'_>,
     header: &Header,
     options: &ReadOptions,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     let name = stream.name().to_owned();
@@ -647,11 +647,8 @@ pub(crate) fn read_voxels(
             found,
         });
     }
-    sink.begin(&header.volume)
-        .map_err(|message| LoadError::Refused {
-            name: name.clone(),
-            message,
-        })?;
+    sink.take(SubjectPart::header(header.volume.clone()))
+        .map_err(LoadError::refused(&name))?;
     let skip = (expected - header.frame_bytes).saturating_sub(stream.position());
     let skipped = stream.skip(skip, |stream| {
         let fraction = stream.fraction().unwrap_or(0.0);

@@ -5,7 +5,7 @@ use super::files::open;
 use super::stream::{Packing, SharedHash, Stream};
 use super::voxels::{ElementType, Layout, Slabs, VoxelSource};
 use super::{FileSet, LoadError, LoadReport, Warning};
-use crate::data::{Volume, VolumeSink};
+use crate::data::{SubjectPart, SubjectSink, Volume};
 
 /// Longest line that is skipped, and longest number in text.
 const MAX_LINE_BYTES: usize = 1 << 20;
@@ -75,7 +75,7 @@ pub(crate) enum Source<'a> {
 pub(crate) fn read(
     source: Source<'_>,
     header: &Header,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     let (place, header) = (&header.place, &header.volume);
@@ -253,7 +253,7 @@ impl Reader<'_> {
         stream: &mut Stream<'_>,
         count: Option<u64>,
         file_count: u64,
-        sink: &mut dyn VolumeSink,
+        sink: &mut dyn SubjectSink,
     ) -> Result<(), LoadError> {
         let name = stream.name().to_owned();
         let file_bytes = self.file_bytes(&name, file_count)?;
@@ -281,8 +281,8 @@ impl Reader<'_> {
         }
         if !self.has_begun {
             self.has_begun = true;
-            sink.begin(self.header)
-                .map_err(|message| LoadError::Refused { name, message })?;
+            sink.take(SubjectPart::header(self.header.clone()))
+                .map_err(LoadError::refused(&name))?;
         }
         Ok(())
     }
@@ -380,7 +380,7 @@ impl Reader<'_> {
         &self,
         stream: &mut Stream<'_>,
         file_count: u64,
-        sink: &mut dyn VolumeSink,
+        sink: &mut dyn SubjectSink,
         report: &mut LoadReport,
     ) -> Result<(), LoadError> {
         if self.close(stream, file_count, || sink.progress(1.0))? {

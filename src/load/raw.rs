@@ -10,7 +10,7 @@ use super::place::{self, Encoding, Place, Skip, Source};
 use super::stream::{Packing, SharedHash};
 use super::voxels::Layout;
 use super::{ElementType, FileSet, Format, LoadError, LoadReport, ReadOptions, Warning};
-use crate::data::VolumeSink;
+use crate::data::SubjectSink;
 use crate::document::RawVoxels;
 
 /// The layout of a file of bare voxels, which the file itself does not hold.
@@ -156,7 +156,7 @@ pub fn read_raw(
     name: &str,
     raw: &RawLayout,
     options: &ReadOptions,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     report.format = Some(Format::Raw);

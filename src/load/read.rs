@@ -9,7 +9,7 @@ use super::place::{self, Source};
 use super::sniff::{Kind, SNIFF_BYTES, sniff};
 use super::stream::{Packing, SharedHash};
 use super::{LoadError, LoadReport, dicom, metaimage, nifti, nrrd};
-use crate::data::VolumeSink;
+use crate::data::SubjectSink;
 
 /// Reads a volume from the file of this name in `files`, told by its content first, by its name where content says
 /// nothing. Streams: the sink has the first voxels long before the last byte was read. The file is read to its end, so
@@ -17,12 +17,11 @@ use crate::data::VolumeSink;
 ///
 /// # Errors
 /// [`LoadError`], with name and place. The sink may have begun by then, and what it holds is to be thrown away.
-/// [`LoadError::Cancelled`] also comes where a collecting sink failed; it knows why.
 pub fn read_volume(
     files: &mut dyn FileSet,
     name: &str,
     options: &ReadOptions,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     let hash: SharedHash = Rc::new(RefCell::new(Sha256::new()));
@@ -43,7 +42,7 @@ pub fn read_volume(
 struct Reading<'a> {
     files: &'a mut dyn FileSet,
     options: &'a ReadOptions,
-    sink: &'a mut dyn VolumeSink,
+    sink: &'a mut dyn SubjectSink,
     report: &'a mut LoadReport,
     hash: SharedHash,
 }

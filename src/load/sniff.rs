@@ -5,6 +5,7 @@ use super::{dicom, metaimage, nifti, nrrd};
 pub(super) const SNIFF_BYTES: usize = 1024;
 
 /// The format of a file, by its first bytes and its name.
+#[derive(Clone, Copy)]
 pub(super) enum Kind {
     Dicom,
     Nifti,
@@ -18,6 +19,17 @@ pub(super) enum Kind {
     Unknown,
 }
 
+/// True if a file begins like one of a format.
+type IsHeader = fn(&[u8]) -> bool;
+
+/// Formats that are read, in the order in which they are tried: by how the file begins, or by how its name ends.
+const READ: &[(Kind, IsHeader, &[&str])] = &[
+    (Kind::Nifti, nifti::is_header, &[".nii", ".hdr"]),
+    (Kind::Nrrd, nrrd::is_header, &[]),
+    (Kind::MetaImage, metaimage::is_header, &[".mha", ".mhd"]),
+    (Kind::Dicom, dicom::has_mark, &dicom::ENDINGS),
+];
+
 /// Tells the format of a file by its first bytes (unpacked), or by its name where the bytes are not clear.
 pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
     let lower = name.to_lowercase();
@@ -30,17 +42,10 @@ pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
     if start.is_empty() {
         return Kind::Empty;
     }
-    if nifti::is_header(start) || named(".nii") || named(".hdr") {
-        return Kind::Nifti;
-    }
-    if nrrd::is_header(start) {
-        return Kind::Nrrd;
-    }
-    if metaimage::is_header(start) || named(".mha") || named(".mhd") {
-        return Kind::MetaImage;
-    }
-    if start.get(128..132) == Some(b"DICM") || dicom::has_ending(name) {
-        return Kind::Dicom;
+    for &(kind, is_header, endings) in READ {
+        if is_header(start) || endings.iter().any(|ending| named(ending)) {
+            return kind;
+        }
     }
     if named(".mgz") || named(".mgh") {
         return Kind::Refused(

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use super::labels::{read_header, read_labels};
 use super::{FileSet, LoadError, LoadReport, ReadOptions, read_volume};
-use crate::data::{Segmentation, Volume, VolumeSink, Voxels};
+use crate::data::{Segmentation, SubjectPart, SubjectSink};
 
 /// Where the labels of a subject come from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub fn read_subject(
     name: &str,
     labels: &LabelSource,
     options: &ReadOptions,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     let labels = match &labels.name {
@@ -63,34 +63,23 @@ fn read_header_if_again(files: &mut dyn FileSet, name: &str, options: &ReadOptio
         && read_header(files, name, options).is_ok_and(|(_, report)| report.is_labels)
 }
 
-/// Adds a label volume to what passes.
+/// Adds a label volume to the volume that passes.
 struct WithLabels<'a> {
-    inner: &'a mut dyn VolumeSink,
+    inner: &'a mut dyn SubjectSink,
     labels: Option<Segmentation>,
 }
 
-impl VolumeSink for WithLabels<'_> {
-    fn begin(&mut self, header: &Volume) -> Result<(), String> {
-        let Some(labels) = self.labels.take() else {
-            return self.inner.begin(header);
-        };
-        let mut header = header.clone();
-        header.segmentation = Some(Segmentation {
-            grid: labels.grid,
-            labels: Vec::new(),
-            segments: labels.segments,
-        });
-        self.inner.begin(&header)?;
-        self.inner.labels(labels.labels);
-        Ok(())
-    }
-
-    fn scalars(&mut self, next: Voxels) {
-        self.inner.scalars(next);
-    }
-
-    fn labels(&mut self, next: Vec<u8>) {
-        self.inner.labels(next);
+impl SubjectSink for WithLabels<'_> {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        match part {
+            SubjectPart::Volume(mut header) if let Some(mut segmentation) = self.labels.take() => {
+                let labels = std::mem::take(&mut segmentation.labels);
+                header.segmentation = Some(segmentation);
+                self.inner.take(SubjectPart::Volume(header))?;
+                self.inner.take(SubjectPart::Labels(labels))
+            }
+            part => self.inner.take(part),
+        }
     }
 
     fn progress(&mut self, fraction: f32) -> bool {

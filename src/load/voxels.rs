@@ -4,7 +4,7 @@ use glam::UVec3;
 
 use super::stream::Stream;
 use super::{LoadError, LoadReport, Warning};
-use crate::data::{Volume, VolumeSink, Voxels};
+use crate::data::{SubjectPart, SubjectSink, Volume, Voxels};
 
 /// Bytes of voxels handed to the sink at once, where a slice is not larger. Larger costs memory, smaller costs calls.
 const SLAB_BYTES: u64 = 2 * 1024 * 1024;
@@ -215,7 +215,7 @@ impl Tally {
 /// slab, and of a slab no more than the bytes that really came.
 pub(crate) struct Slabs<'a> {
     layout: Layout,
-    sink: &'a mut dyn VolumeSink,
+    sink: &'a mut dyn SubjectSink,
     tally: Tally,
     chunk: Vec<u8>,
     slab: Voxels,
@@ -230,7 +230,7 @@ pub(crate) struct Slabs<'a> {
 
 impl<'a> Slabs<'a> {
     /// For a volume of this layout, whose header the sink has.
-    pub(crate) fn new(layout: &Layout, header: &Volume, sink: &'a mut dyn VolumeSink) -> Self {
+    pub(crate) fn new(layout: &Layout, header: &Volume, sink: &'a mut dyn SubjectSink) -> Self {
         let voxel_bytes = layout.element.byte_count() * layout.components as usize;
         let slice = u64::from(layout.dims.x) * u64::from(layout.dims.y);
         let slices = (SLAB_BYTES / (slice * layout.element.kept_bytes()).max(1))
@@ -292,7 +292,9 @@ impl<'a> Slabs<'a> {
             if self.slab_left == 0 {
                 let slab = std::mem::replace(&mut self.slab, self.layout.element.kept_as());
                 self.tally.watch_constant(&slab);
-                self.sink.scalars(slab);
+                self.sink
+                    .take(SubjectPart::Scalars(slab))
+                    .map_err(LoadError::refused(&source.name()))?;
                 let done = (self.done as f64 / self.total as f64) as f32;
                 if !self.sink.progress(source.fraction().unwrap_or(done)) {
                     return Err(LoadError::Cancelled);
@@ -348,7 +350,7 @@ pub(crate) fn stream_voxels(
     source: &mut dyn VoxelSource,
     layout: &Layout,
     header: &Volume,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     let mut slabs = Slabs::new(layout, header, sink);

@@ -1,7 +1,7 @@
 //! The data of documents: a subject with its segments, on the GPU once for all pictures that show it.
 
 use crate::assets::{Assets, Data, LoadEvent, Role, TissueWork, Want};
-use crate::data::{Resources, SubjectBuilder};
+use crate::data::{Resources, SubjectBuilder, SubjectSink as _};
 use crate::document::{Illustration, Recipe, SegmentsRef, SubjectRef};
 use crate::load::{FieldFile, LabelFile};
 use crate::render::{Clock, Gpu, RenderError, Renderer};

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use crate::data::VolumeSink;
+use crate::data::SubjectSink;
 use crate::load::{
     ALL_FILES, FileHandle, FileSet, LoadError, LoadReport, ReadOptions, read_volume,
 };
@@ -155,7 +155,7 @@ fn percent_decoded(src: &str) -> Option<String> {
 pub fn read_volume_at(
     path: &Path,
     options: &ReadOptions,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     let (mut folder, name) = Folder::of(path);

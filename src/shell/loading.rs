@@ -6,7 +6,7 @@ use std::io::Read as _;
 use sha2::{Digest as _, Sha256};
 
 use crate::assets::{LoadEvent, RawQuestion, SegmentationsExpected};
-use crate::data::{Reducer, SubjectPart, Volume, VolumeLimits, VolumeSink, Voxels};
+use crate::data::{Reducer, SubjectPart, SubjectSink, VolumeLimits};
 use crate::document::Reading;
 use crate::load::{
     FileSet, LabelSource, LoadError, LoadReport, RawLayout, ReadOptions, Warning, is_segmentation,
@@ -58,7 +58,7 @@ pub fn make_subject(
                 return;
             }
         };
-        let header = SubjectPart::Volume(Box::new(generator.header()));
+        let header = SubjectPart::header(generator.header());
         if !post.post(LoadEvent::Part(header)) {
             return;
         }
@@ -74,10 +74,8 @@ pub fn make_subject(
                 fraction: done as f32 / total as f32,
                 what: "Generating".to_owned(),
             };
-            let scalars = SubjectPart::Scalars(Voxels::I16(slab.values));
-            post.post(LoadEvent::Part(scalars))
-                && post.post(LoadEvent::Part(SubjectPart::Labels(slab.labels)))
-                && (!is_last || post.post(progress))
+            let mut parts = slab.into_parts().into_iter();
+            parts.all(|part| post.post(LoadEvent::Part(part))) && (!is_last || post.post(progress))
         });
         if !goes_on {
             return;
@@ -253,7 +251,7 @@ pub fn read_file(
             }
             post.post(LoadEvent::Done { sha256: hash });
         }
-        Err(LoadError::Cancelled) if is_stopped => {
+        Err(_) if is_stopped => {
             post.post(LoadEvent::Cancelled);
         }
         Err(LoadError::UnknownFormat { .. }) if may_be_raw(name) => {
@@ -277,7 +275,7 @@ pub fn read_scan(
     files: &mut dyn FileSet,
     name: &str,
     reading: &Reading,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     let options = ReadOptions {
@@ -341,27 +339,14 @@ impl PostingSink<'_> {
         self.is_stopped = self.is_stopped || !self.post.post(event);
         !self.is_stopped
     }
-
-    fn pass_part(&mut self, part: SubjectPart) -> bool {
-        self.pass(LoadEvent::Part(part))
-    }
 }
 
-impl VolumeSink for PostingSink<'_> {
-    fn begin(&mut self, header: &Volume) -> Result<(), String> {
-        if self.pass_part(SubjectPart::Volume(Box::new(header.clone()))) {
-            Ok(())
-        } else {
-            Err("stopped".to_owned())
+impl SubjectSink for PostingSink<'_> {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        match self.pass(LoadEvent::Part(part)) {
+            true => Ok(()),
+            false => Err("stopped".to_owned()),
         }
-    }
-
-    fn scalars(&mut self, next: Voxels) {
-        self.pass_part(SubjectPart::Scalars(next));
-    }
-
-    fn labels(&mut self, next: Vec<u8>) {
-        self.pass_part(SubjectPart::Labels(next));
     }
 
     fn progress(&mut self, fraction: f32) -> bool {

@@ -6,17 +6,17 @@
 //! A small `resolution` gives the coarse picture that a page shows first, a large one the same model finely.
 //!
 //! ```
-//! use fabrica::data::{Voxels, VolumeSink, Volume};
+//! use fabrica::data::{SubjectPart, SubjectSink};
 //! struct Count(usize);
-//! impl VolumeSink for Count {
-//!     fn begin(&mut self, header: &Volume) -> Result<(), String> {
-//!         assert_eq!(header.grid.dims.max_element(), 32);
+//! impl SubjectSink for Count {
+//!     fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+//!         match part {
+//!             SubjectPart::Volume(header) => assert_eq!(header.grid.dims.max_element(), 32),
+//!             SubjectPart::Scalars(next) => self.0 += next.len(),
+//!             _ => {}
+//!         }
 //!         Ok(())
 //!     }
-//!     fn scalars(&mut self, next: Voxels) {
-//!         self.0 += next.len();
-//!     }
-//!     fn labels(&mut self, _: Vec<u8>) {}
 //!     fn progress(&mut self, _: f32) -> bool {
 //!         true
 //!     }
@@ -54,7 +54,7 @@ use std::ops::Range;
 
 use glam::{DAffine3, DMat3, DVec3, UVec3, Vec3};
 
-use crate::data::{Grid, Segment, Segmentation, Volume, VolumeSink, Voxels};
+use crate::data::{Grid, Segment, Segmentation, SubjectPart, SubjectSink, Volume, Voxels};
 use lanes::LANES;
 use paint::{Block, Canvas, Model, ROWS};
 
@@ -121,6 +121,14 @@ pub struct Slab {
     pub values: Vec<i16>,
     /// Labels, in the same order.
     pub labels: Vec<u8>,
+}
+
+impl Slab {
+    /// The slab as pieces of its subject.
+    pub fn into_parts(self) -> [SubjectPart; 2] {
+        let scalars = SubjectPart::Scalars(Voxels::I16(self.values));
+        [scalars, SubjectPart::Labels(self.labels)]
+    }
 }
 
 /// Makes a subject in slabs, in any order and from as many threads as the caller likes: the result does not depend on
@@ -248,7 +256,7 @@ impl Generator {
 pub fn generate(
     name: &str,
     resolution: u32,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
 ) -> Result<(), SubjectError> {
     run(&Generator::new(name, resolution)?, sink)
 }
@@ -257,7 +265,7 @@ pub fn generate(
 ///
 /// # Errors
 /// As [`generate`].
-pub fn generate_cube(resolution: u32, sink: &mut dyn VolumeSink) -> Result<(), SubjectError> {
+pub fn generate_cube(resolution: u32, sink: &mut dyn SubjectSink) -> Result<(), SubjectError> {
     check_resolution(resolution)?;
     run(&Generator::of(Box::new(cube::Cube), resolution), sink)
 }
@@ -270,16 +278,16 @@ fn check_resolution(resolution: u32) -> Result<(), SubjectError> {
     }
 }
 
-fn run(generator: &Generator, sink: &mut dyn VolumeSink) -> Result<(), SubjectError> {
-    sink.begin(&generator.header())
+fn run(generator: &Generator, sink: &mut dyn SubjectSink) -> Result<(), SubjectError> {
+    sink.take(SubjectPart::header(generator.header()))
         .map_err(SubjectError::Refused)?;
     let n = generator.slice_count();
     let mut done = 0;
     while done < n {
         let next = (done + Generator::SLAB).min(n);
-        let slab = generator.slab(done..next);
-        sink.scalars(Voxels::I16(slab.values));
-        sink.labels(slab.labels);
+        for part in generator.slab(done..next).into_parts() {
+            sink.take(part).map_err(SubjectError::Refused)?;
+        }
         done = next;
         if !sink.progress(done as f32 / n as f32) {
             return Err(SubjectError::Stopped);

@@ -29,6 +29,6 @@ use fabrica::app::{
     App, LinkChange, LoadEvent, Message, MissingDocument, RawQuestion, SaveFile, SavedTo, Services,
     Start, Ticket, WhyMissing,
 };
-use fabrica::data::{SubjectPart, Volume, VolumeSink, Voxels};
+use fabrica::data::{SubjectPart, SubjectSink, Volume, Voxels};
 use fabrica::document::{Document, ParamValue, RawVoxels, SubjectRef, TemplateMode};
 use window::{CUBE, DESK, FOUR, Fake, Queue, RESOLUTION, Window, clock};

@@ -240,8 +240,12 @@ fn bytes_arrive(log: &Fake, ticket: Ticket, before_done: Option<LoadEvent>) {
         segmentation: None,
     };
     let mut queue = Queue(log, ticket);
-    queue.begin(&header).expect("it is taken");
-    queue.scalars(Voxels::U8(voxels));
+    for part in [
+        SubjectPart::header(header),
+        SubjectPart::Scalars(Voxels::U8(voxels)),
+    ] {
+        queue.take(part).expect("it is taken");
+    }
     let sha256 = Some("cd".repeat(32));
     let events = before_done.into_iter().chain([LoadEvent::Done { sha256 }]);
     for event in events {

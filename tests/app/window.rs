@@ -113,18 +113,10 @@ impl Queue<'_> {
     }
 }
 
-impl VolumeSink for Queue<'_> {
-    fn begin(&mut self, header: &Volume) -> Result<(), String> {
-        self.push(LoadEvent::Part(SubjectPart::Volume(Box::new(
-            header.clone(),
-        ))));
+impl SubjectSink for Queue<'_> {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        self.push(LoadEvent::Part(part));
         Ok(())
-    }
-    fn scalars(&mut self, next: Voxels) {
-        self.push(LoadEvent::Part(SubjectPart::Scalars(next)));
-    }
-    fn labels(&mut self, next: Vec<u8>) {
-        self.push(LoadEvent::Part(SubjectPart::Labels(next)));
     }
     fn progress(&mut self, _: f32) -> bool {
         true

@@ -4,7 +4,7 @@
 use std::io::{self, Read, Write as _};
 
 use crate::scans::{Random, rounds};
-use fabrica::data::{Volume, VolumeBuilder, VolumeSink, Voxels};
+use fabrica::data::{SubjectPart, SubjectSink, Volume, VolumeBuilder, Voxels};
 use fabrica::load::{
     FileHandle, FileSet, Format, LoadError, LoadReport, MemoryFiles, OneFile, ReadOptions, Warning,
     orientation_code, read_volume,
@@ -489,19 +489,18 @@ struct Bounded {
     limit: u64,
 }
 
-impl VolumeSink for Bounded {
-    fn begin(&mut self, _header: &Volume) -> Result<(), String> {
+impl SubjectSink for Bounded {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        if let SubjectPart::Scalars(next) = part {
+            self.voxels += next.len() as u64;
+            assert!(
+                self.voxels <= self.limit,
+                "{} voxels from nowhere",
+                self.voxels
+            );
+        }
         Ok(())
     }
-    fn scalars(&mut self, next: Voxels) {
-        self.voxels += next.len() as u64;
-        assert!(
-            self.voxels <= self.limit,
-            "{} voxels from nowhere",
-            self.voxels
-        );
-    }
-    fn labels(&mut self, _next: Vec<u8>) {}
     fn progress(&mut self, fraction: f32) -> bool {
         assert!((0.0..=1.0).contains(&fraction), "progress {fraction}");
         true
@@ -640,13 +639,11 @@ fn headers_that_promise_more_than_comes_are_unmasked() {
 
 struct Begun(bool);
 
-impl VolumeSink for Begun {
-    fn begin(&mut self, _header: &Volume) -> Result<(), String> {
-        self.0 = true;
+impl SubjectSink for Begun {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        self.0 |= matches!(part, SubjectPart::Volume(_));
         Ok(())
     }
-    fn scalars(&mut self, _next: Voxels) {}
-    fn labels(&mut self, _next: Vec<u8>) {}
     fn progress(&mut self, _fraction: f32) -> bool {
         true
     }
@@ -714,14 +711,11 @@ fn slow_and_failing_readers() {
 /// Stops at the first progress.
 struct Impatient(u32);
 
-impl VolumeSink for Impatient {
-    fn begin(&mut self, _header: &Volume) -> Result<(), String> {
+impl SubjectSink for Impatient {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        self.0 += u32::from(matches!(part, SubjectPart::Scalars(_)));
         Ok(())
     }
-    fn scalars(&mut self, _next: Voxels) {
-        self.0 += 1;
-    }
-    fn labels(&mut self, _next: Vec<u8>) {}
     fn progress(&mut self, _fraction: f32) -> bool {
         false
     }
@@ -744,6 +738,34 @@ fn cancel_stops_within_a_slab() {
         assert_eq!(result, Err(LoadError::Cancelled));
         assert!(sink.0 <= 1, "{} slabs after the stop", sink.0);
         assert_eq!(report.sha256, None);
+    }
+}
+
+/// Holds the header and this many slabs, and refuses the next.
+struct Full(u32);
+
+impl SubjectSink for Full {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        if matches!(part, SubjectPart::Scalars(_)) {
+            self.0 = self.0.checked_sub(1).ok_or("full")?;
+        }
+        Ok(())
+    }
+    fn progress(&mut self, _fraction: f32) -> bool {
+        true
+    }
+}
+
+#[test]
+fn a_slab_that_is_refused_ends_the_load_with_the_reason() {
+    let bytes = Nifti::new(2, [256, 256, 400], vec![0; 256 * 256 * 400]).bytes();
+    for held in [0, 1] {
+        let mut report = LoadReport::default();
+        let mut files = MemoryFiles::new([("a.nii", bytes.clone())]);
+        let options = ReadOptions::default();
+        let result = read_volume(&mut files, "a.nii", &options, &mut Full(held), &mut report);
+        let (name, message) = ("a.nii".to_owned(), "full".to_owned());
+        assert_eq!(result, Err(LoadError::Refused { name, message }));
     }
 }
 

@@ -2,8 +2,8 @@
 //! joined.
 
 use fabrica::data::{
-    Grid, KnownMasks, Mask, Resources, Segment, Segmentation, Segmented, TimeSlices, Volume,
-    VolumeBuilder, Voxels, segment, segment_with,
+    Grid, KnownMasks, Mask, Resources, Segment, Segmentation, Segmented, SubjectPart, SubjectSink,
+    TimeSlices, Volume, VolumeBuilder, Voxels, segment, segment_with,
 };
 use fabrica::document::{Document, Recipe};
 use glam::{DAffine3, DMat3, DVec3, IVec3, UVec3, Vec3};
@@ -256,24 +256,23 @@ fn scan(random: &mut Random, dims: UVec3) -> Volume {
     let turn = DMat3::from_rotation_y(0.4) * DMat3::from_diagonal(DVec3::new(1.0, 1.5, -2.0));
     let mut builder = VolumeBuilder::new();
     let values = (0..dims.element_product()).map(|_| random.below(100) as i16);
-    use fabrica::data::VolumeSink as _;
-    builder
-        .begin(&Volume {
-            grid: Grid {
-                dims,
-                world_from_voxel: DAffine3::from_mat3_translation(
-                    turn,
-                    DVec3::new(30.0, 4.0, -9.0),
-                ),
-            },
-            voxels: Voxels::I16(Vec::new()),
-            slope: 2.0,
-            intercept: -10.0,
-            value_range: [0.0; 2],
-            segmentation: None,
-        })
-        .expect("small");
-    builder.scalars(Voxels::I16(values.collect()));
+    let header = Volume {
+        grid: Grid {
+            dims,
+            world_from_voxel: DAffine3::from_mat3_translation(turn, DVec3::new(30.0, 4.0, -9.0)),
+        },
+        voxels: Voxels::I16(Vec::new()),
+        slope: 2.0,
+        intercept: -10.0,
+        value_range: [0.0; 2],
+        segmentation: None,
+    };
+    for part in [
+        SubjectPart::header(header),
+        SubjectPart::Scalars(Voxels::I16(values.collect())),
+    ] {
+        builder.take(part).expect("small");
+    }
     builder.finish().expect("whole")
 }
 

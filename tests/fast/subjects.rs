@@ -4,7 +4,9 @@ use std::collections::VecDeque;
 use std::future::Future as _;
 use std::task::{Context, Poll, Waker};
 
-use fabrica::data::{CoarseLabels, Segment, TimeSlices, Volume, VolumeBuilder, VolumeSink, Voxels};
+use fabrica::data::{
+    CoarseLabels, Segment, SubjectPart, SubjectSink, TimeSlices, Volume, VolumeBuilder, Voxels,
+};
 use fabrica::subjects::{self, Generator, SubjectError};
 use sha2::{Digest as _, Sha256};
 
@@ -37,22 +39,18 @@ impl Collect {
     }
 }
 
-impl VolumeSink for Collect {
-    fn begin(&mut self, header: &Volume) -> Result<(), String> {
-        assert!(header.voxels.is_empty(), "the header holds no voxels");
-        self.header = Some(header.clone());
-        Ok(())
-    }
-
-    fn scalars(&mut self, next: Voxels) {
-        match next {
-            Voxels::I16(next) => self.values.extend(next),
-            other => panic!("announced 16-bit, got {} others", other.len()),
+impl SubjectSink for Collect {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        match part {
+            SubjectPart::Volume(header) => {
+                assert!(header.voxels.is_empty(), "the header holds no voxels");
+                self.header = Some(*header);
+            }
+            SubjectPart::Scalars(Voxels::I16(next)) => self.values.extend(next),
+            SubjectPart::Labels(next) => self.labels.extend(next),
+            other => panic!("announced 16-bit scalars and labels, got {other:?}"),
         }
-    }
-
-    fn labels(&mut self, next: Vec<u8>) {
-        self.labels.extend(next);
+        Ok(())
     }
 
     fn progress(&mut self, fraction: f32) -> bool {
@@ -548,15 +546,12 @@ fn hostile_requests_are_refused() {
 #[test]
 fn a_sink_may_refuse_or_stop() {
     struct Refuse;
-    impl VolumeSink for Refuse {
-        fn begin(&mut self, _: &Volume) -> Result<(), String> {
-            Err("too large".to_owned())
-        }
-        fn scalars(&mut self, _: Voxels) {
-            panic!("nothing follows a refusal");
-        }
-        fn labels(&mut self, _: Vec<u8>) {
-            panic!("nothing follows a refusal");
+    impl SubjectSink for Refuse {
+        fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+            match part {
+                SubjectPart::Volume(_) => Err("too large".to_owned()),
+                _ => panic!("nothing follows a refusal"),
+            }
         }
         fn progress(&mut self, _: f32) -> bool {
             panic!("nothing follows a refusal");

@@ -1,7 +1,7 @@
 //! What a fuzzer drives: bytes in, and whatever comes of them, no panic, no hang, and no memory beyond what really
 //! came. Where a format spreads over files, the bytes are cut in two: the first two say where.
 
-use fabrica::data::{Volume, VolumeSink, Voxels};
+use fabrica::data::{SubjectPart, SubjectSink, Volume, Voxels};
 use fabrica::document::Document;
 use fabrica::load::{
     self, ElementType, FileSet, LoadReport, MemoryFiles, RawLayout, ReadOptions,
@@ -14,26 +14,32 @@ struct Counter {
     found: u64,
 }
 
-impl VolumeSink for Counter {
-    fn begin(&mut self, header: &Volume) -> Result<(), String> {
+impl Counter {
+    fn begin(&mut self, header: &Volume) {
         let dims = header.grid.dims.as_u64vec3();
         self.expected = dims.element_product();
         assert!(self.expected > 0, "a volume has voxels");
         let affine = header.grid.world_from_voxel;
         assert!(affine.is_finite() && affine.matrix3.determinant() != 0.0, "it lies somewhere");
         assert!(header.slope.is_finite() && header.intercept.is_finite(), "values are finite");
-        Ok(())
     }
 
-    fn scalars(&mut self, next: Voxels) {
+    fn count(&mut self, next: &Voxels) {
         self.found += next.len() as u64;
-        if let Voxels::F32(values) = &next {
+        if let Voxels::F32(values) = next {
             assert!(values.iter().all(|value| value.is_finite()), "voxels are finite");
         }
     }
+}
 
-    fn labels(&mut self, next: Vec<u8>) {
-        std::hint::black_box(next.len());
+impl SubjectSink for Counter {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        match part {
+            SubjectPart::Volume(header) => self.begin(&header),
+            SubjectPart::Scalars(next) => self.count(&next),
+            other => drop(std::hint::black_box(other)),
+        }
+        Ok(())
     }
 
     // A hundred million voxels out of a packed file prove no more than the first ones.

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use fabrica::data::{Volume, VolumeBuilder, VolumeSink};
+use fabrica::data::{SubjectSink, Volume, VolumeBuilder};
 use fabrica::load::{self, ALL_FILES, FileHandle, FileSet, LoadError, LoadReport, ReadOptions};
 use glam::{DVec3, UVec3};
 
@@ -49,7 +49,7 @@ impl FileSet for Folder {
 pub(crate) fn read_volume_at(
     path: &Path,
     options: &ReadOptions,
-    sink: &mut dyn VolumeSink,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     if path.is_dir() {

@@ -1,6 +1,8 @@
 //! Volumes that are larger than the device takes.
 
-use crate::data::{Reducer, Reduction, Volume, VolumeBuilder, Voxels};
+use crate::data::{
+    Reducer, Reduction, SubjectPart, SubjectSink as _, Volume, VolumeBuilder, Voxels,
+};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 
@@ -12,7 +14,6 @@ pub(crate) fn reduced_to_fit(
     gpu: &Gpu,
     volume: &Volume,
 ) -> Result<Option<(Volume, Reduction)>, RenderError> {
-    use crate::data::VolumeSink as _;
     let limits = gpu.volume_limits();
     let dims = volume.grid.dims;
     let count = dims.as_u64vec3().element_product();
@@ -37,13 +38,20 @@ pub(crate) fn reduced_to_fit(
                 segments: l.segments.clone(),
             }),
     };
-    reducer.begin(&header).map_err(too_large)?;
+    reducer
+        .take(SubjectPart::header(header))
+        .map_err(too_large)?;
     let slice = dims.x as usize * dims.y as usize;
     for z in 0..dims.z as usize {
-        reducer.scalars(copy_range(&volume.voxels, z * slice, slice));
+        let scalars = copy_range(&volume.voxels, z * slice, slice);
+        reducer
+            .take(SubjectPart::Scalars(scalars))
+            .map_err(too_large)?;
     }
     if let Some(labels) = &volume.segmentation {
-        reducer.labels(labels.labels.clone());
+        reducer
+            .take(SubjectPart::Labels(labels.labels.clone()))
+            .map_err(too_large)?;
     }
     let small = builder
         .finish()

@@ -10,11 +10,11 @@ use super::output::notice;
 use super::reading::hint;
 use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
 use crate::data::{
-    BuildError, Reducer, Resources, Subject, SubjectBuilder, TimeSlices, VolumeBuilder,
-    VolumeLimits, VolumeSink, Voxels, segment,
+    BuildError, Reducer, Resources, Subject, SubjectBuilder, SubjectPart, SubjectSink as _,
+    TimeSlices, VolumeBuilder, VolumeLimits, segment,
 };
 use crate::document::{Illustration, Reading};
-use crate::load::{LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
+use crate::load::{LabelFile, LoadReport, ReadOptions, read_label_file};
 use crate::render::KeptTissue;
 use crate::shell::files::{Folder, local};
 use crate::shell::loading::read_scan;
@@ -157,12 +157,12 @@ fn generate(name: &str) -> Result<Subject, MissingSubject> {
     let generator = Generator::new(name, FINE_RESOLUTION)?;
     let mut builder = VolumeBuilder::new();
     builder
-        .begin(&generator.header())
+        .take(SubjectPart::header(generator.header()))
         .map_err(SubjectError::Refused)?;
     let n_threads = std::thread::available_parallelism().map_or(1, |n| n.get().min(16)) as u32;
     let thickness = Generator::SLAB;
     let n_slabs = generator.slice_count().div_ceil(thickness);
-    std::thread::scope(|scope| {
+    let made = std::thread::scope(|scope| {
         let outputs: Vec<_> = (0..n_threads)
             .map(|first| {
                 // Two slabs ahead, so that little is held.
@@ -183,11 +183,14 @@ fn generate(name: &str) -> Result<Subject, MissingSubject> {
         for slab in 0..n_slabs {
             let output = outputs.get((slab % n_threads) as usize);
             if let Some(slab) = output.and_then(|output| output.recv().ok()) {
-                builder.scalars(Voxels::I16(slab.values));
-                builder.labels(slab.labels);
+                for part in slab.into_parts() {
+                    builder.take(part)?;
+                }
             }
         }
+        Ok(())
     });
+    made.map_err(SubjectError::Refused)?;
     let volume = builder.finish().map_err(|source| MissingSubject::Build {
         path: name.to_owned(),
         source,
@@ -209,30 +212,20 @@ fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, Mi
     for line in report.notices() {
         notice(format!("{shown}: {line}"));
     }
-    let build = |source| MissingSubject::Build {
-        path: shown.clone(),
-        source,
-    };
-    let failed = |source| MissingSubject::File {
-        path: shown.clone(),
-        source,
-    };
-    let finish = |builder: SubjectBuilder| builder.finish().unwrap_or(Err(BuildError::Nothing));
-    match result {
-        Ok(()) => {}
-        // The builder stopped it and knows why.
-        Err(LoadError::Cancelled) => {
-            let why = finish(builder).err();
-            return Err(why.map_or_else(|| failed(LoadError::Cancelled), build));
+    if let Err(source) = result {
+        if let Some(hint) = hint(&name, &source) {
+            notice(hint);
         }
-        Err(source) => {
-            if let Some(hint) = hint(&name, &source) {
-                notice(hint);
-            }
-            return Err(failed(source));
-        }
+        return Err(MissingSubject::File {
+            path: shown,
+            source,
+        });
     }
-    let (subject, _) = finish(builder).map_err(build)?;
+    let whole = builder.finish().unwrap_or(Err(BuildError::Nothing));
+    let (subject, _) = whole.map_err(|source| MissingSubject::Build {
+        path: shown,
+        source,
+    })?;
     Ok(Data::Subject {
         subject,
         sha256: report.sha256_hex(),

@@ -1,20 +1,20 @@
 //! What a part posts to the page: an array that begins with a word. `["module", WebAssembly.Module]` comes first, if
 //! the page did not send the module; `["field", header as JSON, Float32Array]` or `["field", undefined, why not]` is
-//! the answer to a displacement field. The others are the events of a load:
-//! `["begin", header as JSON]`, `["scalars", typed array]`, `["labels", Uint8Array]`, `["progress", fraction, what]`,
-//! `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`, `["label-file", sha256, header as JSON, Uint8Array]`,
+//! the answer to a displacement field. The others are the events of a load: [`pieces`] of the subject, such as
+//! `["begin", header as JSON]` and `["scalars", typed array]`, `["progress", fraction, what]`, `["coarse"]`,
+//! `["done", sha256 or null]`, `["notice", text]`, `["label-file", sha256, header as JSON, Uint8Array]`,
 //! `["frames", count]`, `["raw", bytes or undefined, is packed, guess or undefined]`,
 //! `["failed", message, details]`, where the owner of the file can mend it followed by the kind of fault, the name of
 //! the file, bytes found, bytes expected and the file that is missing; `["cancelled"]`.
 
-use js_sys::{Array, Float32Array, Reflect, Uint8Array};
+use js_sys::{Array, ArrayBuffer, Float32Array, Reflect, Uint8Array};
 use serde_json::Value;
 use wasm_bindgen::prelude::*;
 
-use super::header::{field_of, json_of, json_of_field, json_of_labels, labels_of, volume_of};
+use super::header::{field_of, json_of_field, json_of_labels, labels_of};
+use super::pieces;
 use super::task::{reading_of, text_of_reading};
 use crate::assets::{LoadEvent, RawQuestion};
-use crate::data::{SubjectPart, Voxels};
 use crate::document::Reading;
 use crate::load::{FaultKind, FieldFile, FileFault, LabelFile};
 
@@ -30,7 +30,8 @@ pub enum Answer {
 }
 
 impl Answer {
-    /// The answer in a message; none if the message is of no known kind.
+    /// The answer in a message; none if it is no message of a part, or holds something else than its word promises. A
+    /// word that is not known fails the load.
     pub fn of(message: &JsValue) -> Option<Self> {
         let message: &Array = message.dyn_ref()?;
         match message.get(0).as_string()?.as_str() {
@@ -71,7 +72,7 @@ pub mod post {
     use super::*;
     use crate::shell::worker::fault::scope;
 
-    fn send(message: &Array, moved: Option<js_sys::ArrayBuffer>) -> Result<(), JsValue> {
+    fn send(message: &Array, moved: Option<ArrayBuffer>) -> Result<(), JsValue> {
         match moved {
             Some(buffer) => scope().post_message_with_transfer(message, &Array::of1(&buffer)),
             None => scope().post_message(message),
@@ -117,28 +118,15 @@ pub mod post {
         let push = |value: &JsValue| {
             message.push(value);
         };
-        let mut moved: Option<js_sys::ArrayBuffer> = None;
+        let mut moved: Option<ArrayBuffer> = None;
         match event {
-            LoadEvent::Part(SubjectPart::Volume(header)) => {
-                push(&"begin".into());
-                push(&json_of(&header).to_string().into());
-            }
-            LoadEvent::Part(SubjectPart::Scalars(voxels)) => {
-                push(&"scalars".into());
-                let array: JsValue = match &voxels {
-                    Voxels::U8(v) => Uint8Array::from(v.as_slice()).into(),
-                    Voxels::I16(v) => js_sys::Int16Array::from(v.as_slice()).into(),
-                    Voxels::U16(v) => js_sys::Uint16Array::from(v.as_slice()).into(),
-                    Voxels::F32(v) => js_sys::Float32Array::from(v.as_slice()).into(),
-                };
-                moved = Some(Reflect::get(&array, &"buffer".into())?.unchecked_into());
-                push(&array);
-            }
-            LoadEvent::Part(SubjectPart::Labels(labels)) => {
-                push(&"labels".into());
-                let array = Uint8Array::from(labels.as_slice());
-                moved = Some(array.buffer());
-                push(&array);
+            LoadEvent::Part(part) => {
+                let (word, held) = pieces::packed(part);
+                push(&word.into());
+                if ArrayBuffer::is_view(&held) {
+                    moved = Some(Reflect::get(&held, &"buffer".into())?.unchecked_into());
+                }
+                push(&held);
             }
             LoadEvent::LabelFile(file) => {
                 push(&"label-file".into());
@@ -227,26 +215,6 @@ fn fault_of(message: &Array) -> Option<FileFault> {
 fn event_of(message: &Array) -> Option<LoadEvent> {
     let text = |index: u32| message.get(index).as_string().unwrap_or_default();
     Some(match text(0).as_str() {
-        "begin" => match serde_json::from_str(&text(1))
-            .ok()
-            .as_ref()
-            .and_then(volume_of)
-        {
-            Some(header) => LoadEvent::Part(SubjectPart::Volume(Box::new(header))),
-            None => LoadEvent::Failed {
-                message: "The background thread sent a message that the page does not understand"
-                    .to_owned(),
-                details:
-                    "fabrica.js and worker.js may be of different versions: load the page again."
-                        .to_owned(),
-                fault: None,
-            },
-        },
-        "scalars" => LoadEvent::Part(SubjectPart::Scalars(voxels_of(&message.get(1))?)),
-        "labels" => {
-            let labels = message.get(1).dyn_ref::<Uint8Array>()?.to_vec();
-            LoadEvent::Part(SubjectPart::Labels(labels))
-        }
         "label-file" => {
             let header: Value = serde_json::from_str(&text(2)).ok()?;
             let mut segmentation = labels_of(&header)?;
@@ -283,21 +251,16 @@ fn event_of(message: &Array) -> Option<LoadEvent> {
             fault: fault_of(message),
         },
         "cancelled" => LoadEvent::Cancelled,
-        _ => return None,
+        word => match pieces::unpacked(word, &message.get(1)) {
+            Some(part) => LoadEvent::Part(part),
+            None => LoadEvent::Failed {
+                message: "The background thread sent a message that the page does not understand"
+                    .to_owned(),
+                details:
+                    "fabrica.js and worker.js may be of different versions: load the page again."
+                        .to_owned(),
+                fault: None,
+            },
+        },
     })
-}
-
-fn voxels_of(array: &JsValue) -> Option<Voxels> {
-    if let Some(a) = array.dyn_ref::<Uint8Array>() {
-        return Some(Voxels::U8(a.to_vec()));
-    }
-    if let Some(a) = array.dyn_ref::<js_sys::Int16Array>() {
-        return Some(Voxels::I16(a.to_vec()));
-    }
-    if let Some(a) = array.dyn_ref::<js_sys::Uint16Array>() {
-        return Some(Voxels::U16(a.to_vec()));
-    }
-    array
-        .dyn_ref::<js_sys::Float32Array>()
-        .map(|a| Voxels::F32(a.to_vec()))
 }

@@ -8,6 +8,7 @@
 pub mod answer;
 pub mod fault;
 pub mod header;
+pub mod pieces;
 pub mod task;
 
 #[cfg(feature = "reader")]

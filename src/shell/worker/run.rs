@@ -12,7 +12,7 @@ use web_sys::{MessageEvent, Worker, WorkerOptions, WorkerType};
 use super::answer::Answer;
 use super::task::{Part, ScanTask, Task};
 use crate::assets::LoadEvent;
-use crate::data::{BuildError, Subject, SubjectBuilder, VolumeLimits};
+use crate::data::{BuildError, Subject, SubjectBuilder, SubjectSink as _, VolumeLimits};
 use crate::load::FieldFile;
 
 thread_local! {
