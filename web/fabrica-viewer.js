@@ -38,6 +38,7 @@ class FabricaViewer extends HTMLElement {
   #watch = null;
   #leaving = 0;
   #isConnected = false;
+  #isStarted = false;
 
   connectedCallback() {
     clearTimeout(this.#leaving);
@@ -53,7 +54,7 @@ class FabricaViewer extends HTMLElement {
   disconnectedCallback() {
     this.#leaving = setTimeout(() => {
       if (this.isConnected) return;
-      this.#isConnected = false;
+      this.#isConnected = this.#isStarted = false;
       this.#start += 1;
       this.#watch?.disconnect();
       this.#embed?.end();
@@ -63,8 +64,10 @@ class FabricaViewer extends HTMLElement {
 
   attributeChangedCallback(name, before, after) {
     if (before === after || !this.#isConnected) return;
-    if (name === "src") this.#embed ? this.#embed.open() : this.#open();
-    else if (name === "step") this.step = Number(after);
+    if (name === "src") {
+      if (this.#embed) this.#embed.open();
+      else if (this.#isStarted) this.#open();
+    } else if (name === "step") this.step = after;
     else this.#embed?.dress();
   }
 
@@ -77,7 +80,7 @@ class FabricaViewer extends HTMLElement {
     return this.#embed?.step ?? this.#wanted ?? 0;
   }
   set step(value) {
-    const step = Math.round(Number(value));
+    const step = Math.min(Math.round(parseFloat(value)), 1000);
     if (!(step >= 0)) return this.#fail(`${value} is not the number of a step`);
     this.#wanted = step;
     this.#embed?.go(step);
@@ -131,7 +134,6 @@ class FabricaViewer extends HTMLElement {
     this.#watch = new IntersectionObserver(
       (entries) => {
         if (!entries.some((entry) => entry.isIntersecting)) return;
-        this.#watch.disconnect();
         this.#open();
       },
       { rootMargin: "200px" },
@@ -146,15 +148,15 @@ class FabricaViewer extends HTMLElement {
     button.className = "tap";
     button.part = "button start";
     button.textContent = `▶ ${SHOW[lang] ?? SHOW.en}`;
-    button.onclick = () => {
-      button.remove();
-      this.#open();
-    };
+    button.onclick = () => this.#open();
     this.#root.append(button);
   }
 
   async #open() {
     const start = ++this.#start;
+    this.#isStarted = true;
+    this.#watch?.disconnect();
+    this.#root.querySelector(".tap")?.remove();
     try {
       const says = this.textContent.trim() !== "" && (this.hasAttribute("poster") || this.querySelector("img"));
       if (says && !(await canDraw())) throw new Error("This browser has no WebGPU, which the picture is drawn with.");

@@ -3,14 +3,19 @@
 
 const SCRIPT = new URL("./worker.js", import.meta.url);
 
+/** Address of the script that all parts start in. */
+export const WORKER = address();
+
 /**
- * Address of the script that all parts start in. Browsers start no worker from another host, or from any host where the page
- * is sandboxed and belongs to none; there a script of the page's own imports it.
+ * Browsers start no worker from another host, nor from any where the page is sandboxed and has no origin. There a script of the
+ * page's own imports it: a blob, or a data address where even a blob would be another's.
  */
-export const WORKER =
-  SCRIPT.origin === self.origin
-    ? SCRIPT.href
-    : URL.createObjectURL(new Blob([`import ${JSON.stringify(SCRIPT.href)};`], { type: "text/javascript" }));
+function address() {
+  if (SCRIPT.origin === self.origin) return SCRIPT.href;
+  const script = `import ${JSON.stringify(SCRIPT.href)};`;
+  if (self.origin === "null") return `data:text/javascript,${encodeURIComponent(script)}`;
+  return URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
+}
 
 /** A worker that loads a part and waits for one task, which Viewer.lend gives it; null where there are no workers. */
 export function startPart(part) {

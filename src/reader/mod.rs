@@ -1,5 +1,5 @@
 //! Layer 6: the lesson's viewer, for somebody else's page. It turns, zooms, walks steps and moves parameters; it edits
-//! nothing and has no window of its own: controls and texts are the page's (`web/reader.js`).
+//! nothing and has no window of its own: controls and texts are the page's (`web/reader`).
 //!
 //! | file | holds |
 //! |---|---|

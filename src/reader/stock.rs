@@ -165,11 +165,16 @@ impl Stock {
     pub fn fail(&mut self, message: String) {
         (self.incoming, self.incoming_labels) = (SubjectBuilder::default(), Vec::new());
         let want = self.loading.take();
-        let is_fatal = want.as_ref().is_none_or(|want| want.role == Role::Subject);
+        let is_fatal = want
+            .as_ref()
+            .map_or(!self.is_whole, |want| want.role == Role::Subject);
         if let Some(want) = want {
             self.assets.refuse(&want);
         }
-        self.troubles.push(Trouble { message, is_fatal });
+        let trouble = Trouble { message, is_fatal };
+        if self.troubles.last() != Some(&trouble) {
+            self.troubles.push(trouble);
+        }
         self.revision += 1;
     }
 

@@ -1,4 +1,4 @@
-//! The lesson's viewer as `web/reader.js` sees it: one device and one set of data for all pictures of a page.
+//! The lesson's viewer as `web/reader` sees it: one device and one set of data for all pictures of a page.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,6 +18,7 @@ use super::worker::run::{self, WorkerLoad};
 use super::worker::task::{Part, ScanTask, Task};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::describe::{Lang, seen_from};
+use crate::document::SubjectRef;
 use crate::reader::{Picture, Stock, StockKey, Visit, outline};
 use crate::render::{Gpu, GpuOptions, RenderError};
 
@@ -281,6 +282,8 @@ impl Reader {
             return "{}".to_owned();
         };
         let (stock, visit) = (&stocked.stock, &shown.picture.visit);
+        let subject = &visit.document().illustration().subject;
+        let is_supplied = matches!(subject, SubjectRef::Supplied { .. });
         let troubles: Vec<&str> = stock
             .troubles()
             .iter()
@@ -289,7 +292,7 @@ impl Reader {
         json!({
             "progress": stock.loading().map(|(_, fraction)| fraction),
             "host": stocked.asks.as_ref().map(|(_, _, host)| host),
-            "file": stocked.wants_file,
+            "file": stocked.wants_file || (stock.has_failed() && is_supplied),
             "troubles": troubles,
             "failed": stock.has_failed(),
             "step": visit.step(),

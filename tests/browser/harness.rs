@@ -46,7 +46,8 @@ for (const kind of ["log", "info", "warn", "error"]) {
   const write = console[kind];
   console[kind] = (...words) => { window.messages.push(kind + ": " + words.join(" ")); write(...words); };
 }
-addEventListener("error", (event) => window.messages.push("uncaught: " + event.message));
+// An event called `error` of an element on the page is no fault of a script.
+addEventListener("error", (event) => event instanceof ErrorEvent && window.messages.push("uncaught: " + event.message));
 addEventListener("unhandledrejection", (event) => window.messages.push("unhandled: " + event.reason));
 addEventListener("securitypolicyviolation", (event) => window.messages.push("policy: " + event.violatedDirective + " " + event.blockedURI));
 if (window.GPUAdapter) {
@@ -336,6 +337,14 @@ impl Tab {
     /// Waits until all that was done before is on the screen: taken in, loaded, and drawn to the last sample.
     pub(crate) async fn settled(&self) {
         self.settled_of(VIEWER).await;
+    }
+
+    /// Waits for so many frames of the browser, in a page without the viewer.
+    pub(crate) async fn frames_quietly(&self, number: u32) {
+        let code = format!(
+            "new Promise((done) => {{ let left = {number}; const frame = () => (left-- > 0 ? requestAnimationFrame(frame) : done(true)); frame(); }})"
+        );
+        self.eval::<bool>(&code).await;
     }
 
     /// The same of a viewer in somebody else's page.

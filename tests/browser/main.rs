@@ -10,6 +10,7 @@ mod compare;
 mod data;
 mod embed;
 mod files;
+mod frame;
 mod hand;
 mod harness;
 mod library;

@@ -1,5 +1,5 @@
 // Captions: texts fastened to tissue, as real text over the picture, with lines to where their tissue is. All of them are one
-// list in the document's order; those that the picture does not show stay in it for who reads with the ears.
+// list in the document's order; those that the picture does not show stay in it for screen readers.
 
 /** Space between texts and around them, CSS pixels. */
 const GAP = 6;

@@ -74,9 +74,13 @@ export class Controls {
       list: this.#list(outline.steps),
     };
     const { previous, play, next, scrub, list } = this.#parts;
-    scrub.addEventListener("pointerdown", () => (this.#isScrubbing = true));
+    const scrubs = (does) => {
+      this.#isScrubbing = does;
+      embed.moving(does);
+    };
+    scrub.addEventListener("pointerdown", () => scrubs(true));
+    for (const name of ["pointerup", "pointercancel", "blur"]) scrub.addEventListener(name, () => scrubs(false));
     scrub.addEventListener("change", () => {
-      this.#isScrubbing = false;
       embed.scrub(Math.round(Number(scrub.value)));
     });
     // With the keyboard one press is one step.
@@ -89,6 +93,7 @@ export class Controls {
     steps.append(previous, play, next, scrub, list);
     const view = make("div", "view");
     view.setAttribute("role", "group");
+    view.setAttribute("aria-label", words.view);
     this.#parts.back = button("back", () => embed.reset());
     view.append(
       button("left", () => embed.turn(-TURN, 0)),
@@ -149,8 +154,9 @@ export class Controls {
   show({ position, step, playing, strayed, values }, count) {
     const { previous, next, play, scrub, list, back } = this.#parts;
     if (!previous) return;
-    previous.disabled = position <= 0;
-    next.disabled = position >= count;
+    // A button that is switched off would lose the keyboard's focus.
+    previous.setAttribute("aria-disabled", position <= 0);
+    next.setAttribute("aria-disabled", position >= count);
     const name = playing ? "pause" : "play";
     if (play.dataset.shows !== name) {
       play.dataset.shows = name;
@@ -161,7 +167,7 @@ export class Controls {
     if (!this.#isScrubbing) scrub.value = position;
     scrub.setAttribute("aria-valuetext", step === 0 ? this.#words.start : this.#words.step(step, count));
     list.value = step;
-    back.disabled = !strayed;
+    back.setAttribute("aria-disabled", !strayed);
     values.forEach((value, index) => this.#values[index]?.show(value));
   }
 }

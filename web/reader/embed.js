@@ -10,24 +10,31 @@ import { nearest, wordsOf } from "./words.js";
 /** Pixels of a picture at most; it is scaled up beyond. */
 const MOST_PIXELS = 4.2e6;
 
+/** Where an embed stands that has no picture yet. */
+const NOWHERE = { step: 0, position: 0, playing: false, strayed: false, values: [], troubles: [] };
+
 const sheet = new CSSStyleSheet();
 sheet.replaceSync(STYLE);
 
 /** What `src` means: a link, a payload or a document as text, or the address of a document. */
 export function sourceOf(src) {
   // What platforms and mails make of a link: line breaks, `&amp;`, an encoded `&` or `#`, added parameters.
+  if (src.trimStart().startsWith("{")) return { text: src };
   const text = src
     .replace(/[\r\n\t]+/g, "")
     .trim()
-    .replaceAll("&amp;", "&")
+    .replace(/&(amp;)+/g, "&")
+    .replace(/^%23/, "#")
     .replace(/%26step(=|%3D)/gi, "&step=");
   if (text === "") return { text: '{"fabrica":1}' };
-  if (text.startsWith("{")) return { text };
   const hash = text.indexOf("#");
-  if (hash >= 0 && hash + 1 < text.length) return { text: text.slice(hash) };
   const query = new URLSearchParams(text.split("#")[0].split("?")[1] ?? "");
   if (query.has("s")) return { text: `#${query.get("s")}${query.has("step") ? `&step=${query.get("step")}` : ""}` };
-  if (query.has("doc")) return { address: query.get("doc") };
+  if (hash >= 0 && hash + 1 < text.length) return { text: text.slice(hash) };
+  if (query.has("doc")) {
+    const page = new URL(text, document.baseURI);
+    return { address: new URL(query.get("doc"), page).href, step: Number(query.get("step") ?? NaN) };
+  }
   // A payload without its mark: letters of base64url only, and long.
   if (/^[A-Za-z0-9_-]{16,}(&step=\d+)?$/.test(text)) return { text: `#${text}` };
   return { address: text };
@@ -45,11 +52,12 @@ export class Embed {
   #root;
   #engine = null;
   #outline = null;
-  #state = { step: 0, position: 0, playing: false, strayed: false, values: [] };
+  #state = NOWHERE;
   #wanted;
   #opening = 0;
   #isHandled = false;
   #told = "";
+  #lastView = "";
   #parts = {};
   #watches = [];
   #timer = 0;
@@ -157,17 +165,29 @@ export class Embed {
     if (!this.#isHandled) this.#turned();
   }
 
-  /** The view has come to rest: it is told, with the side that one looks from. */
+  /** The view may have come to rest elsewhere: it is told, with the side that one looks from. */
   #turned() {
     if (!this.#engine) return;
+    const view = this.#engine.reader.view(this.id);
+    if (view === this.#lastView) return;
+    this.#lastView = view;
     this.#tell("viewchange", { view: this.view });
     this.#say(this.#engine.reader.side(this.id, this.#lang));
   }
 
   full() {
-    if (document.fullscreenElement) document.exitFullscreen();
-    // Where a frame forbids it, the picture fills the frame.
-    else this.#host.requestFullscreen?.().catch(() => this.#parts.view.classList.toggle("fills"));
+    const { classList } = this.#parts.view;
+    if (this.#host.matches(":fullscreen")) return document.exitFullscreen();
+    if (classList.contains("fills")) return classList.remove("fills");
+    // Where a frame or a device forbids it, the picture fills the frame.
+    return Promise.resolve()
+      .then(() => this.#host.requestFullscreen())
+      .catch(() => classList.add("fills"));
+  }
+
+  /** The keyboard asks to leave what fills the frame. */
+  escape() {
+    this.#parts.view.classList.remove("fills");
   }
 
   entered(isInside) {
@@ -187,36 +207,61 @@ export class Embed {
       const reading = bindings();
       if (source.address !== undefined) {
         base = new URL(source.address, document.baseURI).href;
+        await this.#consent(base);
+        if (isStale()) return;
         source.text = await fetchText(base, source.address);
       }
       const { outline_of: outlineOf } = await reading;
       const outline = JSON.parse(outlineOf(source.text, base));
       if (isStale()) return;
       this.#outline = outline;
+      this.#heedLanguage();
       const engine = await theEngine(outline.part).catch((error) => {
         if (!isStale()) this.#showWords(outline);
         throw error;
       });
-      if (isStale()) return;
-      this.#build();
-      const step = this.#wanted ?? outline.step;
-      const canvas = document.createElement("canvas");
-      canvas.part = "picture";
-      canvas.setAttribute("role", "img");
-      const before = this.id;
-      const wanted = { text: source.text, base, step: Math.min(Math.max(Math.round(step) || 0, 0), outline.steps.length) };
-      this.#engine = engine;
-      this.id = engine.add(this, canvas, wanted);
-      if (before) engine.drop(before);
-      this.#parts.canvas?.remove();
-      this.#parts.stage.prepend(canvas);
-      this.#parts.canvas = canvas;
-      this.isReady = false;
-      this.dress();
-      this.#wake();
+      try {
+        if (!isStale()) this.#join(engine, source, base);
+      } finally {
+        engine.release();
+      }
     } catch (error) {
       if (!isStale()) this.fail(error);
     }
+  }
+
+  /** Adds a picture of the document to the engine, in place of the one before. */
+  #join(engine, source, base) {
+    const outline = this.#outline;
+    this.#build();
+    this.#parts.view.classList.remove("words-only");
+    this.#parts.words.hidden = true;
+    const wanted = [this.#wanted, source.step, outline.step].find((step) => Number.isFinite(step));
+    this.#wanted = null;
+    const step = Math.min(Math.max(Math.round(wanted), 0), outline.steps.length);
+    const canvas = document.createElement("canvas");
+    canvas.part = "picture";
+    canvas.setAttribute("role", "img");
+    const before = this.id;
+    this.id = engine.add(this, canvas, { text: source.text, base, step });
+    this.#engine = engine;
+    if (before) engine.drop(before);
+    this.#parts.canvas?.remove();
+    this.#parts.stage.prepend(canvas);
+    this.#parts.canvas = canvas;
+    this.#state = { ...NOWHERE, step };
+    this.isReady = false;
+    this.#told = "";
+    this.dress();
+    this.#wake();
+  }
+
+  /** Nothing is fetched from another host than those of the page and of this program before the reader agrees. */
+  async #consent(address) {
+    const { origin, host } = new URL(address);
+    if (["null", self.origin, new URL(import.meta.url).origin].includes(origin)) return;
+    this.#build();
+    await new Promise((agree) => this.#ask(this.#words.host(host), this.#words.fetch, agree));
   }
 
   /** Gives back what only this embed has used. */
@@ -225,6 +270,7 @@ export class Embed {
     clearTimeout(this.#timer);
     for (const watch of this.#watches) watch();
     this.#watches = [];
+    for (const image of this.#host.querySelectorAll(":scope > img[slot=poster]")) image.removeAttribute("slot");
     this.#engine?.remove(this);
     this.#engine = null;
     this.id = 0;
@@ -245,9 +291,11 @@ export class Embed {
     ].map(([tag, part]) => make(tag, part));
     const legend = make("p", "legend");
     said.setAttribute("role", "status");
+    words.setAttribute("role", "alert");
     stage.tabIndex = 0;
     stage.setAttribute("role", "group");
     words.hidden = true;
+    layer.style.visibility = "hidden"; // Texts keep their sizes.
     // The poster lies over the picture until the first whole one is there.
     const poster = make("div", "poster");
     poster.append(...this.#root.childNodes);
@@ -285,18 +333,25 @@ export class Embed {
     return wordsOf(this.#lang);
   }
 
+  /** The language of words and controls: the page's, else the document's, else the browser's. */
+  #heedLanguage() {
+    const own = this.#host.closest("[lang]")?.lang || document.documentElement.lang;
+    this.#lang = nearest(own || this.#outline?.lang || navigator.language);
+  }
+
   /** Brings words and controls in line with the attributes. */
   dress() {
     const { captions, bar, hint, controls, legend, stage } = this.#parts;
     if (!captions || !this.#outline) return;
-    const own = this.#host.closest("[lang]")?.lang || document.documentElement.lang;
-    this.#lang = nearest(own || this.#outline.lang || navigator.language);
+    this.#heedLanguage();
     const { background, lang } = this.#outline;
     if (lang) this.#parts.layer.lang = legend.lang = lang;
     captions.set(this.#outline.captions, this.#words);
     bar.set(this.#outline, this.#words);
     controls.hidden = legend.hidden = !this.#host.hasAttribute("controls");
-    controls.lang = this.#lang;
+    this.#parts.view.lang = this.#lang;
+    this.#parts.canvas.setAttribute("aria-label", this.#host.getAttribute("alt") ?? this.#words.illustration);
+    this.#told = "";
     hint.textContent = this.#parts.hands.isInside ? this.#words.leave : this.#words.enter;
     stage.style.background = background ?? "none";
     stage.classList.toggle("dark", isDark(background));
@@ -322,7 +377,7 @@ export class Embed {
     if (hasPicture) {
       const { clientWidth, clientHeight } = stage;
       captions.place(this.#engine.reader.captions(this.id, clientWidth, clientHeight, captions.sizes(), captions.gap));
-      layer.hidden = false;
+      layer.style.visibility = "";
     }
     this.#look();
     if (isDone && !this.isReady) this.#reveal();
@@ -350,12 +405,14 @@ export class Embed {
     this.#state = JSON.parse(this.#engine.reader.state(this.id, seconds()));
     const { step, host, file, failed, troubles, progress, wait } = this.#state;
     if (before.step !== step) this.#arrived(step);
+    for (const message of (troubles ?? []).slice(before.troubles?.length ?? 0)) this.#tell("error", { message });
     this.#show();
-    if (failed && !before.failed && !file) this.fail(new Error(troubles.at(-1) ?? ""));
+    if (failed && !before.failed && !file) this.#parts.words.textContent = `${this.#words.cannot} ${troubles.at(-1) ?? ""}`;
     else if (host) this.#ask(this.#words.host(host), this.#words.fetch, () => this.#engine.reader.allow(this.id));
     else if (file) this.#askFile();
     else if (!this.isReady && progress !== null) this.#wait(progress);
     else if (!failed) this.#parts.words.hidden = true;
+    if (failed) this.#parts.words.hidden = false;
     clearTimeout(this.#timer);
     // A lesson that plays by itself sleeps until the next step.
     if (wait !== null && wait !== undefined) this.#timer = setTimeout(() => this.#wake(), 1000 * Math.max(wait, 0) + 5);
@@ -398,6 +455,7 @@ export class Embed {
   #wait(progress) {
     const { words } = this.#parts;
     words.hidden = false;
+    delete words.dataset.asks;
     words.textContent = `${this.#words.loading} … ${Math.round(100 * progress)} %`;
   }
 
@@ -437,7 +495,7 @@ export class Embed {
     const list = document.createElement("ol");
     list.append(...outline.steps.map((step) => Object.assign(document.createElement("li"), { textContent: line(step) })));
     const text = (content) => Object.assign(document.createElement("p"), { textContent: content });
-    words.replaceChildren(text(line(outline)), list, text(wordsOf(nearest(this.#host.closest("[lang]")?.lang)).noGpu));
+    words.replaceChildren(text(line(outline)), list, text(this.#words.noGpu));
     words.hidden = false;
     this.#parts.view.classList.add("words-only");
   }
@@ -445,13 +503,23 @@ export class Embed {
   /** What went wrong is told in the embed and by `error`. */
   fail(error) {
     const message = String(error?.message ?? error);
+    this.#heedLanguage();
     this.#build();
     const { words, view } = this.#parts;
     if (!view.classList.contains("words-only")) {
+      delete words.dataset.asks;
       words.textContent = `${this.#words.cannot} ${message}`;
       words.hidden = false;
     }
     this.#tell("error", { message });
+  }
+
+  /** The device is gone for good; another `src` starts anew. */
+  lose() {
+    this.#engine = null;
+    this.id = 0;
+    this.isDirty = false;
+    this.fail(new Error(this.#words.lost));
   }
 
   #tell(name, detail) {

@@ -34,12 +34,14 @@ let engine;
  * The page's engine: started by the first picture, ended with the last. `part` is the part of the program that the first one's
  * subject needs, if that is known: it is on its way while the device is opened.
  */
-export function theEngine(part) {
+export async function theEngine(part) {
   engine ??= start(part).catch((error) => {
     engine = undefined;
     throw error;
   });
-  return engine;
+  const found = await engine;
+  found.claims += 1;
+  return found;
 }
 
 async function start(part) {
@@ -66,6 +68,9 @@ export const seconds = () => performance.now() * 1e-3;
 
 class Engine {
   reader = null;
+  /** Embeds that have asked for the engine and have not added their picture yet. */
+  claims = 0;
+  #restarting = Promise.resolve();
   #embeds = new Set();
   #frame = 0;
   /** The picture that was used last keeps its memory on the device; the others give it back when they are complete. */
@@ -89,17 +94,28 @@ class Engine {
 
   /** Takes the picture of an embed away; with the last one goes the device. */
   remove(embed) {
-    this.#embeds.delete(embed);
+    if (!this.#embeds.delete(embed)) return;
     if (this.#used === embed) this.#used = null;
     this.reader.remove(embed.id);
-    if (this.#embeds.size > 0) return;
+    this.#endUnused();
+  }
+
+  /** An embed has added its picture, or does not want to any more. */
+  release() {
+    this.claims -= 1;
+    this.#endUnused();
+  }
+
+  #endUnused() {
+    if (this.#embeds.size > 0 || this.claims > 0 || !this.reader) return;
     cancelAnimationFrame(this.#frame);
     engine = undefined;
     this.forget();
     const reader = this.reader;
     this.reader = null;
     reader.destroy();
-    reader.free();
+    // A device that is being opened again is given back first.
+    this.#restarting.finally(() => reader.free());
   }
 
   /** The picture that the reader turns to keeps what it needs to be drawn at once. */
@@ -118,10 +134,21 @@ class Engine {
   /** Something has come of a load. */
   hear() {
     for (const embed of this.#embeds) {
-      if (embed.waits) embed.isDirty = true;
-      embed.hear();
+      // One that shares its data with another may have been given them by that.
+      if (embed.waits || !embed.isReady) embed.isDirty = true;
+      this.#guard(embed, () => embed.hear());
     }
     this.#schedule();
+  }
+
+  /** A fault in one embed leaves the others running. */
+  #guard(embed, act) {
+    try {
+      act();
+    } catch (error) {
+      embed.isDirty = false;
+      embed.fail(error);
+    }
   }
 
   #schedule() {
@@ -145,7 +172,7 @@ class Engine {
     }
     this.#wasBusy = isBusy;
     const embed = this.#next();
-    if (embed) this.#drawOne(embed);
+    if (embed) this.#guard(embed, () => this.#drawOne(embed));
     this.#last = embed;
     if (isBusy || this.#next()) this.#schedule();
   }
@@ -157,15 +184,8 @@ class Engine {
       embed.isDirty = false; // It has no room; it is woken when it gets some.
       return;
     }
-    let flags;
-    try {
-      const budget = embed.isMoving ? MOVING : REST;
-      flags = this.reader.draw(embed.id, width, height, seconds(), budget, embed.isMoving);
-    } catch (error) {
-      embed.isDirty = false;
-      embed.fail(error);
-      return;
-    }
+    const budget = embed.isMoving ? MOVING : REST;
+    const flags = this.reader.draw(embed.id, width, height, seconds(), budget, embed.isMoving);
     embed.isWalking = Boolean(flags & IS_MOVING);
     embed.waits = Boolean(flags & WAITS);
     embed.isDirty = !(flags & IS_DONE) && !embed.waits;
@@ -177,13 +197,20 @@ class Engine {
   watch() {
     this.reader.lost().then(async () => {
       if (!this.reader) return;
+      this.#restarting = this.reader.restart();
       try {
-        await this.reader.restart();
+        await this.#restarting;
+        if (!this.reader) return;
         this.watch();
         for (const embed of this.#embeds) embed.isDirty = true;
         this.#schedule();
-      } catch (error) {
-        for (const embed of this.#embeds) embed.fail(error);
+      } catch {
+        this.#restarting = Promise.resolve();
+        const embeds = [...this.#embeds];
+        for (const embed of embeds) {
+          this.remove(embed);
+          embed.lose();
+        }
       }
     });
   }

@@ -13,7 +13,7 @@ import "../fabrica-viewer.js";
 const VERSION = 1;
 const viewer = document.querySelector("fabrica-viewer");
 const query = new URLSearchParams(location.search);
-const parents = (query.get("parent") ?? "").split(",").map((text) => text.trim()).filter(Boolean);
+const parents = (query.get("parent") ?? "").split(",").map((text) => text.trim()).filter((text) => !["", "*", "/"].includes(text));
 const isFramed = window.parent !== window;
 
 /** The payload stands behind `#`; platforms that drop that may give it as `?s=`. */
@@ -76,10 +76,12 @@ window.addEventListener("message", async ({ data, origin, source: from }) => {
 });
 
 if (isFramed) {
+  document.documentElement.classList.add("framed");
   let told = 0;
   new ResizeObserver(() => {
     const height = Math.ceil(viewer.getBoundingClientRect().height);
-    if (height === told || height === 0) return;
+    // A parent that adds a border to what it is told must not be asked again for that.
+    if (Math.abs(height - told) < 2 || height === 0) return;
     told = height;
     // The height is no secret, and who asks for it cannot be known.
     window.parent.postMessage({ fabrica: VERSION, type: "height", height }, "*");

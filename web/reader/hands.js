@@ -1,6 +1,6 @@
 // The reader's hands on a picture in somebody else's page. Until the reader enters the picture, wheel, finger and pinch belong
 // to the page; only a mouse that drags turns the object. Inside, they turn and zoom; Escape, Tab past the end and a tap
-// elsewhere lead out.
+// elsewhere leave it.
 
 /** How far a pointer may move and still tap, CSS pixels. */
 const TAP = 6;
@@ -18,7 +18,7 @@ export class Hands {
   #isInside = false;
   #abort = new AbortController();
 
-  /** `embed` hears turn, zoom, shift, reset, enter, leave and moving. */
+  /** `embed` hears turn, zoom, shift, go, reset, entered, escape and moving. */
   constructor(stage, host, embed) {
     this.#stage = stage;
     this.#embed = embed;
@@ -29,8 +29,14 @@ export class Hands {
     on(stage, "pointermove", this.#move);
     on(stage, "pointerup", this.#up);
     on(stage, "pointercancel", this.#up);
+    on(stage, "lostpointercapture", this.#up);
     on(stage, "click", this.#click);
     on(stage, "keydown", this.#key);
+    on(host, "keydown", (event) => {
+      if (event.key !== "Escape") return;
+      this.leave();
+      this.#embed.escape();
+    });
     on(stage, "wheel", this.#wheel, { passive: false });
     on(host, "focusout", (event) => {
       if (!host.contains(event.relatedTarget) && event.relatedTarget !== host) this.leave();
@@ -72,16 +78,18 @@ export class Hands {
 
   #down(event) {
     const isMouse = event.pointerType === "mouse";
-    if (event.target.closest("li")) return; // Its text can be selected.
+    if (this.#pointers.size === 0) this.#moved = 0;
+    if (event.target.closest("li") || event.ctrlKey) return; // A caption's text can be selected; with Ctrl a menu opens.
     if (isMouse ? event.button !== 0 : !this.#isInside) return;
     this.#pointers.set(event.pointerId, [event.clientX, event.clientY]);
-    this.#moved = 0;
     if (!isMouse) this.#stage.setPointerCapture(event.pointerId);
   }
 
   #move(event) {
     const before = this.#pointers.get(event.pointerId);
     if (!before) return;
+    // The button may have been let go elsewhere.
+    if (event.pointerType === "mouse" && !(event.buttons & 1)) return this.#up(event);
     const now = [event.clientX, event.clientY];
     const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
     this.#moved += Math.hypot(dx, dy);
@@ -109,7 +117,8 @@ export class Hands {
     if (this.#pointers.size === 0) this.#embed.moving(false);
   }
 
-  #click() {
+  #click(event) {
+    if (event.target.closest("li")) return;
     if (this.#moved > TAP) {
       this.#moved = 0;
       return;
@@ -134,7 +143,6 @@ export class Hands {
     }
     if (!this.#isInside) return;
     const act = {
-      Escape: () => this.leave(),
       ArrowLeft: () => this.#embed.turn(-STEP, 0),
       ArrowRight: () => this.#embed.turn(STEP, 0),
       ArrowUp: () => this.#embed.turn(0, -STEP),
@@ -148,9 +156,7 @@ export class Hands {
     }[event.key];
     if (!act) return;
     event.preventDefault();
-    // Who stands in an element of the page that hears Escape too leaves only the picture.
-    event.stopPropagation();
-    if (!["Escape", "Home", "PageUp", "PageDown"].includes(event.key)) this.#jog();
+    if (!["Home", "PageUp", "PageDown"].includes(event.key)) this.#jog();
     act();
   }
 }

@@ -1,11 +1,11 @@
 // How an embed looks. Pages change it by ::part(…) and by --fabrica-ratio, --fabrica-ink and --fabrica-ground.
 
 export const STYLE = `
-  :host { display: block; font: 16px/1.4 system-ui, sans-serif; container-type: inline-size; }
+  :host { display: block; font: 16px/1.4 system-ui, sans-serif; }
   :host([hidden]), [hidden] { display: none !important; }
   .frame { display: flex; flex-direction: column; height: 100%; color: var(--fabrica-ink, inherit); background: var(--fabrica-ground, none); }
   .stage { position: relative; flex: 1 1 auto; aspect-ratio: var(--fabrica-ratio, 4 / 3); min-height: 8rem; width: 100%;
-    overflow: hidden; cursor: grab; user-select: none; -webkit-user-select: none; color: #1f2426; --halo: rgb(255 255 255 / 0.85); }
+    container-type: inline-size; overflow: hidden; cursor: grab; user-select: none; -webkit-user-select: none; color: #1f2426; --halo: rgb(255 255 255 / 0.85); }
   .stage.dark { color: #fff; --halo: rgb(0 0 0 / 0.75); }
   .stage:active { cursor: grabbing; }
   .stage:focus-visible, .stage.inside { outline: 3px solid Highlight; outline-offset: -3px; }
@@ -38,7 +38,7 @@ export const STYLE = `
   .controls > div:first-child { flex: 1 1 20rem; }
   button { font: inherit; color: inherit; background: none; border: 1px solid color-mix(in srgb, currentColor 45%, transparent); border-radius: 6px;
     min-width: 32px; min-height: 32px; padding: 4px 7px; cursor: pointer; }
-  button:disabled { opacity: 0.45; cursor: default; }
+  button[aria-disabled="true"] { opacity: 0.45; cursor: default; }
   button svg { display: block; width: 16px; height: 16px; fill: none; stroke: currentColor; stroke-width: 1.8; stroke-linecap: round; stroke-linejoin: round; }
   button:focus-visible, select:focus-visible, input:focus-visible { outline: 3px solid Highlight; outline-offset: 1px; }
   input[type="range"] { min-height: 24px; min-width: 6rem; flex: 1 1 8rem; accent-color: currentColor; }

@@ -6,7 +6,7 @@ use crate::imports;
 use crate::run::{Outcome, cargo, root, run};
 
 /// The checks, fast to slow: a name, and the arguments of cargo. Lints are errors here.
-const CHECKS: [(&str, &[&str]); 9] = [
+const CHECKS: [(&str, &[&str]); 10] = [
     ("format", &["fmt", "--check"]),
     (
         "lint, xtask",

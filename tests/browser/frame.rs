@@ -1,0 +1,255 @@
+//! The reader in frames, from other hosts, and in pages that platforms have mangled; the lesson pages.
+
+use super::embed::LESSON;
+use super::harness::{Session, Tab};
+use super::*;
+
+/// A page around a frame: keeps what the frame posts, with its origin.
+fn host(frame: &str) -> Vec<u8> {
+    format!(
+        "<!doctype html><html lang=en><title>Host</title><script>window.posted = []; addEventListener('message', ({{ data, origin }}) => posted.push([origin, data]));</script><h1>Host</h1>{frame}"
+    )
+    .into_bytes()
+}
+
+/// Messages of the frame with this name that have come.
+fn events(name: &str) -> String {
+    format!("posted.filter(([, data]) => data?.type === 'event' && data.name === '{name}')")
+}
+
+async fn open_host(session: &Session, frame: &str) -> Tab {
+    session.server.add("host.html", host(frame));
+    let tab = session.open("host.html").await;
+    tab.resize(480, 760).await;
+    tab
+}
+
+/// embed.html in a bare frame, and in one without an origin: it tells its height and what happens in it, does what its parent
+/// says and what nobody else says, and leaves the parent's history alone.
+#[test]
+fn a_frame_is_told_what_to_do_by_its_parent_alone() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let link = payload(LESSON);
+        let own = session.server.address();
+        for attributes in ["", "sandbox=\"allow-scripts\""] {
+            let frame = format!(
+                "<iframe id=it {attributes} width=440 height=600 src=\"embed.html?parent={own}#{link}\"></iframe>"
+            );
+            let tab = open_host(&session, &frame).await;
+            let length: u32 = tab.eval("history.length").await;
+            tab.wait_until(
+                &format!(
+                    "[...{}, ...{}].length > 0",
+                    events("ready"),
+                    events("error")
+                ),
+                180,
+            )
+            .await;
+            let faults: serde_json::Value = tab.eval(&events("error")).await;
+            assert_eq!(faults, serde_json::json!([]), "{attributes}");
+            tab.picture(&format!("frame_{}", attributes.len())).await;
+            let heights: Vec<f64> = tab.eval("posted.filter(([, data]) => data?.subject === 'lti.frameResize').map(([, { height }]) => height)").await;
+            assert!(
+                heights.last().is_some_and(|height| *height > 300.0),
+                "{heights:?}"
+            );
+            let ask = |name: &str, args: &str, id: u32| {
+                format!(
+                    "(it.contentWindow.postMessage({{ fabrica: 1, type: 'command', id: {id}, name: '{name}', args: {args} }}, '*'), true)"
+                )
+            };
+            tab.eval::<bool>(&ask("step", "[1]", 7)).await;
+            tab.wait_until(
+                &format!(
+                    "{}.some(([, {{ detail }}]) => detail.step === 1)",
+                    events("stepchange")
+                ),
+                60,
+            )
+            .await;
+            tab.eval::<bool>(&ask(
+                "setParam",
+                "['/templates/0/params/amount', 'wide']",
+                8,
+            ))
+            .await;
+            tab.wait_until("posted.some(([, data]) => data?.id === 8 && data.error.includes('/templates/0/params/amount'))", 30).await;
+            // What is no command of this version is ignored.
+            for other in [
+                "{ fabrica: 2, type: 'command', id: 9, name: 'next' }",
+                "{ fabrica: 1, type: 'command', id: 9, name: 'constructor' }",
+                "'next'",
+                "null",
+                "{ fabrica: 1 }",
+            ] {
+                tab.eval::<bool>(&format!(
+                    "(it.contentWindow.postMessage({other}, '*'), true)"
+                ))
+                .await;
+            }
+            tab.eval::<bool>(&ask("steps", "[]", 10)).await;
+            tab.wait_until(
+                "posted.some(([, data]) => data?.id === 10 && data.value.length === 2)",
+                30,
+            )
+            .await;
+            assert!(
+                tab.eval::<bool>("!posted.some(([, data]) => data?.id === 9)")
+                    .await
+            );
+            assert_eq!(
+                tab.eval::<u32>("history.length").await,
+                length,
+                "back leads out as before"
+            );
+            tab.page.close().await.expect("the tab closes");
+        }
+
+        // A parent that the address does not name hears of heights alone, and is not obeyed.
+        let other = session.server.beside();
+        let frame = format!(
+            "<iframe id=it width=440 height=600 src=\"{own}/embed.html?parent=https://elsewhere.example#{link}\"></iframe>"
+        );
+        other.add("host.html", host(&frame));
+        let tab = session.open("").await;
+        tab.page
+            .goto(format!("{}/host.html", other.address()))
+            .await
+            .expect("the page loads");
+        tab.wait_until("posted.some(([, data]) => data?.type === 'height')", 120)
+            .await;
+        tab.eval::<bool>("(it.contentWindow.postMessage({ fabrica: 1, type: 'command', id: 1, name: 'steps' }, '*'), true)").await;
+        tab.frames_quietly(30).await;
+        let told: Vec<serde_json::Value> = tab
+            .eval("posted.filter(([, data]) => data?.fabrica && data.type !== 'height')")
+            .await;
+        assert!(told.is_empty(), "{told:?}");
+    });
+}
+
+/// The element's script from another host, whose workers a browser refuses to start.
+#[test]
+fn the_element_comes_from_another_host() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let other = session.server.beside();
+        let far = session.server.address();
+        let link = payload(LESSON);
+        other.add(
+            "lesson.html",
+            format!("<!doctype html><html lang=en><title>Far</title><script type=module src=\"{far}/fabrica-viewer.js\"></script><fabrica-viewer id=e0 src=\"#{link}\"></fabrica-viewer><script>window.told = []; for (const name of ['ready', 'error']) addEventListener(name, (event) => told.push([name, event.detail]));</script>").into_bytes(),
+        );
+        let tab = session.open("").await;
+        tab.page
+            .goto(format!("{}/lesson.html", other.address()))
+            .await
+            .expect("the page loads");
+        tab.wait_until("told.length > 0", 180).await;
+        let told: serde_json::Value = tab.eval("told").await;
+        assert_eq!(told[0][0], "ready", "{told}");
+    });
+}
+
+/// Links as platforms and mails leave them lead to the same lesson and step.
+#[test]
+fn mangled_links_are_read() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let link = payload(LESSON);
+        let (head, tail) = link.split_at(link.len() / 2);
+        let own = session.server.address();
+        let forms = [
+            format!("#{link}&step=2"),
+            format!("{link}&step=2"),
+            format!("#{link}&amp;amp;step=2"),
+            format!("#{link}%26step%3D2"),
+            format!("#{head}\n{tail}&step=2"),
+            format!("{own}/?utm=mail#{link}&step=2"),
+            format!("{own}/?s={link}&step=2&fbclid=x"),
+        ];
+        let embeds: Vec<String> = forms
+            .iter()
+            .map(|form| format!("<fabrica-viewer loading=tap src=\"{form}\"></fabrica-viewer>"))
+            .collect();
+        session.server.add("mangled.html", format!("<!doctype html><title>Mail</title><script type=module src=fabrica-viewer.js></script>{}", embeds.concat()).into_bytes());
+        let tab = session.open("mangled.html").await;
+        let found: Vec<serde_json::Value> = tab
+            .eval("Promise.all([import('./reader/embed.js'), import('./reader/engine.js')]).then(async ([{ sourceOf }, { bindings }]) => { const { outline_of: outline } = await bindings(); return [...document.querySelectorAll('fabrica-viewer')].map((it) => { try { return JSON.parse(outline(sourceOf(it.getAttribute('src')).text, location.href)).step; } catch (error) { return String(error); } }); })")
+            .await;
+        assert_eq!(found, vec![serde_json::json!(2); forms.len()]);
+    });
+}
+
+/// The lesson pages show their posters, start their illustrations and keep to their policy.
+#[test]
+fn the_lesson_pages_stand() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        for page in [
+            "opening-the-skull",
+            "the-hand-in-layers",
+            "why-the-neck-whips",
+        ] {
+            let tab = session.open(&format!("lessons/{page}.html")).await;
+            for width in [390, 1280] {
+                tab.resize(width, 900).await;
+                let too_wide: f64 = tab
+                    .eval("document.documentElement.scrollWidth - innerWidth")
+                    .await;
+                assert!(
+                    too_wide <= 0.0,
+                    "{page} at {width}: {too_wide} pixels stick out"
+                );
+            }
+            let broken: u32 = tab.eval("Promise.all([...document.images].map((image) => image.decode().then(() => 0, () => 1))).then((all) => all.reduce((a, b) => a + b, 0))").await;
+            assert_eq!(broken, 0, "{page}: a poster is missing");
+            // The document of each illustration is right, whether or not it is drawn here.
+            let wrong: Vec<String> = tab
+                .eval("import('../reader/engine.js').then(({ bindings }) => bindings()).then(async ({ outline_of: outline }) => { const wrong = []; for (const it of document.querySelectorAll('fabrica-viewer')) { const text = await (await fetch(it.getAttribute('src'))).text(); const { steps, controls, captions } = JSON.parse(outline(text, location.href)); const listed = it.querySelectorAll('ol > li').length; if (steps.length !== listed) wrong.push(`${it.id}: ${steps.length} steps, ${listed} listed`); if (controls.length !== (JSON.parse(text).controls ?? []).length) wrong.push(`${it.id}: a control is left out`); if (captions.length === 0) wrong.push(`${it.id}: no captions`); } return wrong; })")
+                .await;
+            assert!(wrong.is_empty(), "{page}: {wrong:?}");
+            tab.assert_no_complaints().await;
+        }
+    });
+}
+
+#[test]
+fn zz_workers() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.server.add("mini.js", b"self.postMessage('mini runs'); import('./mini2.js').then(() => self.postMessage('dynamic ok'), (e) => self.postMessage('dynamic ' + e));".to_vec());
+        session
+            .server
+            .add("mini2.js", b"export const a = 1;".to_vec());
+        let body = r"<script type=module>
+const base = new URL('mini.js', location.href).href;
+parent.postMessage('origin ' + self.origin + ' ' + location.origin, '*');
+const tries = {
+  plainModule: [`self.postMessage('hello')`, { type: 'module' }],
+  plainClassic: [`self.postMessage('hello')`, {}],
+  importModule: [`import '${base}'`, { type: 'module' }],
+  dynModule: [`import('${base}').catch((e) => self.postMessage('fail ' + e))`, { type: 'module' }],
+  dynClassic: [`import('${base}').catch((e) => self.postMessage('fail ' + e))`, {}],
+};
+for (const [name, [code, options]] of Object.entries(tries)) {
+  for (const kind of ['blob', 'data']) {
+    try {
+      const url = kind === 'blob' ? URL.createObjectURL(new Blob([code], { type: 'text/javascript' })) : 'data:text/javascript,' + encodeURIComponent(code);
+      const w = new Worker(url, options);
+      w.onmessage = (e) => parent.postMessage(`${name} ${kind}: ${e.data}`, '*');
+      w.onerror = (e) => parent.postMessage(`${name} ${kind}: error ${e.message}`, '*');
+    } catch (e) { parent.postMessage(`${name} ${kind}: throws ${e}`, '*'); }
+  }
+}
+</script>";
+        session.server.add("inner.html", body.as_bytes().to_vec());
+        let tab = open_host(
+            &session,
+            "<iframe sandbox=allow-scripts src=inner.html></iframe>",
+        )
+        .await;
+        super::hand::pause(3000).await;
+        println!(
+            "{:#}",
+            tab.eval::<serde_json::Value>("posted.map(([, d]) => d)")
+                .await
+        );
+    });
+}
