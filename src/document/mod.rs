@@ -25,7 +25,8 @@
 //!
 //! Files import only from files before them: `limits` <- `model` (plain types, no JSON) and `text` (JSON, pointers,
 //! errors, notices) <- `schema` (every fixed key once) <- `read` and `write` <- `canonical`, `steps`, `blend` <-
-//! `difference` <- `recording`, `lesson`, `turn` <- `tree` <- `naming`, `walk`, `autoplay` <- `history`, `authoring` <- `carry`.
+//! `difference` <- `recording`, `lesson`, `turn` <- `tree` <- `naming`, `walk`, `autoplay` <- `history`, `authoring`
+//! <- `carry`.
 //!
 #![doc = include_str!("reference.md")]
 

@@ -5,13 +5,14 @@ use glam::Vec2;
 /// Captions stay within this part of the picture's height to either side of its middle.
 const BROADEST: f32 = 0.85;
 
-/// In longer columns lines are left to cross: texts are as high as their points there, or there is no room for any order.
+/// In longer columns lines are left to cross: texts are as high as their points there, or there is no room for any
+/// order.
 const MOST_UNCROSSED: usize = 24;
 
-/// Top left corners for texts of these sizes: each in a column at the side of the area that is nearer to its point, as
-/// high as the point where there is room, none over another, and in an order in which lines do not cross, as a rule that
-/// of the points. `area` is its top left and its bottom right corner; y points down. All lengths are of one unit, such
-/// as pixels.
+/// Top left corners for texts of these sizes: each in a column at the side of the area that is nearer to its point,
+/// as high as the point where there is room, none over another, and in an order in which lines do not cross, as a
+/// rule that of the points. `area` is its top left and its bottom right corner; y points down. All lengths are of one
+/// unit, such as pixels.
 pub fn arranged(points: &[Vec2], sizes: &[Vec2], gap: f32, area: [Vec2; 2]) -> Vec<Vec2> {
     // In a very wide picture the object fills the middle, and lines across all the rest would be long.
     let [min, max] = area;

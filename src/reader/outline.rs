@@ -6,9 +6,9 @@ use crate::document::{Background, Control, ControlRange, Document, Step};
 use crate::link::{self, Link};
 
 /// A link, a payload or a document, and its texts as JSON: `title`, `legend`, `credit`, `lang`, `steps` (each with
-/// `title`, `legend`, `alt`, `seconds`), `captions` (texts), `controls` (each with `pointer`, `name` and, for a number,
-/// `min`, `max`, `whole`), `step` (the one that a link asks for), `alt`, and `background` (`#rrggbb`, or null where it is
-/// transparent).
+/// `title`, `legend`, `alt`, `seconds`), `captions` (texts), `controls` (each with `pointer`, `name` and, for a
+/// number, `min`, `max`, `whole`), `step` (the one that a link asks for), `alt`, and `background` (`#rrggbb`, or null
+/// where it is transparent).
 ///
 /// # Errors
 /// In words: what is wrong with the link or the document.

@@ -129,11 +129,11 @@ impl Picture {
         &self.renderer
     }
 
-    /// Where captions go in the picture that was drawn: for each one that is switched on and has a text six numbers: its
-    /// index, its state (0: in sight, 1: something lies before its tissue, 2: its tissue was cut away, 3: its tissue is
-    /// outside of the frame), the place of its tissue, and the top left corner of its text; those of the states 2 and 3
-    /// have no places. `sizes` has the width and height of each caption's text. Lengths are of the unit of `area`, the
-    /// width and height of the picture as it is shown; `gap` lies between texts and around them.
+    /// Where captions go in the picture that was drawn: for each one that is switched on and has a text six numbers:
+    /// its index, its state (0: in sight, 1: something lies before its tissue, 2: its tissue was cut away, 3: its
+    /// tissue is outside of the frame), the place of its tissue, and the top left corner of its text; those of the
+    /// states 2 and 3 have no places. `sizes` has the width and height of each caption's text. Lengths are of the
+    /// unit of `area`, the width and height of the picture as it is shown; `gap` lies between texts and around them.
     pub fn captions(&self, area: [f32; 2], sizes: &[f32], gap: f32) -> Vec<f32> {
         let Some(seen) = &self.seen else {
             return Vec::new();
@@ -174,8 +174,8 @@ impl Picture {
         rows.chain(absent).collect()
     }
 
-    /// The picture in words: what was done, what was kept, from where one looks and, where it has been drawn, what is in
-    /// sight. The future owns what it needs.
+    /// The picture in words: what was done, what was kept, from where one looks and, where it has been drawn, what is
+    /// in sight. The future owns what it needs.
     pub fn describe(&self, stock: &Stock, lang: Lang) -> impl Future<Output = String> + 'static {
         let document = self.visit.document().clone();
         let step = self.visit.step();

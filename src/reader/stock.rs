@@ -44,7 +44,8 @@ pub struct Trouble {
     pub is_fatal: bool,
 }
 
-/// A subject with its segments. Somebody else fetches: [`Stock::next`] says what, [`Stock::take`] hears what comes.
+/// A subject with its segments. Somebody else fetches: [`Stock::next_want`] says what, [`Stock::take`] hears what
+/// comes.
 pub struct Stock {
     key: StockKey,
     /// A document of this key; only its subject, segments and recipes are looked at.
@@ -102,7 +103,7 @@ impl Stock {
     }
 
     /// Takes what should be fetched next, if anything, and counts it as under way: the subject, then label volumes.
-    pub fn next(&mut self) -> Option<Want> {
+    pub fn next_want(&mut self) -> Option<Want> {
         if self.loading.is_some() || self.has_failed() {
             return None;
         }

@@ -15,8 +15,8 @@ pub(super) fn foreign_host(address: &str) -> Option<String> {
     (!is_own).then(|| url.host())
 }
 
-/// The part that makes or reads a document's subject: the makers for a built-in one, the readers of scans for one at the
-/// page's own host; `base` is what relative addresses start from. None if the reader is to be asked first.
+/// The part that makes or reads a document's subject: the makers for a built-in one, the readers of scans for one at
+/// the page's own host; `base` is what relative addresses start from. None if the reader is to be asked first.
 pub(super) fn part_of(document: &Document, base: &str) -> Option<Part> {
     match &document.illustration().subject {
         SubjectRef::Builtin { .. } => Some(Part::Subjects),

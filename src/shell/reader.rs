@@ -208,8 +208,8 @@ impl Reader {
 
     /// One frame of a picture, of this size in pixels, at the time `now` (seconds, as `performance.now()` / 1000).
     /// `is_moving` says that more changes are about to come. Returns what became of it: the sum of 1 (there is a
-    /// picture, and the canvas has it), 2 (it is complete, with all data), 4 (a passage goes on), 8 (nothing is left to draw
-    /// before a load goes on).
+    /// picture, and the canvas has it), 2 (it is complete, with all data), 4 (a passage goes on), 8 (nothing is left
+    /// to draw before a load goes on).
     ///
     /// # Errors
     /// In words: why nothing can be drawn.
@@ -269,10 +269,10 @@ impl Reader {
         Ok(flags)
     }
 
-    /// Where a picture stands at the time `now`, seconds, and what it waits for, as JSON: `progress` (0 to 1, or null while nothing is loaded), `host` (that the reader
-    /// has to agree to, or null), `file` (true if only the reader has it), `troubles` (texts), `failed` (there is no
-    /// subject), `step`, `position`, `moving`, `playing`, `wait` (seconds to the next step, or null), `strayed`, `values` (of
-    /// the document's controls).
+    /// Where a picture stands at the time `now`, seconds, and what it waits for, as JSON: `progress` (0 to 1, or null
+    /// while nothing is loaded), `host` (that the reader has to agree to, or null), `file` (true if only the reader
+    /// has it), `troubles` (texts), `failed` (there is no subject), `step`, `position`, `moving`, `playing`, `wait`
+    /// (seconds to the next step, or null), `strayed`, `values` (of the document's controls).
     pub fn state(&self, id: u32, now: f64) -> String {
         let inner = self.inner.borrow();
         let Some(shown) = inner.shown.get(&id) else {
@@ -340,7 +340,7 @@ impl Reader {
             return;
         }
         stocked.wants_file = false;
-        let Some(want) = stocked.stock.next() else {
+        let Some(want) = stocked.stock.next_want() else {
             return;
         };
         let task = Task::Scan(ScanTask::Files {
@@ -660,7 +660,7 @@ impl Inner {
         let this = &mut *this;
         let ids: Vec<u32> = this.stocks.keys().copied().collect();
         for id in ids {
-            let Some(want) = this.stocks.get_mut(&id).and_then(|s| s.stock.next()) else {
+            let Some(want) = this.stocks.get_mut(&id).and_then(|s| s.stock.next_want()) else {
                 continue;
             };
             let way = this.way(id, &want);

@@ -423,8 +423,8 @@ pub fn foreign_document_host() -> Option<String> {
     foreign_host(&document_address()?)
 }
 
-/// The name of the part (see web/parts.js) that the document of the page's address needs first, or the document that was
-/// stored on an earlier visit: see [`part_of`].
+/// The name of the part (see web/parts.js) that the document of the page's address needs first, or the document that
+/// was stored on an earlier visit: see [`part_of`].
 #[wasm_bindgen]
 pub fn part_of_address() -> Option<String> {
     if document_address().is_some() {

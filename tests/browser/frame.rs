@@ -24,8 +24,8 @@ async fn open_host(session: &Session, frame: &str) -> Tab {
     tab
 }
 
-/// embed.html in a bare frame, and in one without an origin: it tells its height and what happens in it, does what its parent
-/// says and what nobody else says, and leaves the parent's history alone.
+/// embed.html in a bare frame, and in one without an origin: it tells its height and what happens in it, does what
+/// its parent says and what nobody else says, and leaves the parent's history alone.
 #[test]
 fn a_frame_is_told_what_to_do_by_its_parent_alone() {
     with_browser(BrowserGpu::Software, |session| async move {
@@ -33,7 +33,7 @@ fn a_frame_is_told_what_to_do_by_its_parent_alone() {
         let own = session.server.address();
         for attributes in ["", "sandbox=\"allow-scripts\""] {
             let frame = format!(
-                "<iframe id=it {attributes} width=440 height=600 src=\"embed.html?parent={own}#{link}\"></iframe>"
+                "<iframe id=it {attributes} width=300 height=600 src=\"embed.html?parent={own}#{link}\"></iframe>"
             );
             let tab = open_host(&session, &frame).await;
             let length: u32 = tab.eval("history.length").await;
@@ -109,7 +109,7 @@ fn a_frame_is_told_what_to_do_by_its_parent_alone() {
         // A parent that the address does not name hears of heights alone, and is not obeyed.
         let other = session.server.beside();
         let frame = format!(
-            "<iframe id=it width=440 height=600 src=\"{own}/embed.html?parent=https://elsewhere.example#{link}\"></iframe>"
+            "<iframe id=it width=300 height=600 src=\"{own}/embed.html?parent=https://elsewhere.example#{link}\"></iframe>"
         );
         other.add("host.html", host(&frame));
         let tab = session.open("").await;
@@ -208,48 +208,5 @@ fn the_lesson_pages_stand() {
             assert!(wrong.is_empty(), "{page}: {wrong:?}");
             tab.assert_no_complaints().await;
         }
-    });
-}
-
-#[test]
-fn zz_workers() {
-    with_browser(BrowserGpu::Software, |session| async move {
-        session.server.add("mini.js", b"self.postMessage('mini runs'); import('./mini2.js').then(() => self.postMessage('dynamic ok'), (e) => self.postMessage('dynamic ' + e));".to_vec());
-        session
-            .server
-            .add("mini2.js", b"export const a = 1;".to_vec());
-        let body = r"<script type=module>
-const base = new URL('mini.js', location.href).href;
-parent.postMessage('origin ' + self.origin + ' ' + location.origin, '*');
-const tries = {
-  plainModule: [`self.postMessage('hello')`, { type: 'module' }],
-  plainClassic: [`self.postMessage('hello')`, {}],
-  importModule: [`import '${base}'`, { type: 'module' }],
-  dynModule: [`import('${base}').catch((e) => self.postMessage('fail ' + e))`, { type: 'module' }],
-  dynClassic: [`import('${base}').catch((e) => self.postMessage('fail ' + e))`, {}],
-};
-for (const [name, [code, options]] of Object.entries(tries)) {
-  for (const kind of ['blob', 'data']) {
-    try {
-      const url = kind === 'blob' ? URL.createObjectURL(new Blob([code], { type: 'text/javascript' })) : 'data:text/javascript,' + encodeURIComponent(code);
-      const w = new Worker(url, options);
-      w.onmessage = (e) => parent.postMessage(`${name} ${kind}: ${e.data}`, '*');
-      w.onerror = (e) => parent.postMessage(`${name} ${kind}: error ${e.message}`, '*');
-    } catch (e) { parent.postMessage(`${name} ${kind}: throws ${e}`, '*'); }
-  }
-}
-</script>";
-        session.server.add("inner.html", body.as_bytes().to_vec());
-        let tab = open_host(
-            &session,
-            "<iframe sandbox=allow-scripts src=inner.html></iframe>",
-        )
-        .await;
-        super::hand::pause(3000).await;
-        println!(
-            "{:#}",
-            tab.eval::<serde_json::Value>("posted.map(([, d]) => d)")
-                .await
-        );
     });
 }

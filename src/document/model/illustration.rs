@@ -126,7 +126,7 @@ pub struct Control {
 pub enum ControlRange {
     /// True or false; the value of a document that does not give it.
     Flag(bool),
-    /// A number.
+    /// A number in a closed range, for a slider.
     Number {
         /// The value of a document that does not give it.
         default: f64,

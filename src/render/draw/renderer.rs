@@ -592,8 +592,8 @@ impl Renderer {
         }
     }
 
-    /// Gives back what only this renderer holds on the device: its picture and what the scene is made of. A browser frees
-    /// such things late unless it is told. All of it is made anew where something is drawn.
+    /// Gives back what only this renderer holds on the device: its picture and what the scene is made of. A browser
+    /// frees such things late unless it is told. All of it is made anew where something is drawn.
     pub fn destroy_own(&mut self) {
         if let Some(targets) = self.targets.take() {
             targets.linear.texture.destroy();
