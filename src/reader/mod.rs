@@ -13,7 +13,7 @@ mod picture;
 mod stock;
 mod visit;
 
-pub use outline::outline;
+pub use outline::{outline, texts};
 pub use picture::{Drawn, Picture};
 pub use stock::{Stock, StockKey, Trouble};
 pub use visit::Visit;

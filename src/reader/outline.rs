@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::document::{Background, Control, ControlRange, Document, Step};
+use crate::document::{Background, Control, ControlRange, Document, Illustration, Step};
 use crate::link::{self, Link};
 
 /// A link, a payload or a document, and its texts as JSON: `title`, `legend`, `credit`, `lang`, `steps` (each with
@@ -29,7 +29,6 @@ pub fn outline(text: &str) -> Result<(Document, Value), String> {
             json!({ "title": title, "legend": legend, "alt": alt, "seconds": seconds })
         })
         .collect();
-    let captions: Vec<&str> = shown.captions.iter().map(|c| c.text.trim()).collect();
     let controls: Vec<Value> = shown
         .controls
         .iter()
@@ -40,11 +39,7 @@ pub fn outline(text: &str) -> Result<(Document, Value), String> {
             }
         })
         .collect();
-    let background = match shown.look.background {
-        Background::Color([r, g, b]) => Some(format!("#{r:02x}{g:02x}{b:02x}")),
-        Background::None => None,
-    };
-    let found = json!({
+    let mut found = json!({
         "title": shown.title,
         "legend": shown.legend,
         "credit": shown.credit,
@@ -52,11 +47,24 @@ pub fn outline(text: &str) -> Result<(Document, Value), String> {
         "alt": shown.alt,
         "steps": steps,
         "controls": controls,
-        "captions": captions,
         "step": step.min(shown.steps.len()),
-        "background": background,
     });
+    let around = texts(shown);
+    for key in ["captions", "background"] {
+        found[key] = around[key].clone();
+    }
     Ok((document, found))
+}
+
+/// What a step can set of the texts around a picture: `captions` (texts) and `background` (`#rrggbb`, or null where it
+/// is transparent).
+pub fn texts(shown: &Illustration) -> Value {
+    let captions: Vec<&str> = shown.captions.iter().map(|c| c.text.trim()).collect();
+    let background = match shown.look.background {
+        Background::Color([r, g, b]) => Some(format!("#{r:02x}{g:02x}{b:02x}")),
+        Background::None => None,
+    };
+    json!({ "captions": captions, "background": background })
 }
 
 #[cfg(test)]

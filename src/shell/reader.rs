@@ -19,7 +19,7 @@ use super::worker::task::{Part, ScanTask, Task};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::describe::{Lang, seen_from};
 use crate::document::SubjectRef;
-use crate::reader::{Picture, Stock, StockKey, Visit, outline};
+use crate::reader::{Picture, Stock, StockKey, Visit, outline, texts};
 use crate::render::{Gpu, GpuOptions, RenderError};
 
 /// Called once when the program has been loaded.
@@ -95,6 +95,7 @@ struct Inner {
 pub struct Reader {
     inner: Rc<RefCell<Inner>>,
     is_lost: Cell<bool>,
+    is_ended: Cell<bool>,
 }
 
 #[wasm_bindgen]
@@ -122,6 +123,7 @@ impl Reader {
         Ok(Self {
             inner: Rc::new(RefCell::new(inner)),
             is_lost: Cell::new(false),
+            is_ended: Cell::new(false),
         })
     }
 
@@ -181,6 +183,8 @@ impl Reader {
 
     /// Takes everything away, the device too.
     pub fn destroy(&self) {
+        self.is_ended.set(true);
+        run::end_waiting();
         let mut inner = self.inner.borrow_mut();
         for shown in inner.shown.values_mut() {
             shown.picture.destroy();
@@ -259,7 +263,9 @@ impl Reader {
         if passes {
             flags |= IS_MOVING;
         }
-        let is_settled = stocked.stock.is_settled() && stocked.fields.is_empty();
+        // A question about segments does not keep the subject from being whole.
+        let asks_beside = stocked.asks.is_some() && stocked.stock.host().subject_info().is_some();
+        let is_settled = asks_beside || stocked.stock.is_settled() && stocked.fields.is_empty();
         let has_drawn_all = drawn.is_done || stocked.stock.host().subject_info().is_none();
         if is_settled && drawn.is_done && !passes {
             flags |= IS_DONE;
@@ -425,9 +431,9 @@ impl Reader {
         Ok(())
     }
 
-    /// The document that is shown, with the values that were set, as JSON.
-    pub fn document(&self, id: u32) -> String {
-        self.with(id, |visit| visit.document().to_json_compact())
+    /// Captions and background of what is shown, as JSON: see `fabrica::reader::texts`.
+    pub fn texts(&self, id: u32) -> String {
+        self.with(id, |visit| texts(visit.shown()).to_string())
     }
 
     /// Where captions go: six numbers for each one that is in the picture. See `fabrica::reader::Picture::captions`.
@@ -481,11 +487,6 @@ impl Reader {
         })
     }
 
-    /// Number of volumes on the device.
-    pub fn stock_count(&self) -> usize {
-        self.inner.borrow().stocks.len()
-    }
-
     /// A Promise that is kept when the graphics device is lost, also by [`Reader::destroy`].
     pub fn lost(&self) -> js_sys::Promise {
         let lost = self.inner.borrow().gpu.until_lost();
@@ -506,6 +507,10 @@ impl Reader {
     /// If there is no device any more.
     pub async fn restart(&self) -> Result<(), JsValue> {
         let gpu = open_gpu().await?;
+        if self.is_ended.get() {
+            gpu.device.destroy();
+            return Ok(());
+        }
         let mut inner = self.inner.borrow_mut();
         let inner = &mut *inner;
         inner.gpu = gpu;

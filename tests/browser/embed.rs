@@ -82,7 +82,12 @@ fn lesson(attributes: &str) -> String {
     format!("src=\"#{}\" {attributes}>", payload(LESSON))
 }
 
-async fn open(session: &Session, embeds: &[String], between: &str, size: (u32, u32)) -> Tab {
+pub(crate) async fn open(
+    session: &Session,
+    embeds: &[String],
+    between: &str,
+    size: (u32, u32),
+) -> Tab {
     session.server.add("ledger.js", LEDGER.to_vec());
     session.server.add(
         "tall.css",
@@ -95,7 +100,7 @@ async fn open(session: &Session, embeds: &[String], between: &str, size: (u32, u
 }
 
 /// Waits until so many embeds have told that they are ready.
-async fn ready(tab: &Tab, number: usize) {
+pub(crate) async fn ready(tab: &Tab, number: usize) {
     tab.wait_until(
         &format!("window.told.filter(([name]) => name === 'ready' || name === 'error').length >= {number}"),
         240,
@@ -122,7 +127,7 @@ async fn middle(tab: &Tab, embed: &str) -> (f64, f64) {
 }
 
 /// The picture of an embed as it gives it away.
-async fn picture_of(tab: &Tab, embed: &str) -> image::RgbaImage {
+pub(crate) async fn picture_of(tab: &Tab, embed: &str) -> image::RgbaImage {
     let url: String = tab.eval(&format!("{embed}.toDataURL()")).await;
     let data = url.strip_prefix("data:image/png;base64,").expect("a PNG");
     let picture = image::load_from_memory(&from_base64(data)).expect("a PNG");
@@ -345,7 +350,7 @@ fn many_embeds_are_guests_and_share_what_they_need() {
     });
 }
 
-async fn rests_quietly(tab: &Tab) {
+pub(crate) async fn rests_quietly(tab: &Tab) {
     tab.wait_until(
         "(globalThis.quiet = ledger.frames === globalThis.was ? (globalThis.quiet ?? 0) + 1 : 0, globalThis.was = ledger.frames, globalThis.quiet > 8)",
         120,

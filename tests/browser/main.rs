@@ -18,6 +18,7 @@ mod making;
 mod native;
 mod page;
 mod parts;
+mod passage;
 mod path;
 mod running;
 #[path = "../support/segment_files.rs"]

@@ -57,6 +57,7 @@ export class Embed {
   #opening = 0;
   #isHandled = false;
   #told = "";
+  #texts = "";
   #lastView = "";
   #parts = {};
   #watches = [];
@@ -111,6 +112,7 @@ export class Embed {
       this.#tell("error", { message: String(error.message ?? error) });
       throw new Error(String(error.message ?? error));
     }
+    this.#heedTexts();
     this.#tell("paramchange", { pointer, value });
     this.#changed();
   }
@@ -118,6 +120,7 @@ export class Embed {
   reset() {
     if (!this.#engine) return;
     this.#engine.reader.reset(this.id);
+    this.#heedTexts();
     this.#tell("viewchange", { view: this.view });
     this.#changed();
   }
@@ -246,7 +249,9 @@ export class Embed {
     this.id = engine.add(this, canvas, { text: source.text, base, step });
     this.#engine = engine;
     if (before) engine.drop(before);
-    this.#parts.canvas?.remove();
+    // The picture before stays until there is another.
+    this.#parts.before?.remove();
+    this.#parts.before = this.#parts.canvas;
     this.#parts.stage.prepend(canvas);
     this.#parts.canvas = canvas;
     this.#state = { ...NOWHERE, step };
@@ -344,20 +349,31 @@ export class Embed {
     const { captions, bar, hint, controls, legend, stage } = this.#parts;
     if (!captions || !this.#outline) return;
     this.#heedLanguage();
-    const { background, lang } = this.#outline;
+    const { lang } = this.#outline;
     if (lang) this.#parts.layer.lang = legend.lang = lang;
-    captions.set(this.#outline.captions, this.#words);
+    this.#texts = "";
+    this.#heedTexts();
     bar.set(this.#outline, this.#words);
     controls.hidden = legend.hidden = !this.#host.hasAttribute("controls");
     this.#parts.view.lang = this.#lang;
     this.#parts.canvas.setAttribute("aria-label", this.#host.getAttribute("alt") ?? this.#words.illustration);
     this.#told = "";
     hint.textContent = this.#parts.hands.isInside ? this.#words.leave : this.#words.enter;
-    stage.style.background = background ?? "none";
-    stage.classList.toggle("dark", isDark(background));
     stage.setAttribute("aria-label", this.#words.illustration);
     this.#wake();
     this.#show();
+  }
+
+  /** Captions and background are those of what is shown. */
+  #heedTexts() {
+    const texts = this.#engine.reader.texts(this.id);
+    if (texts === this.#texts) return;
+    this.#texts = texts;
+    const { captions, background } = JSON.parse(texts);
+    const { stage } = this.#parts;
+    this.#parts.captions.set(captions, this.#words);
+    stage.style.background = background ?? "none";
+    stage.classList.toggle("dark", isDark(background));
   }
 
   // ---- What the engine says ----
@@ -378,6 +394,7 @@ export class Embed {
       const { clientWidth, clientHeight } = stage;
       captions.place(this.#engine.reader.captions(this.id, clientWidth, clientHeight, captions.sizes(), captions.gap));
       layer.style.visibility = "";
+      this.#parts.before?.remove();
     }
     this.#look();
     if (isDone && !this.isReady) this.#reveal();
@@ -404,7 +421,10 @@ export class Embed {
     const before = this.#state;
     this.#state = JSON.parse(this.#engine.reader.state(this.id, seconds()));
     const { step, host, file, failed, troubles, progress, wait } = this.#state;
-    if (before.step !== step) this.#arrived(step);
+    if (before.step !== step) {
+      this.#heedTexts();
+      this.#arrived(step);
+    }
     for (const message of (troubles ?? []).slice(before.troubles?.length ?? 0)) this.#tell("error", { message });
     this.#show();
     if (failed && !before.failed && !file) this.#parts.words.textContent = `${this.#words.cannot} ${troubles.at(-1) ?? ""}`;

@@ -2,6 +2,7 @@
 
 pub(crate) mod captions;
 pub(crate) mod catalogue;
+pub(crate) mod controls;
 pub(crate) mod curve;
 pub(crate) mod frames;
 pub(crate) mod kept;

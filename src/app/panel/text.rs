@@ -2,7 +2,7 @@
 
 use egui::{Label, TextEdit, Ui};
 
-use super::{captions, steps};
+use super::{captions, controls, steps};
 use crate::app::kit::theme::Palette;
 use crate::app::kit::widget;
 use crate::app::panel::frames;
@@ -110,6 +110,7 @@ pub(crate) fn ui(
     if session.step() == 0 {
         captions::ui(ui, session, focus, commands);
     }
+    controls::ui(ui, session, commands);
     if frames::row_ui(ui, session) {
         commands.push(Command::ToggleFrames);
     }

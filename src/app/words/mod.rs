@@ -38,6 +38,7 @@ pub(crate) mod authoring;
 pub(crate) mod bar;
 pub(crate) mod captions;
 pub(crate) mod catalogue;
+pub(crate) mod controls;
 pub(crate) mod curve;
 pub(crate) mod facts;
 pub(crate) mod faults;

@@ -96,6 +96,7 @@ pub(crate) fn edit_title(name: &str) -> String {
         "Turn the view" => ["", "Ansicht drehen", "Girar la vista", "转动视图"],
         "Change title" => ["", "Titel ändern", "Cambiar el título", "更改标题"],
         "Change caption" => ["", "Bildtext ändern", "Cambiar la leyenda", "更改说明"],
+        "Change controls" => ["", "Regler ändern", "Cambiar los controles", "更改控件"],
         "Change credit" => ["", "Nachweis ändern", "Cambiar los créditos", "更改署名"],
         "Change language" => ["", "Sprache ändern", "Cambiar el idioma", "更改语言"],
         "Change subject" => ["", "Objekt ändern", "Cambiar el objeto", "更改对象"],

@@ -9,6 +9,7 @@ fn lines() -> impl Iterator<Item = &'static Line> {
     let tables = [
         bar::LINES,
         catalogue::LINES,
+        controls::LINES,
         faults::LINES,
         facts::LINES,
         files::LINES,

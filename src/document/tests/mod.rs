@@ -1,3 +1,4 @@
+mod controls;
 mod curves;
 mod lessons;
 mod recipes;

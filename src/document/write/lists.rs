@@ -1,4 +1,4 @@
-//! Entries of the document's lists: inserting, removing, moving. Pointers in the steps follow their entries.
+//! Entries of the document's lists: inserting, removing, moving. Pointers in steps and controls follow their entries.
 
 use crate::document::text::DocumentError;
 use crate::document::text::pointer::{self, join};
@@ -90,34 +90,40 @@ pub(super) fn reorder(
     Ok(())
 }
 
-/// Rewrites the pointers in all steps after entries of a list have moved: `moved` gives the new index of an old one, or
-/// `None` if the entry is gone, and its pointers with it.
+/// Rewrites the pointers in all steps and controls after entries of a list have moved: `moved` gives the new index of an
+/// old one, or `None` if the entry is gone, and its pointers with it.
 fn rewrite(root: &mut Value, key: &str, moved: impl Fn(usize) -> Option<usize>) {
-    let Some(Value::Array(steps)) = root.get_mut("steps") else {
-        return;
-    };
-    for step in steps {
-        let Some(Value::Object(set)) = step.get_mut("set") else {
-            continue;
+    let followed = |target: String| {
+        let keys = pointer::keys(&target).unwrap_or_default();
+        let index = match keys.as_slice() {
+            [first, second, ..] if first == key => pointer::index(second),
+            _ => None,
         };
-        let old = std::mem::replace(set, Map::new());
-        for (target, value) in old {
-            let keys = pointer::keys(&target).unwrap_or_default();
-            let index = match keys.as_slice() {
-                [first, second, ..] if first == key => pointer::index(second),
-                _ => None,
+        let Some(index) = index else {
+            return Some(target);
+        };
+        let head = join(&join("", key), &moved(index)?.to_string());
+        Some(keys.iter().skip(2).fold(head, |p, key| join(&p, key)))
+    };
+    if let Some(Value::Array(steps)) = root.get_mut("steps") {
+        for step in steps {
+            let Some(Value::Object(set)) = step.get_mut("set") else {
+                continue;
             };
-            match index.map(&moved) {
-                None => {
-                    set.insert(target, value);
-                }
-                Some(None) => {}
-                Some(Some(index)) => {
-                    let head = join(&join("", key), &index.to_string());
-                    let target = keys.iter().skip(2).fold(head, |p, key| join(&p, key));
-                    set.insert(target, value);
-                }
-            }
+            let old = std::mem::replace(set, Map::new());
+            let pairs = old.into_iter();
+            set.extend(pairs.filter_map(|(target, value)| Some((followed(target)?, value))));
         }
+    }
+    if let Some(Value::Array(controls)) = root.get_mut("controls") {
+        controls.retain_mut(|control| {
+            let Some(Value::String(target)) = control.get_mut("pointer") else {
+                return true;
+            };
+            let new = followed(std::mem::take(target));
+            let is_there = new.is_some();
+            *target = new.unwrap_or_default();
+            is_there
+        });
     }
 }

@@ -212,6 +212,7 @@ pub async fn caption_places(
     let places = studio.follow_points(illustration, &points).await?;
     let view = View::new(&illustration.camera, size_px);
     let mut captions = Vec::with_capacity(places.len());
+    let mut asked = 0;
     for (index, place) in places.into_iter().enumerate() {
         let is_drawn = illustration
             .captions
@@ -219,7 +220,8 @@ pub async fn caption_places(
             .is_some_and(|caption| caption.enabled);
         let place = place.filter(|_| is_drawn);
         let pixel = place.and_then(|place| view.pixel_from_subject(place));
-        let pick = match pixel.filter(|_| index < MOST_SEEN) {
+        asked += usize::from(is_drawn);
+        let pick = match pixel.filter(|_| asked <= MOST_SEEN) {
             Some(pixel) => studio.pick(illustration, size_px, pixel).await?,
             None => None,
         };

@@ -12,6 +12,7 @@ use crate::render::pack::gpu_types::Subject;
 use crate::render::pack::stamps::Stamp;
 use crate::render::pack::values::SubjectInfo;
 use glam::{DAffine3, DVec3, UVec3, Vec3};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A subject on the GPU, as every pass takes it. Built once per subject.
@@ -36,8 +37,9 @@ pub(crate) struct SubjectTextures {
     /// The buffer that holds `uniform` on the GPU.
     pub buffer: wgpu::Buffer,
     /// Scalars, labels and how the scalars are read: what passes make from them by computing.
-    pub volume_view: wgpu::TextureView,
-    pub label_view: wgpu::TextureView,
+    /// The same scalars may have other labels.
+    pub volume_view: Arc<HeldView>,
+    pub label_view: Arc<HeldView>,
     pub sampler: wgpu::Sampler,
     /// Where the voxels of the scalars lie. On these voxels, or on `label_voxels`, distances to kept tissue are made.
     pub voxels: VoxelFrame,
@@ -49,12 +51,28 @@ pub(crate) struct SubjectTextures {
     pub segments: Vec<Segment>,
 }
 
-impl Drop for SubjectTextures {
-    /// Gives the textures back to the device. A browser would do so late, when it collects what nobody holds.
+/// A view of a whole texture, which is given back to the device when nobody holds the view any more. A browser would give
+/// it back late.
+#[derive(Debug)]
+pub(crate) struct HeldView(wgpu::TextureView);
+
+impl HeldView {
+    pub(crate) fn new(texture: &wgpu::Texture) -> Arc<Self> {
+        Arc::new(Self(texture.create_view(&Default::default())))
+    }
+}
+
+impl Drop for HeldView {
     fn drop(&mut self) {
-        self.volume_view.texture().destroy();
-        self.label_view.texture().destroy();
-        self.buffer.destroy();
+        self.0.texture().destroy();
+    }
+}
+
+impl std::ops::Deref for HeldView {
+    type Target = wgpu::TextureView;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
     }
 }
 

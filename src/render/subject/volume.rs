@@ -1,7 +1,7 @@
 //! A volume on the GPU: values, labels and their colours, and where they lie.
 
 use super::bricks::{BRICK, Bricks, labels_in_bricks};
-use super::textures::{Bound, SubjectTextures, VoxelFrame, next_stamp};
+use super::textures::{Bound, HeldView, SubjectTextures, VoxelFrame, next_stamp};
 use crate::data::{Segmentation, Volume};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -11,6 +11,7 @@ use crate::render::device::textures::{volume_texture, write_slices};
 use crate::render::pack::gpu_types::Subject;
 use crate::render::pack::values::{SubjectInfo, span};
 use glam::{Affine3A, DAffine3, UVec3};
+use std::sync::Arc;
 
 /// Bytes converted and handed to the GPU at a time: small enough that a frame is not missed.
 pub(crate) const SLAB_BYTES: usize = 2 << 20;
@@ -43,10 +44,7 @@ pub(crate) fn with_labels(
             write_slices(gpu, &texture, (i * at_once) as u32, slices, 1, part);
         }
     }
-    let views = [
-        textures.volume_view.clone(),
-        texture.create_view(&Default::default()),
-    ];
+    let views = [Arc::clone(&textures.volume_view), HeldView::new(&texture)];
     let (bricks, info) = (textures.bricks.clone(), textures.info);
     Ok(assemble(gpu, layouts, volume, labels, views, bricks, info))
 }
@@ -62,7 +60,7 @@ pub(crate) fn assemble(
     layouts: &Layouts,
     volume: &Volume,
     labels: Option<&Segmentation>,
-    [volume_view, label_view]: [wgpu::TextureView; 2],
+    [volume_view, label_view]: [Arc<HeldView>; 2],
     bricks: Bricks,
     mut info: SubjectInfo,
 ) -> SubjectTextures {
@@ -93,7 +91,7 @@ pub(crate) fn assemble(
         gpu,
         layouts,
         &uniform,
-        [&volume_view, &label_view],
+        [&*volume_view, &*label_view],
         &segments,
     );
     info.has_segments = bound.has_colors;

@@ -1,5 +1,5 @@
 use super::bricks::BrickBuilder;
-use super::textures::SubjectTextures;
+use super::textures::{HeldView, SubjectTextures};
 use super::volume::{SLAB_BYTES, assemble, label_texture};
 use crate::data::{Volume, Voxels};
 use crate::render::device::error::RenderError;
@@ -118,8 +118,7 @@ impl VolumeUpload {
             .segmentation
             .as_ref()
             .filter(|l| l.labels.len() == l.grid.voxel_count());
-        let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
-        let views = [view(&self.volume_texture), view(&self.label_texture)];
+        let views = [&self.volume_texture, &self.label_texture].map(HeldView::new);
         let info = SubjectInfo::of(volume);
         assemble(
             gpu,

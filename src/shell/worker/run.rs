@@ -29,6 +29,13 @@ pub fn lend(part: Part, worker: Worker) {
     WAITING.with_borrow_mut(|waiting| waiting.push((part, worker)));
 }
 
+/// Ends the workers that were started early and got no task.
+pub fn end_waiting() {
+    for (_, worker) in WAITING.take() {
+        worker.terminate();
+    }
+}
+
 /// A worker for a part: one that waits, if there is one that could be started, else a new one.
 fn worker_for(part: Part, address: &str) -> Result<Worker, JsValue> {
     let waiting = WAITING.with_borrow_mut(|waiting| {
