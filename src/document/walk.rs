@@ -113,6 +113,7 @@ impl Walk {
         is_cut: bool,
     ) -> Option<Camera> {
         let step = step.min(document.step_count());
+        let position = self.position();
         let before = std::mem::replace(&mut self.step, step);
         let camera_at = |step| state_at(document, step).map(|state| state.camera);
         let turns = camera_at(before) != camera_at(step);
@@ -131,7 +132,6 @@ impl Walk {
         let steps = &document.illustration().steps;
         let later = steps.get(step.max(before).saturating_sub(1));
         let own = later.map_or(0.0, |step| f64::from(step.seconds));
-        let position = self.position();
         let mut next = Passage {
             before,
             at: position,

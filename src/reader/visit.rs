@@ -302,6 +302,11 @@ mod tests {
         assert!(visit.has_strayed());
         visit.go(1, 10.0, false);
         assert!(visit.advance(11.0, false) && near(amount(&visit), 0.15));
+        assert!(
+            near(f64::from(visit.position()), 0.5),
+            "halfway: {}",
+            visit.position()
+        );
         assert!(!visit.advance(12.5, false) && near(amount(&visit), 0.3));
         assert_eq!(*visit.camera(), turned, "the step leaves the camera alone");
         visit.go(2, 13.0, true);

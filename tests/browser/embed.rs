@@ -91,7 +91,7 @@ pub(crate) async fn open(
     session.server.add("ledger.js", LEDGER.to_vec());
     session.server.add(
         "tall.css",
-        b".tall { height: 5000px } .narrow { max-width: 200px; margin: 300px auto }".to_vec(),
+        b".tall { height: 5000px } .narrow { max-width: 200px; margin: 40px auto }".to_vec(),
     );
     session.server.add("lesson.html", page_of(embeds, between));
     let tab = session.open("lesson.html").await;
@@ -270,7 +270,7 @@ fn many_embeds_are_guests_and_share_what_they_need() {
                 tab.eval::<bool>(&format!("(e{index}.scrollIntoView(), true)"))
                     .await;
                 tab.wait_until(
-                    &format!("told.some(([name, id]) => name === 'ready' && id === 'e{index}')"),
+                    &format!("(e{index}.scrollIntoView(), told.some(([name, id]) => name === 'ready' && id === 'e{index}'))"),
                     120,
                 )
                 .await;
@@ -606,7 +606,7 @@ fn wrong_embeds_say_so_and_leave_the_others_running() {
             tab.eval::<bool>(&format!("(e{index}.scrollIntoView(), true)"))
                 .await;
             tab.wait_until(
-                &format!("told.some(([name, id]) => name === 'ready' && id === 'e{index}')"),
+                &format!("(e{index}.scrollIntoView(), told.some(([name, id]) => name === 'ready' && id === 'e{index}'))"),
                 120,
             )
             .await;
