@@ -28,7 +28,8 @@ const TRACK: &str = "import('./reader/engine.js').then(({ theEngine }) => theEng
   return true;
 })";
 
-/// In every frame of a passage the end of a leader line is at its tissue, and at rest the picture is the native program's.
+/// In every frame of a passage the end of a leader line is at its tissue, and at rest the picture is the native
+/// program's.
 #[test]
 fn captions_go_with_the_pictures_of_a_passage() {
     with_browser(BrowserGpu::Software, |session| async move {

@@ -90,8 +90,8 @@ pub(super) fn reorder(
     Ok(())
 }
 
-/// Rewrites the pointers in all steps and controls after entries of a list have moved: `moved` gives the new index of an
-/// old one, or `None` if the entry is gone, and its pointers with it.
+/// Rewrites the pointers in all steps and controls after entries of a list have moved: `moved` gives the new index of
+/// an old one, or `None` if the entry is gone, and its pointers with it.
 fn rewrite(root: &mut Value, key: &str, moved: impl Fn(usize) -> Option<usize>) {
     let followed = |target: String| {
         let keys = pointer::keys(&target).unwrap_or_default();

@@ -51,8 +51,8 @@ pub(crate) struct SubjectTextures {
     pub segments: Vec<Segment>,
 }
 
-/// A view of a whole texture, which is given back to the device when nobody holds the view any more. A browser would give
-/// it back late.
+/// A view of a whole texture, which is given back to the device when nobody holds the view any more. A browser would
+/// give it back late.
 #[derive(Debug)]
 pub(crate) struct HeldView(wgpu::TextureView);
 
