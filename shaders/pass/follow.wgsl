@@ -59,12 +59,13 @@ fn search(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-/// Newton's method from a start: where it ends, and how far that lay from the point at rest.
+/// Newton's method from a start: where it came nearest, and how far that lay from the point at rest.
 fn settled(start: vec3f, wanted: vec3f) -> vec4f {
     var pos = start;
     var found = material_at(pos, 0xffffffffu);
     var off = wanted - found.pos;
-    for (var turn = 0u; turn < 10u; turn++) {
+    var best = vec4f(pos, select(NO_END, length(off), found.continuity >= 0.0));
+    for (var turn = 0u; turn < 16u; turn++) {
         if dot(off, off) < 1e-11 {
             break;
         }
@@ -76,22 +77,27 @@ fn settled(start: vec3f, wanted: vec3f) -> vec4f {
             let along = select(vec3f(0.0), vec3f(h), vec3u(0u, 1u, 2u) == vec3u(axis));
             columns[axis] = (map_along(pos + along, found.path).pos - here) / h;
         }
+        // The inverse, transposed; the identity where the map is flat.
+        var inverse = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
         let volume = determinant(columns);
-        var step = off;
         if abs(volume) > 1e-4 {
-            step = vec3f(
-                dot(cross(columns[1], columns[2]), off),
-                dot(cross(columns[2], columns[0]), off),
-                dot(cross(columns[0], columns[1]), off),
-            ) / volume;
+            inverse = mat3x3f(
+                cross(columns[1], columns[2]),
+                cross(columns[2], columns[0]),
+                cross(columns[0], columns[1]),
+            ) * (1.0 / volume);
         }
-        step *= min(1.0, 4.0 * lattice.side / max(length(step), 1e-9));
-        // Only onto material, and only nearer.
+        let whole = off * inverse;
+        var step = whole * min(1.0, 4.0 * lattice.side / max(length(whole), 1e-9));
+        // Only onto material, and only nearer: at rest, or by the step that would be left. The latter is Deuflhard's
+        // natural monotonicity test (Newton Methods for Nonlinear Problems, section 3.3): a strong shear bends the way
+        // on which the distance at rest falls so much that steps along it become small.
         var has_moved = false;
         for (var half = 0u; half < 6u && !has_moved; half++) {
             let next = material_at(pos + step, 0xffffffffu);
             let rest = wanted - next.pos;
-            if next.continuity >= 0.0 && dot(rest, rest) < dot(off, off) {
+            let left = rest * inverse;
+            if next.continuity >= 0.0 && (dot(rest, rest) < dot(off, off) || dot(left, left) < dot(whole, whole)) {
                 pos += step;
                 found = next;
                 off = rest;
@@ -102,8 +108,11 @@ fn settled(start: vec3f, wanted: vec3f) -> vec4f {
         if !has_moved {
             break;
         }
+        if length(off) < best.w {
+            best = vec4f(pos, length(off));
+        }
     }
-    return vec4f(pos, select(NO_END, length(off), found.continuity >= 0.0));
+    return best;
 }
 
 @compute @workgroup_size(64)

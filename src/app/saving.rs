@@ -19,7 +19,8 @@ impl App {
         let size_px = if is_for_script {
             shown_px
         } else {
-            file_size(shown_px, &illustration.camera, picture.bounds())
+            let (camera, longer_px) = (&illustration.camera, self.session.picture_px);
+            file_size(shown_px, camera, picture.bounds(), longer_px)
         };
         picture.start_file(&illustration, size_px);
         let is_lettered = self.session.is_lettering && !is_for_script;

@@ -28,6 +28,8 @@ pub struct Visit {
     camera: Camera,
     /// The camera was turned by hand since the step was shown.
     is_turned: bool,
+    /// The values of the document's controls at this step, in their order.
+    control_values: Vec<Value>,
     revision: u64,
 }
 
@@ -50,9 +52,11 @@ impl Visit {
             held: Vec::new(),
             camera: Camera::DOCUMENT_DEFAULT,
             is_turned: false,
-            revision: 1,
+            control_values: Vec::new(),
+            revision: 0,
         };
         visit.camera = visit.shown().camera;
+        visit.moved_values();
         Ok(visit)
     }
 
@@ -118,7 +122,7 @@ impl Visit {
             self.is_turned = false;
         }
         self.held.clear();
-        self.revision += 1;
+        self.moved_values();
     }
 
     /// True while the lesson plays by itself.
@@ -177,7 +181,7 @@ impl Visit {
             self.camera = camera;
             self.is_turned = false;
         }
-        self.revision += 1;
+        self.moved_values();
     }
 
     /// Sets one value of what is shown, by its JSON pointer. It stays set in the steps that do not set it themselves.
@@ -203,24 +207,13 @@ impl Visit {
         if pointer.starts_with("/camera") {
             self.camera = self.shown().camera;
         }
-        self.revision += 1;
+        self.moved_values();
         Ok(())
     }
 
     /// The values of the document's controls at this step, in their order: numbers, or true and false.
-    pub fn control_values(&self) -> Vec<Value> {
-        let state = self.document.at_step(self.walk.step());
-        let state = state.as_ref().unwrap_or(&self.document);
-        let controls = self.document.illustration().controls.iter();
-        let value = |control: &Control| {
-            let held = self.held.iter().find(|(at, _)| *at == control.pointer);
-            let value = held.map(|(_, value)| value).or(state.get(&control.pointer));
-            value.cloned().unwrap_or_else(|| match control.range {
-                ControlRange::Flag(default) => json!(default),
-                ControlRange::Number { default, .. } => json!(default),
-            })
-        };
-        controls.map(value).collect()
+    pub fn control_values(&self) -> &[Value] {
+        &self.control_values
     }
 
     /// Back to what the author shows at this step: view and values.
@@ -232,7 +225,7 @@ impl Visit {
         self.playing = None;
         self.camera = self.shown().camera;
         self.is_turned = false;
-        self.revision += 1;
+        self.moved_values();
     }
 
     /// Turns the object under the hand: radians to the right and down.
@@ -263,6 +256,27 @@ impl Visit {
             glam::Vec3::splat(FARTHEST_TARGET),
         );
         self.moved_camera();
+    }
+
+    /// The document, its step or the values that are held are others now. States of steps are resolved here, not in
+    /// each frame.
+    fn moved_values(&mut self) {
+        self.revision += 1;
+        let controls = &self.document.illustration().controls;
+        if controls.is_empty() {
+            return self.control_values.clear();
+        }
+        let state = self.document.at_step(self.walk.step());
+        let state = state.as_ref().unwrap_or(&self.document);
+        let value = |control: &Control| {
+            let held = self.held.iter().find(|(at, _)| *at == control.pointer);
+            let value = held.map(|(_, value)| value).or(state.get(&control.pointer));
+            value.cloned().unwrap_or_else(|| match control.range {
+                ControlRange::Flag(default) => json!(default),
+                ControlRange::Number { default, .. } => json!(default),
+            })
+        };
+        self.control_values = controls.iter().map(value).collect();
     }
 
     fn moved_camera(&mut self) {

@@ -34,7 +34,7 @@ pub use draw::clock::system_clock;
 pub use draw::follow::PendingPlaces;
 pub use draw::identify::{SIGHT_PX, Sighting};
 pub use draw::image::{Image, decode_png, encode_png};
-pub use draw::pick::{PendingPick, Pick};
+pub use draw::pick::{PendingDepths, PendingPick, Pick};
 pub use draw::probe::{Probe, Sample};
 pub use draw::renderer::{DrawState, Renderer};
 pub use draw::slice::{MarkedValues, PendingSlice, SliceColors, SlicePlane, SliceTexel, SliceView};

@@ -202,7 +202,12 @@ impl Reader {
         let mut is_busy = false;
         for stocked in inner.stocks.values_mut() {
             match stocked.stock.advance(budget) {
-                Ok(more) => is_busy |= more,
+                // The others get their turn when this one's data are whole: together they would hold up the frame.
+                Ok(true) => {
+                    is_busy = true;
+                    break;
+                }
+                Ok(false) => {}
                 Err(RenderError::DeviceLost(_)) => self.is_lost.set(true),
                 Err(error) => stocked.stock.fail(error.to_string()),
             }

@@ -606,7 +606,7 @@ fn documents_and_pictures_are_saved() {
 
 impl Window {
     /// Steps until a picture is saved, and shows what was seen meanwhile: how far the work was, in the order of frames.
-    fn watch_saving(&mut self) -> Vec<f64> {
+    pub(crate) fn watch_saving(&mut self) -> Vec<f64> {
         let before = self.log.0.borrow().saved.len();
         let patience = clock() + 120.0;
         let mut seen = Vec::new();

@@ -135,3 +135,20 @@ fn what_others_cannot_open_and_what_is_long_is_told() {
             .is_none()
     );
 }
+
+/// A picture of a chosen size is saved from the dialog.
+#[test]
+fn a_picture_has_the_size_that_was_chosen() {
+    let mut window = opened(DESK, egui::Theme::Light, LESSON);
+    window.click("1000");
+    {
+        let mut buttons = window.harness.query_all_by_label("Save picture");
+        buttons.next_back().expect("a button").click();
+    }
+    window.watch_saving();
+    let log = window.log.0.borrow();
+    let file = log.saved.last().expect("the picture");
+    let side = |at: usize| u32::from_be_bytes(file.bytes[at..at + 4].try_into().expect("4 bytes"));
+    let (width, height) = (side(16), side(20));
+    assert_eq!(width.max(height), 1000, "{width} × {height}");
+}

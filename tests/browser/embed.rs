@@ -486,18 +486,18 @@ fn a_finger_scrolls_until_it_has_tapped() {
     });
 }
 
+/// A page of a narrow window with one lesson of these attributes, around its poster.
+async fn open_poster(session: &Session, attributes: &str, poster: &str) -> Tab {
+    let embeds = [format!("{}{poster}", lesson(attributes))];
+    open(session, &embeds, "", (320, 700)).await
+}
+
 /// The poster is content of the element: there before the program, until the first whole picture.
 #[test]
 fn a_poster_stays_until_there_is_a_picture() {
     with_browser(BrowserGpu::Software, |session| async move {
         let poster = "<img src=icon.svg alt=Poster width=64 height=48><p>What is to be seen.</p>";
-        let tab = open(
-            &session,
-            &[format!("{}{poster}", lesson("controls"))],
-            "",
-            (320, 700),
-        )
-        .await;
+        let tab = open_poster(&session, "controls", poster).await;
         let is_shown = "e0.querySelector('img').checkVisibility()";
         assert!(
             tab.eval::<bool>(&format!("{is_shown} || told.length > 0"))
@@ -513,13 +513,7 @@ fn a_poster_stays_until_there_is_a_picture() {
 
         // A tap, and nearness, start what waits for them.
         let wasm = "performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('.wasm')).length";
-        let tap = open(
-            &session,
-            &[format!("{}{poster}", lesson("loading=tap"))],
-            "",
-            (320, 700),
-        )
-        .await;
+        let tap = open_poster(&session, "loading=tap", poster).await;
         tap.frames(20).await;
         assert_eq!(tap.eval::<u32>(wasm).await, 0);
         tap.eval::<bool>("(e0.shadowRoot.querySelector('button').click(), true)")
@@ -563,13 +557,7 @@ fn an_embed_without_webgpu_gives_words() {
         ] {
             assert!(text.contains(wanted), "{wanted}: {text}");
         }
-        let alone = open(
-            &session,
-            &[format!("{}{poster}", lesson(""))],
-            "",
-            (320, 700),
-        )
-        .await;
+        let alone = open_poster(&session, "", poster).await;
         alone.wait_until("told.length > 0", 60).await;
         let wasm = "performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('.wasm')).length";
         assert_eq!(

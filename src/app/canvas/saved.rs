@@ -7,7 +7,7 @@ use crate::document::{Camera, Illustration};
 use crate::math::Aabb;
 use crate::render::{CaptionPlace, Image, RenderError, View, encode_png};
 
-/// Pixels along the longer side of a saved picture at least, and along either side at most.
+/// Pixels along the longer side of a saved picture at least, where none are asked for, and along either side at most.
 const LEAST_PX: f32 = 2000.0;
 const MOST_PX: u32 = 4096;
 /// Free room around the object in a frame that was made lower, of the object's height.
@@ -39,10 +39,15 @@ impl Saving {
     }
 }
 
-/// Size of a saved picture, pixels: the proportions of the picture in the window, which has `shown_px`, and at least
-/// [`LEAST_PX`] along the longer side. Where the window is higher than wide, as on a phone, the frame ends above and
+/// Size of a saved picture, pixels: the proportions of the picture in the window, which has `shown_px`, and along the
+/// longer side `longer_px`, or at least [`LEAST_PX`] where that is `None`. Where the window is higher than wide, as on a phone, the frame ends above and
 /// below the object, whose box in subject space is `bounds`: most of the picture would be empty else.
-pub(crate) fn file_size(shown_px: [u32; 2], camera: &Camera, bounds: Option<Aabb>) -> [u32; 2] {
+pub(crate) fn file_size(
+    shown_px: [u32; 2],
+    camera: &Camera,
+    bounds: Option<Aabb>,
+    longer_px: Option<u32>,
+) -> [u32; 2] {
     let [width, height] = shown_px.map(|side| side.max(1) as f32);
     let needed = bounds.map_or(height, |bounds| {
         let view = View::new(camera, shown_px);
@@ -53,7 +58,8 @@ pub(crate) fn file_size(shown_px: [u32; 2], camera: &Camera, bounds: Option<Aabb
         reach.map_or(height, |reach| 2.0 * reach * (1.0 + MARGIN))
     });
     let height = needed.clamp(width.min(height), height);
-    let factor = (LEAST_PX / width.max(height)).max(1.0);
+    let longer = width.max(height);
+    let factor = longer_px.map_or((LEAST_PX / longer).max(1.0), |px| px as f32 / longer);
     [width, height].map(|side| ((side * factor).round() as u32).clamp(1, MOST_PX))
 }
 
@@ -71,23 +77,39 @@ mod tests {
     #[test]
     fn a_wide_picture_keeps_the_windows_proportions() {
         let camera = Document::new().illustration().camera;
-        assert_eq!(file_size([500, 400], &camera, Some(BOX)), [2000, 1600]);
-        assert_eq!(file_size([3000, 1000], &camera, Some(BOX)), [3000, 1000]);
+        assert_eq!(
+            file_size([500, 400], &camera, Some(BOX), None),
+            [2000, 1600]
+        );
+        assert_eq!(
+            file_size([3000, 1000], &camera, Some(BOX), None),
+            [3000, 1000]
+        );
+        let asked = |px| file_size([3000, 1500], &camera, Some(BOX), Some(px));
+        assert_eq!([asked(1000), asked(4000)], [[1000, 500], [4000, 2000]]);
+        assert_eq!(
+            asked(u32::MAX),
+            [4096, 4096],
+            "no more than a device may have"
+        );
     }
 
     #[test]
     fn a_high_picture_ends_where_the_object_does() {
         let camera = Document::new().illustration().camera;
-        let [width, height] = file_size([390, 740], &camera, Some(BOX));
+        let [width, height] = file_size([390, 740], &camera, Some(BOX), None);
         assert_eq!([width, height], [2000, 2000], "a small object: a square");
         // A box higher than the picture is wide needs more, one that leaves the window all of it.
         let tall = |half: f32| Aabb {
             min: Vec3::new(-0.1, -0.1, -half),
             max: Vec3::new(0.1, 0.1, half),
         };
-        let [width, height] = file_size([390, 740], &camera, Some(tall(0.9)));
+        let [width, height] = file_size([390, 740], &camera, Some(tall(0.9)), None);
         assert!(width < height && height == 2000, "{width} x {height}");
-        assert_eq!(file_size([390, 740], &camera, Some(tall(5.0)))[1], 2000);
-        assert_eq!(file_size([390, 740], &camera, None), [1054, 2000]);
+        assert_eq!(
+            file_size([390, 740], &camera, Some(tall(5.0)), None)[1],
+            2000
+        );
+        assert_eq!(file_size([390, 740], &camera, None, None), [1054, 2000]);
     }
 }

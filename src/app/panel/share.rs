@@ -8,10 +8,12 @@ use crate::app::kit::theme::Palette;
 use crate::app::kit::widget;
 use crate::app::session::{Command, Session};
 use crate::app::words::share::w;
-use crate::app::words::{bar, fill};
+use crate::app::words::{bar, fill, text};
 use crate::describe::Snippet;
 use crate::link::{DENSE_QR, LONGEST_QR, Qr};
 
+/// Sizes of saved pictures that are offered: pixels along the longer side.
+const SIZES: [(u32, &str); 3] = [(1000, "1000"), (2000, "2000"), (4000, "4000")];
 /// Points along the side of the QR code.
 const CODE: f32 = 220.0;
 
@@ -122,6 +124,19 @@ fn inside(
         Command::SaveDocument,
         commands,
     );
+    ui.label(w().size);
+    let mut sizes = vec![(None, w().as_window)];
+    sizes.extend(SIZES.map(|(px, text)| (Some(px), text)));
+    if let Some(size) = widget::segmented(ui, w().size, &sizes, session.picture_px) {
+        commands.push(Command::SetPictureSize(size));
+    }
+    let mut is_lettering = session.is_lettering;
+    if ui
+        .checkbox(&mut is_lettering, text::w().lettering)
+        .changed()
+    {
+        commands.push(Command::ToggleLettering);
+    }
     button(
         ui,
         Icon::Picture,

@@ -139,6 +139,8 @@ pub enum Command {
     CopyLink,
     /// Saves the document as a file.
     SaveDocument,
+    /// Saved pictures get so many pixels along their longer side from now on; `None`: as many as suit the window.
+    SetPictureSize(Option<u32>),
     /// Saves the picture as a PNG.
     SavePicture,
     /// Stops making the picture for a file.

@@ -184,6 +184,8 @@ pub struct Session {
     pub has_told_slow: bool,
     /// Title and credit are written into saved pictures.
     pub is_lettering: bool,
+    /// Pixels along the longer side of saved pictures; `None`: as many as suit the window.
+    pub picture_px: Option<u32>,
     /// The title stands over the picture.
     pub has_title: bool,
     /// Handles go in steps.
@@ -253,6 +255,7 @@ impl Session {
             has_hint: false,
             has_told_slow: false,
             is_lettering: false,
+            picture_px: None,
             has_title: false,
             is_snapping: false,
             is_alone: false,

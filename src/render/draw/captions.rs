@@ -1,16 +1,14 @@
 //! Where the tissue of captions is in the deformed object, and whether something lies before it.
 
 use super::follow::PendingPlaces;
-use super::pick::PendingPick;
+use super::pick::PendingDepths;
 use super::renderer::Renderer;
 use super::studio::Studio;
-use crate::document::{Camera, Illustration, PlacedTemplate, Recipe, SubjectRef};
+use crate::document::{Camera, Caption, Illustration, PlacedTemplate, Recipe, SubjectRef};
 use crate::render::device::error::RenderError;
 use crate::render::pack::view::View;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
-/// Captions whose sight is asked for; the others are taken as seen.
-const MOST_SEEN: usize = 32;
 /// A caption's tissue nearer to the surface than this is on it, subject units.
 const SKIN: f32 = 0.02;
 
@@ -64,6 +62,13 @@ fn is_behind(place: Vec3, seen_depth: Option<f32>, eye: Vec3) -> bool {
     seen_depth.is_some_and(|depth| depth + SKIN < place.distance(eye))
 }
 
+/// The pixel of a place (subject space), if it is in the picture.
+fn pixel_in_picture(view: &View, place: Vec3) -> Option<Vec2> {
+    let pixel = view.pixel_from_subject(place)?;
+    let is_in = pixel.cmpge(Vec2::ZERO).all() && pixel.cmple(view.size_px).all();
+    is_in.then_some(pixel)
+}
+
 /// Where the captions' tissue is, asked of the GPU whenever that changes.
 #[derive(Debug, Default)]
 pub struct FollowedCaptions {
@@ -74,8 +79,8 @@ pub struct FollowedCaptions {
     /// The camera that looked whether something lies before each caption.
     sight: Option<Camera>,
     hidden: Vec<bool>,
-    /// What lies before which caption, on its way.
-    sights: Vec<(usize, PendingPick)>,
+    /// How far away the surfaces before these captions are, on their way.
+    sights: Option<(Vec<usize>, PendingDepths)>,
 }
 
 impl FollowedCaptions {
@@ -89,7 +94,7 @@ impl FollowedCaptions {
         is_done: bool,
     ) -> bool {
         self.take_sights(&View::new(camera, size_px));
-        let mut is_waiting = !self.sights.is_empty();
+        let mut is_waiting = self.is_waiting();
         if let Some((cause, pending)) = &mut self.pending
             && let Some(answer) = pending.poll_now()
         {
@@ -135,21 +140,17 @@ impl FollowedCaptions {
         view: &View,
         size_px: [u32; 2],
     ) {
-        self.sights.clear();
-        let is_drawn =
-            |(index, _): &(usize, _)| shown.captions.get(*index).is_some_and(|c| c.enabled);
-        let drawn = self.places.iter().enumerate().filter(is_drawn);
-        for (index, place) in drawn.take(MOST_SEEN) {
-            let pixel = place.and_then(|place| view.pixel_from_subject(place));
-            let is_in_picture =
-                |p: &glam::Vec2| p.cmpge(glam::Vec2::ZERO).all() && p.cmple(view.size_px).all();
-            if let Some(pixel) = pixel.filter(is_in_picture)
-                // A question that cannot be asked is no reason for a message.
-                && let Ok(pending) = renderer.pick(pixel, size_px)
-            {
-                self.sights.push((index, pending));
-            }
-        }
+        let placed = self.places.iter().zip(&shown.captions).enumerate();
+        let asked = placed.filter_map(|(index, (place, caption))| {
+            let place = place.filter(|_| caption.enabled)?;
+            Some((index, pixel_in_picture(view, place)?))
+        });
+        let (captions, pixels): (Vec<usize>, Vec<Vec2>) = asked.unzip();
+        // A question that cannot be asked is no reason for a message.
+        self.sights = (!pixels.is_empty())
+            .then(|| renderer.depths(&pixels, size_px).ok())
+            .flatten()
+            .map(|pending| (captions, pending));
     }
 
     /// True while places are asked for that are not known.
@@ -159,25 +160,26 @@ impl FollowedCaptions {
 
     /// True while it is asked what lies before captions.
     pub fn is_waiting(&self) -> bool {
-        !self.sights.is_empty()
+        self.sights.is_some()
     }
 
     /// Takes answers about the surface in front of captions: a surface nearer to the eye than the tissue hides the
     /// caption.
     fn take_sights(&mut self, view: &View) {
-        let eye = view.eye();
-        let (places, hidden) = (&self.places, &mut self.hidden);
-        self.sights.retain_mut(|(index, pending)| {
-            let Some(answer) = pending.poll_now() else {
-                return true;
-            };
-            let place = places.get(*index).copied().flatten();
-            // The picture reports a lost device.
-            if let (Ok(pick), Some(place), Some(hidden)) = (answer, place, hidden.get_mut(*index)) {
-                *hidden = is_behind(place, pick.map(|pick| pick.depth), eye);
+        let Some((captions, pending)) = &mut self.sights else {
+            return;
+        };
+        let Some(answer) = pending.poll_now() else {
+            return;
+        };
+        // The picture reports a lost device.
+        for (&index, depth) in captions.iter().zip(answer.unwrap_or_default()) {
+            let place = self.places.get(index).copied().flatten();
+            if let (Some(place), Some(hidden)) = (place, self.hidden.get_mut(index)) {
+                *hidden = is_behind(place, depth, view.eye());
             }
-            false
-        });
+        }
+        self.sights = None;
     }
 
     /// Where a caption of the document is, as far as that is known.
@@ -211,22 +213,22 @@ pub async fn caption_places(
         .collect();
     let places = studio.follow_points(illustration, &points).await?;
     let view = View::new(&illustration.camera, size_px);
-    let mut captions = Vec::with_capacity(places.len());
-    let mut asked = 0;
-    for (index, place) in places.into_iter().enumerate() {
-        let is_drawn = illustration
-            .captions
-            .get(index)
-            .is_some_and(|caption| caption.enabled);
-        let place = place.filter(|_| is_drawn);
-        let pixel = place.and_then(|place| view.pixel_from_subject(place));
-        asked += usize::from(is_drawn);
-        let pick = match pixel.filter(|_| asked <= MOST_SEEN) {
-            Some(pixel) => studio.pick(illustration, size_px, pixel).await?,
-            None => None,
-        };
-        let depth = pick.map(|pick| pick.depth);
-        captions.push(place.map(|place| (place, is_behind(place, depth, view.eye()))));
-    }
-    Ok(captions)
+    let drawn = |(place, caption): (Option<Vec3>, &Caption)| place.filter(|_| caption.enabled);
+    let places: Vec<Option<Vec3>> = places
+        .into_iter()
+        .zip(&illustration.captions)
+        .map(drawn)
+        .collect();
+    let pixel = |place: &Option<Vec3>| pixel_in_picture(&view, (*place)?);
+    let pixels: Vec<Vec2> = places.iter().filter_map(pixel).collect();
+    let depths = match pixels.is_empty() {
+        true => Vec::new(),
+        false => studio.depths(illustration, size_px, &pixels).await?,
+    };
+    let mut depths = depths.into_iter();
+    let captions = places.iter().map(|place| {
+        let depth = pixel(place).and_then(|_| depths.next()).flatten();
+        Some(((*place)?, is_behind((*place)?, depth, view.eye())))
+    });
+    Ok(captions.collect())
 }

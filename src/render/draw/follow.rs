@@ -22,7 +22,7 @@ const BLOCKS: usize = 6 * 6 * 6;
 
 /// Largest error of a place that was found: the distance at rest, in subject units, between the wanted point and the
 /// material at the place. If the error is larger, the tissue of the point counts as cut away.
-const FOUND: f32 = 0.008;
+const FOUND: f32 = 0.5 / 256.0;
 
 /// Finds where points of rest space are in the deformed object. The follower compiles its programs at the first use,
 /// and again when the key of the scene changes, for example because of a template of another kind.

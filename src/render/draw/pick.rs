@@ -1,7 +1,7 @@
 //! The surface, the tissue and the segment under a pixel.
 
 use super::passes::Passes;
-use super::raycast::{March, encode_march, frame_group};
+use super::raycast::{March, encode_marches, frame_group};
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -82,44 +82,100 @@ fn read_pick(bytes: &[u8], has_labels: bool) -> Option<Pick> {
     })
 }
 
-/// Marches one ray and starts reading what it found.
-pub(crate) fn encode_pick(
-    gpu: &Gpu,
-    passes: &Passes,
-    subject: &SubjectTextures,
-    scene: &Scene,
-    view: &View,
-    pixel: Vec2,
-    has_labels: bool,
-) -> PendingPick {
-    let frame = Frame {
-        pick: pixel.to_array(),
-        ..frame_of(view, view, scene.bounds(), subject.frame.detail, 0)
-    };
-    let target = Target::new(gpu, "pick", [4, 1], PICK_FORMAT);
-    let pipeline = passes.raycast.pipeline(gpu, scene.key(true));
-    let mut encoder = encoder(gpu);
-    encode_march(
-        &mut encoder,
-        &March {
-            target: &target.view,
-            pipeline: &pipeline,
-            frame: &frame_group(gpu, &passes.layouts, &frame),
-            subject: &subject.bind_group,
-            scene: &scene.bindings,
-            baked: None,
-            viewport: [4, 1],
-            tiles: &[[0, 0, 4, 1]],
-            weight: 1.0,
-        },
-    );
-    PendingPick {
-        reading: read_texture(
-            gpu,
-            encoder,
-            &target.texture,
-            wgpu::COPY_BYTES_PER_ROW_ALIGNMENT,
-        ),
-        has_labels,
+/// How far away the surface is under each of several pixels, on its way back. Await it, or ask once per frame.
+#[derive(Debug)]
+pub struct PendingDepths(Readback);
+
+impl PendingDepths {
+    /// The answer if it has come; does not wait. One item per pixel: the distance from the eye in subject units, `None`
+    /// where there is nothing.
+    pub fn poll_now(&mut self) -> Option<Result<Vec<Option<f32>>, RenderError>> {
+        self.0
+            .poll_now()
+            .map(|bytes| bytes.map(|b| read_depths(&b)))
+    }
+}
+
+impl Future for PendingDepths {
+    type Output = Result<Vec<Option<f32>>, RenderError>;
+
+    fn poll(
+        mut self: std::pin::Pin<&mut Self>,
+        context: &mut std::task::Context<'_>,
+    ) -> std::task::Poll<Self::Output> {
+        std::pin::Pin::new(&mut self.0)
+            .poll(context)
+            .map(|bytes| bytes.map(|b| read_depths(&b)))
+    }
+}
+
+/// The fourth value of each row's first texel.
+fn read_depths(bytes: &[u8]) -> Vec<Option<f32>> {
+    let rows = bytes.chunks_exact(PITCH as usize);
+    let depths = rows.map(|row| f32::from_le_bytes([row[12], row[13], row[14], row[15]]));
+    depths
+        .map(|depth| (depth >= 0.0).then_some(depth))
+        .collect()
+}
+
+/// Bytes of a row of what is read back: at most four texels of 16 bytes.
+const PITCH: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
+
+/// What picks look at.
+pub(crate) struct PickScene<'a> {
+    pub gpu: &'a Gpu,
+    pub passes: &'a Passes,
+    pub subject: &'a SubjectTextures,
+    pub scene: &'a Scene,
+    pub view: &'a View,
+}
+
+impl PickScene<'_> {
+    /// Marches one ray and starts reading what it found.
+    pub(crate) fn pick(&self, pixel: Vec2) -> PendingPick {
+        PendingPick {
+            reading: self.read(&[pixel], 4),
+            has_labels: self.subject.uniform.has_labels != 0,
+        }
+    }
+
+    /// Marches a ray per pixel, all in one pass, and starts reading how far away their surfaces are. There has to be at
+    /// least one pixel, and no more than a texture has rows.
+    pub(crate) fn depths(&self, pixels: &[Vec2]) -> PendingDepths {
+        PendingDepths(self.read(pixels, 1))
+    }
+
+    /// The first `texels` of the four of a pick, a row per pixel.
+    fn read(&self, pixels: &[Vec2], texels: u32) -> Readback {
+        let (gpu, scene, view) = (self.gpu, self.scene, self.view);
+        let frame = frame_of(view, view, scene.bounds(), self.subject.frame.detail, 0);
+        let frames: Vec<wgpu::BindGroup> = pixels
+            .iter()
+            .map(|pixel| {
+                let pick = pixel.to_array();
+                frame_group(gpu, &self.passes.layouts, &Frame { pick, ..frame })
+            })
+            .collect();
+        let rows = pixels.len() as u32;
+        let tiles: Vec<[u32; 4]> = (0..rows).map(|row| [0, row, texels, 1]).collect();
+        let target = Target::new(gpu, "pick", [texels, rows], PICK_FORMAT);
+        let pipeline = self.passes.raycast.pipeline(gpu, scene.key(true));
+        let mut encoder = encoder(gpu);
+        encode_marches(
+            &mut encoder,
+            &March {
+                target: &target.view,
+                pipeline: &pipeline,
+                frame: &frames[0],
+                subject: &self.subject.bind_group,
+                scene: &scene.bindings,
+                baked: None,
+                viewport: [texels, rows],
+                tiles: &tiles,
+                weight: 1.0,
+            },
+            &frames,
+        );
+        read_texture(gpu, encoder, &target.texture, PITCH)
     }
 }

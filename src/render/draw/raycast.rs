@@ -123,6 +123,34 @@ pub(crate) struct March<'a> {
 
 /// Adds a ray march to the encoder.
 pub(crate) fn encode_march(encoder: &mut wgpu::CommandEncoder, march: &March<'_>) {
+    let mut pass = begin_march(encoder, march);
+    for &tile in march.tiles {
+        draw_tile(&mut pass, tile);
+    }
+}
+
+/// Adds a ray march to the encoder that draws each tile with a frame of its own, in one pass.
+pub(crate) fn encode_marches(
+    encoder: &mut wgpu::CommandEncoder,
+    march: &March<'_>,
+    frames: &[wgpu::BindGroup],
+) {
+    let mut pass = begin_march(encoder, march);
+    for (&tile, frame) in march.tiles.iter().zip(frames) {
+        pass.set_bind_group(0, frame, &[]);
+        draw_tile(&mut pass, tile);
+    }
+}
+
+fn draw_tile(pass: &mut wgpu::RenderPass<'_>, [x, y, width, height]: [u32; 4]) {
+    pass.set_scissor_rect(x, y, width, height);
+    pass.draw(0..3, 0..1);
+}
+
+fn begin_march<'e>(
+    encoder: &'e mut wgpu::CommandEncoder,
+    march: &March<'_>,
+) -> wgpu::RenderPass<'e> {
     let mut pass = render_pass(encoder, "raycast", march.target);
     pass.set_pipeline(march.pipeline);
     pass.set_bind_group(0, march.frame, &[]);
@@ -140,8 +168,5 @@ pub(crate) fn encode_march(encoder: &mut wgpu::CommandEncoder, march: &March<'_>
     });
     let [width, height] = march.viewport.map(|side| side as f32);
     pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
-    for &[x, y, w, h] in march.tiles {
-        pass.set_scissor_rect(x, y, w, h);
-        pass.draw(0..3, 0..1);
-    }
+    pass
 }

@@ -4,7 +4,7 @@ use super::identify::Sighting;
 use super::image::{Image, read_picture};
 use super::pace::{Pace, Work};
 use super::passes::Passes;
-use super::pick::{PendingPick, encode_pick};
+use super::pick::{PendingDepths, PendingPick, PickScene};
 use super::quality::{WholePicture, least_scale, samples, steady_scale};
 use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
@@ -420,20 +420,38 @@ impl Renderer {
     /// # Errors
     /// [`RenderError::NoSubject`], [`RenderError::DeviceLost`].
     pub fn pick(&mut self, pixel: Vec2, size_px: [u32; 2]) -> Result<PendingPick, RenderError> {
+        self.with_picks(size_px, |picks| picks.pick(pixel))
+    }
+
+    /// Asks how far from the eye the surface is under each of at least one pixel (origin top left), in one pass.
+    ///
+    /// # Errors
+    /// [`RenderError::NoSubject`], [`RenderError::DeviceLost`].
+    pub fn depths(
+        &mut self,
+        pixels: &[Vec2],
+        size_px: [u32; 2],
+    ) -> Result<PendingDepths, RenderError> {
+        self.with_picks(size_px, |picks| picks.depths(pixels))
+    }
+
+    fn with_picks<T>(
+        &mut self,
+        size_px: [u32; 2],
+        ask: impl FnOnce(&PickScene<'_>) -> T,
+    ) -> Result<T, RenderError> {
         self.gpu.check()?;
         if !self.prepare() {
             return Err(RenderError::NoSubject);
         }
         match (&self.studio, &self.scene, &self.illustration) {
-            (Some(studio), Some(scene), Some(illustration)) => Ok(encode_pick(
-                &self.gpu,
-                &studio.passes,
-                &studio.subject,
+            (Some(studio), Some(scene), Some(illustration)) => Ok(ask(&PickScene {
+                gpu: &self.gpu,
+                passes: &studio.passes,
+                subject: &studio.subject,
                 scene,
-                &View::new(&illustration.camera, size_px),
-                pixel,
-                studio.subject.uniform.has_labels != 0,
-            )),
+                view: &View::new(&illustration.camera, size_px),
+            })),
             _ => Err(RenderError::NoSubject),
         }
     }

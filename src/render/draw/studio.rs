@@ -5,7 +5,7 @@ use super::identify::{Sighting, identify};
 use super::image::Image;
 use super::object::object_samples;
 use super::passes::Passes;
-use super::pick::{PendingPick, Pick, encode_pick};
+use super::pick::{Pick, PickScene};
 use super::picture::PictureJob;
 use super::probe::Sample;
 use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
@@ -258,8 +258,18 @@ impl Studio {
         size_px: [u32; 2],
         pixel: Vec2,
     ) -> impl Future<Output = Result<Option<Pick>, RenderError>> + 'static {
-        let reading = self.start_pick(illustration, size_px, pixel);
-        async move { reading?.await }
+        self.with_picks(illustration, size_px, |picks| picks.pick(pixel))
+    }
+
+    /// How far from the eye the surface is under each of at least one pixel (origin top left), subject units; `None`
+    /// where there is nothing. All are asked in one pass. The future owns its resources.
+    pub fn depths(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        pixels: &[Vec2],
+    ) -> impl Future<Output = Result<Vec<Option<f32>>, RenderError>> + 'static {
+        self.with_picks(illustration, size_px, |picks| picks.depths(pixels))
     }
 
     /// What each pixel of a picture shows: the object or not, and which of its segments. The future owns what it needs.
@@ -330,23 +340,18 @@ impl Studio {
         })
     }
 
-    pub(crate) fn start_pick(
+    fn with_picks<T>(
         &self,
         illustration: &Illustration,
         size_px: [u32; 2],
-        pixel: Vec2,
-    ) -> Result<PendingPick, RenderError> {
-        let scene = self.scene(illustration, self.wants_grid);
-        let view = View::new(&illustration.camera, size_px);
-        let has_labels = self.subject.uniform.has_labels != 0;
-        Ok(encode_pick(
-            &self.gpu,
-            &self.passes,
-            &self.subject,
-            &scene,
-            &view,
-            pixel,
-            has_labels,
-        ))
+        ask: impl FnOnce(&PickScene<'_>) -> T,
+    ) -> T {
+        ask(&PickScene {
+            gpu: &self.gpu,
+            passes: &self.passes,
+            subject: &self.subject,
+            scene: &self.scene(illustration, self.wants_grid),
+            view: &View::new(&illustration.camera, size_px),
+        })
     }
 }
