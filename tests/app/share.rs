@@ -139,12 +139,9 @@ fn what_others_cannot_open_and_what_is_long_is_told() {
 /// A picture of a chosen size is saved from the dialog.
 #[test]
 fn a_picture_has_the_size_that_was_chosen() {
-    let mut window = opened(DESK, egui::Theme::Light, LESSON);
-    window.click("1000");
-    {
-        let mut buttons = window.harness.query_all_by_label("Save picture");
-        buttons.next_back().expect("a button").click();
-    }
+    let mut window = opened(vec2(1280.0, 1100.0), egui::Theme::Light, LESSON);
+    window.click("Pixels along the longer side: 1000");
+    window.click("Save picture");
     window.watch_saving();
     let log = window.log.0.borrow();
     let file = log.saved.last().expect("the picture");

@@ -125,7 +125,7 @@ fn inside(
         commands,
     );
     ui.label(w().size);
-    let mut sizes = vec![(None, w().as_window)];
+    let mut sizes = vec![(None, w().automatic)];
     sizes.extend(SIZES.map(|(px, text)| (Some(px), text)));
     if let Some(size) = widget::segmented(ui, w().size, &sizes, session.picture_px) {
         commands.push(Command::SetPictureSize(size));

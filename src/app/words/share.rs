@@ -22,7 +22,7 @@ words! {
         plain_hint: "HTML without scripts and frames: title, text, steps, what the picture shows, and the link", "HTML ohne Skripte und Rahmen: Titel, Text, Schritte, was das Bild zeigt, und der Link", "HTML sin scripts ni marcos: título, texto, pasos, lo que muestra la imagen y el enlace", "不含脚本和框架的 HTML：标题、说明、步骤、图像内容和链接";
         files: "As files", "Als Dateien", "Como archivos", "作为文件";
         size: "Pixels along the longer side", "Pixel an der längeren Seite", "Píxeles del lado más largo", "长边像素数";
-        as_window: "As the window", "Wie das Fenster", "Como la ventana", "与窗口相同";
+        automatic: "Automatic", "Automatisch", "Automático", "自动";
         on_clipboard: "The HTML is on the clipboard", "Das HTML ist in der Zwischenablage", "El HTML está en el portapapeles", "HTML 已在剪贴板中";
     }
 }
