@@ -383,7 +383,7 @@ mod tests {
         }
         let (mesh, done) = mended(draft);
         assert_eq!(mesh.triangles.len(), 2);
-        assert_eq!((done.repeated_corners, done.short_faces), (4 + 1, 2));
+        assert_eq!((done.repeated_corners, done.short_faces), (4 + 2, 2));
         assert_eq!((done.degenerate, done.duplicate), (0, 0));
     }
 
