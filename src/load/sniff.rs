@@ -15,7 +15,7 @@ pub(super) enum Kind {
     Empty,
     /// Known, and not read: in words.
     Refused(&'static str),
-    /// A mesh.
+    /// A mesh, of a format that is read or not.
     Mesh(MeshKind),
     /// Known, and no scan: which kind of file, and in words.
     NoScan(FaultKind, &'static str),

@@ -5,7 +5,7 @@ use std::ops::Range;
 use serde_json::Value;
 
 use super::error::MeshError;
-use super::glb::{Gltf, index};
+use super::glb_json::{Gltf, index};
 
 /// Type of the components of an accessor, by its number in glTF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

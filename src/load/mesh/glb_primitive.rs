@@ -7,8 +7,8 @@ use serde_json::Value;
 
 use super::draft::Draft;
 use super::error::MeshError;
-use super::glb::{Gltf, index, numbers};
 use super::glb_accessor::{component_count, read, view};
+use super::glb_json::{Gltf, index, numbers};
 use super::picture::texture;
 use super::report::Aside;
 use crate::data::{Coloring, MeshMaterial, NO_INDEX, Wrap};

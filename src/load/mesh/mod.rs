@@ -23,6 +23,7 @@ mod error;
 pub(super) mod format;
 mod glb;
 mod glb_accessor;
+mod glb_json;
 mod glb_primitive;
 mod input;
 mod measure;

@@ -32,13 +32,13 @@ impl Default for MeshOptions {
 /// The length of one unit of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Units {
-    /// Millimetre.
+    /// 1 mm.
     Millimetre,
-    /// Centimetre.
+    /// 10 mm.
     Centimetre,
-    /// Metre.
+    /// 1000 mm.
     Metre,
-    /// Inch.
+    /// 25.4 mm.
     Inch,
 }
 

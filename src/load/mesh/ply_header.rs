@@ -96,7 +96,7 @@ pub(super) struct Property {
     pub(super) item: Scalar,
 }
 
-/// One element.
+/// A kind of element, how many of it follow, and what each of them consists of.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Element {
     pub(super) name: String,

@@ -10,9 +10,9 @@ use crate::math::hex;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Aside {
-    /// Points.
+    /// Points, which have no surface.
     Points,
-    /// Lines.
+    /// Lines, which have no surface.
     Lines,
     /// Curves and free-form surfaces.
     Curves,
@@ -24,13 +24,13 @@ pub enum Aside {
     Attributes,
     /// The count of triangles in an STL's header is wrong.
     WrongCount,
-    /// Properties of faces.
+    /// Properties of faces other than their corners, such as colours.
     FaceProperties,
     /// A texture that is only named.
     NamedTexture,
     /// Skins and morph targets: the stored shape is taken.
     Skins,
-    /// Animations.
+    /// Animations: the shape is shown as it is stored.
     Animations,
     /// Textures that are no base colour, or not on the first texture coordinates.
     OtherTextures,
