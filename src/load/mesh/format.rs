@@ -60,8 +60,15 @@ pub(in crate::load) enum MeshKind {
     Refused(&'static str),
 }
 
-/// Meshes that are not read: how the file begins, how its name ends, and what is said of it.
-const REFUSED: [(&[&[u8]], &[&str], &str); 6] = [
+/// A mesh that is not read: how the file begins, how its name ends, and what is said of it.
+type Refusal = (
+    &'static [&'static [u8]],
+    &'static [&'static str],
+    &'static str,
+);
+
+/// Meshes that are not read.
+const REFUSED: [Refusal; 6] = [
     (
         &[
             b"OFF\n", b"OFF\r", b"OFF ", b"COFF", b"NOFF", b"CNOFF", b"STOFF",

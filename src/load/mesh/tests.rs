@@ -346,7 +346,7 @@ mod stls {
         bad("a.stl", &whole[..170], &["byte 170", "triangle 2 of 2"]);
         bad(
             "a.stl",
-            binary("", u32::MAX, &TWO)[..170].to_vec(),
+            &binary("", u32::MAX, &TWO)[..170],
             &["triangle 2 of 4294967295"],
         );
         bad("a.stl", &whole[..50], &["byte 50", "header"]);

@@ -67,13 +67,12 @@ pub(super) fn turn(positions: &[Vec3], triangles: &[[u32; 3]]) -> Turned {
             }
         }
     }
-    let count = |disagrees: &dyn Fn(&([u32; 2], bool)) -> bool| {
-        shared.iter().filter(|link| disagrees(link)).count() as u64
-    };
-    let disagreed = count(&|(_, disagrees)| *disagrees);
-    let disagree = count(&|([a, b], disagrees)| {
-        *disagrees != (is_turned[*a as usize] != is_turned[*b as usize])
-    });
+    let (mut disagreed, mut disagree) = (0, 0);
+    for ([a, b], disagrees) in shared {
+        let is_one_turned = is_turned[a as usize] != is_turned[b as usize];
+        disagreed += u64::from(disagrees);
+        disagree += u64::from(disagrees != is_one_turned);
+    }
     Turned {
         is_turned,
         disagreed,
