@@ -2,6 +2,9 @@
 //! [`SubjectSink`](crate::data::SubjectSink), voxels slab by slab, so nothing is held twice; what had to be decided or
 //! repaired stands in a [`LoadReport`].
 //!
+//! Meshes come through the same [`FileSet`] and leave whole, as a [`Mesh`](crate::data::Mesh), by [`read_mesh`]:
+//! nothing of them can be shown before all corners are welded. Readers of scans know them by sight only.
+//!
 //! Nothing here knows paths, threads or browsers: the native program opens files, a browser's worker reads slices of a
 //! dropped file, tests give bytes. Memory follows the bytes that really come, never what a header promises.
 //!
@@ -37,6 +40,7 @@ mod files;
 mod geometry;
 mod header;
 mod labels;
+mod mesh;
 mod metaimage;
 mod nifti;
 mod nodes;
@@ -59,6 +63,11 @@ pub use field::{FieldFile, FieldUse, is_field, read_field};
 pub use files::{ALL_FILES, FileHandle, FileSet, MemoryFiles, OneFile};
 pub use geometry::orientation_code;
 pub use labels::{LabelFile, read_header, read_label_file, read_labels};
+pub use mesh::{
+    Aside, Axes, MAX_TRIANGLES, Measure, MeshDescription, MeshError, MeshFormat, MeshOptions,
+    MeshOrNot, MeshReport, Origin, PartsMode, Progress, Repair, Units, describe_mesh, measure,
+    mesh_or_not, pieces, read_mesh, volume, winding_number,
+};
 
 pub use options::ReadOptions;
 pub use raw::{RawLayout, read_raw};

@@ -3,7 +3,9 @@ use std::rc::Rc;
 
 use sha2::{Digest as _, Sha256};
 
+use super::error::FaultKind;
 use super::files::{self, ALL_FILES, FileSet, open};
+use super::mesh::format::MeshKind;
 use super::options::ReadOptions;
 use super::place::{self, Source};
 use super::sniff::{Kind, SNIFF_BYTES, sniff};
@@ -63,7 +65,10 @@ impl Reading<'_> {
             stream.unpack(Packing::Gzip);
         }
         let start = stream.peek(SNIFF_BYTES)?;
-        let outcome = match sniff(&start, name) {
+        let byte_len = stream
+            .byte_len()
+            .filter(|_| stream.packing() == Packing::Plain);
+        let outcome = match sniff(&start, name, byte_len) {
             Kind::Nifti => {
                 let pair = nifti::read(&mut stream, name, self.options, self.sink, self.report)?;
                 self.report.bytes_read += stream.raw_count();
@@ -99,6 +104,14 @@ impl Reading<'_> {
             Kind::Refused(what) => Err(LoadError::Unsupported {
                 name: name.to_owned(),
                 what: what.to_owned(),
+            }),
+            Kind::Mesh(kind) => Err(LoadError::NoScan {
+                name: name.to_owned(),
+                what: match kind {
+                    MeshKind::Read(format) => format.not_a_scan(),
+                    MeshKind::Refused(words) => words,
+                },
+                kind: FaultKind::Surface,
             }),
             Kind::NoScan(kind, what) => Err(LoadError::NoScan {
                 name: name.to_owned(),

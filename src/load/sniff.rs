@@ -1,4 +1,5 @@
 use super::error::FaultKind;
+use super::mesh::format::{self, MeshKind};
 use super::{dicom, metaimage, nifti, nrrd};
 
 /// Bytes looked at to tell what a file is.
@@ -14,6 +15,8 @@ pub(super) enum Kind {
     Empty,
     /// Known, and not read: in words.
     Refused(&'static str),
+    /// A mesh, of a format that is read or not.
+    Mesh(MeshKind),
     /// Known, and no scan: which kind of file, and in words.
     NoScan(FaultKind, &'static str),
     Unknown,
@@ -30,15 +33,12 @@ const READ: &[(Kind, IsHeader, &[&str])] = &[
     (Kind::Dicom, dicom::has_mark, &dicom::ENDINGS),
 ];
 
-/// Tells the format of a file by its first bytes (unpacked), or by its name where the bytes are not clear.
-pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
+/// Tells the format of a file by its first bytes (unpacked), or by its name where the bytes are not clear. `byte_len`
+/// is the length of a file that is not packed, where it is known.
+pub(super) fn sniff(start: &[u8], name: &str, byte_len: Option<u64>) -> Kind {
     let lower = name.to_lowercase();
-    let named = |ending: &str| {
-        lower.ends_with(ending)
-            || lower
-                .strip_suffix(".gz")
-                .is_some_and(|inner| inner.ends_with(ending))
-    };
+    let inner = lower.strip_suffix(".gz").unwrap_or(&lower);
+    let named = |ending: &str| lower.ends_with(ending) || inner.ends_with(ending);
     if start.is_empty() {
         return Kind::Empty;
     }
@@ -52,7 +52,10 @@ pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
             "FreeSurfer's MGH is not read: convert it to NIfTI (mri_convert does)",
         );
     }
-    const SIGNS: [(&[u8], FaultKind, &str); 5] = [
+    if let Some(kind) = format::sniff(start, inner, byte_len) {
+        return Kind::Mesh(kind);
+    }
+    const SIGNS: [(&[u8], FaultKind, &str); 3] = [
         (b"\x89PNG", FaultKind::Picture, "a PNG picture is no volume"),
         (
             b"\xff\xd8\xff",
@@ -64,8 +67,6 @@ pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
             FaultKind::Archive,
             "a ZIP archive: unpack it and open the scan in it",
         ),
-        (b"glTF", FaultKind::Surface, "a surface (glTF), no volume"),
-        (b"ply\n", FaultKind::Surface, "a surface (PLY), no volume"),
     ];
     for (sign, kind, what) in SIGNS {
         if start.starts_with(sign) {
@@ -79,7 +80,7 @@ pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
         ),
         (
             b"# vtk DataFile",
-            "VTK files are not read: save as MetaImage or NIfTI",
+            "VTK files are not read: save a scan as MetaImage or NIfTI, a mesh as PLY or GLB",
         ),
     ];
     for (sign, what) in UNREAD {
@@ -89,9 +90,6 @@ pub(super) fn sniff(start: &[u8], name: &str) -> Kind {
     }
     if dicom::is_header(start) && !named(".raw") {
         return Kind::Dicom;
-    }
-    if named(".obj") || named(".stl") || named(".ply") {
-        return Kind::NoScan(FaultKind::Surface, "a surface, no volume");
     }
     Kind::Unknown
 }

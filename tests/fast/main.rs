@@ -18,6 +18,7 @@ mod load;
 mod load_dicom;
 mod load_formats;
 mod load_hostile;
+mod meshes;
 #[path = "../../src/bin/xtask/palette.rs"]
 mod palette;
 mod prose;

@@ -152,6 +152,25 @@ pub fn dicom(data: &[u8]) {
     one_or_two(data, "a.dcm", "b.dcm");
 }
 
+/// Meshes: the bytes under the name of each format. What comes of them is whole.
+pub fn mesh(data: &[u8]) {
+    for name in ["a.obj", "a.stl", "a.ply", "a.glb"] {
+        let mut files = MemoryFiles::new([(name, data.to_vec())]);
+        let options = load::MeshOptions {
+            parts: load::PartsMode::Pieces,
+            ..load::MeshOptions::default()
+        };
+        match load::read_mesh(&mut files, name, &options, &mut |_| true) {
+            Ok((mesh, _)) => {
+                assert!(mesh.positions.iter().all(|p| p.is_finite()), "places are finite");
+                let indices = mesh.triangles.iter().flatten();
+                assert!({ indices }.all(|i| (*i as usize) < mesh.positions.len()), "corners are there");
+            }
+            Err(error) => assert!(!error.to_string().contains('\n'), "one line: {error}"),
+        }
+    }
+}
+
 /// Links: any text gives a document or an error, and a document comes back from its link.
 pub fn link(data: &[u8]) {
     let text = String::from_utf8_lossy(data);

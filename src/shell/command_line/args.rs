@@ -122,7 +122,7 @@ pub(super) enum Command {
     },
     /// Says what a data file holds.
     Info {
-        /// The data file: NIfTI, NRRD, MetaImage or DICOM.
+        /// The data file: a scan (NIfTI, NRRD, MetaImage, DICOM) or a mesh (OBJ, STL, PLY, GLB).
         file: PathBuf,
     },
     /// Lists the displacement templates with parameters, defaults and ranges.

@@ -7,7 +7,7 @@ use crate::assets::{OtherFile, Role, Source, Want};
 use crate::data::BuildError;
 use crate::document::{DocumentError, MAX_BYTES};
 use crate::link::{LinkError, TooLongForQr};
-use crate::load::LoadError;
+use crate::load::{LoadError, MeshError};
 use crate::render::RenderError;
 use crate::subjects::SubjectError;
 
@@ -34,6 +34,8 @@ pub(super) enum CliError {
     Subject(#[from] MissingSubject),
     #[error("{0} [{1}]")]
     Load(LoadError, String),
+    #[error("{0} [{1}]")]
+    Mesh(MeshError, String),
     #[error(transparent)]
     Qr(#[from] TooLongForQr),
     #[error(transparent)]

@@ -8,6 +8,12 @@ use super::output::{notice, print};
 use super::reading::hint;
 
 pub(super) fn info(common: &Common, file: &Path) -> Result<(), CliError> {
+    if let Some(description) = common.reading.describe_mesh(file)? {
+        for aside in &description.report.aside {
+            notice(aside);
+        }
+        return print(&description.to_string());
+    }
     let description = common.reading.describe(file).map_err(|error| {
         let name = file.to_string_lossy();
         if let Some(hint) = hint(&name, &error) {

@@ -2,8 +2,12 @@
 
 use std::path::Path;
 
+use super::error::CliError;
 use crate::document::{RawVoxels, Reading};
-use crate::load::{Description, LoadError, RawLayout, ReadOptions, describe, describe_raw};
+use crate::load::{
+    Description, LoadError, MeshDescription, MeshOptions, MeshOrNot, RawLayout, ReadOptions,
+    describe, describe_mesh, describe_raw, mesh_or_not,
+};
 use crate::shell::files::Folder;
 use crate::shell::loading::may_be_raw;
 
@@ -27,6 +31,24 @@ impl ReadingFlags {
             frame: self.frame.map_or(document.frame, |number| number - 1),
             raw: self.raw.clone().or(document.raw),
         }
+    }
+
+    /// Describes a mesh; `None` for a file that is something else, or bare voxels by the flags.
+    ///
+    /// # Errors
+    /// [`CliError::Mesh`].
+    pub(super) fn describe_mesh(&self, file: &Path) -> Result<Option<MeshDescription>, CliError> {
+        let (mut folder, name) = Folder::of(file);
+        // What cannot be read at all is told by the reader of scans.
+        let kind = mesh_or_not(&mut folder, &name).unwrap_or(MeshOrNot::Not);
+        if self.raw.is_some() || kind == MeshOrNot::Not {
+            return Ok(None);
+        }
+        let described = describe_mesh(&mut folder, &name, &MeshOptions::default(), &mut |_| true);
+        let shown = file.to_string_lossy().into_owned();
+        described
+            .map(Some)
+            .map_err(|error| CliError::Mesh(error, shown))
     }
 
     /// Describes a data file, read by the flags.
