@@ -12,6 +12,9 @@ const STYLE = `
   #mirror > * { position: absolute; margin: 0; padding: 0; border: 0; overflow: hidden; white-space: nowrap; }
 `;
 
+/** Roles of what can be pressed, also while it is switched off. */
+const PRESSED = ["Button", "ComboBox", "DisclosureTriangle", "Link", "MenuItem", "RadioButton", "Tab"];
+
 /** The element for a role. */
 function kindOf({ role, press, number, max }) {
   if (role === "Slider" && max !== null) return "range";
@@ -21,7 +24,7 @@ function kindOf({ role, press, number, max }) {
   if (["CheckBox", "Switch"].includes(role)) return "checkbox";
   if (["Image", "Canvas"].includes(role)) return "image";
   if (role === "Label" || role === "Heading") return "p";
-  return press ? "button" : "p";
+  return press || PRESSED.includes(role) ? "button" : "p";
 }
 
 function make(kind) {

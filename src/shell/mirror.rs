@@ -70,7 +70,9 @@ impl Mirror {
                 .filter_map(|other| other.value().or(other.label()))
                 .collect();
             let by = by.join(" ");
-            let name = node.label().or(Some(by.as_str()).filter(|by| !by.is_empty()));
+            let name = node
+                .label()
+                .or(Some(by.as_str()).filter(|by| !by.is_empty()));
             listed.extend(told(ctx, id, node, name));
         }
         Value::Array(listed).to_string()
@@ -138,7 +140,9 @@ impl egui::Plugin for Mirror {
 
     fn input_hook(&mut self, _ctx: &egui::Context, input: &mut egui::RawInput) {
         let asked = self.asked.drain(..);
-        input.events.extend(asked.map(egui::Event::AccessKitActionRequest));
+        input
+            .events
+            .extend(asked.map(egui::Event::AccessKitActionRequest));
     }
 
     fn output_hook(&mut self, _ctx: &egui::Context, output: &mut egui::FullOutput) {

@@ -227,7 +227,10 @@ impl Viewer {
     /// new text) or `number` (with the new value).
     pub fn act(&self, id: &str, action: &str, value: &str) {
         if let Some(ctx) = &self.page.borrow().ctx {
-            let is_known = ctx.plugin_or_default::<Mirror>().lock().ask(id, action, value);
+            let is_known = ctx
+                .plugin_or_default::<Mirror>()
+                .lock()
+                .ask(id, action, value);
             if is_known {
                 ctx.request_repaint();
             }

@@ -73,12 +73,22 @@ fn a_lesson_is_presented_by_keys() {
         let before: String = tab.eval(state).await;
         begin(&tab).await;
         let size: [f64; 4] = stage(&tab, "e0").await;
-        assert_eq!([size[0], size[1], size[2]], [0.0, 0.0, 900.0], "from edge to edge");
-        assert!(!tab.eval::<bool>(&is_shown("controls")).await, "no controls");
+        assert_eq!(
+            [size[0], size[1], size[2]],
+            [0.0, 0.0, 900.0],
+            "from edge to edge"
+        );
+        assert!(
+            !tab.eval::<bool>(&is_shown("controls")).await,
+            "no controls"
+        );
         tab.picture("present_desk").await;
 
         // Steps are walked by arrows, clickers, and to both ends; the page hears none of it.
-        tab.eval::<bool>("(window.heard = [], addEventListener('keydown', ({ key }) => heard.push(key)), true)").await;
+        tab.eval::<bool>(
+            "(window.heard = [], addEventListener('keydown', ({ key }) => heard.push(key)), true)",
+        )
+        .await;
         for (pressed, step) in [
             ("ArrowRight", 1),
             ("PageDown", 2),
@@ -97,9 +107,14 @@ fn a_lesson_is_presented_by_keys() {
         let text: String = tab
             .eval(&format!("{ROOT}.querySelector('.talk').innerText"))
             .await;
-        assert!(text.contains("Apart") && text.contains("The halves part."), "{text}");
+        assert!(
+            text.contains("Apart") && text.contains("The halves part."),
+            "{text}"
+        );
         let letters: f64 = tab
-            .eval(&format!("parseFloat(getComputedStyle({ROOT}.querySelector('.talk')).fontSize)"))
+            .eval(&format!(
+                "parseFloat(getComputedStyle({ROOT}.querySelector('.talk')).fontSize)"
+            ))
             .await;
         assert!(letters >= 18.0, "{letters} pixels");
         assert_eq!(tab.eval::<Vec<String>>("heard").await, [""; 0]);
@@ -128,7 +143,8 @@ fn a_lesson_is_presented_by_keys() {
         assert!(!tab.eval::<bool>(&is_shown("spot")).await);
 
         // A drag turns, R goes back to the lesson.
-        let turned = "e0.shadowRoot.querySelector('.back').getAttribute('aria-disabled') === 'false'";
+        let turned =
+            "e0.shadowRoot.querySelector('.back').getAttribute('aria-disabled') === 'false'";
         let turned = turned.replace(".back", "[part~=controls] [part~=back]");
         tab.drag((300.0, 200.0), (400.0, 200.0), 3).await;
         tab.wait_until(&turned, 20).await;
@@ -143,7 +159,11 @@ fn a_lesson_is_presented_by_keys() {
         // The code of the step's link.
         key(&tab, "q").await;
         tab.wait_until(&is_shown("code"), 20).await;
-        let link = format!("{}/embed.html#{}&step=1", session.server.address(), payload(LESSON));
+        let link = format!(
+            "{}/embed.html#{}&step=1",
+            session.server.address(),
+            payload(LESSON)
+        );
         let read = read(&tab.picture("present_code").await);
         assert_eq!(read.as_deref(), Some(link.as_str()));
         let told: String = tab
@@ -161,14 +181,20 @@ fn a_lesson_is_presented_by_keys() {
 
         key(&tab, "Escape").await;
         tab.wait_until(&format!("!({})", is_presenting()), 10).await;
-        tab.wait_until("document.fullscreenElement === null && innerHeight === 600", 10)
-            .await;
+        tab.wait_until(
+            "document.fullscreenElement === null && innerHeight === 600",
+            10,
+        )
+        .await;
         tab.frames(3).await;
         let step: u32 = tab.eval("(e0.step = 0)").await;
         assert_eq!(step, 0);
         rests_quietly(&tab).await;
         let after: String = tab.eval(state).await;
-        let plain = |text: &str| text.replace("It is whole.", "").replace("The halves part.", "");
+        let plain = |text: &str| {
+            text.replace("It is whole.", "")
+                .replace("The halves part.", "")
+        };
         assert_eq!(plain(&after), plain(&before), "all is as it was");
         assert!(!tab.eval::<bool>("heard.includes('Escape')").await);
         tab.assert_no_complaints().await;
@@ -199,7 +225,10 @@ fn a_frame_is_filled_and_walked_by_fingers() {
         tab.wait_until(&format!("Boolean({})", part(".presents .bar")), 20)
             .await;
         let [width, height]: [f64; 2] = tab
-            .eval(&format!("(({{ width, height }}) => [width, height])({}.getBoundingClientRect())", part(".frame")))
+            .eval(&format!(
+                "(({{ width, height }}) => [width, height])({}.getBoundingClientRect())",
+                part(".frame")
+            ))
             .await;
         assert_eq!([width, height], [350.0, 560.0], "the whole frame");
         let touch = Touch::new(&tab).await;
@@ -222,12 +251,17 @@ fn a_frame_is_filled_and_walked_by_fingers() {
         touch.tap_at((x + 250.0, y + 250.0)).await;
         pause(3000).await;
         tab.picture("present_phone").await;
-        tab.eval::<bool>(&format!("({}.click(), true)", part(".bar button:last-child")))
-            .await;
+        tab.eval::<bool>(&format!(
+            "({}.click(), true)",
+            part(".bar button:last-child")
+        ))
+        .await;
         tab.wait_until(&format!("!{}", part(".presents, .fills")), 10)
             .await;
         let focused: String = tab
-            .eval(&format!("{viewer}.shadowRoot.activeElement?.getAttribute('aria-label') ?? ''"))
+            .eval(&format!(
+                "{viewer}.shadowRoot.activeElement?.getAttribute('aria-label') ?? ''"
+            ))
             .await;
         assert_ne!(focused, "Previous step");
         tab.assert_no_complaints().await;

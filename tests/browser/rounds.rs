@@ -41,8 +41,16 @@ fn twenty_rounds_leave_nothing_behind() {
         println!("bytes of the page and of its program: {rounds:?}");
         let second = rounds[1];
         for (heap, program) in &rounds[2..] {
-            assert!(*heap <= 1.1 * second.0, "{heap} bytes, {} after two", second.0);
-            assert!(*program <= 1.1 * second.1, "{program} bytes, {} after two", second.1);
+            assert!(
+                *heap <= 1.1 * second.0,
+                "{heap} bytes, {} after two",
+                second.0
+            );
+            assert!(
+                *program <= 1.1 * second.1,
+                "{program} bytes, {} after two",
+                second.1
+            );
         }
     });
 }

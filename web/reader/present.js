@@ -38,7 +38,7 @@ const STYLE = `
     color: #000; --halo: #fff; }
   .presents .stage.dark { color: #fff; --halo: #000; }
   .presents .layer { font-size: clamp(16px, 2.6vmin, 40px); line-height: 1.25; font-weight: 600; }
-  .presents .layer li { max-width: 27cqw; padding: 2px 8px; }
+  .presents .layer li { max-width: 27cqw; padding: 2px 8px; pointer-events: none; }
   .talk { flex: none; max-height: 50%; overflow: auto; padding: 0.5em 0.9em; font-size: clamp(18px, 3.6vmin, 54px); line-height: 1.3; display: flex; gap: 1em; }
   .talk p { flex: 1; margin: 0; }
   .talk strong::after { content: "\\A"; white-space: pre; }
@@ -235,7 +235,7 @@ export class Presentation {
 
   /** A press walks, too; one that has moved has turned the object or swiped. */
   #click(event) {
-    if (event.target.closest(".bar, li, .talk")) return;
+    if (event.target.closest(".bar, .talk")) return;
     event.stopPropagation();
     const [x, y] = this.#down ?? [event.clientX, event.clientY];
     if (Math.hypot(event.clientX - x, event.clientY - y) > TAP) return;
