@@ -53,7 +53,7 @@ const STYLE = `
   .code p { margin: 0; max-width: 40em; }
   .bar { position: absolute; z-index: 5; top: 8px; right: 8px; display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 4px; opacity: 0; }
   .bar button { min-width: 44px; min-height: 44px; display: grid; place-items: center; background: #000; color: #fff; border-color: #fff; }
-  .bar button[aria-pressed="true"] { background: #fff; color: #000; }
+  .bar button[aria-pressed="true"] { background: #fff; color: #000; border-color: #000; }
   .bar button:focus-visible { outline: 3px solid #fff; outline-offset: 2px; box-shadow: 0 0 0 7px #000; }
   .stirs .bar, .bar:focus-within, .bar:hover { opacity: 1; }
   @media (prefers-reduced-motion: no-preference) { .bar { transition: opacity 0.3s; } }
