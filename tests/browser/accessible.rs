@@ -227,15 +227,20 @@ fn an_embed_is_printed() {
             .pdf(chromiumoxide::cdp::browser_protocol::page::PrintToPdfParams::default())
             .await
             .expect("a PDF");
-        // The picture is among what is printed: an image with many bytes, which a blank page has not.
-        tab.eval::<bool>("(e0.shadowRoot.querySelector('canvas').remove(), true)")
-            .await;
+        // The picture is among what is printed: an image with many bytes, which a page without has not.
+        tab.eval::<bool>(
+            "(e0.shadowRoot.querySelector('.stage').style.visibility = 'hidden', true)",
+        )
+        .await;
         let blank = tab
             .page
             .pdf(chromiumoxide::cdp::browser_protocol::page::PrintToPdfParams::default())
             .await
             .expect("a PDF");
         println!("{} bytes, {} without the picture", pdf.len(), blank.len());
+        std::fs::create_dir_all(harness::root().join("target/e2e")).expect("a folder");
+        let kept = harness::root().join("target/e2e/embed_printed.pdf");
+        std::fs::write(kept, &pdf).expect("the PDF is written");
         assert!(pdf.len() > blank.len() + 3000, "the picture is printed");
     });
 }

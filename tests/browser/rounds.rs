@@ -29,9 +29,12 @@ fn twenty_rounds_leave_nothing_behind() {
                 .eval(&format!("new Promise((done) => {{ const it = document.createElement('fabrica-viewer'); it.setAttribute('src', '#{link}'); it.toggleAttribute('controls', true); it.addEventListener('ready', () => done(true)); it.addEventListener('error', () => done(false)); document.querySelector('main').append(it); }})"))
                 .await;
             assert!(shown, "round {round}: {}", tab.messages().await);
-            tab.eval::<bool>("(document.querySelector('fabrica-viewer').remove(), told.length = 0, window.messages.length = 0, true)")
+            tab.eval::<bool>("(document.querySelector('fabrica-viewer').remove(), told.length = 0, messages.length = 0, true)")
                 .await;
             tab.wait_until("ledger.devices.size === 0 && ledger.workers.size === 0", 20)
+                .await;
+            // What the tests themselves keep of every round, and the browser's list of what was fetched.
+            tab.eval::<bool>("(devices.length = 0, performance.clearResourceTimings(), true)")
                 .await;
             let program: f64 = tab
                 .eval("import('./reader/engine.js').then(({ bindings }) => bindings()).then((found) => found.default()).then(({ memory }) => memory.buffer.byteLength)")
