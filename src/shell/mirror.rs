@@ -1,5 +1,5 @@
-//! The viewer's controls for who does not see its canvas: what the last frame showed as a list, which web/mirror.js makes
-//! elements of, and what is asked of them.
+//! The viewer's controls for who does not see its canvas: what the last frame showed as a list, which web/mirror.js
+//! makes elements of, and what is asked of them.
 //!
 //! The interface tells its tree to assistive technology natively; a browser takes no such tree of a canvas.
 
