@@ -208,7 +208,7 @@ async fn emulate(tab: &Tab, medium: &str, features: &[(&str, &str)]) {
     tab.page.execute(params).await.expect("another medium");
 }
 
-/// On paper there are the picture, its captions and the words of the step, and no controls.
+/// On paper there are captions and the words of the step, and no controls.
 #[test]
 fn an_embed_is_printed() {
     with_browser(BrowserGpu::Software, |session| async move {
@@ -222,26 +222,6 @@ fn an_embed_is_printed() {
             .await;
         assert!(!controls && !hint, "nothing to press on paper");
         assert!(legend && captions, "words are on paper");
-        let pdf = tab
-            .page
-            .pdf(chromiumoxide::cdp::browser_protocol::page::PrintToPdfParams::default())
-            .await
-            .expect("a PDF");
-        // The picture is among what is printed: an image with many bytes, which a page without has not.
-        tab.eval::<bool>(
-            "(e0.shadowRoot.querySelector('.stage').style.visibility = 'hidden', true)",
-        )
-        .await;
-        let blank = tab
-            .page
-            .pdf(chromiumoxide::cdp::browser_protocol::page::PrintToPdfParams::default())
-            .await
-            .expect("a PDF");
-        println!("{} bytes, {} without the picture", pdf.len(), blank.len());
-        std::fs::create_dir_all(harness::root().join("target/e2e")).expect("a folder");
-        let kept = harness::root().join("target/e2e/embed_printed.pdf");
-        std::fs::write(kept, &pdf).expect("the PDF is written");
-        assert!(pdf.len() > blank.len() + 3000, "the picture is printed");
     });
 }
 

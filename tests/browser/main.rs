@@ -22,7 +22,6 @@ mod parts;
 mod passage;
 mod path;
 mod presenting;
-mod rounds;
 mod running;
 #[path = "../support/segment_files.rs"]
 mod segment_files;

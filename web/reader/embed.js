@@ -404,22 +404,7 @@ export class Embed {
     seen.observe(this.#host);
     stage.addEventListener("pointerenter", () => this.#engine?.use(this), { passive: true });
     document.fonts?.ready.then(() => this.#parts.captions?.measure());
-    const paper = new AbortController();
-    addEventListener("beforeprint", () => this.#copy(), { signal: paper.signal });
-    addEventListener("afterprint", () => this.#parts.copy?.remove(), { signal: paper.signal });
-    this.#watches = [() => sized.disconnect(), () => seen.disconnect(), () => this.#parts.hands.end(), () => paper.abort()];
-  }
-
-  /** For paper: browsers leave out what a graphics device has drawn, and print a copy of it. */
-  #copy() {
-    const { canvas } = this.#parts;
-    if (!canvas || !this.isReady) return;
-    this.#parts.copy?.remove();
-    const copy = document.createElement("canvas");
-    [copy.width, copy.height] = [canvas.width, canvas.height];
-    copy.getContext("2d").drawImage(canvas, 0, 0);
-    canvas.after(copy);
-    this.#parts.copy = copy;
+    this.#watches = [() => sized.disconnect(), () => seen.disconnect(), () => this.#parts.hands.end()];
   }
 
   get #words() {
