@@ -8,7 +8,7 @@
 // Attributes: src (a link, a payload, ?doc=ADDRESS, or the address of a document), step, controls, alt, lang, poster (or an
 // image in the element), loading="lazy" or "tap".
 // Properties and methods: steps, step, next(), previous(), play(), pause(), setParam(pointer, value), reset(),
-// toDataURL() (a Promise). Events, which bubble: ready, stepchange, paramchange, viewchange, error.
+// present(), toDataURL() (a Promise). Events, which bubble: ready, stepchange, paramchange, viewchange, error.
 // The content of the element is its poster: it stays until the first whole picture is there, and for ever where there is no
 // WebGPU. No inline script, no cookie, no request to a third party; everything is taken from beside this file.
 
@@ -105,6 +105,10 @@ class FabricaViewer extends HTMLElement {
   /** Back to what the author shows at this step: view and values. */
   reset() {
     this.#embed?.reset();
+  }
+  /** Shows the lesson to a room, in full screen if a press of the reader asks for it, else over the whole frame. */
+  present() {
+    return this.#ready().present();
   }
   /** The picture as a data: address of a PNG. */
   async toDataURL() {

@@ -131,8 +131,40 @@ async function main() {
   }
   addEventListener("keydown", (event) => keepFromBrowser(viewer, event), true);
   element("cover").hidden = true;
+  nameField();
+  offerList(viewer);
   document.documentElement.dataset.state = "started";
   watch(viewer, keep);
+}
+
+/** What the controls are called for assistive technology, and the button that asks for them as elements of the page. */
+const LIST = {
+  en: ["Controls", "List the controls for a screen reader"],
+  de: ["Bedienelemente", "Bedienelemente für einen Screenreader auflisten"],
+  es: ["Controles", "Enumerar los controles para un lector de pantalla"],
+  zh: ["控件", "为屏幕阅读器列出控件"],
+};
+
+/** The field that takes what is typed into the canvas has a name for who hears the page. */
+function nameField() {
+  for (const field of document.querySelectorAll("main > input")) field.setAttribute("aria-label", "Fabrica");
+}
+
+/** The canvas tells assistive technology nothing; who asks for it gets its controls as elements. */
+function offerList(viewer) {
+  const [name, offer] = LIST[navigator.language.slice(0, 2)] ?? LIST.en;
+  const button = element("list");
+  button.textContent = offer;
+  button.hidden = false;
+  button.onclick = async () => {
+    try {
+      const { startMirror } = await import("./mirror.js");
+      startMirror(viewer, name);
+      button.remove();
+    } catch (error) {
+      console.error(error);
+    }
+  };
 }
 
 /** The browser's own search stays closed where the same keys find a tissue. */
@@ -172,6 +204,7 @@ function watch(viewer, keep) {
         // A device that is lost again and again has a reason that starting again does not remove.
         if (losses > 5) throw new Error("It was lost " + losses + " times.");
         await viewer.restart();
+        nameField();
         document.documentElement.dataset.state = "started";
       } catch (error) {
         clearInterval(timer);

@@ -3,6 +3,8 @@
 #[cfg(all(target_arch = "wasm32", feature = "reader"))]
 mod address;
 #[cfg(all(target_arch = "wasm32", feature = "app"))]
+mod mirror;
+#[cfg(all(target_arch = "wasm32", feature = "app"))]
 pub mod offscreen;
 #[cfg(all(target_arch = "wasm32", feature = "app"))]
 mod page;

@@ -19,6 +19,7 @@ use super::worker::task::{Part, ScanTask, Task};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::describe::{Lang, seen_from};
 use crate::document::SubjectRef;
+use crate::link::{self, Qr};
 use crate::reader::{Picture, Stock, StockKey, Visit, outline, texts};
 use crate::render::{Gpu, GpuOptions, RenderError};
 
@@ -42,6 +43,27 @@ pub fn outline_of(text: &str, base: &str) -> Result<String, JsValue> {
     let (document, mut found) = outline(text)?;
     found["part"] = json!(part_of(&document, base).map(Part::name));
     Ok(found.to_string())
+}
+
+/// The payload of a link to the document in a text: a link, a payload or a document.
+///
+/// # Errors
+/// What is wrong with the link or the document.
+#[wasm_bindgen]
+pub fn payload_of(text: &str) -> Result<String, JsValue> {
+    Ok(link::encode(&link::document_of(text)?.document))
+}
+
+/// The modules of a text's QR code as a square, row by row from the top: 1 for a dark one. Those around it that stay
+/// light are among them.
+///
+/// # Errors
+/// If the text is too long for a code.
+#[wasm_bindgen]
+pub fn qr_of(text: &str) -> Result<Vec<u8>, JsValue> {
+    let code = Qr::of(text).map_err(|error| error.to_string())?;
+    let (_, gray) = code.to_gray(1);
+    Ok(gray.into_iter().map(|gray| u8::from(gray == 0)).collect())
 }
 
 /// The picture may be shown.

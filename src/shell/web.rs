@@ -9,6 +9,7 @@ use wasm_bindgen_futures::JsFuture;
 use web_sys::{HtmlCanvasElement, Url};
 
 use super::address::{foreign_host, part_of};
+use super::mirror::Mirror;
 use super::page::{Page, PageServices, Place, kept_document};
 use super::worker::run;
 use super::worker::task::Part;
@@ -199,13 +200,41 @@ impl Viewer {
         let Some(ctx) = &page.ctx else {
             return String::new();
         };
-        let controls = ctx.plugin_or_default::<Controls>();
-        let text = controls.lock().text.clone();
+        let text = ctx.plugin_or_default::<Mirror>().lock().lines(ctx);
         if text.is_empty() {
             ctx.enable_accesskit();
             ctx.request_repaint();
         }
         text
+    }
+
+    /// The controls and texts of the last frame for web/mirror.js, as JSON: see `Mirror::list` in src/shell/mirror.rs.
+    /// Empty if nothing was drawn since the last call, and at the first one; the next frame makes the list.
+    pub fn mirrored(&self) -> String {
+        let page = self.page.borrow();
+        let Some(ctx) = &page.ctx else {
+            return String::new();
+        };
+        let mirror = ctx.plugin_or_default::<Mirror>();
+        if !mirror.lock().has_list() {
+            ctx.enable_accesskit();
+            ctx.request_repaint();
+        }
+        mirror.lock().list(ctx)
+    }
+
+    /// Does what assistive technology asks of a control of [`Viewer::mirrored`]: `focus`, `click`, `text` (with the
+    /// new text) or `number` (with the new value).
+    pub fn act(&self, id: &str, action: &str, value: &str) {
+        if let Some(ctx) = &self.page.borrow().ctx {
+            let is_known = ctx
+                .plugin_or_default::<Mirror>()
+                .lock()
+                .ask(id, action, value);
+            if is_known {
+                ctx.request_repaint();
+            }
+        }
     }
 
     /// Number of frames drawn since the viewer was started. A viewer that sleeps draws none: see
@@ -285,44 +314,6 @@ impl Viewer {
             (file.name(), file.into())
         });
         PageServices(Rc::clone(&self.page)).open_files(files.collect());
-    }
-}
-
-/// The controls of the last frame as text, once somebody has asked for them.
-#[derive(Default)]
-struct Controls {
-    text: String,
-}
-
-impl egui::Plugin for Controls {
-    fn debug_name(&self) -> &'static str {
-        "controls"
-    }
-
-    fn output_hook(&mut self, ctx: &egui::Context, output: &mut egui::FullOutput) {
-        use std::fmt::Write as _;
-        let Some(tree) = output.platform_output.accesskit_update.take() else {
-            return;
-        };
-        let factor = f64::from(ctx.zoom_factor());
-        self.text.clear();
-        let plain = |text: Option<&str>| text.unwrap_or_default().replace(['\t', '\n', '\r'], " ");
-        for (_, node) in &tree.nodes {
-            let Some(place) = node.bounds() else {
-                continue;
-            };
-            let (name, value) = (plain(node.label()), plain(node.value()));
-            if name.is_empty() && value.is_empty() {
-                continue;
-            }
-            let [x, y, w, h] =
-                [place.x0, place.y0, place.width(), place.height()].map(|v| v * factor);
-            let role = node.role();
-            let _infallible = writeln!(
-                self.text,
-                "{role:?}\t{name}\t{value}\t{x:.0}\t{y:.0}\t{w:.0}\t{h:.0}"
-            );
-        }
     }
 }
 

@@ -72,13 +72,13 @@ fn page_of(embeds: &[String], between: &str) -> Vec<u8> {
         .map(|(index, rest)| format!("<fabrica-viewer id=e{index} {rest}</fabrica-viewer>"))
         .collect();
     format!(
-        "<!doctype html><html lang=en><meta name=viewport content=\"width=device-width\"><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; img-src 'self' data:; style-src 'self'\"><link rel=stylesheet href=tall.css><title>A lesson</title><script src=ledger.js></script><script type=module src=fabrica-viewer.js></script><h1>A lesson</h1>{}</html>",
+        "<!doctype html><html lang=en><meta name=viewport content=\"width=device-width\"><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; img-src 'self' data:; style-src 'self'\"><link rel=stylesheet href=tall.css><title>A lesson</title><script src=ledger.js></script><script type=module src=fabrica-viewer.js></script><main><h1>A lesson</h1>{}</main></html>",
         embeds.join(between)
     )
     .into_bytes()
 }
 
-fn lesson(attributes: &str) -> String {
+pub(crate) fn lesson(attributes: &str) -> String {
     format!("src=\"#{}\" {attributes}>", payload(LESSON))
 }
 
@@ -113,7 +113,7 @@ pub(crate) async fn ready(tab: &Tab, number: usize) {
 }
 
 /// The place of an embed's picture: left, top, width, height, CSS pixels.
-async fn stage(tab: &Tab, embed: &str) -> [f64; 4] {
+pub(crate) async fn stage(tab: &Tab, embed: &str) -> [f64; 4] {
     tab.eval(&format!(
         "(({{ x, y, width, height }}) => [x, y, width, height])({embed}.shadowRoot.querySelector('.stage').getBoundingClientRect())"
     ))
@@ -121,7 +121,7 @@ async fn stage(tab: &Tab, embed: &str) -> [f64; 4] {
 }
 
 /// The middle of an embed's picture.
-async fn middle(tab: &Tab, embed: &str) -> (f64, f64) {
+pub(crate) async fn middle(tab: &Tab, embed: &str) -> (f64, f64) {
     let [x, y, width, height] = stage(tab, embed).await;
     (x + 0.5 * width, y + 0.5 * height)
 }
@@ -135,7 +135,7 @@ pub(crate) async fn picture_of(tab: &Tab, embed: &str) -> image::RgbaImage {
 }
 
 /// Waits until an embed is complete and at rest at a step.
-async fn rests_at(tab: &Tab, embed: &str, step: usize) {
+pub(crate) async fn rests_at(tab: &Tab, embed: &str, step: usize) {
     let at = format!(
         "{embed}.step === {step} && Number({embed}.shadowRoot.querySelector('[part=scrub]').value) === {step}"
     );

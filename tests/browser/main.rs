@@ -3,6 +3,7 @@
 //!
 //! `cargo xtask test` builds the page and sets up Chromium and Xvfb first. Pictures are left in target/e2e.
 
+mod accessible;
 mod assets;
 mod author;
 mod compare;
@@ -20,6 +21,7 @@ mod page;
 mod parts;
 mod passage;
 mod path;
+mod presenting;
 mod running;
 #[path = "../support/segment_files.rs"]
 mod segment_files;

@@ -5,7 +5,7 @@ const SVG = "http://www.w3.org/2000/svg";
 const TURN = Math.PI / 8;
 const ZOOM = 1.25;
 /** Drawings of 16 by 16, as letters of arrows look different everywhere. */
-const ICONS = {
+export const ICONS = {
   previous: "M10 3 5 8l5 5",
   next: "M6 3l5 5-5 5",
   play: "M5 3v10l8-5z",
@@ -18,6 +18,7 @@ const ICONS = {
   farther: "M3 8h10",
   back: "M3 3v4h4M3.5 7A5 5 0 1 1 4 11",
   full: "M3 6V3h3M10 3h3v3M13 10v3h-3M6 13H3v-3",
+  present: "M2 3h12v8H2zM8 11v3M5 14h6",
 };
 
 function make(tag, part, ...content) {
@@ -27,7 +28,8 @@ function make(tag, part, ...content) {
   return element;
 }
 
-function icon(name) {
+/** The drawing of a name in [`ICONS`]. */
+export function icon(name) {
   const svg = document.createElementNS(SVG, "svg");
   const path = document.createElementNS(SVG, "path");
   svg.setAttribute("viewBox", "0 0 16 16");
@@ -44,7 +46,7 @@ export class Controls {
   #values = [];
   #isScrubbing = false;
 
-  /** `embed` hears go, play, scrub, setParam, turn, zoom, reset and full. */
+  /** `embed` hears go, play, scrub, setParam, turn, zoom, reset, full and present. */
   constructor(room, embed) {
     this.room = room;
     this.#embed = embed;
@@ -104,6 +106,7 @@ export class Controls {
       button("farther", () => embed.zoom(1 / ZOOM)),
       this.#parts.back,
       button("full", () => embed.full()),
+      button("present", () => embed.present()),
     );
     this.room.replaceChildren(...(count > 0 ? [steps] : []), view, ...this.#makeValues(outline.controls));
   }

@@ -63,6 +63,9 @@ export class Embed {
   #watches = [];
   #timer = 0;
   #lang = "en";
+  /** Where the document came from: its text, its base and, if it has one, its address. */
+  #from = null;
+  #presentation = null;
 
   constructor(host, root, step) {
     this.#host = host;
@@ -178,19 +181,86 @@ export class Embed {
     this.#say(this.#engine.reader.side(this.id, this.#lang));
   }
 
+  get #isFull() {
+    return this.#host.matches(":fullscreen") || this.#parts.view.classList.contains("fills");
+  }
+
   full() {
-    const { classList } = this.#parts.view;
+    return this.#isFull ? this.#shrink() : this.#fill();
+  }
+
+  async #fill() {
+    try {
+      await this.#host.requestFullscreen();
+    } catch {
+      // Where a frame or a device forbids it, the picture fills the frame, over all that the page has.
+      const { view } = this.#parts;
+      view.classList.add("fills");
+      view.popover = "manual";
+      view.showPopover();
+    }
+  }
+
+  #shrink() {
     if (this.#host.matches(":fullscreen")) return document.exitFullscreen();
-    if (classList.contains("fills")) return classList.remove("fills");
-    // Where a frame or a device forbids it, the picture fills the frame.
-    return Promise.resolve()
-      .then(() => this.#host.requestFullscreen())
-      .catch(() => classList.add("fills"));
+    const { view } = this.#parts;
+    view.classList.remove("fills");
+    view.removeAttribute("popover");
+  }
+
+  /** Shows the lesson to a room. */
+  async present() {
+    if (!this.isReady || this.#presentation) return;
+    const { view, stage, hands, captions } = this.#parts;
+    this.#presentation = "begins";
+    const [focused, wasFull] = [this.#root.activeElement ?? document.activeElement, this.#isFull];
+    hands.leave();
+    if (!wasFull) await this.#fill();
+    const left = () => {
+      this.#presentation = null;
+      if (!wasFull && this.#isFull) this.#shrink();
+      if (focused === document.body) stage.blur();
+      else focused.focus({ preventScroll: true });
+      this.#wake();
+    };
+    try {
+      const { Presentation } = await import("./present.js");
+      this.#presentation = new Presentation({
+        embed: this,
+        host: this.#host,
+        root: this.#root,
+        view,
+        stage,
+        words: this.#words,
+        outline: this.#outline,
+        measure: () => {
+          captions.measure();
+          this.#wake();
+        },
+        say: (text) => this.#say(text),
+        link: () => this.#linkOf(),
+        code: async (text) => (await bindings()).qr_of(text),
+        left,
+      });
+    } catch (error) {
+      left();
+      this.#tell("error", { message: String(error.message ?? error) });
+    }
+  }
+
+  /** The address of the step that is shown, as the reader alone on a page. */
+  async #linkOf() {
+    const page = new URL("../embed.html", import.meta.url).href;
+    const step = this.step ? `&step=${this.step}` : "";
+    const { text, base, address } = this.#from;
+    if (address !== undefined && /^https?:/.test(base)) return `${page}?doc=${encodeURIComponent(base)}${step}`;
+    const { payload_of: payloadOf } = await bindings();
+    return `${page}#${payloadOf(text)}${step}`;
   }
 
   /** The keyboard asks to leave what fills the frame. */
   escape() {
-    this.#parts.view.classList.remove("fills");
+    if (this.#isFull) this.#shrink();
   }
 
   entered(isInside) {
@@ -247,7 +317,9 @@ export class Embed {
     canvas.setAttribute("role", "img");
     const before = this.id;
     this.id = engine.add(this, canvas, { text: source.text, base, step });
+    this.#presentation?.leave?.();
     this.#engine = engine;
+    this.#from = { text: source.text, base, address: source.address };
     if (before) engine.drop(before);
     // The picture before stays until there is another.
     this.#parts.before?.remove();
@@ -273,6 +345,7 @@ export class Embed {
   end() {
     this.#opening += 1;
     clearTimeout(this.#timer);
+    this.#presentation?.leave?.();
     for (const watch of this.#watches) watch();
     this.#watches = [];
     for (const image of this.#host.querySelectorAll(":scope > img[slot=poster]")) image.removeAttribute("slot");

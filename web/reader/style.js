@@ -8,7 +8,10 @@ export const STYLE = `
     container-type: inline-size; overflow: hidden; cursor: grab; user-select: none; -webkit-user-select: none; color: #1f2426; --halo: rgb(255 255 255 / 0.85); }
   .stage.dark { color: #fff; --halo: rgb(0 0 0 / 0.75); }
   .stage:active { cursor: grabbing; }
-  .stage:focus-visible, .stage.inside { outline: 3px solid Highlight; outline-offset: -3px; }
+  .stage { outline: none; }
+  /* A ring of two colours is seen on every picture. */
+  .stage:is(:focus-visible, .inside)::after { content: ""; position: absolute; inset: 0; z-index: 3; pointer-events: none; border: 3px solid #1558c0;
+    outline: 2px solid #fff; outline-offset: -5px; }
   .stage.inside { touch-action: none; }
   canvas, .layer, .layer svg, .cover { position: absolute; inset: 0; width: 100%; height: 100%; }
   .cover.is-poster { background: Canvas; }
@@ -18,7 +21,8 @@ export const STYLE = `
   .layer li { position: absolute; left: 0; top: 0; max-width: min(27cqw, 190px); padding: 1px 4px; border-radius: 4px;
     background: var(--halo); pointer-events: auto; cursor: text; user-select: text; -webkit-user-select: text; }
   .layer li.off { visibility: hidden; }
-  .layer .behind { opacity: 0.6; }
+  .layer li.behind { opacity: 0.75; }
+  .layer svg .behind { opacity: 0.6; }
   .layer li.absent, .unseen { clip-path: inset(50%); }
   .unseen { position: absolute; width: 1px; height: 1px; margin: 0; overflow: hidden; white-space: nowrap; }
   .layer path { fill: none; stroke: currentColor; stroke-width: 1.2; }
@@ -38,18 +42,28 @@ export const STYLE = `
   .controls > div:first-child { flex: 1 1 20rem; }
   button { font: inherit; color: inherit; background: none; border: 1px solid color-mix(in srgb, currentColor 45%, transparent); border-radius: 6px;
     min-width: 32px; min-height: 32px; padding: 4px 7px; cursor: pointer; }
-  button[aria-disabled="true"] { opacity: 0.45; cursor: default; }
+  button[aria-disabled="true"] { cursor: default; }
+  button[aria-disabled="true"] svg { opacity: 0.45; }
   button svg { display: block; width: 16px; height: 16px; fill: none; stroke: currentColor; stroke-width: 1.8; stroke-linecap: round; stroke-linejoin: round; }
-  button:focus-visible, select:focus-visible, input:focus-visible { outline: 3px solid Highlight; outline-offset: 1px; }
+  button:focus-visible, select:focus-visible, input:focus-visible { outline: 3px solid currentColor; outline-offset: 2px; }
   input[type="range"] { min-height: 24px; min-width: 6rem; flex: 1 1 8rem; accent-color: currentColor; }
   input[type="checkbox"] { width: 24px; height: 24px; margin: 0; }
   select { font: inherit; color: inherit; background: Canvas; min-height: 32px; max-width: 12rem; border-radius: 6px; }
   fieldset { display: flex; flex-wrap: wrap; gap: 4px 14px; flex: 1 1 100%; margin: 0; border: 0; padding: 2px; min-width: 0; }
   legend { padding: 0; font-weight: 600; }
   label { display: flex; align-items: center; gap: 6px; flex: 1 1 14rem; min-height: 28px; }
-  :host(:fullscreen) { background: Canvas; color: CanvasText; }
-  :host(:fullscreen) .stage, .fills .stage { aspect-ratio: auto; min-height: 0; }
-  .fills { position: fixed; inset: 0; z-index: 2147483647; height: auto; background: Canvas; color: CanvasText; }
-  @media print { .controls, .hint { display: none !important; } }
-  @media (forced-colors: active) { .layer li { background: Canvas; color: CanvasText; } }
+  :host(:fullscreen) { background: Canvas; color: CanvasText; overflow: auto; }
+  :host(:fullscreen) .stage, .fills .stage { aspect-ratio: auto; }
+  .fills { position: fixed; inset: 0; width: 100%; height: 100%; margin: 0; border: 0; padding: 0; overflow: auto; background: Canvas; color: CanvasText; }
+  @media print {
+    .controls, .hint, .stage::after { display: none !important; }
+    .frame { break-inside: avoid; }
+    .stage { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  }
+  @media (forced-colors: active) {
+    .layer li { background: Canvas; color: CanvasText; }
+    /* The picture keeps its colours, and so do the lines on it. */
+    .layer svg { forced-color-adjust: none; color: #1f2426; }
+    .dark .layer svg { color: #fff; }
+  }
 `;
