@@ -234,14 +234,17 @@ impl Draft {
 
     /// What there is instead of triangles, for a message.
     pub(super) fn found(&self) -> String {
+        let face_count = self.faces.len() as u64 + self.short_faces;
+        let is_points = face_count + self.point_count + self.line_count == 0;
+        let vertices = if is_points { "points" } else { "vertices" };
         let counts = [
-            (self.positions.len() as u64, "vertices"),
+            (self.positions.len() as u64, vertices),
             (self.point_count, "points"),
             (self.line_count, "lines"),
         ];
         let found = counts.iter().filter(|(count, _)| *count > 0);
         let mut parts: Vec<String> = found.map(|(n, what)| format!("{n} {what}")).collect();
-        parts.push(match self.faces.len() as u64 + self.short_faces {
+        parts.push(match face_count {
             0 => "no faces".to_owned(),
             n => format!("{n} faces, none of them usable"),
         });

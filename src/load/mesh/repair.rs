@@ -433,7 +433,7 @@ mod tests {
         };
         assert_eq!(
             error(draft(&positions, &[])),
-            "there is no triangle: 8 vertices, no faces (a)"
+            "there is no triangle: 8 points, no faces (a)"
         );
         assert_eq!(
             error(draft(&positions, &[[0, 1, 0]])),

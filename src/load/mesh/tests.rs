@@ -173,7 +173,7 @@ mod objs {
 
     #[test]
     fn without_a_triangle_it_says_what_is_there() {
-        bad("a.obj", obj(""), &["no triangle", "5 vertices, no faces"]);
+        bad("a.obj", obj(""), &["no triangle", "5 points, no faces"]);
         bad(
             "a.obj",
             obj("p 1 2\nl 1 2\n"),
@@ -563,7 +563,7 @@ mod plys {
         wrong(
             &format!("{HEADER}end_header\n"),
             "0 0 0\n1 0 0\n0 1 0\n0 0 1\n",
-            &["4 vertices, no faces"],
+            &["4 points, no faces"],
         );
         bad("a.ply", "ply\nend_header\n", &["format"]);
         let many = format!("{}{}", HEADER, FACES.replace("uchar int", "int int"));
