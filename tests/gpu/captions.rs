@@ -135,8 +135,8 @@ fn what_is_cut_away_is_nowhere() {
     assert!(none.expect("nothing is asked").is_empty());
 }
 
-/// What is in sight: (subject space, rest space), a little under the surfaces that a grid of rays meets. A search by brute
-/// force for the tissue that a caption can be fastened to.
+/// What is in sight: (subject space, rest space), a little under the surfaces that a grid of rays meets. A search by
+/// brute force for the tissue that a caption can be fastened to.
 fn in_sight(studio: &Studio, shown: &Illustration) -> Vec<(Vec3, Vec3)> {
     const SIDE: u32 = 40;
     let pixels: Vec<Vec2> = (0..SIDE * SIDE)
