@@ -40,9 +40,9 @@ impl Saving {
 }
 
 /// Size of a saved picture, pixels: the proportions of the picture in the window, which has `shown_px`, and along the
-/// longer side `longer_px`, or at least [`LEAST_PX`] where that is `None`. Where the window is higher than wide, as on a
-/// phone, the frame ends above and below the object, whose box in subject space is `bounds`: most of the picture would be
-/// empty else.
+/// longer side `longer_px`, or at least [`LEAST_PX`] where that is `None`. Where the window is higher than wide, as on
+/// a phone, the frame ends above and below the object, whose box in subject space is `bounds`: most of the picture
+/// would be empty else.
 pub(crate) fn file_size(
     shown_px: [u32; 2],
     camera: &Camera,
