@@ -114,11 +114,6 @@ impl Picture {
         seen
     }
 
-    /// The last frame's picture is complete.
-    pub fn is_complete(&self) -> bool {
-        self.is_complete
-    }
-
     /// Width and height of the picture that was drawn, pixels.
     pub fn size_px(&self) -> [u32; 2] {
         self.size_px

@@ -268,7 +268,6 @@ impl Reader {
         };
         let size = [width.max(1), height.max(1)];
         let is_moving = is_moving || passes;
-        let was_complete = shown.picture.is_complete();
         let drawn = match shown
             .picture
             .draw(&mut stocked.stock, size, budget, is_moving)
@@ -282,9 +281,7 @@ impl Reader {
         };
         let mut flags = 0;
         if drawn.has_picture {
-            if !(was_complete && shown.picture.is_complete()) || shown.configured == [0, 0] {
-                shown.present(&inner.gpu);
-            }
+            shown.present(&inner.gpu);
             flags |= HAS_PICTURE;
         }
         if passes {

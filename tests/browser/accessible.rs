@@ -208,7 +208,7 @@ async fn emulate(tab: &Tab, medium: &str, features: &[(&str, &str)]) {
     tab.page.execute(params).await.expect("another medium");
 }
 
-/// On paper there are captions and the words of the step, and no controls.
+/// On paper there are the picture, its captions and the words of the step, and no controls.
 #[test]
 fn an_embed_is_printed() {
     with_browser(BrowserGpu::Software, |session| async move {
@@ -222,6 +222,17 @@ fn an_embed_is_printed() {
             .await;
         assert!(!controls && !hint, "nothing to press on paper");
         assert!(legend && captions, "words are on paper");
+        let printed = tab.picture("embed_printed").await;
+        let is_tissue = |p: &&image::Rgba<u8>| p[0] > p[2].saturating_add(40);
+        let seen = printed.pixels().filter(is_tissue).count();
+        assert!(
+            seen > 50_000,
+            "the cube is on paper: {seen} pixels of its colours"
+        );
+        emulate(&tab, "", &[]).await;
+        tab.frames(3).await;
+        let is_copy = "e0.shadowRoot.querySelector('.paper').checkVisibility()";
+        assert!(!tab.eval::<bool>(is_copy).await, "the copy is for paper");
     });
 }
 

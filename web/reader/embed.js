@@ -471,7 +471,21 @@ export class Embed {
     }
     this.#look();
     if (isDone && !this.isReady) this.#reveal();
-    if (isDone && hasPicture) this.#describe();
+    if (isDone && hasPicture) {
+      this.#describe();
+      this.#copy();
+    }
+  }
+
+  /** For paper: browsers print nothing of what a graphics device has drawn, unless it is copied in the task that draws. */
+  #copy() {
+    const { canvas } = this.#parts;
+    const paper = (this.#parts.paper ??= document.createElement("canvas"));
+    paper.className = "paper";
+    paper.ariaHidden = "true";
+    [paper.width, paper.height] = [canvas.width, canvas.height];
+    paper.getContext("2d").drawImage(canvas, 0, 0);
+    canvas.after(paper);
   }
 
   /** The first whole picture takes the place of the poster, one frame after it is there. */

@@ -14,6 +14,7 @@ export const STYLE = `
     outline: 2px solid #fff; outline-offset: -5px; }
   .stage.inside { touch-action: none; }
   canvas, .layer, .layer svg, .cover { position: absolute; inset: 0; width: 100%; height: 100%; }
+  .paper { display: none; }
   .cover.is-poster { background: Canvas; }
   .cover img, .cover ::slotted(img) { display: block; width: 100%; height: 100%; object-fit: contain; }
   .layer { pointer-events: none; z-index: 1; font-size: 13px; }
@@ -58,6 +59,8 @@ export const STYLE = `
   @media print {
     .controls, .hint, .stage::after { display: none !important; }
     .frame { break-inside: avoid; }
+    .paper { display: block !important; }
+    canvas:not(.paper) { display: none; }
     .stage { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   }
   @media (forced-colors: active) {
