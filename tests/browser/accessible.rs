@@ -62,6 +62,10 @@ fn an_embed_is_accessible() {
         ready(&tab, 1).await;
         rests_quietly(&tab).await;
         assert_accessible(&tab, "a page with embeds").await;
+        // The words are asked of the device, and come after the picture.
+        let described =
+            "e0.shadowRoot.querySelector('[part=picture]').ariaLabel.startsWith('Opening a cube')";
+        tab.wait_until(described, 60).await;
 
         let told = told(&tab).await;
         let has = |role: &str, name: &str| {
