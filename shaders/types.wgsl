@@ -81,6 +81,14 @@ struct Subject {
     detail: f32,
     /// 1 if there is a segmentation, else 0.
     has_labels: u32,
+    /// xyz: box of a mesh, rest space.
+    mesh_min: vec4f,
+    mesh_max: vec4f,
+    /// Number of nodes in the tree of a mesh; 0 for volumes.
+    node_count: u32,
+    /// Texels of `mesh_texels` at which the triangles and the sets of segments begin; the nodes begin at 0.
+    triangles_at: u32,
+    sets_at: u32,
 }
 
 /// Transfer function, light and opacity.
@@ -97,6 +105,48 @@ struct Look {
     /// How much opacity follows the steepness of the value, 0 to 1.
     edges: f32,
 }
+
+/// How one segment of a mesh is drawn (spec/surfaces.md, "What a body is").
+struct MeshSegment {
+    /// Linear RGB; alpha below 0: the colours of the file.
+    color: vec4f,
+    /// Linear RGB of back sides, and of cut faces without a layer; alpha below 0: a part of its own colour.
+    inside: vec4f,
+    /// One of the constants BODY_HOLLOW, BODY_THICK, BODY_FULL.
+    kind: u32,
+    /// Thickness of a shell, subject units.
+    thickness: f32,
+    /// Strength of the highlight, 0 to 1.
+    gloss: f32,
+    /// Opacity of one crossing or cut face, 0 to 1; below 0: that of the file.
+    opacity: f32,
+    /// Index of its first layer in `MeshLook.layers`, and how many it has.
+    first_layer: u32,
+    layer_count: u32,
+}
+
+/// A layer under the surface of a mesh.
+struct MeshLayer {
+    /// Linear RGB; alpha below 0: as a cut face without a layer.
+    color: vec4f,
+    /// Where it begins under the surface, subject units.
+    depth: f32,
+    /// How much its colour varies, 0 to 0.5.
+    grain: f32,
+}
+
+/// How the segments of a mesh are drawn.
+struct MeshLook {
+    segments: array<MeshSegment, 64>,
+    /// The layers of all segments; segments with the same layers share them.
+    layers: array<MeshLayer, 64>,
+    /// 1 if a segment is a shell.
+    has_shells: u32,
+}
+
+const BODY_HOLLOW: u32 = 0u;
+const BODY_THICK: u32 = 1u;
+const BODY_FULL: u32 = 2u;
 
 /// Segments drawn as bodies of their own.
 struct Bodies {

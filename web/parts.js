@@ -18,9 +18,9 @@ function address() {
 }
 
 /** A worker that loads a part and waits for one task, which Viewer.lend gives it; null where there are no workers. */
-export function startPart(part) {
+export function startPart(part, make = () => new Worker(WORKER, { type: "module" })) {
   try {
-    const worker = new Worker(WORKER, { type: "module" });
+    const worker = make();
     // The viewer hears only of what happens after it was given the worker.
     worker.onerror = () => (worker.hasFailed = true);
     worker.postMessage({ part });

@@ -3,7 +3,7 @@
 
 /// Where the textures lie and what their numbers mean.
 @group(1) @binding(0) var<uniform> subject: Subject;
-/// Scalars, r16float, normalised by the value range.
+/// Scalars, r16float, normalised by the value range; of meshes depths under the surface, subject units.
 @group(1) @binding(1) var volume: texture_3d<f32>;
 /// Linear, clamped to the edge.
 @group(1) @binding(2) var linear_sampler: sampler;
@@ -11,3 +11,5 @@
 @group(1) @binding(3) var labels: texture_3d<u32>;
 /// Colour of each of the 256 segments, linear when read; alpha 0 where none is known.
 @group(1) @binding(4) var palette: texture_2d<f32>;
+/// Tree, triangles and sets of segments of a mesh, rgba32uint, in rows of 4096 texels; one texel of 0 for volumes.
+@group(1) @binding(5) var mesh_texels: texture_2d<u32>;

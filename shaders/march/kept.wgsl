@@ -2,6 +2,7 @@
 // Differs from the source (Correa, section 5.4): membership is read from the nearest label voxel and not interpolated,
 // so that a boundary lies where the labels have it; only normals use a smoothed mask.
 // needs: types.wgsl affine.wgsl bind/subject.wgsl subject/place.wgsl bind/kept.wgsl displace/frame.wgsl
+//   subject/volume.wgsl|subject/mesh.wgsl
 
 /// How a document keeps tissue. 0: it keeps none. 1: the list is one group. 2: the first templates of the list keep the
 /// same set or depth, the others keep nothing. 3: any other case. A pipeline constant.
@@ -39,11 +40,10 @@ fn is_kept(rest: vec3f, keeps: u32, depth: f32) -> bool {
     if (keeps & 15u) == 0u || subject.has_labels == 0u {
         return false;
     }
-    let voxel = floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz);
-    if any(voxel < vec3f(0.0)) || any(voxel >= subject.label_dims.xyz) {
+    let label = label_at(rest);
+    if label == NO_LABEL {
         return false;
     }
-    let label = textureLoad(labels, vec3i(voxel), 0).x;
     let word = kept.label_sets[label >> 5u][(label >> 3u) & 3u];
     return ((word >> (4u * (label & 7u))) & keeps & 15u) != 0u;
 }

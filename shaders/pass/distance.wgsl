@@ -19,7 +19,7 @@
 // The outside of the object: voxels below a threshold that belong to no segment and are connected with a side face of
 // the grid. Connections with the faces at the head and foot ends of a scan do not count: a windpipe that ends there
 // would let the outside into the lungs.
-// needs: types.wgsl affine.wgsl bind/subject.wgsl subject/volume.wgsl
+// needs: types.wgsl affine.wgsl bind/subject.wgsl subject/volume.wgsl|subject/mesh.wgsl
 
 /// The job: sizes, sets and axis (see types.wgsl).
 @group(3) @binding(0) var<uniform> job: DistanceJob;

@@ -1,6 +1,6 @@
 // From the accumulated picture (linear, premultiplied) to the one that is shown: background, sRGB. Also enlarges the
 // quick small picture that is shown while anything moves.
-// needs: types.wgsl
+// needs: types.wgsl srgb.wgsl
 
 /// Where the source lies in its texture, and the background behind the picture.
 @group(3) @binding(0) var<uniform> resolve: Resolve;
@@ -8,12 +8,6 @@
 @group(3) @binding(1) var source: texture_2d<f32>;
 /// Linear filter, clamped at the edges of the picture.
 @group(3) @binding(2) var source_sampler: sampler;
-
-/// sRGB from linear, per channel (IEC 61966-2-1).
-fn srgb_from_linear(linear: vec3f) -> vec3f {
-    let c = clamp(linear, vec3f(0.0), vec3f(1.0));
-    return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, c * 12.92, c <= vec3f(0.0031308));
-}
 
 /// Light above this is rolled off instead of cut, so that highlights keep their colour; below it nothing changes.
 const SHOULDER: f32 = 0.75;

@@ -55,7 +55,7 @@ mod window_title;
 #[cfg(feature = "app")]
 #[cfg(feature = "app")]
 #[cfg(feature = "app")]
-pub use self::canvas::lettering::letter;
+pub use self::canvas::lettering::{letter, mark};
 #[cfg(feature = "app")]
 pub use self::services::{Message, MissingDocument, SavedTo, Services, WhyMissing};
 pub use self::session::{

@@ -28,6 +28,7 @@ impl App {
             illustration,
             name: format!("{}.png", self.session.file_stem()),
             captions: is_lettered.then(|| self.viewport.caption_places()),
+            mm_per_unit: self.session.view.known_mm_per_unit(),
             is_for_script,
         });
     }

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use super::naming::rename;
 use super::news::ResourceNews;
-use super::want::{OtherFile, Role, Want, Wanted};
+use super::want::{OtherFile, Role, Source, Want, Wanted};
 use crate::data::{FieldKey, FieldSamples, Grid, Resources, Segment, Segmentation, Subject};
 use crate::document::{Illustration, SegmentsRef, TemplateData};
 use crate::load::{FieldFile, FieldUse, LabelFile};
@@ -84,6 +84,13 @@ impl Assets {
             return Err(other);
         }
         self.refused.retain(|refused| refused != want);
+        let data = match (data, &want.source) {
+            (Data::Subject { subject, sha256 }, Source::File { name, .. }) => Data::Subject {
+                subject: subject.called(name),
+                sha256,
+            },
+            (data, _) => data,
+        };
         self.hold(want.src().map(str::to_owned), data);
         Ok(())
     }
@@ -107,7 +114,9 @@ impl Assets {
         }
         match data {
             Data::Subject { subject, .. } => {
-                self.place(subject.values().map(|volume| volume.grid));
+                let grid = subject.values().map(|volume| volume.grid);
+                let own = || subject.segmentation().map(|segmentation| segmentation.grid);
+                self.place(grid.or_else(own));
                 self.own_named = None;
                 self.subject = Some(subject);
             }
@@ -162,6 +171,8 @@ impl Assets {
             Role::Subject => self.subject.is_some(),
             Role::Segments => find(&self.segments, want).is_some(),
             Role::Field => find(&self.fields, want).is_some(),
+            // Nothing reads these yet.
+            Role::Mesh | Role::Object => false,
         }
     }
 
@@ -384,6 +395,7 @@ mod tests {
             color_srgb: None,
         };
         let header = Volume {
+            has_size: true,
             grid,
             voxels: Voxels::U8(Vec::new()),
             slope: 1.0,

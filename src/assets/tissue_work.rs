@@ -223,6 +223,7 @@ mod tests {
     #[test]
     fn what_was_stopped_waits_until_it_is_wanted() {
         let subject = Subject::from(Volume {
+            has_size: true,
             grid: Grid {
                 dims: UVec3::splat(4),
                 world_from_voxel: DAffine3::IDENTITY,

@@ -1,4 +1,8 @@
-use crate::document::{FieldRef, Illustration, Reading, SegmentsRef, SubjectRef, TemplateData};
+use crate::document::{
+    FieldRef, Illustration, MeshReading, MeshRef, ObjectSource, Reading, SceneObject, SegmentsRef,
+    SubjectRef, TemplateData,
+};
+use crate::load::MeshOptions;
 
 /// The use that a document makes of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,6 +13,10 @@ pub enum Role {
     Segments,
     /// A displacement field of a template.
     Field,
+    /// A mesh of the subject besides the file of [`Role::Subject`].
+    Mesh,
+    /// An object of the scene.
+    Object,
 }
 
 /// Where the data for a want come from.
@@ -34,7 +42,8 @@ pub struct Want {
     pub role: Role,
     /// Where the file or the subject comes from.
     pub source: Source,
-    /// Which volume of the file is meant and how bare voxels lie; the default for all but a subject.
+    /// Which volume of the file is meant, how bare voxels lie, and how a mesh is read; the default for label volumes
+    /// and fields.
     pub reading: Reading,
 }
 
@@ -49,9 +58,19 @@ pub struct OtherFile {
 }
 
 impl Want {
-    /// The subject of a document.
+    /// The subject of a document. Of meshes alone it is the first; the others are [`Want::mesh`].
     pub fn subject(subject: &SubjectRef) -> Self {
+        let mut reading = subject.reading().cloned().unwrap_or_default();
         let source = match subject {
+            SubjectRef::Meshes(meshes) => {
+                let first = meshes.first();
+                reading.mesh = first.map(|mesh| mesh.reading).unwrap_or_default();
+                Source::File {
+                    src: first.and_then(|mesh| mesh.src.clone()),
+                    sha256: first.and_then(|mesh| mesh.sha256.clone()),
+                    name: first.map(|mesh| mesh.name.clone()).unwrap_or_default(),
+                }
+            }
             SubjectRef::Builtin { name } => Source::Builtin(name.clone()),
             SubjectRef::Address {
                 src, sha256, name, ..
@@ -69,22 +88,51 @@ impl Want {
         Self {
             role: Role::Subject,
             source,
-            reading: subject.reading().cloned().unwrap_or_default(),
+            reading,
         }
     }
 
     /// A label volume; `None` where a document only names segments of the subject's own file.
     pub fn segments(segments: &SegmentsRef) -> Option<Self> {
         let SegmentsRef { src, sha256, .. } = segments;
-        Self::file(Role::Segments, src, sha256, "")
+        Self::file(Role::Segments, src, sha256, "", MeshReading::default())
     }
 
     /// A displacement field; `None` where the template names no file.
     pub fn field(field: &FieldRef) -> Option<Self> {
-        Self::file(Role::Field, &field.src, &field.sha256, &field.name)
+        let FieldRef {
+            src, sha256, name, ..
+        } = field;
+        Self::file(Role::Field, src, sha256, name, MeshReading::default())
     }
 
-    fn file(role: Role, src: &Option<String>, sha256: &Option<String>, name: &str) -> Option<Self> {
+    /// A mesh of the subject; `None` where the document names no file.
+    pub fn mesh(mesh: &MeshRef) -> Option<Self> {
+        let MeshRef {
+            src, sha256, name, ..
+        } = mesh;
+        Self::file(Role::Mesh, src, sha256, name, mesh.reading)
+    }
+
+    /// The file of an object; `None` for one that the program generates.
+    pub fn object(object: &SceneObject) -> Option<Self> {
+        match &object.source {
+            ObjectSource::Builtin(_) => None,
+            ObjectSource::File {
+                src,
+                sha256,
+                reading,
+            } => Self::file(Role::Object, src, sha256, &object.name, *reading),
+        }
+    }
+
+    fn file(
+        role: Role,
+        src: &Option<String>,
+        sha256: &Option<String>,
+        name: &str,
+        mesh: MeshReading,
+    ) -> Option<Self> {
         (src.is_some() || sha256.is_some()).then(|| Self {
             role,
             source: Source::File {
@@ -92,8 +140,19 @@ impl Want {
                 sha256: sha256.clone(),
                 name: name.to_owned(),
             },
-            reading: Reading::default(),
+            reading: Reading {
+                mesh,
+                ..Reading::default()
+            },
         })
+    }
+
+    /// How the file is read if it holds a mesh, of at most this many triangles.
+    pub fn mesh_options(&self, max_triangles: u64) -> MeshOptions {
+        MeshOptions {
+            max_triangles,
+            ..MeshOptions::from(&self.reading.mesh)
+        }
     }
 
     /// Address of the file, as written in the document; `None` without one.
@@ -128,7 +187,8 @@ impl Want {
 }
 
 /// Everything that an illustration needs from outside: its subject first, then label volumes, then fields of templates
-/// that act.
+/// that act, then further meshes of the subject and objects. A file that is meant twice and read in one way is wanted
+/// once in each role.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wanted(pub Vec<Want>);
 
@@ -145,6 +205,74 @@ impl Wanted {
                 wants.push(want);
             }
         }
+        let is_alone = matches!(illustration.subject, SubjectRef::Meshes(_));
+        let meshes = illustration.meshes().iter().skip(usize::from(is_alone));
+        let objects = illustration.objects.iter().filter(|o| o.enabled);
+        let further = meshes.map(Want::mesh).chain(objects.map(Want::object));
+        for want in further.flatten() {
+            if !wants.contains(&want) {
+                wants.push(want);
+            }
+        }
         Self(wants)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Document;
+    use crate::load::{Axes, PartsMode, Units};
+
+    fn wanted(json: &str) -> Vec<Want> {
+        let document = Document::from_json(json).expect("a document");
+        Wanted::of(document.illustration()).0
+    }
+
+    #[test]
+    fn every_mesh_and_object_is_wanted_once() {
+        let text = r#"{ "fabrica": 1, "subject": { "meshes": [
+            { "src": "talus.stl", "units": "cm", "parts": "pieces" }, { "sha256": "HASH", "name": "skin", "axes": "lps" },
+            { "sha256": "HASH", "name": "skin", "axes": "lps" }, { "src": "talus.stl" } ] },
+            "objects": [ { "builtin": "needle" }, { "src": "plate.obj", "name": "plate", "units": "in" },
+            { "src": "off.obj", "enabled": false } ] }"#;
+        let wants = wanted(&text.replace("HASH", &"0a".repeat(32)));
+        let roles: Vec<(Role, Option<&str>)> = wants.iter().map(|w| (w.role, w.src())).collect();
+        let expected = [
+            (Role::Subject, Some("talus.stl")),
+            (Role::Mesh, None),
+            (Role::Mesh, Some("talus.stl")),
+            (Role::Object, Some("plate.obj")),
+        ];
+        assert_eq!(roles, expected);
+        let options = wants[0].mesh_options(7);
+        assert_eq!(options.units, Some(Units::Centimetre));
+        assert_eq!(
+            (options.parts, options.max_triangles),
+            (PartsMode::Pieces, 7)
+        );
+        assert_eq!(wants[1].mesh_options(7).axes, Some(Axes::Lps));
+        assert_eq!(
+            wants[2].mesh_options(7),
+            MeshOptions {
+                max_triangles: 7,
+                ..MeshOptions::default()
+            }
+        );
+        assert_eq!(wants[3].mesh_options(7).units, Some(Units::Inch));
+        let Source::File { name, .. } = &wants[3].source else {
+            panic!("a file");
+        };
+        assert_eq!(name, "plate", "by this name the reader is asked for it");
+    }
+
+    #[test]
+    fn beside_a_subject_all_meshes_are_wanted() {
+        let wants = wanted(
+            r#"{ "fabrica": 1, "subject": { "builtin": "head", "meshes": [{ "src": "a.stl" }] } }"#,
+        );
+        let roles: Vec<Role> = wants.iter().map(|want| want.role).collect();
+        assert_eq!(roles, [Role::Subject, Role::Mesh]);
+        assert_eq!(wants[0].source, Source::Builtin("head".to_owned()));
     }
 }

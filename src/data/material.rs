@@ -20,6 +20,14 @@ impl Subject {
                 value: Some(value_at(&space.volume, pos_in_rest)?),
                 segment: segment_at(&space.volume, pos_in_rest),
             }),
+            Self::Mesh(surface) => {
+                let segment = surface.segment_at(pos_in_rest)?;
+                let segment = &surface.segments[segment];
+                segment.is_closed.then(|| Material {
+                    value: Some(surface.depth_at(pos_in_rest)),
+                    segment: Some(segment.name.clone()),
+                })
+            }
         }
     }
 }

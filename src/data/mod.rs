@@ -18,7 +18,7 @@ mod inside;
 mod made;
 mod mask;
 mod material;
-mod mesh;
+pub(crate) mod mesh;
 mod parts;
 mod pending;
 mod reduce;
@@ -28,6 +28,7 @@ mod site;
 mod statistics;
 mod subject;
 mod subject_builder;
+mod surface;
 mod time_slices;
 mod volume;
 
@@ -38,7 +39,10 @@ pub use inside::CoarseLabels;
 pub use made::KnownMasks;
 pub use mask::Mask;
 pub use material::Material;
-pub use mesh::{Coloring, Corners, Mesh, MeshMaterial, MeshPart, MeshTexture, NO_INDEX, Wrap};
+pub use mesh::{
+    Coloring, Corners, Measure, Mesh, MeshMaterial, MeshPart, MeshTexture, NO_INDEX, Wrap, measure,
+    pieces, volume, winding_number,
+};
 pub use parts::{SubjectPart, SubjectSink};
 pub use pending::{Pending, poll_once};
 pub use reduce::{Reducer, Reduction, VolumeLimits, dims_that_fit, resized};
@@ -48,5 +52,9 @@ pub use site::Site;
 pub use statistics::{Histogram, Statistics};
 pub use subject::{Space, Subject};
 pub use subject_builder::SubjectBuilder;
+pub use surface::{
+    FIELD_MARGIN, FIELD_VOXELS, MAX_SURFACE_SEGMENTS, Nearest, PLAIN_SRGB, Surface, SurfaceArrays,
+    SurfaceError, SurfaceField, SurfaceSegment, Tree, TreeNode, Triangle, times_inside,
+};
 pub use time_slices::TimeSlices;
 pub use volume::{Grid, Segment, Segmentation, Volume, Voxels};

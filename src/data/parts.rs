@@ -1,3 +1,6 @@
+use std::sync::Arc;
+
+use super::surface::Surface;
 use super::volume::{Volume, Voxels};
 
 /// A piece of a subject on its way from a reader or a generator to whoever holds, counts or shows the subject.
@@ -14,6 +17,8 @@ pub enum SubjectPart {
     Scalars(Voxels),
     /// Labels that follow the ones before; only if the header announced a segmentation.
     Labels(Vec<u8>),
+    /// A mesh, whole.
+    Surface(Arc<Surface>),
 }
 
 impl SubjectPart {

@@ -418,6 +418,7 @@ mod tests {
 
     fn header(dims: UVec3, spacing: DVec3, voxels: Voxels) -> Volume {
         Volume {
+            has_size: true,
             grid: Grid {
                 dims,
                 world_from_voxel: DAffine3::from_translation(DVec3::new(10.0, -3.0, 7.0))

@@ -1,18 +1,20 @@
 use std::sync::Arc;
 
 use super::frame::SubjectFrame;
+use super::surface::Surface;
 use super::volume::{Segment, Segmentation, Volume};
 
 /// What is illustrated. Cheap to clone.
 ///
 /// Code that draws, measures or lists a subject asks the methods here and never for the kind: a subject without values
 /// or without segments answers that it has none. Only code that makes a subject or brings one to the GPU matches on the
-/// kind. This is an enum although it has one variant: flat figures will be the second, and the compiler then lists the
-/// matches that need another line.
+/// kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Subject {
     /// Lies in space.
     Space(Space),
+    /// A mesh alone.
+    Mesh(Arc<Surface>),
 }
 
 /// A subject in space.
@@ -27,16 +29,32 @@ impl Subject {
     pub fn frame(&self) -> SubjectFrame {
         match self {
             Self::Space(space) => space.volume.grid.frame(),
+            Self::Mesh(surface) => surface.frame,
+        }
+    }
+
+    /// Millimetres in one subject unit, if its file says how large it is.
+    pub fn mm_per_unit(&self) -> Option<f64> {
+        match self {
+            Self::Space(space) => {
+                let volume = &space.volume;
+                volume.has_size.then(|| volume.grid.mm_per_unit())
+            }
+            Self::Mesh(surface) => Some(surface.frame.mm_per_unit),
         }
     }
 
     /// Named parts that the subject came with, in the order of its file; none if it has no parts.
     pub fn segments(&self) -> &[Segment] {
+        self.segmentation()
+            .map_or(&[], |segmentation| &segmentation.segments)
+    }
+
+    /// Which of its parts are where; `None` if it has no parts.
+    pub fn segmentation(&self) -> Option<&Segmentation> {
         match self {
-            Self::Space(space) => match &space.volume.segmentation {
-                Some(segmentation) => &segmentation.segments,
-                None => &[],
-            },
+            Self::Space(space) => space.volume.segmentation.as_ref(),
+            Self::Mesh(surface) => Some(&surface.segmentation),
         }
     }
 
@@ -45,6 +63,7 @@ impl Subject {
     pub fn values(&self) -> Option<&Arc<Volume>> {
         match self {
             Self::Space(space) => Some(&space.volume),
+            Self::Mesh(_) => None,
         }
     }
 
@@ -56,6 +75,19 @@ impl Subject {
                 Arc::make_mut(&mut space.volume).segmentation = segmentation;
                 Self::Space(space)
             }
+            mesh @ Self::Mesh(_) => mesh,
+        }
+    }
+
+    /// The same subject by the author's name for it, which the segment of a mesh with one part takes; without a name it
+    /// stays as it is.
+    pub fn called(self, name: &str) -> Self {
+        match self {
+            Self::Mesh(mut surface) if !name.is_empty() && surface.segments.len() == 1 => {
+                Arc::make_mut(&mut surface).name_only_segment(name);
+                Self::Mesh(surface)
+            }
+            subject => subject,
         }
     }
 
@@ -63,6 +95,8 @@ impl Subject {
     pub fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Space(a), Self::Space(b)) => Arc::ptr_eq(&a.volume, &b.volume),
+            (Self::Mesh(a), Self::Mesh(b)) => Arc::ptr_eq(a, b),
+            (Self::Space(_), Self::Mesh(_)) | (Self::Mesh(_), Self::Space(_)) => false,
         }
     }
 }
@@ -70,6 +104,12 @@ impl Subject {
 impl From<Arc<Volume>> for Subject {
     fn from(volume: Arc<Volume>) -> Self {
         Self::Space(Space { volume })
+    }
+}
+
+impl From<Arc<Surface>> for Subject {
+    fn from(surface: Arc<Surface>) -> Self {
+        Self::Mesh(surface)
     }
 }
 

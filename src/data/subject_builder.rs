@@ -2,11 +2,14 @@ use super::builder::{BuildError, VolumeBuilder};
 use super::parts::{SubjectPart, SubjectSink};
 use super::statistics::Histogram;
 use super::subject::Subject;
+use super::surface::Surface;
+use std::sync::Arc;
 
 /// Puts a subject together from its pieces. Memory grows as described at [`VolumeBuilder`].
 #[derive(Debug, Default)]
 pub struct SubjectBuilder {
     volume: Option<VolumeBuilder>,
+    surface: Option<Arc<Surface>>,
 }
 
 impl SubjectBuilder {
@@ -15,6 +18,9 @@ impl SubjectBuilder {
     /// # Errors
     /// If memory ran out, or other pieces came than were announced.
     pub fn finish(self) -> Option<Result<(Subject, Option<Histogram>), BuildError>> {
+        if let Some(surface) = self.surface {
+            return Some(Ok((Subject::from(surface), None)));
+        }
         let whole = self.volume?.finish_with_histogram();
         Some(whole.map(|(volume, histogram)| (Subject::from(volume), Some(histogram))))
     }
@@ -30,6 +36,7 @@ impl SubjectSink for SubjectBuilder {
                 builder.take(part)?;
                 self.volume = Some(builder);
             }
+            SubjectPart::Surface(surface) => self.surface = Some(surface),
             SubjectPart::Scalars(_) | SubjectPart::Labels(_) => {
                 if let Some(volume) = &mut self.volume {
                     volume.take(part)?;
@@ -53,6 +60,7 @@ mod tests {
 
     fn header(dims: UVec3) -> SubjectPart {
         SubjectPart::header(Volume {
+            has_size: true,
             grid: Grid {
                 dims,
                 world_from_voxel: DAffine3::IDENTITY,

@@ -197,6 +197,8 @@ pub struct Volume {
     pub value_range: [f32; 2],
     /// Segments, where the subject has them.
     pub segmentation: Option<Segmentation>,
+    /// The file says how large its voxels are. False: 1 mm was taken, so lengths in mm mean nothing.
+    pub has_size: bool,
 }
 
 impl Volume {

@@ -263,6 +263,12 @@ fn doing(template: &PlacedTemplate) -> Option<(Line, Option<Extent>)> {
                 "组织被牵离原位 {0}",
             ],
         ),
+        K::Crack => of_most([
+            "A crack is drawn apart, {0}",
+            "Ein Riss ist auseinandergezogen, {0}",
+            "Una grieta está abierta, {0}",
+            "裂缝已拉开，{0}",
+        ]),
         K::Cut => Some((removed(template), None)),
         K::Hole => of_most([
             "Tissue is pushed aside into a round opening, {0}",

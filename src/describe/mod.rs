@@ -34,4 +34,4 @@ pub use names::{has_patient, segment, subject};
 pub use sight::{Seen, Sight};
 pub use snippet::{Snippet, snippet};
 pub use text::{Description, Measured, describe};
-pub use view::{Sides, seen_from};
+pub use view::{Sides, seen_from, side_letters};

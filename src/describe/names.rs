@@ -130,6 +130,10 @@ pub(super) fn subject_in_sentence(of: &SubjectRef, lang: Lang) -> Option<String>
             None => name,
         },
         SubjectRef::Address { name, .. } | SubjectRef::Supplied { name, .. } => name,
+        SubjectRef::Meshes(meshes) => match meshes.as_slice() {
+            [one] => &one.name,
+            _ => return None,
+        },
     };
     let name = super::lang::one_line(name, MAX_NAME);
     (!name.is_empty()).then_some(name)
@@ -139,7 +143,7 @@ pub(super) fn subject_in_sentence(of: &SubjectRef, lang: Lang) -> Option<String>
 pub fn has_patient(of: &SubjectRef) -> bool {
     match of {
         SubjectRef::Builtin { name } => matches!(name.as_str(), "head" | "hand" | "torso" | "knee"),
-        SubjectRef::Address { .. } | SubjectRef::Supplied { .. } => true,
+        SubjectRef::Address { .. } | SubjectRef::Supplied { .. } | SubjectRef::Meshes(_) => true,
     }
 }
 

@@ -52,6 +52,25 @@ impl Sides {
     }
 }
 
+/// Letters of the patient's sides that a direction of subject space (unit length) points to, as radiologists write
+/// them: R, L, A, P, S (superior), I (inferior). The main one first, at most two: `RA`.
+pub fn side_letters(direction: Vec3) -> String {
+    let sides = [("R", "L"), ("A", "P"), ("S", "I")];
+    let mut found: Vec<(f32, &str)> = direction
+        .to_array()
+        .into_iter()
+        .zip(sides)
+        .map(|(along, (to, away))| (along.abs(), if along > 0.0 { to } else { away }))
+        .filter(|(along, _)| *along > LEAST)
+        .collect();
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found
+        .into_iter()
+        .take(2)
+        .map(|(_, letter)| letter)
+        .collect()
+}
+
 /// From where a camera of this rotation looks at a subject: one sentence, without its end.
 pub fn seen_from(rotate: Quat, subject: &SubjectRef, lang: Lang) -> String {
     sentence(Sides::of(rotate), has_patient(subject), lang)
@@ -130,6 +149,15 @@ fn english(sides: Sides, has_hand: bool) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn letters_name_the_sides_of_the_patient() {
+        assert_eq!(side_letters(Vec3::X), "R");
+        assert_eq!(side_letters(Vec3::NEG_X), "L");
+        assert_eq!(side_letters(Vec3::new(0.9, 0.43, 0.0)), "RA");
+        assert_eq!(side_letters(Vec3::new(0.0, -0.5, 0.86)), "SP");
+        assert_eq!(side_letters(Vec3::ZERO), "");
+    }
 
     /// A camera whose eye lies in a direction.
     fn from(direction: [f32; 3]) -> Sides {

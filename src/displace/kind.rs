@@ -3,8 +3,8 @@
 use super::facts::{Facts, Holds};
 use super::spec::TemplateSpec;
 use super::{
-    bend, cut, cutquad, dilate, field, flap, hole, lens, r#move, peel, peeler, poke, pull, rbf,
-    retractor, slices, split, squeeze, twist, wave,
+    bend, crack, cut, cutquad, dilate, field, flap, hole, lens, r#move, peel, peeler, poke, pull,
+    rbf, retractor, slices, split, squeeze, twist, wave,
 };
 
 macro_rules! kinds {
@@ -53,12 +53,13 @@ kinds! {
     Move = 18 in r#move,
     Rbf = 19 in rbf,
     Field = 20 in field,
+    Crack = 21 in crack,
 }
 
 impl TemplateKind {
     /// The kinds that are described whole by their parameters. The others hold control points or a file besides.
-    pub const FORMULAS: [Self; 18] = {
-        let mut formulas = [Self::Poke; 18];
+    pub const FORMULAS: [Self; 19] = {
+        let mut formulas = [Self::Poke; 19];
         let (mut from, mut to) = (0, 0);
         while from < Self::ALL.len() {
             if matches!(Self::ALL[from].facts().holds, Holds::Parameters) {

@@ -7,7 +7,7 @@
 //!
 //! A kind has five places. Say that a `swirl` is wanted, which turns the middle of its box:
 //!
-//! 1. One line in `kind.rs`, at the end, with the next number: `Swirl = 21 in swirl`. The compiler and the tests ask
+//! 1. One line in `kind.rs`, at the end, with the next number: `Swirl = 22 in swirl`. The compiler and the tests ask
 //!    for the rest.
 //! 2. `displace/swirl.rs`: its [`Facts`]. A smooth kind that moves material within its box by no more than its
 //!    parameter is short:
@@ -45,6 +45,7 @@
 
 mod bend;
 mod constants;
+mod crack;
 mod cut;
 mod cutquad;
 mod dilate;
@@ -55,6 +56,7 @@ mod hole;
 mod kind;
 mod lens;
 mod r#move;
+mod noise;
 mod peel;
 mod peeler;
 mod points;
@@ -75,6 +77,7 @@ pub use facts::{
     Shrinking,
 };
 pub use kind::TemplateKind;
+pub use noise::noise;
 pub use points::{ControlPoint, ControlPoints};
 pub(crate) use rbf::Interpolant;
 pub use spec::{MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateSpec};

@@ -1,8 +1,9 @@
 //! The way between two states of a document.
 
 use super::model::{
-    Align, Background, Curve, Illustration, ParamKind, ParamValue, PlacedTemplate, TemplateData,
-    Transfer, TransferPoint, Window,
+    Align, Background, Curve, Illustration, Layer, ParamKind, ParamValue, PlacedTemplate,
+    SceneObject, SegmentLook, SurfaceChange, SurfaceLook, TemplateData, Transfer, TransferPoint,
+    Window,
 };
 use crate::math::mix_srgb;
 use glam::Quat;
@@ -36,6 +37,14 @@ pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illu
             if let (Some(a), Some(b)) = (before.color_srgb, segment.color_srgb) {
                 segment.color_srgb = Some(mix_srgb(a, b, part));
             }
+        }
+    }
+    blend_segments(start, end, &mut out.look.segments, part);
+    blend_surface(&start.look.surface, &mut out.look.surface, part);
+    for object in &mut out.objects {
+        let mut before = start.objects.iter();
+        if let Some(before) = before.find(|before| before.index == object.index) {
+            blend_object(before, object, part);
         }
     }
     if let (Some(a), Some(b)) = (start.look.tint, end.look.tint) {
@@ -110,6 +119,83 @@ fn blend_template(start: &PlacedTemplate, out: &mut PlacedTemplate, part: f32) {
         }
         _ => {}
     }
+}
+
+/// What the meshes' bodies are made of.
+fn blend_surface(start: &SurfaceLook, out: &mut SurfaceLook, part: f32) {
+    let mix = |a: f32, b: f32| a + (b - a) * part;
+    out.thickness = mix(start.thickness, out.thickness);
+    out.gloss = mix(start.gloss, out.gloss);
+    out.inside_srgb = blend_color(start.inside_srgb, out.inside_srgb, part);
+    blend_layers(&start.layers, &mut out.layers, part);
+}
+
+/// Layers of lists of one length; others switch.
+fn blend_layers(start: &[Layer], out: &mut [Layer], part: f32) {
+    let mix = |a: f32, b: f32| a + (b - a) * part;
+    if start.len() != out.len() {
+        return;
+    }
+    for layer in &mut *out {
+        // A layer that passes another one on its way stays the same layer.
+        if let Some(before) = start.iter().find(|before| before.index == layer.index) {
+            layer.depth = mix(before.depth, layer.depth);
+            layer.grain = mix(before.grain, layer.grain);
+            layer.color_srgb = blend_color(before.color_srgb, layer.color_srgb, part);
+        }
+    }
+    Layer::sort(out);
+}
+
+/// A colour that both give; else that of the end.
+fn blend_color(start: Option<[u8; 3]>, end: Option<[u8; 3]>, part: f32) -> Option<[u8; 3]> {
+    match (start, end) {
+        (Some(a), Some(b)) => Some(mix_srgb(a, b, part)),
+        _ => end,
+    }
+}
+
+/// What single segments say of the surface of a mesh. A key that one of both states leaves to the look eases from what
+/// the look says there, or to it.
+fn blend_segments(start: &Illustration, end: &Illustration, out: &mut [SegmentLook], part: f32) {
+    let nothing = SurfaceChange::default();
+    for segment in out {
+        let before = start.look.segments.iter().find(|l| l.name == segment.name);
+        let before = before.map_or(&nothing, |before| &before.surface);
+        let after = &mut segment.surface;
+        if *before == *after {
+            continue;
+        }
+        let start = before.over(&start.look.surface);
+        let mut mixed = after.over(&end.look.surface);
+        blend_surface(&start, &mut mixed, part);
+        if before.thickness.is_some() || after.thickness.is_some() {
+            after.thickness = Some(mixed.thickness);
+        }
+        if before.gloss.is_some() || after.gloss.is_some() {
+            after.gloss = Some(mixed.gloss);
+        }
+        if before.inside_srgb.is_some() || after.inside_srgb.is_some() {
+            after.inside_srgb = mixed.inside_srgb;
+        }
+        if before.layers.is_some() || after.layers.is_some() {
+            after.layers = Some(mixed.layers);
+        }
+    }
+}
+
+fn blend_object(start: &SceneObject, out: &mut SceneObject, part: f32) {
+    let mix = |a: f32, b: f32| a + (b - a) * part;
+    // One that lies where its file says has no place that could be mixed with another.
+    if let (Some(a), Some(b)) = (start.placement, &mut out.placement) {
+        b.at = a.at.lerp(b.at, part);
+        b.rotate = slerp(a.rotate, b.rotate, part);
+        b.size = mix(a.size, b.size);
+    }
+    out.opacity = mix(start.opacity, out.opacity);
+    out.gloss = mix(start.gloss, out.gloss);
+    out.color_srgb = blend_color(start.color_srgb, out.color_srgb, part);
+    out.inside_srgb = blend_color(start.inside_srgb, out.inside_srgb, part);
 }
 
 /// The shorter way between two rotations; the ends themselves at 0 and 1.

@@ -2,7 +2,7 @@
 
 use super::limits::DEFAULT_SUBJECT;
 use super::model::{ParamKind, ParamSpec, TemplateKind};
-use super::schema::{Key, Kind, LeftOut, ROOT, params_of};
+use super::schema::{Key, Kind, LeftOut, ROOT, is_of_file, params_of};
 use crate::displace::Holds;
 use serde_json::{Map, Value};
 
@@ -17,6 +17,7 @@ fn object(map: &mut Map<String, Value>, keys: &'static [Key], kind: Option<Templ
     let own_kind = keys.iter().find(|key| matches!(key.kind, Kind::Template));
     let own_kind = own_kind.and_then(|key| map.get(key.name)?.as_str());
     let kind = kind.or(own_kind.and_then(TemplateKind::from_name));
+    let is_of_file = is_of_file(map);
     for key in keys {
         let Some(value) = map.get_mut(key.name) else {
             continue;
@@ -25,6 +26,7 @@ fn object(map: &mut Map<String, Value>, keys: &'static [Key], kind: Option<Templ
         let is_left_out = match key.left_out {
             LeftOut::AtDefault => true,
             LeftOut::ExceptField => kind.is_none_or(|kind| kind.facts().holds != Holds::File),
+            LeftOut::ExceptFile => !is_of_file,
             LeftOut::Alone | LeftOut::Never | LeftOut::Optional => false,
         };
         if is_left_out && is_default(value, key.kind) {
@@ -49,6 +51,11 @@ fn inside(value: &mut Value, holds: Kind, kind: Option<TemplateKind>) {
             Kind::List { of, .. } | Kind::FirstOf { of, .. } | Kind::OneOrMore { of, .. },
         ) => {
             for map in items.iter_mut().filter_map(Value::as_object_mut) {
+                object(map, of, kind);
+            }
+        }
+        (Value::Object(segments), Kind::Looks(of)) => {
+            for map in segments.values_mut().filter_map(Value::as_object_mut) {
                 object(map, of, kind);
             }
         }
@@ -90,9 +97,14 @@ fn is_default(value: &Value, kind: Kind) -> bool {
             is_empty_object(value)
         }
         Kind::OneOrMore { .. } => is_empty_list(value) || is_empty_object(value),
-        Kind::Format | Kind::Address | Kind::Hash | Kind::Template | Kind::Color | Kind::Range => {
-            false
-        }
+        Kind::Format
+        | Kind::Address
+        | Kind::Hash
+        | Kind::Template
+        | Kind::Tool
+        | Kind::Color
+        | Kind::Range
+        | Kind::Box => false,
     }
 }
 

@@ -2,7 +2,7 @@
 //! as the schema allows.
 
 use super::model::TemplateKind;
-use super::schema::{Key, Kind, LeftOut, ROOT, find, param_default, params_of};
+use super::schema::{Key, Kind, LeftOut, ROOT, find, is_of_file, param_default, params_of};
 use super::text::pointer::join;
 use serde_json::{Map, Value, json};
 
@@ -14,10 +14,8 @@ pub(super) fn difference(old: &Value, new: &Value) -> Vec<(String, Value)> {
     let [old, new] = [old, new].map(|tree| tree.as_object().unwrap_or(&nothing));
     for name in names(old, new) {
         let key = find(ROOT, name);
-        // A step sets none of the fixed keys, and a root key that has no default stays as it is.
-        if key.is_none_or(|key| !key.is_fixed) {
-            let _ = entry("", name, [old, new], key, None, &mut out);
-        }
+        // A root key that has no default stays as it is.
+        let _ = entry("", name, [old, new], key, None, &mut out);
     }
     out
 }
@@ -45,7 +43,8 @@ fn entry(
     out: &mut Changes,
 ) -> Result<(), Gone> {
     let (before, after) = (old.get(name), new.get(name));
-    if before == after {
+    // A step sets none of the fixed keys.
+    if before == after || key.is_some_and(|key| key.is_fixed) {
         return Ok(());
     }
     let pointer = join(at, name);
@@ -57,6 +56,7 @@ fn entry(
     let stays_away = match key.left_out {
         LeftOut::Optional => true,
         LeftOut::ExceptField => kind.is_some_and(is_field),
+        LeftOut::ExceptFile => is_of_file(new),
         LeftOut::AtDefault | LeftOut::Alone | LeftOut::Never => false,
     };
     if stays_away && after.is_none() {

@@ -8,6 +8,14 @@ pub const MAX_TEMPLATES: usize = 32;
 pub const MAX_KEEP_SETS: usize = 4;
 /// Most label volumes beside a subject.
 pub const MAX_LABEL_FILES: usize = 8;
+/// Most meshes of a subject (`subject.meshes`).
+pub const MAX_MESHES: usize = 64;
+/// Most objects in a document.
+pub const MAX_OBJECTS: usize = 16;
+/// Most layers of a body.
+pub const MAX_LAYERS: usize = 8;
+/// Greatest coordinate of a subject's box, mm; above it millimetres get lost in 32-bit floats of a file.
+pub(crate) const MAX_BOX_MM: f64 = 1e7;
 /// Most control points of an `rbf`.
 pub const MAX_POINTS: usize = 64;
 /// Most fields of a document that are drawn.

@@ -18,6 +18,16 @@ impl Edit {
             let name = key("name").or_else(|| key("kind")).unwrap_or("template");
             shortened(name, 32)
         };
+        let object_name = |i: &usize| {
+            let key = |key: &str| {
+                let value = document.get(&format!("/objects/{i}/{key}"));
+                value
+                    .and_then(Value::as_str)
+                    .filter(|name| !name.is_empty())
+            };
+            let name = key("name").or_else(|| key("builtin")).unwrap_or("object");
+            shortened(name, 32)
+        };
         match self {
             Self::Set { name, .. } | Self::Reset { name, .. } => name.clone(),
             Self::AddTemplate { kind, .. } => format!("Add {}", kind.spec().name),
@@ -83,6 +93,13 @@ impl Edit {
             Self::SetCredit(_) => "Change credit".to_owned(),
             Self::SetLang(_) => "Change language".to_owned(),
             Self::SetSubject(_) => "Change subject".to_owned(),
+            Self::AddMesh { .. } => "Add mesh".to_owned(),
+            Self::RemoveMesh { .. } => "Remove mesh".to_owned(),
+            Self::AddObject { .. } => "Add object".to_owned(),
+            Self::RemoveObject { object } => format!("Remove {}", object_name(object)),
+            Self::DuplicateObject { object } => format!("Duplicate {}", object_name(object)),
+            Self::MoveObject { from, .. } => format!("Reorder {}", object_name(from)),
+            Self::PlaceObject { object, .. } => format!("Move {}", object_name(object)),
             Self::AddCaption(_) => "Add label".to_owned(),
             Self::ReplaceCaption { .. } => "Change label".to_owned(),
             Self::RemoveCaption { .. } => "Remove label".to_owned(),

@@ -3,8 +3,9 @@
 
 use super::canonical;
 use super::difference::difference;
-use super::limits::{MAX_LABELS, MAX_STEPS, MAX_TEMPLATES};
+use super::limits::{MAX_LABELS, MAX_OBJECTS, MAX_STEPS, MAX_TEMPLATES};
 use super::read::resolve;
+use super::schema::is_fixed;
 use super::steps;
 use super::text::pointer::{self, join};
 use super::text::{DocumentError, json};
@@ -126,7 +127,7 @@ fn changed(state: &Value, edit: &Edit) -> Result<Value, DocumentError> {
     Ok(after)
 }
 
-/// True if an entry of `templates` or `labels` is in a state and not switched off.
+/// True if an entry of `templates`, `labels` or `objects` is in a state and not switched off.
 fn is_shown(state: &Value, entry: &str) -> bool {
     let entry = pointer::get(state, entry);
     entry.is_some_and(|entry| entry.get("enabled") != Some(&json!(false)))
@@ -158,6 +159,9 @@ fn at_step(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErr
         | Edit::RenameTemplate { .. }
         | Edit::SetGroup { .. }
         | Edit::MoveTemplate { .. }
+        | Edit::AddMesh { .. }
+        | Edit::RemoveMesh { .. }
+        | Edit::MoveObject { .. }
         | Edit::AtStep { .. }
         | Edit::AddStep { .. }
         | Edit::RemoveStep { .. }
@@ -169,8 +173,11 @@ fn at_step(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErr
         Edit::AddTemplate { .. }
         | Edit::InsertTemplates { .. }
         | Edit::DuplicateTemplate { .. }
+        | Edit::AddObject { .. }
+        | Edit::DuplicateObject { .. }
         | Edit::AddCaption(_) => appear(root, step, edit),
         Edit::RemoveTemplate { template } => vanish(root, step, "templates", *template),
+        Edit::RemoveObject { object } => vanish(root, step, "objects", *object),
         Edit::RemoveCaption { caption } => vanish(root, step, "labels", *caption),
         _ => change(root, step, edit),
     }
@@ -181,16 +188,18 @@ fn is_of_all_steps(target: &str) -> bool {
     const KEYS: [&str; 7] = [
         "/fabrica", "/title", "/caption", "/credit", "/lang", "/subject", "/steps",
     ];
-    KEYS.iter().any(|key| is_in(target, key))
+    let is_fixed = || pointer::keys(target).is_ok_and(|keys| is_fixed(&keys));
+    KEYS.iter().any(|key| is_in(target, key)) || is_fixed()
 }
 
-/// Adds templates or a caption while a step is shown: they are switched off before it. A template grows in the passage
-/// to the step.
+/// Adds templates, an object or a caption while a step is shown: they are switched off before it. A template grows in
+/// the passage to the step.
 fn appear(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentError> {
     let before = state(root, step)?;
     let after = changed(&before, edit)?;
     let (key, limit) = match edit {
         Edit::AddCaption(_) => ("labels", MAX_LABELS),
+        Edit::AddObject { .. } | Edit::DuplicateObject { .. } => ("objects", MAX_OBJECTS),
         _ => ("templates", MAX_TEMPLATES),
     };
     let entries = |state: &Value| -> Vec<Value> {
@@ -200,8 +209,10 @@ fn appear(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErro
     let (before, after) = (entries(&before), entries(&after));
     let count = after.len().saturating_sub(before.len());
     let index = match edit {
-        Edit::AddTemplate { index, .. } | Edit::InsertTemplates { index, .. } => *index,
-        Edit::DuplicateTemplate { template } => template + 1,
+        Edit::AddTemplate { index, .. }
+        | Edit::InsertTemplates { index, .. }
+        | Edit::AddObject { index, .. } => *index,
+        Edit::DuplicateTemplate { template: i } | Edit::DuplicateObject { object: i } => i + 1,
         _ => usize::MAX,
     };
     let index = index.min(before.len());
@@ -228,8 +239,8 @@ fn appear(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErro
     Ok(())
 }
 
-/// Removes a template or a caption while a step is shown: it is switched off from there on. What no step before shows
-/// is removed for good.
+/// Removes a template, an object or a caption while a step is shown: it is switched off from there on. What no step
+/// before shows is removed for good.
 fn vanish(
     root: &mut Value,
     step: usize,
@@ -318,12 +329,12 @@ fn grow(
     Ok(())
 }
 
-/// Writes a value into what a step sets; into the document itself where it belongs to a template or a caption that no
-/// earlier step shows, so that this lies ready when it comes.
+/// Writes a value into what a step sets; into the document itself where it belongs to a template, an object or a
+/// caption that no earlier step shows, so that this lies ready when it comes.
 fn record(root: &mut Value, step: usize, target: &str, value: Value) -> Result<(), DocumentError> {
     let keys = pointer::keys(target)?;
     if let [list, index, rest @ ..] = keys.as_slice()
-        && (list == "templates" || list == "labels")
+        && ["templates", "labels", "objects"].contains(&list.as_str())
         && let Some(name) = rest.first()
         && name != "enabled"
         && name != "amount"

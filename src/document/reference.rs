@@ -63,6 +63,7 @@ fn object(page: &mut String, at: &str, holds: Option<Holds>, keys: &[Key]) {
         let stays = match key.left_out {
             LeftOut::Never if !default.is_empty() => ", kept where it is written",
             LeftOut::ExceptField => ", kept where it is written in a `field`",
+            LeftOut::ExceptFile => ", kept where it is written in an object with a file",
             LeftOut::Alone => ", left out where it stands alone",
             _ => "",
         };
@@ -89,6 +90,7 @@ fn values(kind: Kind) -> String {
         Kind::Address => "text, an address relative to the document or absolute".to_owned(),
         Kind::Hash => "SHA-256, 64 hexadecimal digits".to_owned(),
         Kind::Builtin => listed(&super::BUILTIN_SUBJECTS),
+        Kind::Tool => listed(&super::SceneObject::BUILTINS),
         Kind::Template => "the name of a kind (see below)".to_owned(),
         Kind::Name(names) => listed(names),
         Kind::Color => "`#rgb` or `#rrggbb`".to_owned(),
@@ -102,6 +104,7 @@ fn values(kind: Kind) -> String {
         Kind::Whole => "whole number from 0".to_owned(),
         Kind::Number { min, max, .. } => format!("number, {}", range(min, max)),
         Kind::Range => "`[lowest]` or `[lowest, highest]`".to_owned(),
+        Kind::Box => "six numbers, mm, RAS+: least x, y, z, greatest x, y, z".to_owned(),
         Kind::Vector { min, max, .. } => format!("three numbers, each {}", range(min, max)),
         Kind::Rotation => "unit quaternion x, y, z, w".to_owned(),
         Kind::Pairs { most } => {

@@ -9,16 +9,19 @@
 
 use super::limits::{
     MAX_ALT, MAX_BALL_MM, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CONTROLS, MAX_CURVE, MAX_CUT,
-    MAX_LABEL_FILES, MAX_LABELS, MAX_POINTS, MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS,
-    MAX_STROKE_PLACES, MAX_STROKES, MAX_TEMPLATES, MIN_BALL_MM,
+    MAX_LABEL_FILES, MAX_LABELS, MAX_LAYERS, MAX_MESHES, MAX_OBJECTS, MAX_POINTS, MAX_RECIPES,
+    MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES, MAX_STROKES, MAX_TEMPLATES,
+    MIN_BALL_MM,
 };
 use super::model::{
-    Align, Camera, ConstrainBy, OpacityMode, ParamKind, RawVoxels, Step, TemplateKind, TemplateMode,
+    Align, BodyKind, Camera, ConstrainBy, Layer, MeshAxes, MeshParts, MeshReading, MeshUnits,
+    ObjectPlacement, OpacityMode, ParamKind, RawVoxels, SceneObject, Step, SurfaceLook,
+    TemplateKind, TemplateMode,
 };
 use super::text::{json, pointer};
 use crate::displace::Holds;
 use crate::math::{Placement, plain_f64};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
@@ -52,6 +55,8 @@ pub(crate) enum LeftOut {
     Alone,
     /// At its default, except in a `field`: without a placement its file says where the box lies.
     ExceptField,
+    /// At its default, except in an object with a file: without a placement the file says where it lies.
+    ExceptFile,
     /// Never: it stays even at its default.
     Never,
     /// Never: a missing key means something else than any value.
@@ -78,6 +83,8 @@ pub(crate) enum Kind {
     Builtin,
     /// The name of a template's kind.
     Template,
+    /// The name of a tool that the program generates.
+    Tool,
     /// One of several names; the first is the default.
     Name(&'static [&'static str]),
     /// A colour, `#rgb` or `#rrggbb`.
@@ -106,6 +113,8 @@ pub(crate) enum Kind {
     },
     /// One number, a lower end, or two, the ends of a range.
     Range,
+    /// Six numbers: the least x, y and z of a box and the greatest, mm.
+    Box,
     /// Three numbers, each in a closed range.
     Vector {
         /// The value of a missing key.
@@ -259,6 +268,7 @@ pub(crate) const ROOT: &[Key] = &[
     key(40, "credit", Kind::Text, "credit line"),
     key(50, "lang", Kind::Text, "language of the texts, a BCP 47 tag such as `en`"),
     key(60, "subject", Kind::Object(SUBJECT), "what is illustrated").fixed(),
+    key(65, "objects", Kind::List { of: OBJECT, most: MAX_OBJECTS, what: "objects" }, "tools and neighbours of the subject: never displaced, occluding and occluded at their true depth. Of several of one name the first counts where a name is asked for"),
     key(70, "templates", Kind::List { of: TEMPLATE, most: MAX_TEMPLATES, what: "templates" }, "deformations, in the order in which they act on the subject"),
     key(80, "look", Kind::Object(LOOK), "colours, opacity and background"),
     key(90, "camera", Kind::Object(CAMERA), "a perspective camera"),
@@ -277,8 +287,56 @@ pub(crate) const SUBJECT: &[Key] = &[
     key(250, "name", Kind::Text, "the author's name for the file"),
     key(270, "frame", Kind::Whole, "which volume of a file that holds several, counted from 0"),
     key(280, "raw", Kind::Object(RAW), "the layout of the voxels in a file that does not describe it").optional().unmade(),
+    key(275, "units", UNITS, "length of one unit of a mesh file; without it millimetres, in a GLB metres").optional(),
+    key(276, "axes", AXES, "directions of a mesh file's axes; without it what the file says, else `ras` in STL and PLY and `y-up` in OBJ and GLB").optional(),
+    key(277, "parts", PARTS, "what becomes a segment of a mesh file: each part that it names, each piece that hangs together, or the whole file"),
+    key(BY_NAME, "smooth", SMOOTH, "edges of a mesh sharper than this many degrees stay sharp; without it the file's own normals, and 40 where it has none").optional(),
+    key(282, "meshes", Kind::List { of: MESH, most: MAX_MESHES, what: "meshes" }, "meshes. With none of `builtin`, `src` and `sha256` they are the subject, else surfaces of the same patient, in the millimetres of the scan"),
+    key(284, "box", Kind::Box, "of a subject of meshes alone, the box whose centre is the origin and whose longest side is 1 unit; without it that of the vertices").optional(),
     key(290, "segments", Kind::OneOrMore { of: SEGMENTATION, most: MAX_LABEL_FILES, what: "label volumes" }, "label volumes beside the subject, or names for its own labels"),
     key(310, "features", Kind::List { of: RECIPE, most: MAX_RECIPES, what: "features" }, "recipes of segments that are made from the values of the subject"),
+];
+
+/// Units of a mesh file.
+const UNITS: Kind = Kind::Name(&MeshUnits::NAMES);
+/// Axes of a mesh file.
+const AXES: Kind = Kind::Name(&MeshAxes::NAMES);
+/// Parts of a mesh file.
+const PARTS: Kind = Kind::Name(&MeshParts::NAMES);
+/// The angle from which on an edge stays sharp, degrees.
+const SMOOTH: Kind = number(plain(MeshReading::DEFAULT_SMOOTH_DEG), 0.0, 180.0);
+
+/// Keys of an entry of `/subject/meshes`.
+#[rustfmt::skip]
+pub(crate) const MESH: &[Key] = &[
+    key(230, "src", Kind::Address, "address of a file").optional(),
+    key(240, "sha256", Kind::Hash, "hash of the file's bytes; without `src` the reader supplies the file that has it").optional(),
+    key(250, "name", Kind::Text, "the author's name for the file; the segment of a file with one part is called so, else `surface`"),
+    key(275, "units", UNITS, "length of one unit of the file; without it millimetres, in a GLB metres").optional(),
+    key(276, "axes", AXES, "directions of the file's axes; without it what the file says, else `ras` in STL and PLY and `y-up` in OBJ and GLB").optional(),
+    key(277, "parts", PARTS, "what becomes a segment: each part that the file names, each piece that hangs together, or the whole file"),
+    key(BY_NAME, "smooth", SMOOTH, "edges sharper than this many degrees stay sharp, 0 is faceted; without it the file's own normals, and 40 where it has none").optional(),
+];
+
+/// Keys of an entry of `/objects`.
+#[rustfmt::skip]
+pub(crate) const OBJECT: &[Key] = &[
+    key(210, "builtin", Kind::Tool, "a tool that the program generates, its working end towards -z; it goes before `src` and `sha256`").optional().fixed(),
+    key(230, "src", Kind::Address, "address of a mesh file").optional().fixed(),
+    key(240, "sha256", Kind::Hash, "hash of the file's bytes; without `src` the reader supplies the file that has it").optional().fixed(),
+    key(250, "name", Kind::Text, "the author's name for the object; without it `object 1` and so on").fixed(),
+    key(260, "group", Kind::Text, "objects and templates of one group are selected and moved together; the picture does not depend on it"),
+    key(275, "units", UNITS, "length of one unit of the file, where the file says where the object lies; without it millimetres, in a GLB metres").optional().fixed(),
+    key(276, "axes", AXES, "directions of the file's axes; without it what the file says, else `ras` in STL and PLY and `y-up` in OBJ and GLB").optional().fixed(),
+    key(BY_NAME, "smooth", SMOOTH, "edges sharper than this many degrees stay sharp, 0 is faceted; without it the file's own normals, and 40 where it has none").optional().fixed(),
+    key(320, "at", vector(ORIGIN, -FAR, FAR), "centre of its unturned box, subject space. An object with a file and none of `at`, `rotate` and `size` lies where its file says, in the subject's millimetres").leaves(LeftOut::ExceptFile),
+    key(330, "rotate", Kind::Rotation, "its turn about that centre").leaves(LeftOut::ExceptFile),
+    key(340, "size", number(plain(ObjectPlacement::DOCUMENT_DEFAULT.size), 0.001, 10.0), "its longest side before the turn, subject units").leaves(LeftOut::ExceptFile),
+    key(420, "enabled", Kind::Flag { default: true }, "false: the object is not drawn, and nothing is carved by it"),
+    key(520, "color", Kind::Color, "colour; without it the file's").optional(),
+    key(610, "opacity", number(1.0, 0.0, 1.0), "opacity of one crossing"),
+    key(622, "inside", Kind::Color, "colour of back sides; without it 0.75 of the colour of the point, in linear light").optional(),
+    key(626, "gloss", number(plain(SceneObject::DEFAULT_GLOSS), 0.0, 1.0), "gloss"),
 ];
 
 /// Keys of `/subject/raw`.
@@ -413,8 +471,15 @@ pub(crate) const LOOK: &[Key] = &[
     key(600, "tint", number(0.0, 0.0, 1.0), "how far segments keep their own colours over the transfer function; without it the preset's own, and 0 with listed points").optional(),
     key(610, "opacity", Kind::Name(&OpacityMode::NAMES), "how opacity follows the deformation (section 4.5.4): a surface keeps its opacity from every side, particles are conserved, or no correction"),
     key(620, "gradient", number(0.0, 0.0, 1.0), "how far opacity follows the gradient of the value, with its correction at cuts (section 6.2.5): at 1 even tissue is clear and borders stay"),
+    key(616, "body", Kind::Name(&BodyKind::NAMES), "what the bodies of meshes are: `hollow` is the surface alone, so that cuts show its back side; `thick` is a shell from the surface inwards; `solid` is full; `auto` is hollow beside a volume and where the mesh is open, else solid"),
+    key(500, "thickness", number(plain(SurfaceLook::DEFAULT_THICKNESS), plain(SurfaceLook::THICKNESS_RANGE[0]), plain(SurfaceLook::THICKNESS_RANGE[1])), "thickness of the shell of a `thick` mesh, subject units"),
+    key(622, "inside", Kind::Color, "colour of back sides of meshes, and of their cut faces without a layer; without it, in linear light, 0.75 of the colour of the point and of the segment's mean colour").optional(),
+    key(624, "layers", Kind::List { of: LAYER, most: MAX_LAYERS, what: "layers" }, "what lies under the surface of meshes: each entry is the material from its depth down to the next"),
+    key(626, "gloss", number(plain(SurfaceLook::DEFAULT_GLOSS), 0.0, 1.0), "gloss of meshes"),
     key(290, "segments", Kind::Looks(BODY), "segments that are drawn as bodies of their own, by name: `{ \"brain\": 1, \"skull\": { \"opacity\": 0.3, \"color\": \"#eadfc4\" } }`. A number is an opacity. Where segments overlap, the one that the subject lists first decides. Opacities and colours ease from step to step").unmade(),
     key(630, "background", Kind::Background, "behind the object; `none` is transparent"),
+    key(632, "scale", Kind::Flag { default: false }, "true: a scale bar in millimetres stands in the picture. It holds in the plane through the camera's target that faces the eye, and is left out where nobody knows how large the subject is"),
+    key(634, "sides", Kind::Flag { default: false }, "true: letters of the patient's sides (R, L, A, P, S, I) stand at the edges of the picture"),
 ];
 
 /// Keys of a point in `/look/transfer`.
@@ -429,7 +494,21 @@ pub(crate) const TRANSFER: &[Key] = &[
 #[rustfmt::skip]
 pub(crate) const BODY: &[Key] = &[
     key(520, "color", Kind::Color, "colour; without it the segment's own").optional(),
-    key(610, "opacity", number(1.0, 0.0, 1.0), "1 is solid, 0 is hidden; between them the opacity of a layer of 0.05 subject units").stays(),
+    key(610, "opacity", number(1.0, 0.0, 1.0), "1 is solid, 0 is hidden; between them the opacity of a layer of 0.05 subject units. Of a mesh, the opacity of one crossing or one cut face; without it the file's").stays(),
+    key(616, "body", Kind::Name(&BodyKind::NAMES), "what the body of a mesh is; without this key and the next ones as in `look`").optional(),
+    key(500, "thickness", number(plain(SurfaceLook::DEFAULT_THICKNESS), plain(SurfaceLook::THICKNESS_RANGE[0]), plain(SurfaceLook::THICKNESS_RANGE[1])), "thickness of the shell of a `thick` mesh, subject units").optional(),
+    key(622, "inside", Kind::Color, "colour of back sides of a mesh, and of its cut faces without a layer").optional(),
+    key(624, "layers", Kind::List { of: LAYER, most: MAX_LAYERS, what: "layers" }, "what lies under the surface of a mesh; an empty list is nothing").optional(),
+    key(626, "gloss", number(plain(SurfaceLook::DEFAULT_GLOSS), 0.0, 1.0), "gloss of a mesh").optional(),
+];
+
+/// Keys of a layer in `/look/layers` or in `layers` of an entry of `/look/segments`.
+#[rustfmt::skip]
+pub(crate) const LAYER: &[Key] = &[
+    key(490, "depth", number(0.0, 0.0, 1.0), "where the material begins, subject units under the surface"),
+    key(250, "name", Kind::Text, "name of the material, which `keep` may ask for; a segment of the same name comes first"),
+    key(520, "color", Kind::Color, "colour; without it that of cut faces without a layer").optional(),
+    key(628, "grain", number(0.0, 0.0, plain(Layer::MAX_GRAIN)), "how much the colour varies from place to place"),
 ];
 
 /// Keys of `/camera`.
@@ -674,9 +753,39 @@ fn component(rest: &[String], default: [f64; 3], min: f64, max: f64) -> Option<S
     })
 }
 
-/// True if a step may not set what stands under this key of the document.
-pub(crate) fn is_fixed(key: &str) -> bool {
-    find(ROOT, key).is_some_and(|key| key.is_fixed)
+/// True if a step may not set what stands at this path, whatever it is there.
+pub(crate) fn is_fixed(path: &[String]) -> bool {
+    let mut path = path.iter();
+    let mut keys = ROOT;
+    while let Some(key) = path.next().and_then(|name| find(keys, name)) {
+        if key.is_fixed {
+            return true;
+        }
+        keys = match key.kind {
+            Kind::Object(of) => of,
+            Kind::List { of, .. } => {
+                path.next();
+                of
+            }
+            _ => return false,
+        };
+    }
+    false
+}
+
+/// The list of the document with entries that have fixed keys, if the path leads to it or to one of its entries.
+pub(crate) fn list_with_fixed(path: &[String]) -> Option<(&'static str, &'static [Key])> {
+    let key = find(ROOT, path.first()?).filter(|_| path.len() < 3)?;
+    match key.kind {
+        Kind::List { of, .. } if of.iter().any(|key| key.is_fixed) => Some((key.name, of)),
+        _ => None,
+    }
+}
+
+/// True if the JSON of an object of the scene takes its triangles from a file.
+pub(crate) fn is_of_file(object: &Map<String, Value>) -> bool {
+    let has = |key| object.contains_key(key);
+    !has("builtin") && (has("src") || has("sha256"))
 }
 
 /// Calls `visit` with every object of the document: its JSON pointer, where `*` stands for an index or a name; what a
@@ -755,7 +864,7 @@ mod tests {
                 assert!(!key.meaning.is_empty(), "{at}/{} has no meaning", key.name);
             }
         });
-        assert!(order.len() > 60, "only {} names were seen", order.len());
+        assert!(order.len() > 80, "only {} names were seen", order.len());
     }
 
     #[test]

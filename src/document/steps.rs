@@ -1,7 +1,7 @@
 //! Steps: what each of them sets in the document.
 
 use super::read::resolve;
-use super::schema::is_fixed;
+use super::schema::{Key, is_fixed, list_with_fixed};
 use super::text::{DocumentError, Notice, NoticeKind, json, pointer};
 use super::write::set;
 use serde_json::{Map, Value};
@@ -90,6 +90,18 @@ fn without_steps(root: &Value) -> Value {
     }
 }
 
+/// What of the entries of a list no step may change: how many there are, and their values under fixed keys. An empty
+/// text is no value.
+fn fixed_parts(state: &Value, list: &str, of: &[Key]) -> Vec<Vec<Option<Value>>> {
+    let entries = state.get(list).and_then(Value::as_array);
+    let fixed_of = |entry: &Value| {
+        let fixed = of.iter().filter(|key| key.is_fixed);
+        let value = |key: &Key| entry.get(key.name).filter(|v| v.as_str() != Some(""));
+        fixed.map(|key| value(key).cloned()).collect()
+    };
+    entries.into_iter().flatten().map(fixed_of).collect()
+}
+
 fn apply(
     state: &mut Value,
     step: &Value,
@@ -102,11 +114,17 @@ fn apply(
     for (target, value) in values {
         let entry = || pointer::shortened(&pointer::join(at, target));
         let keys = pointer::keys(target)?;
-        match keys.first() {
-            Some(first) if !is_fixed(first) => {}
-            _ => return Err(DocumentError::Refused { pointer: entry() }),
+        let refused = || DocumentError::Refused { pointer: entry() };
+        if keys.is_empty() || is_fixed(&keys) {
+            return Err(refused());
         }
-        match set(state, target, value.clone()) {
+        let whole = list_with_fixed(&keys);
+        let before = whole.map(|(list, of)| fixed_parts(state, list, of));
+        let result = set(state, target, value.clone());
+        if before != whole.map(|(list, of)| fixed_parts(state, list, of)) {
+            return Err(refused());
+        }
+        match result {
             Ok(()) => {}
             Err(DocumentError::NotFound { .. }) => dangling(entry(), &pointer::shortened(target)),
             Err(other) => return Err(other),

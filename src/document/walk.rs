@@ -81,6 +81,14 @@ impl Walk {
         self.shown.as_deref()
     }
 
+    /// What is shown in place of the document at the step where it stands or that it is under way to.
+    pub fn bound_for(&self) -> Option<&Illustration> {
+        match &self.passage {
+            Some(passage) => Some(&passage.ends[1]),
+            None => self.shown(),
+        }
+    }
+
     /// True in the middle of a passage, whether it goes on or stands still.
     pub fn is_between(&self) -> bool {
         self.passage.is_some()

@@ -407,7 +407,15 @@ fn read_stack(
     };
     report.stored_type = stored.name();
     report.dims = dims;
-    let header = geometry::header(name, &layout, stack.world_from_voxel, slope, intercept)?;
+    let has_size = report.tells_size();
+    let header = geometry::header(
+        name,
+        &layout,
+        stack.world_from_voxel,
+        slope,
+        intercept,
+        has_size,
+    )?;
     let mut slices = Slices {
         files,
         asked_by: name,

@@ -151,6 +151,12 @@ pub enum LoadError {
         /// The message of the receiver.
         message: String,
     },
+    /// A file that gave no mesh.
+    #[error("{message}")]
+    Mesh {
+        /// What was expected, what was found, and where, with the name of the file.
+        message: String,
+    },
     /// The user stopped it, or the receiver gave up.
     #[error("stopped before the file was read")]
     Cancelled,

@@ -64,6 +64,7 @@ impl LoadError {
             | Self::NoSuchFrame { .. }
             | Self::Refused { .. }
             | Self::Cancelled
+            | Self::Mesh { .. }
             | Self::NotField { .. }
             | Self::NotLabels { .. } => return None,
         })

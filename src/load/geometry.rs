@@ -74,6 +74,7 @@ pub(crate) fn header(
     world_from_voxel: DAffine3,
     slope: f32,
     intercept: f32,
+    has_size: bool,
 ) -> Result<Volume, LoadError> {
     if layout.dims.cmpeq(UVec3::ZERO).any() {
         return Err(LoadError::Unsupported {
@@ -94,6 +95,7 @@ pub(crate) fn header(
         intercept,
         value_range: [0.0, 0.0],
         segmentation: None,
+        has_size,
     })
 }
 

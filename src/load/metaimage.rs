@@ -208,7 +208,14 @@ pub(crate) fn read_header(
         (slope, intercept) = (1.0, 0.0);
     }
     Ok(Header {
-        volume: geometry::header(&name, &layout, world_from_voxel, slope, intercept)?,
+        volume: geometry::header(
+            &name,
+            &layout,
+            world_from_voxel,
+            slope,
+            intercept,
+            report.tells_size(),
+        )?,
         place: Place {
             layout,
             encoding,
@@ -250,6 +257,7 @@ fn world_from_voxel(
         Some(sizes) => Some(sizes),
         None => fields.numbers("elementsize", n)?,
     };
+    report.lacks_spacing = sizes.is_none();
     for (axis, found) in sizes.unwrap_or_default().into_iter().enumerate() {
         if found.is_finite() && found != 0.0 {
             spacing[axis] = found.abs();

@@ -288,7 +288,14 @@ fn understand(
     let (slope, intercept) = scale(fields, format, element, report);
     let world_from_voxel = orientation(fields, format, dims, report);
     Ok(Header {
-        volume: geometry::header(name, &layout, world_from_voxel, slope, intercept)?,
+        volume: geometry::header(
+            name,
+            &layout,
+            world_from_voxel,
+            slope,
+            intercept,
+            report.tells_size(),
+        )?,
         layout,
         frame_bytes: layout.byte_count().unwrap_or(u64::MAX),
         vox_offset,

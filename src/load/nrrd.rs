@@ -241,7 +241,14 @@ pub(crate) fn read_header(
     let line_skip = fields.number::<u64>("lineskip", "0 or more")?.unwrap_or(0);
     let files = data_files(&fields)?;
     Ok(Header {
-        volume: geometry::header(&name, &layout, world_from_voxel, 1.0, 0.0)?,
+        volume: geometry::header(
+            &name,
+            &layout,
+            world_from_voxel,
+            1.0,
+            0.0,
+            report.tells_size(),
+        )?,
         place: Place {
             layout,
             encoding,
@@ -460,6 +467,7 @@ impl Axes {
         let spacings = per_axis(fields, "spacings", rank);
         let thicknesses = per_axis(fields, "thicknesses", rank);
         let mut spacing = DVec3::ONE;
+        report.lacks_spacing = spacings.is_empty() && thicknesses.is_empty();
         for (i, &axis) in self.spatial.iter().enumerate() {
             let found = spacings
                 .get(axis)

@@ -183,7 +183,14 @@ pub fn read_raw(
     report.dims = dims;
     report.frame_count = 1;
     let header = place::Header {
-        volume: geometry::header(name, &layout, world_from_voxel, 1.0, 0.0)?,
+        volume: geometry::header(
+            name,
+            &layout,
+            world_from_voxel,
+            1.0,
+            0.0,
+            report.tells_size(),
+        )?,
         place: Place {
             layout,
             encoding: Encoding::Raw,

@@ -109,6 +109,11 @@ pub enum Warning {
         /// What is wrong with the field, and how the reader went on.
         what: String,
     },
+    /// A mesh was repaired, or something of it is left aside.
+    Mesh {
+        /// What was done, or what is left aside.
+        what: String,
+    },
     /// Label names in the file could not be understood.
     LabelNames,
     /// Segments on several layers: only the first layer is shown.
@@ -175,6 +180,7 @@ impl fmt::Display for Warning {
                 write!(f, "{count} voxels belong to several segments; the last is shown")
             }
             Self::Repaired { field, what } => write!(f, "{field}: {what}"),
+            Self::Mesh { what } => f.write_str(what),
             Self::LabelNames => f.write_str("the names of the labels could not be read"),
             Self::Layers { count } => write!(
                 f,
@@ -251,6 +257,8 @@ pub struct LoadReport {
     pub sha256: Option<[u8; 32]>,
     /// Bytes read, as they lie on disk.
     pub bytes_read: u64,
+    /// The header has no field for the size of voxels; 1 mm was taken.
+    pub lacks_spacing: bool,
 }
 
 /// A name out of a file, made fit for a line on a screen: no control characters, 200 characters at most.
@@ -269,6 +277,13 @@ impl LoadReport {
         if !self.warnings.contains(&warning) {
             self.warnings.push(warning);
         }
+    }
+
+    /// True if the file says how large its voxels are, as far as it was read.
+    pub(crate) fn tells_size(&self) -> bool {
+        let is_about_size =
+            |w: &Warning| matches!(w, Warning::BadSpacing { .. } | Warning::NoPixelSpacing);
+        !self.lacks_spacing && !self.warnings.iter().any(is_about_size)
     }
 
     /// The hash as the document writes it: 64 hexadecimal digits.

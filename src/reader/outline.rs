@@ -56,15 +56,20 @@ pub fn outline(text: &str) -> Result<(Document, Value), String> {
     Ok((document, found))
 }
 
-/// What a step can set of the texts around a picture: `captions` (texts) and `background` (`#rrggbb`, or null where it
-/// is transparent).
+/// What a step can set of the texts around a picture: `title`, `legend`, `captions` (texts) and `background`
+/// (`#rrggbb`, or null where it is transparent).
 pub fn texts(shown: &Illustration) -> Value {
     let captions: Vec<&str> = shown.captions.iter().map(|c| c.text.trim()).collect();
     let background = match shown.look.background {
         Background::Color([r, g, b]) => Some(format!("#{r:02x}{g:02x}{b:02x}")),
         Background::None => None,
     };
-    json!({ "captions": captions, "background": background })
+    json!({
+        "title": shown.title,
+        "legend": shown.legend,
+        "captions": captions,
+        "background": background,
+    })
 }
 
 #[cfg(test)]

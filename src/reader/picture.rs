@@ -1,13 +1,16 @@
 //! One visit, drawn.
 
 use glam::Vec2;
+use serde_json::{Value, json};
 
 use super::stock::Stock;
 use super::visit::Visit;
 use crate::describe::{Lang, Measured, Sight, describe};
 use crate::document::Illustration;
 use crate::math::columns;
-use crate::render::{Clock, FollowedCaptions, Gpu, Image, RenderError, Renderer, SIGHT_PX, View};
+use crate::render::{
+    Clock, FollowedCaptions, Gpu, Image, Marks, RenderError, Renderer, SIGHT_PX, View,
+};
 
 /// Samples per pixel of a picture that is read back.
 const SAMPLES: u32 = 4;
@@ -129,7 +132,14 @@ impl Picture {
     /// tissue is outside of the frame), the place of its tissue, and the top left corner of its text; those of the
     /// states 2 and 3 have no places. `sizes` has the width and height of each caption's text. Lengths are of the
     /// unit of `area`, the width and height of the picture as it is shown; `gap` lies between texts and around them.
-    pub fn captions(&self, area: [f32; 2], sizes: &[f32], gap: f32) -> Vec<f32> {
+    /// `edges` is kept free for letters at the edges, and `foot` at the lower edge for a scale bar.
+    pub fn captions(
+        &self,
+        area: [f32; 2],
+        sizes: &[f32],
+        gap: f32,
+        [edges, foot]: [f32; 2],
+    ) -> Vec<f32> {
         let Some(seen) = &self.seen else {
             return Vec::new();
         };
@@ -159,7 +169,9 @@ impl Picture {
         }
         let points: Vec<Vec2> = found.iter().map(|found| found.1).collect();
         let sizes: Vec<Vec2> = found.iter().map(|found| found.3).collect();
-        let room = [Vec2::splat(gap), area - Vec2::splat(gap)];
+        let margin = Vec2::splat(gap + edges);
+        let below = Vec2::new(margin.x, margin.y.max(gap + foot));
+        let room = [margin, area - below];
         let corners = columns::arranged(&points, &sizes, gap, room);
         let rows = found.iter().zip(corners);
         let rows = rows.flat_map(|(&(index, at, is_hidden, _), corner)| {
@@ -167,6 +179,17 @@ impl Picture {
             [index as f32, is_hidden, at.x, at.y, corner.x, corner.y]
         });
         rows.chain(absent).collect()
+    }
+
+    /// What stands at the picture's edges, as JSON: `bar`, its part of the picture's width and its text, or null;
+    /// `sides`, the letters at the left, right, upper and lower edge, or null.
+    pub fn marks(&self, mm_per_unit: Option<f64>) -> Value {
+        let Some(seen) = &self.seen else {
+            return Value::Null;
+        };
+        let Marks { bar, sides } = Marks::of(seen, self.size_px, mm_per_unit);
+        let width = self.size_px[0].max(1) as f32;
+        json!({ "bar": bar.map(|bar| json!([bar.length_px / width, bar.text()])), "sides": sides })
     }
 
     /// The picture in words: what was done, what was kept, from where one looks and, where it has been drawn, what is
@@ -215,6 +238,12 @@ impl Picture {
     pub fn destroy(&mut self) {
         (self.given, self.is_complete) = ((0, 0), false);
         self.renderer.destroy_own();
+    }
+
+    /// Lets go of the data too; the visit stays as it is.
+    pub fn forget_subject(&mut self) {
+        (self.given, self.is_complete) = ((0, 0), false);
+        self.renderer.forget_shared_subject();
     }
 
     /// Goes on with another device after the old one was lost.

@@ -1,6 +1,6 @@
 //! The data of documents: a subject with its segments, on the GPU once for all pictures that show it.
 
-use crate::assets::{Assets, Data, LoadEvent, Role, TissueWork, Want};
+use crate::assets::{Assets, Data, LoadEvent, Role, Source, TissueWork, Want, Wanted};
 use crate::data::{Resources, SubjectBuilder, SubjectSink as _};
 use crate::document::{Illustration, Recipe, SegmentsRef, SubjectRef};
 use crate::load::{FieldFile, LabelFile};
@@ -111,7 +111,7 @@ impl Stock {
         missing.retain(|want| match want.role {
             Role::Subject => true,
             Role::Segments => self.is_whole && want.src().is_some(),
-            Role::Field => false,
+            Role::Field | Role::Mesh | Role::Object => false,
         });
         missing.retain(|want| !self.assets.is_refused(want));
         self.loading = missing.into_iter().next();
@@ -132,6 +132,11 @@ impl Stock {
         Some(subject.frame().mm_per_unit)
     }
 
+    /// Millimetres in one subject unit, once there is a subject whose file says how large it is.
+    pub fn known_mm_per_unit(&self) -> Option<f64> {
+        self.assets.subject()?.mm_per_unit()
+    }
+
     /// What is under way, and how far it is, 0 to 1.
     pub fn loading(&self) -> Option<(&Want, f32)> {
         self.loading.as_ref().map(|want| (want, self.fraction))
@@ -144,6 +149,14 @@ impl Stock {
         self.assets.forget_addresses();
         (self.loading, self.incoming) = (None, SubjectBuilder::default());
         !self.is_whole
+    }
+
+    /// True if everything can be had again: nothing of it is a file that only the reader has.
+    pub fn can_come_again(&self) -> bool {
+        let wanted = Wanted::of(&self.illustration).0;
+        !wanted
+            .iter()
+            .any(|want| matches!(want.source, Source::File { src: None, .. }))
     }
 
     /// What is wrong, the newest last.

@@ -71,6 +71,12 @@ impl Visit {
         walked.unwrap_or_else(|| self.document.illustration())
     }
 
+    /// What is drawn at the step that is shown or that a passage leads to: texts switch at the start of a passage.
+    pub fn bound_for(&self) -> &Illustration {
+        let walked = self.walk.bound_for();
+        walked.unwrap_or_else(|| self.document.illustration())
+    }
+
     /// From where it is seen.
     pub fn camera(&self) -> &Camera {
         &self.camera
@@ -306,6 +312,25 @@ mod tests {
 
     fn near(a: f64, b: f64) -> bool {
         (a - b).abs() < 1e-6
+    }
+
+    #[test]
+    fn texts_switch_at_the_start_of_a_passage() {
+        let json = r##"{ "fabrica": 1, "title": "Whole", "labels": [{ "text": "a" }],
+            "steps": [{ "set": { "/title": "Open", "/labels/0/text": "b" }, "seconds": 2 }] }"##;
+        let mut visit = Visit::open(json, None).expect("a document");
+        let told = |visit: &Visit| {
+            let bound = visit.bound_for();
+            (bound.title.clone(), bound.captions[0].text.clone())
+        };
+        assert_eq!(told(&visit), ("Whole".to_owned(), "a".to_owned()));
+        visit.go(1, 10.0, false);
+        assert_eq!(visit.shown().title, "Whole", "nothing was drawn yet");
+        assert_eq!(told(&visit), ("Open".to_owned(), "b".to_owned()));
+        while visit.advance(20.0, false) {}
+        assert_eq!(told(&visit), ("Open".to_owned(), "b".to_owned()));
+        visit.go(0, 30.0, false);
+        assert_eq!(told(&visit), ("Whole".to_owned(), "a".to_owned()));
     }
 
     #[test]

@@ -74,6 +74,7 @@ impl Drop for Scene {
             &self.kept_textures.uniform,
             &self.bodies.uniform,
             &self.look.uniform,
+            &self.look.mesh_uniform,
             &self.no_grid.0,
         ];
         for buffer in buffers {
@@ -159,6 +160,7 @@ impl Scene {
         self.bodies
             .update(gpu, &programs.bodies, subject, &inputs.bodies);
         self.look.update(gpu, subject, &inputs.look);
+        self.look.update_mesh(gpu, &inputs.mesh_look);
         if let Some(grid) = &mut self.grid {
             let input = GridInput {
                 inputs,
@@ -340,6 +342,7 @@ impl Bound<'_> {
                 entry(7, view(&self.fields.view)),
                 entry(8, self.bodies.uniform.as_entire_binding()),
                 entry(9, view(&self.bodies.view)),
+                entry(10, self.look.mesh_uniform.as_entire_binding()),
             ],
         })
     }

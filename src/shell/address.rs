@@ -20,11 +20,10 @@ pub(super) fn foreign_host(address: &str) -> Option<String> {
 pub(super) fn part_of(document: &Document, base: &str) -> Option<Part> {
     match &document.illustration().subject {
         SubjectRef::Builtin { .. } => Some(Part::Subjects),
-        SubjectRef::Address { src, .. } => {
-            let address = absolute(src, base).ok()?;
+        subject => {
+            let address = absolute(subject.src()?, base).ok()?;
             foreign_host(&address).is_none().then_some(Part::Scans)
         }
-        SubjectRef::Supplied { .. } => None,
     }
 }
 

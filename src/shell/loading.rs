@@ -9,8 +9,9 @@ use crate::assets::{LoadEvent, RawQuestion, SegmentationsExpected};
 use crate::data::{Reducer, SubjectPart, SubjectSink, VolumeLimits};
 use crate::document::Reading;
 use crate::load::{
-    FileSet, LabelSource, LoadError, LoadReport, RawLayout, ReadOptions, Warning, is_segmentation,
-    read_header, read_label_file, read_raw, read_subject,
+    FileSet, LabelSource, LoadError, LoadReport, MeshOptions, MeshOrNot, RawLayout, ReadOptions,
+    Warning, is_segmentation, mesh_or_not, read_header, read_label_file, read_mesh_subject,
+    read_raw, read_subject,
 };
 use crate::subjects::{COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab};
 
@@ -282,6 +283,13 @@ pub fn read_scan(
         frame: reading.frame,
         ..ReadOptions::default()
     };
+    // A file that cannot be opened twice is read as a scan, whose reader names a mesh.
+    let may_be_mesh = reading.raw.is_none() && files.can_reopen();
+    if may_be_mesh && matches!(mesh_or_not(files, name)?, MeshOrNot::Mesh(_)) {
+        let options = MeshOptions::from(&reading.mesh);
+        let smooth_deg = reading.mesh.smooth_deg;
+        return read_mesh_subject(files, name, &options, smooth_deg, sink, report);
+    }
     match &reading.raw {
         Some(raw) => read_raw(files, name, &RawLayout::from(raw), &options, sink, report),
         None => {
@@ -567,6 +575,7 @@ mod tests {
         let done = read(&Reading {
             frame,
             raw: Some(raw),
+            ..Reading::default()
         });
         assert!(
             matches!(done, Some(LoadEvent::Done { sha256: Some(_) })),

@@ -551,8 +551,8 @@ impl Services for NativeServices {
             },
         };
         match want.role {
-            Role::Subject | Role::Field => self.start_file(path, true, want.reading.clone()),
             Role::Segments => self.start_segments(path),
+            _ => self.start_file(path, true, want.reading.clone()),
         }
     }
 
@@ -599,6 +599,7 @@ impl Services for NativeServices {
             let reading = Reading {
                 frame: 0,
                 raw: Some(raw.clone()),
+                ..Reading::default()
             };
             self.read(ticket, is_wanted, path, reading);
         }

@@ -156,7 +156,7 @@ impl PageServices {
             (page.place.worker.clone(), page.limits)
         };
         let weak = Rc::downgrade(&self.0);
-        run::start(&worker, task, limits, move |answer| {
+        run::start(&worker.as_str().into(), task, limits, move |answer| {
             if let Some(page) = weak.upgrade() {
                 on_answer(&Self(page), answer);
             }
@@ -260,7 +260,7 @@ impl PageServices {
             Err(format!("{name} could not be read, or has more than 256 MB"))
         } else {
             let worker = self.0.borrow().place.worker.clone();
-            run::read_field(&worker, name.clone(), blob.clone()).await
+            run::read_field(&worker.as_str().into(), name.clone(), blob.clone()).await
         };
         self.take_field(want, vec![(name, blob)], outcome);
     }
@@ -573,6 +573,7 @@ impl Services for PageServices {
             let reading = Reading {
                 frame: 0,
                 raw: Some(raw.clone()),
+                ..Reading::default()
             };
             let labels = self.0.borrow().labels.clone();
             self.start(ticket, &scan_task(files, reading, labels));

@@ -14,11 +14,10 @@ use super::address::{absolute, fetched, foreign_host, part_of};
 use super::loading::wanted_file;
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
-use super::worker::run::{self, WorkerLoad};
+use super::worker::run::{self, Maker, WorkerLoad};
 use super::worker::task::{Part, ScanTask, Task};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::describe::{Lang, seen_from};
-use crate::document::SubjectRef;
 use crate::link::{self, Qr};
 use crate::reader::{Picture, Stock, StockKey, Visit, outline, texts};
 use crate::render::{Gpu, GpuOptions, RenderError};
@@ -75,6 +74,9 @@ const IS_MOVING: u32 = 4;
 /// All that there is to draw is drawn; more comes when a load goes on.
 const WAITS: u32 = 8;
 
+/// Bytes that all subjects of a page may take on the device, unless the picture in use needs more.
+const BUDGET: u64 = 512 << 20;
+
 /// A picture and the canvas that it is shown on.
 struct Shown {
     picture: Picture,
@@ -83,6 +85,8 @@ struct Shown {
     configured: [u32; 2],
     stock: u32,
     base: String,
+    /// It has given its memory back since it was drawn.
+    is_resting: bool,
 }
 
 /// A stock and what is being fetched for it.
@@ -95,16 +99,20 @@ struct Stocked {
     wants_file: bool,
     /// Fields that are being fetched.
     fields: Vec<Want>,
+    /// When a picture of it was drawn last, seconds.
+    used: f64,
 }
 
 struct Inner {
     instance: wgpu::Instance,
     gpu: Gpu,
-    /// Address of worker.js.
-    worker: String,
+    /// Makes workers for parts of the program.
+    worker: Maker,
     shown: BTreeMap<u32, Shown>,
     stocks: BTreeMap<u32, Stocked>,
     next_id: u32,
+    /// Bytes that all subjects may take on the device.
+    budget: u64,
     allowed_hosts: BTreeSet<String>,
     /// Passages are cut, since the reader wants less motion.
     has_less_motion: bool,
@@ -122,22 +130,23 @@ pub struct Reader {
 
 #[wasm_bindgen]
 impl Reader {
-    /// Opens a device. `worker` is the address of worker.js; `on_news` is called when something has come of a load, so
-    /// that a frame is due.
+    /// Opens a device. `worker` makes a worker, or what behaves like one; `on_news` is called when something has come
+    /// of a load, so that a frame is due.
     ///
     /// # Errors
     /// If there is no device.
-    pub async fn start(worker: String, on_news: Function) -> Result<Reader, JsValue> {
+    pub async fn start(worker: Function, on_news: Function) -> Result<Reader, JsValue> {
         let gpu = open_gpu().await?;
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
         let inner = Inner {
             instance: wgpu::Instance::new(descriptor),
             gpu,
-            worker,
+            worker: Maker::Page(worker),
             shown: BTreeMap::new(),
             stocks: BTreeMap::new(),
             next_id: 1,
+            budget: BUDGET,
             allowed_hosts: BTreeSet::new(),
             has_less_motion: false,
             on_news,
@@ -180,6 +189,7 @@ impl Reader {
             configured: [0, 0],
             stock: 0,
             base,
+            is_resting: false,
         };
         shown.stock = inner.stock_for(&shown.picture.visit, &shown.base);
         inner.shown.insert(id, shown);
@@ -198,9 +208,31 @@ impl Reader {
     /// Gives the picture's memory on the device back; what its canvas shows stays. The next [`Reader::draw`] makes it
     /// anew.
     pub fn rest(&self, id: u32) {
-        if let Some(shown) = self.inner.borrow_mut().shown.get_mut(&id) {
+        let mut inner = self.inner.borrow_mut();
+        if let Some(shown) = inner.shown.get_mut(&id) {
             shown.picture.destroy();
+            shown.is_resting = true;
         }
+        inner.keep_budget();
+    }
+
+    /// Somebody turns to a picture: its data are used from now on, though nothing of it may have to be drawn yet.
+    pub fn turn_to(&self, id: u32) {
+        let mut inner = self.inner.borrow_mut();
+        let inner = &mut *inner;
+        if let Some(shown) = inner.shown.get_mut(&id) {
+            shown.is_resting = false;
+            if let Some(stocked) = inner.stocks.get_mut(&shown.stock) {
+                stocked.used = seconds();
+            }
+        }
+    }
+
+    /// Sets how many bytes all subjects together may take on the device.
+    pub fn set_budget(&self, bytes: f64) {
+        let mut inner = self.inner.borrow_mut();
+        inner.budget = bytes as u64;
+        inner.keep_budget();
     }
 
     /// Takes everything away, the device too.
@@ -258,9 +290,13 @@ impl Reader {
         let Some(shown) = inner.shown.get_mut(&id) else {
             return Ok(0);
         };
+        shown.is_resting = false;
         let Some(stocked) = inner.stocks.get_mut(&shown.stock) else {
+            // Its data have given way to others. They are fetched again before the next frame.
+            inner.restock(id);
             return Ok(0);
         };
+        stocked.used = now;
         let is_cut = inner.has_less_motion;
         let passes = match shown.picture.is_asking() {
             true => shown.picture.visit.is_moving(),
@@ -308,23 +344,21 @@ impl Reader {
         let Some(shown) = inner.shown.get(&id) else {
             return "{}".to_owned();
         };
-        let Some(stocked) = inner.stocks.get(&shown.stock) else {
-            return "{}".to_owned();
-        };
-        let (stock, visit) = (&stocked.stock, &shown.picture.visit);
+        // There is none while its data have given way to others: nothing is under way then, and nothing wrong.
+        let stocked = inner.stocks.get(&shown.stock);
+        let (stock, visit) = (stocked.map(|s| &s.stock), &shown.picture.visit);
         let subject = &visit.document().illustration().subject;
-        let is_supplied = matches!(subject, SubjectRef::Supplied { .. });
-        let troubles: Vec<&str> = stock
-            .troubles()
-            .iter()
-            .map(|t| t.message.as_str())
-            .collect();
+        let is_supplied = subject.supplied_sha256().is_some();
+        let has_failed = stock.is_some_and(Stock::has_failed);
+        let troubles = stock.map_or(&[][..], Stock::troubles);
+        let troubles: Vec<&str> = troubles.iter().map(|t| t.message.as_str()).collect();
+        let asks = stocked.and_then(|s| s.asks.as_ref());
         json!({
-            "progress": stock.loading().map(|(_, fraction)| fraction),
-            "host": stocked.asks.as_ref().map(|(_, _, host)| host),
-            "file": stocked.wants_file || (stock.has_failed() && is_supplied),
+            "progress": stock.and_then(|stock| stock.loading()).map(|(_, fraction)| fraction),
+            "host": asks.map(|(_, _, host)| host),
+            "file": stocked.is_some_and(|s| s.wants_file) || (has_failed && is_supplied),
             "troubles": troubles,
-            "failed": stock.has_failed(),
+            "failed": has_failed,
             "step": visit.step(),
             "position": visit.position(),
             "moving": visit.is_moving(),
@@ -455,18 +489,33 @@ impl Reader {
         Ok(())
     }
 
-    /// Captions and background of what is shown, as JSON: see `fabrica::reader::texts`.
+    /// Title, legend, captions and background of the step that is shown or under way to, as JSON: see
+    /// `fabrica::reader::texts`.
     pub fn texts(&self, id: u32) -> String {
-        self.with(id, |visit| texts(visit.shown()).to_string())
+        self.with(id, |visit| texts(visit.bound_for()).to_string())
     }
 
     /// Where captions go: six numbers for each one that is in the picture. See `fabrica::reader::Picture::captions`.
-    pub fn captions(&self, id: u32, width: f32, height: f32, sizes: &[f32], gap: f32) -> Vec<f32> {
+    /// `room` is the width and height of the picture, what lies between texts and around them, and what is kept free at
+    /// the edges and at the foot.
+    pub fn captions(&self, id: u32, sizes: &[f32], room: &[f32]) -> Vec<f32> {
         let inner = self.inner.borrow();
-        let shown = inner.shown.get(&id);
-        shown.map_or_else(Vec::new, |shown| {
-            shown.picture.captions([width, height], sizes, gap)
-        })
+        let (Some(shown), &[width, height, gap, edges, foot]) = (inner.shown.get(&id), room) else {
+            return Vec::new();
+        };
+        let picture = &shown.picture;
+        picture.captions([width, height], sizes, gap, [edges, foot])
+    }
+
+    /// What stands at the picture's edges, as JSON: see `fabrica::reader::Picture::marks`.
+    pub fn marks(&self, id: u32) -> String {
+        let inner = self.inner.borrow();
+        let Some(shown) = inner.shown.get(&id) else {
+            return "null".to_owned();
+        };
+        let stocked = inner.stocks.get(&shown.stock);
+        let mm_per_unit = stocked.and_then(|stocked| stocked.stock.known_mm_per_unit());
+        shown.picture.marks(mm_per_unit).to_string()
     }
 
     /// The picture, drawn once more in full: a Promise of its bytes (sRGB with straight alpha, rows from
@@ -651,6 +700,7 @@ impl Inner {
             asks: None,
             wants_file: false,
             fields: Vec::new(),
+            used: seconds(),
         };
         self.stocks.insert(id, stocked);
         id
@@ -668,6 +718,32 @@ impl Inner {
         }
         self.shown.insert(id, shown);
         self.drop_unused();
+    }
+
+    /// Lets go of the subjects that were not drawn for the longest time while all of them take more than they may.
+    /// Those of pictures that do not rest stay, and those that only the reader has.
+    fn keep_budget(&mut self) {
+        loop {
+            let bytes = self.stocks.values().map(|s| s.stock.host().subject_bytes());
+            if bytes.sum::<u64>() <= self.budget {
+                return;
+            }
+            let pictures = self.shown.values().filter(|shown| !shown.is_resting);
+            let busy: BTreeSet<u32> = pictures.map(|shown| shown.stock).collect();
+            let idle = self
+                .stocks
+                .iter()
+                .filter(|(id, s)| !busy.contains(id) && s.stock.can_come_again());
+            let oldest = idle.min_by(|(_, a), (_, b)| a.used.total_cmp(&b.used));
+            let Some(oldest) = oldest.map(|(id, _)| *id) else {
+                return;
+            };
+            self.stocks.remove(&oldest);
+            let pictures = self.shown.values_mut();
+            for shown in pictures.filter(|shown| shown.stock == oldest) {
+                shown.picture.forget_subject();
+            }
+        }
     }
 
     fn drop_unused(&mut self) {
@@ -808,7 +884,7 @@ impl Inner {
 }
 
 /// Reads a displacement field of the page's own host.
-async fn field(worker: &str, want: &Want, base: &str) -> Result<crate::load::FieldFile, String> {
+async fn field(worker: &Maker, want: &Want, base: &str) -> Result<crate::load::FieldFile, String> {
     let missing = match &want.source {
         Source::Builtin(name) | Source::File { name, .. } => wanted_file(name),
     };

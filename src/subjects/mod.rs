@@ -185,6 +185,7 @@ impl Generator {
             slope: 1.0,
             intercept: 0.0,
             value_range: self.model.value_range(),
+            has_size: true,
             segmentation: Some(Segmentation {
                 grid,
                 labels: Vec::new(),

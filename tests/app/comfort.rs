@@ -71,17 +71,7 @@ fn title_and_credit_are_written_into_a_saved_picture() {
             window.click("Write title, credit and labels into saved pictures");
             assert_eq!(stored(&window, "lettering").as_deref(), Some("yes"));
         }
-        let before = window.log.0.borrow().saved.len();
-        window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
-        let patience = clock() + 120.0;
-        while clock() < patience && window.log.0.borrow().saved.len() == before {
-            window.steps(1);
-        }
-        let log = window.log.0.borrow();
-        let file = log.saved.get(before).expect("a picture was saved");
-        image::load_from_memory(&file.bytes)
-            .expect("a PNG")
-            .to_rgba8()
+        window.saved_picture()
     };
     let plain = save(false);
     let lettered = save(true);

@@ -1,7 +1,9 @@
 //! Looking, by role and label: the transfer function over the histogram.
 
 use super::*;
+use fabrica::data::VolumeBuilder;
 use fabrica::document::{Transfer, TransferPoint, Window as ValueWindow, preset};
+use fabrica::render::ScaleBar;
 
 impl Window {
     fn double_click_at(&mut self, pos: Pos2) {
@@ -438,6 +440,48 @@ fn an_amount_is_set_shown_and_taken_back() {
     window.click("End the comparison");
     window.settle();
     window.look("ghost_off");
+}
+
+#[test]
+fn a_scale_bar_and_letters_of_sides_are_switched_on_and_saved() {
+    // Tall enough for the whole panel: what is scrolled out of view takes no click.
+    let mut window = Window::open(Vec2::new(900.0, 1300.0), CUBE);
+    let plain = window.saved_picture();
+    window.click("Panel: Look");
+    window.click("Scale bar");
+    window.click("Letters of the patient's sides");
+    let shown = window.document().illustration().clone();
+    assert!(shown.look.scale_bar && shown.look.sides);
+    window.look("marks");
+    let marked = window.saved_picture();
+    if let Some(folder) = std::env::var_os("FABRICA_LOOK_AT") {
+        let path = std::path::Path::new(&folder).join("marked.png");
+        marked.save(path).expect("a picture to look at");
+    }
+    // The bar is the longest dark run of a row that was not there before, at the lower right.
+    let (width, height) = marked.dimensions();
+    let is_new = |x: u32, y: u32| marked.get_pixel(x, y)[0] < 120 && plain.get_pixel(x, y)[0] > 200;
+    let longest = |y: u32| {
+        let mut runs = vec![0_u32];
+        for x in width / 2..width {
+            match is_new(x, y) {
+                true => *runs.last_mut().expect("there is one") += 1,
+                false => runs.push(0),
+            }
+        }
+        runs.into_iter().max().unwrap_or(0)
+    };
+    let found = (height * 3 / 4..height).map(longest).max().unwrap_or(0);
+    let mut cube = VolumeBuilder::new();
+    fabrica::subjects::generate("cube", 32, &mut cube).expect("a cube");
+    let mm_per_unit = cube.finish().expect("whole").grid.mm_per_unit();
+    let bar = ScaleBar::of(&shown.camera, [width, height], mm_per_unit).expect("a bar");
+    let off = (found as f32 - bar.length_px).abs();
+    assert!(off <= 2.0, "{found} pixels in the picture, {bar:?}");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    let look = window.document().illustration().look.clone();
+    assert!(!look.scale_bar && !look.sides, "two steps of undo");
 }
 
 #[test]

@@ -232,6 +232,7 @@ fn bytes_arrive(log: &Fake, ticket: Ticket, before_done: Option<LoadEvent>) {
     };
     let voxels: Vec<u8> = (0..512).map(|i| (i / 2) as u8).collect();
     let header = Volume {
+        has_size: true,
         grid,
         voxels: Voxels::U8(Vec::new()),
         slope: 1.0,

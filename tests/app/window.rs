@@ -338,6 +338,20 @@ impl Window {
         self.steps(3);
     }
 
+    /// Saves the picture by its keys and returns it.
+    pub(crate) fn saved_picture(&mut self) -> image::RgbaImage {
+        let before = self.log.0.borrow().saved.len();
+        self.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+        let patience = clock() + 120.0;
+        while clock() < patience && self.log.0.borrow().saved.len() == before {
+            self.steps(1);
+        }
+        let log = self.log.0.borrow();
+        let file = log.saved.get(before).expect("a picture was saved");
+        let picture = image::load_from_memory(&file.bytes).expect("a PNG");
+        picture.to_rgba8()
+    }
+
     pub(crate) fn picture_center(&self) -> Pos2 {
         self.harness.get_by_role(egui::Role::Image).rect().center()
     }

@@ -1,12 +1,11 @@
 //! What assistive technology, paper, large letters and forced colours make of the pages.
 
-use super::embed::{lesson, middle, open, ready, rests_quietly};
+use super::embed::{lesson, middle, open_coarse, ready, rests_quietly};
+use super::hand::bring_to_front;
 use super::harness::Tab;
 use super::*;
 use chromiumoxide::cdp::browser_protocol::accessibility::GetFullAxTreeParams;
-use chromiumoxide::cdp::browser_protocol::emulation::{
-    MediaFeature, SetEmulatedMediaParams, SetFocusEmulationEnabledParams,
-};
+use chromiumoxide::cdp::browser_protocol::emulation::{MediaFeature, SetEmulatedMediaParams};
 
 /// See the README beside it.
 const AXE: &str = include_str!("axe/axe.min.js");
@@ -54,11 +53,8 @@ fn an_embed_is_accessible() {
     with_browser(BrowserGpu::Software, |session| async move {
         let poster = "<img src=icon.svg alt=Poster width=64 height=48><p>What is to be seen.</p>";
         let tap = format!("{}{poster}", lesson("loading=tap"));
-        let tab = open(&session, &[lesson("controls"), tap], "", (390, 900)).await;
-        tab.page
-            .execute(SetFocusEmulationEnabledParams::new(true))
-            .await
-            .expect("a window in front");
+        let tab = open_coarse(&session, &[lesson("controls"), tap], "", (390, 900)).await;
+        bring_to_front(&tab).await;
         ready(&tab, 1).await;
         rests_quietly(&tab).await;
         assert_accessible(&tab, "a page with embeds").await;
@@ -108,8 +104,9 @@ fn an_embed_is_accessible() {
 #[test]
 fn pages_around_embeds_are_accessible() {
     with_browser(BrowserGpu::Software, |session| async move {
+        let link = payload(super::embed::LESSON);
         let tab = session
-            .open(&format!("embed.html#{}", payload(super::embed::LESSON)))
+            .open_coarse(&format!("embed.html#{link}"), (390, 800))
             .await;
         let viewer = "document.querySelector('fabrica-viewer')";
         tab.wait_until(&is_ready(viewer), 120).await;
@@ -120,8 +117,8 @@ fn pages_around_embeds_are_accessible() {
             "the-hand-in-layers",
             "why-the-neck-whips",
         ] {
-            let tab = session.open(&format!("lessons/{page}.html")).await;
-            tab.resize(390, 800).await;
+            let address = format!("lessons/{page}.html");
+            let tab = session.open_coarse(&address, (390, 800)).await;
             if page != "index" {
                 tab.eval::<bool>(&format!("({viewer}.scrollIntoView(), true)"))
                     .await;
@@ -216,7 +213,7 @@ async fn emulate(tab: &Tab, medium: &str, features: &[(&str, &str)]) {
 #[test]
 fn an_embed_is_printed() {
     with_browser(BrowserGpu::Software, |session| async move {
-        let tab = open(&session, &[lesson("controls step=1")], "", (640, 900)).await;
+        let tab = open_coarse(&session, &[lesson("controls step=1")], "", (640, 900)).await;
         ready(&tab, 1).await;
         rests_quietly(&tab).await;
         emulate(&tab, "print", &[]).await;
@@ -246,7 +243,7 @@ fn large_letters_and_forced_colours_leave_everything_in_reach() {
     with_browser(BrowserGpu::Software, |session| async move {
         let embeds = [lesson("controls step=1")];
         // A window of 1280 by 1024 pixels at 200 % and 400 %.
-        let tab = open(&session, &embeds, "", (640, 512)).await;
+        let tab = open_coarse(&session, &embeds, "", (640, 512)).await;
         ready(&tab, 1).await;
         for (size, percent) in [((640, 512), 200), ((320, 256), 400)] {
             tab.resize(size.0, size.1).await;

@@ -26,7 +26,8 @@ fn label_volumes_open_as_in_a_command() {
             session.server.add(name, bytes);
         }
         for case in segment_files::cases() {
-            let document = serde_json::json!({ "fabrica": 1, "subject": case.subject });
+            // Far away: the picture is not looked at, and few of its pixels have to be drawn.
+            let document = serde_json::json!({ "fabrica": 1, "subject": case.subject, "camera": { "distance": 8 } });
             let link = payload(&document.to_string());
             let tab = session.coarse_viewer(&format!("#{link}"), HIGH).await;
             tab.settled().await;
@@ -66,7 +67,7 @@ fn a_foreign_label_volume_waits_for_a_tap() {
         session.server.add(scan, bytes);
         other.add(parts, labels);
         let src = format!("{}/{parts}", other.address());
-        let document = serde_json::json!({ "fabrica": 1, "subject": { "src": scan, "segments": { "src": src } } });
+        let document = serde_json::json!({ "fabrica": 1, "subject": { "src": scan, "segments": { "src": src } }, "camera": { "distance": 8 } });
         let link = payload(&document.to_string());
         let tab = session.coarse_viewer(&format!("#{link}"), HIGH).await;
         tab.wait_until("window.fabrica.viewer.controls().includes('Fetch')", 60)

@@ -228,7 +228,7 @@ fn the_path_by_keys_alone() {
 fn ctrl_f_finds_a_tissue() {
     with_browser(BrowserGpu::Software, |session| async move {
         let tab = session
-            .viewer_sized(&format!("#{}", payload(PLAIN)), PAGE)
+            .coarse_viewer(&format!("#{}", payload(PLAIN)), PAGE)
             .await;
         focus(&tab).await;
         tab.eval::<bool>(KEEPS_KEYS).await;

@@ -1,9 +1,9 @@
 //! The reader: illustrations as elements in somebody else's page.
 
-use super::hand::{Touch, pause, strike};
+use super::hand::{Touch, bring_to_front, pause, strike};
 use super::harness::{Session, Tab};
+use super::parts::small_scan;
 use super::*;
-use chromiumoxide::cdp::browser_protocol::emulation::SetFocusEmulationEnabledParams;
 use chromiumoxide::cdp::browser_protocol::input::{
     DispatchMouseEventParams, DispatchMouseEventType,
 };
@@ -82,21 +82,35 @@ pub(crate) fn lesson(attributes: &str) -> String {
     format!("src=\"#{}\" {attributes}>", payload(LESSON))
 }
 
+/// A page with these embeds.
 pub(crate) async fn open(
     session: &Session,
     embeds: &[String],
     between: &str,
     size: (u32, u32),
 ) -> Tab {
+    serve(session, embeds, between);
+    session.open_sized("lesson.html", size).await
+}
+
+/// The same with coarse pictures: for tests of what an embed does, not of how it looks.
+pub(crate) async fn open_coarse(
+    session: &Session,
+    embeds: &[String],
+    between: &str,
+    size: (u32, u32),
+) -> Tab {
+    serve(session, embeds, between);
+    session.open_coarse("lesson.html", size).await
+}
+
+fn serve(session: &Session, embeds: &[String], between: &str) {
     session.server.add("ledger.js", LEDGER.to_vec());
     session.server.add(
         "tall.css",
         b".tall { height: 5000px } .narrow { max-width: 200px; margin: 40px auto }".to_vec(),
     );
     session.server.add("lesson.html", page_of(embeds, between));
-    let tab = session.open("lesson.html").await;
-    tab.resize(size.0, size.1).await;
-    tab
 }
 
 /// Waits until so many embeds have told that they are ready.
@@ -362,11 +376,8 @@ pub(crate) async fn rests_quietly(tab: &Tab) {
 #[test]
 fn an_embed_is_entered_and_left() {
     with_browser(BrowserGpu::Software, |session| async move {
-        let tab = open(&session, &[lesson("controls")], "", (320, 700)).await;
-        tab.page
-            .execute(SetFocusEmulationEnabledParams::new(true))
-            .await
-            .expect("a window in front");
+        let tab = open_coarse(&session, &[lesson("controls")], "", (320, 700)).await;
+        bring_to_front(&tab).await;
         ready(&tab, 1).await;
         rests_quietly(&tab).await;
         let camera =
@@ -450,7 +461,7 @@ fn an_embed_is_entered_and_left() {
 fn a_finger_scrolls_until_it_has_tapped() {
     with_browser(BrowserGpu::Software, |session| async move {
         let tall = "<div class=tall>Below</div>";
-        let tab = open(
+        let tab = open_coarse(
             &session,
             &[lesson(""), "hidden>".to_owned()],
             tall,
@@ -486,10 +497,76 @@ fn a_finger_scrolls_until_it_has_tapped() {
     });
 }
 
+/// Subjects that are more than the page may hold give way, those first that were not used for the longest time. Their
+/// pictures stay, and they come again where they are touched.
+#[test]
+fn subjects_beyond_the_budget_give_way_and_come_again() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let names = ["a.nrrd", "b.nrrd", "c.nrrd"];
+        let of = |name: &str| {
+            session.server.add(name, small_scan());
+            // In halves, so that it is seen whether it was turned.
+            let document = format!(
+                r#"{{"fabrica":1,"subject":{{"src":"{name}"}},"templates":[{{"kind":"split","size":[1.2,1.2,1.2],"params":{{"amount":0.3}}}}]}}"#
+            );
+            format!("class=narrow src=\"#{}\">", payload(&document))
+        };
+        let tab = open(&session, &names.map(of), "", (320, 900)).await;
+        ready(&tab, 3).await;
+        rests_quietly(&tab).await;
+        assert_eq!(tab.eval::<usize>("ledger.volumes()").await, 3);
+        // The first is in use.
+        let (x, y) = middle(&tab, "e0").await;
+        tab.drag((x + 30.0, y), (x, y), 4).await;
+        rests_quietly(&tab).await;
+        let before = tab.picture("embed_budget").await;
+        let budget = "import('./reader/engine.js').then(({ theEngine }) => theEngine()).then((engine) => { engine.reader.set_budget(1); engine.release(); return true; })";
+        tab.eval::<bool>(budget).await;
+        assert_eq!(
+            tab.eval::<usize>("ledger.volumes()").await,
+            1,
+            "of the picture in use"
+        );
+        let still = tab.picture("embed_budget_kept").await;
+        let change = difference(&before, &still, WHITE);
+        assert!(change.mean < 0.01, "the others' pictures stay: {change:?}");
+        for (index, name) in names.into_iter().enumerate() {
+            let embed = format!("e{index}");
+            let asked = || {
+                let asked = session.server.asked();
+                asked.iter().filter(|path| path[1..] == *name).count()
+            };
+            let before_turn = asked();
+            tab.eval::<bool>("(told.length = 0, true)").await;
+            let (x, y) = middle(&tab, &embed).await;
+            tab.drag((x - 40.0, y), (x + 40.0, y), 4).await;
+            let turned =
+                format!("told.some(([name, id]) => name === 'viewchange' && id === '{embed}')");
+            tab.wait_until(&turned, 20).await;
+            rests_quietly(&tab).await;
+            tab.wait_until("ledger.volumes() === 1 && ledger.workers.size === 0", 60)
+                .await;
+            rests_quietly(&tab).await;
+            let again = asked() - before_turn;
+            assert_eq!(
+                again,
+                usize::from(index > 0),
+                "{name}: the first was in use"
+            );
+            let after = tab.picture(&format!("embed_budget_{index}")).await;
+            let [left, top, width, height] = stage(&tab, &embed).await.map(|v| v as u32);
+            let part = |page| image::imageops::crop_imm(page, left, top, width, height).to_image();
+            let change = difference(&part(&before), &part(&after), WHITE);
+            assert!(change.mean > 1.0, "{embed} was turned: {change:?}");
+        }
+        tab.assert_no_complaints().await;
+    });
+}
+
 /// A page of a narrow window with one lesson of these attributes, around its poster.
 async fn open_poster(session: &Session, attributes: &str, poster: &str) -> Tab {
     let embeds = [format!("{}{poster}", lesson(attributes))];
-    open(session, &embeds, "", (320, 700)).await
+    open_coarse(session, &embeds, "", (320, 700)).await
 }
 
 /// The poster is content of the element: there before the program, until the first whole picture.
@@ -520,7 +597,7 @@ fn a_poster_stays_until_there_is_a_picture() {
             .await;
         ready(&tap, 1).await;
         let far = "<div class=tall></div>";
-        let lazy = open(
+        let lazy = open_coarse(
             &session,
             &["hidden loading=lazy>".to_owned(), lesson("loading=lazy")],
             far,
@@ -587,7 +664,7 @@ fn wrong_embeds_say_so_and_leave_the_others_running() {
             "src=hostile.json controls>".to_owned(),
             lesson("step=77"),
         ];
-        let tab = open(&session, &embeds, "", (320, 900)).await;
+        let tab = open_coarse(&session, &embeds, "", (320, 900)).await;
         tab.wait_until("told.filter(([name]) => name === 'error').length >= 4", 120)
             .await;
         for index in 4..6 {

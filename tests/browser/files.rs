@@ -80,7 +80,7 @@ fn foreign_document_waits_for_a_tap() {
 fn large_volume_stays_within_its_memory() {
     const SIDE: usize = 512;
     with_browser(BrowserGpu::Software, |session| async move {
-        let tab = session.viewer_sized("#", (420, 360)).await;
+        let tab = session.coarse_viewer("#", (420, 360)).await;
         tab.settled().await;
         let heap = "window.fabrica.memory.buffer.byteLength";
         let idle: f64 = tab.eval(heap).await;

@@ -2,6 +2,7 @@
 
 use super::embed::LESSON;
 use super::harness::{Session, Tab};
+use super::parts::small_scan;
 use super::*;
 
 /// A page around a frame: keeps what the frame posts, with its origin.
@@ -19,9 +20,7 @@ fn events(name: &str) -> String {
 
 async fn open_host(session: &Session, frame: &str) -> Tab {
     session.server.add("host.html", host(frame));
-    let tab = session.open("host.html").await;
-    tab.resize(480, 760).await;
-    tab
+    session.open_coarse("host.html", (480, 760)).await
 }
 
 /// embed.html in a bare frame, and in one without an origin: it tells its height and what happens in it, does what
@@ -112,11 +111,8 @@ fn a_frame_is_told_what_to_do_by_its_parent_alone() {
             "<iframe id=it width=300 height=600 src=\"{own}/embed.html?parent=https://elsewhere.example#{link}\"></iframe>"
         );
         other.add("host.html", host(&frame));
-        let tab = session.open("").await;
-        tab.page
-            .goto(format!("{}/host.html", other.address()))
-            .await
-            .expect("the page loads");
+        let address = format!("{}/host.html", other.address());
+        let tab = session.open_coarse_at(&address, (480, 760)).await;
         tab.wait_until("posted.some(([, data]) => data?.type === 'height')", 120)
             .await;
         tab.eval::<bool>("(it.contentWindow.postMessage({ fabrica: 1, type: 'command', id: 1, name: 'steps' }, '*'), true)").await;
@@ -139,14 +135,47 @@ fn the_element_comes_from_another_host() {
             "lesson.html",
             format!("<!doctype html><html lang=en><title>Far</title><script type=module src=\"{far}/fabrica-viewer.js\"></script><fabrica-viewer id=e0 src=\"#{link}\"></fabrica-viewer><script>window.told = []; for (const name of ['ready', 'error']) addEventListener(name, (event) => told.push([name, event.detail]));</script>").into_bytes(),
         );
-        let tab = session.open("").await;
-        tab.page
-            .goto(format!("{}/lesson.html", other.address()))
-            .await
-            .expect("the page loads");
+        let address = format!("{}/lesson.html", other.address());
+        let tab = session.open_coarse_at(&address, (320, 400)).await;
         tab.wait_until("told.length > 0", 180).await;
         let told: serde_json::Value = tab.eval("told").await;
         assert_eq!(told[0][0], "ready", "{told}");
+    });
+}
+
+/// Where the page's policy forbids the blobs that such workers start from, the illustration is made, or read, in the
+/// page itself, and the console says so.
+#[test]
+fn without_workers_the_page_does_their_work() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let other = session.server.beside();
+        let far = session.server.address();
+        other.add("ball.nrrd", small_scan());
+        for subject in [r#"{"builtin":"bar"}"#, r#"{"src":"ball.nrrd"}"#] {
+            let link = payload(&format!(r#"{{"fabrica":1,"subject":{subject}}}"#));
+            other.add(
+                "strict.html",
+                format!("<!doctype html><html lang=en><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self' {far} 'wasm-unsafe-eval'; connect-src 'self' {far}; worker-src 'self' {far}\"><title>Strict</title><script src=told.js></script><script type=module src=\"{far}/fabrica-viewer.js\"></script><fabrica-viewer id=e0 src=\"#{link}\"></fabrica-viewer>").into_bytes(),
+            );
+            other.add("told.js", b"window.told = []; for (const name of ['ready', 'error']) addEventListener(name, (event) => told.push([name, event.detail])); window.warned = []; const warn = console.warn; console.warn = (...words) => { warned.push(words.join(' ')); warn.apply(console, words); };".to_vec());
+            let tab = session.open("").await;
+            tab.resize(400, 400).await;
+            tab.page
+                .goto(format!("{}/strict.html", other.address()))
+                .await
+                .expect("the page loads");
+            tab.wait_until("told.length > 0", 240).await;
+            let told: serde_json::Value = tab.eval("told").await;
+            assert_eq!(told[0][0], "ready", "{subject}: {told}");
+            let warned: Vec<String> = tab.eval("warned").await;
+            assert!(
+                warned.iter().any(|line| line.contains("starts no worker")),
+                "{subject}: {warned:?}"
+            );
+            tab.picture(&format!("frame_strict_{}", subject.len()))
+                .await;
+            tab.page.close().await.expect("the tab closes");
+        }
     });
 }
 
@@ -188,7 +217,8 @@ fn the_lesson_pages_stand() {
             "the-hand-in-layers",
             "why-the-neck-whips",
         ] {
-            let tab = session.open(&format!("lessons/{page}.html")).await;
+            let address = format!("lessons/{page}.html");
+            let tab = session.open_coarse(&address, (390, 900)).await;
             for width in [390, 1280] {
                 tab.resize(width, 900).await;
                 let too_wide: f64 = tab

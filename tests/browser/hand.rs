@@ -293,13 +293,18 @@ pub(crate) const KEEPS_KEYS: &str =
 /// The browser's own answer to that key was prevented.
 pub(crate) const IS_PREVENTED: &str = "window.struck.defaultPrevented";
 
-/// Gives the picture the keyboard, as a browser's window does that is in front.
-pub(crate) async fn focus(tab: &Tab) {
+/// The window is in front: what is focused in the page has the keyboard.
+pub(crate) async fn bring_to_front(tab: &Tab) {
     let emulation = SetFocusEmulationEnabledParams::new(true);
     tab.page
         .execute(emulation)
         .await
         .expect("a window in front");
+}
+
+/// Gives the picture the keyboard, as a browser's window does that is in front.
+pub(crate) async fn focus(tab: &Tab) {
+    bring_to_front(tab).await;
     tab.eval::<bool>("(document.getElementById('fabrica').focus(), true)")
         .await;
     tab.frames(2).await;

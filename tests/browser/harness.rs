@@ -81,7 +81,7 @@ window.framesLater = async (viewer, wanted) => {
 const KNOWN_TO_BE_SLOW: &str =
     "try { localStorage.setItem('fabrica.slow', 'told'); } catch { /* a page without storage */ }";
 
-/// The canvas has one pixel for two of CSS along a side, as on a page that is zoomed out: a quarter of the work for the
+/// Pictures have one pixel for two of CSS along a side, as on a page that is zoomed out: a quarter of the work for the
 /// software GPU, with the same layout. The viewer counts them by the ratio where a browser does not tell them itself.
 const COARSE: &str = "
 Object.defineProperty(window, 'devicePixelRatio', { get: () => 0.5 });
@@ -202,11 +202,34 @@ impl Session {
     /// Opens a tab at `path` of the server (`""`, `"#payload"`, `"?s=…"`), without waiting for more than its loading.
     pub(crate) async fn open(&self, path: &str) -> Tab {
         let tab = self.tab().await;
+        tab.go(&format!("{}/{path}", self.server.address())).await;
+        tab
+    }
+
+    /// The same in a tab that has its size before the page loads: nothing is drawn in the size of the window first.
+    pub(crate) async fn open_sized(&self, path: &str, size: (u32, u32)) -> Tab {
         let address = format!("{}/{path}", self.server.address());
-        tab.page
-            .goto(address.as_str())
-            .await
-            .expect("the page loads");
+        self.open_with("", &address, size).await
+    }
+
+    /// As [`Session::open_sized`], with coarse pictures: for tests of what the page does, not of how it looks.
+    pub(crate) async fn open_coarse(&self, path: &str, size: (u32, u32)) -> Tab {
+        let address = format!("{}/{path}", self.server.address());
+        self.open_coarse_at(&address, size).await
+    }
+
+    /// The same at an address.
+    pub(crate) async fn open_coarse_at(&self, address: &str, size: (u32, u32)) -> Tab {
+        let tab = self.open_with(COARSE, address, size).await;
+        assert!(tab.eval::<bool>("devicePixelRatio === 0.5").await);
+        tab
+    }
+
+    async fn open_with(&self, before: &str, address: &str, size: (u32, u32)) -> Tab {
+        let tab = self.tab().await;
+        tab.resize(size.0, size.1).await;
+        tab.run_before(before).await;
+        tab.go(address).await;
         tab
     }
 
@@ -214,10 +237,9 @@ impl Session {
         let mut target = CreateTargetParams::new("about:blank");
         target.browser_context_id = Some(self.context.clone());
         let page = self.browser.new_page(target).await.expect("a tab opens");
-        page.evaluate_on_new_document(PREPARED)
-            .await
-            .expect("a script for the next page");
-        Tab { page }
+        let tab = Tab { page };
+        tab.run_before(PREPARED).await;
+        tab
     }
 
     /// Opens a tab of this size at `path` of the server and waits until the viewer has started.
@@ -246,13 +268,8 @@ impl Session {
     }
 
     async fn viewer_with(&self, before: &str, address: &str, size: (u32, u32)) -> Tab {
-        let tab = self.tab().await;
-        tab.resize(size.0, size.1).await;
-        tab.page
-            .evaluate_on_new_document(format!("{KNOWN_TO_BE_SLOW}{before}"))
-            .await
-            .expect("a script for the next page");
-        tab.page.goto(address).await.expect("the page loads");
+        let before = format!("{KNOWN_TO_BE_SLOW}{before}");
+        let tab = self.open_with(&before, address, size).await;
         tab.wait_for_state("started").await;
         tab
     }
@@ -276,6 +293,17 @@ pub(crate) struct Tab {
 }
 
 impl Tab {
+    /// Runs a script in every page of the tab from now on, before the page's own.
+    async fn run_before(&self, script: &str) {
+        let added = self.page.evaluate_on_new_document(script).await;
+        added.expect("a script for the next page");
+    }
+
+    /// Leads the tab to an address.
+    async fn go(&self, address: &str) {
+        self.page.goto(address).await.expect("the page loads");
+    }
+
     /// Value of a JavaScript expression; a promise is awaited.
     pub(crate) async fn eval<T: serde::de::DeserializeOwned>(&self, expression: &str) -> T {
         let found = self.page.evaluate_expression(expression).await;

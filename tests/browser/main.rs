@@ -16,12 +16,14 @@ mod hand;
 mod harness;
 mod library;
 mod making;
+mod marks;
 mod native;
 mod page;
 mod parts;
 mod passage;
 mod path;
 mod presenting;
+mod rounds;
 mod running;
 #[path = "../support/segment_files.rs"]
 mod segment_files;

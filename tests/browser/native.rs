@@ -2,16 +2,20 @@
 
 use super::harness::{Session, Tab};
 use super::*;
-use fabrica::data::{FieldSamples, Grid, Resources, VolumeBuilder};
+use fabrica::data::{
+    FieldSamples, Grid, Resources, Subject, SubjectPart, SubjectSink, VolumeBuilder,
+};
 use fabrica::document::{Illustration, TemplateData};
-use fabrica::load::{FieldUse, OneFile, read_field};
+use fabrica::load::{
+    FieldUse, LoadReport, MemoryFiles, MeshOptions, OneFile, read_field, read_mesh_subject,
+};
 use fabrica::subjects::FINE_RESOLUTION;
 use image::RgbaImage;
 use serde_json::{Value, json};
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::Arc;
 
-const SIZE: [u32; 2] = [160, 120];
+const SIZE: [u32; 2] = [112, 84];
 const RESOLUTION: u32 = 64;
 const SAMPLES: u32 = 4;
 
@@ -334,7 +338,7 @@ async fn compare_field(session: &Session, native: &mut Native, findings: &mut Fi
     session.server.add("nodes.csv", table.clone());
     let json = r#"{"fabrica":1,"subject":{"builtin":"cube"},"templates":[{"kind":"field","params":{"src":"nodes.csv","edge":0.1}}],"camera":{"rotate":[0.3,0.2,0.1,0.92]}}"#;
     let tab = session
-        .viewer_sized(&format!("#{}", payload(json)), (300, 420))
+        .coarse_viewer(&format!("#{}", payload(json)), (300, 420))
         .await;
     tab.settled().await;
     let page = promised(&tab, "window.fabrica.viewer.picture()").await;
@@ -363,4 +367,91 @@ async fn compare_field(session: &Session, native: &mut Native, findings: &mut Fi
     let image = drawn(&studio, illustration, size).await;
     findings.compare("field", &page, &image, &[("/templates/0", plain)]);
     tab
+}
+
+/// A ball of 80 mm with bumps, as an OBJ of one part.
+fn bumpy_ball() -> String {
+    let (around, up) = (40, 20);
+    let mut text = String::new();
+    for i in 0..=up {
+        let tilt = f64::from(i) / f64::from(up) * std::f64::consts::PI;
+        for j in 0..around {
+            let turn = f64::from(j) / f64::from(around) * std::f64::consts::TAU;
+            let far = 40.0 + 3.0 * (3.0 * turn).sin() * tilt.sin().powi(2);
+            let flat = far * tilt.sin();
+            text += &format!(
+                "v {:.4} {:.4} {:.4}\n",
+                flat * turn.cos(),
+                -far * tilt.cos(),
+                flat * turn.sin()
+            );
+        }
+    }
+    let at = |i: i32, j: i32| 1 + i * around + j % around;
+    for i in 0..up {
+        for j in 0..around {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            text += &format!("f {a} {b} {c} {d}\n");
+        }
+    }
+    text
+}
+
+/// A mesh that a link names is fetched, prepared in a worker and drawn as the native program draws it.
+#[test]
+fn a_mesh_is_drawn_as_the_native_program_draws_it() {
+    struct Taken(Option<Subject>);
+    impl SubjectSink for Taken {
+        fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+            if let SubjectPart::Surface(surface) = part {
+                self.0 = Some(surface.into());
+            }
+            Ok(())
+        }
+        fn progress(&mut self, _fraction: f32) -> bool {
+            true
+        }
+    }
+    with_browser(BrowserGpu::Software, |session| async move {
+        let bytes = bumpy_ball().into_bytes();
+        session.server.add("ball.obj", bytes.clone());
+        let json = r##"{"fabrica":1,"subject":{"src":"ball.obj"},
+            "look":{"layers":[{"depth":0,"color":"#b8433a"},{"depth":0.03,"color":"#f2e3b3","grain":0.2}]},
+            "templates":[{"kind":"split","at":[0,0,0.1],"size":[0.7,1.2,0.9]}],"camera":{"rotate":[-0.3,0.05,0.1,0.94]}}"##;
+        let tab = session
+            .viewer_sized(&format!("#{}", payload(json)), (300, 420))
+            .await;
+        tab.settled().await;
+        let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+
+        let mut taken = Taken(None);
+        let mut files = MemoryFiles::new([("ball.obj", bytes)]);
+        let (options, mut report) = (MeshOptions::default(), LoadReport::default());
+        read_mesh_subject(
+            &mut files,
+            "ball.obj",
+            &options,
+            None,
+            &mut taken,
+            &mut report,
+        )
+        .expect("a mesh");
+        let subject = taken.0.expect("it came");
+        let native = Native::open().await;
+        let studio = Studio::new(&native.gpu, &subject, true).expect("it fits");
+        let document: Value = serde_json::from_str(json).expect("JSON");
+        let draw = async |document: &Value| {
+            let document = Document::from_json(&document.to_string()).expect("a good document");
+            let size = page.dimensions().into();
+            drawn(&studio, document.illustration(), size).await
+        };
+        let image = draw(&document).await;
+        let mut plain = Vec::new();
+        for pointer in ["/templates/0", "/look/layers"] {
+            plain.push((pointer, draw(&without(&document, pointer)).await));
+        }
+        let mut findings = Findings::default();
+        findings.compare("mesh", &page, &image, &plain);
+        assert!(findings.faults.is_empty(), "{}", findings.faults.join("\n"));
+    });
 }

@@ -36,10 +36,10 @@ async fn assert_head_is_drawn(tab: &Tab, name: &str) {
 }
 
 /// A small scan: a ball in an NRRD file.
-fn small_scan() -> Vec<u8> {
+pub(crate) fn small_scan() -> Vec<u8> {
     const SIDE: i32 = 24;
     let mut file = format!(
-        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: {SIDE} {SIDE} {SIDE}\nencoding: raw\n\n"
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: {SIDE} {SIDE} {SIDE}\nspace: right-anterior-superior\nspace directions: (4,0,0) (0,4,0) (0,0,4)\nencoding: raw\n\n"
     )
     .into_bytes();
     let half = SIDE / 2;

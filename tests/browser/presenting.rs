@@ -1,21 +1,17 @@
 //! A lesson before a room: keys as of a slide program, a black screen, a spotlight, a QR code, and all as it was after.
 
-use super::embed::{LESSON, lesson, open, ready, rests_quietly, stage};
-use super::hand::{Touch, pause, strike};
+use super::embed::{LESSON, lesson, open_coarse, ready, rests_quietly, stage};
+use super::hand::{Touch, bring_to_front, pause, strike};
 use super::harness::{Session, Tab};
 use super::*;
-use chromiumoxide::cdp::browser_protocol::emulation::SetFocusEmulationEnabledParams;
 use chromiumoxide::cdp::browser_protocol::input::DispatchMouseEventType;
 
 const ROOT: &str = "e0.shadowRoot";
 const BUTTON: &str = "e0.shadowRoot.querySelector('[part~=present]')";
 
 async fn start(session: &Session, size: (u32, u32)) -> Tab {
-    let tab = open(session, &[lesson("controls")], "", size).await;
-    tab.page
-        .execute(SetFocusEmulationEnabledParams::new(true))
-        .await
-        .expect("a window in front");
+    let tab = open_coarse(session, &[lesson("controls")], "", size).await;
+    bring_to_front(&tab).await;
     ready(&tab, 1).await;
     rests_quietly(&tab).await;
     tab
@@ -187,6 +183,11 @@ fn a_lesson_is_presented_by_keys() {
         )
         .await;
         tab.frames(3).await;
+        assert!(
+            tab.eval::<bool>(&format!("{ROOT}.activeElement === {BUTTON}"))
+                .await,
+            "the keyboard is back on the button"
+        );
         let step: u32 = tab.eval("(e0.step = 0)").await;
         assert_eq!(step, 0);
         rests_quietly(&tab).await;
@@ -210,16 +211,12 @@ fn a_frame_is_filled_and_walked_by_fingers() {
             payload(LESSON)
         );
         session.server.add("host.html", frame.into_bytes());
-        let tab = session.open("host.html").await;
-        tab.resize(390, 700).await;
+        let tab = session.open_coarse("host.html", (390, 700)).await;
         let viewer = "it.contentDocument?.querySelector('fabrica-viewer')";
         let part = |name: &str| format!("{viewer}?.shadowRoot.querySelector('{name}')");
         tab.wait_until(&format!("Boolean({})", part(".frame.ready")), 120)
             .await;
-        tab.page
-            .execute(SetFocusEmulationEnabledParams::new(true))
-            .await
-            .expect("a window in front");
+        bring_to_front(&tab).await;
         tab.eval::<bool>(&format!("({}.click(), true)", part("[part~=present]")))
             .await;
         tab.wait_until(&format!("Boolean({})", part(".presents .bar")), 20)

@@ -40,7 +40,7 @@ async fn opened(
 ) -> (Tab, image::RgbaImage) {
     let start = std::time::Instant::now();
     let tab = session
-        .viewer_sized(&format!("#{}", payload(json)), SMALL)
+        .coarse_viewer(&format!("#{}", payload(json)), SMALL)
         .await;
     tab.wait_until("window.fabrica.viewer.get_document() !== ''", 60)
         .await;

@@ -174,7 +174,7 @@ fn source() -> String {
         "march/ray.wgsl",
         "march/value.wgsl",
     ] {
-        for file in files_of(path, &[SubjectShader::Volume.path()]) {
+        for file in files_of(path, &SubjectShader::Volume.paths()) {
             if known.insert(file.path) {
                 let _ = writeln!(text, "{}", file.source);
             }

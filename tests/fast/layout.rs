@@ -41,7 +41,11 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Subject {
             texture_from_rest, label_from_rest, dims, label_dims, texture_end,
             value_low, value_range, detail, has_labels,
+            mesh_min, mesh_max, node_count, triangles_at, sets_at,
         }
+        MeshSegment { color, inside, kind, thickness, gloss, opacity, first_layer, layer_count }
+        MeshLayer { color, depth, grain }
+        MeshLook { segments, layers, has_shells }
         Look { table_scale, table_offset, tint, specular, opacity_mode, edges }
         Grid { origin_min, cell_size, cells, is_used }
         Baked { origin_min, per_unit, texels, map_step, first_slab }
@@ -149,6 +153,9 @@ fn constants_agree() {
         ("SLICE_GREY", gpu_types::SLICE_GREY),
         ("SLICE_COLORS", gpu_types::SLICE_COLORS),
         ("SLICE_MARKED", gpu_types::SLICE_MARKED),
+        ("BODY_HOLLOW", gpu_types::BODY_HOLLOW),
+        ("BODY_THICK", gpu_types::BODY_THICK),
+        ("BODY_FULL", gpu_types::BODY_FULL),
         ("KEEPS_DEEP", gpu_types::KEEPS_DEEP),
         ("MATERIAL_SHIFTED", gpu_types::MATERIAL_SHIFTED),
         ("MATERIAL_WITHIN", gpu_types::MATERIAL_WITHIN),

@@ -77,11 +77,12 @@ impl Random {
         }
     }
 
-    /// A document with everything in it, known and unknown.
+    /// A document with everything in it but meshes, objects and bodies, known and unknown.
     fn document(&mut self) -> Value {
         let templates: Vec<Value> = (0..self.below(9))
             .map(|_| {
-                let kind = TemplateKind::FORMULAS[self.below(TemplateKind::FORMULAS.len())];
+                // As many as there were when a golden link was made of such a document.
+                let kind = TemplateKind::FORMULAS[self.below(18)];
                 let mut params = Map::new();
                 for spec in kind.spec().params {
                     if let (ParamValue::Number(_), 0..2) = (spec.kind.default_value(), self.below(3)) {
@@ -117,6 +118,115 @@ impl Random {
         }
         document
     }
+
+    /// A document with everything in it, known and unknown.
+    fn whole_document(&mut self) -> Value {
+        let mut document = self.document();
+        self.surfaces(&mut document);
+        document
+    }
+
+    /// A file as documents name it, with the ways in which a mesh can be read.
+    fn mesh(&mut self) -> Value {
+        let mut mesh = match self.below(2) {
+            0 => json!({ "src": self.text() }),
+            _ => json!({ "sha256": "0123456789abcdef".repeat(4) }),
+        };
+        let keys = [
+            ("name", json!(self.text())),
+            (
+                "units",
+                json!(["mm", "cm", "m", "in", "ell"][self.below(5)]),
+            ),
+            ("axes", json!(["ras", "lps", "y-up", "z-up"][self.below(4)])),
+            ("smooth", json!(self.rounded(-10.0, 200.0))),
+        ];
+        for (key, value) in keys {
+            if self.below(3) == 0 {
+                mesh[key] = value;
+            }
+        }
+        mesh
+    }
+
+    fn color(&mut self) -> Value {
+        json!(format!("#{:06x}", self.below(1 << 24)))
+    }
+
+    /// What a body is made of.
+    fn body(&mut self) -> Value {
+        let layers: Vec<Value> = (0..self.below(9))
+            .map(|_| json!({ "depth": self.rounded(-0.1, 1.2), "name": self.text(), "color": self.color(), "grain": self.unit() }))
+            .collect();
+        let body = ["auto", "hollow", "thick", "solid", "later"][self.below(5)];
+        json!({
+            "body": body, "thickness": self.rounded(0.0, 0.6),
+            "inside": self.color(), "layers": layers, "gloss": self.rounded(0.0, 1.1),
+        })
+    }
+
+    /// Meshes, objects and bodies, in some documents.
+    fn surfaces(&mut self, document: &mut Value) {
+        if self.below(2) == 0 {
+            let meshes = (0..self.below(5)).map(|_| {
+                let mut mesh = self.mesh();
+                mesh["parts"] = json!(["named", "pieces", "whole"][self.below(3)]);
+                mesh
+            });
+            document["subject"] = json!({ "meshes": meshes.collect::<Vec<_>>() });
+            match self.below(3) {
+                0 => document["subject"]["builtin"] = json!(["head", "cube"][self.below(2)]),
+                1 => document["subject"]["box"] = json!([-1, -2, -3, self.unit(), 4, 5.5]),
+                _ => {}
+            }
+        }
+        for _ in 0..self.below(4) {
+            let mut object = match self.below(2) {
+                0 => self.mesh(),
+                _ => {
+                    let tools = ["scalpel", "forceps", "retractor", "needle", "saw"];
+                    json!({ "builtin": tools[self.below(5)] })
+                }
+            };
+            let keys = [
+                ("at", self.vector(-0.5, 0.5)),
+                ("rotate", self.rotation()),
+                ("size", json!(self.rounded(0.0, 11.0))),
+                ("color", self.color()),
+                ("inside", self.color()),
+                ("opacity", json!(self.rounded(-0.2, 1.2))),
+                ("gloss", json!([0.5, 0.1][self.below(2)])),
+                ("enabled", json!(self.below(2) == 0)),
+                ("group", json!(self.text())),
+            ];
+            for (key, value) in keys {
+                if self.below(2) == 0 {
+                    object[key] = value;
+                }
+            }
+            match &mut document["objects"] {
+                Value::Array(objects) => objects.push(object),
+                none => *none = json!([object]),
+            }
+        }
+        if self.below(2) == 0 {
+            let body = self.body();
+            for (key, value) in body.as_object().into_iter().flatten() {
+                document["look"][key] = value.clone();
+            }
+            let mut own = self.body();
+            own["opacity"] = json!(self.unit());
+            document["look"]["segments"] = json!({ "talus": own, "skin": 0.5 });
+        }
+        if document["objects"].is_array() {
+            let set = json!({ "/objects/0/at": self.vector(-0.5, 0.5), "/look/thickness": 0.2, "/objects/0/opacity": self.unit() });
+            let step = json!({ "title": self.text(), "set": set });
+            match &mut document["steps"] {
+                Value::Array(steps) => steps.push(step),
+                none => *none = json!([step]),
+            }
+        }
+    }
 }
 
 fn document(value: Value) -> Document {
@@ -127,8 +237,18 @@ fn document(value: Value) -> Document {
 #[test]
 fn any_document_survives() {
     let mut random = Random(0x5eed);
+    let mut seen = [0; 3];
     for i in 0..150 {
-        let document = document(random.document());
+        let document = document(random.whole_document());
+        let shown = document.illustration();
+        let has = [
+            !shown.meshes().is_empty(),
+            !shown.objects.is_empty(),
+            !shown.look.surface.layers.is_empty(),
+        ];
+        seen.iter_mut()
+            .zip(has)
+            .for_each(|(n, has)| *n += i32::from(has));
         let payload = link::encode(&document);
         assert!(
             payload
@@ -156,6 +276,10 @@ fn any_document_survives() {
             );
         }
     }
+    assert!(
+        seen.iter().all(|n| *n > 20),
+        "meshes, objects, layers: {seen:?}"
+    );
 }
 
 /// The keys of recorded steps are carried, and cost nothing where they are not used.
@@ -304,7 +428,7 @@ fn damage_is_always_noticed() {
     let mut random = Random(99);
     let links: Vec<(Document, String)> = [
         json!({ "fabrica": 1 }),
-        random.document(),
+        random.whole_document(),
         lesson(&mut random),
     ]
     .map(|value| {
@@ -612,6 +736,12 @@ fn golden_links_open_for_ever() {
     wanted.push(Random(1543).document());
     wanted.push(json!({ "fabrica": 1, "title": "Дом 家 🧠", "x-unknown": { "deep": [null, true, 1e-7, -2.5e300, 18_446_744_073_709_551_615_u64] } }));
     wanted.push(json!({ "fabrica": 1, "subject": { "sha256": "a".repeat(64), "name": "CT head" }, "look": { "transfer": [{ "value": 40, "color": "#c88a6a", "opacity": 0.2 }], "background": "none" } }));
+    wanted.push(json!({ "fabrica": 1, "subject": { "meshes": [{ "src": "talus.stl", "name": "talus" }, { "sha256": "c".repeat(64), "name": "skin", "units": "m", "axes": "y-up",
+        "parts": "pieces", "smooth": 30 }], "box": [-40, -30, -20, 40, 30, 20] },
+        "objects": [{ "builtin": "scalpel", "name": "knife", "at": [0.1, 0.3, 0.2], "rotate": [0, 0, 0.6, 0.8], "opacity": 0.5 }, { "src": "plate.glb", "color": "#808080" }],
+        "look": { "body": "solid", "thickness": 0.05, "inside": "#804030", "layers": [{ "depth": 0, "name": "rind", "color": "#b8433a" }, { "depth": 0.01, "name": "flesh",
+        "color": "#f2e3b3", "grain": 0.1 }], "gloss": 0.2, "segments": { "talus": { "opacity": 0.4, "body": "hollow" } } },
+        "steps": [{ "title": "In", "set": { "/objects/0/at": [0.1, 0.3, 0.05] } }] }));
     if std::env::var("FABRICA_BLESS").as_deref() == Ok("links") {
         for value in wanted.clone() {
             let document = document(value);

@@ -307,6 +307,36 @@ fn nrrd(lines: &str, voxels: &[u8]) -> Vec<u8> {
 }
 
 #[test]
+fn files_without_a_voxel_size_say_so() {
+    let has_size = |name: &str, bytes: Vec<u8>| {
+        let (volume, _) = load(name, bytes).expect("a volume");
+        assert!(volume.grid.mm_per_unit() > 0.0, "1 mm is taken");
+        volume.has_size
+    };
+    let of = |lines: &str| {
+        nrrd(
+            &format!("type: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n{lines}"),
+            &[1, 2, 3, 4, 5, 6, 7, 8],
+        )
+    };
+    assert!(has_size("a.nrrd", of("spacings: 1 1 2\n")));
+    assert!(has_size(
+        "a.nrrd",
+        of("space: right-anterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n")
+    ));
+    assert!(!has_size("a.nrrd", of("")));
+    assert!(!has_size("a.nrrd", of("spacings: 1 1 0\n")));
+    let meta = |line: &str| {
+        let header = format!(
+            "ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\n{line}ElementType = MET_UCHAR\nElementDataFile = LOCAL\n"
+        );
+        [header.as_bytes(), &[1, 2, 3, 4, 5, 6, 7, 8]].concat()
+    };
+    assert!(has_size("a.mha", meta("ElementSpacing = 1 1 1\n")));
+    assert!(!has_size("a.mha", meta("")));
+}
+
+#[test]
 fn axes_out_of_space_are_components_or_frames() {
     let voxels: Vec<u8> = (0..48).collect();
     // Two components per voxel, 2 × 3 × 4.

@@ -345,7 +345,7 @@ fn a_mesh_where_a_scan_is_meant_says_so() {
         assert!(matches!(error, LoadError::NoScan { .. }), "{error}");
         let line = error.to_string();
         assert!(
-            line.contains("mesh") && line.contains("not a scan") && line.contains("not drawn yet"),
+            line.contains("mesh") && line.contains("not a scan") && line.contains("by itself"),
             "{line}"
         );
     }

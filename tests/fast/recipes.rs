@@ -257,6 +257,7 @@ fn scan(random: &mut Random, dims: UVec3) -> Volume {
     let mut builder = VolumeBuilder::new();
     let values = (0..dims.element_product()).map(|_| random.below(100) as i16);
     let header = Volume {
+        has_size: true,
         grid: Grid {
             dims,
             world_from_voxel: DAffine3::from_mat3_translation(turn, DVec3::new(30.0, 4.0, -9.0)),

@@ -136,10 +136,17 @@ fn needs_lines_hold() {
             );
         }
         // A choice of the map, and one of the kind of subject.
-        let all = programs::files_of(file.path, &[]).into_iter();
-        let mut choices: Vec<Vec<&str>> = vec![Vec::new()];
+        let of_kind = |kind: &SubjectShader| programs::files_of(file.path, &kind.paths());
+        let all = SubjectShader::ALL.iter().flat_map(of_kind);
+        let mut choices: Vec<Vec<&str>> = (SubjectShader::ALL.iter())
+            .map(|kind| kind.paths().to_vec())
+            .collect();
+        let of_kinds: Vec<&str> = SubjectShader::ALL.iter().flat_map(|k| k.paths()).collect();
         let needed: BTreeSet<&str> = all.flat_map(programs::needs).collect();
-        for need in needed.into_iter().filter(|need| need.contains('|')) {
+        let of_map = |need: &&str| {
+            need.contains('|') && need.split('|').all(|path| !of_kinds.contains(&path))
+        };
+        for need in needed.into_iter().filter(of_map) {
             let with = |path| {
                 choices
                     .iter()
@@ -148,7 +155,13 @@ fn needs_lines_hold() {
             choices = need.split('|').flat_map(with).collect();
         }
         for stand_ins in choices {
-            let text = Assembled::of(&programs::files_of(file.path, &stand_ins));
+            let files = programs::files_of(file.path, &stand_ins);
+            // A file of one kind of subject is not joined with those of another.
+            let is_other = |path: &&str| of_kinds.contains(path) && !stand_ins.contains(path);
+            if files.iter().any(|file| is_other(&file.path)) {
+                continue;
+            }
+            let text = Assembled::of(&files);
             check(&text.source).unwrap_or_else(|(line, message)| {
                 let place = line.map_or_else(String::new, |line| text.place(line));
                 panic!("{} with what it needs, at {place}: {message}", file.path)

@@ -530,6 +530,7 @@ fn strewn(dims: UVec3) -> Volume {
         color_srgb: None,
     };
     Volume {
+        has_size: true,
         grid,
         voxels: Voxels::U8(values),
         slope: 1.0,
@@ -836,6 +837,7 @@ fn the_grid_finds_kept_tissue_between_thick_slices() {
         world_from_voxel: DAffine3::from_scale(DVec3::new(1.0, 1.0, 24.0)),
     };
     let volume = Volume {
+        has_size: true,
         grid,
         voxels: Voxels::U8(vec![200; count]),
         slope: 1.0,

@@ -4,6 +4,9 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use fabrica::data::VolumeBuilder;
+use fabrica::document::Document;
+use fabrica::render::ScaleBar;
 use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 use tempfile::TempDir;
@@ -161,6 +164,57 @@ fn link_and_doc_are_inverse() {
         canonical,
         "a file that holds a link"
     );
+}
+
+/// A scale bar is as long in the file as the camera sees its length, with and without lettering; captions that the
+/// program cannot shape are named where they are written.
+#[test]
+fn pictures_have_a_scale_bar_and_unshaped_captions_are_named() {
+    let folder = folder();
+    let json = r#"{"fabrica":1,"subject":{"builtin":"bar"},"look":{"scale":true,"sides":true},"camera":{"distance":1.7},"labels":[{"at":[0,0,0.1],"text":"Shell"},{"at":[0,0.1,0.1],"text":"عظم"},{"at":[0,0.1,0],"text":"עצם\n\u001b[2J"},{"at":[0,0,0],"text":"עצם","enabled":false}]}"#;
+    let path = write(&folder, "marks.json", json);
+    let out = folder.path().join("marks.png");
+    let drawn = |extra: &[&str]| {
+        let args = ["render", text(&path), "-o", text(&out), "--size", "320x240"];
+        let outcome = fabrica(&[&args, extra].concat()).ok();
+        let picture = image::open(&out).expect("a picture").to_rgba8();
+        (outcome.err, picture)
+    };
+    let (plain, picture) = drawn(&[]);
+    assert!(
+        !plain.contains("/labels"),
+        "no captions, no notice: {plain}"
+    );
+    let document = Document::from_json(json).expect("a document");
+    let mut bar = VolumeBuilder::new();
+    fabrica::subjects::generate("bar", 32, &mut bar).expect("a bar");
+    let mm_per_unit = bar.finish().expect("whole").grid.mm_per_unit();
+    let camera = document.illustration().camera;
+    let wanted = ScaleBar::of(&camera, [320, 240], mm_per_unit).expect("a scale bar");
+    let longest = |y: u32| {
+        let row = (160..320).map(|x| picture.get_pixel(x, y)[0] < 110);
+        let mut runs = vec![0_u32];
+        for is_dark in row {
+            match is_dark {
+                true => *runs.last_mut().expect("there is one") += 1,
+                false => runs.push(0),
+            }
+        }
+        runs.into_iter().max().unwrap_or(0)
+    };
+    let found = (210..240).map(longest).max().unwrap_or(0);
+    let off = (found as f32 - wanted.length_px).abs();
+    assert!(off <= 1.5, "{found} pixels, {wanted:?}");
+
+    let (told, _) = drawn(&["--lettering"]);
+    for part in ["/labels/1/text: “عظم”", "/labels/2/text: “עצם"] {
+        assert!(told.contains(part), "“{part}” is not in {told}");
+    }
+    assert!(
+        !told.contains("/labels/0") && !told.contains("/labels/3"),
+        "{told}"
+    );
+    assert!(!told.contains('\u{1b}'), "{told:?}");
 }
 
 #[test]
@@ -450,7 +504,7 @@ fn the_catalogue_is_listed() {
     let catalogue: Value =
         serde_json::from_str(&fabrica(&["templates", "--json"]).ok().out).expect("JSON");
     let kinds = catalogue.as_array().expect("a list");
-    assert_eq!(kinds.len(), 20);
+    assert_eq!(kinds.len(), 21);
     let param = |kind: &str, name: &str| {
         let kind = kinds.iter().find(|k| k["kind"] == kind).expect("the kind");
         let params = kind["params"].as_array().expect("params");

@@ -36,6 +36,7 @@ fn volume() -> Volume {
     }
     let turn = DMat3::from_rotation_z(0.2) * DMat3::from_rotation_x(0.1);
     Volume {
+        has_size: true,
         grid: Grid {
             dims: DIMS,
             world_from_voxel: DAffine3::from_mat3(

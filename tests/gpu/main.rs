@@ -14,6 +14,7 @@ mod icons;
 mod images;
 mod kinds;
 mod load_memory;
+mod meshes;
 mod probes;
 mod slices;
 

@@ -103,7 +103,14 @@ fn every_template_alone_agrees_with_the_reference() {
             let points: Vec<Vec3> = (0..100).map(|_| random.point(&list)).collect();
             tally.add(&list, &points, &ask(&probe, &list, &points));
         }
-        tally.check(kind.spec().name);
+        // In a box 25 times as high as it is long, the finest teeth of a crack are 10,000 in a row: 3.3 % of the
+        // points lie nearer to another tooth than their rounding.
+        let most_left_out = if kind == TemplateKind::Crack {
+            0.05
+        } else {
+            0.03
+        };
+        tally.check_with(kind.spec().name, most_left_out);
     }
 }
 
@@ -328,6 +335,7 @@ fn beyond_a_rest_end_nothing_moves() {
         (K::Cutquad, "xXyYz"),
         (K::Peeler, "xXyYz"),
         (K::Hole, "xXyY"),
+        (K::Crack, "xXyYz"),
     ];
     let (_gpu, probe) = probe();
     let mut random = Random(13);
@@ -567,4 +575,46 @@ fn no_material_leaves_the_deformed_bounds() {
         "{material} points with material, all in the bounds; their longest side filled to {:.2} on average",
         filled / 600.0
     );
+}
+
+/// The crack of the page, for five seeds and both signs of `cycles`, in boxes of several shapes. At an amount of 0 its
+/// walls fit into each other: nothing is moved, and there is no gap.
+#[test]
+fn cracks_are_those_of_the_page() {
+    let (_gpu, probe) = probe();
+    let mut random = Random(0xC4AC_0001);
+    for seed in [0.0, 1.0, 7.0, 500.0, 999.0] {
+        for cycles in [-3.5, 5.0] {
+            for size in [Vec3::splat(0.5), Vec3::new(0.6, 0.3, 0.9)] {
+                let mut crack = random.template(TemplateKind::Crack);
+                crack.placement.size = size;
+                let values = [0.4, 0.8, 0.9, 0.2, 0.15, seed, 0.1, cycles];
+                crack.params = values.map(ParamValue::Number).to_vec();
+                let list = [crack];
+                let points: Vec<Vec3> = (0..500).map(|_| random.point(&list)).collect();
+                let mut tally = Tally::default();
+                tally.add(&list, &points, &ask(&probe, &list, &points));
+                tally.check(&format!("crack, seed {seed}, {cycles} waves"));
+                // Another seed is another crack: the comparison would see it.
+                let mut other = list.clone();
+                other[0].params[5] = ParamValue::Number(seed + 1.0);
+                let pairs = ask(&probe, &list, &points)
+                    .into_iter()
+                    .zip(ask(&probe, &other, &points));
+                let is_off =
+                    |(a, b): &(Sample, Sample)| a.pos_in_rest.distance(b.pos_in_rest) > 1e-3;
+                let differing = pairs.filter(is_off).count();
+                assert!(differing > 25, "only {differing} points tell seed {seed}");
+                // The handle is where the wall is: both have the same noise.
+                let grip = placed::handle(&list[0]).expect("a crack has a handle").at;
+                let at_wall = ask(&probe, &list, &[grip])[0].continuity;
+                assert!(at_wall.abs() < 1e-4, "the handle is {at_wall} off the wall");
+                let mut closed = list.clone();
+                closed[0].params[0] = ParamValue::Number(0.0);
+                for (point, sample) in points.iter().zip(ask(&probe, &closed, &points)) {
+                    assert_eq!((sample.pos_in_rest, sample.continuity), (*point, 1.0));
+                }
+            }
+        }
+    }
 }

@@ -135,6 +135,32 @@ fn unroll(u: f64, v: f64, phi: f64) -> (f64, f64, f64) {
     (theta, u * cos - v * sin, u * sin + v * cos)
 }
 
+/// The noise of cracks (spec/surfaces.md): N(u, v; seed).
+fn noise(u: f64, v: f64, seed: f64) -> f64 {
+    let corner = |i: f64, j: f64, k: u32| {
+        let whole = |x: f64| (x as i64) as u32;
+        let x = whole(i).wrapping_mul(0x9E37_79B1)
+            ^ whole(j).wrapping_mul(0x85EB_CA77)
+            ^ (k + 16 * seed as u32).wrapping_mul(0xC2B2_AE3D);
+        let x = (x ^ (x >> 16)).wrapping_mul(0x7FEB_352D);
+        let x = (x ^ (x >> 15)).wrapping_mul(0x846C_A68B);
+        let h = x ^ (x >> 16);
+        f64::from(h >> 16) / 32767.5 - 1.0
+    };
+    let value = |u: f64, v: f64, k: u32| {
+        let ease = |a: f64| a.powi(3) * (a * (6.0 * a - 15.0) + 10.0);
+        let (i, j) = (u.floor(), v.floor());
+        let (a, b) = (ease(u - i), ease(v - j));
+        let row = |j: f64| (1.0 - a) * corner(i, j, k) + a * corner(i + 1.0, j, k);
+        (1.0 - b) * row(j) + b * row(j + 1.0)
+    };
+    let octaves = (0..4).map(|k| {
+        let fine = f64::from(1 << k);
+        value(fine * u, fine * v, k) / fine
+    });
+    octaves.sum::<f64>() / 1.875
+}
+
 fn zero_if_tiny(o: f64, a: f64) -> f64 {
     if o < 1e-6 { 1.0 } else { a }
 }
@@ -292,6 +318,30 @@ pub(crate) fn source(kind: &str, q: DVec3, size: DVec3, p: &[f64]) -> (DVec3, f6
                 q + DVec3::new(dx, 0.0, 0.0),
                 zero_if_tiny(f, (x - 0.5).abs() - f),
             )
+        }
+        "crack" => {
+            let (amount, lens, depth, roughness) = (p[0], p[1], p[2], p[3]);
+            let (grain, seed, ripple, cycles) = (p[4], p[5], p[6], p[7]);
+            if rests(q, [N, N, N, N, N, Y]) {
+                return rest;
+            }
+            let (y, z) = (c.y, c.z);
+            let wave = (TAU * cycles.abs() * if cycles >= 0.0 { y } else { z }).sin();
+            let jagged = noise(y / grain, z * (sz / sy) / grain, seed);
+            let c = (0.5 + roughness * jagged + ripple * wave).clamp(0.05, 0.95);
+            let room = if x < c { c } else { 1.0 - c };
+            let deep = ((z - 1.0 + depth) / depth).clamp(0.0, 1.0);
+            let o = (0.5 * amount * (1.0 - lens * (2.0 * y - 1.0).powi(2)) * deep).min(0.9 * room);
+            let d = (x - c).abs();
+            let source = if d < o {
+                0.0
+            } else if d < room {
+                room * (d - o) / (room - o)
+            } else {
+                d
+            };
+            let from = if x < c { c - source } else { c + source };
+            (DVec3::new(from, q.y, q.z), zero_if_tiny(o, d - o))
         }
         "slices" => {
             let count = (p[0] + 0.5).floor();

@@ -51,6 +51,7 @@ pub(crate) fn builtin(name: &str, resolution: u32) -> Volume {
 /// A cube of `n`³ voxels of one value, 1 unit wide.
 pub(crate) fn uniform_volume(n: u32) -> Volume {
     Volume {
+        has_size: true,
         grid: Grid {
             dims: UVec3::splat(n),
             world_from_voxel: DAffine3::from_scale(DVec3::splat(100.0 / f64::from(n))),

@@ -4,6 +4,7 @@ import { Captions } from "./captions.js";
 import { Controls } from "./controls.js";
 import { bindings, seconds, theEngine } from "./engine.js";
 import { Hands } from "./hands.js";
+import { Marks } from "./marks.js";
 import { STYLE } from "./style.js";
 import { nearest, wordsOf } from "./words.js";
 
@@ -58,6 +59,7 @@ export class Embed {
   #isHandled = false;
   #told = "";
   #texts = "";
+  #shown = {};
   #lastView = "";
   #parts = {};
   #watches = [];
@@ -390,6 +392,7 @@ export class Embed {
     this.#root.replaceChildren(view, poster);
     this.#parts = { view, stage, layer, hint, words, controls, legend, said, poster, cover };
     this.#parts.captions = new Captions(layer);
+    this.#parts.marks = new Marks(layer);
     this.#parts.bar = new Controls(controls, this);
     this.#parts.hands = new Hands(stage, this.#host, this);
     const sized = new ResizeObserver(() => {
@@ -437,12 +440,24 @@ export class Embed {
     this.#show();
   }
 
-  /** Captions and background are those of what is shown. */
+  /** Title and caption of what is shown: at a step its own, else what a step has set. */
+  get heading() {
+    const own = this.#outline.steps[this.#state.step - 1];
+    const of = (key) => {
+      const [whole, shown] = [this.#outline[key], this.#shown[key] ?? this.#outline[key]];
+      if (!own) return shown;
+      return own[key] || (shown === whole ? "" : shown);
+    };
+    return { title: of("title"), legend: of("legend") };
+  }
+
+  /** Texts and background are those of what is shown. */
   #heedTexts() {
     const texts = this.#engine.reader.texts(this.id);
     if (texts === this.#texts) return;
     this.#texts = texts;
-    const { captions, background } = JSON.parse(texts);
+    this.#shown = JSON.parse(texts);
+    const { captions, background } = this.#shown;
     const { stage } = this.#parts;
     this.#parts.captions.set(captions, this.#words);
     stage.style.background = background ?? "none";
@@ -462,10 +477,12 @@ export class Embed {
 
   /** A frame was drawn. */
   drawn(hasPicture, isDone) {
-    const { captions, layer, stage } = this.#parts;
+    const { captions, layer, marks, stage } = this.#parts;
     if (hasPicture) {
-      const { clientWidth, clientHeight } = stage;
-      captions.place(this.#engine.reader.captions(this.id, clientWidth, clientHeight, captions.sizes(), captions.gap));
+      const { reader } = this.#engine;
+      marks.show(reader.marks(this.id), this.#words);
+      const room = [stage.clientWidth, stage.clientHeight, captions.gap, ...marks.room];
+      captions.place(reader.captions(this.id, captions.sizes(), new Float32Array(room)));
       layer.style.visibility = "";
       this.#parts.before?.remove();
     }
@@ -528,16 +545,16 @@ export class Embed {
 
   #arrived(step) {
     this.#tell("stepchange", { step });
-    const shown = this.#outline.steps[step - 1] ?? this.#outline;
+    const { title, legend } = this.heading;
     const where = step ? this.#words.step(step, this.#outline.steps.length) : this.#words.start;
-    this.#say([where, shown.title, shown.legend].filter(Boolean).join(": "));
+    this.#say([where, title, legend].filter(Boolean).join(": "));
   }
 
   #show() {
     const { bar, legend } = this.#parts;
     if (!bar || !this.#outline) return;
     bar.show(this.#state, this.#outline.steps.length);
-    const { title, legend: caption } = this.#outline.steps[this.#state.step - 1] ?? this.#outline;
+    const { title, legend: caption } = this.heading;
     const text = [title, caption].filter(Boolean).join(": ");
     if (legend.textContent !== text) legend.textContent = text;
   }

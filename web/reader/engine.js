@@ -1,7 +1,8 @@
 // One device, one set of data and one frame loop for all pictures of a page (src/shell/reader.rs). At rest there is no frame
 // and no timer.
 
-import { WORKER, startPart } from "../parts.js";
+import { startPart } from "../parts.js";
+import { Background } from "./background.js";
 
 /** What the GPU may spend on a frame while something moves, and at rest: seconds. */
 const MOVING = 0.03;
@@ -46,10 +47,11 @@ export async function theEngine(part) {
 
 async function start(part) {
   const { Reader } = await bindings();
-  const early = part ? startPart(part) : null;
+  const make = () => new Background();
+  const early = part ? startPart(part, make) : null;
   const made = new Engine();
   try {
-    made.reader = await Reader.start(WORKER, () => made.hear());
+    made.reader = await Reader.start(make, () => made.hear());
   } catch (error) {
     early?.worker.terminate();
     throw error;
@@ -121,6 +123,7 @@ class Engine {
   /** The picture that the reader turns to keeps what it needs to be drawn at once. */
   use(embed) {
     if (this.#used === embed) return;
+    this.reader.turn_to(embed.id);
     if (this.#used && !this.#used.isDirty) this.reader.rest(this.#used.id);
     this.#used = embed;
   }

@@ -180,7 +180,7 @@ export class Presentation {
   /** Title and caption of the step. */
   #show() {
     const { embed, outline, words } = this.#to;
-    const { title, legend } = outline.steps[embed.step - 1] ?? outline;
+    const { title, legend } = embed.heading;
     const text = document.createElement("p");
     if (title) text.append(Object.assign(document.createElement("strong"), { textContent: title }));
     text.append(legend ?? "");

@@ -29,6 +29,15 @@ export const STYLE = `
   .layer path { fill: none; stroke: currentColor; stroke-width: 1.2; }
   .layer path.halo { stroke: var(--halo); stroke-width: 3; }
   .layer circle { fill: currentColor; stroke: var(--halo); stroke-width: 1.4; }
+  .mark { position: absolute; padding: 0 4px; font-weight: 600; text-shadow: 0 0 3px var(--halo), 0 0 2px var(--halo), 0 0 1px var(--halo); }
+  .mark:is(.left, .right) { top: 50%; transform: translateY(-50%); }
+  .mark:is(.top, .bottom) { left: 50%; transform: translateX(-50%); }
+  .mark.left { left: 2px; }
+  .mark.right { right: 2px; }
+  .mark.top { top: 2px; }
+  .mark.bottom { bottom: 2px; }
+  .mark.ruler { box-sizing: border-box; right: 12px; bottom: 10px; padding: 0; border: 2px solid; border-top: 0; font-weight: 400; line-height: 1.2;
+    display: grid; justify-content: center; white-space: nowrap; filter: drop-shadow(0 0 1px var(--halo)); }
   .hint { position: absolute; z-index: 2; left: 50%; bottom: 6px; transform: translateX(-50%); margin: 0; padding: 2px 10px; max-width: 94%;
     border-radius: 10px; font-size: 13px; background: #000c; color: #fff; opacity: 0; pointer-events: none; }
   .ready .stage:focus-visible .hint, .ready .stage.inside .hint { opacity: 1; }
@@ -47,9 +56,11 @@ export const STYLE = `
   button[aria-disabled="true"] svg { opacity: 0.45; }
   button svg { display: block; width: 16px; height: 16px; fill: none; stroke: currentColor; stroke-width: 1.8; stroke-linecap: round; stroke-linejoin: round; }
   button:focus-visible, select:focus-visible, input:focus-visible { outline: 3px solid currentColor; outline-offset: 2px; }
-  input[type="range"] { min-height: 24px; min-width: 6rem; flex: 1 1 8rem; accent-color: currentColor; }
+  /* Browsers give sliders a grey of their own, on which the empty part of the track looks fuller than the filled one. */
+  input { color: inherit; accent-color: currentColor; }
+  input[type="range"] { min-height: 24px; min-width: 6rem; flex: 3 1 8rem; }
   input[type="checkbox"] { width: 24px; height: 24px; margin: 0; }
-  select { font: inherit; color: inherit; background: Canvas; min-height: 32px; max-width: 12rem; border-radius: 6px; }
+  select { font: inherit; color: inherit; background: Canvas; min-height: 32px; flex: 1 1 8rem; max-width: 22rem; border-radius: 6px; }
   fieldset { display: flex; flex-wrap: wrap; gap: 4px 14px; flex: 1 1 100%; margin: 0; border: 0; padding: 2px; min-width: 0; }
   legend { padding: 0; font-weight: 600; }
   label { display: flex; align-items: center; gap: 6px; flex: 1 1 14rem; min-height: 28px; }
@@ -66,7 +77,7 @@ export const STYLE = `
   @media (forced-colors: active) {
     .layer li { background: Canvas; color: CanvasText; }
     /* The picture keeps its colours, and so do the lines on it. */
-    .layer svg { forced-color-adjust: none; color: #1f2426; }
-    .dark .layer svg { color: #fff; }
+    .layer :is(svg, .mark) { forced-color-adjust: none; color: #1f2426; }
+    .dark .layer :is(svg, .mark) { color: #fff; }
   }
 `;

@@ -1,6 +1,6 @@
-//! Title, credit and captions written into a picture that leaves the program: the title at its upper left, the credit
-//! at its lower left, captions at its sides, in ink or white as the background wants, with a halo of the other so
-//! that they read over tissue.
+//! What is written into a picture that leaves the program: the title at its upper left, the credit at its lower left,
+//! captions at its sides, a scale bar at its lower right, letters of the patient's sides at its edges. In ink or white
+//! as the background wants, with a halo of the other so that they read over tissue.
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align, Color32, Context, FontId, Galley, Pos2, RawInput, Rect, TextFormat, Vec2, vec2};
@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use super::caption_layout::{self, is_dark};
 use crate::app::kit::theme;
-use crate::document::Illustration;
-use crate::render::{CaptionPlace, Image, View};
+use crate::document::{Background, Illustration};
+use crate::render::{CaptionPlace, Image, Marks, View};
 
 /// Height of the title's letters, of the picture's shorter side, and of the credit's.
 const TITLE: f32 = 0.045;
@@ -17,6 +17,12 @@ const CREDIT: f32 = 0.024;
 /// Height of a caption's letters, of the picture's shorter side; and its greatest width, of the picture's width.
 const CAPTION: f32 = 0.03;
 const CAPTION_WIDTH: f32 = 0.24;
+/// Height of the letters at the edges and of a scale bar's, of the picture's shorter side.
+const MARK: f32 = 0.03;
+/// Height of a scale bar with its text, of its letters' height.
+const BAR: f32 = 1.8;
+/// Part of the width that a credit has beside a scale bar.
+const BESIDE_BAR: f32 = 0.68;
 /// Pixels of letters at least: below nobody reads them.
 const LEAST: f32 = 9.0;
 /// Distance from the edges, of the shorter side.
@@ -33,13 +39,84 @@ struct Mask {
 /// Writes an illustration's title, credit and captions into its picture. `captions` holds the place of each caption.
 /// Returns the characters that no font at hand has.
 pub fn letter(image: &mut Image, illustration: &Illustration, captions: &[CaptionPlace]) -> String {
+    letter_with(&fonts(), image, illustration, captions)
+}
+
+/// Draws the scale bar and the letters of the patient's sides into an illustration's picture, where it wishes them.
+/// `mm_per_unit`: millimetres in one subject unit; without it there is no bar.
+pub fn mark(image: &mut Image, illustration: &Illustration, mm_per_unit: Option<f64>) {
+    if illustration.look.scale_bar || illustration.look.sides {
+        mark_with(&fonts(), image, illustration, mm_per_unit);
+    }
+}
+
+/// A context for writing, without a window.
+fn fonts() -> Context {
     let ctx = Context::default();
     theme::install(&ctx);
     // Fonts are there from the first pass on.
     ctx.run_ui(RawInput::default(), |_| {})
         .textures_delta
         .clear();
-    letter_with(&ctx, image, illustration, captions)
+    ctx
+}
+
+/// Ink on a background, and the halo around it.
+fn inks(background: Background) -> ([u8; 3], [u8; 3]) {
+    if is_dark(background) {
+        ([255; 3], [0; 3])
+    } else {
+        ([0x1f, 0x24, 0x26], [255; 3])
+    }
+}
+
+/// Draws the marks like [`mark`], with the fonts of a window.
+pub(crate) fn mark_with(
+    ctx: &Context,
+    image: &mut Image,
+    illustration: &Illustration,
+    mm_per_unit: Option<f64>,
+) {
+    let marks = Marks::of(illustration, image.size, mm_per_unit);
+    let [width, height] = image.size.map(|side| side as f32);
+    let short = width.min(height);
+    let margin = MARGIN * short;
+    let letters = (MARK * short).max(LEAST);
+    let mut mask = Mask::new(image.size);
+    let middles = [
+        [0.0, 0.5 * height],
+        [width, 0.5 * height],
+        [0.5 * width, 0.0],
+        [0.5 * width, height],
+    ];
+    for (text, [x, y]) in marks.sides.iter().flatten().zip(middles) {
+        let (galley, size, _) = laid_out(ctx, text, theme::STRONG, letters, width, 1);
+        let edge = Vec2::splat(0.5 * margin);
+        let room = vec2(width, height) - size - edge;
+        let corner = Pos2::new(x, y) - 0.5 * size;
+        mask.write(ctx, &galley, corner.min(room.to_pos2()).max(edge.to_pos2()));
+    }
+    if let Some(bar) = marks.bar {
+        // Whole rows, so that it is crisp; its length is exact.
+        let foot = Pos2::new(width - margin, (height - margin).round());
+        let left = foot.x - bar.length_px;
+        let thick = (0.13 * letters).round().max(1.0);
+        let mut draw =
+            |from: [f32; 2], to: [f32; 2]| mask.fill(Rect::from_min_max(from.into(), to.into()));
+        draw([left, foot.y - thick], [foot.x, foot.y]);
+        // The ends stand up, inside of the length.
+        draw([left, foot.y - 4.0 * thick], [left + thick, foot.y]);
+        draw([foot.x - thick, foot.y - 4.0 * thick], [foot.x, foot.y]);
+        let (galley, size, _) = laid_out(ctx, &bar.text(), "", letters, width, 1);
+        let start = (0.5 * (left + foot.x - size.x)).min(foot.x - size.x);
+        mask.write(
+            ctx,
+            &galley,
+            Pos2::new(start, foot.y - 2.0 * thick - size.y),
+        );
+    }
+    let (ink, halo) = inks(illustration.look.background);
+    mask.lay(image, letters, ink, halo);
 }
 
 /// Writes the texts like [`letter`], with the fonts of a window, which has more of them.
@@ -52,13 +129,14 @@ pub(crate) fn letter_with(
     let [width, height] = image.size.map(|side| side as f32);
     let short = width.min(height);
     let margin = MARGIN * short;
-    let (ink, halo) = if is_dark(illustration.look.background) {
-        ([255; 3], [0; 3])
-    } else {
-        ([0x1f, 0x24, 0x26], [255; 3])
-    };
+    let (ink, halo) = inks(illustration.look.background);
     let mut missing = String::new();
     let mut free = Rect::from_min_size(Pos2::ZERO, vec2(width, height)).shrink(margin);
+    let mark = (MARK * short).max(LEAST);
+    let look = &illustration.look;
+    if look.sides {
+        free = free.shrink(mark);
+    }
     let texts = [
         (&illustration.title, TITLE, theme::STRONG, false),
         (&illustration.credit, CREDIT, "", true),
@@ -69,7 +147,8 @@ pub(crate) fn letter_with(
         }
         let letters = (part * short).max(LEAST);
         let rows = 0.4 * height / (1.25 * letters);
-        let room = width - 2.0 * margin;
+        let is_beside_bar = is_at_foot && look.scale_bar;
+        let room = free.width() * if is_beside_bar { BESIDE_BAR } else { 1.0 };
         let (galley, size, lacking) = laid_out(ctx, text, family, letters, room, rows as usize);
         missing += &lacking;
         let mut at = free.left_top();
@@ -82,6 +161,9 @@ pub(crate) fn letter_with(
         let mut mask = Mask::new(image.size);
         mask.write(ctx, &galley, at);
         mask.lay(image, letters, ink, halo);
+    }
+    if look.scale_bar {
+        free.max.y = free.max.y.min(height - 2.0 * margin - BAR * mark);
     }
     let view = View::new(&illustration.camera, image.size);
     let letters = (CAPTION * short).max(LEAST);
@@ -219,6 +301,25 @@ impl Mask {
         }
     }
 
+    /// Fills a rectangle; pixels at its edges by their part of it.
+    fn fill(&mut self, rect: Rect) {
+        let [width, height] = self.size.map(|side| side as f32);
+        let rect = rect.intersect(Rect::from_min_max(Pos2::ZERO, Pos2::new(width, height)));
+        if !rect.is_positive() {
+            return;
+        }
+        let part = |from: f32, to: f32, at: i64| {
+            (to.min(at as f32 + 1.0) - from.max(at as f32)).clamp(0.0, 1.0)
+        };
+        for y in rect.top() as i64..rect.bottom().ceil() as i64 {
+            for x in rect.left() as i64..rect.right().ceil() as i64 {
+                let covered =
+                    part(rect.left(), rect.right(), x) * part(rect.top(), rect.bottom(), y);
+                self.cover(x, y, (covered * 255.0) as u8);
+            }
+        }
+    }
+
     fn cover(&mut self, x: i64, y: i64, coverage: u8) {
         let [width, height] = self.size.map(|side| side as i64);
         if (0..width).contains(&x)
@@ -331,6 +432,95 @@ mod tests {
         assert!(white > 100, "a light halo on the empty ground: {white}");
         let corner = &image.rgba[image.rgba.len() - 4..];
         assert_eq!(corner, [0; 4], "the rest stays empty");
+    }
+
+    /// The longest run of dark pixels in a row of the picture.
+    fn longest_run(image: &Image, row: usize) -> usize {
+        let stride = image.size[0] as usize * 4;
+        let pixels = image.rgba[row * stride..(row + 1) * stride].chunks_exact(4);
+        let mut runs = vec![0];
+        for pixel in pixels {
+            match pixel[0] < 120 {
+                true => *runs.last_mut().expect("there is one") += 1,
+                false => runs.push(0),
+            }
+        }
+        runs.into_iter().max().unwrap_or(0)
+    }
+
+    #[test]
+    fn a_bar_is_as_long_in_the_picture_as_the_camera_sees_it() {
+        let mm_per_unit = 180.0;
+        for (distance, size) in [(2.5, [400, 300]), (1.3, [400, 300]), (0.7, [300, 500])] {
+            let json = format!(
+                r#"{{"fabrica":1,"look":{{"scale":true}},"camera":{{"distance":{distance}}}}}"#
+            );
+            let document = Document::from_json(&json).expect("a document");
+            let shown = document.illustration();
+            let mut image = Image {
+                size,
+                rgba: vec![255; 4 * size[0] as usize * size[1] as usize],
+            };
+            mark(&mut image, shown, Some(mm_per_unit));
+            let rows = 0..size[1] as usize;
+            let found = rows.map(|row| longest_run(&image, row)).max().unwrap_or(0);
+            // Two places in the plane of the target, as far apart as the bar says.
+            let bar = Marks::of(shown, size, Some(mm_per_unit))
+                .bar
+                .expect("a bar");
+            let view = View::new(&shown.camera, size);
+            let pixel = |x: f64| view.pixel_from_subject(glam::Vec3::X * (x / mm_per_unit) as f32);
+            let [a, b] = [pixel(0.0), pixel(bar.mm)].map(|pixel| pixel.expect("in sight"));
+            let wanted = a.distance(b);
+            assert!(
+                (found as f32 - wanted).abs() <= 1.5,
+                "{found} px of {wanted}: {bar:?}"
+            );
+        }
+        let plain =
+            Document::from_json(r#"{"fabrica":1,"look":{"scale":true}}"#).expect("a document");
+        let mut image = Image {
+            size: [40, 30],
+            rgba: vec![255; 4800],
+        };
+        mark(&mut image, plain.illustration(), None);
+        assert!(
+            image.rgba.iter().all(|byte| *byte == 255),
+            "nobody knows its size"
+        );
+    }
+
+    #[test]
+    fn letters_of_sides_stand_at_all_edges() {
+        let json = r#"{"fabrica":1,"look":{"sides":true}}"#;
+        let document = Document::from_json(json).expect("a document");
+        let size = [600_usize, 400];
+        let mut image = Image {
+            size: [600, 400],
+            rgba: vec![255; 960_000],
+        };
+        mark(&mut image, document.illustration(), None);
+        let dark = |x: std::ops::Range<usize>, y: std::ops::Range<usize>| {
+            let pixels = y.flat_map(|y| x.clone().map(move |x| y * size[0] + x));
+            pixels.filter(|pixel| image.rgba[4 * pixel] < 120).count()
+        };
+        for (x, y) in [
+            (0..40, 185..215),
+            (560..600, 185..215),
+            (285..315, 0..40),
+            (285..315, 360..400),
+        ] {
+            assert!(dark(x.clone(), y.clone()) > 8, "a letter at {x:?}, {y:?}");
+        }
+        assert_eq!(dark(45..555, 45..355), 0, "and none elsewhere");
+        for size in [[1, 1], [3, 200], [640, 40]] {
+            let count = (size[0] * size[1]) as usize;
+            let mut image = Image {
+                size,
+                rgba: vec![255; 4 * count],
+            };
+            mark(&mut image, document.illustration(), Some(1.0));
+        }
     }
 
     #[test]

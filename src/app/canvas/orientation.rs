@@ -1,33 +1,20 @@
 //! Where the patient's sides are: letters at the edges of the picture as on a radiograph, and a small ball of axes that
-//! turns with the camera and is tapped to look from a side.
+//! turns with the camera and is tapped to look from a side. And how large the object is: a scale bar.
 
 use egui::{Align2, Color32, Painter, Pos2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
-use glam::Vec3;
 
 use crate::app::canvas::projection::Projection;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::session::Command;
+use crate::app::session::Session;
 use crate::app::session::StandardView;
 use crate::app::words::fill;
 use crate::app::words::picture::w;
+use crate::describe::side_letters;
+use crate::render::ScaleBar;
 
 /// Points of the ball's radius.
 const BALL: f32 = 34.0;
-
-/// Names of the sides that a direction points to, the main one first: `RA`. At most two.
-pub(crate) fn letters(direction: Vec3) -> String {
-    let mut sides: Vec<(f32, &str)> = StandardView::ALL
-        .into_iter()
-        .map(|view| (view.direction().dot(direction), view.letter()))
-        .filter(|(along, _)| *along > 0.38)
-        .collect();
-    sides.sort_by(|a, b| b.0.total_cmp(&a.0));
-    sides
-        .into_iter()
-        .take(2)
-        .map(|(_, letter)| letter)
-        .collect()
-}
 
 /// Letters at the middles of the four edges.
 pub(crate) fn edges_ui(painter: &Painter, view: &Projection, color: Color32, inner: Rect) {
@@ -42,11 +29,30 @@ pub(crate) fn edges_ui(painter: &Painter, view: &Projection, color: Color32, inn
         painter.text(
             pos,
             Align2::CENTER_CENTER,
-            letters(direction),
+            side_letters(direction),
             font.clone(),
             color,
         );
     }
+}
+
+/// A scale bar whose right end is at a place. Nothing where nobody knows how large the object is.
+pub(crate) fn bar_ui(painter: &Painter, session: &Session, rect: Rect, color: Color32, end: Pos2) {
+    let size = [rect.width(), rect.height()].map(|side| side.round().max(1.0) as u32);
+    let mm_per_unit = session.view.known_mm_per_unit();
+    let bar = mm_per_unit.and_then(|mm| ScaleBar::of(&session.camera, size, mm));
+    let Some(bar) = bar.filter(|_| session.shown().look.scale_bar) else {
+        return;
+    };
+    let start = end - vec2(bar.length_px, 0.0);
+    let stroke = Stroke::new(2.0, color);
+    painter.line_segment([start, end], stroke);
+    for tip in [start + vec2(1.0, 0.0), end - vec2(1.0, 0.0)] {
+        painter.line_segment([tip, tip - vec2(0.0, 6.0)], stroke);
+    }
+    let middle = start + 0.5 * (end - start) - vec2(0.0, 4.0);
+    let font = egui::FontId::proportional(12.5);
+    painter.text(middle, Align2::CENTER_BOTTOM, bar.text(), font, color);
 }
 
 /// The ball of axes, its centre given. Returns the side that was tapped.
@@ -143,18 +149,5 @@ pub(crate) fn side_hint(side: StandardView) -> &'static str {
         StandardView::Left => w().from_left,
         StandardView::Top => w().from_above,
         StandardView::Bottom => w().from_below,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn letters_name_the_sides_of_the_patient() {
-        assert_eq!(letters(Vec3::X), "R");
-        assert_eq!(letters(Vec3::NEG_X), "L");
-        assert_eq!(letters(Vec3::new(0.9, 0.43, 0.0)), "RA");
-        assert_eq!(letters(Vec3::new(0.0, -0.5, 0.86)), "SP");
     }
 }

@@ -21,6 +21,8 @@ pub(crate) struct Saving {
     pub name: String,
     /// The texts that are written into the picture, and where the captions are; none: no text is.
     pub captions: Option<Vec<CaptionPlace>>,
+    /// Millimetres in one subject unit, if known.
+    pub mm_per_unit: Option<f64>,
     /// Asked for by a script, which waits for the picture.
     pub is_for_script: bool,
 }
@@ -32,6 +34,9 @@ impl Saving {
         ctx: &egui::Context,
         mut image: Image,
     ) -> Result<Vec<u8>, RenderError> {
+        if !self.is_for_script {
+            lettering::mark_with(ctx, &mut image, &self.illustration, self.mm_per_unit);
+        }
         if let Some(places) = &self.captions {
             lettering::letter_with(ctx, &mut image, &self.illustration, places);
         }

@@ -3,10 +3,10 @@
 use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 use glam::Vec3;
 
-use crate::app::canvas::orientation;
 use crate::app::canvas::projection::Projection;
 use crate::app::kit::theme::{self, over_picture as ink};
 use crate::app::session::{Pane, ViewState};
+use crate::describe::side_letters;
 use crate::document::PlacedTemplate;
 use crate::math::{Bent, Placement};
 
@@ -217,7 +217,7 @@ pub(crate) fn edges(
         (bottom, axes.down),
     ];
     for (pos, direction) in at {
-        let letters = orientation::letters(direction);
+        let letters = side_letters(direction);
         painter.text(pos, Align2::CENTER_CENTER, letters, font.clone(), color);
     }
 }

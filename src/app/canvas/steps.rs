@@ -35,6 +35,7 @@ fn texts(session: &Session, step: usize) -> (&str, &str) {
 /// Number of the step (0 is the start), number of steps, and the title where there is one.
 fn heading(number: usize, count: usize, title: &str) -> String {
     let place = match number {
+        0 if count == 1 => w().start_of_one.to_owned(),
         0 => fill(w().start_of, &[&count]),
         _ => fill(w().step_of, &[&number, &count]),
     };
@@ -136,5 +137,17 @@ pub(crate) fn ui(ui: &mut Ui, bar: Rect, session: &Session, commands: &mut Vec<C
         let step = galley.size().y + 6.0;
         painter.galley(at, galley, Palette::get(ui).text);
         at.y += step;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::heading;
+
+    #[test]
+    fn a_single_step_is_told_as_one() {
+        assert_eq!(heading(0, 1, ""), "Start, one step follows");
+        assert_eq!(heading(0, 3, "Skull"), "Start, 3 steps follow   Skull");
+        assert_eq!(heading(1, 1, ""), "Step 1 of 1");
     }
 }

@@ -166,6 +166,9 @@ impl Viewport {
             free
         };
         orientation::edges_ui(&painter, &view, letters, free);
+        // Left of the buttons, where these have a column of their own.
+        let foot = free.right_bottom() - vec2(view_bar::column_width(rect) + 14.0, 14.0);
+        orientation::bar_ui(&painter, session, rect, letters, foot);
         self.captions
             .ui(ui, &view, view_bar::beside(free), session, commands);
 

@@ -62,6 +62,38 @@ pub(crate) fn ui(
     edges_ui(ui, look, commands);
     widget::divider(ui);
     background_ui(ui, look.background, commands);
+    marks_ui(ui, look, commands);
+}
+
+/// What stands at the picture's edges for readers and in saved pictures.
+fn marks_ui(ui: &mut Ui, look: &Look, commands: &mut Vec<Command>) {
+    let marks = [
+        (
+            w().scale,
+            w().scale_hint,
+            look.scale_bar,
+            "scale",
+            "Change scale bar",
+        ),
+        (
+            w().sides,
+            w().sides_hint,
+            look.sides,
+            "sides",
+            "Change letters of sides",
+        ),
+    ];
+    for (name, hint, mut is_on, key, undo) in marks {
+        ui.horizontal_wrapped(|ui| {
+            if ui.checkbox(&mut is_on, name).on_hover_text(hint).changed() {
+                commands.push(Command::Apply(Edit::Set {
+                    pointer: format!("/look/{key}"),
+                    value: is_on.into(),
+                    name: undo.to_owned(),
+                }));
+            }
+        });
+    }
 }
 
 /// The transfer function and the window: how values look.

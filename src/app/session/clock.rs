@@ -1,7 +1,9 @@
 //! What goes with the clock.
 
 use super::link::LINK_DELAY;
+use super::notices::Gravity;
 use super::session::Session;
+use crate::app::words::messages;
 
 /// Seconds for which the button of the link says “Copied”.
 const COPIED_SECONDS: f64 = 2.0;
@@ -13,6 +15,7 @@ impl Session {
         self.now = now;
         self.notices.expire(now);
         self.advance_tissues();
+        self.tell_unshaped();
         if self.copied_at.is_some_and(|at| now - at > COPIED_SECONDS) {
             self.copied_at = None;
         }
@@ -31,6 +34,19 @@ impl Session {
         }
         let is_going_on = self.advance_playing();
         self.advance_glide() || is_walking || is_going_on
+    }
+
+    /// Says which captions the program cannot set, when there are more of them than before.
+    fn tell_unshaped(&mut self) {
+        let found: Vec<String> = self
+            .illustration()
+            .unshaped_captions()
+            .map(|(_, text)| text.to_owned())
+            .collect();
+        if found.len() > self.unshaped {
+            self.notify(Gravity::Warning, messages::w().unshaped, found.join("\n"));
+        }
+        self.unshaped = found.len();
     }
 
     /// Seconds until [`Self::advance`] has something to do although nothing else happens.

@@ -10,7 +10,7 @@ use super::ticket::Ticket;
 use crate::app::words::fill;
 use crate::app::words::messages::w;
 use crate::assets::{OtherFile, Want};
-use crate::document::{Document, Edit, Reading, SubjectRef};
+use crate::document::{Document, Edit, Notice, NoticeKind, Reading, SubjectRef};
 use crate::link;
 
 /// True if a subject that was asked for, or is shown, is that of the document.
@@ -18,11 +18,25 @@ fn is_of(one: &Option<SubjectRef>, subject: &SubjectRef) -> bool {
     one.as_ref().is_some_and(|one| one.is_same_data(subject))
 }
 
+/// A notice on a document, in the language of the interface where it is for everybody: most speak of keys and values,
+/// to who writes documents by hand.
+fn notice_text(notice: &Notice) -> String {
+    let NoticeKind::NotDrawnYet { keys } = &notice.kind else {
+        return notice.to_string();
+    };
+    let name_of = |key: &&str| match *key {
+        "/subject/meshes" => w().meshes_beside,
+        _ => w().objects,
+    };
+    let names: Vec<&str> = keys.iter().map(name_of).collect();
+    fill(w().not_drawn_yet, &[&names.join(", ")])
+}
+
 impl Session {
     /// Takes another document in place of the present one, at one of its steps, and shows its notices.
     pub fn open_document(&mut self, document: Document, step: usize) {
         self.keep_work();
-        let notices: Vec<String> = document.notices().iter().map(ToString::to_string).collect();
+        let notices: Vec<String> = document.notices().iter().map(notice_text).collect();
         self.put_down();
         self.withdraw_templates();
         self.link_stale_since = None;
@@ -128,7 +142,7 @@ impl Session {
         let subject = &self.illustration().subject;
         let is_answer = match load.of {
             LoadOf::Subject => true,
-            LoadOf::File => self.waits_for_file() && matches!(subject, SubjectRef::Supplied { .. }),
+            LoadOf::File => self.waits_for_file() && subject.supplied_sha256().is_some(),
             LoadOf::Instead | LoadOf::Segments(_) => false,
         };
         let check = Want::subject(subject).check(found);
@@ -190,7 +204,7 @@ impl Session {
         {
             let details = fill(w().other_file_details, &[&other.wanted, &other.found]);
             self.notify(Gravity::Warning, w().other_file, details);
-        } else if let SubjectRef::Supplied { sha256: wanted, .. } = &self.illustration().subject {
+        } else if let Some(wanted) = self.illustration().subject.supplied_sha256() {
             if *wanted == sha256 && self.wants_other_frame(&load.reading) {
                 self.requested = None;
                 self.load_subject();
@@ -228,7 +242,7 @@ impl Session {
         let Some(mut value) = changed.and_then(|document| document.get(at).cloned()) else {
             return change;
         };
-        for key in ["segments", "features"] {
+        for key in ["segments", "features", "meshes"] {
             if let Some(kept) = self.document().get(&format!("{at}/{key}")) {
                 value[key] = kept.clone();
             }

@@ -256,6 +256,7 @@ mod tests {
             }
         };
         Volume {
+            has_size: true,
             grid: Grid {
                 dims: UVec3::splat(side),
                 world_from_voxel: DAffine3::from_scale(DVec3::ONE),

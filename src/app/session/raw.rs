@@ -64,6 +64,7 @@ impl Session {
         let reading = Reading {
             frame: 0,
             raw: Some(voxels.clone()),
+            ..Reading::default()
         };
         match self.load.as_mut().filter(|load| load.ticket == ticket) {
             Some(load) if load.is_file() => {

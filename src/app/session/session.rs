@@ -205,6 +205,8 @@ pub struct Session {
     pub(super) playing: Option<Autoplay>,
     /// The reader wants nothing to move by itself: passages and glides are cuts.
     pub has_less_motion: bool,
+    /// Captions of the illustration that the program's letters cannot set, as far as that was told.
+    pub(super) unshaped: usize,
     /// Grows with every change of the illustration that is shown.
     pub revision: u64,
     /// Settings of the view besides the camera: panes, slices, measures.
@@ -254,6 +256,7 @@ impl Session {
             copied_at: None,
             has_hint: false,
             has_told_slow: false,
+            unshaped: 0,
             is_lettering: false,
             picture_px: None,
             has_title: false,
@@ -565,6 +568,7 @@ impl Session {
         let segmentation = Segmentation::cube(2, voxel_mm, |_| 0, segments);
         let mut session = Self::new(Document::from_json(json).expect("a valid document"));
         session.set_subject(&Subject::from(Volume {
+            has_size: true,
             grid: segmentation.grid,
             voxels: Voxels::U8(vec![0; 8]),
             slope: 1.0,

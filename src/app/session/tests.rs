@@ -1,6 +1,7 @@
 //! What commands do to the session and what they want done outside. No window, no device.
 
 use glam::Vec3;
+use serde_json::{Value, json};
 
 use super::{
     Command, Effect, Focus, Found, Gravity, LinkChange, Place, Question, RawCommand, See, Session,
@@ -575,6 +576,40 @@ fn what_only_a_window_can_do_is_an_effect() {
         Command::ToggleLettering,
         |e| matches!(e, Effect::Store("lettering", on) if on == "yes"),
     );
+}
+
+#[test]
+fn captions_that_cannot_be_set_are_named() {
+    let mut session = empty();
+    let texts = |session: &Session| -> Vec<String> {
+        let shown = session.notices.shown();
+        shown.map(|notice| notice.details.clone()).collect()
+    };
+    let set = |session: &mut Session, labels: Value| {
+        let edit = Edit::Set {
+            pointer: "/labels".to_owned(),
+            value: labels,
+            name: String::new(),
+        };
+        session.run(Command::Apply(edit), session.now);
+        session.advance(session.now + 0.1);
+    };
+    set(
+        &mut session,
+        json!([{ "text": "Bone" }, { "text": "עצם", "enabled": false }]),
+    );
+    assert!(texts(&session).is_empty(), "{:?}", texts(&session));
+    set(
+        &mut session,
+        json!([{ "text": "Bone" }, { "text": "עצם" }, { "text": "عظم" }]),
+    );
+    assert_eq!(texts(&session), ["עצם\nعظم"]);
+    let told = session.notices.all().len();
+    set(
+        &mut session,
+        json!([{ "text": "Bones" }, { "text": "עצם" }, { "text": "عظم" }]),
+    );
+    assert_eq!(session.notices.all().len(), told, "told once");
 }
 
 #[test]

@@ -180,9 +180,8 @@ pub(super) fn marked_in(shown: &Illustration, name: &str) -> Illustration {
     let color_srgb = own.and_then(|look| look.color_srgb);
     looks.retain(|look| look.name != name && look.opacity <= 0.0);
     looks.push(SegmentLook {
-        name: name.to_owned(),
-        opacity: 1.0,
         color_srgb,
+        ..SegmentLook::solid(name)
     });
     marked
 }

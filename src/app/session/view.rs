@@ -68,6 +68,8 @@ pub struct ScanFacts {
 pub struct SubjectFacts {
     /// Millimetres in one subject unit.
     pub mm_per_unit: f32,
+    /// Its file says how large it is.
+    pub has_size: bool,
     /// Where the middle of its box lies in the scanner's space, mm.
     pub middle_mm: DVec3,
     /// Box of the untouched subject, subject space.
@@ -88,6 +90,7 @@ impl SubjectFacts {
         let frame = subject.frame();
         Self {
             mm_per_unit: frame.mm_per_unit as f32,
+            has_size: subject.mm_per_unit().is_some(),
             middle_mm: frame.middle_mm,
             bounds: frame.bounds,
             detail: frame.detail,
@@ -218,6 +221,13 @@ impl ViewState {
     pub fn mm_per_unit(&self) -> Option<f32> {
         self.subject.as_ref().map(|subject| subject.mm_per_unit)
     }
+
+    /// Millimetres in one subject unit, once a subject is there whose file says how large it is.
+    pub fn known_mm_per_unit(&self) -> Option<f64> {
+        let subject = self.subject.as_ref().filter(|subject| subject.has_size);
+        subject.map(|subject| f64::from(subject.mm_per_unit))
+    }
+
     /// False if a subject is shown that has no values: panels leave out what is about values.
     pub fn has_values(&self) -> bool {
         let subject = self.subject.as_ref();

@@ -20,6 +20,8 @@ words! {
         subject_hint: "What is shown", "Was gezeigt wird", "Lo que se muestra", "显示的内容";
         open_file_more: "Open a file…", "Datei öffnen …", "Abrir un archivo…", "打开文件…";
         scan_from_address: "Scan from an address", "Scan von einer Adresse", "Estudio de una dirección", "来自网址的扫描";
+        own_surface: "Your surface", "Eigene Oberfläche", "Superficie propia", "自己的表面";
+        own_surfaces: "Your surfaces", "Eigene Oberflächen", "Superficies propias", "自己的表面";
         own_scan: "Your scan", "Eigener Scan", "Estudio propio", "自己的扫描";
         more: "More", "Mehr", "Más", "更多";
         new_document: "New document", "Neues Dokument", "Documento nuevo", "新建文档";

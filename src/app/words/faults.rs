@@ -7,7 +7,7 @@ words! {
     /// What is wrong with a file; `{0}` is its name.
     Faults {
         picture: "{0} is an image, not a scan", "{0} ist ein Bild, kein Scan", "{0} es una imagen, no un estudio", "{0} 是图片，不是扫描";
-        surface: "{0} is a surface mesh, not a scan; meshes are not drawn yet", "{0} ist ein Oberflächennetz, kein Scan; Netze werden noch nicht gezeichnet", "{0} es una malla de superficie, no un estudio; las mallas aún no se dibujan", "{0} 是表面网格，不是扫描；目前还不能绘制网格";
+        surface: "{0} is a surface mesh, not a scan: save it as PLY or GLB and open it by itself", "{0} ist ein Oberflächennetz, kein Scan: bitte als PLY oder GLB speichern und für sich öffnen", "{0} es una malla de superficie, no un estudio: guárdela como PLY o GLB y ábrala por separado", "{0} 是表面网格，不是扫描：请存为 PLY 或 GLB 后单独打开";
         archive: "{0} is an archive: unpack it and open the scan in it", "{0} ist ein Archiv: bitte entpacken und den Scan darin öffnen", "{0} es un archivo comprimido: descomprímalo y abra el estudio que contiene", "{0} 是压缩包：请解压后打开其中的扫描";
         unknown: "{0} is not a scan that Fabrica can read: it reads NIfTI, NRRD, MetaImage and DICOM", "{0} ist kein Scan, den Fabrica lesen kann: gelesen werden NIfTI, NRRD, MetaImage und DICOM", "Fabrica no puede leer {0}: lee estudios NIfTI, NRRD, MetaImage y DICOM", "{0} 不是 Fabrica 能读取的扫描：可读取 NIfTI、NRRD、MetaImage 和 DICOM";
         empty: "{0} is empty: get it again", "{0} ist leer: bitte neu beschaffen", "{0} está vacío: vuelva a obtenerlo", "{0} 是空文件：请重新获取";

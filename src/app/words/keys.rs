@@ -61,6 +61,7 @@ words! {
         later: "Move the template down: it acts later", "Vorlage nach unten: wirkt später", "Bajar la plantilla: actúa después", "下移模板：更晚起效";
         next_step: "Next step", "Nächster Schritt", "Paso siguiente", "下一步";
         step_of: "Step {0} of {1}", "Schritt {0} von {1}", "Paso {0} de {1}", "第 {0} 步，共 {1} 步";
+        start_of_one: "Start, one step follows", "Anfang, ein Schritt folgt", "Inicio, sigue un paso", "起始，后有 1 步";
         start_of: "Start, {0} steps follow", "Anfang, {0} Schritte folgen", "Inicio, siguen {0} pasos", "起始，后有 {0} 步";
         step_before: "Step before", "Schritt davor", "Paso anterior", "上一步";
         picture_alone: "Present: the picture without panels", "Präsentieren: das Bild ohne Bereiche", "Presentar: la imagen sin paneles", "演示：不显示面板";

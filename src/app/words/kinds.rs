@@ -325,6 +325,89 @@ fn kind_words(kind: TemplateKind) -> Kind {
                 ),
             ],
         },
+        K::Crack => Kind {
+            title: ["Crack", "Riss", "Grieta", "裂缝"],
+            summary: [
+                "A jagged break down from the surface, drawn apart",
+                "Ein gezackter Bruch von der Oberfläche nach unten, auseinandergezogen",
+                "Una rotura dentada desde la superficie hacia abajo, separada",
+                "从表面向下的锯齿状断裂，向两侧拉开",
+            ],
+            params: &[
+                (
+                    AMOUNT,
+                    [
+                        "Width of the opening at the surface",
+                        "Breite der Öffnung an der Oberfläche",
+                        "Anchura de la abertura en la superficie",
+                        "表面开口的宽度",
+                    ],
+                ),
+                (
+                    ["Lens", "Linse", "Lente", "透镜形"],
+                    [
+                        "1 closes the opening at both ends",
+                        "1 schließt die Öffnung an beiden Enden",
+                        "1 cierra la abertura en ambos extremos",
+                        "1 表示两端闭合",
+                    ],
+                ),
+                (
+                    DEPTH,
+                    [
+                        "How deep it goes, as a part of the box's depth",
+                        "Wie tief er reicht, Teil der Tiefe des Quaders",
+                        "Hasta dónde llega, parte de la profundidad de la caja",
+                        "裂缝深度，占盒子深度的比例",
+                    ],
+                ),
+                (
+                    ["Roughness", "Rauheit", "Rugosidad", "粗糙度"],
+                    [
+                        "Height of the teeth",
+                        "Höhe der Zacken",
+                        "Altura de los dientes",
+                        "锯齿的高度",
+                    ],
+                ),
+                (
+                    ["Grain", "Körnung", "Grano", "颗粒"],
+                    [
+                        "Size of the largest teeth",
+                        "Größe der größten Zacken",
+                        "Tamaño de los dientes más grandes",
+                        "最大锯齿的尺寸",
+                    ],
+                ),
+                (
+                    ["Variant", "Variante", "Variante", "变体"],
+                    [
+                        "Which of a thousand cracks",
+                        "Welcher von tausend Rissen",
+                        "Cuál de mil grietas",
+                        "一千种裂缝中的哪一种",
+                    ],
+                ),
+                (
+                    ["Ripple", "Wellung", "Ondulación", "波纹"],
+                    [
+                        "Height of the waves",
+                        "Höhe der Wellen",
+                        "Altura de las ondas",
+                        "波的高度",
+                    ],
+                ),
+                (
+                    ["Waves", "Wellen", "Ondas", "波数"],
+                    [
+                        "Number of waves along the crack; below 0 down into it",
+                        "Zahl der Wellen entlang des Risses; unter 0 in die Tiefe",
+                        "Número de ondas a lo largo de la grieta; por debajo de 0, hacia el fondo",
+                        "沿裂缝方向的波数；小于 0 时沿深度方向",
+                    ],
+                ),
+            ],
+        },
         K::Slices => Kind {
             title: ["Slices", "Scheiben", "Rodajas", "切片"],
             summary: [

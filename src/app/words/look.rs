@@ -42,6 +42,10 @@ words! {
         black: "Black", "Schwarz", "Negro", "黑色";
         transparent: "Transparent", "Durchsichtig", "Transparente", "透明";
         background_colour: "Background colour", "Hintergrundfarbe", "Color de fondo", "背景颜色";
+        scale: "Scale bar", "Maßstab", "Barra de escala", "比例尺";
+        scale_hint: "A bar in millimetres in the picture, for readers and in saved pictures. It holds at the depth that the camera looks at: what is nearer is drawn larger", "Ein Balken in Millimetern im Bild, für Leser und in gesicherten Bildern. Er gilt in der Tiefe, auf die die Kamera blickt: Näheres ist größer gezeichnet", "Una barra en milímetros en la imagen, para los lectores y en las imágenes guardadas. Vale a la profundidad que mira la cámara: lo más cercano se dibuja mayor", "图像中的毫米比例尺，供读者查看，也写入保存的图片。它适用于相机所注视的深度：更近的部分画得更大";
+        sides: "Letters of the patient's sides", "Buchstaben der Seiten des Patienten", "Letras de los lados del paciente", "患者方位字母";
+        sides_hint: "R, L, A, P, S and I at the edges of the picture, for readers and in saved pictures; here they always stand", "R, L, A, P, S und I an den Rändern des Bildes, für Leser und in gesicherten Bildern; hier stehen sie immer", "R, L, A, P, S e I en los bordes de la imagen, para los lectores y en las imágenes guardadas; aquí están siempre", "图像边缘的 R、L、A、P、S、I，供读者查看，也写入保存的图片；此处始终显示";
         any_colour: "Any colour", "Beliebige Farbe", "Cualquier color", "任意颜色";
     }
 }

@@ -19,6 +19,9 @@ words! {
         picture_failed: "The picture could not be made", "Das Bild konnte nicht erzeugt werden", "No se pudo crear la imagen", "无法生成图片";
         device_lost: "The graphics device was lost. Your work is kept: copy the link, or start again", "Das Grafikgerät ging verloren. Die Arbeit ist erhalten: Link kopieren oder neu starten", "Se perdió el dispositivo gráfico. Su trabajo se conserva: copie el enlace o reinicie", "图形设备已丢失。您的工作已保留：请复制链接，或重新启动";
         more_notices: "{0} (and {1} more)", "{0} (und {1} weitere)", "{0} (y {1} más)", "{0}（另有 {1} 条）";
+        not_drawn_yet: "{0}: kept in the document, but not drawn yet", "{0}: im Dokument behalten, aber noch nicht gezeichnet", "{0}: se conserva en el documento, pero aún no se dibuja", "{0}：已保留在文档中，但尚未绘制";
+        meshes_beside: "Further meshes (subject.meshes)", "Weitere Netze (subject.meshes)", "Otras mallas (subject.meshes)", "其他网格（subject.meshes）";
+        objects: "Objects (objects)", "Gegenstände (objects)", "Objetos (objects)", "物体（objects）";
         cannot_be_opened: "This document cannot be opened: {0}", "Dieses Dokument lässt sich nicht öffnen: {0}", "Este documento no se puede abrir: {0}", "无法打开此文档：{0}";
         step_too_far: "The link opens at step {0}, the last is {1}", "Der Link öffnet bei Schritt {0}, der letzte ist {1}", "El enlace abre en el paso {0}; el último es {1}", "链接要打开第 {0} 步，但最后一步是第 {1} 步";
         other_file: "This is another file than the one the document was made with; undo brings the first one's name back", "Das ist eine andere Datei als die, mit der das Dokument gemacht wurde; Rückgängig bringt den ersten Namen zurück", "Este no es el archivo con el que se hizo el documento; deshacer recupera el nombre del primero", "这不是制作该文档时所用的文件；撤销可恢复原来的名称";
@@ -29,6 +32,7 @@ words! {
         point_not_found: "The point could not be found", "Der Punkt wurde nicht gefunden", "No se encontró el punto", "找不到该点";
         nothing_here: "There is nothing at this place: click on the object", "Hier ist nichts: bitte auf das Objekt klicken", "Aquí no hay nada: haga clic en el objeto", "此处没有内容：请点击对象";
         field_refused: "The displacement field cannot be used", "Das Verschiebungsfeld ist nicht brauchbar", "El campo de desplazamiento no se puede usar", "无法使用该位移场";
+        unshaped: "Captions in Arabic or Hebrew letters are not set rightly here; the reader in a page does it", "Beschriftungen in arabischen oder hebräischen Buchstaben werden hier nicht richtig gesetzt; der Leser in einer Seite kann es", "Los rótulos en letras árabes o hebreas no se componen bien aquí; el lector en una página sí lo hace", "此处无法正确排印阿拉伯文或希伯来文标注；网页阅读器可以";
         less: "Less", "Weniger", "Menos", "收起";
         details: "Details", "Einzelheiten", "Detalles", "详情";
         dismiss: "Dismiss", "Ausblenden", "Descartar", "关闭";

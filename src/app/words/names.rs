@@ -84,6 +84,18 @@ pub(crate) fn edit_title(name: &str) -> String {
     let whole = match name {
         "Change colours" => ["", "Farben ändern", "Cambiar los colores", "更改颜色"],
         "Change edges" => ["", "Kanten ändern", "Cambiar los bordes", "更改边缘"],
+        "Change letters of sides" => [
+            "",
+            "Buchstaben der Seiten ändern",
+            "Cambiar las letras de los lados",
+            "更改方位字母",
+        ],
+        "Change scale bar" => [
+            "",
+            "Maßstab ändern",
+            "Cambiar la barra de escala",
+            "更改比例尺",
+        ],
         "Change tint" => ["", "Tönung ändern", "Cambiar el tinte", "更改着色"],
         "Change window" => ["", "Fenster ändern", "Cambiar la ventana", "更改窗口"],
         "Change opacity mode" => [
@@ -120,6 +132,9 @@ pub(crate) fn edit_title(name: &str) -> String {
         "Add label" => ["", "Beschriftung hinzufügen", "Añadir rótulo", "添加标注"],
         "Change label" => ["", "Beschriftung ändern", "Cambiar rótulo", "更改标注"],
         "Remove label" => ["", "Beschriftung entfernen", "Quitar rótulo", "移除标注"],
+        "Add mesh" => ["", "Netz hinzufügen", "Añadir malla", "添加网格"],
+        "Remove mesh" => ["", "Netz entfernen", "Quitar malla", "移除网格"],
+        "Add object" => ["", "Gegenstand hinzufügen", "Añadir objeto", "添加物体"],
         "Add step" => ["", "Schritt hinzufügen", "Añadir paso", "添加步骤"],
         "Remove step" => ["", "Schritt entfernen", "Quitar paso", "移除步骤"],
         "Reorder steps" => ["", "Schritte umordnen", "Reordenar pasos", "调整步骤顺序"],
@@ -189,6 +204,10 @@ pub(crate) fn subject_title(subject_ref: &SubjectRef) -> String {
         SubjectRef::Builtin { name } => subject(name),
         SubjectRef::Address { name, .. } => or(name, bar::w().scan_from_address),
         SubjectRef::Supplied { name, .. } => or(name, bar::w().own_scan),
+        SubjectRef::Meshes(meshes) => match meshes.as_slice() {
+            [one] => or(&one.name, bar::w().own_surface),
+            _ => bar::w().own_surfaces.to_owned(),
+        },
     }
 }
 

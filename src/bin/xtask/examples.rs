@@ -45,7 +45,9 @@ pub(crate) fn examples(root: &Path) -> Result<Vec<(String, Document)>, String> {
     let names: Vec<&str> = FIRST.iter().chain(subjects::names()).copied().collect();
     examples.sort_by_key(|(_, document)| match &document.illustration().subject {
         SubjectRef::Builtin { name } => names.iter().position(|other| other == name),
-        SubjectRef::Address { .. } | SubjectRef::Supplied { .. } => Some(names.len()),
+        SubjectRef::Address { .. } | SubjectRef::Supplied { .. } | SubjectRef::Meshes(_) => {
+            Some(names.len())
+        }
     });
     Ok(examples)
 }

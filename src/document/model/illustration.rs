@@ -1,8 +1,12 @@
 //! The whole illustration: what a document means once its defaults are filled in.
 
 use super::look::{Background, Look, OpacityMode, Transfer, Window};
+use super::mesh::{MeshRef, SubjectBox};
+use super::object::SceneObject;
 use super::recipe::Recipe;
+use super::script::needs_shaping;
 use super::subject::{SegmentsRef, SubjectRef};
+use super::surface::SurfaceLook;
 use super::template::PlacedTemplate;
 use crate::document::limits::DEFAULT_SUBJECT;
 use glam::{Quat, Vec3};
@@ -24,10 +28,18 @@ pub struct Illustration {
     pub subject: SubjectRef,
     /// Revision of a built-in subject that was improved since; `None` is the first.
     pub subject_revision: Option<u32>,
+    /// Meshes that come with the subject's own file or built-in subject. A subject of meshes alone has its meshes in
+    /// [`SubjectRef::Meshes`]; [`Illustration::meshes`] gives either.
+    pub meshes_beside: Vec<MeshRef>,
+    /// The box that gives a subject of meshes alone its origin and its unit; `None` takes that of its vertices.
+    pub subject_box: Option<SubjectBox>,
     /// Label volumes beside the subject.
     pub segments: Vec<SegmentsRef>,
     /// Recipes of segments that are made from the subject's values, besides the segments that come with files.
     pub recipes: Vec<Recipe>,
+    /// Objects that stand in the scene and are never displaced, switched off ones included. Those that name nothing
+    /// that this version knows are left out; a notice names each.
+    pub objects: Vec<SceneObject>,
     /// Templates in the order in which they act, switched off ones included. Unknown kinds are left out; a notice names
     /// each.
     pub templates: Vec<PlacedTemplate>,
@@ -56,8 +68,11 @@ impl Illustration {
                 name: DEFAULT_SUBJECT.to_owned(),
             },
             subject_revision: None,
+            meshes_beside: Vec::new(),
+            subject_box: None,
             segments: Vec::new(),
             recipes: Vec::new(),
+            objects: Vec::new(),
             templates: Vec::new(),
             look: Look {
                 transfer: Transfer::Auto,
@@ -66,13 +81,41 @@ impl Illustration {
                 opacity: OpacityMode::Constancy,
                 gradient: 0.0,
                 segments: Vec::new(),
+                surface: SurfaceLook::DOCUMENT_DEFAULT,
                 background: Background::Color([255; 3]),
+                scale_bar: false,
+                sides: false,
             },
             camera: Camera::DOCUMENT_DEFAULT,
             captions: Vec::new(),
             controls: Vec::new(),
             steps: Vec::new(),
         }
+    }
+
+    /// The entries of `subject.meshes` that name a file: the subject itself, or what lies beside its volume. Where the
+    /// subject's own file is a mesh, that comes before these.
+    pub fn meshes(&self) -> &[MeshRef] {
+        match &self.subject {
+            SubjectRef::Meshes(meshes) => meshes,
+            _ => &self.meshes_beside,
+        }
+    }
+
+    /// The object of a name: the first, if there are several.
+    pub fn object(&self, name: &str) -> Option<&SceneObject> {
+        self.objects.iter().find(|object| object.name == name)
+    }
+}
+
+impl Illustration {
+    /// Captions that are switched on and whose letters only a browser sets rightly: their places in `labels`, and
+    /// texts.
+    pub fn unshaped_captions(&self) -> impl Iterator<Item = (usize, &str)> {
+        let captions = self.captions.iter().enumerate();
+        captions
+            .filter(|(_, caption)| caption.enabled && needs_shaping(&caption.text))
+            .map(|(index, caption)| (index, caption.text.trim()))
     }
 }
 

@@ -1,5 +1,7 @@
 //! Colours, opacity and background.
 
+use super::surface::{SurfaceChange, SurfaceLook};
+
 /// Colours, opacity and background.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
@@ -16,8 +18,14 @@ pub struct Look {
     pub gradient: f32,
     /// Segments that are drawn as bodies of their own, whatever the transfer function says.
     pub segments: Vec<SegmentLook>,
+    /// How meshes are drawn whose segments do not say.
+    pub surface: SurfaceLook,
     /// The background behind the object.
     pub background: Background,
+    /// A scale bar stands in the picture.
+    pub scale_bar: bool,
+    /// The letters of the patient's sides stand at the picture's edges.
+    pub sides: bool,
 }
 
 /// How one segment is drawn: as a body of its own, whatever its values are.
@@ -25,15 +33,64 @@ pub struct Look {
 pub struct SegmentLook {
     /// Name of the segment, or its label written as text.
     pub name: String,
-    /// 1 is solid, 0 is hidden; between them the opacity of a layer of [`SegmentLook::LAYER`].
+    /// 1 is solid, 0 is hidden; between them the opacity of a layer of [`SegmentLook::LAYER`]. Of a mesh, the opacity
+    /// of one crossing or one cut face.
     pub opacity: f32,
+    /// False where the document gives no opacity: a scan's segment is solid then, a mesh has its file's.
+    pub is_opacity_given: bool,
     /// sRGB bytes; `None`: the segment's own colour.
     pub color_srgb: Option<[u8; 3]>,
+    /// What it says of the surface of a mesh. Scans do not have any.
+    pub surface: SurfaceChange,
 }
 
 impl SegmentLook {
     /// Thickness of the layer whose opacity [`SegmentLook::opacity`] gives, subject units.
     pub const LAYER: f32 = 0.05;
+
+    /// A segment as a solid body in its own colour.
+    pub fn solid(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            opacity: 1.0,
+            is_opacity_given: true,
+            color_srgb: None,
+            surface: SurfaceChange::default(),
+        }
+    }
+}
+
+/// How one segment of a mesh is drawn: the keys of `look` and of its entry in `look.segments` together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentSurface {
+    /// What the body is, and of what.
+    pub surface: SurfaceLook,
+    /// Opacity of one crossing or one cut face, 0 to 1; `None`: the file's.
+    pub opacity: Option<f32>,
+    /// sRGB bytes; `None`: what the file gives.
+    pub color_srgb: Option<[u8; 3]>,
+}
+
+impl Look {
+    /// How a segment of a mesh is drawn. `number` is its number, from 1, in a subject without a volume; beside a
+    /// volume numbers mean labels, and it is `None`. A name goes before a number.
+    pub fn of_mesh_segment(&self, name: &str, number: Option<u32>) -> SegmentSurface {
+        let number = number.map(|number| number.to_string());
+        let called = |name: &str| self.segments.iter().find(|look| look.name == name);
+        let own = called(name).or_else(|| called(number.as_deref()?));
+        let Some(own) = own else {
+            return SegmentSurface {
+                surface: self.surface.clone(),
+                opacity: None,
+                color_srgb: None,
+            };
+        };
+        SegmentSurface {
+            surface: own.surface.over(&self.surface),
+            opacity: own.is_opacity_given.then_some(own.opacity),
+            color_srgb: own.color_srgb,
+        }
+    }
 }
 
 /// The source of opacity and colour.

@@ -3,9 +3,13 @@
 mod curve;
 mod illustration;
 mod look;
+mod mesh;
+mod object;
 mod preset;
 mod recipe;
+mod script;
 mod subject;
+mod surface;
 mod template;
 
 pub use crate::displace::{
@@ -14,10 +18,15 @@ pub use crate::displace::{
 };
 pub use curve::Curve;
 pub use illustration::{Camera, Caption, Control, ControlRange, Illustration, Step};
-pub use look::{Background, Look, OpacityMode, SegmentLook, Transfer, TransferPoint, Window};
+pub use look::{
+    Background, Look, OpacityMode, SegmentLook, SegmentSurface, Transfer, TransferPoint, Window,
+};
+pub use mesh::{MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, SubjectBox};
+pub use object::{ObjectPlacement, ObjectSource, SceneObject};
 pub use preset::{PRESETS, Preset, PresetSubject, preset, presets};
 pub use recipe::{CleanStep, Recipe, RecipeSource, Stroke};
 pub use subject::{RawVoxels, Reading, SegmentsRef, SubjectRef};
+pub use surface::{BodyKind, Layer, SurfaceChange, SurfaceLook};
 pub use template::{
     Align, Constrain, ConstrainBy, FieldRef, PlacedTemplate, TemplateData, TemplateMode, keep_set,
     keep_sets,

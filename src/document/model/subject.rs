@@ -1,5 +1,7 @@
 //! Which file or built-in subject is illustrated, and how its file is read.
 
+use super::mesh::{MeshReading, MeshRef};
+
 /// The subject of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SubjectRef {
@@ -28,14 +30,39 @@ pub enum SubjectRef {
         /// How the file is read.
         reading: Reading,
     },
+    /// Meshes alone, in the order of `subject.meshes`; those without a file are left out.
+    Meshes(Vec<MeshRef>),
 }
 
 impl SubjectRef {
-    /// How its file is read; `None` for a built-in subject.
+    /// How its file is read; `None` for a built-in subject and for meshes alone, which have a reading each.
     pub fn reading(&self) -> Option<&Reading> {
         match self {
-            Self::Builtin { .. } => None,
+            Self::Builtin { .. } | Self::Meshes(_) => None,
             Self::Address { reading, .. } | Self::Supplied { reading, .. } => Some(reading),
+        }
+    }
+
+    /// Address of its file, or of the first of several; `None` for a built-in subject and for a file that the reader
+    /// supplies.
+    pub fn src(&self) -> Option<&str> {
+        match self {
+            Self::Builtin { .. } | Self::Supplied { .. } => None,
+            Self::Address { src, .. } => Some(src),
+            Self::Meshes(meshes) => meshes.first()?.src.as_deref(),
+        }
+    }
+
+    /// SHA-256 of the file, or of the first of several, that the reader supplies; `None` for a built-in subject and for
+    /// a file with an address.
+    pub fn supplied_sha256(&self) -> Option<&str> {
+        match self {
+            Self::Builtin { .. } | Self::Address { .. } => None,
+            Self::Supplied { sha256, .. } => Some(sha256),
+            Self::Meshes(meshes) => {
+                let first = meshes.first().filter(|mesh| mesh.src.is_none())?;
+                first.sha256.as_deref()
+            }
         }
     }
 
@@ -46,30 +73,34 @@ impl SubjectRef {
             match &mut subject {
                 Self::Builtin { .. } => {}
                 Self::Address { name, .. } | Self::Supplied { name, .. } => name.clear(),
+                Self::Meshes(meshes) => meshes.iter_mut().for_each(|mesh| mesh.name.clear()),
             }
             subject
         };
         nameless(self) == nameless(other)
     }
 
-    /// This subject with another way of reading its file. A built-in subject stays as it is.
+    /// This subject with another way of reading its file. A built-in subject stays as it is, and so do meshes alone.
     #[must_use]
     pub fn with_reading(mut self, new: Reading) -> Self {
         match &mut self {
-            Self::Builtin { .. } => {}
+            Self::Builtin { .. } | Self::Meshes(_) => {}
             Self::Address { reading, .. } | Self::Supplied { reading, .. } => *reading = new,
         }
         self
     }
 }
 
-/// How a file is read where the file leaves a choice: `frame` and `raw` of a document's `subject`.
+/// How a file is read where the file leaves a choice: `frame`, `raw`, `units`, `axes`, `parts` and `smooth` of a
+/// document's `subject`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
     /// Which of the volumes in the file, counted from 0: a time point, a component, a layer.
     pub frame: u64,
     /// The layout of the voxels in a file that does not describe it.
     pub raw: Option<RawVoxels>,
+    /// How a file is read that holds a mesh.
+    pub mesh: MeshReading,
 }
 
 /// The layout of a file that holds bare voxels, as its author describes it.

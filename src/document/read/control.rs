@@ -22,7 +22,7 @@ impl Reader {
             [list, index, ..] if list == "templates" => pointer::index(index).and_then(kind_of),
             _ => None,
         };
-        let can_be_set = keys.first().is_some_and(|first| !is_fixed(first));
+        let can_be_set = !keys.is_empty() && !is_fixed(&keys);
         let range = match scalar_at(&keys, template).filter(|_| can_be_set) {
             None => Err("no number and no truth value that a step may set stands there"),
             Some(Scalar::Flag(default)) => Ok(ControlRange::Flag(default)),

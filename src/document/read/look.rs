@@ -23,6 +23,7 @@ impl Reader {
         let opacity = OpacityMode::ALL[self.choice(object, "opacity")?];
         let gradient = self.number(object, "gradient")?;
         let segments = self.segment_looks(&object.child("segments")?)?;
+        let surface = self.surface(object)?;
         let background = match object.text("background")? {
             Some("none") => Background::None,
             _ => Background::Color(
@@ -37,7 +38,10 @@ impl Reader {
             opacity,
             gradient,
             segments,
+            surface,
             background,
+            scale_bar: object.flag("scale")?,
+            sides: object.flag("sides")?,
         })
     }
 
@@ -101,19 +105,23 @@ impl Reader {
     fn segment_looks(&mut self, segments: &Object<'_>) -> Result<Vec<SegmentLook>, DocumentError> {
         let mut looks = Vec::new();
         for (name, value) in segments.map {
-            let (opacity, color_srgb) = match value {
-                Value::Number(_) => (self.number_in(segments, name, 1.0, [0.0, 1.0])?, None),
+            looks.push(match value {
+                Value::Number(_) => SegmentLook {
+                    opacity: self.number_in(segments, name, 1.0, [0.0, 1.0])?,
+                    ..SegmentLook::solid(name)
+                },
                 _ => {
                     let look = Object::new(segments.at(name), value, segments.keys)?;
                     self.unknown_keys(&look);
                     let color_srgb = self.color(&look, "color", "#ffffff")?;
-                    (self.number(&look, "opacity")?, color_srgb)
+                    SegmentLook {
+                        name: name.clone(),
+                        opacity: self.number(&look, "opacity")?,
+                        is_opacity_given: look.map.contains_key("opacity"),
+                        color_srgb,
+                        surface: self.surface_change(&look)?,
+                    }
                 }
-            };
-            looks.push(SegmentLook {
-                name: name.clone(),
-                opacity,
-                color_srgb,
             });
         }
         Ok(looks)

@@ -5,10 +5,12 @@ mod curve;
 mod data;
 mod illustration;
 mod look;
+mod mesh;
 mod object;
 mod reader;
 mod recipe;
 mod subject;
+mod surface;
 mod template;
 
 pub(super) use illustration::resolve;

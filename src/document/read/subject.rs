@@ -3,13 +3,35 @@
 use super::object::{Object, wrong};
 use super::reader::Reader;
 use crate::document::limits::{BUILTIN_SUBJECTS, DEFAULT_SUBJECT};
-use crate::document::model::{RawVoxels, Reading, SegmentsRef, SubjectRef};
+use crate::document::model::{MeshRef, RawVoxels, Reading, SegmentsRef, SubjectRef};
 use crate::document::text::{DocumentError, NoticeKind, shortened};
 use serde_json::Value;
 
 impl Reader {
-    pub(super) fn subject(&mut self, object: &Object<'_>) -> Result<SubjectRef, DocumentError> {
+    /// The subject, and the meshes beside it: those of a subject of meshes alone are the subject.
+    pub(super) fn subject(
+        &mut self,
+        object: &Object<'_>,
+    ) -> Result<(SubjectRef, Vec<MeshRef>), DocumentError> {
         self.unknown_keys(object);
+        let meshes = self.meshes(object)?;
+        let has = |key: &&str| object.map.contains_key(*key);
+        let is_meshes = !object.list("meshes")?.is_empty();
+        if is_meshes && !["builtin", "src", "sha256"].iter().any(has) {
+            let own = ["name", "frame", "raw", "units", "axes", "parts", "smooth"];
+            for key in own.iter().filter(|key| has(key)) {
+                let taken = "the list of meshes";
+                self.note(object.at(key), NoticeKind::LeftAside { taken });
+            }
+            self.reading(object)?;
+            object.string("name")?;
+            return Ok((SubjectRef::Meshes(meshes), Vec::new()));
+        }
+        Ok((self.volume_or_mesh(object)?, meshes))
+    }
+
+    /// The subject of a document that is not made of `meshes` alone.
+    fn volume_or_mesh(&mut self, object: &Object<'_>) -> Result<SubjectRef, DocumentError> {
         let builtin = object.text("builtin")?;
         let src = object.text("src")?;
         let sha256 = object.hash()?;
@@ -23,7 +45,11 @@ impl Reader {
                     },
                 );
             }
-            for key in ["src", "sha256", "frame", "raw"] {
+            self.mesh_reading(object)?;
+            let own = [
+                "src", "sha256", "frame", "raw", "units", "axes", "parts", "smooth",
+            ];
+            for key in own {
                 if object.map.contains_key(key) {
                     self.note(
                         object.at(key),
@@ -67,6 +93,7 @@ impl Reader {
         Ok(Reading {
             frame: object.whole("frame")?,
             raw,
+            mesh: self.mesh_reading(object)?,
         })
     }
 

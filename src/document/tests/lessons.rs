@@ -127,3 +127,33 @@ fn texts_in_place_of_pictures_are_kept_and_bounded() {
         assert!(at.contains("/alt") && at.contains("step 1"), "{at}");
     }
 }
+
+#[test]
+fn scale_bar_and_letters_of_sides_are_switched_on_by_documents_and_steps() {
+    let text = r##"{"fabrica":1,"look":{"background":"#102030","scale":true,"sides":true},"steps":[{"set":{"/look/scale":false}}]}"##;
+    let read = Document::from_json(text).expect("a document");
+    assert_eq!(read.to_json_compact(), text, "in their places");
+    assert!(read.notices().is_empty(), "{:?}", read.notices());
+    let marks = |document: &Document| {
+        let look = &document.illustration().look;
+        (look.scale_bar, look.sides)
+    };
+    assert_eq!(marks(&read), (true, true));
+    let step = read.at_step(1).expect("a step");
+    assert_eq!(marks(&step), (false, true), "a step may set them");
+    let bare = document(json!({ "fabrica": 1, "look": { "scale": false, "sides": false } }));
+    assert_eq!(bare.to_json_compact(), r#"{"fabrica":1}"#);
+    assert_eq!(marks(&bare), (false, false));
+    for wrong in [json!(1), json!(null), json!("yes"), json!([true])] {
+        for key in ["scale", "sides"] {
+            let at = super::error(json!({ "fabrica": 1, "look": { key: wrong } }));
+            assert!(
+                at.contains(&format!("/look/{key}")) && at.contains("true or false"),
+                "{at}"
+            );
+        }
+        let at =
+            super::error(json!({ "fabrica": 1, "steps": [{ "set": { "/look/sides": wrong } }] }));
+        assert!(at.contains("/look/sides") && at.contains("step 1"), "{at}");
+    }
+}

@@ -49,6 +49,12 @@ pub enum DocumentError {
         /// JSON pointer to the place.
         pointer: String,
     },
+    /// A box without a side above 0 gives no unit of length.
+    #[error("{pointer}: the box has no size")]
+    NoSize {
+        /// JSON pointer to the place.
+        pointer: String,
+    },
     /// The number of the format is missing.
     #[error("/fabrica: not a Fabrica document (the format's number is missing)")]
     NoVersion,

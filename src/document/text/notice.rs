@@ -59,6 +59,16 @@ pub enum NoticeKind {
         /// The thing that is not drawn, in plain words.
         what: &'static str,
     },
+    /// Keys that this version reads and keeps, but does not draw.
+    NotDrawnYet {
+        /// JSON pointers to the keys.
+        keys: Vec<&'static str>,
+    },
+    /// An object has the name of one before it, which counts where the name is asked for.
+    SameName {
+        /// What both are called.
+        name: String,
+    },
     /// A step sets a value in a place that the document does not have.
     Dangling {
         /// The pointer in `set`.
@@ -142,6 +152,17 @@ impl fmt::Display for Notice {
             NoticeKind::NotDrawn { what } => {
                 write!(f, "{pointer}: {what} not drawn yet; kept")
             }
+            NoticeKind::NotDrawnYet { keys } => {
+                let keys = keys.join(", ");
+                write!(
+                    f,
+                    "{keys}: this version does not draw these yet; they are kept"
+                )
+            }
+            NoticeKind::SameName { name } => write!(
+                f,
+                "{pointer}: an object before is called “{name}” too; that one counts"
+            ),
             NoticeKind::Dangling { target } => {
                 write!(f, "{pointer}: {target} is not there; left out")
             }

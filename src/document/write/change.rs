@@ -6,10 +6,10 @@ use super::number::{color_text, rotation, rounded, rounded_size, rounded_value, 
 use super::set::set;
 use super::value;
 use crate::displace::Holds;
-use crate::document::limits::{MAX_LABELS, MAX_TEMPLATES};
+use crate::document::limits::{DEFAULT_SUBJECT, MAX_LABELS, MAX_OBJECTS, MAX_TEMPLATES};
 use crate::document::model::{
-    Align, Background, Constrain, ConstrainBy, OpacityMode, ParamKind, ParamValue, Reading,
-    SubjectRef, TemplateKind, TemplateMode, Transfer, Window,
+    Align, Background, Constrain, ConstrainBy, MeshRef, OpacityMode, ParamKind, ParamValue,
+    Reading, SubjectBox, SubjectRef, TemplateKind, TemplateMode, Transfer, Window,
 };
 use crate::document::text::DocumentError;
 use crate::document::text::pointer::{self, join};
@@ -225,13 +225,19 @@ impl Edit {
             Self::SetSubject(subject) => {
                 // Segments belong to the file, however it is called and read.
                 if !is_same_file(root, subject) {
-                    pointer::remove(root, "/subject/segments")?;
-                    pointer::remove(root, "/subject/features")?;
+                    for key in ["segments", "features", "meshes", "box"] {
+                        pointer::remove(root, &join("/subject", key))?;
+                    }
                 }
                 for key in [
-                    "builtin", "revision", "src", "sha256", "name", "frame", "raw",
+                    "builtin", "revision", "src", "sha256", "name", "frame", "raw", "units",
+                    "axes", "parts", "smooth",
                 ] {
                     pointer::remove(root, &join("/subject", key))?;
+                }
+                if let SubjectRef::Meshes(meshes) = subject {
+                    let meshes: Value = meshes.iter().map(value::mesh).collect();
+                    return set(root, "/subject/meshes", meshes);
                 }
                 let mut put =
                     |key: &str, value: &str| set(root, &join("/subject", key), json!(value));
@@ -250,11 +256,40 @@ impl Edit {
                         put("sha256", sha256)?;
                         put("name", name)
                     }
+                    SubjectRef::Meshes(_) => Ok(()),
                 }?;
                 match subject.reading() {
                     Some(reading) => set_reading(root, reading),
                     None => Ok(()),
                 }
+            }
+            Self::AddMesh { mesh, box_mm } => add_mesh(root, mesh, *box_mm),
+            Self::RemoveMesh { mesh } => {
+                let at = format!("/subject/meshes/{mesh}");
+                match pointer::remove(root, &at)? {
+                    Some(_) => Ok(()),
+                    None => Err(DocumentError::NotFound { pointer: at }),
+                }
+            }
+            Self::AddObject { index, object } => {
+                insert(root, "objects", MAX_OBJECTS, *index, object.clone())
+            }
+            Self::RemoveObject { object } => take(root, "objects", *object).map(|_| ()),
+            Self::DuplicateObject { object } => {
+                let at = format!("/objects/{object}");
+                let copy = pointer::get(root, &at).cloned();
+                let copy = copy.ok_or(DocumentError::NotFound { pointer: at })?;
+                insert(root, "objects", MAX_OBJECTS, object + 1, copy)
+            }
+            Self::MoveObject { from, to } => reorder(root, "objects", *from, *to),
+            Self::PlaceObject { object, placement } => {
+                let at = format!("/objects/{object}");
+                if pointer::get(root, &at).is_none() {
+                    return Err(DocumentError::NotFound { pointer: at });
+                }
+                set(root, &join(&at, "at"), vector(placement.at))?;
+                set(root, &join(&at, "rotate"), rotation(placement.rotate))?;
+                set(root, &join(&at, "size"), rounded(placement.size.max(1e-3)))
             }
             Self::AddCaption(caption) => insert(
                 root,
@@ -294,6 +329,8 @@ fn is_same_file(root: &Value, subject: &SubjectRef) -> bool {
     };
     match subject {
         SubjectRef::Builtin { .. } => false,
+        // Whatever else is said of them, they are other files.
+        SubjectRef::Meshes(_) => false,
         SubjectRef::Address { src, .. } => text("src") == src,
         SubjectRef::Supplied { sha256, .. } => {
             text("src").is_empty() && text("sha256").eq_ignore_ascii_case(sha256)
@@ -306,8 +343,30 @@ fn set_reading(root: &mut Value, reading: &Reading) -> Result<(), DocumentError>
     if reading.frame > 0 {
         set(root, "/subject/frame", json!(reading.frame))?;
     }
-    match &reading.raw {
-        Some(raw) => set(root, "/subject/raw", value::raw(raw)),
-        None => Ok(()),
+    if let Some(raw) = &reading.raw {
+        set(root, "/subject/raw", value::raw(raw))?;
     }
+    for (key, value) in value::mesh_reading(&reading.mesh) {
+        set(root, &join("/subject", key), value)?;
+    }
+    Ok(())
+}
+
+/// Adds a mesh behind those that are there. A document that names no subject shows the head, and goes on to. `box_mm`
+/// is the box that a subject of meshes has so far; written where none is, it keeps everything where it stands.
+fn add_mesh(
+    root: &mut Value,
+    mesh: &MeshRef,
+    box_mm: Option<SubjectBox>,
+) -> Result<(), DocumentError> {
+    let has = |root: &Value, key| pointer::get(root, &join("/subject", key)).is_some();
+    let sources = ["builtin", "src", "sha256", "meshes"];
+    if !sources.into_iter().any(|key| has(root, key)) {
+        set(root, "/subject/builtin", json!(DEFAULT_SUBJECT))?;
+    }
+    if let Some(b) = box_mm.filter(|_| !has(root, "box")) {
+        let numbers = [b.min_mm.to_array(), b.max_mm.to_array()].concat();
+        set(root, "/subject/box", json!(numbers))?;
+    }
+    set(root, "/subject/meshes/-", value::mesh(mesh))
 }

@@ -1,8 +1,9 @@
 //! Edits: what can be done to a document.
 
 use crate::document::model::{
-    Align, Background, Camera, Caption, Constrain, ControlPoints, Curve, OpacityMode, ParamValue,
-    SubjectRef, TemplateKind, TemplateMode, Transfer, TransferPoint, Window,
+    Align, Background, Camera, Caption, Constrain, ControlPoints, Curve, MeshRef, ObjectPlacement,
+    OpacityMode, ParamValue, SubjectBox, SubjectRef, TemplateKind, TemplateMode, Transfer,
+    TransferPoint, Window,
 };
 use crate::math::Placement;
 use serde_json::Value;
@@ -176,6 +177,50 @@ pub enum Edit {
     SetLang(String),
     /// Shows another subject. Segments and revision of the subject before it are removed.
     SetSubject(SubjectRef),
+    /// Adds a mesh of the subject behind those that are there.
+    AddMesh {
+        /// The mesh; its index does not matter.
+        mesh: MeshRef,
+        /// The box of a subject of meshes as it is before. It is written where the document has none, so that nothing
+        /// moves.
+        box_mm: Option<SubjectBox>,
+    },
+    /// Removes a mesh of the subject.
+    RemoveMesh {
+        /// Index of the mesh in `subject.meshes`.
+        mesh: usize,
+    },
+    /// Puts an object into the scene before the one of that index (or last).
+    AddObject {
+        /// Index of the new object after the edit; larger than the number of objects means last.
+        index: usize,
+        /// An entry of `objects`, as in a document.
+        object: Value,
+    },
+    /// Removes an object. Pointers of steps to later objects follow.
+    RemoveObject {
+        /// Index of the object.
+        object: usize,
+    },
+    /// Puts a copy right after an object.
+    DuplicateObject {
+        /// Index of the object that is copied.
+        object: usize,
+    },
+    /// Changes the place of an object in the list.
+    MoveObject {
+        /// Index of the object.
+        from: usize,
+        /// Index of the object after the edit.
+        to: usize,
+    },
+    /// Moves, turns or sizes an object.
+    PlaceObject {
+        /// Index of the object.
+        object: usize,
+        /// Where it lies afterwards.
+        placement: ObjectPlacement,
+    },
     /// Adds a caption at the end of `labels`.
     AddCaption(Caption),
     /// Replaces a caption by another one.
@@ -264,6 +309,13 @@ impl Edit {
             Self::SetCredit(_) => "/credit".to_owned(),
             Self::SetLang(_) => "/lang".to_owned(),
             Self::SetSubject(_) => "/subject".to_owned(),
+            Self::AddMesh { .. } => "/subject/meshes/-".to_owned(),
+            Self::RemoveMesh { mesh } => format!("/subject/meshes/{mesh}/remove"),
+            Self::AddObject { index, .. } => format!("/objects/{index}/add"),
+            Self::RemoveObject { object } => format!("/objects/{object}/remove"),
+            Self::DuplicateObject { object } => format!("/objects/{object}/duplicate"),
+            Self::MoveObject { from, to } => format!("/objects/{from}/to/{to}"),
+            Self::PlaceObject { object, .. } => format!("/objects/{object}/placement"),
             Self::AddCaption(_) => "/labels/-".to_owned(),
             Self::ReplaceCaption { caption, .. } => format!("/labels/{caption}"),
             Self::RemoveCaption { caption } => format!("/labels/{caption}/remove"),

@@ -2,8 +2,8 @@
 
 use super::number::{color_text, hundredths, rounded, rounded_value, vector};
 use crate::document::model::{
-    Caption, CleanStep, ControlPoints, Curve, RawVoxels, Recipe, RecipeSource, Stroke,
-    TransferPoint,
+    Caption, CleanStep, ControlPoints, Curve, MeshParts, MeshReading, MeshRef, RawVoxels, Recipe,
+    RecipeSource, Stroke, TransferPoint,
 };
 use crate::document::schema::MAX_VALUE;
 use glam::{IVec3, Vec3};
@@ -59,6 +59,39 @@ pub(super) fn raw(raw: &RawVoxels) -> Value {
         set("skip", json!(raw.skip_bytes));
     }
     value
+}
+
+/// An entry of `subject.meshes`.
+pub(super) fn mesh(mesh: &MeshRef) -> Value {
+    let mut value = json!({ "name": mesh.name });
+    let files = [("src", &mesh.src), ("sha256", &mesh.sha256)];
+    for (key, file) in files {
+        if let Some(file) = file {
+            value[key] = json!(file);
+        }
+    }
+    for (key, given) in mesh_reading(&mesh.reading) {
+        value[key] = given;
+    }
+    value
+}
+
+/// How a mesh is read: the keys that differ from their defaults.
+pub(super) fn mesh_reading(reading: &MeshReading) -> Vec<(&'static str, Value)> {
+    let mut keys = Vec::new();
+    if let Some(units) = reading.units {
+        keys.push(("units", json!(units.name())));
+    }
+    if let Some(axes) = reading.axes {
+        keys.push(("axes", json!(axes.name())));
+    }
+    if reading.parts != MeshParts::Named {
+        keys.push(("parts", json!(reading.parts.name())));
+    }
+    if let Some(smooth) = reading.smooth_deg {
+        keys.push(("smooth", rounded(smooth)));
+    }
+    keys
 }
 
 /// Parameters of a new `rbf`: its middle is drawn up between four points that stay, so that there is something to take

@@ -2,11 +2,11 @@ use std::fmt;
 
 use super::error::MeshError;
 use super::input::Progress;
-use super::measure::{Measure, measure};
 use super::options::MeshOptions;
 use super::read::read_mesh;
 use super::report::{MeshReport, Origin};
 use crate::data::Mesh;
+use crate::data::mesh::{Measure, measure};
 use crate::load::FileSet;
 use crate::load::describe::{short, times};
 

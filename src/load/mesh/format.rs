@@ -23,10 +23,10 @@ impl MeshFormat {
     /// What a reader of scans says of such a file.
     pub(in crate::load) fn not_a_scan(self) -> &'static str {
         match self {
-            Self::Obj => "a surface mesh (OBJ), not a scan; meshes are not drawn yet",
-            Self::Stl => "a surface mesh (STL), not a scan; meshes are not drawn yet",
-            Self::Ply => "a surface mesh (PLY), not a scan; meshes are not drawn yet",
-            Self::Glb => "a surface mesh (GLB), not a scan; meshes are not drawn yet",
+            Self::Obj => "a surface mesh (OBJ), not a scan: open it by itself",
+            Self::Stl => "a surface mesh (STL), not a scan: open it by itself",
+            Self::Ply => "a surface mesh (PLY), not a scan: open it by itself",
+            Self::Glb => "a surface mesh (GLB), not a scan: open it by itself",
         }
     }
 

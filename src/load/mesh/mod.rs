@@ -10,7 +10,7 @@
 //! let mut files = MemoryFiles::new([("corner.obj", text.as_bytes().to_vec())]);
 //! let options = load::MeshOptions::default();
 //! let (mesh, _report) = load::read_mesh(&mut files, "corner.obj", &options, &mut |_fraction| true)?;
-//! let whole = load::measure(&mesh.positions, &mesh.triangles);
+//! let whole = fabrica::data::measure(&mesh.positions, &mesh.triangles);
 //! assert_eq!((whole.triangle_count, whole.vertex_count), (4, 4));
 //! assert!((whole.volume_mm3.expect("it is closed") - 1000.0 / 6.0).abs() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -18,7 +18,6 @@
 
 mod describe;
 mod draft;
-mod edges;
 mod error;
 pub(super) mod format;
 mod glb;
@@ -26,7 +25,6 @@ mod glb_accessor;
 mod glb_json;
 mod glb_primitive;
 mod input;
-mod measure;
 mod mtl;
 mod obj;
 mod options;
@@ -39,8 +37,7 @@ mod read;
 mod repair;
 mod report;
 mod stl;
-#[cfg(test)]
-mod testing;
+mod subject;
 #[cfg(test)]
 mod tests;
 mod turn;
@@ -50,7 +47,7 @@ pub use describe::{MeshDescription, describe_mesh};
 pub use error::MeshError;
 pub use format::MeshFormat;
 pub use input::Progress;
-pub use measure::{Measure, measure, pieces, volume, winding_number};
 pub use options::{Axes, MAX_TRIANGLES, MeshOptions, PartsMode, Units};
 pub use read::{MeshOrNot, mesh_or_not, read_mesh};
 pub use report::{Aside, MeshReport, Origin, Repair};
+pub use subject::read_mesh_subject;

@@ -2,6 +2,8 @@ use std::fmt;
 
 use glam::{DMat3, DVec3};
 
+use crate::document::{MeshAxes, MeshParts, MeshReading, MeshUnits};
+
 /// Triangles in all meshes and objects of a document, at most.
 pub const MAX_TRIANGLES: u64 = 2_000_000;
 
@@ -25,6 +27,31 @@ impl Default for MeshOptions {
             axes: None,
             parts: PartsMode::Named,
             max_triangles: MAX_TRIANGLES,
+        }
+    }
+}
+
+impl From<&MeshReading> for MeshOptions {
+    /// As a document says, with as many triangles as can be opened.
+    fn from(reading: &MeshReading) -> Self {
+        Self {
+            units: reading.units.map(|units| match units {
+                MeshUnits::Millimetre => Units::Millimetre,
+                MeshUnits::Centimetre => Units::Centimetre,
+                MeshUnits::Metre => Units::Metre,
+                MeshUnits::Inch => Units::Inch,
+            }),
+            axes: reading.axes.map(|axes| match axes {
+                MeshAxes::Ras => Axes::Ras,
+                MeshAxes::Lps => Axes::Lps,
+                MeshAxes::YUp => Axes::YUp,
+            }),
+            parts: match reading.parts {
+                MeshParts::Named => PartsMode::Named,
+                MeshParts::Pieces => PartsMode::Pieces,
+                MeshParts::Whole => PartsMode::Whole,
+            },
+            ..Self::default()
         }
     }
 }

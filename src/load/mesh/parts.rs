@@ -2,9 +2,9 @@
 
 use glam::{DVec3, Vec3};
 
-use super::measure::{pieces, volume, winding_number};
 use super::options::PartsMode;
 use crate::data::Mesh;
+use crate::data::mesh::{pieces, volume, winding_number};
 
 /// The name of a part that has none.
 const UNNAMED: &str = "surface";
@@ -131,7 +131,7 @@ fn by_piece(mesh: &Mesh) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::load::mesh::testing::cube;
+    use crate::data::mesh::testing::cube;
 
     /// Cubes by their lowest corners and sides; those of negative side are inside out.
     fn cubes(all: &[([f32; 3], f32)]) -> Mesh {

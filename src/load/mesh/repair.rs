@@ -286,7 +286,7 @@ fn check_normals(mesh: &mut Mesh, done: &mut Repair) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::load::mesh::testing::cube;
+    use crate::data::mesh::testing::cube;
 
     fn mended(draft: Draft) -> (Mesh, Repair) {
         repair(draft, "a", DMat3::IDENTITY, 1.0).expect("a mesh")

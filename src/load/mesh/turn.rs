@@ -2,8 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
-use super::edges::{by_edge, sides};
 use crate::data::NO_INDEX;
+use crate::data::mesh::edges::{by_edge, sides};
 
 /// What was turned.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -3,11 +3,11 @@
 //! | group | holds | uniform buffers | textures | samplers |
 //! |---|---|---|---|---|
 //! | 0 | the frame: camera and sampling | 1 | | |
-//! | 1 | the subject: values, labels, palette | 1 | 3 | 1 |
-//! | 2 | the scene: templates, look, skip grid, kept tissue, fields, bodies | 5 | 5 | |
+//! | 1 | the subject: values, labels, palette, triangles | 1 | 4 | 1 |
+//! | 2 | the scene: templates, look, skip grid, kept tissue, fields, bodies, meshes | 6 | 5 | |
 //! | 3 | the pass: the baked map | 1 | 1 | |
-//! | | in all | 8 | 9 | 1 |
-//! | | left in one stage | 4 | 7 | 15 |
+//! | | in all | 9 | 10 | 1 |
+//! | | left in one stage | 3 | 6 | 15 |
 //!
 //! Group 3 belongs to the pass: other passes (resolve, slices) bind less there. A picture uses no storage buffer.
 
@@ -29,16 +29,17 @@ enum Holds {
 type Group = &'static [Holds];
 
 const FRAME: Group = &[Holds::Uniform];
-/// The uniform, values, how they are read, labels, the colours of labels.
+/// The uniform, values, how they are read, labels, the colours of labels, triangles.
 const SUBJECT: Group = &[
     Holds::Uniform,
     Holds::Texture(D3),
     Holds::Sampler,
     Holds::Numbers(D3),
     Holds::Texture(D2),
+    Holds::Numbers(D2),
 ];
 /// Templates, look and its table, the skip grid and its cells, kept tissue and its distances, fields, bodies and
-/// their shares.
+/// their shares, how a mesh is drawn.
 const SCENE: Group = &[
     Holds::Uniform,
     Holds::Uniform,
@@ -50,6 +51,7 @@ const SCENE: Group = &[
     Holds::Texture(D3),
     Holds::Uniform,
     Holds::Texture(D3),
+    Holds::Uniform,
 ];
 /// Where the baked map lies, and the map.
 const BAKED: Group = &[Holds::Uniform, Holds::Texture(D3)];
@@ -170,13 +172,13 @@ mod tests {
         let uniforms = count(|h| matches!(h, Holds::Uniform));
         let textures = count(|h| matches!(h, Holds::Texture(_) | Holds::Numbers(_)));
         let samplers = count(|h| matches!(h, Holds::Sampler));
-        assert_eq!([uniforms, textures, samplers], [8, 9, 1]);
+        assert_eq!([uniforms, textures, samplers], [9, 10, 1]);
         let left = [
             limits.max_uniform_buffers_per_shader_stage - uniforms,
             limits.max_sampled_textures_per_shader_stage - textures,
             limits.max_samplers_per_shader_stage - samplers,
         ];
-        assert_eq!(left, [4, 7, 15]);
+        assert_eq!(left, [3, 6, 15]);
         assert_eq!(all.len() as u32, limits.max_bind_groups, "no group is left");
     }
 }

@@ -3,7 +3,7 @@
 use super::gpu::Gpu;
 use std::collections::HashMap;
 use std::hash::Hash;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// What a pipeline that draws over the whole target is made of.
 pub(crate) struct PipelineParts<'a> {
@@ -105,7 +105,15 @@ impl<Key, Pipeline> Default for Pipelines<Key, Pipeline> {
 impl<Key: Eq + Hash, Pipeline: Clone> Pipelines<Key, Pipeline> {
     /// The pipeline for a key; made on first use.
     pub(crate) fn get(&self, key: Key, make: impl FnOnce() -> Pipeline) -> Pipeline {
-        let mut made = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        made.entry(key).or_insert_with(make).clone()
+        self.all().entry(key).or_insert_with(make).clone()
+    }
+
+    /// The pipeline for a key, if it was made before.
+    pub(crate) fn made(&self, key: &Key) -> Option<Pipeline> {
+        self.all().get(key).cloned()
+    }
+
+    fn all(&self) -> MutexGuard<'_, HashMap<Key, Pipeline>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

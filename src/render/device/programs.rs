@@ -116,16 +116,23 @@ const fn is_same(a: &[u8], b: &[u8]) -> bool {
 pub enum SubjectShader {
     /// Values and labels from two 3D textures.
     Volume,
+    /// Triangles, and a field that leads to them.
+    Mesh,
 }
 
 impl SubjectShader {
     /// All of them.
-    pub const ALL: &[Self] = &[Self::Volume];
+    pub const ALL: &[Self] = &[Self::Volume, Self::Mesh];
 
-    /// Path of the file.
-    pub fn path(self) -> &'static str {
+    /// Paths of its files: what the subject has at a place, the march of a ray through it, and slices of it.
+    pub fn paths(self) -> [&'static str; 3] {
         match self {
-            Self::Volume => "subject/volume.wgsl",
+            Self::Volume => [
+                "subject/volume.wgsl",
+                "march/volume.wgsl",
+                "slice/volume.wgsl",
+            ],
+            Self::Mesh => ["subject/mesh.wgsl", "march/mesh.wgsl", "slice/mesh.wgsl"],
         }
     }
 }
@@ -148,7 +155,7 @@ pub struct Program {
 impl Program {
     /// The files of the program for a kind of subject, each after the files that it needs.
     pub fn files(&self, subject: SubjectShader) -> Vec<&'static ShaderFile> {
-        let mut stand_ins = vec![subject.path()];
+        let mut stand_ins = subject.paths().to_vec();
         stand_ins.extend(self.stand_in);
         files_of(self.pass, &stand_ins)
     }
@@ -265,6 +272,7 @@ static KINDS: LazyLock<ShaderFile> = LazyLock::new(|| ShaderFile {
 
 shader_files![
     "affine.wgsl",
+    "srgb.wgsl",
     "types.wgsl",
     "bind/templates.wgsl",
     "displace/angles.wgsl",
@@ -289,14 +297,18 @@ shader_files![
     "displace/move.wgsl",
     "displace/rbf.wgsl",
     "displace/field.wgsl",
+    "displace/noise.wgsl",
+    "displace/crack.wgsl",
     "displace/curve.wgsl",
     "displace/compose.wgsl",
     "bind/frame.wgsl",
     "bind/subject.wgsl",
     "bind/look.wgsl",
+    "bind/mesh_look.wgsl",
     "bind/bodies.wgsl",
     "bind/grid.wgsl",
     "bind/baked.wgsl",
+    "bind/slice.wgsl",
     "bind/kept.wgsl",
     "march/align.wgsl",
     "march/asked.wgsl",
@@ -305,10 +317,13 @@ shader_files![
     "march/color.wgsl",
     "march/constrain.wgsl",
     "march/edges.wgsl",
+    "march/filling.wgsl",
     "march/interface.wgsl",
     "march/jacobian.wgsl",
     "march/kept.wgsl",
     "march/kept_surface.wgsl",
+    "march/marched.wgsl",
+    "march/mesh.wgsl",
     "march/opacity.wgsl",
     "march/overrides.wgsl",
     "march/plain.wgsl",
@@ -321,6 +336,11 @@ shader_files![
     "march/surface.wgsl",
     "march/surroundings.wgsl",
     "march/value.wgsl",
+    "march/volume.wgsl",
+    "slice/mesh.wgsl",
+    "slice/plane.wgsl",
+    "slice/volume.wgsl",
+    "subject/mesh.wgsl",
     "subject/place.wgsl",
     "subject/volume.wgsl",
     "pass/bake.wgsl",
@@ -547,8 +567,20 @@ const ANY_SUBJECT: SubjectShader = SubjectShader::Volume;
 /// # Errors
 /// [`RenderError::Shader`] with `file.wgsl:line` for each message.
 pub async fn compile(gpu: &Gpu, id: ProgramId) -> Result<wgpu::ShaderModule, RenderError> {
+    compile_for(gpu, id, ANY_SUBJECT).await
+}
+
+/// As [`compile`], of a program that asks a subject of this kind what it has at a place.
+///
+/// # Errors
+/// As [`compile`].
+pub async fn compile_for(
+    gpu: &Gpu,
+    id: ProgramId,
+    subject: SubjectShader,
+) -> Result<wgpu::ShaderModule, RenderError> {
     let program = id.program();
-    let assembled = Assembled::new(program, ANY_SUBJECT);
+    let assembled = Assembled::new(program, subject);
     let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
     let module = module_of(gpu, program, &assembled);
     if let Some(error) = scope.pop().await {

@@ -99,6 +99,52 @@ impl Future for Readback {
     }
 }
 
+/// What makes an answer of bytes.
+type Reading<T> = dyn Fn(&[u8]) -> T + Send + Sync;
+
+/// What bytes mean that are on their way back from the GPU. Await it, or ask once per frame.
+pub struct Answer<T> {
+    reading: Readback,
+    read: Box<Reading<T>>,
+}
+
+impl<T> Answer<T> {
+    /// The answer that `read` makes of the bytes.
+    pub(crate) fn new(
+        reading: Readback,
+        read: impl Fn(&[u8]) -> T + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            reading,
+            read: Box::new(read),
+        }
+    }
+
+    /// The answer if it has come; does not wait. Hands it out once.
+    pub fn poll_now(&mut self) -> Option<Result<T, RenderError>> {
+        let bytes = self.reading.poll_now()?;
+        Some(bytes.map(|bytes| (self.read)(&bytes)))
+    }
+}
+
+impl<T> Future for Answer<T> {
+    type Output = Result<T, RenderError>;
+
+    fn poll(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Self::Output> {
+        let bytes = Pin::new(&mut self.reading).poll(context);
+        bytes.map(|bytes| bytes.map(|bytes| (self.read)(&bytes)))
+    }
+}
+
+impl<T> std::fmt::Debug for Answer<T> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter
+            .debug_tuple("Answer")
+            .field(&self.reading)
+            .finish()
+    }
+}
+
 /// Natively: waits for the GPU if this device may, else lets finished work report itself. In a browser the callbacks
 /// come by themselves.
 fn turn(gpu: &Gpu) -> Result<(), RenderError> {

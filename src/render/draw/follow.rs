@@ -3,10 +3,10 @@ use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::{
     result_buffer, storage_buffer, submit_and_read, uniform_buffer,
 };
-use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
-use crate::render::device::programs::{ProgramId, module};
-use crate::render::device::readback::Readback;
+use crate::render::device::pipelines::Pipelines;
+use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
+use crate::render::device::readback::Answer;
 use crate::render::pack::gpu_types::Lattice;
 use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::scene::Scene;
@@ -24,37 +24,14 @@ const BLOCKS: usize = 6 * 6 * 6;
 /// material at the place. If the error is larger, the tissue of the point counts as cut away.
 const FOUND: f32 = 0.5 / 256.0;
 
-/// Finds where points of rest space are in the deformed object. The follower compiles its programs at the first use,
-/// and again when the key of the scene changes, for example because of a template of another kind.
+/// Finds where points of rest space are in the deformed object. The follower compiles its programs at the first use for
+/// each key of a scene, for example for templates of another kind. Built once per device.
 #[derive(Debug, Default)]
-pub(crate) struct Follower {
-    made: Option<(RaycastKey, [wgpu::ComputePipeline; 2])>,
-}
+pub(crate) struct Follower(Pipelines<RaycastKey, [wgpu::ComputePipeline; 2]>);
 
-/// Places that the GPU has yet to return. Await this future, or call [`PendingPlaces::poll_now`] once per frame.
-#[derive(Debug)]
-pub struct PendingPlaces(Readback);
-
-impl PendingPlaces {
-    /// Returns the places if the GPU has returned them, and does not wait for the GPU. Each item is the place of one
-    /// point in the deformed object, subject space, or `None` if the tissue of that point is cut away.
-    pub fn poll_now(&mut self) -> Option<Result<Vec<Option<Vec3>>, RenderError>> {
-        self.0.poll_now().map(|bytes| bytes.map(|b| read(&b)))
-    }
-}
-
-impl Future for PendingPlaces {
-    type Output = Result<Vec<Option<Vec3>>, RenderError>;
-
-    fn poll(
-        mut self: std::pin::Pin<&mut Self>,
-        context: &mut std::task::Context<'_>,
-    ) -> std::task::Poll<Self::Output> {
-        std::pin::Pin::new(&mut self.0)
-            .poll(context)
-            .map(|bytes| bytes.map(|b| read(&b)))
-    }
-}
+/// Places that the GPU has yet to return. Each item is the place of one point in the deformed object, subject space, or
+/// `None` if the tissue of that point is cut away.
+pub type PendingPlaces = Answer<Vec<Option<Vec3>>>;
 
 fn read(bytes: &[u8]) -> Vec<Option<Vec3>> {
     let places: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(bytes);
@@ -67,17 +44,15 @@ fn read(bytes: &[u8]) -> Vec<Option<Vec3>> {
 impl Follower {
     /// Starts to look for points (rest space) in the deformed object of a scene. There has to be at least one point.
     pub(crate) fn find(
-        &mut self,
+        &self,
         gpu: &Gpu,
         subject: &SubjectTextures,
         scene: &Scene,
         points: &[Vec3],
     ) -> PendingPlaces {
         let key = scene.key(false);
-        if self.made.as_ref().is_none_or(|(made, _)| *made != key) {
-            self.made = None;
-        }
-        let (_, [search, settle]) = self.made.get_or_insert_with(|| (key, pipelines(gpu, &key)));
+        let made = || pipelines(gpu, &key, subject.shader);
+        let [search, settle] = self.0.get(key, made);
         let bounds = scene.bounds();
         let side = bounds.size().max_element() / CELLS;
         let cells = (bounds.size() / side).ceil().max(Vec3::ONE).as_uvec3();
@@ -118,13 +93,13 @@ impl Follower {
             }
             pass.dispatch_workgroups(groups, 1, 1);
         };
-        encode(search, cells.element_product().div_ceil(64), false);
-        encode(settle, points.len() as u32, true);
-        PendingPlaces(submit_and_read(gpu, encoder, &places))
+        encode(&search, cells.element_product().div_ceil(64), false);
+        encode(&settle, points.len() as u32, true);
+        Answer::new(submit_and_read(gpu, encoder, &places), read)
     }
 }
 
-fn pipelines(gpu: &Gpu, key: &RaycastKey) -> [wgpu::ComputePipeline; 2] {
-    let module = module(gpu, ProgramId::Follow);
+fn pipelines(gpu: &Gpu, key: &RaycastKey, subject: SubjectShader) -> [wgpu::ComputePipeline; 2] {
+    let module = module_for(gpu, ProgramId::Follow, subject);
     ["search", "settle"].map(|name| object_pipeline(gpu, &module, name, key))
 }

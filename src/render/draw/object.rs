@@ -3,7 +3,8 @@ use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::{result_buffer, storage_buffer, submit_and_read};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
-use crate::render::device::programs::{ProgramId, compile};
+use crate::render::device::pipelines::Pipelines;
+use crate::render::device::programs::{ProgramId, compile_for};
 use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::scene::Scene;
 use crate::render::subject::textures::SubjectTextures;
@@ -12,17 +13,26 @@ use glam::Vec3;
 /// Points of one dispatch, as in the plain probe.
 const CHUNK: usize = 1 << 18;
 
+/// The pipelines of probes by what they are made for. Built once per device.
+pub(crate) type ObjectProbes = Pipelines<RaycastKey, wgpu::ComputePipeline>;
+
 /// What the object has at points, alignment and constraints counted.
 pub(crate) async fn object_samples(
     gpu: &Gpu,
+    probes: &ObjectProbes,
     subject: &SubjectTextures,
     scene: &Scene,
     points: &[Vec3],
 ) -> Result<Vec<Sample>, RenderError> {
     let key = scene.key(false);
     let name = ProgramId::Object.program().name;
-    let module = compile(gpu, ProgramId::Object).await?;
-    let pipeline = object_pipeline(gpu, &module, "probe_object", &key);
+    let pipeline = match probes.made(&key) {
+        Some(pipeline) => pipeline,
+        None => {
+            let module = compile_for(gpu, ProgramId::Object, subject.shader).await?;
+            probes.get(key, || object_pipeline(gpu, &module, "probe_object", &key))
+        }
+    };
     let groups = object_groups(gpu, &pipeline, subject, scene);
     let mut samples = Vec::with_capacity(points.len());
     for chunk in points.chunks(CHUNK) {
@@ -110,14 +120,7 @@ pub(crate) fn object_groups(
     };
     let kept_textures = scene.kept_textures();
     [
-        group(
-            1,
-            &[
-                entry(0, subject.buffer.as_entire_binding()),
-                entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
-                entry(3, wgpu::BindingResource::TextureView(&subject.label_view)),
-            ],
-        ),
+        group(1, &subject.kept_entries()),
         group(
             2,
             &[

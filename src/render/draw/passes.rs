@@ -1,5 +1,8 @@
+use super::follow::Follower;
+use super::object::ObjectProbes;
 use super::raycast::RaycastPasses;
 use super::resolve::ResolvePass;
+use super::slice::SlicePasses;
 use crate::data::Resources;
 use crate::document::Illustration;
 use crate::render::device::gpu::Gpu;
@@ -15,6 +18,9 @@ pub(crate) struct Passes {
     pub stages: StagePrograms,
     pub raycast: RaycastPasses,
     pub resolve: ResolvePass,
+    pub slices: SlicePasses,
+    pub follower: Follower,
+    pub probes: ObjectProbes,
 }
 
 impl Passes {
@@ -24,6 +30,9 @@ impl Passes {
             stages: StagePrograms::new(gpu),
             raycast: RaycastPasses::new(gpu, &layouts),
             resolve: ResolvePass::new(gpu, &layouts),
+            slices: SlicePasses::new(gpu, &layouts),
+            follower: Follower::default(),
+            probes: ObjectProbes::default(),
             layouts,
         }
     }

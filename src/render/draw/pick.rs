@@ -3,9 +3,8 @@
 use super::passes::Passes;
 use super::raycast::{March, encode_marches, frame_group};
 use crate::render::device::bindings::encoder;
-use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
-use crate::render::device::readback::Readback;
+use crate::render::device::readback::{Answer, Readback};
 use crate::render::device::textures::{PICK_FORMAT, Target, read_texture};
 use crate::render::pack::frame::frame_of;
 use crate::render::pack::gpu_types::Frame;
@@ -31,36 +30,8 @@ pub struct Pick {
     pub depth: f32,
 }
 
-/// A pick on its way back. Await it, or ask once per frame.
-#[derive(Debug)]
-pub struct PendingPick {
-    reading: Readback,
-    has_labels: bool,
-}
-
-impl PendingPick {
-    /// The answer if it has come; does not wait. `Some(Ok(None))`: there is nothing under the pixel.
-    pub fn poll_now(&mut self) -> Option<Result<Option<Pick>, RenderError>> {
-        let has_labels = self.has_labels;
-        self.reading
-            .poll_now()
-            .map(|bytes| bytes.map(|b| read_pick(&b, has_labels)))
-    }
-}
-
-impl Future for PendingPick {
-    type Output = Result<Option<Pick>, RenderError>;
-
-    fn poll(
-        mut self: std::pin::Pin<&mut Self>,
-        context: &mut std::task::Context<'_>,
-    ) -> std::task::Poll<Self::Output> {
-        let has_labels = self.has_labels;
-        std::pin::Pin::new(&mut self.reading)
-            .poll(context)
-            .map(|bytes| bytes.map(|b| read_pick(&b, has_labels)))
-    }
-}
+/// A pick on its way back; `None` where there is nothing under the pixel.
+pub type PendingPick = Answer<Option<Pick>>;
 
 fn read_pick(bytes: &[u8], has_labels: bool) -> Option<Pick> {
     let floats: Vec<f32> = bytes
@@ -82,32 +53,9 @@ fn read_pick(bytes: &[u8], has_labels: bool) -> Option<Pick> {
     })
 }
 
-/// How far away the surface is under each of several pixels, on its way back. Await it, or ask once per frame.
-#[derive(Debug)]
-pub struct PendingDepths(Readback);
-
-impl PendingDepths {
-    /// The answer if it has come; does not wait. One item per pixel: the distance from the eye in subject units, `None`
-    /// where there is nothing.
-    pub fn poll_now(&mut self) -> Option<Result<Vec<Option<f32>>, RenderError>> {
-        self.0
-            .poll_now()
-            .map(|bytes| bytes.map(|b| read_depths(&b)))
-    }
-}
-
-impl Future for PendingDepths {
-    type Output = Result<Vec<Option<f32>>, RenderError>;
-
-    fn poll(
-        mut self: std::pin::Pin<&mut Self>,
-        context: &mut std::task::Context<'_>,
-    ) -> std::task::Poll<Self::Output> {
-        std::pin::Pin::new(&mut self.0)
-            .poll(context)
-            .map(|bytes| bytes.map(|b| read_depths(&b)))
-    }
-}
+/// How far away the surface is under each of several pixels, on its way back. One item per pixel: the distance from the
+/// eye in subject units, `None` where there is nothing.
+pub type PendingDepths = Answer<Vec<Option<f32>>>;
 
 /// The fourth value of each row's first texel.
 fn read_depths(bytes: &[u8]) -> Vec<Option<f32>> {
@@ -133,16 +81,16 @@ pub(crate) struct PickScene<'a> {
 impl PickScene<'_> {
     /// Marches one ray and starts reading what it found.
     pub(crate) fn pick(&self, pixel: Vec2) -> PendingPick {
-        PendingPick {
-            reading: self.read(&[pixel], 4),
-            has_labels: self.subject.uniform.has_labels != 0,
-        }
+        let has_labels = self.subject.uniform.has_labels != 0;
+        Answer::new(self.read(&[pixel], 4), move |bytes| {
+            read_pick(bytes, has_labels)
+        })
     }
 
     /// Marches a ray per pixel, all in one pass, and starts reading how far away their surfaces are. There has to be at
     /// least one pixel, and no more than a texture has rows.
     pub(crate) fn depths(&self, pixels: &[Vec2]) -> PendingDepths {
-        PendingDepths(self.read(pixels, 1))
+        Answer::new(self.read(pixels, 1), read_depths)
     }
 
     /// The first `texels` of the four of a pick, a row per pixel.

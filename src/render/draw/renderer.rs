@@ -1,12 +1,12 @@
 use super::clock::Clock;
-use super::follow::{Follower, PendingPlaces};
+use super::follow::PendingPlaces;
 use super::identify::Sighting;
 use super::image::{Image, read_picture};
 use super::pace::{Pace, Work};
 use super::passes::Passes;
 use super::pick::{PendingDepths, PendingPick, PickScene};
 use super::quality::{WholePicture, least_scale, samples, steady_scale};
-use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
+use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
 use crate::data::{Resources, Segment, Segmentation, Subject};
@@ -95,9 +95,7 @@ pub struct Renderer {
     is_coarse: bool,
     under_way: Option<UnderWay>,
     generation: u64,
-    slice_passes: Option<SlicePasses>,
     slices: SliceBoard,
-    follower: Follower,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,8 +153,6 @@ impl Renderer {
             is_coarse: false,
             under_way: None,
             generation: 0,
-            slice_passes: None,
-            follower: Follower::default(),
             slices: SliceBoard::default(),
         }
     }
@@ -467,9 +463,8 @@ impl Renderer {
         }
         match (&self.studio, &self.scene) {
             (Some(studio), Some(scene)) => {
-                Ok(self
-                    .follower
-                    .find(&self.gpu, &studio.subject, scene, points_in_rest))
+                let follower = &studio.passes.follower;
+                Ok(follower.find(&self.gpu, &studio.subject, scene, points_in_rest))
             }
             _ => Err(RenderError::NoSubject),
         }
@@ -484,12 +479,10 @@ impl Renderer {
         if !self.ready_for_slices()? {
             return Ok(false);
         }
-        if let (Some(studio), Some(scene), Some(passes)) =
-            (&self.studio, &self.scene, &self.slice_passes)
-        {
+        if let (Some(studio), Some(scene)) = (&self.studio, &self.scene) {
             let scene = SliceScene {
                 gpu: &self.gpu,
-                passes,
+                passes: &studio.passes.slices,
                 subject: &studio.subject,
                 scene,
             };
@@ -516,10 +509,10 @@ impl Renderer {
         if !self.ready_for_slices()? {
             return Err(RenderError::NoSubject);
         }
-        match (&self.studio, &self.scene, &self.slice_passes) {
-            (Some(studio), Some(scene), Some(passes)) => SliceScene {
+        match (&self.studio, &self.scene) {
+            (Some(studio), Some(scene)) => SliceScene {
                 gpu: &self.gpu,
-                passes,
+                passes: &studio.passes.slices,
                 subject: &studio.subject,
                 scene,
             }
@@ -530,14 +523,7 @@ impl Renderer {
 
     fn ready_for_slices(&mut self) -> Result<bool, RenderError> {
         self.gpu.check()?;
-        if !self.prepare() {
-            return Ok(false);
-        }
-        if self.slice_passes.is_none() {
-            let passes = self.passes();
-            self.slice_passes = Some(SlicePasses::new(&self.gpu, &passes.layouts));
-        }
-        Ok(true)
+        Ok(self.prepare())
     }
 
     /// A finished picture of the subject on the GPU, independent of the picture in the window: for PNG export.
@@ -622,6 +608,17 @@ impl Renderer {
         self.slices.forget();
     }
 
+    /// Lets go of a subject that was shared, too.
+    pub fn forget_shared_subject(&mut self) {
+        self.destroy_own();
+        self.studio = None;
+    }
+
+    /// Bytes that the values and labels of the subject take on the device.
+    pub fn subject_bytes(&self) -> u64 {
+        self.studio.as_ref().map_or(0, |s| s.subject.bytes())
+    }
+
     /// Brings the next pieces of a subject to the GPU.
     fn advance_upload(&mut self, budget: f64) -> Result<(), RenderError> {
         let Some((mut upload, fitting)) = self.upload.take() else {
@@ -666,7 +663,6 @@ impl Renderer {
             studio.passes = Arc::clone(&passes);
         }
         self.passes = Some(passes);
-        self.slice_passes = None;
         self.scene = None;
         self.slices.forget();
         self.touch();

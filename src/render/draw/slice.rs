@@ -8,7 +8,7 @@ use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::{Layouts, pipeline_layout};
 use crate::render::device::pipelines::{PipelineParts, Pipelines, render_pass, render_pipeline};
 use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
-use crate::render::device::readback::Readback;
+use crate::render::device::readback::Answer;
 use crate::render::device::textures::{
     OUTPUT_FORMAT, PICK_FORMAT, Target, read_texture, row_pitch,
 };
@@ -95,36 +95,8 @@ pub struct SliceTexel {
     pub pos_in_rest: Vec3,
 }
 
-/// Numbers of a slice on their way back. Await it, or ask once per frame.
-#[derive(Debug)]
-pub struct PendingSlice {
-    reading: Readback,
-    size: [u32; 2],
-    pitch: u32,
-}
-
-impl PendingSlice {
-    /// The answer if it has come; does not wait. Row by row from the top.
-    pub fn poll_now(&mut self) -> Option<Result<Vec<SliceTexel>, RenderError>> {
-        let (size, pitch) = (self.size, self.pitch);
-        let bytes = self.reading.poll_now()?;
-        Some(bytes.map(|bytes| texels(&bytes, size, pitch)))
-    }
-}
-
-impl Future for PendingSlice {
-    type Output = Result<Vec<SliceTexel>, RenderError>;
-
-    fn poll(
-        mut self: std::pin::Pin<&mut Self>,
-        context: &mut std::task::Context<'_>,
-    ) -> std::task::Poll<Self::Output> {
-        let (size, pitch) = (self.size, self.pitch);
-        std::pin::Pin::new(&mut self.reading)
-            .poll(context)
-            .map(|bytes| bytes.map(|bytes| texels(&bytes, size, pitch)))
-    }
-}
+/// Numbers of a slice on their way back, row by row from the top.
+pub type PendingSlice = Answer<Vec<SliceTexel>>;
 
 fn texels(bytes: &[u8], [width, height]: [u32; 2], pitch: u32) -> Vec<SliceTexel> {
     let rows = bytes
@@ -157,7 +129,7 @@ struct SliceKey {
     is_read: bool,
 }
 
-/// Layout and pipelines of slices. Built once per device, when the first slice is asked for.
+/// Layout and pipelines of slices. Built once per device; each pipeline is made at its first use.
 #[derive(Debug)]
 pub(crate) struct SlicePasses {
     layout: wgpu::BindGroupLayout,
@@ -269,11 +241,10 @@ impl SliceScene<'_> {
         let mut encoder = encoder(self.gpu);
         self.encode(&mut encoder, &target.view, &uniform_of(plane), true);
         let pitch = row_pitch(32 * size[0]);
-        Ok(PendingSlice {
-            reading: read_texture(self.gpu, encoder, &target.texture, pitch),
-            size,
-            pitch,
-        })
+        let reading = read_texture(self.gpu, encoder, &target.texture, pitch);
+        Ok(Answer::new(reading, move |bytes| {
+            texels(bytes, size, pitch)
+        }))
     }
 }
 

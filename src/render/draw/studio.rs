@@ -1,6 +1,5 @@
 //! Pictures without a window.
 
-use super::follow::Follower;
 use super::identify::{Sighting, identify};
 use super::image::Image;
 use super::object::object_samples;
@@ -8,7 +7,7 @@ use super::passes::Passes;
 use super::pick::{Pick, PickScene};
 use super::picture::PictureJob;
 use super::probe::Sample;
-use super::slice::{PendingSlice, SliceBoard, SlicePasses, SlicePlane, SliceScene, SliceView};
+use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use crate::data::{Resources, Segment, Subject};
 use crate::document::Illustration;
 use crate::render::device::error::RenderError;
@@ -213,7 +212,14 @@ impl Studio {
         points: &[Vec3],
     ) -> Result<Vec<Sample>, RenderError> {
         let scene = self.scene(illustration, false);
-        object_samples(&self.gpu, &self.subject, &scene, points).await
+        object_samples(
+            &self.gpu,
+            &self.passes.probes,
+            &self.subject,
+            &scene,
+            points,
+        )
+        .await
     }
 
     /// Where points of the rest (rest space) are in the deformed object, subject space; `None` where their tissue is
@@ -230,8 +236,8 @@ impl Studio {
             return Ok(Vec::new());
         }
         let scene = self.scene(illustration, false);
-        let mut follower = Follower::default();
-        follower
+        self.passes
+            .follower
             .find(&self.gpu, &self.subject, &scene, points_in_rest)
             .await
     }
@@ -334,7 +340,7 @@ impl Studio {
         let scene = self.scene(illustration, false);
         run(&SliceScene {
             gpu: &self.gpu,
-            passes: &SlicePasses::new(&self.gpu, &self.passes.layouts),
+            passes: &self.passes.slices,
             subject: &self.subject,
             scene: &scene,
         })

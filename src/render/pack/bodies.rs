@@ -78,9 +78,8 @@ mod tests {
             segment(3, "head"),
         ];
         let look = |name: &str, opacity| SegmentLook {
-            name: name.to_owned(),
             opacity,
-            color_srgb: None,
+            ..SegmentLook::solid(name)
         };
         let mut unknown = Vec::new();
         let looks = [look("head", 1.0), look("skull", 0.25), look("horn", 1.0)];

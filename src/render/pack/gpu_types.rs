@@ -357,7 +357,89 @@ pub struct Subject {
     pub detail: f32,
     /// 1 if there is a segmentation.
     pub has_labels: u32,
+    /// xyz: lowest corner of a mesh's box, rest space.
+    pub mesh_min: [f32; 4],
+    /// xyz: highest corner of a mesh's box, rest space.
+    pub mesh_max: [f32; 4],
+    /// Number of nodes in the tree of a mesh; 0 for volumes.
+    pub node_count: u32,
+    /// Texel at which the triangles of a mesh begin.
+    pub triangles_at: u32,
+    /// Texel at which the sets of segments begin.
+    pub sets_at: u32,
+    /// To the next row of four.
+    pub padding: u32,
 }
+
+/// Segments of a mesh at most, and layers of all of them together.
+pub const MESH_SEGMENTS: usize = 64;
+/// Layers of all segments of a mesh at most; segments with the same layers share them.
+pub const MESH_LAYERS: usize = 64;
+
+/// How one segment of a mesh is drawn.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct MeshSegment {
+    /// Linear RGB; alpha below 0: the colours of the file.
+    pub color: [f32; 4],
+    /// Linear RGB of back sides and of cut faces without a layer; alpha below 0: a part of its own colour.
+    pub inside: [f32; 4],
+    /// One of the constants `BODY_`.
+    pub kind: u32,
+    /// Thickness of a shell, subject units.
+    pub thickness: f32,
+    /// Strength of the highlight, 0 to 1.
+    pub gloss: f32,
+    /// Opacity of one crossing or cut face, 0 to 1; below 0: that of the file.
+    pub opacity: f32,
+    /// Index of its first layer.
+    pub first_layer: u32,
+    /// How many layers it has.
+    pub layer_count: u32,
+    /// To the next row of four.
+    pub padding: [u32; 2],
+}
+
+/// A layer under the surface of a mesh.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct MeshLayer {
+    /// Linear RGB; alpha below 0: as a cut face without a layer.
+    pub color: [f32; 4],
+    /// Where it begins under the surface, subject units.
+    pub depth: f32,
+    /// How much its colour varies, 0 to 0.5.
+    pub grain: f32,
+    /// To the next row of four.
+    pub padding: [u32; 2],
+}
+
+/// How the segments of a mesh are drawn.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct MeshLook {
+    /// By segment.
+    pub segments: [MeshSegment; MESH_SEGMENTS],
+    /// The layers of all segments.
+    pub layers: [MeshLayer; MESH_LAYERS],
+    /// 1 if a segment is a shell.
+    pub has_shells: u32,
+    /// To the next row of four.
+    pub padding: [u32; 3],
+}
+
+impl Default for MeshLook {
+    fn default() -> Self {
+        bytemuck::Zeroable::zeroed()
+    }
+}
+
+/// [`MeshSegment::kind`]: the surface alone.
+pub const BODY_HOLLOW: u32 = 0;
+/// [`MeshSegment::kind`]: a shell.
+pub const BODY_THICK: u32 = 1;
+/// [`MeshSegment::kind`]: full.
+pub const BODY_FULL: u32 = 2;
 
 /// Transfer function, light and opacity.
 #[repr(C)]

@@ -5,6 +5,8 @@ pub(crate) mod frame;
 pub mod gpu_types;
 pub(crate) mod kept;
 pub(crate) mod look;
+pub(crate) mod marks;
+pub(crate) mod mesh_look;
 pub(crate) mod notice;
 pub(crate) mod raycast_key;
 pub(crate) mod stamps;

@@ -46,6 +46,19 @@ impl SubjectInfo {
     }
 }
 
+impl SubjectInfo {
+    /// Of a subject without values. `has_segments` is true if it has segments with colours.
+    pub(crate) fn of_no_values(has_segments: bool) -> Self {
+        Self {
+            value_range: [0.0, 1.0],
+            window_auto: [0.0, 1.0],
+            is_ct: false,
+            hounsfield_offset: 0.0,
+            has_segments,
+        }
+    }
+}
+
 /// From stored numbers to what textures hold: 0 for the smallest value of the volume and 1 for the largest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Normalise {

@@ -6,9 +6,10 @@ use crate::document::{Illustration, OpacityMode};
 use crate::math::Aabb;
 use crate::placed::deformed_bounds;
 use crate::render::pack::bodies::bodies_of;
-use crate::render::pack::gpu_types::{Bodies, Templates};
+use crate::render::pack::gpu_types::{Bodies, MeshLook, Templates};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::look::{TransferTable, background_uniform};
+use crate::render::pack::mesh_look::mesh_look_of;
 use crate::render::pack::notice::RenderNotice;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::textures::SubjectTextures;
@@ -28,6 +29,8 @@ pub(crate) struct Inputs {
     pub bounds: Stamped<Aabb>,
     /// Segments that are drawn as bodies of their own.
     pub bodies: Stamped<Bodies>,
+    /// How the segments of a mesh are drawn.
+    pub mesh_look: Stamped<MeshLook>,
     /// The transfer function and how opacity follows the deformation; `None` before the first update.
     pub look: Stamped<Option<(TransferTable, OpacityMode)>>,
     /// Linear RGB; w: 1 if there is a background.
@@ -48,6 +51,7 @@ impl Inputs {
             kept: Stamped::default(),
             bounds: Stamped::new(Aabb::EMPTY),
             bodies: Stamped::new(Bodies::NONE),
+            mesh_look: Stamped::default(),
             look: Stamped::default(),
             background: Stamped::default(),
             bounds_from: MadeFrom::default(),
@@ -87,6 +91,8 @@ impl Inputs {
         let mut unknown = Vec::new();
         let look = &illustration.look;
         let bodies = bodies_of(&look.segments, &subject.segments, &mut unknown);
+        self.mesh_look
+            .set(mesh_look_of(look, &subject.mesh_segments));
         self.notify(&unknown, RenderNotice::UnknownBody);
         self.bodies.set(bodies);
         let table = TransferTable::new(look, &illustration.subject, &subject.info);
@@ -102,6 +108,7 @@ impl Inputs {
             self.fields.stamp(),
             self.kept.stamp(),
             self.bodies.stamp(),
+            self.mesh_look.stamp(),
             self.look.stamp(),
             self.background.stamp(),
         ]

@@ -3,7 +3,7 @@
 use crate::document::OpacityMode;
 use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::gpu::Gpu;
-use crate::render::pack::gpu_types::{Look, TABLE_FORMAT};
+use crate::render::pack::gpu_types::{Look, MeshLook, TABLE_FORMAT};
 use crate::render::pack::look::{TABLE_SIZE, TransferTable};
 use crate::render::pack::stamps::{MadeFrom, Stamped};
 use crate::render::subject::textures::SubjectTextures;
@@ -13,10 +13,13 @@ use crate::render::subject::textures::SubjectTextures;
 pub(crate) struct LookTable {
     /// Group 2, binding 1.
     pub uniform: wgpu::Buffer,
+    /// Group 2, binding 10.
+    pub mesh_uniform: wgpu::Buffer,
     /// Group 2, binding 2.
     pub view: wgpu::TextureView,
     table: wgpu::Texture,
     made_from: MadeFrom<2>,
+    mesh_made_from: MadeFrom<1>,
 }
 
 const SIZE: wgpu::Extent3d = wgpu::Extent3d {
@@ -40,9 +43,19 @@ impl LookTable {
         });
         Self {
             uniform: uniform_buffer(gpu, "look", &Look::default()),
+            mesh_uniform: uniform_buffer(gpu, "mesh look", &MeshLook::default()),
             view: table.create_view(&Default::default()),
             table,
             made_from: MadeFrom::default(),
+            mesh_made_from: MadeFrom::default(),
+        }
+    }
+
+    /// Takes over how the segments of a mesh are drawn.
+    pub(crate) fn update_mesh(&mut self, gpu: &Gpu, look: &Stamped<MeshLook>) {
+        if self.mesh_made_from.is_stale([look.stamp()]) {
+            let bytes = bytemuck::bytes_of(look.get());
+            gpu.queue.write_buffer(&self.mesh_uniform, 0, bytes);
         }
     }
 

@@ -6,13 +6,12 @@ use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::result_buffer;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
-use crate::render::device::programs::{ProgramId, module};
+use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
 use crate::render::pack::gpu_types::{Kept, MAX_TEMPLATES};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::stamps::MadeFrom;
 use crate::render::subject::textures::SubjectTextures;
 use std::mem::offset_of;
-use std::sync::OnceLock;
 
 /// Bytes of the motions: an affine map of 48 bytes for each template.
 const BYTES: u64 = 48 * MAX_TEMPLATES as u64;
@@ -20,15 +19,17 @@ const BYTES: u64 = 48 * MAX_TEMPLATES as u64;
 /// The program, compiled when the first document with such a segment is drawn; one pipeline per set of template kinds.
 #[derive(Debug, Default)]
 pub(crate) struct RigidPrograms {
-    module: OnceLock<wgpu::ShaderModule>,
-    pipelines: Pipelines<u32, wgpu::ComputePipeline>,
+    modules: Pipelines<SubjectShader, wgpu::ShaderModule>,
+    pipelines: Pipelines<(u32, SubjectShader), wgpu::ComputePipeline>,
 }
 
 impl RigidPrograms {
-    fn pipeline(&self, gpu: &Gpu, kinds: u32) -> wgpu::ComputePipeline {
-        self.pipelines.get(kinds, || {
-            let module = self.module.get_or_init(|| module(gpu, ProgramId::Rigid));
-            compute_pipeline(gpu, module, "fit", &[("drawn_kinds", f64::from(kinds))])
+    fn pipeline(&self, gpu: &Gpu, kinds: u32, subject: SubjectShader) -> wgpu::ComputePipeline {
+        self.pipelines.get((kinds, subject), || {
+            let module = self
+                .modules
+                .get(subject, || module_for(gpu, ProgramId::Rigid, subject));
+            compute_pipeline(gpu, &module, "fit", &[("drawn_kinds", f64::from(kinds))])
         })
     }
 }
@@ -58,15 +59,11 @@ impl RigidMotions {
         if !is_stale || !inputs.kept().is_some_and(KeptTissue::has_rigid) {
             return;
         }
-        let pipeline = programs.pipeline(gpu, inputs.templates.get().drawn_kinds());
+        let pipeline = programs.pipeline(gpu, inputs.templates.get().drawn_kinds(), subject.shader);
         let motions = result_buffer(gpu, "rigid motions", BYTES);
         let view = wgpu::BindingResource::TextureView;
         let groups = [
-            vec![
-                entry(0, subject.buffer.as_entire_binding()),
-                entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
-                entry(3, view(&subject.label_view)),
-            ],
+            subject.kept_entries(),
             vec![
                 entry(0, templates.as_entire_binding()),
                 entry(5, kept_textures.uniform.as_entire_binding()),

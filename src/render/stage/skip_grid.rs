@@ -212,6 +212,9 @@ impl SkipGrid {
         let visible = VisibleValues::new(table, &subject.info);
         let has_body = bricks_of_bodies(subject, bodies);
         let sums = summed(subject.bricks.dims, |i| {
+            if let Some(seen) = &subject.seen_bricks {
+                return seen.get(i).is_none_or(|&seen| seen);
+            }
             let ranges = &subject.bricks.ranges;
             has_body.get(i).is_some_and(|&has| has)
                 || ranges.get(i).is_some_and(|range| visible.any_in(*range))

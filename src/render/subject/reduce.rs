@@ -29,6 +29,7 @@ pub(crate) fn reduced_to_fit(
         slope: volume.slope,
         intercept: volume.intercept,
         value_range: volume.value_range,
+        has_size: volume.has_size,
         segmentation: volume
             .segmentation
             .as_ref()

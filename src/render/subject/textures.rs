@@ -1,7 +1,7 @@
 //! A subject on the GPU in the form that every pass reads, whatever the kind of subject.
 
 use super::bricks::{Bricks, LabelSet};
-use crate::data::{Segment, SubjectFrame};
+use crate::data::{Segment, SubjectFrame, SurfaceSegment};
 use crate::render::device::bindings::entry;
 use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::gpu::Gpu;
@@ -28,6 +28,8 @@ pub(crate) struct SubjectTextures {
     pub bricks: Bricks,
     /// The window that presets take by default, and the span of the values.
     pub info: SubjectInfo,
+    /// Bricks in which something is seen whatever the look is, where that does not follow from values.
+    pub seen_bricks: Option<Vec<bool>>,
     /// Labels by brick, where they lie on the grid of the values.
     pub label_bricks: Option<Vec<LabelSet>>,
     /// Where the untouched subject lies, and how fine it is.
@@ -40,6 +42,8 @@ pub(crate) struct SubjectTextures {
     /// The same scalars may have other labels.
     pub volume_view: Arc<HeldView>,
     pub label_view: Arc<HeldView>,
+    /// Tree and triangles of a mesh.
+    pub mesh_view: Option<Arc<HeldView>>,
     pub sampler: wgpu::Sampler,
     /// Where the voxels of the scalars lie. On these voxels, or on `label_voxels`, distances to kept tissue are made.
     pub voxels: VoxelFrame,
@@ -49,6 +53,8 @@ pub(crate) struct SubjectTextures {
     pub foot_axis: u32,
     /// Named segments of the subject.
     pub segments: Vec<Segment>,
+    /// What the segments of a mesh are; none of a volume.
+    pub mesh_segments: Vec<SurfaceSegment>,
 }
 
 /// A view of a whole texture, which is given back to the device when nobody holds the view any more. A browser would
@@ -68,11 +74,36 @@ impl Drop for HeldView {
     }
 }
 
+impl HeldView {
+    /// Bytes of the texture.
+    fn bytes(&self) -> u64 {
+        let texture = self.0.texture();
+        let texels = texture.size();
+        let texel = texture.format().block_copy_size(None).unwrap_or(0);
+        [
+            texels.width,
+            texels.height,
+            texels.depth_or_array_layers,
+            texel,
+        ]
+        .into_iter()
+        .map(u64::from)
+        .product()
+    }
+}
+
 impl std::ops::Deref for HeldView {
     type Target = wgpu::TextureView;
 
     fn deref(&self) -> &Self::Target {
         &self.0
+    }
+}
+
+impl SubjectTextures {
+    /// Bytes of the values and the labels.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.volume_view.bytes() + self.label_view.bytes()
     }
 }
 
@@ -111,6 +142,40 @@ pub(crate) fn next_stamp() -> Stamp {
     1 + SUBJECTS.fetch_add(1, Ordering::Relaxed)
 }
 
+impl SubjectTextures {
+    /// The bindings of group 1 in compute passes that ask what is kept at a place.
+    pub(crate) fn kept_entries(&self) -> Vec<wgpu::BindGroupEntry<'_>> {
+        let view = |view| wgpu::BindingResource::TextureView(view);
+        let mut entries = vec![
+            entry(0, self.buffer.as_entire_binding()),
+            entry(2, wgpu::BindingResource::Sampler(&self.sampler)),
+            entry(3, view(&self.label_view)),
+        ];
+        if let Some(mesh) = &self.mesh_view {
+            entries.push(entry(1, view(&self.volume_view)));
+            entries.push(entry(5, view(mesh)));
+        }
+        entries
+    }
+}
+
+/// Texels in a row of the texture of a mesh, as in shaders/subject/mesh.wgsl.
+pub(crate) const MESH_ROW: u32 = 4096;
+
+/// The texture of a mesh's tree and triangles.
+pub(crate) fn mesh_texture(gpu: &Gpu, [width, height]: [u32; 2]) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("mesh"),
+        size: extent(UVec3::new(width, height, 1)),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba32Uint,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
 /// What group 1 holds of a subject of any kind, around textures that are filled.
 pub(crate) struct Bound {
     /// The uniform's buffer.
@@ -122,12 +187,14 @@ pub(crate) struct Bound {
 }
 
 impl Bound {
-    /// Of the uniform, the textures of scalars and of labels, and the segments, whose colours are looked up by label.
+    /// Of the uniform, the textures of scalars, of labels and of triangles, and the segments, whose colours are looked
+    /// up by label.
     pub(crate) fn new(
         gpu: &Gpu,
         layouts: &Layouts,
         uniform: &Subject,
         [volume_view, label_view]: [&wgpu::TextureView; 2],
+        mesh_view: Option<&wgpu::TextureView>,
         segments: &[Segment],
     ) -> Self {
         let mut colors = [[0u8; 4]; 256];
@@ -157,6 +224,10 @@ impl Bound {
         write_slices(gpu, &palette, 0, 1, 4, bytemuck::cast_slice(&colors));
         let buffer = uniform_buffer(gpu, "subject", uniform);
         let palette_view = palette.create_view(&Default::default());
+        let no_mesh = mesh_view
+            .is_none()
+            .then(|| mesh_texture(gpu, [1, 1]).create_view(&Default::default()));
+        let mesh_view = mesh_view.or(no_mesh.as_ref()).unwrap_or(label_view);
         let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("subject"),
             layout: &layouts.subject,
@@ -166,6 +237,7 @@ impl Bound {
                 entry(2, wgpu::BindingResource::Sampler(&layouts.linear_sampler)),
                 entry(3, wgpu::BindingResource::TextureView(label_view)),
                 entry(4, wgpu::BindingResource::TextureView(&palette_view)),
+                entry(5, wgpu::BindingResource::TextureView(mesh_view)),
             ],
         });
         Self {

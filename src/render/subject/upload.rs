@@ -1,6 +1,7 @@
 //! Subjects on their way to the GPU. The one file here that tells kinds apart: each of them has files of its own, and
 //! becomes [`SubjectTextures`].
 
+use super::mesh::MeshUpload;
 use super::reduce::reduced_to_fit;
 use super::textures::SubjectTextures;
 use super::volume;
@@ -13,7 +14,8 @@ use crate::render::device::layouts::Layouts;
 /// A subject on its way to the GPU, piece by piece.
 #[derive(Debug)]
 pub(crate) enum Upload {
-    Volume(VolumeUpload),
+    Volume(Box<VolumeUpload>),
+    Mesh(MeshUpload),
 }
 
 /// The subject as the device takes it: made coarser where it is too large, with the notice that says so.
@@ -29,6 +31,7 @@ pub(crate) fn fitting(
             Some((small, reduction)) => (Subject::from(small), Some(reduction)),
             None => (subject.clone(), None),
         }),
+        Subject::Mesh(_) => Ok((subject.clone(), None)),
     }
 }
 
@@ -47,6 +50,8 @@ pub(crate) fn with_segmentation(
         Subject::Space(space) => {
             volume::with_labels(textures, gpu, layouts, &space.volume, segmentation)
         }
+        // The segments of a mesh are its parts.
+        Subject::Mesh(surface) => Ok(MeshUpload::new(gpu, surface)?.finish(gpu, layouts)),
     }
 }
 
@@ -57,7 +62,11 @@ impl Upload {
     /// [`RenderError::TooLarge`] if it is not whole.
     pub(crate) fn new(gpu: &Gpu, subject: &Subject) -> Result<Self, RenderError> {
         match subject {
-            Subject::Space(space) => Ok(Self::Volume(VolumeUpload::new(gpu, &space.volume)?)),
+            Subject::Space(space) => Ok(Self::Volume(Box::new(VolumeUpload::new(
+                gpu,
+                &space.volume,
+            )?))),
+            Subject::Mesh(surface) => Ok(Self::Mesh(MeshUpload::new(gpu, surface)?)),
         }
     }
 
@@ -65,6 +74,7 @@ impl Upload {
     pub(crate) fn progress(&self) -> f32 {
         match self {
             Self::Volume(upload) => upload.progress(),
+            Self::Mesh(_) => 1.0,
         }
     }
 
@@ -72,6 +82,7 @@ impl Upload {
     pub(crate) fn advance(&mut self, gpu: &Gpu) -> bool {
         match self {
             Self::Volume(upload) => upload.advance(gpu),
+            Self::Mesh(_) => true,
         }
     }
 
@@ -79,6 +90,7 @@ impl Upload {
     pub(crate) fn finish(self, gpu: &Gpu, layouts: &Layouts) -> SubjectTextures {
         match self {
             Self::Volume(upload) => upload.finish(gpu, layouts),
+            Self::Mesh(upload) => upload.finish(gpu, layouts),
         }
     }
 }

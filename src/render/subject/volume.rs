@@ -85,6 +85,7 @@ pub(crate) fn assemble(
         value_range: span(volume.value_range),
         detail: frame.detail,
         has_labels: u32::from(labels.is_some()),
+        ..Subject::default()
     };
     let segments = labels.map(|l| l.segments.clone()).unwrap_or_default();
     let bound = Bound::new(
@@ -92,6 +93,7 @@ pub(crate) fn assemble(
         layouts,
         &uniform,
         [&*volume_view, &*label_view],
+        None,
         &segments,
     );
     info.has_segments = bound.has_colors;
@@ -104,14 +106,17 @@ pub(crate) fn assemble(
         buffer: bound.buffer,
         volume_view,
         label_view,
+        mesh_view: None,
         sampler: layouts.linear_sampler.clone(),
         voxels: VoxelFrame::new(grid.dims, grid.subject_from_voxel()),
         label_voxels: labels
             .map(|l| VoxelFrame::new(l.grid.dims, subject_from_world * l.grid.world_from_voxel)),
         foot_axis: foot_axis as u32,
+        mesh_segments: Vec::new(),
         segments,
         bind_group: bound.bind_group,
         bricks,
+        seen_bricks: None,
         label_bricks: labels
             .filter(|labels| labels.grid == *grid)
             .map(|labels| labels_in_bricks(labels, BRICK)),

@@ -118,7 +118,7 @@ impl MissingSubject {
         let src = want.src().unwrap_or_default().chars().take(200).collect();
         match want.role {
             Role::Segments => Self::RemoteSegments { src },
-            Role::Subject | Role::Field => Self::Remote { src },
+            _ => Self::Remote { src },
         }
     }
 

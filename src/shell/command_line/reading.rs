@@ -30,6 +30,7 @@ impl ReadingFlags {
         Reading {
             frame: self.frame.map_or(document.frame, |number| number - 1),
             raw: self.raw.clone().or(document.raw),
+            mesh: document.mesh,
         }
     }
 

@@ -49,9 +49,15 @@ pub(super) fn render(
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
     let drawing = studio.render_image(&illustration, paper.size, paper.samples);
     let mut image = pollster::block_on(drawing)?;
+    crate::app::mark(&mut image, &illustration, subject.mm_per_unit());
     if paper.lettering {
         let places = crate::render::caption_places(&studio, &illustration, paper.size);
         let places = pollster::block_on(places)?;
+        for (index, text) in illustration.unshaped_captions() {
+            notice(format!(
+                "/labels/{index}/text: “{text}” cannot be shaped here: its letters stand unjoined and from the left; browsers set it rightly"
+            ));
+        }
         let missing = crate::app::letter(&mut image, &illustration, &places);
         if !missing.is_empty() {
             notice(format!("no font here has the characters {missing}"));

@@ -45,6 +45,9 @@ pub(super) fn subject_of(
             Role::Segments => take_segments(&mut assets, &want, &mut given, folder)?,
             // Fields come by `fields_of`, as they need the subject's grid only.
             Role::Field => {}
+            // The document's notices say that these are not drawn; here those are named that are not even there.
+            Role::Mesh => report_missing("mesh", &want, folder),
+            Role::Object => report_missing("object", &want, folder),
         }
     }
     for (_, file) in given {
@@ -69,6 +72,33 @@ pub(super) fn subject_of(
     Ok(subject.with_segmentation(made.segmentation.map(Arc::unwrap_or_clone)))
 }
 
+/// Names the file of a mesh or of an object if it is not there; what it would be is left out.
+fn report_missing(what: &str, want: &Want, folder: &Path) {
+    let Source::File { src, name, .. } = &want.source else {
+        return;
+    };
+    let called = match name.as_str() {
+        "" => String::new(),
+        name => format!(" “{name}”"),
+    };
+    let Some(src) = src else {
+        return notice(format!(
+            "the document needs the file of the {what}{called} (SHA-256 {}); it is left out",
+            want.sha256().unwrap_or_default()
+        ));
+    };
+    match local(folder, src) {
+        Some(path) if path.exists() => {}
+        Some(path) => notice(format!(
+            "the file of the {what}{called} is not there, and it is left out: {}",
+            path.display()
+        )),
+        None => notice(format!(
+            "this program reads local files only; the {what}{called} is left out: {src}"
+        )),
+    }
+}
+
 /// Brings the subject. The file of `--subject` takes the place of the document's, and only a notice says that it is
 /// another one.
 fn take_subject(
@@ -79,7 +109,7 @@ fn take_subject(
     folder: &Path,
     limits: VolumeLimits,
 ) -> Result<(), MissingSubject> {
-    let reading = common.reading.over(illustration.subject.reading());
+    let reading = common.reading.over(Some(&want.reading));
     if let Some(path) = &common.subject {
         let data = read(path, &reading, limits)?;
         if let Some(Err(other)) = data.sha256().map(|found| want.check(found)) {

@@ -162,6 +162,7 @@ pub mod post {
                         text_of_reading(&Reading {
                             frame: 0,
                             raw: Some(raw),
+                            ..Reading::default()
                         })
                     })
                     .into(),

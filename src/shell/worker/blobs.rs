@@ -3,7 +3,9 @@
 
 use std::io::{self, Read};
 
-use js_sys::Uint8Array;
+use js_sys::{Reflect, Uint8Array};
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::JsFuture;
 use web_sys::{Blob, FileReaderSync};
 
 use super::fault::text_of;
@@ -12,8 +14,66 @@ use crate::load::{FileHandle, FileSet};
 /// Bytes of a file that are in memory at a time.
 const CHUNK_BYTES: usize = 4 << 20;
 
+/// Where the bytes of a file are.
+#[derive(Clone)]
+enum Held {
+    /// In the browser's own store; read by a reader that only workers have.
+    Blob(Blob),
+    /// In the page's memory, whole, where there is no worker.
+    Bytes(Uint8Array),
+}
+
+impl Held {
+    fn byte_len(&self) -> f64 {
+        match self {
+            Self::Blob(blob) => blob.size(),
+            Self::Bytes(bytes) => f64::from(bytes.length()),
+        }
+    }
+
+    /// The bytes from a place to another one.
+    fn piece(&self, from: f64, to: f64) -> Result<Vec<u8>, JsValue> {
+        match self {
+            Self::Blob(blob) => {
+                let piece = blob.slice_with_f64_and_f64(from, to)?;
+                let read = FileReaderSync::new()?.read_as_array_buffer(&piece)?;
+                Ok(Uint8Array::new(&read).to_vec())
+            }
+            Self::Bytes(bytes) => Ok(bytes.subarray(from as u32, to as u32).to_vec()),
+        }
+    }
+}
+
 /// Files that the page holds as blobs, with their names.
-pub(super) struct BlobFiles(pub(super) Vec<(String, Blob)>);
+pub(super) struct BlobFiles(Vec<(String, Held)>);
+
+impl BlobFiles {
+    /// Files of these names. Where this is no worker they are read now.
+    ///
+    /// # Errors
+    /// If one cannot be read.
+    pub(super) async fn new(files: Vec<(String, Blob)>) -> Result<Self, JsValue> {
+        let is_worker = Reflect::has(&js_sys::global(), &"FileReaderSync".into())?;
+        let mut held = Vec::new();
+        for (name, blob) in files {
+            held.push((
+                name,
+                match is_worker {
+                    true => Held::Blob(blob),
+                    false => {
+                        Held::Bytes(Uint8Array::new(&JsFuture::from(blob.array_buffer()).await?))
+                    }
+                },
+            ));
+        }
+        Ok(Self(held))
+    }
+
+    /// Keeps the files whose names are wanted.
+    pub(super) fn retain(&mut self, is_wanted: impl Fn(&str) -> bool) {
+        self.0.retain(|(name, _)| is_wanted(name));
+    }
+}
 
 impl FileSet for BlobFiles {
     fn names(&mut self) -> Vec<String> {
@@ -22,13 +82,11 @@ impl FileSet for BlobFiles {
 
     fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>> {
         let found = self.0.iter().find(|(n, _)| n == name);
-        let (_, blob) = found.ok_or(io::ErrorKind::NotFound)?;
-        let reader = FileReaderSync::new().map_err(|e| io::Error::other(text_of(&e)))?;
+        let (_, held) = found.ok_or(io::ErrorKind::NotFound)?;
         Ok(FileHandle {
-            byte_len: Some(blob.size() as u64),
-            read: Box::new(BlobReader {
-                blob: blob.clone(),
-                reader,
+            byte_len: Some(held.byte_len() as u64),
+            read: Box::new(HeldReader {
+                held: held.clone(),
                 chunk: Vec::new(),
                 at: 0,
                 next: 0.0,
@@ -37,27 +95,22 @@ impl FileSet for BlobFiles {
     }
 }
 
-struct BlobReader {
-    blob: Blob,
-    reader: FileReaderSync,
+struct HeldReader {
+    held: Held,
     chunk: Vec<u8>,
     at: usize,
     next: f64,
 }
 
-impl Read for BlobReader {
+impl Read for HeldReader {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         if self.at == self.chunk.len() {
-            if self.next >= self.blob.size() {
+            if self.next >= self.held.byte_len() {
                 return Ok(0);
             }
-            let end = (self.next + CHUNK_BYTES as f64).min(self.blob.size());
-            let read = self
-                .blob
-                .slice_with_f64_and_f64(self.next, end)
-                .and_then(|piece| self.reader.read_as_array_buffer(&piece))
-                .map_err(|error| io::Error::other(text_of(&error)))?;
-            self.chunk = Uint8Array::new(&read).to_vec();
+            let end = (self.next + CHUNK_BYTES as f64).min(self.held.byte_len());
+            let piece = self.held.piece(self.next, end);
+            self.chunk = piece.map_err(|error| io::Error::other(text_of(&error)))?;
             self.at = 0;
             self.next = end;
         }

@@ -1,15 +1,31 @@
 //! Faults in a worker, and errors of the browser as text.
 
-use js_sys::Array;
+use std::cell::RefCell;
+
+use js_sys::{Array, Reflect};
 use wasm_bindgen::prelude::*;
 use web_sys::DedicatedWorkerGlobalScope;
 
 /// What the page tells the reader of a part that panicked; web/worker.js says the same of one that could not be loaded.
 const STOPPED: &str = "The background thread that loads scans stopped because of a fault";
 
-/// The global scope of the worker that this runs in.
+thread_local! {
+    /// Takes the answers in place of the worker's own scope, where there is no worker (web/inline.js).
+    static SCOPE: RefCell<Option<JsValue>> = const { RefCell::new(None) };
+}
+
+/// From now on answers go to whom the message of a task names, if it names anybody.
+pub fn heed_scope(message: &JsValue) {
+    let scope = Reflect::get(message, &"scope".into()).ok();
+    SCOPE.set(scope.filter(JsValue::is_object));
+}
+
+/// The global scope of the worker that this runs in, or what stands for it.
 pub fn scope() -> DedicatedWorkerGlobalScope {
-    js_sys::global().unchecked_into()
+    let other = SCOPE.with_borrow(Clone::clone);
+    other
+        .unwrap_or_else(|| js_sys::global().into())
+        .unchecked_into()
 }
 
 /// From now on the text of a panic goes to the page as the failure of the task. The panic itself ends the worker.

@@ -67,7 +67,7 @@ pub fn json_of(header: &Volume) -> Value {
     let labels = header.segmentation.as_ref().map(json_of_labels);
     json!({
         "grid": json_of_grid(&header.grid), "kind": kind, "slope": header.slope, "intercept": header.intercept,
-        "value_range": header.value_range, "labels": labels,
+        "value_range": header.value_range, "labels": labels, "has_size": header.has_size,
     })
 }
 
@@ -94,6 +94,7 @@ pub fn volume_of(value: &Value) -> Option<Volume> {
             number(range.get(1)?).unwrap_or_default(),
         ],
         segmentation: labels,
+        has_size: value.get("has_size")?.as_bool()?,
     })
 }
 

@@ -36,8 +36,36 @@ pub fn end_waiting() {
     }
 }
 
+/// How a worker is made.
+#[derive(Clone, Debug)]
+pub enum Maker {
+    /// From this address of `worker.js`.
+    Address(String),
+    /// By a function of the page, which returns a worker or what behaves like one.
+    Page(js_sys::Function),
+}
+
+impl Maker {
+    fn make(&self) -> Result<Worker, JsValue> {
+        match self {
+            Self::Address(address) => {
+                let options = WorkerOptions::new();
+                options.set_type(WorkerType::Module);
+                Worker::new_with_options(address, &options)
+            }
+            Self::Page(make) => Ok(make.call0(&JsValue::NULL)?.unchecked_into()),
+        }
+    }
+}
+
+impl From<&str> for Maker {
+    fn from(address: &str) -> Self {
+        Self::Address(address.to_owned())
+    }
+}
+
 /// A worker for a part: one that waits, if there is one that could be started, else a new one.
-fn worker_for(part: Part, address: &str) -> Result<Worker, JsValue> {
+fn worker_for(part: Part, maker: &Maker) -> Result<Worker, JsValue> {
     let waiting = WAITING.with_borrow_mut(|waiting| {
         let found = waiting.iter().position(|(other, _)| *other == part)?;
         Some(waiting.swap_remove(found).1)
@@ -48,9 +76,7 @@ fn worker_for(part: Part, address: &str) -> Result<Worker, JsValue> {
     if let Some(worker) = waiting.filter(could_start) {
         return Ok(worker);
     }
-    let options = WorkerOptions::new();
-    options.set_type(WorkerType::Module);
-    Worker::new_with_options(address, &options)
+    maker.make()
 }
 
 /// A task under way. Ends when dropped, and its worker by itself after the last answer.
@@ -73,18 +99,17 @@ fn end(worker: &Worker) {
 }
 
 /// Starts a task in a worker of its own; `on_answer` is called with each answer but the part's module, which is kept.
-/// `address` is the address of `worker.js`.
 ///
 /// # Errors
 /// If the browser starts no workers.
 pub fn start(
-    address: &str,
+    maker: &Maker,
     task: &Task,
     limits: VolumeLimits,
     on_answer: impl FnMut(Answer) + 'static,
 ) -> Result<WorkerLoad, JsValue> {
     let part = task.part();
-    let worker = worker_for(part, address)?;
+    let worker = worker_for(part, maker)?;
     let on_answer = Rc::new(RefCell::new(on_answer));
     let (for_error, for_end) = (Rc::clone(&on_answer), worker.clone());
     let on_message = Closure::new(move |event: MessageEvent| match Answer::of(&event.data()) {
@@ -120,7 +145,7 @@ pub fn start(
 
 /// Does a task to its last answer.
 async fn to_end(
-    address: &str,
+    maker: &Maker,
     task: &Task,
     limits: VolumeLimits,
     mut take: impl FnMut(Answer) + 'static,
@@ -128,7 +153,7 @@ async fn to_end(
     let resolve = Rc::new(RefCell::new(None::<js_sys::Function>));
     let for_answer = Rc::clone(&resolve);
     let ended = Promise::new(&mut |done, _| *resolve.borrow_mut() = Some(done));
-    let load = start(address, task, limits, move |answer| {
+    let load = start(maker, task, limits, move |answer| {
         let is_last = answer.is_last();
         take(answer);
         if is_last && let Some(done) = &*for_answer.borrow() {
@@ -151,14 +176,14 @@ const UNLIMITED: VolumeLimits = VolumeLimits {
 /// # Errors
 /// In words: why the file is no displacement field, or why no worker reads it.
 pub async fn read_field(
-    address: &str,
+    maker: &Maker,
     name: String,
     file: web_sys::Blob,
 ) -> Result<FieldFile, String> {
     let found = Rc::new(RefCell::new(Err("the file was not read".to_owned())));
     let for_answer = Rc::clone(&found);
     let task = Task::Scan(ScanTask::Field { name, file });
-    let read = to_end(address, &task, UNLIMITED, move |answer| match answer {
+    let read = to_end(maker, &task, UNLIMITED, move |answer| match answer {
         Answer::Field(outcome) => *for_answer.borrow_mut() = *outcome,
         Answer::Event(LoadEvent::Failed {
             message, details, ..
@@ -196,7 +221,8 @@ pub async fn make_subject(address: &str, name: &str, resolution: u32) -> Result<
     let made = Rc::new(RefCell::new((SubjectBuilder::default(), None::<String>)));
     let for_answer = Rc::clone(&made);
     let task = Task::Subject(name.to_owned(), Some(resolution));
-    let run = to_end(address, &task, UNLIMITED, move |answer| {
+    let maker = address.into();
+    let run = to_end(&maker, &task, UNLIMITED, move |answer| {
         let (builder, fault) = &mut *for_answer.borrow_mut();
         match answer {
             Answer::Event(LoadEvent::Part(part)) => {

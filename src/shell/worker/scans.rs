@@ -28,10 +28,11 @@ pub fn loaded() {
 /// If the message is no task, or the page cannot take the answer.
 #[wasm_bindgen]
 pub async fn run(message: JsValue) -> Result<(), JsValue> {
+    fault::heed_scope(&message);
     post::module_unless_known(&message)?;
     let limits = limits_of(&message)?;
     match ScanTask::of(&message)? {
-        ScanTask::Field { name, file } => post_field(name, file),
+        ScanTask::Field { name, file } => post_field(name, file).await,
         ScanTask::Address {
             address,
             are_segments,
@@ -41,7 +42,7 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
             let name = name.split(['?', '#']).next().unwrap_or_default().to_owned();
             match fetch(&address).await {
                 Ok(blob) => {
-                    let mut files = BlobFiles(vec![(name.clone(), blob)]);
+                    let mut files = BlobFiles::new(vec![(name.clone(), blob)]).await?;
                     if are_segments {
                         let mut post = |event: LoadEvent| post::event(event).is_ok();
                         read_segments(&mut files, &name, &mut post);
@@ -70,18 +71,18 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
             may_be_field,
         } => {
             if may_be_field && let [(name, blob)] = files.as_slice() {
-                let mut only = BlobFiles(files.clone());
+                let mut only = BlobFiles::new(files.clone()).await?;
                 if is_field(&mut only, name) {
-                    return post_field(name.clone(), blob.clone());
+                    return post_field(name.clone(), blob.clone()).await;
                 }
             }
-            read_files(files, limits, &reading, &segmentations)
+            read_files(files, limits, &reading, &segmentations).await
         }
     }
 }
 
-fn post_field(name: String, file: Blob) -> Result<(), JsValue> {
-    let mut files = BlobFiles(vec![(name.clone(), file)]);
+async fn post_field(name: String, file: Blob) -> Result<(), JsValue> {
+    let mut files = BlobFiles::new(vec![(name.clone(), file)]).await?;
     post::field(&read_field(&mut files, &name).map_err(|error| error.to_string()))
 }
 
@@ -91,7 +92,7 @@ fn read(files: &mut BlobFiles, name: &str, limits: VolumeLimits, reading: &Readi
 }
 
 /// Reads files that were opened together: label volumes, and then the scan.
-fn read_files(
+async fn read_files(
     mut files: Vec<(String, Blob)>,
     limits: VolumeLimits,
     reading: &Reading,
@@ -106,13 +107,13 @@ fn read_files(
         }
     }
     let names = files.iter().map(|(name, _)| name.clone()).collect();
-    let mut files = BlobFiles(files);
+    let mut files = BlobFiles::new(files).await?;
     let mut post = |event: LoadEvent| post::event(event).is_ok();
     let rest = take_segmentations(&mut files, names, segmentations, &mut post);
     let Some(first) = rest.first().cloned() else {
         return post::event(LoadEvent::Done { sha256: None });
     };
-    files.0.retain(|(name, _)| rest.contains(name));
+    files.retain(|name| rest.iter().any(|other| other == name));
     let name = if rest.contains(&name) { name } else { first };
     let name = main_name(&mut files, &name);
     read(&mut files, &name, limits, reading);

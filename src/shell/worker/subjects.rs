@@ -20,6 +20,7 @@ pub fn loaded() {
 /// If the message is no task.
 #[wasm_bindgen]
 pub fn run(message: JsValue) -> Result<(), JsValue> {
+    fault::heed_scope(&message);
     post::module_unless_known(&message)?;
     let get = |key: &str| Reflect::get(&message, &key.into());
     let name = get("builtin")?.as_string().unwrap_or_default();

@@ -12,7 +12,7 @@ use web_sys::Blob;
 
 use crate::assets::SegmentationsExpected;
 use crate::data::VolumeLimits;
-use crate::document::{RawVoxels, Reading};
+use crate::document::{MeshAxes, MeshParts, MeshReading, MeshUnits, RawVoxels, Reading};
 
 /// A program that runs in a worker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -201,7 +201,17 @@ pub fn text_of_reading(reading: &Reading) -> String {
             "spacing_mm": raw.spacing_mm, "skip_bytes": raw.skip_bytes,
         })
     });
-    json!({ "frame": reading.frame, "raw": raw }).to_string()
+    let MeshReading {
+        units,
+        axes,
+        parts,
+        smooth_deg,
+    } = reading.mesh;
+    let mesh = json!({
+        "units": units.map(MeshUnits::name), "axes": axes.map(MeshAxes::name), "parts": parts.name(),
+        "smooth_deg": smooth_deg,
+    });
+    json!({ "frame": reading.frame, "raw": raw, "mesh": mesh }).to_string()
 }
 
 /// How a file is to be read, from [`text_of_reading`]; nothing in particular if the text is not from there.
@@ -210,6 +220,18 @@ pub fn reading_of(text: &str) -> Reading {
     Reading {
         frame: value.get("frame").and_then(Value::as_u64).unwrap_or(0),
         raw: value.get("raw").and_then(raw_of),
+        mesh: value.get("mesh").map(mesh_of).unwrap_or_default(),
+    }
+}
+
+fn mesh_of(value: &Value) -> MeshReading {
+    let text = |key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default();
+    let smooth = value.get("smooth_deg").and_then(Value::as_f64);
+    MeshReading {
+        units: MeshUnits::from_name(text("units")),
+        axes: MeshAxes::from_name(text("axes")),
+        parts: MeshParts::from_name(text("parts")).unwrap_or_default(),
+        smooth_deg: smooth.map(|degrees| degrees as f32),
     }
 }
 

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::edges::{Sets, by_edge, sides};
-use crate::data::NO_INDEX;
+use super::value::NO_INDEX;
 
 /// What a set of triangles is.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,7 +124,7 @@ pub fn winding_number<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::load::mesh::testing::cube;
+    use crate::data::mesh::testing::cube;
 
     #[test]
     fn a_cube_is_closed_and_has_its_volume() {

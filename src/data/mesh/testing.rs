@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 /// A cube of side 1 from the origin: eight vertices, x fastest, and twelve triangles, their fronts outside.
-pub(super) fn cube() -> (Vec<Vec3>, Vec<[u32; 3]>) {
+pub(crate) fn cube() -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let bit = |i: u32, b: u32| ((i >> b) & 1) as f32;
     let positions = (0..8)
         .map(|i| Vec3::new(bit(i, 0), bit(i, 1), bit(i, 2)))

@@ -1,0 +1,62 @@
+// What fills the bodies of a mesh, and the colours of their surfaces, cut faces and layers (spec/surfaces.md, "What
+// a body is").
+// needs: types.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/noise.wgsl subject/mesh.wgsl
+
+/// How much of its own colour a back side or a cut face has.
+const INSIDE_SHARE: f32 = 0.75;
+/// Length of the grain of layers, subject units.
+const GRAIN_LENGTH: f32 = 0.02;
+/// Farther than any triangle is from a place inside.
+const FAR_INSIDE: f32 = 2.0;
+
+/// The segment that fills a place, from 1; 0 where there is none.
+fn filled_at(rest: vec3f) -> u32 {
+    let label = label_at(rest);
+    if label == 0u || label == NO_LABEL {
+        return 0u;
+    }
+    let body = mesh_look.segments[label - 1u];
+    var is_filled = body.kind == BODY_FULL;
+    if body.kind == BODY_THICK {
+        is_filled = to_nearest(rest, body.thickness).w < body.thickness;
+    }
+    return select(0u, label, is_filled);
+}
+
+/// Linear RGB of a triangle at a point of these weights, from its front or its back.
+fn surface_color(triangle: u32, weights: vec3f, is_front: bool) -> vec3f {
+    let body = mesh_look.segments[u32(segment_and_opacity_of(triangle).x)];
+    var own = body.color.rgb;
+    if body.color.a < 0.0 {
+        own = color_of_triangle(triangle, weights);
+    }
+    let back = select(own * INSIDE_SHARE, body.inside.rgb, body.inside.a >= 0.0);
+    return select(back, own, is_front);
+}
+
+/// Linear RGB of what fills a segment, from 1, at a place: its layer's, else that of its inside.
+fn filling_color(segment: u32, rest: vec3f) -> vec3f {
+    let body = mesh_look.segments[segment - 1u];
+    let mean = textureLoad(palette, vec2i(i32(segment), 0), 0).rgb;
+    let own = select(mean, body.color.rgb, body.color.a >= 0.0);
+    var color = select(own * INSIDE_SHARE, body.inside.rgb, body.inside.a >= 0.0);
+    if body.layer_count > 0u {
+        let depth = to_nearest(rest, FAR_INSIDE).w;
+        var grain = 0.0;
+        for (var i = 0u; i < body.layer_count; i++) {
+            let layer = mesh_look.layers[body.first_layer + i];
+            if layer.depth <= depth {
+                color = select(own * INSIDE_SHARE, layer.color.rgb, layer.color.a >= 0.0);
+                if layer.color.a < 0.0 && body.inside.a >= 0.0 {
+                    color = body.inside.rgb;
+                }
+                grain = layer.grain;
+            }
+        }
+        if grain > 0.0 {
+            let at = rest / GRAIN_LENGTH;
+            color *= 1.0 + grain * (noise(at.xy, 0u) + noise(at.yz, 1u) + noise(at.zx, 2u)) / 3.0;
+        }
+    }
+    return color;
+}

@@ -1,0 +1,452 @@
+// The march of a ray through a mesh: the untouched triangles say what is met, wherever the map leads.
+//
+//   eye --o--------o-----o--o-o×-o        o a place on the ray and where it was at rest; × a triangle
+//            long steps while no triangle is near
+//
+// Between two places the ray is a curve in rest space. Where the field says that a triangle may be between them, the
+// curve is followed by short chords, each chord is tested against the triangles, and a crossing is made exact along the
+// true curve. Gaps (A < 0) and jumps of the map are found by bisection before that; the wall of a gap is a cut face
+// where it meets the inside of a body.
+// Source: Correa, sections 7.4 and 7.5.2 (adaptive sampling), with triangles in the place of a sampled field.
+// Differs from the source: one rule for the deformed part and the rest, exact edges, no blending at borders.
+// needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/compose.wgsl
+//   march/overrides.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl march/jacobian.wgsl march/surface.wgsl
+//   march/surroundings.wgsl march/marched.wgsl subject/place.wgsl subject/mesh.wgsl
+//   march/filling.wgsl
+//   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
+
+/// Transmittance at which a ray ends: below half a level of 255.
+const OPAQUE: f32 = 0.002;
+/// Surfaces that count on one ray (spec/surfaces.md, "What the object has at a point").
+const MAX_CROSSINGS: u32 = 16u;
+/// Steps of one ray at most; a guard.
+const MAX_STEPS: u32 = 3000u;
+/// Longest chord that is tested against triangles, rest space units: with such chords no ray in 500 goes wrong under a
+/// twist and a narrow pull.
+const LONGEST_CHORD: f32 = 0.00390625;
+/// Longest and shortest step where a template acts, and the step in gaps, subject units.
+const LONGEST_STEP: f32 = 0.015;
+const SHORTEST_STEP: f32 = 0.00002;
+const GAP_STEP: f32 = 0.003;
+/// Halvings of a step to find where a gap or a jump begins.
+const MESH_BISECTIONS: u32 = 12u;
+/// A jump of the map is farther than this, rest space units.
+const LEAST_JUMP: f32 = 0.0001;
+/// Contribution that makes a surface that of the ray: occlusion, shadow and picking are for that one.
+const SURFACE_SHARE: f32 = 0.3;
+/// Step inside of shells, whose inner walls the field does not tell of, subject units.
+const SHELL_STEP: f32 = 0.004;
+
+/// A place on the ray.
+struct Spot {
+    /// Distance from the eye.
+    t: f32,
+    /// Where the material there was at rest, rest space.
+    pos: vec3f,
+    /// Continuity of the composed map; below 0 in a gap.
+    continuity: f32,
+    /// Templates that led here.
+    path: u32,
+    /// No triangle is nearer to `pos`, rest space.
+    clearance: f32,
+}
+
+/// Where the march along a ray has got to.
+struct MeshWalk {
+    here: Spot,
+    /// Templates that may reach the cell of `here`.
+    mask: u32,
+    /// The longest step that is tried next.
+    step: f32,
+    /// How much rest space a unit of the last step went through.
+    stretch: f32,
+    /// The triangle that `here` lies on, or NO_TRIANGLE.
+    skipped: u32,
+}
+
+/// Something that a ray meets.
+struct Met {
+    /// False if the ray left the object.
+    is_met: bool,
+    /// Where: at rest, and on the ray.
+    at: Spot,
+    /// The triangle; NO_TRIANGLE for a cut face.
+    triangle: u32,
+    weights: vec3f,
+    is_front: bool,
+    /// The segment, from 1.
+    segment: u32,
+    /// Templates that may reach the place.
+    mask: u32,
+}
+
+fn spot_at(ray: Ray, t: f32, mask: u32) -> Spot {
+    let found = map_point(ray.origin + ray.dir * t, mask);
+    return Spot(t, found.pos, found.continuity, found.path, clearance_at(found.pos));
+}
+
+fn unmoved_spot(ray: Ray, t: f32) -> Spot {
+    return Spot(t, ray.origin + ray.dir * t, 1.0, 0u, 0.0);
+}
+
+/// The cell of the skip grid at a place of the ray. x: templates that may reach it; y: 0 if something may be seen
+/// there; z: bits of the distance at which the ray leaves it, or the empty cells around it.
+fn cell_on_ray(ray: Ray, t: f32) -> vec3u {
+    if has_grid == 0u || grid.is_used == 0u {
+        return vec3u(0xffffffffu, 0u, bitcast<u32>(ray.t_end));
+    }
+    let local = floor((ray.origin + ray.dir * t - grid.origin_min.xyz) / grid.cell_size.xyz);
+    let cell = clamp(local, vec3f(0.0), vec3f(grid.cells.xyz) - 1.0);
+    let content = textureLoad(grid_cells, vec3i(cell), 0).xy;
+    let reach = max(f32(content.y), 1.0);
+    let plane = select(cell + 1.0 - reach, cell + reach, ray.dir > vec3f(0.0));
+    let exits = (grid.origin_min.xyz + plane * grid.cell_size.xyz - ray.origin) * ray.inverse_dir;
+    let t_out = max(min(exits.x, min(exits.y, exits.z)), t) + 0.00002;
+    return vec3u(content, bitcast<u32>(min(t_out, ray.t_end)));
+}
+
+/// The last place before something changes between two places of a ray, and the first behind it.
+struct Edge {
+    before: Spot,
+    behind: Spot,
+}
+
+/// Finds where a gap begins or ends, or where the path changes, or, if neither does, where the map jumps.
+fn edge_between(ray: Ray, here: Spot, next: Spot, mask: u32) -> Edge {
+    var edge = Edge(here, next);
+    let turns_gap = (here.continuity < 0.0) != (next.continuity < 0.0);
+    let turns_path = here.path != next.path && !turns_gap;
+    for (var turn = 0u; turn < MESH_BISECTIONS; turn++) {
+        let middle = spot_at(ray, 0.5 * (edge.before.t + edge.behind.t), mask);
+        var is_before = distance(middle.pos, edge.before.pos) <= distance(middle.pos, edge.behind.pos);
+        if turns_gap {
+            is_before = (middle.continuity < 0.0) == (here.continuity < 0.0);
+        } else if turns_path {
+            is_before = middle.path == here.path;
+        }
+        if is_before {
+            edge.before = middle;
+        } else {
+            edge.behind = middle;
+        }
+    }
+    return edge;
+}
+
+/// A crossing of a triangle between two places, made exact along the true curve: regula falsi on the triangle's plane.
+fn exact_spot(ray: Ray, here: Spot, next: Spot, crossing: TriangleCrossing, mask: u32) -> Spot {
+    let normal = face_of(crossing.triangle);
+    let corner = corner_of(crossing.triangle, 0u);
+    var low = vec2f(here.t, dot(here.pos - corner, normal));
+    var high = vec2f(next.t, dot(next.pos - corner, normal));
+    var spot = spot_at(ray, mix(here.t, next.t, crossing.part), mask);
+    for (var turn = 0u; turn < 3u; turn++) {
+        let height = dot(spot.pos - corner, normal);
+        if (height < 0.0) == (low.y < 0.0) {
+            low = vec2f(spot.t, height);
+        } else {
+            high = vec2f(spot.t, height);
+        }
+        let way = low.y - high.y;
+        if abs(way) < 1e-9 {
+            break;
+        }
+        spot = spot_at(ray, mix(low.x, high.x, clamp(low.y / way, 0.0, 1.0)), mask);
+    }
+    return spot;
+}
+
+fn met_triangle(at: Spot, crossing: TriangleCrossing, mask: u32) -> Met {
+    let segment = u32(segment_and_opacity_of(crossing.triangle).x) + 1u;
+    return Met(true, at, crossing.triangle, crossing.weights, crossing.is_front, segment, mask);
+}
+
+/// What lies behind an edge: a cut face where the place behind is filled with a segment that did not fill the one
+/// before; the surface of kept tissue, where the edge lies on a triangle.
+fn met_at_edge(ray: Ray, edge: Edge, mask: u32) -> Met {
+    var met = Met(false, edge.behind, NO_TRIANGLE, vec3f(0.0), true, 0u, mask);
+    if edge.behind.continuity < 0.0 {
+        return met;
+    }
+    let segment = filled_at(edge.behind.pos);
+    var before = 0u;
+    if edge.before.continuity >= 0.0 {
+        before = filled_at(edge.before.pos);
+        let reach = ray.dir * LEAST_JUMP;
+        let crossing = first_crossing(edge.behind.pos - reach, edge.behind.pos + reach, NO_TRIANGLE);
+        if crossing.triangle != NO_TRIANGLE {
+            return met_triangle(edge.behind, crossing, mask);
+        }
+    }
+    met.is_met = segment != 0u && segment != before;
+    met.segment = segment;
+    return met;
+}
+
+/// The way to a place that no template reaches: one straight line as far as there is none.
+fn cross_unmoved(ray: Ray, walk: ptr<function, MeshWalk>, first_exit: f32) -> Met {
+    var t_out = first_exit;
+    loop {
+        let cell = cell_on_ray(ray, t_out);
+        if t_out >= ray.t_end || (cell.x != 0u && drawn_kinds != 0u) {
+            break;
+        }
+        t_out = max(bitcast<f32>(cell.z), t_out + 0.00002);
+    }
+    let start = ray.origin + ray.dir * (*walk).here.t;
+    let end = ray.origin + ray.dir * t_out;
+    let crossing = first_crossing(start, end, (*walk).skipped);
+    let t = select(t_out, mix((*walk).here.t, t_out, crossing.part), crossing.triangle != NO_TRIANGLE);
+    (*walk).here = unmoved_spot(ray, t);
+    (*walk).skipped = crossing.triangle;
+    var met = Met(false, (*walk).here, NO_TRIANGLE, vec3f(0.0), true, 0u, 0u);
+    if crossing.triangle != NO_TRIANGLE {
+        met = met_triangle((*walk).here, crossing, 0u);
+    }
+    return met;
+}
+
+/// Takes one step where templates act.
+fn step_moved(ray: Ray, walk: ptr<function, MeshWalk>, mask: u32, t_out: f32) -> Met {
+    let here = (*walk).here;
+    let nothing = Met(false, here, NO_TRIANGLE, vec3f(0.0), true, 0u, mask);
+    let is_gap = here.continuity < 0.0;
+    let is_in_shell = mesh_look.has_shells != 0u && texel_at(texture_from_rest(here.pos)) > 0.0;
+    let free = max(here.clearance, LONGEST_CHORD) / (1.25 * max((*walk).stretch, 0.25));
+    let longest = select(LONGEST_STEP, SHELL_STEP, is_in_shell);
+    let wanted = min((*walk).step, select(min(free, longest), GAP_STEP, is_gap));
+    let t_next = min(here.t + max(wanted, SHORTEST_STEP), max(t_out, here.t + SHORTEST_STEP));
+    let way = t_next - here.t;
+    let next = spot_at(ray, t_next, mask);
+    if is_gap && next.continuity < 0.0 {
+        (*walk).here = next;
+        (*walk).step = LONGEST_STEP;
+        (*walk).stretch = 1.0;
+        (*walk).skipped = NO_TRIANGLE;
+        return nothing;
+    }
+    let turns = is_gap != (next.continuity < 0.0) || here.path != next.path;
+    var edge = Edge(next, next);
+    var has_edge = turns || distance(here.pos, next.pos) > MAX_STRETCH * way + LEAST_JUMP;
+    if has_edge {
+        edge = edge_between(ray, here, next, mask);
+        has_edge = turns || distance(edge.before.pos, edge.behind.pos) > LEAST_JUMP;
+    }
+    if is_gap {
+        (*walk).here = edge.behind;
+        (*walk).step = LONGEST_STEP;
+        return met_at_edge(ray, edge, mask);
+    }
+    let chord = distance(here.pos, edge.before.pos);
+    if chord > 0.8 * (here.clearance + edge.before.clearance) {
+        if chord > 1.5 * LONGEST_CHORD && way > 2.0 * SHORTEST_STEP {
+            (*walk).step = 0.5 * way;
+            return nothing;
+        }
+        let crossing = first_crossing(here.pos, edge.before.pos, (*walk).skipped);
+        if crossing.triangle != NO_TRIANGLE {
+            let at = exact_spot(ray, here, edge.before, crossing, mask);
+            (*walk).here = at;
+            (*walk).skipped = crossing.triangle;
+            (*walk).step = LONGEST_STEP;
+            return met_triangle(at, crossing, mask);
+        }
+    }
+    (*walk).stretch = chord / max(edge.before.t - here.t, SHORTEST_STEP);
+    (*walk).here = edge.behind;
+    (*walk).step = 2.0 * way;
+    (*walk).skipped = NO_TRIANGLE;
+    if has_edge {
+        (*walk).step = LONGEST_STEP;
+        (*walk).stretch = 1.0;
+        return met_at_edge(ray, edge, mask);
+    }
+    if is_in_shell {
+        return inner_wall(ray, walk, here, edge.behind, mask);
+    }
+    return nothing;
+}
+
+/// The inner wall of a shell between two places inside of it.
+fn inner_wall(ray: Ray, walk: ptr<function, MeshWalk>, here: Spot, next: Spot, mask: u32) -> Met {
+    var met = Met(false, next, NO_TRIANGLE, vec3f(0.0), true, 0u, mask);
+    if filled_at(here.pos) != 0u || filled_at(next.pos) == 0u {
+        return met;
+    }
+    var edge = Edge(here, next);
+    for (var turn = 0u; turn < MESH_BISECTIONS; turn++) {
+        let middle = spot_at(ray, 0.5 * (edge.before.t + edge.behind.t), mask);
+        if filled_at(middle.pos) == 0u {
+            edge.before = middle;
+        } else {
+            edge.behind = middle;
+        }
+    }
+    (*walk).here = edge.behind;
+    met.is_met = true;
+    met.at = edge.behind;
+    met.segment = filled_at(edge.behind.pos);
+    met.is_front = false;
+    return met;
+}
+
+/// Marches to the next thing that the ray meets.
+fn next_met(ray: Ray, walk: ptr<function, MeshWalk>, steps: ptr<function, u32>) -> Met {
+    var met = Met(false, (*walk).here, NO_TRIANGLE, vec3f(0.0), true, 0u, 0u);
+    while *steps < MAX_STEPS && (*walk).here.t < ray.t_end && !met.is_met {
+        (*steps)++;
+        let cell = cell_on_ray(ray, (*walk).here.t);
+        let t_out = bitcast<f32>(cell.z);
+        let is_moved = (cell.x != 0u && drawn_kinds != 0u) || mesh_look.has_shells != 0u;
+        if cell.y != 0u && has_grid != 0u && grid.is_used != 0u {
+            (*walk).here = unmoved_spot(ray, max(t_out, (*walk).here.t + 0.00002));
+            (*walk).mask = 0u;
+            (*walk).skipped = NO_TRIANGLE;
+        } else if !is_moved {
+            (*walk).mask = 0u;
+            met = cross_unmoved(ray, walk, t_out);
+        } else {
+            if (*walk).mask == 0u && (*walk).skipped == NO_TRIANGLE {
+                // From where no template acts.
+                (*walk).here = spot_at(ray, (*walk).here.t, cell.x);
+                (*walk).step = LONGEST_STEP;
+                (*walk).stretch = 1.0;
+            }
+            let mask = cell.x | (*walk).mask;
+            (*walk).mask = cell.x;
+            met = step_moved(ray, walk, mask, t_out);
+        }
+    }
+    return met;
+}
+
+/// How what is met looks: normal towards the eye in subject space, colour in linear light, opacity.
+struct MetLook {
+    normal: vec3f,
+    albedo: vec3f,
+    opacity: f32,
+    gloss: f32,
+}
+
+fn look_of(ray: Ray, met: Met) -> MetLook {
+    let edge = Sample(met.at.pos, 0.0, 1.0, met.at.continuity, met.at.path);
+    let map = differential_at(ray.origin + ray.dir * met.at.t, ray.forward, edge, met.mask);
+    let segment = met.segment - 1u;
+    var look_here = MetLook(-ray.dir, vec3f(0.0), 1.0, mesh_look.segments[segment].gloss);
+    if met.triangle != NO_TRIANGLE {
+        let face = carried_over(map.jacobian, face_of(met.triangle));
+        let smooth_normal = carried_over(map.jacobian, normal_of_triangle(met.triangle, met.weights));
+        // Towards the side of the plane on which the eye is.
+        let side = select(1.0, -1.0, dot(face, ray.dir) > 0.0);
+        var normal = normalize(side * smooth_normal);
+        // A smooth normal that points away from the eye is bent back to the edge of what the eye sees.
+        normal = normalize(normal - ray.dir * max(dot(normal, ray.dir), 0.0) * 1.02);
+        look_here.normal = normal;
+        look_here.albedo = surface_color(met.triangle, met.weights, met.is_front);
+        look_here.opacity = segment_and_opacity_of(met.triangle).y;
+    } else {
+        let slope = length(map.slope);
+        if !met.is_front {
+            // The inner wall of a shell lies along the surface above it.
+            let normal = normalize(carried_over(map.jacobian, to_nearest(met.at.pos, 2.0).xyz) - ray.dir * 1e-6);
+            look_here.normal = select(normal, -normal, dot(normal, ray.dir) >= 0.0);
+        } else if slope > 1e-3 && slope < MAX_SLOPE {
+            let normal = -map.slope / slope;
+            look_here.normal = select(normal, -ray.dir, dot(normal, ray.dir) >= 0.0);
+        }
+        look_here.albedo = filling_color(met.segment, met.at.pos);
+    }
+    let opacity = mesh_look.segments[segment].opacity;
+    look_here.opacity = select(look_here.opacity, opacity, opacity >= 0.0);
+    return look_here;
+}
+
+/// 1 if the body around a place is filled at this depth, by the nearest voxel; else 0.
+fn is_filled_near(rest: vec3f, depth: f32) -> u32 {
+    let voxel = floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz);
+    let label = textureLoad(labels, vec3i(clamp(voxel, vec3f(0.0), subject.label_dims.xyz - 1.0)), 0).x;
+    let first = first_of(mesh_texel(subject.sets_at + label));
+    if label == 0u || first == NO_LABEL {
+        // Between the surface and the first voxels inside.
+        return select(0u, 1u, depth < subject.detail);
+    }
+    let body = mesh_look.segments[first];
+    return select(0u, 1u, body.kind == BODY_FULL || (body.kind == BODY_THICK && depth < body.thickness));
+}
+
+/// How much of the light at a tap is taken: by what is inside of closed segments, and by what is near a triangle.
+fn cover_at(pos: vec3f, mask: u32) -> f32 {
+    var at = Material(pos, 1.0, 0u);
+    if mask != 0u && drawn_kinds != 0u {
+        at = map_point(pos, mask);
+    }
+    let uvw = texture_from_rest(at.pos);
+    let depth = texel_at(uvw);
+    let is_there = at.continuity >= 0.0 && is_in_subject(uvw);
+    let thin = 1.0 - smoothstep(0.4 * subject.detail, 1.2 * subject.detail, abs(depth));
+    let full = smoothstep(-0.3 * subject.detail, 0.7 * subject.detail, depth);
+    return select(0.0, max(thin * 0.5, full * f32(is_filled_near(at.pos, depth))), is_there);
+}
+
+/// What shadow and occlusion take from the light of the ray's surface.
+fn taken_by_bodies(pixel: vec2f, pos: vec3f, normal: vec3f, light: Lit) -> vec3f {
+    let noise = pixel_noise(floor(pixel));
+    let key_dir = apply_linear(frame.subject_from_view, KEY_DIR);
+    var closed = 0.0;
+    var weights = 0.0001;
+    var lit = 1.0;
+    for (var k = 0u; k < occlusion_taps + shadow_taps; k++) {
+        let tap = tap_at(k, pos, normal, key_dir, noise);
+        let cover = cover_at(tap.pos, cell_at(tap.pos).x);
+        weights += tap.weight;
+        closed += tap.weight * cover;
+        lit *= 1.0 - tap.shade * cover;
+    }
+    let open = 1.0 - closed / weights;
+    return light.key * (1.0 - lit) + light.ambient * (0.8 * (1.0 - open)) + light.key * lit * (0.25 * (1.0 - open));
+}
+
+/// Marches the ray through a point of the picture (pixels, origin top left).
+fn march(pixel: vec2f) -> Marched {
+    var result = Marched(vec4f(0.0), -1.0, vec3f(0.0), vec3f(0.0), 0u);
+    let ray = ray_through(pixel);
+    var walk = MeshWalk(unmoved_spot(ray, ray.t_start), 0u, LONGEST_STEP, 1.0, NO_TRIANGLE);
+    var steps = 0u;
+    var clear = 1.0;
+    var color = vec3f(0.0);
+    var surface_light = Lit(vec3f(0.0), vec3f(0.0));
+    for (var crossing = 0u; crossing < MAX_CROSSINGS; crossing++) {
+        let met = next_met(ray, &walk, &steps);
+        if !met.is_met {
+            break;
+        }
+        let look_here = look_of(ray, met);
+        let weight = clear * look_here.opacity;
+        let normal_in_view = apply_transposed(frame.subject_from_view, look_here.normal);
+        let light = shade_surface(look_here.albedo, normal_in_view, -ray.dir_in_view, look_here.gloss);
+        color += weight * (light.key + light.ambient);
+        if result.surface_t < 0.0 && weight > SURFACE_SHARE * (0.25 + 0.75 * clear) {
+            result.surface_t = met.at.t;
+            result.surface_normal = look_here.normal;
+            result.surface_rest = met.at.pos;
+            result.segment = met.segment;
+            surface_light = Lit(light.key * weight, light.ambient * weight);
+        }
+        clear *= 1.0 - look_here.opacity;
+        if clear < OPAQUE {
+            clear = 0.0;
+            break;
+        }
+    }
+    if result.surface_t >= 0.0 {
+        let pos = ray.origin + ray.dir * result.surface_t;
+        color -= taken_by_bodies(pixel, pos, result.surface_normal, surface_light);
+    }
+    result.color = vec4f(max(color, vec3f(0.0)), 1.0 - clear);
+    return result;
+}
+
+/// Segment (0: none) of what a ray found, and its depth under the surface.
+fn tissue_of(found: Marched, _pos: vec3f, _dir: vec3f) -> vec2f {
+    return vec2f(f32(found.segment), texel_at(texture_from_rest(found.surface_rest)));
+}

@@ -1,0 +1,287 @@
+// What a subject that is a mesh has at a place: its triangles, found by a tree of boxes, and what is inside of them.
+// The field of depths is a map to the triangles, never the truth (spec/surfaces.md).
+//
+// Texels of `mesh_texels`:
+//   node        min, node behind its branch | max, first triangle and how many (4 bits, 0 in nodes that are no leaf)
+//   triangle    for each corner: place, normal | sRGB colours of the corners, segment and opacity
+//   set         two bits for each of 64 segments: how often a place is inside of it
+// needs: types.wgsl affine.wgsl srgb.wgsl bind/subject.wgsl subject/place.wgsl
+
+/// Stands for the label of a place outside the segmentation.
+const NO_LABEL: u32 = 0xffffffffu;
+/// Stands for no triangle.
+const NO_TRIANGLE: u32 = 0xffffffffu;
+/// Texels in a row of `mesh_texels`.
+const MESH_ROW: u32 = 4096u;
+/// A line that passes this much beside a triangle, as a part of its size, counts as crossing it: so that none slips
+/// through between two of them.
+const EDGE_SLACK: f32 = 1e-6;
+
+/// Depth under the surface, subject units, by the field alone; below 0 outside.
+fn texel_at(uvw: vec3f) -> f32 {
+    return textureSampleLevel(volume, linear_sampler, uvw, 0.0).x;
+}
+
+fn mesh_texel(index: u32) -> vec4u {
+    return textureLoad(mesh_texels, vec2u(index % MESH_ROW, index / MESH_ROW), 0);
+}
+
+/// A triangle met by a line.
+struct TriangleCrossing {
+    /// Index of the triangle, or NO_TRIANGLE.
+    triangle: u32,
+    /// Where on the way, 0 to 1.
+    part: f32,
+    /// Weights of the corners.
+    weights: vec3f,
+    is_front: bool,
+}
+
+/// The corner of a triangle, rest space.
+fn corner_of(triangle: u32, corner: u32) -> vec3f {
+    return bitcast<vec3f>(mesh_texel(subject.triangles_at + 4u * triangle + corner).xyz);
+}
+
+/// Normal of a triangle's front, unit, rest space.
+fn face_of(triangle: u32) -> vec3f {
+    let a = corner_of(triangle, 0u);
+    return normalize(cross(corner_of(triangle, 1u) - a, corner_of(triangle, 2u) - a));
+}
+
+/// Segment of a triangle, from 0, and its opacity by the file, 0 to 1.
+fn segment_and_opacity_of(triangle: u32) -> vec2f {
+    let packed = mesh_texel(subject.triangles_at + 4u * triangle + 3u).w;
+    return vec2f(f32(packed & 255u), f32((packed >> 8u) & 255u) / 255.0);
+}
+
+/// Linear RGB of a triangle at a point of these weights.
+fn color_of_triangle(triangle: u32, weights: vec3f) -> vec3f {
+    let packed = mesh_texel(subject.triangles_at + 4u * triangle + 3u).xyz;
+    var sum = vec3f(0.0);
+    for (var corner = 0u; corner < 3u; corner++) {
+        sum += linear_from_srgb(unpack4x8unorm(packed[corner]).rgb) * weights[corner];
+    }
+    return sum;
+}
+
+/// Smooth normal of a triangle at a point of these weights, unit, rest space, on the side of its front.
+fn normal_of_triangle(triangle: u32, weights: vec3f) -> vec3f {
+    var sum = vec3f(0.0);
+    for (var corner = 0u; corner < 3u; corner++) {
+        let packed = mesh_texel(subject.triangles_at + 4u * triangle + corner).w;
+        sum += from_octahedron(unpack2x16snorm(packed)) * weights[corner];
+    }
+    return normalize(sum);
+}
+
+/// A unit vector from its place on the unfolded octahedron (Cigolle et al. 2014).
+fn from_octahedron(at: vec2f) -> vec3f {
+    let up = 1.0 - abs(at.x) - abs(at.y);
+    let fold = max(-up, 0.0);
+    return normalize(vec3f(at + select(vec2f(fold), vec2f(-fold), at >= vec2f(0.0)), up));
+}
+
+/// Where a line from `start` along `way` crosses a triangle (signed volumes of tetrahedra).
+fn crossing_of(triangle: u32, start: vec3f, way: vec3f) -> TriangleCrossing {
+    let a = corner_of(triangle, 0u) - start;
+    let b = corner_of(triangle, 1u) - start;
+    let c = corner_of(triangle, 2u) - start;
+    let sides = vec3f(dot(way, cross(c, b)), dot(way, cross(a, c)), dot(way, cross(b, a)));
+    let sum = sides.x + sides.y + sides.z;
+    let slack = EDGE_SLACK * (abs(sides.x) + abs(sides.y) + abs(sides.z));
+    let is_in = all(sides >= vec3f(-slack)) || all(sides <= vec3f(slack));
+    let weights = sides / select(sum, 1.0, sum == 0.0);
+    let met = a * weights.x + b * weights.y + c * weights.z;
+    let part = dot(met, way) / dot(way, way);
+    let is_met = is_in && sum != 0.0 && part >= 0.0 && part <= 1.0;
+    return TriangleCrossing(select(NO_TRIANGLE, triangle, is_met), part, weights, dot(way, cross(b - a, c - a)) < 0.0);
+}
+
+/// The part of a line, from 0 to `most`, that lies in a box; empty if x > y.
+fn part_in_box(start: vec3f, inverse_way: vec3f, low: vec3f, high: vec3f, most: f32) -> vec2f {
+    let a = (low - 1e-6 - start) * inverse_way;
+    let b = (high + 1e-6 - start) * inverse_way;
+    let near = min(a, b);
+    let far = max(a, b);
+    return vec2f(max(max(near.x, near.y), max(near.z, 0.0)), min(min(far.x, far.y), min(far.z, most)));
+}
+
+/// One over each component of a way; large, where a component is 0.
+fn inverse_of(way: vec3f) -> vec3f {
+    let least = vec3f(1e-20);
+    return 1.0 / select(way, select(-least, least, way >= vec3f(0.0)), abs(way) < least);
+}
+
+/// The first triangle on the way from a place to another, `skipped` left out.
+fn first_crossing(start: vec3f, end: vec3f, skipped: u32) -> TriangleCrossing {
+    let way = end - start;
+    let inverse_way = inverse_of(way);
+    var found = TriangleCrossing(NO_TRIANGLE, 1.0, vec3f(0.0), false);
+    var node = 0u;
+    while node < subject.node_count {
+        let low = mesh_texel(2u * node);
+        let high = mesh_texel(2u * node + 1u);
+        let span = part_in_box(start, inverse_way, bitcast<vec3f>(low.xyz), bitcast<vec3f>(high.xyz), found.part);
+        let count = high.w & 15u;
+        let is_met = span.x <= span.y;
+        var left = select(0u, count, is_met);
+        var triangle = high.w >> 4u;
+        while left > 0u {
+            left--;
+            let crossing = crossing_of(triangle, start, way);
+            if crossing.triangle != NO_TRIANGLE && crossing.triangle != skipped && crossing.part <= found.part {
+                found = crossing;
+            }
+            triangle++;
+        }
+        node = select(low.w, node + 1u, is_met && count == 0u);
+    }
+    return found;
+}
+
+/// How often a place is inside of segments by a set, with the triangles between the place and the middle of the voxel
+/// that the set is of. Returns the first segment that the place is inside of, from 0, or NO_LABEL.
+fn first_inside(times: vec4u, place: vec3f, middle: vec3f) -> u32 {
+    let way = middle - place;
+    let inverse_way = inverse_of(way);
+    var more = array<u32, 4>(times.x, times.y, times.z, times.w);
+    var node = 0u;
+    while node < subject.node_count {
+        let low = mesh_texel(2u * node);
+        let high = mesh_texel(2u * node + 1u);
+        let span = part_in_box(place, inverse_way, bitcast<vec3f>(low.xyz), bitcast<vec3f>(high.xyz), 1.0);
+        let count = high.w & 15u;
+        let is_met = span.x <= span.y;
+        var left = select(0u, count, is_met);
+        var triangle = high.w >> 4u;
+        while left > 0u {
+            left--;
+            let crossing = crossing_of(triangle, place, way);
+            if crossing.triangle != NO_TRIANGLE {
+                let segment = u32(segment_and_opacity_of(triangle).x);
+                let word = segment >> 4u;
+                let shift = 2u * (segment & 15u);
+                let before = (more[word] >> shift) & 3u;
+                // Who comes from the front of a triangle was outside of it, once less than behind it.
+                let now = select(min(before + 1u, 3u), max(before, 1u) - 1u, crossing.is_front);
+                more[word] = (more[word] & ~(3u << shift)) | (now << shift);
+            }
+            triangle++;
+        }
+        node = select(low.w, node + 1u, is_met && count == 0u);
+    }
+    return first_of(vec4u(more[0], more[1], more[2], more[3]));
+}
+
+/// The first segment that a point of rest space is inside of, from 1; 0 for none, NO_LABEL outside the field. Exact
+/// near triangles, where the way to the middle of the nearest voxel is asked.
+fn label_at(rest: vec3f) -> u32 {
+    let at = texture_from_rest(rest);
+    if any(at < vec3f(0.0)) || any(at > vec3f(1.0)) {
+        return NO_LABEL;
+    }
+    let voxel = min(floor(at * subject.dims.xyz), subject.dims.xyz - 1.0);
+    let inner = clamp(floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz), vec3f(0.0), subject.label_dims.xyz - 1.0);
+    let label = textureLoad(labels, vec3i(inner), 0).x;
+    let depth = textureLoad(volume, vec3i(voxel), 0).x;
+    // A voxel's corner is so far from its middle at most: 0.87 of its side.
+    if abs(depth) > subject.detail {
+        let times_there = mesh_texel(subject.sets_at + label);
+        return select(first_of(times_there) + 1u, 0u, depth < 0.0 || label == 0u);
+    }
+    // Voxels beside the segmentation's are empty.
+    let is_beside = any(floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz) != inner);
+    let times_there = select(mesh_texel(subject.sets_at + label), vec4u(0u), is_beside);
+    let step = (voxel + 0.5) / subject.dims.xyz - at;
+    let middle = rest + step * rest_from_texture();
+    let first = first_inside(times_there, rest, middle);
+    return select(first + 1u, 0u, first == NO_LABEL);
+}
+
+/// Sides of the field's box, rest space: its grid is not turned.
+fn rest_from_texture() -> vec3f {
+    return 1.0 / vec3f(subject.texture_from_rest.row0.x, subject.texture_from_rest.row1.y, subject.texture_from_rest.row2.z);
+}
+
+/// The point of a triangle that is nearest to a place (Ericson, Real-Time Collision Detection, section 5.1.5).
+fn nearest_on(triangle: u32, place: vec3f) -> vec3f {
+    let a = corner_of(triangle, 0u);
+    let b = corner_of(triangle, 1u);
+    let c = corner_of(triangle, 2u);
+    let ab = b - a;
+    let ac = c - a;
+    let d1 = dot(ab, place - a);
+    let d2 = dot(ac, place - a);
+    let d3 = dot(ab, place - b);
+    let d4 = dot(ac, place - b);
+    let d5 = dot(ab, place - c);
+    let d6 = dot(ac, place - c);
+    let va = d3 * d6 - d5 * d4;
+    let vb = d5 * d2 - d1 * d6;
+    let vc = d1 * d4 - d3 * d2;
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return a;
+    }
+    if d3 >= 0.0 && d4 <= d3 {
+        return b;
+    }
+    if d6 >= 0.0 && d5 <= d6 {
+        return c;
+    }
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return a + ab * (d1 / (d1 - d3));
+    }
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return a + ac * (d2 / (d2 - d6));
+    }
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    }
+    return a + (ab * vb + ac * vc) / (va + vb + vc);
+}
+
+/// From a place of rest space to the nearest point of any triangle, if that is nearer than `within`; w is the distance,
+/// or `within`.
+fn to_nearest(rest: vec3f, within: f32) -> vec4f {
+    var nearest = vec4f(0.0, 0.0, 0.0, within);
+    var node = 0u;
+    while node < subject.node_count {
+        let low = mesh_texel(2u * node);
+        let high = mesh_texel(2u * node + 1u);
+        let away = clamp(rest, bitcast<vec3f>(low.xyz), bitcast<vec3f>(high.xyz)) - rest;
+        let count = high.w & 15u;
+        let is_near = dot(away, away) < nearest.w * nearest.w;
+        var left = select(0u, count, is_near);
+        var triangle = high.w >> 4u;
+        while left > 0u {
+            left--;
+            let way = nearest_on(triangle, rest) - rest;
+            let far = length(way);
+            if far < nearest.w {
+                nearest = vec4f(way, far);
+            }
+            triangle++;
+        }
+        node = select(low.w, node + 1u, is_near && count == 0u);
+    }
+    return nearest;
+}
+
+/// The first segment of a set, from 0.
+fn first_of(times: vec4u) -> u32 {
+    for (var word = 0u; word < 4u; word++) {
+        if times[word] != 0u {
+            return 16u * word + (firstTrailingBit(times[word]) >> 1u);
+        }
+    }
+    return NO_LABEL;
+}
+
+/// A distance that a point of rest space is away from all triangles at least, subject units.
+fn clearance_at(rest: vec3f) -> f32 {
+    let outside = max(subject.mesh_min.xyz - rest, rest - subject.mesh_max.xyz);
+    let beside = length(max(outside, vec3f(0.0)));
+    // Between voxels the field is off by a part of a voxel.
+    let within = abs(texel_at(texture_from_rest(rest))) - 0.6 * subject.detail;
+    return max(max(beside, within), 0.0);
+}

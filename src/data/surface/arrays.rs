@@ -1,0 +1,212 @@
+//! A surface as a few flat arrays, which travel between threads that share no memory.
+
+use glam::{DAffine3, UVec3, Vec3};
+
+use super::field::{FIELD_MARGIN, SurfaceField};
+use super::tree::{Tree, TreeNode};
+use super::triangle::Triangle;
+use super::whole::{MAX_SURFACE_SEGMENTS, Surface, SurfaceSegment, segmentation_of};
+use crate::data::Grid;
+use crate::math::Aabb;
+
+/// A surface in flat arrays.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SurfaceArrays {
+    /// Names of the segments.
+    pub names: Vec<String>,
+    /// Where the grids lie: twice twelve numbers, columns of an affine map.
+    pub places: Vec<f64>,
+    /// Corners and normals of triangles, boxes of nodes, depths, opacities of segments.
+    pub numbers: Vec<f32>,
+    /// Counts, voxels along the axes, nodes, sets, order of the triangles.
+    pub indices: Vec<u32>,
+    /// Colours and segments of triangles, fills of voxels, colours of segments and whether they are closed.
+    pub bytes: Vec<u8>,
+}
+
+impl SurfaceArrays {
+    /// The arrays of a surface.
+    pub fn of(surface: &Surface) -> Self {
+        let (field, grid) = (&surface.field, &surface.segmentation.grid);
+        let mut arrays = Self {
+            places: [grid.world_from_voxel, field.rest_from_voxel]
+                .iter()
+                .flat_map(DAffine3::to_cols_array)
+                .collect(),
+            ..Self::default()
+        };
+        let counts = [
+            surface.triangles.len(),
+            surface.tree.nodes.len(),
+            field.sets.len(),
+        ];
+        arrays.indices.extend(counts.map(|count| count as u32));
+        arrays.indices.extend(grid.dims.to_array());
+        arrays.indices.extend(field.dims.to_array());
+        for node in &surface.tree.nodes {
+            arrays.numbers.extend(node.bounds.min.to_array());
+            arrays.numbers.extend(node.bounds.max.to_array());
+            arrays.indices.extend([node.skip, node.first, node.count]);
+        }
+        for &set in &field.sets {
+            let words = (0..4).map(|word| (set >> (32 * word)) as u32);
+            arrays.indices.extend(words);
+        }
+        arrays.indices.extend(&surface.tree.order);
+        for (triangle, normals) in surface.triangles.iter().zip(&surface.normals) {
+            let all = triangle.0.iter().chain(normals);
+            arrays
+                .numbers
+                .extend(all.flat_map(|place| place.to_array()));
+        }
+        arrays.numbers.extend(&field.depths);
+        arrays
+            .bytes
+            .extend(surface.colors.as_flattened().as_flattened());
+        arrays.bytes.extend(&surface.segment_of);
+        arrays.bytes.extend(&field.fills);
+        for segment in &surface.segments {
+            arrays.names.push(segment.name.clone());
+            arrays.numbers.push(segment.opacity);
+            arrays.bytes.push(u8::from(segment.is_closed));
+            arrays.bytes.extend(segment.mean_srgb);
+        }
+        arrays
+    }
+
+    /// The surface of the arrays; `None` if they are not those of a surface.
+    pub fn surface(&self) -> Option<Surface> {
+        let places = self.places.as_chunks::<12>().0;
+        let [world_from_voxel, rest_from_voxel] =
+            [places.first()?, places.get(1)?].map(DAffine3::from_cols_array);
+        let mut indices = self.indices.iter().copied();
+        let mut index = || indices.next();
+        let [triangle_count, node_count, set_count] = [index()?, index()?, index()?];
+        let mut dims = || Some(UVec3::new(index()?, index()?, index()?));
+        let grid = Grid {
+            dims: dims()?,
+            world_from_voxel,
+        };
+        let field_dims = dims()?;
+        let voxels = field_dims.as_u64vec3().element_product() as usize;
+        if field_dims.max_element() > 1024 || self.bytes.len() < voxels {
+            return None;
+        }
+
+        let mut numbers = self.numbers.iter().copied();
+        let mut place = || Some(Vec3::new(numbers.next()?, numbers.next()?, numbers.next()?));
+        let mut nodes = Vec::new();
+        for _ in 0..node_count {
+            let bounds = Aabb {
+                min: place()?,
+                max: place()?,
+            };
+            nodes.push(TreeNode {
+                bounds,
+                skip: indices.next()?,
+                first: indices.next()?,
+                count: indices.next()?,
+            });
+        }
+        let mut sets = Vec::new();
+        for _ in 0..set_count {
+            let mut set = 0_u128;
+            for word in 0..4 {
+                set |= u128::from(indices.next()?) << (32 * word);
+            }
+            sets.push(set);
+        }
+        let order: Vec<u32> = indices.by_ref().take(triangle_count as usize).collect();
+        let (mut triangles, mut normals) = (Vec::new(), Vec::new());
+        for _ in 0..triangle_count {
+            triangles.push(Triangle([place()?, place()?, place()?]));
+            normals.push([place()?, place()?, place()?]);
+        }
+        let depths: Vec<f32> = numbers.by_ref().take(voxels).collect();
+
+        let mut bytes = self.bytes.iter().copied();
+        let mut color = || Some([bytes.next()?, bytes.next()?, bytes.next()?]);
+        let mut colors = Vec::new();
+        for _ in 0..triangle_count {
+            colors.push([color()?, color()?, color()?]);
+        }
+        let segment_of: Vec<u8> = bytes.by_ref().take(triangle_count as usize).collect();
+        let fills: Vec<u8> = bytes.by_ref().take(voxels).collect();
+        let mut segments = Vec::new();
+        for name in &self.names {
+            segments.push(SurfaceSegment {
+                name: name.clone(),
+                opacity: numbers.next()?,
+                is_closed: bytes.next()? != 0,
+                mean_srgb: [bytes.next()?, bytes.next()?, bytes.next()?],
+            });
+        }
+        let field = SurfaceField {
+            dims: field_dims,
+            rest_from_voxel,
+            depths,
+            fills,
+            sets,
+        };
+        let is_whole = order.len() == triangles.len()
+            && segment_of.len() == triangles.len()
+            && field.depths.len() == voxels
+            && field.fills.len() == voxels
+            && segments.len() <= MAX_SURFACE_SEGMENTS
+            && segment_of.iter().all(|&s| usize::from(s) < segments.len())
+            && field
+                .fills
+                .iter()
+                .all(|&f| usize::from(f) < field.sets.len())
+            && grid.dims + 2 * FIELD_MARGIN == field.dims;
+        let segmentation = is_whole.then(|| segmentation_of(grid, &field, &segments))?;
+        Some(Surface {
+            frame: grid.frame(),
+            triangles,
+            normals,
+            colors,
+            segment_of,
+            tree: Tree { nodes, order },
+            field,
+            segments,
+            segmentation,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::mesh::testing::cube;
+    use crate::data::{Mesh, MeshPart};
+
+    #[test]
+    fn a_surface_survives_its_arrays() {
+        let (positions, triangles) = cube();
+        let mesh = Mesh {
+            positions,
+            triangles,
+            parts: vec![MeshPart {
+                name: "cube".to_owned(),
+                triangles: 0..12,
+            }],
+            ..Mesh::default()
+        };
+        let surface = Surface::new(&mesh, None, &mut |_| true).expect("it has a size");
+        let arrays = SurfaceArrays::of(&surface);
+        assert_eq!(arrays.surface().as_ref(), Some(&surface));
+        // What is cut short anywhere is no surface, and nothing else happens.
+        let mut short = arrays.clone();
+        short.bytes.truncate(1000);
+        assert_eq!(short.surface(), None);
+        let mut short = arrays.clone();
+        short.numbers.truncate(1000);
+        assert_eq!(short.surface(), None);
+        for len in [0, 2, 8, 20] {
+            let mut short = arrays.clone();
+            short.indices.truncate(len);
+            assert_eq!(short.surface(), None);
+        }
+        assert_eq!(SurfaceArrays::default().surface(), None);
+    }
+}

@@ -1,0 +1,18 @@
+//! Surfaces: meshes prepared to be drawn, asked and kept. Triangles stay as they are; a tree finds them, a field leads
+//! to them, and the generalised winding number says what is inside (spec/surfaces.md, "Inside and outside").
+
+mod arrays;
+mod field;
+mod normals;
+#[cfg(test)]
+pub(crate) mod testing;
+mod tree;
+mod triangle;
+mod whole;
+mod winding;
+
+pub use arrays::SurfaceArrays;
+pub use field::{FIELD_MARGIN, FIELD_VOXELS, SurfaceField, times_inside};
+pub use tree::{Tree, TreeNode};
+pub use triangle::{Nearest, Triangle};
+pub use whole::{MAX_SURFACE_SEGMENTS, PLAIN_SRGB, Surface, SurfaceError, SurfaceSegment};

@@ -1,0 +1,237 @@
+//! A mesh on the GPU: its field, its segments on the field's voxels, and its tree and triangles in one texture.
+
+use super::bricks::{BRICK, Bricks, labels_in_bricks};
+use super::textures::{
+    Bound, HeldView, MESH_ROW, SubjectTextures, VoxelFrame, mesh_texture, next_stamp,
+};
+use super::volume::label_texture;
+use crate::data::{Surface, SurfaceField};
+use crate::render::device::error::RenderError;
+use crate::render::device::gpu::Gpu;
+use crate::render::device::layouts::Layouts;
+use crate::render::device::programs::SubjectShader;
+use crate::render::device::textures::{volume_texture, write_slices};
+use crate::render::pack::gpu_types::Subject;
+use crate::render::pack::values::SubjectInfo;
+use glam::{DAffine3, UVec3, Vec2, Vec3};
+use half::f16;
+use std::sync::Arc;
+
+/// Bits of a node that hold the number of triangles in it.
+const COUNT_BITS: u32 = 4;
+
+/// A mesh on its way to the GPU. It is handed over in one piece: its texels are a copy of what is there.
+#[derive(Debug)]
+pub(crate) struct MeshUpload(Arc<Surface>);
+
+impl MeshUpload {
+    /// Checks that the device takes the mesh.
+    ///
+    /// # Errors
+    /// [`RenderError::TooLarge`] with the number of triangles.
+    pub(crate) fn new(gpu: &Gpu, surface: &Arc<Surface>) -> Result<Self, RenderError> {
+        let limits = gpu.device.limits();
+        let rows = texel_count(surface).div_ceil(MESH_ROW as usize);
+        if rows > limits.max_texture_dimension_2d as usize
+            || limits.max_texture_dimension_2d < MESH_ROW
+        {
+            return Err(RenderError::TooLarge(format!(
+                "{} triangles do not fit on this device",
+                surface.triangles.len()
+            )));
+        }
+        Ok(Self(Arc::clone(surface)))
+    }
+
+    /// Makes the textures.
+    pub(crate) fn finish(self, gpu: &Gpu, layouts: &Layouts) -> SubjectTextures {
+        let surface = &*self.0;
+        let field = &surface.field;
+        let depth_texture = volume_texture(
+            gpu,
+            "depths",
+            field.dims,
+            wgpu::TextureFormat::R16Float,
+            wgpu::TextureUsages::COPY_DST,
+        );
+        let depths: Vec<u16> = (field.depths.iter())
+            .map(|&depth| f16::from_f32(depth).to_bits())
+            .collect();
+        let bytes = bytemuck::cast_slice(&depths);
+        write_slices(gpu, &depth_texture, 0, field.dims.z, 2, bytes);
+        let segmentation = &surface.segmentation;
+        let label_texture = label_texture(gpu, segmentation.grid.dims);
+        let slices = segmentation.grid.dims.z;
+        write_slices(gpu, &label_texture, 0, slices, 1, &segmentation.labels);
+        let texels = texels_of(surface);
+        let rows = (texels.len() / MESH_ROW as usize) as u32;
+        let mesh = mesh_texture(gpu, [MESH_ROW, rows]);
+        write_slices(gpu, &mesh, 0, 1, 16, bytemuck::cast_slice(&texels));
+
+        let views = [&depth_texture, &label_texture, &mesh].map(HeldView::new);
+        let [volume_view, label_view, mesh_view] = views;
+        let uniform = uniform_of(surface);
+        let segments = segmentation.segments.clone();
+        let bound = Bound::new(
+            gpu,
+            layouts,
+            &uniform,
+            [&volume_view, &label_view],
+            Some(&mesh_view),
+            &segments,
+        );
+        let voxels = VoxelFrame::new(field.dims, field.rest_from_voxel);
+        let own = segmentation.grid;
+        SubjectTextures {
+            stamp: next_stamp(),
+            shader: SubjectShader::Mesh,
+            bind_group: bound.bind_group,
+            buffer: bound.buffer,
+            seen_bricks: Some(seen_bricks(field)),
+            bricks: Bricks {
+                dims: bricks_of(field),
+                ranges: Vec::new(),
+            },
+            info: SubjectInfo::of_no_values(bound.has_colors),
+            label_bricks: Some(labels_in_bricks(segmentation, BRICK)),
+            frame: surface.frame,
+            uniform,
+            volume_view,
+            label_view,
+            mesh_view: Some(mesh_view),
+            sampler: layouts.linear_sampler.clone(),
+            voxels,
+            label_voxels: Some(VoxelFrame::new(own.dims, own.subject_from_voxel())),
+            foot_axis: 2,
+            mesh_segments: surface.segments.clone(),
+            segments,
+        }
+    }
+}
+
+/// Where the parts of the texture begin: triangles and sets of segments, and how many texels there are.
+fn parts_of(surface: &Surface) -> [usize; 3] {
+    let triangles_at = 2 * surface.tree.nodes.len();
+    let sets_at = triangles_at + 4 * surface.triangles.len();
+    [triangles_at, sets_at, sets_at + surface.field.sets.len()]
+}
+
+fn texel_count(surface: &Surface) -> usize {
+    parts_of(surface)[2]
+}
+
+/// The texels of the mesh, whole rows of them, as shaders/subject/mesh.wgsl reads them.
+fn texels_of(surface: &Surface) -> Vec<[u32; 4]> {
+    let count = texel_count(surface).next_multiple_of(MESH_ROW as usize);
+    let mut texels = Vec::with_capacity(count);
+    let with = |place: Vec3, last: u32| {
+        let [x, y, z] = place.to_array().map(f32::to_bits);
+        [x, y, z, last]
+    };
+    for node in &surface.tree.nodes {
+        texels.push(with(node.bounds.min, node.skip));
+        texels.push(with(node.bounds.max, node.first << COUNT_BITS | node.count));
+    }
+    for (i, triangle) in surface.triangles.iter().enumerate() {
+        for (corner, normal) in triangle.0.iter().zip(surface.normals[i]) {
+            texels.push(with(*corner, octahedral(normal)));
+        }
+        let [a, b, c] = surface.colors[i].map(|[r, g, b]| u32::from_le_bytes([r, g, b, 255]));
+        let segment = surface.segment_of[i];
+        let opacity = surface.segments[usize::from(segment)].opacity;
+        let opacity = (opacity.clamp(0.0, 1.0) * 255.0).round() as u8;
+        texels.push([a, b, c, u32::from_le_bytes([segment, opacity, 0, 0])]);
+    }
+    for &set in &surface.field.sets {
+        texels.push(std::array::from_fn(|word| (set >> (32 * word)) as u32));
+    }
+    texels.resize(count, [0; 4]);
+    texels
+}
+
+/// A unit vector as its place on the unfolded octahedron, two numbers of 16 bits (Cigolle et al. 2014).
+fn octahedral(normal: Vec3) -> u32 {
+    let n = normal / normal.abs().element_sum().max(1e-9);
+    let sign = |v: f32| if v >= 0.0 { 1.0 } else { -1.0 };
+    let at = if n.z >= 0.0 {
+        Vec2::new(n.x, n.y)
+    } else {
+        Vec2::new((1.0 - n.y.abs()) * sign(n.x), (1.0 - n.x.abs()) * sign(n.y))
+    };
+    let [x, y] = (at * 32767.0).round().to_array().map(|v| v as i16 as u16);
+    u32::from(x) | u32::from(y) << 16
+}
+
+fn uniform_of(surface: &Surface) -> Subject {
+    let field = &surface.field;
+    let label_grid = &surface.segmentation.grid;
+    let field_voxels = VoxelFrame::new(field.dims, field.rest_from_voxel);
+    let affine = |affine: DAffine3| affine.as_affine3a().into();
+    let [triangles_at, sets_at, _] = parts_of(surface);
+    Subject {
+        texture_from_rest: affine(field_voxels.texture_from_rest()),
+        label_from_rest: affine(label_grid.texture_from_subject()),
+        dims: field.dims.as_vec3().extend(0.0).to_array(),
+        label_dims: label_grid.dims.as_vec3().extend(0.0).to_array(),
+        texture_end: [1.0, 1.0, 1.0, 0.0],
+        value_low: 0.0,
+        value_range: 1.0,
+        detail: surface.frame.detail,
+        has_labels: 1,
+        mesh_min: surface.frame.bounds.min.extend(0.0).to_array(),
+        mesh_max: surface.frame.bounds.max.extend(0.0).to_array(),
+        node_count: surface.tree.nodes.len() as u32,
+        triangles_at: triangles_at as u32,
+        sets_at: sets_at as u32,
+        padding: 0,
+    }
+}
+
+fn bricks_of(field: &SurfaceField) -> UVec3 {
+    (field.dims + BRICK - 1) / BRICK
+}
+
+/// Bricks that hold triangles or the inside of a segment.
+fn seen_bricks(field: &SurfaceField) -> Vec<bool> {
+    let count = bricks_of(field);
+    let mut seen = vec![false; count.element_product() as usize];
+    let spacing = field.rest_from_voxel.matrix3;
+    // A triangle nearer to a voxel's middle than this may lie in the voxel.
+    let near = (spacing.x_axis + spacing.y_axis + spacing.z_axis).length() as f32;
+    let mut index = 0;
+    for z in 0..field.dims.z {
+        for y in 0..field.dims.y {
+            for x in 0..field.dims.x {
+                if field.depths[index] >= -near {
+                    let brick = UVec3::new(x, y, z) / BRICK;
+                    let at = brick.x + count.x * (brick.y + count.y * brick.z);
+                    seen[at as usize] = true;
+                }
+                index += 1;
+            }
+        }
+    }
+    seen
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normals_survive_packing() {
+        for i in 0..1000 {
+            let t = i as f32 * 0.37;
+            let normal = Vec3::new(t.sin(), (t * 1.7).cos(), (t * 0.61).sin()).normalize();
+            let packed = octahedral(normal);
+            let part = |bits: u32| f32::from(bits as u16 as i16) / 32767.0;
+            let at = Vec2::new(part(packed), part(packed >> 16));
+            // As the shader unpacks it.
+            let up = 1.0 - at.x.abs() - at.y.abs();
+            let fold = (-up).max(0.0);
+            let back = |v: f32| v + if v >= 0.0 { -fold } else { fold };
+            let unpacked = Vec3::new(back(at.x), back(at.y), up).normalize();
+            assert!(unpacked.distance(normal) < 1e-4, "{normal} {unpacked}");
+        }
+    }
+}

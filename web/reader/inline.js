@@ -1,0 +1,31 @@
+// Parts of the viewer in the page itself, where its policy starts no worker from another host. The page stands still while one
+// works.
+
+const programs = new Map();
+/** Tasks are done one after the other: a part answers to whoever gave it the last one. */
+let before = Promise.resolve();
+
+function load(part) {
+  if (!programs.has(part)) {
+    const program = import(`../fabrica_${part}.js`).then(async (bindings) => {
+      await bindings.default({ module_or_path: new URL(`../fabrica_${part}_bg.wasm`, import.meta.url) });
+      return bindings;
+    });
+    program.catch(() => programs.delete(part)); // Tried again with the next task.
+    programs.set(part, program);
+  }
+  return programs.get(part);
+}
+
+/** Does a task as web/worker.js does it. Answers go to `port`. */
+export function run(message, port) {
+  const scope = { postMessage: (...args) => port.postMessage(...args), fetch: (...args) => fetch(...args) };
+  before = before.then(async () => {
+    try {
+      const program = await load(message.part);
+      if (message.task) await program.run({ ...message, scope });
+    } catch (error) {
+      if (message.task) port.postMessage(["failed", "The part of the viewer that loads scans stopped because of a fault", String(error)]);
+    }
+  });
+}
