@@ -55,10 +55,13 @@ struct Frame {
     /// Box of the deformed object, subject space.
     bounds_min: vec4f,
     bounds_max: vec4f,
-    /// Pick pass only: the pixel asked for.
-    pick: vec2f,
     /// Length of a step, subject units.
     step: f32,
+}
+
+/// Rays that are asked one by one: for each its origin and its unit direction, subject space.
+struct AskedRays {
+    items: array<vec4f, 512>,
 }
 
 /// The uploaded subject: where its values and segments lie and how their texels are read.

@@ -9,18 +9,38 @@ const GRAIN_LENGTH: f32 = 0.02;
 /// Farther than any triangle is from a place inside.
 const FAR_INSIDE: f32 = 2.0;
 
-/// The segment that fills a place, from 1; 0 where there is none.
+/// From a place inside of a segment (from 0) to the nearest point of its triangles; w is the distance. The field says
+/// how far a search has to go where no other segment is nearer.
+fn nearest_inside(rest: vec3f, segment: u32) -> vec4f {
+    var within = max(texel_at(texture_from_rest(rest)), 0.0) * 1.12 + 1.5 * subject.detail;
+    var nearest = to_nearest(rest, within, segment);
+    while nearest.w >= within && within < FAR_INSIDE {
+        within *= 4.0;
+        nearest = to_nearest(rest, within, segment);
+    }
+    return nearest;
+}
+
+/// The segment that fills a place, from 1; 0 where there is none. Of several the first one.
 fn filled_at(rest: vec3f) -> u32 {
-    let label = label_at(rest);
-    if label == 0u || label == NO_LABEL {
-        return 0u;
+    var left = labels_at(rest);
+    // Where the field says that all triangles are farther, they are not searched.
+    let depth = texel_at(texture_from_rest(rest));
+    loop {
+        let label = take_label(&left);
+        if label == NO_LABEL {
+            break;
+        }
+        let body = mesh_look.segments[label - 1u];
+        var is_filled = body.kind == BODY_FULL;
+        if body.kind == BODY_THICK && depth < body.thickness + 0.25 * subject.detail {
+            is_filled = to_nearest(rest, body.thickness, label - 1u).w < body.thickness;
+        }
+        if is_filled {
+            return label;
+        }
     }
-    let body = mesh_look.segments[label - 1u];
-    var is_filled = body.kind == BODY_FULL;
-    if body.kind == BODY_THICK {
-        is_filled = to_nearest(rest, body.thickness).w < body.thickness;
-    }
-    return select(0u, label, is_filled);
+    return 0u;
 }
 
 /// Linear RGB of a triangle at a point of these weights, from its front or its back.
@@ -41,7 +61,7 @@ fn filling_color(segment: u32, rest: vec3f) -> vec3f {
     let own = select(mean, body.color.rgb, body.color.a >= 0.0);
     var color = select(own * INSIDE_SHARE, body.inside.rgb, body.inside.a >= 0.0);
     if body.layer_count > 0u {
-        let depth = to_nearest(rest, FAR_INSIDE).w;
+        let depth = nearest_inside(rest, segment - 1u).w;
         var grain = 0.0;
         for (var i = 0u; i < body.layer_count; i++) {
             let layer = mesh_look.layers[body.first_layer + i];

@@ -40,12 +40,18 @@ fn is_kept(rest: vec3f, keeps: u32, depth: f32) -> bool {
     if (keeps & 15u) == 0u || subject.has_labels == 0u {
         return false;
     }
-    let label = label_at(rest);
-    if label == NO_LABEL {
-        return false;
+    var left = labels_at(rest);
+    loop {
+        let label = take_label(&left);
+        if label == NO_LABEL {
+            break;
+        }
+        let word = kept.label_sets[label >> 5u][(label >> 3u) & 3u];
+        if ((word >> (4u * (label & 7u))) & keeps & 15u) != 0u {
+            return true;
+        }
     }
-    let word = kept.label_sets[label >> 5u][(label >> 3u) & 3u];
-    return ((word >> (4u * (label & 7u))) & keeps & 15u) != 0u;
+    return false;
 }
 
 /// Distance of a rest point to the nearest of the sets in `keeps`, subject units: above 0 outside, below 0 inside. For

@@ -270,22 +270,31 @@ fn step_moved(ray: Ray, walk: ptr<function, MeshWalk>, mask: u32, t_out: f32) ->
 /// The inner wall of a shell between two places inside of it.
 fn inner_wall(ray: Ray, walk: ptr<function, MeshWalk>, here: Spot, next: Spot, mask: u32) -> Met {
     var met = Met(false, next, NO_TRIANGLE, vec3f(0.0), true, 0u, mask);
-    if filled_at(here.pos) != 0u || filled_at(next.pos) == 0u {
+    let segment = filled_at(next.pos);
+    if segment == 0u {
         return met;
     }
-    var edge = Edge(here, next);
-    for (var turn = 0u; turn < MESH_BISECTIONS; turn++) {
-        let middle = spot_at(ray, 0.5 * (edge.before.t + edge.behind.t), mask);
-        if filled_at(middle.pos) == 0u {
-            edge.before = middle;
-        } else {
-            edge.behind = middle;
-        }
+    if filled_at(here.pos) != 0u {
+        return met;
     }
-    (*walk).here = edge.behind;
+    // Where the depth is that of the wall: regula falsi, for each look at the triangles is dear.
+    let thickness = mesh_look.segments[segment - 1u].thickness;
+    var low = vec2f(here.t, max(nearest_inside(here.pos, segment - 1u).w - thickness, 1e-6));
+    var high = vec2f(next.t, min(nearest_inside(next.pos, segment - 1u).w - thickness, -1e-6));
+    var wall = next;
+    for (var turn = 0u; turn < 3u; turn++) {
+        let at = spot_at(ray, mix(low.x, high.x, low.y / (low.y - high.y)), mask);
+        let above = nearest_inside(at.pos, segment - 1u).w - thickness;
+        if above > 0.0 {
+            low = vec2f(at.t, above);
+        } else {
+            high = vec2f(at.t, min(above, -1e-6));
+        }
+        wall = at;
+    }
     met.is_met = true;
-    met.at = edge.behind;
-    met.segment = filled_at(edge.behind.pos);
+    met.at = wall;
+    met.segment = segment;
     met.is_front = false;
     return met;
 }
@@ -323,6 +332,8 @@ fn next_met(ray: Ray, walk: ptr<function, MeshWalk>, steps: ptr<function, u32>) 
 /// How what is met looks: normal towards the eye in subject space, colour in linear light, opacity.
 struct MetLook {
     normal: vec3f,
+    /// Normal of the triangle's plane, towards the eye; of a cut face as `normal`.
+    plane_normal: vec3f,
     albedo: vec3f,
     opacity: f32,
     gloss: f32,
@@ -332,7 +343,7 @@ fn look_of(ray: Ray, met: Met) -> MetLook {
     let edge = Sample(met.at.pos, 0.0, 1.0, met.at.continuity, met.at.path);
     let map = differential_at(ray.origin + ray.dir * met.at.t, ray.forward, edge, met.mask);
     let segment = met.segment - 1u;
-    var look_here = MetLook(-ray.dir, vec3f(0.0), 1.0, mesh_look.segments[segment].gloss);
+    var look_here = MetLook(-ray.dir, -ray.dir, vec3f(0.0), 1.0, mesh_look.segments[segment].gloss);
     if met.triangle != NO_TRIANGLE {
         let face = carried_over(map.jacobian, face_of(met.triangle));
         let smooth_normal = carried_over(map.jacobian, normal_of_triangle(met.triangle, met.weights));
@@ -342,18 +353,20 @@ fn look_of(ray: Ray, met: Met) -> MetLook {
         // A smooth normal that points away from the eye is bent back to the edge of what the eye sees.
         normal = normalize(normal - ray.dir * max(dot(normal, ray.dir), 0.0) * 1.02);
         look_here.normal = normal;
+        look_here.plane_normal = normalize(side * face);
         look_here.albedo = surface_color(met.triangle, met.weights, met.is_front);
         look_here.opacity = segment_and_opacity_of(met.triangle).y;
     } else {
         let slope = length(map.slope);
         if !met.is_front {
             // The inner wall of a shell lies along the surface above it.
-            let normal = normalize(carried_over(map.jacobian, to_nearest(met.at.pos, 2.0).xyz) - ray.dir * 1e-6);
+            let normal = normalize(carried_over(map.jacobian, nearest_inside(met.at.pos, segment).xyz) - ray.dir * 1e-6);
             look_here.normal = select(normal, -normal, dot(normal, ray.dir) >= 0.0);
-        } else if slope > 1e-3 && slope < MAX_SLOPE {
+        } else if slope > 1e-3 && slope < MAX_SLOPE && met.at.t > 0.0 {
             let normal = -map.slope / slope;
             look_here.normal = select(normal, -ray.dir, dot(normal, ray.dir) >= 0.0);
         }
+        look_here.plane_normal = look_here.normal;
         look_here.albedo = filling_color(met.segment, met.at.pos);
     }
     let opacity = mesh_look.segments[segment].opacity;
@@ -406,17 +419,43 @@ fn taken_by_bodies(pixel: vec2f, pos: vec3f, normal: vec3f, light: Lit) -> vec3f
     return light.key * (1.0 - lit) + light.ambient * (0.8 * (1.0 - open)) + light.key * lit * (0.25 * (1.0 - open));
 }
 
-/// Marches the ray through a point of the picture (pixels, origin top left).
-fn march(pixel: vec2f) -> Marched {
-    var result = Marched(vec4f(0.0), -1.0, vec3f(0.0), vec3f(0.0), 0u);
-    let ray = ray_through(pixel);
+/// The cut face that a ray begins with: what fills the place of the eye.
+fn met_at_start(ray: Ray) -> Met {
+    var met = Met(false, unmoved_spot(ray, 0.0), NO_TRIANGLE, vec3f(0.0), true, 0u, 0xffffffffu);
+    // A loop, which software rasterisers leave out where they would run a branch.
+    for (var turn = ray.t_start; turn <= 0.0; turn = 1.0) {
+        met.at = spot_at(ray, 0.0, 0xffffffffu);
+        if met.at.continuity >= 0.0 {
+            met.segment = filled_at(met.at.pos);
+            met.is_met = met.segment != 0u;
+        }
+    }
+    return met;
+}
+
+/// What a ray is said to meet.
+fn event_of(met: Met, look_here: MetLook) -> Event {
+    var what = MET_CUT;
+    if met.triangle != NO_TRIANGLE {
+        what = select(MET_INSIDE, MET_SURFACE, met.is_front);
+    }
+    return Event(met.at.t, what, met.segment, look_here.plane_normal, met.at.pos, look_here.albedo);
+}
+
+/// Marches a ray. `pixel` tells its noise from that of its neighbours.
+fn march(ray: Ray, pixel: vec2f) -> Marched {
+    var result: Marched;
+    result.surface_t = -1.0;
     var walk = MeshWalk(unmoved_spot(ray, ray.t_start), 0u, LONGEST_STEP, 1.0, NO_TRIANGLE);
     var steps = 0u;
     var clear = 1.0;
     var color = vec3f(0.0);
     var surface_light = Lit(vec3f(0.0), vec3f(0.0));
+    var met = met_at_start(ray);
     for (var crossing = 0u; crossing < MAX_CROSSINGS; crossing++) {
-        let met = next_met(ray, &walk, &steps);
+        if !met.is_met {
+            met = next_met(ray, &walk, &steps);
+        }
         if !met.is_met {
             break;
         }
@@ -433,10 +472,14 @@ fn march(pixel: vec2f) -> Marched {
             surface_light = Lit(light.key * weight, light.ambient * weight);
         }
         clear *= 1.0 - look_here.opacity;
+        if clear < 0.5 && result.event.what == MET_NOTHING {
+            result.event = event_of(met, look_here);
+        }
         if clear < OPAQUE {
             clear = 0.0;
             break;
         }
+        met.is_met = false;
     }
     if result.surface_t >= 0.0 {
         let pos = ray.origin + ray.dir * result.surface_t;

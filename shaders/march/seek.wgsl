@@ -47,8 +47,12 @@ fn dir_in_view_of(pixel: vec2f) -> vec3f {
 /// The ray through a point of the picture.
 fn ray_through(pixel: vec2f) -> Ray {
     let dir_in_view = dir_in_view_of(pixel);
-    let origin = offset_of(frame.subject_from_view);
-    let dir = without_zeros(apply_linear(frame.subject_from_view, dir_in_view));
+    return ray_along(offset_of(frame.subject_from_view), apply_linear(frame.subject_from_view, dir_in_view), dir_in_view);
+}
+
+/// A ray from a place in a unit direction, both in subject space and the direction in view space too.
+fn ray_along(origin: vec3f, along: vec3f, dir_in_view: vec3f) -> Ray {
+    let dir = without_zeros(along);
     let inverse_dir = 1.0 / dir;
     let span = ray_in_box(origin, inverse_dir, frame.bounds_min.xyz, frame.bounds_max.xyz);
     let forward = select(vec3f(-1.0), vec3f(1.0), dir > vec3f(0.0));

@@ -54,12 +54,11 @@ fn taken_by_surroundings(pixel: vec2f, pos: vec3f, normal: vec3f, light: Surface
     return light.key * (1.0 - lit) + light.ambient * (0.8 * (1.0 - open)) + light.key * lit * (0.25 * (1.0 - open));
 }
 
-/// Marches the ray through a point of the picture (pixels, origin top left).
-fn march(pixel: vec2f) -> Marched {
+/// Marches a ray. `pixel` tells its noise from that of its neighbours.
+fn march(ray: Ray, pixel: vec2f) -> Marched {
     var result: Marched;
     result.color = vec4f(0.0);
     result.surface_t = -1.0;
-    let ray = ray_through(pixel);
     var walk = walk_along(ray);
     // Share of its opacity that the sample before keeps.
     var gain_before = 1.0;
@@ -85,7 +84,8 @@ fn march(pixel: vec2f) -> Marched {
         let weight = clear * (1.0 - passed);
         gain_before = gains.here;
 
-        let light = light_of(ray, albedo_of(edge, surface), surface, weight);
+        let albedo = albedo_of(edge, surface);
+        let light = light_of(ray, albedo, surface, weight);
         color += light.key + light.ambient;
         if result.surface_t < 0.0 && weight > SURFACE_WEIGHT * (0.25 + 0.75 * clear) {
             result.surface_t = crossing.t_shade;
@@ -95,6 +95,9 @@ fn march(pixel: vec2f) -> Marched {
         }
 
         clear *= passed;
+        if clear < 0.5 && result.event.what == MET_NOTHING {
+            result.event = Event(crossing.t_shade, MET_VOLUME, 0u, surface.normal, edge.pos, albedo);
+        }
         if clear < OPAQUE {
             clear = 0.0;
             break;

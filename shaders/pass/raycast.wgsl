@@ -1,6 +1,6 @@
 // The picture: marches the deformed space along each pixel's ray (march/volume.wgsl, march/mesh.wgsl). Fragment
 // shaders, uniform buffers and sampled textures only, so that WebGL2 could follow.
-// needs: types.wgsl affine.wgsl bind/frame.wgsl march/seek.wgsl march/volume.wgsl|march/mesh.wgsl
+// needs: types.wgsl affine.wgsl bind/frame.wgsl bind/rays.wgsl march/seek.wgsl march/volume.wgsl|march/mesh.wgsl
 
 /// One triangle that covers everything.
 @vertex
@@ -11,16 +11,28 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 /// The picture, linear premultiplied.
 @fragment
 fn draw(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    return march(floor(at.xy) + frame.jitter).color;
+    let pixel = floor(at.xy) + frame.jitter;
+    return march(ray_through(pixel), pixel).color;
 }
 
-/// The surface at one pixel, as four texels: position and distance from the eye (below 0: no surface); normal and
-/// segment; rest position and value; accumulated opacity.
+/// Rays of one `AskedRays`.
+const ROWS_AT_ONCE: u32 = 256u;
+
+/// The ray that is asked in a row.
+fn asked_ray(row: f32) -> Ray {
+    let index = 2u * (u32(row) % ROWS_AT_ONCE);
+    let dir = asked_rays.items[index + 1u].xyz;
+    return ray_along(asked_rays.items[index].xyz, dir, apply_transposed(frame.subject_from_view, dir));
+}
+
+/// The surface along each row's ray, as four texels: position and distance from the origin (below 0: no surface);
+/// normal and segment; rest position and value; accumulated opacity.
 @fragment
 fn pick(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    let found = march(frame.pick);
-    let pos = apply_affine(frame.subject_from_view, dir_in_view_of(frame.pick) * found.surface_t);
-    let tissue = tissue_of(found, pos, normalize(pos - offset_of(frame.subject_from_view)));
+    let ray = asked_ray(at.y);
+    let found = march(ray, vec2f(0.0));
+    let pos = ray.origin + ray.dir * found.surface_t;
+    let tissue = tissue_of(found, pos, ray.dir);
     let part = u32(at.x);
     if part == 0u {
         return vec4f(pos, found.surface_t);
@@ -34,13 +46,26 @@ fn pick(@builtin(position) at: vec4f) -> @location(0) vec4f {
     return found.color;
 }
 
+/// Where each row's ray turns more than half opaque, as four texels: distance from the origin, what is there, segment;
+/// normal; rest position; colour before light.
+@fragment
+fn meet(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    let event = march(asked_ray(at.y), vec2f(0.0)).event;
+    let part = u32(at.x);
+    if part == 0u {
+        return vec4f(event.t, f32(event.what), f32(event.segment), 0.0);
+    }
+    let rest_or_color = select(event.albedo, event.rest, part == 2u);
+    return vec4f(select(rest_or_color, event.normal, part == 1u), 0.0);
+}
+
 /// What each pixel of a picture shows: the distance of its surface from the eye (below 0: no surface) and the segment
 /// there (0: none).
 @fragment
 fn identify(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let pixel = floor(at.xy) + frame.jitter;
-    let found = march(pixel);
-    let pos = apply_affine(frame.subject_from_view, dir_in_view_of(pixel) * found.surface_t);
-    let tissue = tissue_of(found, pos, normalize(pos - offset_of(frame.subject_from_view)));
+    let ray = ray_through(pixel);
+    let found = march(ray, pixel);
+    let tissue = tissue_of(found, ray.origin + ray.dir * found.surface_t, ray.dir);
     return vec4f(found.surface_t, tissue.x, 0.0, found.color.w);
 }

@@ -7,7 +7,7 @@
 //   set         two bits for each of 64 segments: how often a place is inside of it
 // needs: types.wgsl affine.wgsl srgb.wgsl bind/subject.wgsl subject/place.wgsl
 
-/// Stands for the label of a place outside the segmentation.
+/// Stands for no label.
 const NO_LABEL: u32 = 0xffffffffu;
 /// Stands for no triangle.
 const NO_TRIANGLE: u32 = 0xffffffffu;
@@ -140,8 +140,8 @@ fn first_crossing(start: vec3f, end: vec3f, skipped: u32) -> TriangleCrossing {
 }
 
 /// How often a place is inside of segments by a set, with the triangles between the place and the middle of the voxel
-/// that the set is of. Returns the first segment that the place is inside of, from 0, or NO_LABEL.
-fn first_inside(times: vec4u, place: vec3f, middle: vec3f) -> u32 {
+/// that the set is of. Returns the set of the place.
+fn set_beside(times: vec4u, place: vec3f, middle: vec3f) -> vec4u {
     let way = middle - place;
     let inverse_way = inverse_of(way);
     var more = array<u32, 4>(times.x, times.y, times.z, times.w);
@@ -170,15 +170,15 @@ fn first_inside(times: vec4u, place: vec3f, middle: vec3f) -> u32 {
         }
         node = select(low.w, node + 1u, is_met && count == 0u);
     }
-    return first_of(vec4u(more[0], more[1], more[2], more[3]));
+    return vec4u(more[0], more[1], more[2], more[3]);
 }
 
-/// The first segment that a point of rest space is inside of, from 1; 0 for none, NO_LABEL outside the field. Exact
-/// near triangles, where the way to the middle of the nearest voxel is asked.
-fn label_at(rest: vec3f) -> u32 {
+/// How often a point of rest space is inside of each segment: a set, with the texels' two bits for each. Exact near
+/// triangles, where the way to the middle of the nearest voxel is asked.
+fn set_at(rest: vec3f) -> vec4u {
     let at = texture_from_rest(rest);
     if any(at < vec3f(0.0)) || any(at > vec3f(1.0)) {
-        return NO_LABEL;
+        return vec4u(0u);
     }
     let voxel = min(floor(at * subject.dims.xyz), subject.dims.xyz - 1.0);
     let inner = clamp(floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz), vec3f(0.0), subject.label_dims.xyz - 1.0);
@@ -186,16 +186,31 @@ fn label_at(rest: vec3f) -> u32 {
     let depth = textureLoad(volume, vec3i(voxel), 0).x;
     // A voxel's corner is so far from its middle at most: 0.87 of its side.
     if abs(depth) > subject.detail {
-        let times_there = mesh_texel(subject.sets_at + label);
-        return select(first_of(times_there) + 1u, 0u, depth < 0.0 || label == 0u);
+        return select(mesh_texel(subject.sets_at + label), vec4u(0u), depth < 0.0);
     }
     // Voxels beside the segmentation's are empty.
     let is_beside = any(floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz) != inner);
     let times_there = select(mesh_texel(subject.sets_at + label), vec4u(0u), is_beside);
     let step = (voxel + 0.5) / subject.dims.xyz - at;
-    let middle = rest + step * rest_from_texture();
-    let first = first_inside(times_there, rest, middle);
-    return select(first + 1u, 0u, first == NO_LABEL);
+    return set_beside(times_there, rest, rest + step * rest_from_texture());
+}
+
+/// The segments at a point of rest space that are still to be taken: a set.
+alias Labels = vec4u;
+
+/// The segments that a point of rest space is inside of.
+fn labels_at(rest: vec3f) -> Labels {
+    return set_at(rest);
+}
+
+/// Takes the first segment of a set, from 1; NO_LABEL if the set is empty.
+fn take_label(left: ptr<function, Labels>) -> u32 {
+    let first = first_of(*left);
+    if first == NO_LABEL {
+        return NO_LABEL;
+    }
+    (*left)[first >> 4u] &= ~(3u << (2u * (first & 15u)));
+    return first + 1u;
 }
 
 /// Sides of the field's box, rest space: its grid is not turned.
@@ -240,9 +255,9 @@ fn nearest_on(triangle: u32, place: vec3f) -> vec3f {
     return a + (ab * vb + ac * vc) / (va + vb + vc);
 }
 
-/// From a place of rest space to the nearest point of any triangle, if that is nearer than `within`; w is the distance,
-/// or `within`.
-fn to_nearest(rest: vec3f, within: f32) -> vec4f {
+/// From a place of rest space to the nearest point of a segment's triangles (from 0), if that is nearer than `within`;
+/// w is the distance, or `within`.
+fn to_nearest(rest: vec3f, within: f32, segment: u32) -> vec4f {
     var nearest = vec4f(0.0, 0.0, 0.0, within);
     var node = 0u;
     while node < subject.node_count {
@@ -257,7 +272,7 @@ fn to_nearest(rest: vec3f, within: f32) -> vec4f {
             left--;
             let way = nearest_on(triangle, rest) - rest;
             let far = length(way);
-            if far < nearest.w {
+            if far < nearest.w && u32(segment_and_opacity_of(triangle).x) == segment {
                 nearest = vec4f(way, far);
             }
             triangle++;

@@ -6,14 +6,24 @@ fn texel_at(uvw: vec3f) -> f32 {
     return textureSampleLevel(volume, linear_sampler, uvw, 0.0).x;
 }
 
-/// Stands for the label of a place outside the segmentation.
+/// Stands for no label.
 const NO_LABEL: u32 = 0xffffffffu;
 
+/// The labels at a point of rest space that are still to be taken: of a volume one at most.
+alias Labels = u32;
+
 /// Label at a point of rest space: that of the nearest voxel of the segmentation.
-fn label_at(rest: vec3f) -> u32 {
+fn labels_at(rest: vec3f) -> Labels {
     let voxel = floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz);
     if any(voxel < vec3f(0.0)) || any(voxel >= subject.label_dims.xyz) {
         return NO_LABEL;
     }
     return textureLoad(labels, vec3i(voxel), 0).x;
+}
+
+/// Takes the next label; NO_LABEL if there is none.
+fn take_label(left: ptr<function, Labels>) -> u32 {
+    let label = *left;
+    *left = NO_LABEL;
+    return label;
 }

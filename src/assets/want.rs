@@ -58,13 +58,17 @@ pub struct OtherFile {
 }
 
 impl Want {
-    /// The subject of a document. Of meshes alone it is the first; the others are [`Want::mesh`].
+    /// The subject of a document. Of meshes alone it is the first, which is read together with the others.
     pub fn subject(subject: &SubjectRef) -> Self {
         let mut reading = subject.reading().cloned().unwrap_or_default();
         let source = match subject {
-            SubjectRef::Meshes(meshes) => {
+            SubjectRef::Meshes { meshes, bounds } => {
                 let first = meshes.first();
                 reading.mesh = first.map(|mesh| mesh.reading).unwrap_or_default();
+                reading.bounds = *bounds;
+                if meshes.len() > 1 {
+                    reading.meshes.clone_from(meshes);
+                }
                 Source::File {
                     src: first.and_then(|mesh| mesh.src.clone()),
                     sha256: first.and_then(|mesh| mesh.sha256.clone()),
@@ -205,8 +209,7 @@ impl Wanted {
                 wants.push(want);
             }
         }
-        let is_alone = matches!(illustration.subject, SubjectRef::Meshes(_));
-        let meshes = illustration.meshes().iter().skip(usize::from(is_alone));
+        let meshes = illustration.meshes_beside.iter();
         let objects = illustration.objects.iter().filter(|o| o.enabled);
         let further = meshes.map(Want::mesh).chain(objects.map(Want::object));
         for want in further.flatten() {
@@ -222,7 +225,7 @@ impl Wanted {
 mod tests {
     use super::*;
     use crate::document::Document;
-    use crate::load::{Axes, PartsMode, Units};
+    use crate::load::{PartsMode, Units};
 
     fn wanted(json: &str) -> Vec<Want> {
         let document = Document::from_json(json).expect("a document");
@@ -240,8 +243,6 @@ mod tests {
         let roles: Vec<(Role, Option<&str>)> = wants.iter().map(|w| (w.role, w.src())).collect();
         let expected = [
             (Role::Subject, Some("talus.stl")),
-            (Role::Mesh, None),
-            (Role::Mesh, Some("talus.stl")),
             (Role::Object, Some("plate.obj")),
         ];
         assert_eq!(roles, expected);
@@ -251,16 +252,11 @@ mod tests {
             (options.parts, options.max_triangles),
             (PartsMode::Pieces, 7)
         );
-        assert_eq!(wants[1].mesh_options(7).axes, Some(Axes::Lps));
-        assert_eq!(
-            wants[2].mesh_options(7),
-            MeshOptions {
-                max_triangles: 7,
-                ..MeshOptions::default()
-            }
-        );
-        assert_eq!(wants[3].mesh_options(7).units, Some(Units::Inch));
-        let Source::File { name, .. } = &wants[3].source else {
+        let read_with_it = &wants[0].reading.meshes;
+        assert_eq!(read_with_it.len(), 4, "all are one subject");
+        assert_eq!(read_with_it[3].src.as_deref(), Some("talus.stl"));
+        assert_eq!(wants[1].mesh_options(7).units, Some(Units::Inch));
+        let Source::File { name, .. } = &wants[1].source else {
             panic!("a file");
         };
         assert_eq!(name, "plate", "by this name the reader is asked for it");

@@ -13,21 +13,15 @@ pub struct Material {
 }
 
 impl Subject {
-    /// What is at a place of rest space; `None` where the subject ends.
+    /// What a scan has at a place of rest space; `None` where the subject ends, and everywhere in a mesh.
     pub fn material_at(&self, pos_in_rest: Vec3) -> Option<Material> {
         match self {
             Self::Space(space) => Some(Material {
                 value: Some(value_at(&space.volume, pos_in_rest)?),
                 segment: segment_at(&space.volume, pos_in_rest),
             }),
-            Self::Mesh(surface) => {
-                let segment = surface.segment_at(pos_in_rest)?;
-                let segment = &surface.segments[segment];
-                segment.is_closed.then(|| Material {
-                    value: Some(surface.depth_at(pos_in_rest)),
-                    segment: Some(segment.name.clone()),
-                })
-            }
+            // What fills a mesh is up to a document.
+            Self::Mesh(_) => None,
         }
     }
 }

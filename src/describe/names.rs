@@ -6,6 +6,7 @@ use crate::document::SubjectRef;
 /// What a built-in subject is called, by its name in documents; `None` for one that is not known here.
 pub fn subject(name: &str) -> Option<Line> {
     Some(match name {
+        "apple" => ["Apple", "Apfel", "Manzana", "苹果"],
         "bar" => ["Bar", "Balken", "Barra", "长条"],
         "cube" => ["Cube", "Würfel", "Cubo", "立方体"],
         "tomato" => ["Tomato", "Tomate", "Tomate", "番茄"],
@@ -130,7 +131,7 @@ pub(super) fn subject_in_sentence(of: &SubjectRef, lang: Lang) -> Option<String>
             None => name,
         },
         SubjectRef::Address { name, .. } | SubjectRef::Supplied { name, .. } => name,
-        SubjectRef::Meshes(meshes) => match meshes.as_slice() {
+        SubjectRef::Meshes { meshes, .. } => match meshes.as_slice() {
             [one] => &one.name,
             _ => return None,
         },
@@ -143,7 +144,9 @@ pub(super) fn subject_in_sentence(of: &SubjectRef, lang: Lang) -> Option<String>
 pub fn has_patient(of: &SubjectRef) -> bool {
     match of {
         SubjectRef::Builtin { name } => matches!(name.as_str(), "head" | "hand" | "torso" | "knee"),
-        SubjectRef::Address { .. } | SubjectRef::Supplied { .. } | SubjectRef::Meshes(_) => true,
+        SubjectRef::Address { .. } | SubjectRef::Supplied { .. } | SubjectRef::Meshes { .. } => {
+            true
+        }
     }
 }
 

@@ -60,7 +60,8 @@ pub(crate) const MAX_NOTICES: usize = 200;
 /// The subject of a document that names none.
 pub const DEFAULT_SUBJECT: &str = "head";
 /// The subjects that the program generates, or will generate in a later release.
-pub const BUILTIN_SUBJECTS: [&str; 8] = [
+pub const BUILTIN_SUBJECTS: [&str; 9] = [
+    "apple",
     "bar",
     "cube",
     "tomato",

@@ -64,9 +64,9 @@ pub use files::{ALL_FILES, FileHandle, FileSet, MemoryFiles, OneFile};
 pub use geometry::orientation_code;
 pub use labels::{LabelFile, read_header, read_label_file, read_labels};
 pub use mesh::{
-    Aside, Axes, MAX_TRIANGLES, MeshDescription, MeshError, MeshFormat, MeshOptions, MeshOrNot,
-    MeshReport, Origin, PartsMode, Progress, Repair, Units, describe_mesh, mesh_or_not, read_mesh,
-    read_mesh_subject,
+    Aside, Axes, MAX_TRIANGLES, MeshDescription, MeshError, MeshFile, MeshFormat, MeshOptions,
+    MeshOrNot, MeshReport, Origin, PartsMode, Progress, Repair, Units, describe_mesh, mesh_or_not,
+    read_mesh, read_mesh_subject,
 };
 
 pub use options::ReadOptions;

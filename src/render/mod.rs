@@ -34,11 +34,12 @@ pub use draw::clock::system_clock;
 pub use draw::follow::PendingPlaces;
 pub use draw::identify::{SIGHT_PX, Sighting};
 pub use draw::image::{Image, decode_png, encode_png};
-pub use draw::pick::{PendingDepths, PendingPick, Pick};
+pub use draw::pick::{Meeting, PendingDepths, PendingEvents, PendingPick, Pick, RayEvent};
 pub use draw::probe::{Probe, Sample};
 pub use draw::renderer::{DrawState, Renderer};
 pub use draw::slice::{MarkedValues, PendingSlice, SliceColors, SlicePlane, SliceTexel, SliceView};
 pub use draw::studio::{Studio, render_image};
+pub use pack::filling::{Filling, Fillings};
 pub use pack::gpu_types;
 pub use pack::kept::KeptTissue;
 pub use pack::look::{

@@ -212,7 +212,7 @@ impl Scene {
     }
 
     /// Which pipeline draws it.
-    pub(crate) fn key(&self, is_pick: bool) -> RaycastKey {
+    pub(crate) fn key(&self) -> RaycastKey {
         let (kept, table) = (self.inputs.kept(), self.inputs.table());
         RaycastKey {
             subject: self.subject,
@@ -225,18 +225,15 @@ impl Scene {
             kept_by: kept.map_or(0, KeptTissue::kept_by),
             has_bodies: self.inputs.bodies.get().is_any(),
             has_edges: table.is_some_and(|table| table.gradient > 0.0),
-            finds: match is_pick {
-                true => Finds::Pick,
-                false => Finds::Picture,
-            },
+            finds: Finds::Picture,
         }
     }
 
-    /// The pipeline that finds the segment under each pixel.
-    pub(crate) fn segments_key(&self) -> RaycastKey {
+    /// Which pipeline finds this of each ray.
+    pub(crate) fn key_for(&self, finds: Finds) -> RaycastKey {
         RaycastKey {
-            finds: Finds::Segments,
-            ..self.key(false)
+            finds,
+            ..self.key()
         }
     }
 
@@ -264,7 +261,7 @@ impl Scene {
     /// which the texture knows nothing of.
     pub(crate) fn may_bake(&self) -> bool {
         self.inputs.templates.get().drawn_kinds().count_ones() >= LEAST_BAKED_KINDS
-            && !self.key(false).keeps_tissue()
+            && !self.key().keeps_tissue()
     }
 
     /// Bakes about so many texels more of the map, from the start (with so many texels along the longest side, or as
@@ -305,7 +302,7 @@ impl Scene {
         RaycastKey {
             drawn_kinds: u32::MAX,
             is_baked: true,
-            ..self.key(false)
+            ..self.key()
         }
     }
 

@@ -4,7 +4,8 @@ use wasm_bindgen::JsCast as _;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{Blob, Url};
 
-use super::worker::task::Part;
+use super::worker::task::{Part, ScanTask, Task};
+use crate::assets::{Role, Want};
 use crate::document::{Document, SubjectRef};
 
 /// The host of an absolute address, if it is another one than the page's: nothing is fetched from there unasked.
@@ -19,7 +20,7 @@ pub(super) fn foreign_host(address: &str) -> Option<String> {
 /// the page's own host; `base` is what relative addresses start from. None if the reader is to be asked first.
 pub(super) fn part_of(document: &Document, base: &str) -> Option<Part> {
     match &document.illustration().subject {
-        SubjectRef::Builtin { .. } => Some(Part::Subjects),
+        SubjectRef::Builtin { name } => Some(Task::Subject(name.clone(), None).part()),
         subject => {
             let address = absolute(subject.src()?, base).ok()?;
             foreign_host(&address).is_none().then_some(Part::Scans)
@@ -39,6 +40,31 @@ pub(super) fn absolute(src: &str, base: &str) -> Result<String, String> {
         return Err(format!("A page can only fetch from http and https: {src}"));
     }
     Ok(url.href())
+}
+
+/// A want whose further meshes have absolute addresses. Those at another host than the page's and the first mesh's keep
+/// none: the reader was not asked about it.
+pub(super) fn at_base(want: &Want, base: &str) -> Want {
+    let mut want = want.clone();
+    let first = want.src().and_then(|src| absolute(src, base).ok());
+    let asked = first.and_then(|address| foreign_host(&address));
+    for mesh in want.reading.meshes.iter_mut().skip(1) {
+        let address = mesh.src.as_ref().and_then(|src| absolute(src, base).ok());
+        mesh.src = address.filter(|address| match foreign_host(address) {
+            None => true,
+            host => host == asked,
+        });
+    }
+    want
+}
+
+/// The task to fetch an address and to read the bytes that come.
+pub(super) fn address_task(address: String, want: &Want) -> Task {
+    Task::Scan(ScanTask::Address {
+        address,
+        are_segments: want.role == Role::Segments,
+        reading: want.reading.clone(),
+    })
 }
 
 /// What lies at an address; `None` if it cannot be had.

@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use crate::data::SubjectSink;
+use crate::document::MeshRef;
 use crate::load::{
     ALL_FILES, FileHandle, FileSet, LoadError, LoadReport, ReadOptions, read_volume,
 };
@@ -110,7 +111,19 @@ impl FileSet for Picked {
 
     fn open(&mut self, name: &str) -> io::Result<FileHandle<'_>> {
         let found = self.0.iter().find(|(known, _)| known == name);
-        let (_, path) = found.ok_or(io::ErrorKind::NotFound)?;
+        let Some((_, path)) = found else {
+            // What a file names, such as its materials, lies beside it.
+            for (_, path) in &self.0 {
+                let mut folder = Folder::of(path).0;
+                if let Ok(byte_len) = folder.open(name).map(|file| file.byte_len) {
+                    return Ok(FileHandle {
+                        read: Box::new(File::open(folder.path.join(name))?),
+                        byte_len,
+                    });
+                }
+            }
+            return Err(io::ErrorKind::NotFound.into());
+        };
         let (mut folder, name) = Folder::of(path);
         let byte_len = folder.open(&name)?.byte_len;
         Ok(FileHandle {
@@ -118,6 +131,27 @@ impl FileSet for Picked {
             byte_len,
         })
     }
+}
+
+/// The files of a subject of several meshes, and the name of the first: `first` itself, the others at their addresses,
+/// which start from `folder`, and all that are `given` besides, for meshes that are known by their hash.
+pub(super) fn mesh_set(
+    folder: &Path,
+    first: &Path,
+    meshes: &[MeshRef],
+    given: impl IntoIterator<Item = PathBuf>,
+) -> (Picked, String) {
+    let name = Folder::of(first).1;
+    let mut picked = vec![(name.clone(), first.to_owned())];
+    for src in meshes.iter().skip(1).filter_map(|mesh| mesh.src.as_ref()) {
+        picked.extend(local(folder, src).map(|path| (src.clone(), path)));
+    }
+    picked.extend(
+        given
+            .into_iter()
+            .map(|path| (path.to_string_lossy().into_owned(), path)),
+    );
+    (Picked(picked), name)
 }
 
 /// The file that an address in a document means; `None` for one on the network. Relative addresses start from `folder`.

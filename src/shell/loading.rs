@@ -2,18 +2,19 @@
 //! (in a worker); where it runs and how events travel is the caller's affair.
 
 use std::io::Read as _;
+use std::sync::Arc;
 
 use sha2::{Digest as _, Sha256};
 
 use crate::assets::{LoadEvent, RawQuestion, SegmentationsExpected};
-use crate::data::{Reducer, SubjectPart, SubjectSink, VolumeLimits};
-use crate::document::Reading;
+use crate::data::{Reducer, SubjectPart, SubjectSink, Surface, VolumeLimits};
+use crate::document::{MeshReading, MeshRef, Reading};
 use crate::load::{
-    FileSet, LabelSource, LoadError, LoadReport, MeshOptions, MeshOrNot, RawLayout, ReadOptions,
-    Warning, is_segmentation, mesh_or_not, read_header, read_label_file, read_mesh_subject,
-    read_raw, read_subject,
+    FileSet, LabelSource, LoadError, LoadReport, MeshFile, MeshOptions, MeshOrNot, RawLayout,
+    ReadOptions, Warning, is_segmentation, mesh_or_not, read_header, read_label_file,
+    read_mesh_subject, read_raw, read_subject,
 };
-use crate::subjects::{COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab};
+use crate::subjects::{COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab, SubjectError, mesh};
 
 /// Slabs are made of about this many voxels: large enough to travel well, small enough to stop soon.
 const SLAB_VOXELS: usize = 1 << 20;
@@ -90,6 +91,31 @@ pub fn make_subject(
             return;
         }
     }
+}
+
+/// Makes a built-in subject that is a mesh.
+pub fn make_mesh_subject(name: &str, post: &mut dyn Post) {
+    let Some(mesh) = mesh(name) else {
+        post.post(LoadEvent::Failed {
+            message: SubjectError::UnknownName(name.chars().take(40).collect()).to_string(),
+            details: String::new(),
+            fault: None,
+        });
+        return;
+    };
+    let mut sink = PostingSink {
+        post,
+        last_fraction: 0.0,
+        is_stopped: false,
+    };
+    let surface = Surface::new(&mesh, None, &mut |part| sink.progress(part));
+    let part = surface.map(|surface| SubjectPart::Surface(Arc::new(surface)));
+    let is_whole = part.is_ok_and(|part| sink.take(part).is_ok());
+    post.post(match is_whole {
+        true => LoadEvent::Done { sha256: None },
+        // A mesh of the program's own has a size.
+        false => LoadEvent::Cancelled,
+    });
 }
 
 /// Makes the slabs of a generator one after the other.
@@ -179,7 +205,7 @@ fn looks_like_labels(files: &mut dyn FileSet, name: &str) -> bool {
 }
 
 /// The hash of a file's bytes, if it is not large.
-fn hash_of(files: &mut dyn FileSet, name: &str) -> Option<String> {
+pub(super) fn hash_of(files: &mut dyn FileSet, name: &str) -> Option<String> {
     let mut file = files.open(name).ok()?;
     file.byte_len
         .filter(|&length| length <= MOST_HASHED_BYTES)?;
@@ -286,9 +312,9 @@ pub fn read_scan(
     // A file that cannot be opened twice is read as a scan, whose reader names a mesh.
     let may_be_mesh = reading.raw.is_none() && files.can_reopen();
     if may_be_mesh && matches!(mesh_or_not(files, name)?, MeshOrNot::Mesh(_)) {
-        let options = MeshOptions::from(&reading.mesh);
-        let smooth_deg = reading.mesh.smooth_deg;
-        return read_mesh_subject(files, name, &options, smooth_deg, sink, report);
+        let meshes = mesh_files(files, name, reading, report)?;
+        let within = reading.bounds.map(|bounds| [bounds.min_mm, bounds.max_mm]);
+        return read_mesh_subject(files, &meshes, within, sink, report);
     }
     match &reading.raw {
         Some(raw) => read_raw(files, name, &RawLayout::from(raw), &options, sink, report),
@@ -297,6 +323,63 @@ pub fn read_scan(
             read_subject(files, name, &own, &options, sink, report)
         }
     }
+}
+
+/// The files of a subject of meshes, `name` that of the first: by their addresses, by the last parts of those, or by
+/// their hashes among all files. One that is not there is left out where the document says how large the subject is,
+/// and missed where it does not.
+fn mesh_files(
+    files: &mut dyn FileSet,
+    name: &str,
+    reading: &Reading,
+    report: &mut LoadReport,
+) -> Result<Vec<MeshFile>, LoadError> {
+    let file_of = |file: String, name: &str, mesh: &MeshReading| MeshFile {
+        file,
+        name: name.to_owned(),
+        options: MeshOptions::from(mesh),
+        smooth_degrees: mesh.smooth_deg,
+    };
+    let called = reading.meshes.first().map_or("", |mesh| mesh.name.as_str());
+    let mut found = vec![file_of(name.to_owned(), called, &reading.mesh)];
+    let mut missing = Vec::new();
+    for mesh in reading.meshes.iter().skip(1) {
+        match find_mesh(files, mesh) {
+            Some(file) => found.push(file_of(file, &mesh.name, &mesh.reading)),
+            None => missing.push(match (mesh.name.as_str(), &mesh.src, &mesh.sha256) {
+                ("", Some(src), _) => src.clone(),
+                ("", None, hash) => format!("SHA-256 {}", hash.as_deref().unwrap_or_default()),
+                (name, ..) => name.to_owned(),
+            }),
+        }
+    }
+    let list = missing.join(", ");
+    match (missing.is_empty(), reading.bounds) {
+        (true, _) => {}
+        (false, Some(_)) => report.warn(Warning::Mesh {
+            what: format!("meshes of the subject that are not there are left out: {list}"),
+        }),
+        (false, None) => {
+            return Err(LoadError::Mesh {
+                message: format!(
+                    "meshes of the subject are not there, and without `subject.box` nothing is drawn: {list}"
+                ),
+            });
+        }
+    }
+    Ok(found)
+}
+
+fn find_mesh(files: &mut dyn FileSet, mesh: &MeshRef) -> Option<String> {
+    if let Some(src) = &mesh.src {
+        let last = src.rsplit('/').next().unwrap_or_default();
+        let names = [src.as_str(), last];
+        let found = names.into_iter().find(|name| files.open(name).is_ok());
+        return found.map(str::to_owned);
+    }
+    let wanted = mesh.sha256.as_ref()?;
+    let mut names = files.names().into_iter();
+    names.find(|name| hash_of(files, name).is_some_and(|hash| hash.eq_ignore_ascii_case(wanted)))
 }
 
 /// The message for a document that asks for a file of the reader's own. `name` is the author's name for the file.

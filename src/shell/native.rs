@@ -9,9 +9,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use super::command_line::ReadingFlags;
-use super::files::{Folder, Picked, local};
+use super::files::{Folder, Picked, local, mesh_set};
 use super::loading::{
-    make_subject, read_file, read_segments, resolutions, take_segmentations, wanted_file,
+    make_mesh_subject, make_subject, read_file, read_segments, resolutions, take_segmentations,
+    wanted_file,
 };
 use crate::app::{App, LinkChange, Message, SaveFile, SavedTo, Services, Shipped, Start, Ticket};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
@@ -19,6 +20,7 @@ use crate::data::VolumeLimits;
 use crate::document::{Document, RawVoxels, Reading};
 use crate::load::{is_field, read_field};
 use crate::render::Gpu;
+use crate::subjects::mesh_names;
 use crate::subjects::{Generator, Slab};
 
 /// A larger file is no document (the contract's limit is 1 MiB), and is opened as a scan.
@@ -251,6 +253,11 @@ impl NativeServices {
     fn read(&self, ticket: Ticket, is_wanted: Arc<AtomicBool>, path: PathBuf, reading: Reading) {
         let (sender, ctx, limits) = (self.sender.clone(), self.ctx.clone(), self.limits);
         let known = Arc::clone(&self.known);
+        let beside = self.folder.clone();
+        let opened: Vec<PathBuf> = {
+            let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+            known.values().cloned().collect()
+        };
         std::thread::spawn(move || {
             let mut post = |event: LoadEvent| {
                 if let LoadEvent::Done { sha256: Some(hash) } = &event {
@@ -259,8 +266,13 @@ impl NativeServices {
                 }
                 post_while_wanted(&sender, &ctx, ticket, &is_wanted, event)
             };
-            let (mut folder, name) = Folder::of(&path);
-            read_file(&mut folder, &name, limits, &reading, &mut post);
+            if reading.meshes.is_empty() {
+                let (mut folder, name) = Folder::of(&path);
+                read_file(&mut folder, &name, limits, &reading, &mut post);
+            } else {
+                let (mut picked, name) = mesh_set(&beside, &path, &reading.meshes, opened);
+                read_file(&mut picked, &name, limits, &reading, &mut post);
+            }
         });
     }
 
@@ -289,7 +301,10 @@ impl NativeServices {
         std::thread::spawn(move || {
             let mut post =
                 |event: LoadEvent| post_while_wanted(&sender, &ctx, ticket, &is_wanted, event);
-            make_subject(&name, &resolutions(limits), slabs_in_threads, &mut post);
+            match mesh_names().contains(&name.as_str()) {
+                true => make_mesh_subject(&name, &mut post),
+                false => make_subject(&name, &resolutions(limits), slabs_in_threads, &mut post),
+            }
         });
         ticket
     }

@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storage, Url, Window};
 
-use super::address::{absolute, fetched, foreign_host};
+use super::address::{absolute, address_task, at_base, fetched, foreign_host};
 use super::loading::wanted_file;
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
@@ -17,7 +17,7 @@ use super::worker::task::{ScanTask, Task};
 use crate::app::{
     LinkChange, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, Shipped, Ticket,
 };
-use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
+use crate::assets::{LoadEvent, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
 use crate::document::{RawVoxels, Reading};
 use crate::load::FieldFile;
@@ -326,15 +326,6 @@ fn scan_task(
     })
 }
 
-/// The task to fetch an address and to read the bytes that come.
-fn address_task(address: String, want: &Want) -> Task {
-    Task::Scan(ScanTask::Address {
-        address,
-        are_segments: want.role == Role::Segments,
-        reading: want.reading.clone(),
-    })
-}
-
 fn not_started(error: &JsValue) -> LoadEvent {
     LoadEvent::Failed {
         message: "This browser cannot load scans in the background".to_owned(),
@@ -478,16 +469,17 @@ impl Services for PageServices {
             Ok(address) => address,
             Err(why) => return self.fail(why),
         };
+        let want = at_base(want, &base);
         let mut page = self.0.borrow_mut();
         let ticket = page.new_ticket();
         match foreign_host(&address) {
             Some(host) if !page.allowed_hosts.contains(&host) => {
-                page.asking.insert(ticket, (address, want.clone()));
+                page.asking.insert(ticket, (address, want));
                 page.send(Message::AskHost { ticket, host });
             }
             _ => {
                 drop(page);
-                self.start(ticket, &address_task(address, want));
+                self.start(ticket, &address_task(address, &want));
             }
         }
         ticket

@@ -10,13 +10,13 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 use web_sys::{Blob, HtmlCanvasElement};
 
-use super::address::{absolute, fetched, foreign_host, part_of};
+use super::address::{absolute, address_task, at_base, fetched, foreign_host, part_of};
 use super::loading::wanted_file;
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
 use super::worker::run::{self, Maker, WorkerLoad};
 use super::worker::task::{Part, ScanTask, Task};
-use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
+use crate::assets::{LoadEvent, SegmentationsExpected, Source, Want};
 use crate::describe::{Lang, seen_from};
 use crate::link::{self, Qr};
 use crate::reader::{Picture, Stock, StockKey, Visit, outline, texts};
@@ -380,7 +380,12 @@ impl Reader {
             .and_then(|stocked| stocked.asks.take());
         if let (Some((want, address, host)), Some(stock)) = (asks, stock) {
             inner.allowed_hosts.insert(host);
-            let started = inner.start_load(stock, &address_task(address, &want), &self.inner);
+            let base = inner
+                .stocks
+                .get(&stock)
+                .map_or("", |s| s.stock.key().base());
+            let task = address_task(address, &at_base(&want, base));
+            let started = inner.start_load(stock, &task, &self.inner);
             inner.loads(stock, started);
         }
     }
@@ -655,15 +660,6 @@ impl Shown {
     }
 }
 
-/// The task to fetch an address and to read the bytes that come.
-fn address_task(address: String, want: &Want) -> Task {
-    Task::Scan(ScanTask::Address {
-        address,
-        are_segments: want.role == Role::Segments,
-        reading: want.reading.clone(),
-    })
-}
-
 /// What has to be done for a want.
 enum Way {
     Start(Task),
@@ -800,7 +796,7 @@ impl Inner {
         match absolute(src, base) {
             Ok(address) => match foreign_host(&address) {
                 Some(host) if !self.allowed_hosts.contains(&host) => Way::Ask(address, host),
-                _ => Way::Start(address_task(address, want)),
+                _ => Way::Start(address_task(address, &at_base(want, base))),
             },
             Err(why) => Way::Fail(why),
         }

@@ -26,6 +26,7 @@
 //! assert_eq!(count.0, 32 * 32 * 32);
 //! ```
 
+mod apple;
 mod bar;
 mod cube;
 mod hand;
@@ -54,7 +55,7 @@ use std::ops::Range;
 
 use glam::{DAffine3, DMat3, DVec3, UVec3, Vec3};
 
-use crate::data::{Grid, Segment, Segmentation, SubjectPart, SubjectSink, Volume, Voxels};
+use crate::data::{Grid, Mesh, Segment, Segmentation, SubjectPart, SubjectSink, Volume, Voxels};
 use lanes::LANES;
 use paint::{Block, Canvas, Model, ROWS};
 
@@ -71,7 +72,7 @@ pub const MAX_RESOLUTION: u32 = 512;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SubjectError {
     /// No subject has this name.
-    #[error("there is no built-in subject \"{0}\" (there are {list})", list = names().join(", "))]
+    #[error("there is no built-in subject \"{0}\" (there are {list})", list = all_names().collect::<Vec<_>>().join(", "))]
     UnknownName(String),
     /// Too small to show anything, or too large to be made.
     #[error(
@@ -86,7 +87,23 @@ pub enum SubjectError {
     Stopped,
 }
 
-/// Names of the built-in subjects that can be made, as written in documents.
+/// Names of all built-in subjects, as written in documents.
+pub fn all_names() -> impl Iterator<Item = &'static str> {
+    names().iter().chain(mesh_names()).copied()
+}
+
+/// Names of the built-in subjects that are meshes.
+pub fn mesh_names() -> &'static [&'static str] {
+    &["apple"]
+}
+
+/// A built-in subject that is a mesh, mm: the same vertices bit for bit on every machine. `None` for a name that means
+/// none.
+pub fn mesh(name: &str) -> Option<Mesh> {
+    (name == "apple").then(apple::apple)
+}
+
+/// Names of the built-in subjects that are made of voxels, as written in documents.
 pub fn names() -> &'static [&'static str] {
     &[
         "bar",

@@ -7,7 +7,7 @@ use fabrica::data::{
 };
 use fabrica::document::{Illustration, TemplateData};
 use fabrica::load::{
-    FieldUse, LoadReport, MemoryFiles, MeshOptions, OneFile, read_field, read_mesh_subject,
+    FieldUse, LoadReport, MemoryFiles, MeshFile, OneFile, read_field, read_mesh_subject,
 };
 use fabrica::subjects::FINE_RESOLUTION;
 use image::RgbaImage;
@@ -426,16 +426,12 @@ fn a_mesh_is_drawn_as_the_native_program_draws_it() {
 
         let mut taken = Taken(None);
         let mut files = MemoryFiles::new([("ball.obj", bytes)]);
-        let (options, mut report) = (MeshOptions::default(), LoadReport::default());
-        read_mesh_subject(
-            &mut files,
-            "ball.obj",
-            &options,
-            None,
-            &mut taken,
-            &mut report,
-        )
-        .expect("a mesh");
+        let mesh = MeshFile {
+            file: "ball.obj".to_owned(),
+            ..MeshFile::default()
+        };
+        let mut report = LoadReport::default();
+        read_mesh_subject(&mut files, &[mesh], None, &mut taken, &mut report).expect("a mesh");
         let subject = taken.0.expect("it came");
         let native = Native::open().await;
         let studio = Studio::new(&native.gpu, &subject, true).expect("it fits");

@@ -113,6 +113,21 @@ fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
     });
 }
 
+/// A built-in subject that is a mesh is made by the part that holds the readers of meshes, and drawn with its colours.
+#[test]
+fn the_apple_is_made_in_the_page() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let link = payload(r#"{"fabrica":1,"subject":{"builtin":"apple"}}"#);
+        let tab = session.coarse_viewer(&format!("#{link}"), PAGE).await;
+        let is_apple = |page: &image::RgbaImage| {
+            let red = |p: &&image::Rgba<u8>| p.0[0] > 80 && p.0[0] > 2 * p.0[1].max(p.0[2]);
+            object_part(page).pixels().filter(red).count() > 4_000
+        };
+        tab.drawn("apple", is_apple).await;
+        tab.assert_no_complaints().await;
+    });
+}
+
 /// The window changes its size: the picture follows, and nothing is blank.
 #[test]
 fn resize_keeps_the_picture() {

@@ -36,8 +36,9 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         }
         Templates { items, count, pool }
         Frame {
-            subject_from_view, lens, size_px, jitter, first_step, occlusion_turn, bounds_min, bounds_max, pick, step,
+            subject_from_view, lens, size_px, jitter, first_step, occlusion_turn, bounds_min, bounds_max, step,
         }
+        AskedRays { items }
         Subject {
             texture_from_rest, label_from_rest, dims, label_dims, texture_end,
             value_low, value_range, detail, has_labels,

@@ -342,6 +342,8 @@ fn bad_usage_is_2() {
         &["templates", "--xml"],
         &["probe"],
         &["probe", "-"],
+        &["probe", "-", "--rays"],
+        &["probe", "x", "--rays", "--depth"],
         &["link", "a", "b"],
     ] {
         let outcome = fabrica(args);
@@ -677,6 +679,165 @@ fn probing_the_object_reads_the_scan() {
         "and so is the outside: {}",
         rows[3]
     );
+}
+
+/// An OBJ of a box around a point, mm.
+fn box_obj(name: &str, middle: [f32; 3], half: f32) -> String {
+    let mut text = format!("o {name}\n");
+    for i in 0..8 {
+        let sign = |bit: u32| if i >> bit & 1 == 1 { half } else { -half };
+        let [x, y, z] = [0, 1, 2].map(|k| middle[k as usize] + sign(k));
+        text += &format!("v {x} {y} {z}\n");
+    }
+    let faces = [
+        "1 3 4 2", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6", "5 6 8 7",
+    ];
+    for face in faces {
+        text += &format!("f {face}\n");
+    }
+    text
+}
+
+#[test]
+fn rays_meet_what_a_page_says() {
+    let folder = folder();
+    write(&folder, "box.obj", box_obj("box", [0.0; 3], 50.0));
+    // One unit is the box's side. Rays along -z, from above.
+    let cases = [
+        (
+            r##""look":{"layers":[{"depth":0,"name":"rind","color":"#b8433a"},{"depth":0.1,"name":"flesh","color":"#f2e3b3"}]}"##,
+            "0,0,2,0,0,-3",
+            "1.5",
+            "surface,box,#d8cdbd",
+        ),
+        // What the ray begins in is a cut face, here a layer.
+        (
+            r##""look":{"layers":[{"depth":0,"name":"rind","color":"#b8433a"},{"depth":0.1,"name":"flesh","color":"#f2e3b3"}]}"##,
+            "0,0,0,0,0,-1",
+            "0",
+            "cut,flesh,#f2e3b3",
+        ),
+        (
+            r##""look":{"body":"hollow","inside":"#102030"}"##,
+            "0,0,0,0,0,-1",
+            "0.5",
+            "inside,box,#102030",
+        ),
+        (
+            r##""look":{"body":"thick","thickness":0.1,"inside":"#405060"}"##,
+            "0,0,0,0,0,-1",
+            "0.4",
+            "cut,box,#405060",
+        ),
+        // Half clear: the far side is the one behind which a ray is more than half opaque.
+        (
+            r##""look":{"body":"hollow","segments":{"box":{"opacity":0.4}},"inside":"#102030"}"##,
+            "0,0,2,0,0,-1",
+            "2.5",
+            "inside,box,#102030",
+        ),
+    ];
+    for (look, ray, distance, end) in cases {
+        let json = format!(
+            r#"{{"fabrica":1,"subject":{{"src":"box.obj","name":"box","axes":"ras"}},{look}}}"#
+        );
+        write(&folder, "box.json", json);
+        let input = format!("# a ray\n{ray}\n5,5,5,0,0,1\n");
+        let out = fabrica_with(
+            folder.path(),
+            &["probe", "box.json", "--rays"],
+            input.as_bytes(),
+        )
+        .ok()
+        .out;
+        let lines: Vec<&str> = out.lines().collect();
+        let columns: Vec<&str> = lines[0].split(',').collect();
+        assert_eq!(columns.len(), 19, "{}", lines[0]);
+        assert_eq!(columns[..6].join(","), ray, "the ray as it was given");
+        let found: f32 = columns[6].parse().expect("a number");
+        let expected: f32 = distance.parse().expect("a number");
+        assert!((found - expected).abs() < 1e-4, "{look}: {}", lines[0]);
+        assert_eq!(columns[16..].join(","), end, "{look}");
+        assert_eq!(
+            lines[1],
+            format!("5,5,5,0,0,1,{}", ",".repeat(12)),
+            "nothing is there"
+        );
+    }
+    let bad = |input: &[u8], what: &[&str]| {
+        fabrica_with(folder.path(), &["probe", "box.json", "--rays"], input).failed(what);
+    };
+    bad(b"0,0,0,1,1\n", &["line 1", "six finite numbers"]);
+    bad(b"0,0,0,0,0,0\n", &["ray 1", "no length"]);
+}
+
+#[test]
+fn several_meshes_are_one_subject() {
+    let folder = folder();
+    let inner = box_obj("inner", [0.0; 3], 10.0);
+    write(&folder, "inner.obj", &inner);
+    write(&folder, "outer.obj", box_obj("outer", [0.0; 3], 50.0));
+    std::fs::create_dir(folder.path().join("far")).expect("a folder");
+    write(
+        &folder,
+        "far/beside.obj",
+        box_obj("beside", [100.0, 0.0, 0.0], 20.0),
+    );
+    let document = |meshes: &str, more: &str| {
+        let json = format!(
+            r#"{{"fabrica":1,"subject":{{"meshes":[{meshes}]{more}}},"look":{{"body":"solid"}}}}"#
+        );
+        write(&folder, "several.json", json)
+    };
+    let probe = |args: &[&str], points: &str| {
+        let args = [&["probe", "several.json", "--object", "--depth"], args].concat();
+        fabrica_with(folder.path(), &args, points.as_bytes())
+    };
+    let three = r#"{"src":"inner.obj","name":"heart","axes":"ras"},{"src":"outer.obj","name":"skin","axes":"ras"},{"src":"far/beside.obj","name":"beside","axes":"ras"}"#;
+    document(three, "");
+    // From -50 to 120 mm: the origin lies at 35 mm, one unit is 170 mm.
+    let out = probe(&[], "-0.20588236,0,0\n-0.3,0,0\n0.38235295,0,0\n")
+        .ok()
+        .out;
+    let ends: Vec<Vec<&str>> = out
+        .lines()
+        .map(|line| line.split(',').skip(7).collect())
+        .collect();
+    assert_eq!(ends[0][1], "heart", "listed first: {out}");
+    assert_eq!(ends[1][1], "skin", "{out}");
+    assert_eq!(ends[2][1], "beside", "{out}");
+    let depth: f32 = ends[0][2].parse().expect("a number");
+    assert!(
+        (depth - 50.0 / 170.0).abs() < 1e-4,
+        "the greatest depth: {depth}"
+    );
+    // A box that the document gives holds everything in place, also where a mesh is missing.
+    let boxed = r#","box":[-50,-50,-50,50,50,50]"#;
+    document(&three.replace("far/beside", "far/none"), boxed);
+    let there = probe(&[], "0,0,0\n").ok();
+    assert!(
+        there.err.contains("not there are left out: beside"),
+        "{}",
+        there.err
+    );
+    assert!(there.out.contains(",heart,"), "{}", there.out);
+    document(&three.replace("far/beside", "far/none"), "");
+    probe(&[], "0,0,0\n").failed(&["beside", "subject.box"]);
+    // By hash, as the reader supplies it.
+    let hashed = format!(
+        r#"{{"sha256":"{}","name":"heart","axes":"ras"}}"#,
+        hash(inner.as_bytes())
+    );
+    document(
+        &format!(r#"{{"src":"outer.obj","name":"skin","axes":"ras"}},{hashed}"#),
+        "",
+    );
+    let given = probe(&["--mesh", "inner.obj"], "0,0,0.45\n").ok().out;
+    assert!(given.contains(",skin,"), "{given}");
+    document(&hashed, "");
+    let given = probe(&["--mesh", "inner.obj"], "0,0,0\n").ok().out;
+    assert!(given.contains(",heart,"), "{given}");
+    probe(&[], "0,0,0\n").failed(&["heart"]);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::gpu::gpu;
 use crate::scatter::Random;
 use fabrica::data::{Mesh, MeshPart, SubjectPart, SubjectSink, Surface};
 use fabrica::document::{Document, Illustration};
-use fabrica::load::{LoadReport, MemoryFiles, MeshOptions, read_mesh_subject};
+use fabrica::load::{LoadReport, MemoryFiles, MeshFile, read_mesh_subject};
 use fabrica::render::{SliceColors, SlicePlane, SliceView, Studio, View};
 use glam::{Vec2, Vec3};
 
@@ -40,8 +40,12 @@ impl SubjectSink for Taken {
 
 fn read(name: &str, bytes: Vec<u8>) -> Arc<Surface> {
     let (mut files, mut taken) = (MemoryFiles::new([(name, bytes)]), Taken(None));
-    let (options, mut report) = (MeshOptions::default(), LoadReport::default());
-    read_mesh_subject(&mut files, name, &options, None, &mut taken, &mut report).expect("a mesh");
+    let mesh = MeshFile {
+        file: name.to_owned(),
+        ..MeshFile::default()
+    };
+    let mut report = LoadReport::default();
+    read_mesh_subject(&mut files, &[mesh], None, &mut taken, &mut report).expect("a mesh");
     taken.0.expect("it came")
 }
 

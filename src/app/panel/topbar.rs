@@ -120,7 +120,7 @@ fn link_length_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 fn subject_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let current = &session.illustration().subject;
     let shown = widget::combo("subject", &names::subject_title(current), 112.0).show_ui(ui, |ui| {
-        for name in crate::subjects::names() {
+        for name in crate::subjects::all_names() {
             let subject = SubjectRef::Builtin {
                 name: (*name).to_owned(),
             };

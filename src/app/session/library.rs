@@ -88,7 +88,9 @@ impl Example {
     pub fn subject(&self) -> &str {
         match &self.document.illustration().subject {
             SubjectRef::Builtin { name } => name,
-            SubjectRef::Address { .. } | SubjectRef::Supplied { .. } | SubjectRef::Meshes(_) => "",
+            SubjectRef::Address { .. }
+            | SubjectRef::Supplied { .. }
+            | SubjectRef::Meshes { .. } => "",
         }
     }
 

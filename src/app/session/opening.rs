@@ -132,7 +132,11 @@ impl Session {
 
     /// A label volume of the document is on its way.
     pub fn segments_started(&mut self, ticket: Ticket, want: Want) {
-        self.load = Some(Load::new(ticket, "Loading", LoadOf::Segments(want)));
+        self.load = Some(Load::new(
+            ticket,
+            "Loading",
+            LoadOf::Segments(Box::new(want)),
+        ));
     }
 
     /// What is wrong with the file of a load, by the hash of its bytes: the document asks for another one. A file that
@@ -290,11 +294,9 @@ impl Session {
         }
     }
 
-    /// A load brought the file whose hash the document waits for. True if the document wants another of its volumes.
+    /// A load brought the file whose hash the document waits for. True if the document wants it read in another way.
     fn wants_other_frame(&self, loaded: &Reading) -> bool {
-        self.illustration()
-            .subject
-            .reading()
-            .is_some_and(|wanted| wanted != loaded)
+        let subject = &self.illustration().subject;
+        !matches!(subject, SubjectRef::Builtin { .. }) && Want::subject(subject).reading != *loaded
     }
 }

@@ -38,7 +38,7 @@ pub enum LoadOf {
     /// A file that takes the place of the document's subject, whichever that is.
     Instead,
     /// A label volume that the document names.
-    Segments(Want),
+    Segments(Box<Want>),
 }
 
 /// A load under way.

@@ -204,7 +204,7 @@ pub(crate) fn subject_title(subject_ref: &SubjectRef) -> String {
         SubjectRef::Builtin { name } => subject(name),
         SubjectRef::Address { name, .. } => or(name, bar::w().scan_from_address),
         SubjectRef::Supplied { name, .. } => or(name, bar::w().own_scan),
-        SubjectRef::Meshes(meshes) => match meshes.as_slice() {
+        SubjectRef::Meshes { meshes, .. } => match meshes.as_slice() {
             [one] => or(&one.name, bar::w().own_surface),
             _ => bar::w().own_surfaces.to_owned(),
         },

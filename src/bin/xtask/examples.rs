@@ -42,10 +42,10 @@ pub(crate) fn documents(root: &Path) -> Result<Vec<(String, Document)>, String> 
 pub(crate) fn examples(root: &Path) -> Result<Vec<(String, Document)>, String> {
     const FIRST: [&str; 4] = ["head", "torso", "knee", "hand"];
     let mut examples = documents(root)?;
-    let names: Vec<&str> = FIRST.iter().chain(subjects::names()).copied().collect();
+    let names: Vec<&str> = FIRST.iter().copied().chain(subjects::all_names()).collect();
     examples.sort_by_key(|(_, document)| match &document.illustration().subject {
         SubjectRef::Builtin { name } => names.iter().position(|other| other == name),
-        SubjectRef::Address { .. } | SubjectRef::Supplied { .. } | SubjectRef::Meshes(_) => {
+        SubjectRef::Address { .. } | SubjectRef::Supplied { .. } | SubjectRef::Meshes { .. } => {
             Some(names.len())
         }
     });

@@ -5,7 +5,7 @@ use glam::{DAffine3, UVec3, Vec3};
 use super::field::{FIELD_MARGIN, SurfaceField};
 use super::tree::{Tree, TreeNode};
 use super::triangle::Triangle;
-use super::whole::{MAX_SURFACE_SEGMENTS, Surface, SurfaceSegment, segmentation_of};
+use super::whole::{MAX_SURFACE_SEGMENTS, Surface, SurfaceSegment, frame_of, segmentation_of};
 use crate::data::Grid;
 use crate::math::Aabb;
 
@@ -161,7 +161,7 @@ impl SurfaceArrays {
             && grid.dims + 2 * FIELD_MARGIN == field.dims;
         let segmentation = is_whole.then(|| segmentation_of(grid, &field, &segments))?;
         Some(Surface {
-            frame: grid.frame(),
+            frame: frame_of(&grid, field.rest_from_inner_voxel()),
             triangles,
             normals,
             colors,

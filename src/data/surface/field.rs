@@ -32,25 +32,37 @@ pub struct SurfaceField {
     pub sets: Vec<u128>,
 }
 
+impl SurfaceField {
+    /// Rest space from the voxels without the margin.
+    pub fn rest_from_inner_voxel(&self) -> DAffine3 {
+        self.rest_from_voxel * DAffine3::from_translation(DVec3::splat(FIELD_MARGIN.into()))
+    }
+}
+
 /// How often a place is inside of a segment by its set: 0 to 3, two bits for each segment.
 pub fn times_inside(set: u128, segment: usize) -> u8 {
     (set >> (2 * segment) & 3) as u8
 }
 
-/// The voxels of a field around a box whose longest side is 1, without the margin: their number and the length of their
-/// sides. Voxels are as near to cubes as whole numbers of them allow.
+/// The voxels of a field around a box, without the margin: their number and the length of their sides. Voxels are as
+/// near to cubes as whole numbers of them allow.
 pub(super) fn voxels_of(bounds: &Aabb) -> (UVec3, Vec3) {
     let size = bounds.size();
-    let count = (size * FIELD_VOXELS as f32)
+    let longest = size.max_element();
+    let count = (size / longest * FIELD_VOXELS as f32)
         .ceil()
         .max(Vec3::ONE)
         .as_uvec3();
     let spacing = size / count.as_vec3();
     // A flat side has voxels all the same.
-    let flat = 1.0 / FIELD_VOXELS as f32;
+    let flat = longest / FIELD_VOXELS as f32;
     (
         count,
-        Vec3::select(size.cmplt(Vec3::splat(1e-6)), Vec3::splat(flat), spacing),
+        Vec3::select(
+            size.cmplt(Vec3::splat(1e-6 * longest)),
+            Vec3::splat(flat),
+            spacing,
+        ),
     )
 }
 

@@ -87,8 +87,14 @@ impl Tree {
     }
 
     /// The point of the triangles (in the order of the leaves) that is nearest to a place, if it is nearer than
-    /// `within`.
-    pub fn nearest(&self, triangles: &[Triangle], place: Vec3, within: f32) -> Option<Nearest> {
+    /// `within`. Only triangles that `is_meant` count.
+    pub fn nearest(
+        &self,
+        triangles: &[Triangle],
+        place: Vec3,
+        within: f32,
+        is_meant: impl Fn(usize) -> bool,
+    ) -> Option<Nearest> {
         let best = std::cell::Cell::new(within * within);
         let mut found = None;
         let mut leaves = self.leaves(|bounds| {
@@ -96,7 +102,7 @@ impl Tree {
             away.length_squared() < best.get()
         });
         while let Some(leaf) = leaves() {
-            for index in leaf {
+            for index in leaf.filter(|&index| is_meant(index)) {
                 let point = triangles[index].nearest_point(place);
                 let squared = point.distance_squared(place);
                 if squared < best.get() {
@@ -269,7 +275,9 @@ mod tests {
                     .iter()
                     .map(|t| t.nearest_point(place).distance(place))
                     .fold(f32::INFINITY, f32::min);
-                let found = tree.nearest(&sorted, place, f32::INFINITY).expect("one");
+                let found = tree
+                    .nearest(&sorted, place, f32::INFINITY, |_| true)
+                    .expect("one");
                 assert!((found.distance - nearest).abs() < 1e-6, "{count}");
                 let all = sorted
                     .iter()
@@ -293,6 +301,6 @@ mod tests {
     #[test]
     fn no_triangle_has_no_tree() {
         let tree = Tree::new(&[]);
-        assert_eq!(tree.nearest(&[], Vec3::ZERO, 1.0), None);
+        assert_eq!(tree.nearest(&[], Vec3::ZERO, 1.0, |_| true), None);
     }
 }

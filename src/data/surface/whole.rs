@@ -10,7 +10,7 @@ use super::winding::Winding;
 use crate::data::frame::SubjectFrame;
 use crate::data::mesh::edges::{by_edge, sides};
 use crate::data::mesh::pieces;
-use crate::data::{Coloring, Grid, Mesh, NO_INDEX, Segment, Segmentation};
+use crate::data::{Coloring, Grid, Mesh, MeshPart, NO_INDEX, Segment, Segmentation};
 use crate::math::{Aabb, linear_from_srgb, srgb_from_linear};
 
 /// Segments of one surface at most; the parts beyond them belong to the last one.
@@ -18,6 +18,9 @@ pub const MAX_SURFACE_SEGMENTS: usize = 64;
 
 /// Colour where a file gives none, sRGB.
 pub const PLAIN_SRGB: [u8; 3] = [0xd8, 0xcd, 0xbd];
+
+/// How far vertices may lie beyond a box that a document gives, as a multiple of its longest side.
+const MAX_BEYOND: f64 = 100.0;
 
 /// Triangles of a piece that are asked for the winding number around them.
 const SAMPLES_OF_PIECE: usize = 64;
@@ -64,6 +67,8 @@ pub struct SurfaceSegment {
 pub enum SurfaceError {
     /// All its vertices lie at one place, or it has no triangle.
     NoSize,
+    /// Vertices lie farther from the box that gives the unit than the picture reaches.
+    FarFromBox,
     /// It was stopped.
     Stopped,
 }
@@ -72,6 +77,7 @@ impl std::fmt::Display for SurfaceError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::NoSize => "the mesh has no size",
+            Self::FarFromBox => "the mesh lies a hundred times the box's size away from `subject.box`, or is that large",
             Self::Stopped => "stopped",
         })
     }
@@ -80,8 +86,8 @@ impl std::fmt::Display for SurfaceError {
 impl std::error::Error for SurfaceError {}
 
 impl Surface {
-    /// Prepares a mesh. `smooth_degrees` is the crease angle; `None` takes the file's own normals. `go_on` is told how
-    /// far it is, 0 to 1, and stops it by `false`.
+    /// Prepares a mesh alone. `smooth_degrees` is the crease angle; `None` takes the file's own normals. `go_on` is
+    /// told how far it is, 0 to 1, and stops it by `false`.
     ///
     /// # Errors
     /// [`SurfaceError`].
@@ -90,8 +96,23 @@ impl Surface {
         smooth_degrees: Option<f32>,
         go_on: &mut dyn FnMut(f32) -> bool,
     ) -> Result<Self, SurfaceError> {
-        let (grid, subject_from_world) = grid_of(mesh).ok_or(SurfaceError::NoSize)?;
-        let frame = grid.frame();
+        Self::of(&[(mesh, smooth_degrees)], None, go_on)
+    }
+
+    /// As [`Surface::new`], of several meshes, each with its crease angle; no two parts of theirs have one name.
+    /// `within` takes the place of the box of all vertices: least and greatest coordinates, mm, RAS+. Its middle is the
+    /// origin, and its longest side the unit.
+    ///
+    /// # Errors
+    /// [`SurfaceError`].
+    pub fn of(
+        meshes: &[(&Mesh, Option<f32>)],
+        within: Option<[DVec3; 2]>,
+        go_on: &mut dyn FnMut(f32) -> bool,
+    ) -> Result<Self, SurfaceError> {
+        let mesh = &joined(meshes);
+        let (grid, subject_from_world) = grid_of(mesh, within)?;
+        let frame = frame_of(&grid, subject_from_world * grid.world_from_voxel);
         let mut triangles: Vec<Triangle> = mesh
             .triangles
             .iter()
@@ -100,8 +121,9 @@ impl Surface {
                 Triangle(mesh.corners_of(triangle).map(place))
             })
             .collect();
-        let mut normals = corner_normals(mesh, smooth_degrees);
-        let mut colors = corner_colors(mesh);
+        let each = |&(mesh, smooth): &(&Mesh, Option<f32>)| corner_normals(mesh, smooth);
+        let mut normals: Vec<_> = meshes.iter().flat_map(each).collect();
+        let mut colors: Vec<_> = meshes.iter().flat_map(|(m, _)| corner_colors(m)).collect();
         let (segments, mut segment_of) = segments_of(mesh, &colors, &triangles);
         let mut stop_at = |part: f32| {
             if go_on(part) {
@@ -167,9 +189,9 @@ impl Surface {
         }
     }
 
-    /// The first segment that a place of rest space is inside of, an index into `segments`: by the nearest voxel, and
-    /// by the triangles on the way to its centre.
-    pub fn segment_at(&self, place: Vec3) -> Option<usize> {
+    /// The segments that a place of rest space is inside of, bit `k` for segment `k`: by the nearest voxel, and by the
+    /// triangles on the way to its centre.
+    pub fn inside_of(&self, place: Vec3) -> u64 {
         let field = &self.field;
         let voxel = field
             .rest_from_voxel
@@ -177,7 +199,7 @@ impl Surface {
             .transform_point3(place.as_dvec3());
         let last = field.dims.as_dvec3() - 1.0;
         if voxel.cmplt(DVec3::splat(-0.5)).any() || voxel.cmpgt(last + 0.5).any() {
-            return None;
+            return 0;
         }
         let nearest = voxel.round().clamp(DVec3::ZERO, last);
         let center = field.rest_from_voxel.transform_point3(nearest).as_vec3();
@@ -191,21 +213,38 @@ impl Surface {
             .crossings(&self.triangles, place, center, |triangle, _, is_front| {
                 times[usize::from(self.segment_of[triangle])] += if is_front { -1 } else { 1 };
             });
-        times[..self.segments.len()]
-            .iter()
-            .position(|&times| times > 0)
+        let inside = times.iter().zip(0..).filter(|(times, _)| **times > 0);
+        inside.fold(0, |all, (_, k)| all | 1 << k)
     }
 
-    /// Distance of a place of rest space to the nearest triangle, subject units, positive where some segment is inside
-    /// (spec/surfaces.md, `depth`).
+    /// The first segment that a place of rest space is inside of, an index into `segments`.
+    pub fn segment_at(&self, place: Vec3) -> Option<usize> {
+        let inside = self.inside_of(place);
+        (inside != 0).then(|| inside.trailing_zeros() as usize)
+    }
+
+    /// Distance of a place of rest space to the triangles of a segment, subject units; infinite if it has none.
+    pub fn distance_to(&self, segment: usize, place: Vec3) -> f32 {
+        let is_own = |triangle: usize| usize::from(self.segment_of[triangle]) == segment;
+        self.tree
+            .nearest(&self.triangles, place, f32::INFINITY, is_own)
+            .map_or(f32::INFINITY, |nearest| nearest.distance)
+    }
+
+    /// Distance of a place of rest space to the nearest triangle, subject units, positive inside; of several segments
+    /// the greatest (spec/surfaces.md, `depth`).
     pub fn depth_at(&self, place: Vec3) -> f32 {
-        let nearest = self.tree.nearest(&self.triangles, place, f32::INFINITY);
-        let distance = nearest.map_or(f32::INFINITY, |nearest| nearest.distance);
-        if self.segment_at(place).is_none() {
-            -distance
-        } else {
-            distance
+        let inside = self.inside_of(place);
+        if inside == 0 {
+            let nearest = self
+                .tree
+                .nearest(&self.triangles, place, f32::INFINITY, |_| true);
+            return nearest.map_or(f32::NEG_INFINITY, |nearest| -nearest.distance);
         }
+        (0..self.segments.len())
+            .filter(|k| inside >> k & 1 == 1)
+            .map(|k| self.distance_to(k, place))
+            .fold(0.0, f32::max)
     }
 }
 
@@ -213,8 +252,56 @@ fn in_order<T: Copy>(order: &[u32], values: &[T]) -> Vec<T> {
     order.iter().map(|&i| values[i as usize]).collect()
 }
 
-/// The grid of the field without its margin, and subject space from the mesh's millimetres; `None` if it has no size.
-fn grid_of(mesh: &Mesh) -> Option<(Grid, DAffine3)> {
+/// All triangles, parts and materials of several meshes. Normals and colours at corners are left out.
+fn joined(meshes: &[(&Mesh, Option<f32>)]) -> Mesh {
+    let mut all = Mesh::default();
+    for (mesh, _) in meshes {
+        let (place, triangle) = (all.positions.len() as u32, all.triangles.len());
+        let material = all.materials.len() as u32;
+        all.positions.extend(&mesh.positions);
+        let moved = mesh.triangles.iter();
+        all.triangles
+            .extend(moved.map(|corners| corners.map(|index| index + place)));
+        all.parts.extend(mesh.parts.iter().map(|part| MeshPart {
+            name: part.name.clone(),
+            triangles: part.triangles.start + triangle..part.triangles.end + triangle,
+        }));
+        let material_of = |index: usize| match mesh.material_of.get(index) {
+            None | Some(&NO_INDEX) => NO_INDEX,
+            Some(own) => own + material,
+        };
+        all.material_of
+            .extend((0..mesh.triangles.len()).map(material_of));
+        all.materials.extend(&mesh.materials);
+    }
+    all
+}
+
+/// Where a surface lies and how fine it is, by its grid without margin and subject space from the grid's voxels.
+pub(super) fn frame_of(grid: &Grid, subject_from_voxel: DAffine3) -> SubjectFrame {
+    let corner = |voxel: DVec3| subject_from_voxel.transform_point3(voxel).as_vec3();
+    let world_from_subject = grid.world_from_voxel * subject_from_voxel.inverse();
+    let spacing = DVec3::from(
+        subject_from_voxel
+            .matrix3
+            .to_cols_array_2d()
+            .map(DVec3::from)
+            .map(DVec3::length),
+    );
+    SubjectFrame {
+        bounds: Aabb {
+            min: corner(DVec3::splat(-0.5)),
+            max: corner(grid.dims.as_dvec3() - 0.5),
+        },
+        mm_per_unit: world_from_subject.matrix3.x_axis.length(),
+        middle_mm: world_from_subject.translation,
+        detail: spacing.min_element() as f32,
+    }
+}
+
+/// The grid of the field without its margin, and subject space from millimetres, by the box of the vertices or by
+/// another one.
+fn grid_of(mesh: &Mesh, within: Option<[DVec3; 2]>) -> Result<(Grid, DAffine3), SurfaceError> {
     let used = mesh.triangles.iter().flatten();
     let places = used.map(|&index| mesh.positions[index as usize].as_dvec3());
     let (min, max) = places.fold(
@@ -223,24 +310,30 @@ fn grid_of(mesh: &Mesh) -> Option<(Grid, DAffine3)> {
     );
     let longest = (max - min).max_element();
     if longest <= 0.0 || !longest.is_finite() {
-        return None;
+        return Err(SurfaceError::NoSize);
     }
-    let middle = (min + max) * 0.5;
-    let half = ((max - min) * 0.5 / longest).as_vec3();
+    let [low, high] = within.unwrap_or([min, max]);
+    let unit_mm = (high - low).max_element();
+    if (min - low).abs().max((max - high).abs()).max_element() > MAX_BEYOND * unit_mm {
+        return Err(SurfaceError::FarFromBox);
+    }
+    let origin = (low + high) * 0.5;
+    let half = ((max - min) * 0.5 / unit_mm).as_vec3();
     let bounds = Aabb {
         min: -half,
         max: half,
     };
+    // Voxels are so small that the longest side of the vertices has as many of them in any unit.
     let (dims, spacing) = voxels_of(&bounds);
-    let spacing_mm = spacing.as_dvec3() * longest;
-    let first = middle - spacing_mm * (dims - 1).as_dvec3() * 0.5;
+    let spacing_mm = spacing.as_dvec3() * unit_mm;
+    let first = (min + max) * 0.5 - spacing_mm * (dims - 1).as_dvec3() * 0.5;
     let grid = Grid {
         dims,
         world_from_voxel: DAffine3::from_translation(first) * DAffine3::from_scale(spacing_mm),
     };
     let subject_from_world =
-        DAffine3::from_scale(DVec3::splat(1.0 / longest)) * DAffine3::from_translation(-middle);
-    Some((grid, subject_from_world))
+        DAffine3::from_scale(DVec3::splat(1.0 / unit_mm)) * DAffine3::from_translation(-origin);
+    Ok((grid, subject_from_world))
 }
 
 /// Colours of the corners by what the file gives (spec/surfaces.md, "The colour of a point").
@@ -553,7 +646,7 @@ mod tests {
                         let place = field.rest_from_voxel.transform_point3(voxel).as_vec3();
                         let exact = ball
                             .tree
-                            .nearest(&ball.triangles, place, 9.0)
+                            .nearest(&ball.triangles, place, 9.0, |_| true)
                             .expect("one")
                             .distance;
                         let own = field.depths[index];

@@ -1,7 +1,7 @@
 //! The whole illustration: what a document means once its defaults are filled in.
 
 use super::look::{Background, Look, OpacityMode, Transfer, Window};
-use super::mesh::{MeshRef, SubjectBox};
+use super::mesh::MeshRef;
 use super::object::SceneObject;
 use super::recipe::Recipe;
 use super::script::needs_shaping;
@@ -31,8 +31,6 @@ pub struct Illustration {
     /// Meshes that come with the subject's own file or built-in subject. A subject of meshes alone has its meshes in
     /// [`SubjectRef::Meshes`]; [`Illustration::meshes`] gives either.
     pub meshes_beside: Vec<MeshRef>,
-    /// The box that gives a subject of meshes alone its origin and its unit; `None` takes that of its vertices.
-    pub subject_box: Option<SubjectBox>,
     /// Label volumes beside the subject.
     pub segments: Vec<SegmentsRef>,
     /// Recipes of segments that are made from the subject's values, besides the segments that come with files.
@@ -69,7 +67,6 @@ impl Illustration {
             },
             subject_revision: None,
             meshes_beside: Vec::new(),
-            subject_box: None,
             segments: Vec::new(),
             recipes: Vec::new(),
             objects: Vec::new(),
@@ -97,7 +94,7 @@ impl Illustration {
     /// subject's own file is a mesh, that comes before these.
     pub fn meshes(&self) -> &[MeshRef] {
         match &self.subject {
-            SubjectRef::Meshes(meshes) => meshes,
+            SubjectRef::Meshes { meshes, .. } => meshes,
             _ => &self.meshes_beside,
         }
     }

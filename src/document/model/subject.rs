@@ -1,6 +1,6 @@
 //! Which file or built-in subject is illustrated, and how its file is read.
 
-use super::mesh::{MeshReading, MeshRef};
+use super::mesh::{MeshReading, MeshRef, SubjectBox};
 
 /// The subject of a document.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,15 +30,20 @@ pub enum SubjectRef {
         /// How the file is read.
         reading: Reading,
     },
-    /// Meshes alone, in the order of `subject.meshes`; those without a file are left out.
-    Meshes(Vec<MeshRef>),
+    /// Meshes alone.
+    Meshes {
+        /// In the order of `subject.meshes`; those without a file are left out.
+        meshes: Vec<MeshRef>,
+        /// The box that gives origin and unit; `None` takes that of all vertices.
+        bounds: Option<SubjectBox>,
+    },
 }
 
 impl SubjectRef {
     /// How its file is read; `None` for a built-in subject and for meshes alone, which have a reading each.
     pub fn reading(&self) -> Option<&Reading> {
         match self {
-            Self::Builtin { .. } | Self::Meshes(_) => None,
+            Self::Builtin { .. } | Self::Meshes { .. } => None,
             Self::Address { reading, .. } | Self::Supplied { reading, .. } => Some(reading),
         }
     }
@@ -49,7 +54,7 @@ impl SubjectRef {
         match self {
             Self::Builtin { .. } | Self::Supplied { .. } => None,
             Self::Address { src, .. } => Some(src),
-            Self::Meshes(meshes) => meshes.first()?.src.as_deref(),
+            Self::Meshes { meshes, .. } => meshes.first()?.src.as_deref(),
         }
     }
 
@@ -59,7 +64,7 @@ impl SubjectRef {
         match self {
             Self::Builtin { .. } | Self::Address { .. } => None,
             Self::Supplied { sha256, .. } => Some(sha256),
-            Self::Meshes(meshes) => {
+            Self::Meshes { meshes, .. } => {
                 let first = meshes.first().filter(|mesh| mesh.src.is_none())?;
                 first.sha256.as_deref()
             }
@@ -73,7 +78,12 @@ impl SubjectRef {
             match &mut subject {
                 Self::Builtin { .. } => {}
                 Self::Address { name, .. } | Self::Supplied { name, .. } => name.clear(),
-                Self::Meshes(meshes) => meshes.iter_mut().for_each(|mesh| mesh.name.clear()),
+                // The author's names of several meshes are those of their segments.
+                Self::Meshes { meshes, .. } => {
+                    if let [one] = meshes.as_mut_slice() {
+                        one.name.clear();
+                    }
+                }
             }
             subject
         };
@@ -84,7 +94,7 @@ impl SubjectRef {
     #[must_use]
     pub fn with_reading(mut self, new: Reading) -> Self {
         match &mut self {
-            Self::Builtin { .. } | Self::Meshes(_) => {}
+            Self::Builtin { .. } | Self::Meshes { .. } => {}
             Self::Address { reading, .. } | Self::Supplied { reading, .. } => *reading = new,
         }
         self
@@ -101,6 +111,10 @@ pub struct Reading {
     pub raw: Option<RawVoxels>,
     /// How a file is read that holds a mesh.
     pub mesh: MeshReading,
+    /// The box that gives a mesh its origin and unit; `None` takes that of its vertices.
+    pub bounds: Option<SubjectBox>,
+    /// All meshes of a subject that has several, the one that this is the reading of first; else none.
+    pub meshes: Vec<MeshRef>,
 }
 
 /// The layout of a file that holds bare voxels, as its author describes it.

@@ -45,6 +45,28 @@ impl Layer {
     /// Most variation of a layer's colour.
     pub const MAX_GRAIN: f32 = 0.5;
 
+    /// The layers of a built-in subject whose document gives none; empty for one that has none of its own.
+    pub fn of_builtin(name: &str) -> Vec<Self> {
+        let layers: &[(f32, &str, [u8; 3], f32)] = match name {
+            "apple" => &[
+                (0.0, "skin", [0x8e, 0x1c, 0x26], 0.0),
+                (0.008, "flesh", [0xf4, 0xea, 0xc4], 0.06),
+                (0.23, "core", [0xe2, 0xd3, 0x9c], 0.12),
+            ],
+            _ => &[],
+        };
+        let layers = layers.iter().enumerate();
+        let layer =
+            |(index, &(depth, name, color, grain)): (usize, &(f32, &str, [u8; 3], f32))| Self {
+                index,
+                depth,
+                name: name.to_owned(),
+                color_srgb: Some(color),
+                grain,
+            };
+        layers.map(layer).collect()
+    }
+
     /// Sorts layers by depth; layers of one depth stay in the order of the document.
     pub(crate) fn sort(layers: &mut [Self]) {
         layers.sort_by(|a, b| a.depth.total_cmp(&b.depth).then(a.index.cmp(&b.index)));

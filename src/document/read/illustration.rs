@@ -4,8 +4,8 @@ use super::object::{Object, wrong};
 use super::reader::Reader;
 use crate::document::limits::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS};
 use crate::document::model::{
-    Camera, Caption, Illustration, MeshRef, PlacedTemplate, SceneObject, Step, SubjectRef,
-    TemplateData, keep_sets,
+    Camera, Caption, Illustration, MeshRef, PlacedTemplate, SceneObject, Step, TemplateData,
+    keep_sets,
 };
 use crate::document::schema::ROOT;
 use crate::document::text::json::number_text;
@@ -52,12 +52,11 @@ impl Reader {
         self.unknown_keys(&root);
         let subject_object = root.child("subject")?;
         let (subject, meshes_beside) = self.subject(&subject_object)?;
-        let subject_box = self.subject_box(&subject_object)?;
         let subject_revision = self.revision(&subject_object)?;
         let segments = self.segments(&subject_object)?;
         let recipes = self.recipes(&subject_object)?;
         let objects = self.objects(&root)?;
-        self.not_drawn_yet(&meshes_beside, (&subject, subject_box.is_some()), &objects);
+        self.not_drawn_yet(&meshes_beside, &objects);
         let mut templates = Vec::new();
         for (index, object) in root.children("templates")?.enumerate() {
             templates.extend(self.template(index, &object?)?);
@@ -79,7 +78,7 @@ impl Reader {
                 limit: MAX_KEEP_SETS,
             });
         }
-        let look = self.look(&root.child("look")?)?;
+        let look = self.look(&root.child("look")?, &subject)?;
         let camera = self.camera(&root.child("camera")?)?;
         let mut captions = Vec::new();
         for object in root.children("labels")? {
@@ -114,7 +113,6 @@ impl Reader {
             subject,
             subject_revision,
             meshes_beside,
-            subject_box,
             segments,
             recipes,
             objects,
@@ -128,22 +126,13 @@ impl Reader {
     }
 
     /// One notice for all keys that this version reads and does not draw.
-    fn not_drawn_yet(
-        &mut self,
-        beside: &[MeshRef],
-        (subject, has_box): (&SubjectRef, bool),
-        objects: &[SceneObject],
-    ) {
-        let several = matches!(subject, SubjectRef::Meshes(meshes) if meshes.len() > 1);
+    fn not_drawn_yet(&mut self, beside: &[MeshRef], objects: &[SceneObject]) {
         let mut keys = Vec::new();
-        if several || !beside.is_empty() {
+        if !beside.is_empty() {
             keys.push("/subject/meshes");
         }
         if !objects.is_empty() {
             keys.push("/objects");
-        }
-        if has_box {
-            keys.push("/subject/box");
         }
         if let Some(first) = keys.first().copied() {
             self.note(first, NoticeKind::NotDrawnYet { keys });

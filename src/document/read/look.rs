@@ -3,7 +3,7 @@
 use super::object::{Object, wrong};
 use super::reader::Reader;
 use crate::document::model::{
-    Background, Look, OpacityMode, SegmentLook, Transfer, TransferPoint, Window, preset,
+    Background, Look, OpacityMode, SegmentLook, SubjectRef, Transfer, TransferPoint, Window, preset,
 };
 use crate::document::schema::MAX_VALUE;
 use crate::document::text::DocumentError;
@@ -12,7 +12,11 @@ use serde_json::Value;
 const WHITE: [u8; 3] = [255; 3];
 
 impl Reader {
-    pub(super) fn look(&mut self, object: &Object<'_>) -> Result<Look, DocumentError> {
+    pub(super) fn look(
+        &mut self,
+        object: &Object<'_>,
+        subject: &SubjectRef,
+    ) -> Result<Look, DocumentError> {
         self.unknown_keys(object);
         let transfer = self.transfer(object)?;
         let window = self.window(object)?;
@@ -23,7 +27,7 @@ impl Reader {
         let opacity = OpacityMode::ALL[self.choice(object, "opacity")?];
         let gradient = self.number(object, "gradient")?;
         let segments = self.segment_looks(&object.child("segments")?)?;
-        let surface = self.surface(object)?;
+        let surface = self.surface(object, subject)?;
         let background = match object.text("background")? {
             Some("none") => Background::None,
             _ => Background::Color(

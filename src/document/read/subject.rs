@@ -23,9 +23,9 @@ impl Reader {
                 let taken = "the list of meshes";
                 self.note(object.at(key), NoticeKind::LeftAside { taken });
             }
-            self.reading(object)?;
+            let bounds = self.reading(object)?.bounds;
             object.string("name")?;
-            return Ok((SubjectRef::Meshes(meshes), Vec::new()));
+            return Ok((SubjectRef::Meshes { meshes, bounds }, Vec::new()));
         }
         Ok((self.volume_or_mesh(object)?, meshes))
     }
@@ -94,6 +94,8 @@ impl Reader {
             frame: object.whole("frame")?,
             raw,
             mesh: self.mesh_reading(object)?,
+            bounds: self.subject_box(object)?,
+            meshes: Vec::new(),
         })
     }
 

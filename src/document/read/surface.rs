@@ -2,20 +2,33 @@
 
 use super::object::Object;
 use super::reader::Reader;
-use crate::document::model::{BodyKind, Layer, SurfaceChange, SurfaceLook};
+use crate::document::model::{BodyKind, Layer, SubjectRef, SurfaceChange, SurfaceLook};
 use crate::document::text::DocumentError;
 
 /// What a notice says in place of a colour that is none.
 const DEFAULT: &str = "the default";
 
 impl Reader {
-    /// The keys of `look`.
-    pub(super) fn surface(&mut self, look: &Object<'_>) -> Result<SurfaceLook, DocumentError> {
+    /// The keys of `look`. Without `layers` those of the subject itself count.
+    pub(super) fn surface(
+        &mut self,
+        look: &Object<'_>,
+        subject: &SubjectRef,
+    ) -> Result<SurfaceLook, DocumentError> {
+        let own = match subject {
+            SubjectRef::Builtin { name } if !look.map.contains_key("layers") => {
+                Layer::of_builtin(name)
+            }
+            _ => Vec::new(),
+        };
         Ok(SurfaceLook {
             body: BodyKind::ALL[self.choice(look, "body")?],
             thickness: self.number(look, "thickness")?,
             inside_srgb: self.color(look, "inside", DEFAULT)?,
-            layers: self.layers(look)?,
+            layers: match own.is_empty() {
+                true => self.layers(look)?,
+                false => own,
+            },
             gloss: self.number(look, "gloss")?,
         })
     }

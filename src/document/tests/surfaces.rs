@@ -2,8 +2,8 @@
 
 use super::{document, error, notices};
 use crate::document::{
-    BodyKind, Document, Edit, History, MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits,
-    ObjectPlacement, ObjectSource, SubjectBox, SubjectRef,
+    BodyKind, Document, Edit, History, Illustration, MeshAxes, MeshParts, MeshReading, MeshRef,
+    MeshUnits, ObjectPlacement, ObjectSource, SubjectBox, SubjectRef,
 };
 use crate::math::mix_srgb;
 use glam::{DVec3, Quat, Vec3};
@@ -31,6 +31,13 @@ fn full() -> String {
     lines.collect::<String>().replace("HASH", &hash("0a"))
 }
 
+fn bounds_of(shown: &Illustration) -> Option<SubjectBox> {
+    match &shown.subject {
+        SubjectRef::Meshes { bounds, .. } => *bounds,
+        subject => subject.reading().and_then(|reading| reading.bounds),
+    }
+}
+
 #[test]
 fn every_key_is_read_and_written_as_it_was() {
     let text = full();
@@ -40,10 +47,10 @@ fn every_key_is_read_and_written_as_it_was() {
         Document::from_json(&document.to_json()).expect("its own text"),
         document
     );
-    let line = format!("/subject/meshes, /objects, /subject/box: {NOT_DRAWN}");
+    let line = format!("/objects: {NOT_DRAWN}");
     assert_eq!(notices(&document), [line], "one notice for all of it");
     let shown = document.illustration();
-    let SubjectRef::Meshes(meshes) = &shown.subject else {
+    let SubjectRef::Meshes { meshes, .. } = &shown.subject else {
         panic!("meshes alone: {:?}", shown.subject);
     };
     assert_eq!(shown.meshes(), meshes);
@@ -61,7 +68,7 @@ fn every_key_is_read_and_written_as_it_was() {
     assert_eq!(first.reading, reading);
     assert_eq!(meshes[1].sha256, Some(hash("0a")));
     assert_eq!(meshes[1].reading.smooth_deg, None, "the file's own normals");
-    let subject_box = shown.subject_box.expect("a box");
+    let subject_box = bounds_of(shown).expect("a box");
     assert_eq!(subject_box.middle_mm(), DVec3::new(0.0, 0.0, 0.75));
     assert_eq!(subject_box.mm_per_unit(), 61.5);
 
@@ -150,7 +157,7 @@ fn meshes_are_the_subject_or_lie_beside_it() {
     };
     let mesh = json!([{ "src": "a.stl" }]);
     let (alone, shown) = subject(json!({ "meshes": mesh }));
-    assert!(matches!(&shown.subject, SubjectRef::Meshes(meshes) if meshes.len() == 1));
+    assert!(matches!(&shown.subject, SubjectRef::Meshes { meshes, .. } if meshes.len() == 1));
     assert!(shown.meshes_beside.is_empty());
     assert!(alone.notices().is_empty(), "{:?}", alone.notices());
     assert_eq!(shown.subject.src(), Some("a.stl"));
@@ -177,7 +184,10 @@ fn meshes_are_the_subject_or_lie_beside_it() {
     let (_, shown) = subject(json!({ "meshes": [{ "name": "lost" }] }));
     assert_eq!(
         shown.subject,
-        SubjectRef::Meshes(Vec::new()),
+        SubjectRef::Meshes {
+            meshes: Vec::new(),
+            bounds: None
+        },
         "never the head"
     );
     let (_, shown) = subject(json!({ "meshes": [], "name": "none" }));
@@ -376,18 +386,12 @@ fn a_box_has_a_size() {
     }
     let flat = with([0.0, 0.0, 0.0, 0.0, 5.0, 0.0]).expect("one side is enough");
     assert_eq!(
-        flat.illustration()
-            .subject_box
-            .expect("a box")
-            .mm_per_unit(),
+        bounds_of(flat.illustration()).expect("a box").mm_per_unit(),
         5.0
     );
-    assert_eq!(
-        notices(&flat),
-        ["/subject/box: this version does not draw these yet; they are kept"]
-    );
+    assert!(notices(&flat).is_empty());
     let odd = with([0.0, 4.0, 0.0, 2.0, 1.0, 1e300]).expect("as well as can be");
-    let drawn = odd.illustration().subject_box.expect("a box");
+    let drawn = bounds_of(odd.illustration()).expect("a box");
     assert_eq!(
         (drawn.min_mm, drawn.max_mm),
         (DVec3::new(0.0, 4.0, 0.0), DVec3::new(2.0, 4.0, 1e7))
@@ -697,7 +701,10 @@ fn meshes_are_added_where_nothing_moves() {
     assert_eq!(history.undo_name(), Some("Add mesh"));
     assert!(history.undo());
     assert_eq!(history.document(), &Document::new());
-    let alone = SubjectRef::Meshes(vec![mesh("a.stl")]);
+    let alone = SubjectRef::Meshes {
+        meshes: vec![mesh("a.stl")],
+        bounds: None,
+    };
     history
         .apply(&Edit::SetSubject(alone.clone()))
         .expect("set");
@@ -714,7 +721,7 @@ fn meshes_are_added_where_nothing_moves() {
     history.apply(&add("c.stl", Some(second))).expect("added");
     let shown = history.document().illustration();
     assert_eq!(
-        (shown.meshes().len(), shown.subject_box),
+        (shown.meshes().len(), bounds_of(shown)),
         (3, Some(first)),
         "the box of the first stays"
     );

@@ -225,19 +225,20 @@ impl Edit {
             Self::SetSubject(subject) => {
                 // Segments belong to the file, however it is called and read.
                 if !is_same_file(root, subject) {
-                    for key in ["segments", "features", "meshes", "box"] {
+                    for key in ["segments", "features", "meshes"] {
                         pointer::remove(root, &join("/subject", key))?;
                     }
                 }
                 for key in [
                     "builtin", "revision", "src", "sha256", "name", "frame", "raw", "units",
-                    "axes", "parts", "smooth",
+                    "axes", "parts", "smooth", "box",
                 ] {
                     pointer::remove(root, &join("/subject", key))?;
                 }
-                if let SubjectRef::Meshes(meshes) = subject {
+                if let SubjectRef::Meshes { meshes, bounds } = subject {
                     let meshes: Value = meshes.iter().map(value::mesh).collect();
-                    return set(root, "/subject/meshes", meshes);
+                    set(root, "/subject/meshes", meshes)?;
+                    return set_box(root, *bounds);
                 }
                 let mut put =
                     |key: &str, value: &str| set(root, &join("/subject", key), json!(value));
@@ -256,10 +257,13 @@ impl Edit {
                         put("sha256", sha256)?;
                         put("name", name)
                     }
-                    SubjectRef::Meshes(_) => Ok(()),
+                    SubjectRef::Meshes { .. } => Ok(()),
                 }?;
                 match subject.reading() {
-                    Some(reading) => set_reading(root, reading),
+                    Some(reading) => {
+                        set_reading(root, reading)?;
+                        set_box(root, reading.bounds)
+                    }
                     None => Ok(()),
                 }
             }
@@ -330,7 +334,7 @@ fn is_same_file(root: &Value, subject: &SubjectRef) -> bool {
     match subject {
         SubjectRef::Builtin { .. } => false,
         // Whatever else is said of them, they are other files.
-        SubjectRef::Meshes(_) => false,
+        SubjectRef::Meshes { .. } => false,
         SubjectRef::Address { src, .. } => text("src") == src,
         SubjectRef::Supplied { sha256, .. } => {
             text("src").is_empty() && text("sha256").eq_ignore_ascii_case(sha256)
@@ -352,6 +356,15 @@ fn set_reading(root: &mut Value, reading: &Reading) -> Result<(), DocumentError>
     Ok(())
 }
 
+/// Writes the box of a subject of meshes, if there is one.
+fn set_box(root: &mut Value, box_mm: Option<SubjectBox>) -> Result<(), DocumentError> {
+    let Some(b) = box_mm else {
+        return Ok(());
+    };
+    let numbers = [b.min_mm.to_array(), b.max_mm.to_array()].concat();
+    set(root, "/subject/box", json!(numbers))
+}
+
 /// Adds a mesh behind those that are there. A document that names no subject shows the head, and goes on to. `box_mm`
 /// is the box that a subject of meshes has so far; written where none is, it keeps everything where it stands.
 fn add_mesh(
@@ -364,9 +377,6 @@ fn add_mesh(
     if !sources.into_iter().any(|key| has(root, key)) {
         set(root, "/subject/builtin", json!(DEFAULT_SUBJECT))?;
     }
-    if let Some(b) = box_mm.filter(|_| !has(root, "box")) {
-        let numbers = [b.min_mm.to_array(), b.max_mm.to_array()].concat();
-        set(root, "/subject/box", json!(numbers))?;
-    }
+    set_box(root, box_mm.filter(|_| !has(root, "box")))?;
     set(root, "/subject/meshes/-", value::mesh(mesh))
 }

@@ -50,4 +50,4 @@ pub use input::Progress;
 pub use options::{Axes, MAX_TRIANGLES, MeshOptions, PartsMode, Units};
 pub use read::{MeshOrNot, mesh_or_not, read_mesh};
 pub use report::{Aside, MeshReport, Origin, Repair};
-pub use subject::read_mesh_subject;
+pub use subject::{MeshFile, read_mesh_subject};

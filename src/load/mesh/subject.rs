@@ -1,9 +1,12 @@
+use std::collections::BTreeSet;
 use std::sync::Arc;
+
+use glam::DVec3;
 
 use super::error::MeshError;
 use super::options::MeshOptions;
 use super::read::read_mesh;
-use crate::data::{SubjectPart, SubjectSink, Surface, SurfaceError};
+use crate::data::{Mesh, SubjectPart, SubjectSink, Surface, SurfaceError};
 use crate::load::files::FileSet;
 use crate::load::report::Warning;
 use crate::load::{LoadError, LoadReport};
@@ -11,46 +14,228 @@ use crate::load::{LoadError, LoadReport};
 /// Part of the time that reading takes; preparing takes the rest.
 const READING: f32 = 0.2;
 
-/// Reads a mesh, prepares it to be drawn and hands it over. `smooth_degrees` as for [`Surface::new`].
+/// Name of a part that neither file nor document names.
+const NAMELESS: &str = "surface";
+
+/// A file of a subject of meshes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshFile {
+    /// Its name among the files.
+    pub file: String,
+    /// The author's name for it; may be empty.
+    pub name: String,
+    /// How it is read.
+    pub options: MeshOptions,
+    /// The crease angle, degrees; `None` takes the file's own normals.
+    pub smooth_degrees: Option<f32>,
+}
+
+/// Reads the meshes of a subject, prepares them to be drawn as one and hands them over. The report's hash is that of
+/// the first file. `within` as for [`Surface::of`].
 ///
 /// # Errors
 /// [`LoadError`], with name and place; also where the sink stops it.
 pub fn read_mesh_subject(
     files: &mut dyn FileSet,
-    name: &str,
-    options: &MeshOptions,
-    smooth_degrees: Option<f32>,
+    meshes: &[MeshFile],
+    within: Option<[DVec3; 2]>,
     sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
-    let (mesh, found) = read_mesh(files, name, options, &mut |part| {
-        sink.progress(READING * part)
-    })
-    .map_err(|error| match error {
-        MeshError::File(error) => error,
-        other => LoadError::Mesh {
-            message: other.to_string(),
-        },
-    })?;
-    report.sha256 = Some(found.sha256);
-    let repaired = found.repair.phrases().join(", ");
-    if !repaired.is_empty() {
-        let what = format!("the mesh was repaired: {repaired}");
-        report.warn(Warning::Mesh { what });
+    let mut read: Vec<(Mesh, Option<f32>)> = Vec::new();
+    let mut triangles = 0;
+    for (k, entry) in meshes.iter().enumerate() {
+        let options = MeshOptions {
+            max_triangles: entry.options.max_triangles.saturating_sub(triangles),
+            ..entry.options
+        };
+        let (mesh, found) = read_mesh(files, &entry.file, &options, &mut |part| {
+            sink.progress(READING * (k as f32 + part) / meshes.len() as f32)
+        })
+        .map_err(|error| match error {
+            MeshError::File(error) => error,
+            other => LoadError::Mesh {
+                message: other.to_string(),
+            },
+        })?;
+        triangles += mesh.triangles.len() as u64;
+        if k == 0 {
+            report.sha256 = Some(found.sha256);
+        }
+        // Of several files each notice says which is meant.
+        let of = match (meshes.len(), entry.name.as_str()) {
+            (1, _) => String::new(),
+            (_, "") => format!("mesh {}: ", k + 1),
+            (_, name) => format!("{name}: "),
+        };
+        let repaired = found.repair.phrases().join(", ");
+        if !repaired.is_empty() {
+            let what = format!("{of}the mesh was repaired: {repaired}");
+            report.warn(Warning::Mesh { what });
+        }
+        for aside in &found.aside {
+            let what = format!("{of}{aside}");
+            report.warn(Warning::Mesh { what });
+        }
+        read.push((mesh, entry.smooth_degrees));
     }
-    for aside in &found.aside {
-        let what = aside.to_string();
-        report.warn(Warning::Mesh { what });
-    }
-    let surface = Surface::new(&mesh, smooth_degrees, &mut |part| {
+    name_parts(&mut read, meshes);
+    let read: Vec<(&Mesh, Option<f32>)> = read.iter().map(|(mesh, s)| (mesh, *s)).collect();
+    let surface = Surface::of(&read, within, &mut |part| {
         sink.progress(READING + (1.0 - READING) * part)
     });
+    let first = meshes.first().map_or("", |mesh| mesh.file.as_str());
     let surface = surface.map_err(|error| match error {
-        SurfaceError::NoSize => LoadError::Mesh {
-            message: format!("{error} ({name})"),
+        SurfaceError::NoSize | SurfaceError::FarFromBox => LoadError::Mesh {
+            message: format!("{error} ({first})"),
         },
         SurfaceError::Stopped => LoadError::Cancelled,
     })?;
     let taken = sink.take(SubjectPart::Surface(Arc::new(surface)));
-    taken.map_err(LoadError::refused(name))
+    taken.map_err(LoadError::refused(first))
+}
+
+/// Names the parts of all files (spec/surfaces.md, `subject.meshes`): of a file with one part by the author's name for
+/// it, of others by the file's names, behind the author's where there are several files. No two are alike.
+fn name_parts(read: &mut [(Mesh, Option<f32>)], meshes: &[MeshFile]) {
+    let are_several = meshes.len() > 1;
+    let mut taken = BTreeSet::new();
+    for ((mesh, _), entry) in read.iter_mut().zip(meshes) {
+        let is_one = mesh.parts.len() == 1;
+        for part in &mut mesh.parts {
+            let own = std::mem::take(&mut part.name);
+            let wanted = match (is_one, entry.name.as_str()) {
+                (true, "") => NAMELESS.to_owned(),
+                (true, name) => name.to_owned(),
+                (false, name) if are_several && !name.is_empty() => format!("{name} {own}"),
+                (false, _) => own,
+            };
+            let numbered = (2..).map(|number| format!("{wanted} {number}"));
+            let mut names = std::iter::once(wanted.clone()).chain(numbered);
+            // There is always another number.
+            part.name = names.find(|name| !taken.contains(name)).unwrap_or_default();
+            taken.insert(part.name.clone());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load::MemoryFiles;
+
+    struct Taken(Option<Arc<Surface>>);
+
+    impl SubjectSink for Taken {
+        fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+            if let SubjectPart::Surface(surface) = part {
+                self.0 = Some(surface);
+            }
+            Ok(())
+        }
+
+        fn progress(&mut self, _fraction: f32) -> bool {
+            true
+        }
+    }
+
+    /// Triangles of 10 mm beside each other, an OBJ part each.
+    fn obj(parts: &[&str], x: f32) -> Vec<u8> {
+        let mut text = String::new();
+        for (name, k) in parts.iter().zip(0..) {
+            let y = 20 * k;
+            text += &format!(
+                "o {name}\nv {x} {y} 0\nv {} {y} 0\nv {x} {} 0\n",
+                x + 10.0,
+                y + 10
+            );
+            text += &format!("f {} {} {}\n", 3 * k + 1, 3 * k + 2, 3 * k + 3);
+        }
+        text.into_bytes()
+    }
+
+    fn read(
+        meshes: &[(&str, &[&str], &str)],
+        within: Option<[DVec3; 2]>,
+    ) -> Result<Arc<Surface>, LoadError> {
+        let contents = meshes
+            .iter()
+            .zip(0..)
+            .map(|((file, parts, _), k)| (*file, obj(parts, 30.0 * k as f32)));
+        let mut files = MemoryFiles::new(contents);
+        let entries: Vec<MeshFile> = meshes
+            .iter()
+            .map(|(file, _, name)| MeshFile {
+                file: (*file).to_owned(),
+                name: (*name).to_owned(),
+                options: MeshOptions {
+                    axes: Some(crate::load::Axes::Ras),
+                    ..MeshOptions::default()
+                },
+                smooth_degrees: None,
+            })
+            .collect();
+        let (mut taken, mut report) = (Taken(None), LoadReport::default());
+        read_mesh_subject(&mut files, &entries, within, &mut taken, &mut report)?;
+        Ok(taken.0.expect("it came"))
+    }
+
+    fn names(surface: &Surface) -> Vec<&str> {
+        surface
+            .segments
+            .iter()
+            .map(|segment| segment.name.as_str())
+            .collect()
+    }
+
+    #[test]
+    fn parts_are_named_by_author_and_file() {
+        let one = read(&[("a.obj", &["left"], "talus")], None).expect("a mesh");
+        assert_eq!(names(&one), ["talus"]);
+        let one = read(&[("a.obj", &["left", "right"], "talus")], None).expect("a mesh");
+        assert_eq!(names(&one), ["left", "right"]);
+        let several = read(
+            &[
+                ("a.obj", &["left", "right"], "talus"),
+                ("b.obj", &["x"], "skin"),
+                ("c.obj", &["x"], "skin"),
+                ("d.obj", &["y"], ""),
+            ],
+            None,
+        );
+        let several = several.expect("meshes");
+        assert_eq!(
+            names(&several),
+            ["talus left", "talus right", "skin", "skin 2", "surface"]
+        );
+    }
+
+    #[test]
+    fn the_box_of_all_or_of_the_document_gives_the_unit() {
+        let both: [(&str, &[&str], &str); 2] = [("a.obj", &["a"], "a"), ("b.obj", &["b"], "b")];
+        let all = read(&both, None).expect("meshes");
+        assert_eq!(all.frame.mm_per_unit, 40.0);
+        assert!((all.frame.middle_mm - DVec3::new(20.0, 5.0, 0.0)).length() < 1e-9);
+        let alone = read(&both[..1], None).expect("a mesh");
+        let kept = read(&both, Some([DVec3::ZERO, DVec3::new(10.0, 10.0, 0.0)])).expect("meshes");
+        assert_eq!(kept.frame.mm_per_unit, 10.0);
+        let of_first = |surface: &Surface| {
+            let own = surface.triangles.iter().zip(&surface.segment_of);
+            own.filter(|(_, segment)| **segment == 0)
+                .map(|(t, _)| t.0)
+                .next()
+        };
+        assert_eq!(
+            of_first(&kept),
+            of_first(&alone),
+            "a second mesh moves nothing"
+        );
+        assert!(
+            (kept.frame.bounds.max.x - 3.5).abs() < 1e-5,
+            "{:?}",
+            kept.frame.bounds
+        );
+        let far = read(&both, Some([DVec3::ZERO, DVec3::splat(0.01)]));
+        assert!(matches!(far, Err(LoadError::Mesh { .. })), "{far:?}");
+    }
 }

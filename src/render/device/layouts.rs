@@ -9,7 +9,8 @@
 //! | | in all | 9 | 10 | 1 |
 //! | | left in one stage | 3 | 6 | 15 |
 //!
-//! Group 3 belongs to the pass: other passes (resolve, slices) bind less there. A picture uses no storage buffer.
+//! Group 3 belongs to the pass: other passes (picks, resolve, slices) bind less there. A picture uses no storage
+//! buffer.
 
 use super::gpu::Gpu;
 use wgpu::TextureViewDimension::{D2, D3};
@@ -55,6 +56,9 @@ const SCENE: Group = &[
 ];
 /// Where the baked map lies, and the map.
 const BAKED: Group = &[Holds::Uniform, Holds::Texture(D3)];
+/// The rays that are asked, at a binding that the baked map leaves: one module draws and picks.
+const RAYS: Group = &[Holds::Uniform];
+pub(crate) const RAYS_BINDING: u32 = 2;
 /// The accumulated picture and how it is read.
 const RESOLVE: Group = &[Holds::Uniform, Holds::Texture(D2), Holds::Sampler];
 const SLICE: Group = &[Holds::Uniform];
@@ -70,6 +74,8 @@ pub(crate) struct Layouts {
     pub scene: wgpu::BindGroupLayout,
     /// Group 3 of a picture that is drawn from the baked map.
     pub baked: wgpu::BindGroupLayout,
+    /// Group 3 of picks: the rays that are asked.
+    pub rays: wgpu::BindGroupLayout,
     /// Group 3 of the pass from the accumulated picture to the one that is shown.
     pub resolve: wgpu::BindGroupLayout,
     /// Group 3 of slices.
@@ -87,6 +93,7 @@ impl Layouts {
             subject: group_layout(gpu, "subject", SUBJECT),
             scene: group_layout(gpu, "scene", SCENE),
             baked: group_layout(gpu, "baked", BAKED),
+            rays: group_layout_from(gpu, "rays", RAYS_BINDING, RAYS),
             resolve: group_layout(gpu, "resolve", RESOLVE),
             slice: group_layout(gpu, "slice", SLICE),
             empty: group_layout(gpu, "empty", &[]),
@@ -116,7 +123,11 @@ pub(crate) fn pipeline_layout(
 }
 
 fn group_layout(gpu: &Gpu, label: &str, group: Group) -> wgpu::BindGroupLayout {
-    let entries: Vec<_> = (0..)
+    group_layout_from(gpu, label, 0, group)
+}
+
+fn group_layout_from(gpu: &Gpu, label: &str, first: u32, group: Group) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = (first..)
         .zip(group)
         .map(|(binding, holds)| wgpu::BindGroupLayoutEntry {
             binding,

@@ -308,6 +308,7 @@ shader_files![
     "bind/bodies.wgsl",
     "bind/grid.wgsl",
     "bind/baked.wgsl",
+    "bind/rays.wgsl",
     "bind/slice.wgsl",
     "bind/kept.wgsl",
     "march/align.wgsl",
@@ -431,6 +432,7 @@ pub const PROGRAMS: &[Program] = &[
             ("draw", Stage::Fragment),
             ("pick", Stage::Fragment),
             ("identify", Stage::Fragment),
+            ("meet", Stage::Fragment),
         ],
     },
     Program {
@@ -450,6 +452,7 @@ pub const PROGRAMS: &[Program] = &[
             ("draw", Stage::Fragment),
             ("pick", Stage::Fragment),
             ("identify", Stage::Fragment),
+            ("meet", Stage::Fragment),
         ],
     },
     Program {
@@ -462,6 +465,7 @@ pub const PROGRAMS: &[Program] = &[
             ("draw", Stage::Fragment),
             ("pick", Stage::Fragment),
             ("identify", Stage::Fragment),
+            ("meet", Stage::Fragment),
         ],
     },
     Program {

@@ -50,7 +50,7 @@ impl Follower {
         scene: &Scene,
         points: &[Vec3],
     ) -> PendingPlaces {
-        let key = scene.key(false);
+        let key = scene.key();
         let made = || pipelines(gpu, &key, subject.shader);
         let [search, settle] = self.0.get(key, made);
         let bounds = scene.bounds();

@@ -4,6 +4,7 @@ use super::picture::PictureJob;
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
 use crate::render::device::textures::{PICK_FORMAT, Target, read_texture, row_pitch};
+use crate::render::pack::raycast_key::Finds;
 
 /// What each pixel of a picture shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,8 +27,13 @@ const TEXEL: usize = 16;
 pub(super) async fn identify(job: &PictureJob) -> Result<Sighting, RenderError> {
     let gpu = &job.gpu;
     let target = Target::new(gpu, "segments", job.size, PICK_FORMAT);
-    job.march(&target.view, (job.scene.segments_key(), None), 0, |_| {})
-        .await?;
+    job.march(
+        &target.view,
+        (job.scene.key_for(Finds::Segments), None),
+        0,
+        |_| {},
+    )
+    .await?;
     let width = job.size[0] as usize;
     let pitch = row_pitch((TEXEL * width) as u32);
     let bytes = read_texture(gpu, encoder(gpu), &target.texture, pitch).await;

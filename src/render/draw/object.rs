@@ -24,7 +24,7 @@ pub(crate) async fn object_samples(
     scene: &Scene,
     points: &[Vec3],
 ) -> Result<Vec<Sample>, RenderError> {
-    let key = scene.key(false);
+    let key = scene.key();
     let name = ProgramId::Object.program().name;
     let pipeline = match probes.made(&key) {
         Some(pipeline) => pipeline,

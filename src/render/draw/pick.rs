@@ -1,13 +1,14 @@
 //! The surface, the tissue and the segment under a pixel.
 
 use super::passes::Passes;
-use super::raycast::{March, encode_marches, frame_group};
+use super::raycast::{March, encode_march, frame_group, rays_group};
 use crate::render::device::bindings::encoder;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::readback::{Answer, Readback};
 use crate::render::device::textures::{PICK_FORMAT, Target, read_texture};
 use crate::render::pack::frame::frame_of;
-use crate::render::pack::gpu_types::Frame;
+use crate::render::pack::gpu_types::MAX_ASKED_RAYS;
+use crate::render::pack::raycast_key::Finds;
 use crate::render::pack::view::View;
 use crate::render::scene::Scene;
 use crate::render::subject::textures::SubjectTextures;
@@ -66,6 +67,79 @@ fn read_depths(bytes: &[u8]) -> Vec<Option<f32>> {
         .collect()
 }
 
+/// What a ray meets (spec/surfaces.md, "What the object has at a point, and what a ray meets").
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meeting {
+    /// A triangle from its front.
+    Surface,
+    /// A triangle from its back.
+    Inside,
+    /// The cut face of a body.
+    Cut,
+    /// Opacity of a scan.
+    Volume,
+}
+
+impl Meeting {
+    /// What it is called on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Surface => "surface",
+            Self::Inside => "inside",
+            Self::Cut => "cut",
+            Self::Volume => "volume",
+        }
+    }
+}
+
+/// Where a ray turns more than half opaque.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayEvent {
+    /// Distance from the ray's origin, subject units.
+    pub distance: f32,
+    /// What is there.
+    pub meeting: Meeting,
+    /// The segment, from 0, if a mesh is met.
+    pub segment: Option<usize>,
+    /// Unit normal towards the origin, subject space; of a triangle that of its plane.
+    pub normal: Vec3,
+    /// Where it was before any template acted, rest space.
+    pub pos_in_rest: Vec3,
+    /// Colour before light, linear.
+    pub albedo: Vec3,
+}
+
+/// Events on their way back, one per ray; `None` for a ray that stays more than half clear.
+pub type PendingEvents = Answer<Vec<Option<RayEvent>>>;
+
+fn read_events(bytes: &[u8]) -> Vec<Option<RayEvent>> {
+    let event = |row: &[u8]| {
+        let [at, normal, rest, albedo]: [[f32; 4]; 4] = std::array::from_fn(|texel| {
+            std::array::from_fn(|i| {
+                let byte = 16 * texel + 4 * i;
+                f32::from_le_bytes([row[byte], row[byte + 1], row[byte + 2], row[byte + 3]])
+            })
+        });
+        let meeting = match at[1] as u32 {
+            1 => Meeting::Surface,
+            2 => Meeting::Inside,
+            3 => Meeting::Cut,
+            5 => Meeting::Volume,
+            _ => return None,
+        };
+        let place = |texel: [f32; 4]| Vec3::new(texel[0], texel[1], texel[2]);
+        Some(RayEvent {
+            distance: at[0],
+            meeting,
+            segment: (at[2] as usize).checked_sub(1),
+            normal: place(normal),
+            pos_in_rest: place(rest),
+            albedo: place(albedo),
+        })
+    };
+    bytes.chunks_exact(PITCH as usize).map(event).collect()
+}
+
 /// Bytes of a row of what is read back: at most four texels of 16 bytes.
 const PITCH: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
 
@@ -82,48 +156,56 @@ impl PickScene<'_> {
     /// Marches one ray and starts reading what it found.
     pub(crate) fn pick(&self, pixel: Vec2) -> PendingPick {
         let has_labels = self.subject.uniform.has_labels != 0;
-        Answer::new(self.read(&[pixel], 4), move |bytes| {
-            read_pick(bytes, has_labels)
-        })
+        let read = self.read(self.view, &[self.view.ray(pixel)], 4, Finds::Pick);
+        Answer::new(read, move |bytes| read_pick(bytes, has_labels))
     }
 
-    /// Marches a ray per pixel, all in one pass, and starts reading how far away their surfaces are. There has to be at
+    /// Marches a ray per pixel, all in one go, and starts reading how far away their surfaces are. There has to be at
     /// least one pixel, and no more than a texture has rows.
     pub(crate) fn depths(&self, pixels: &[Vec2]) -> PendingDepths {
-        Answer::new(self.read(pixels, 1), read_depths)
+        let rays: Vec<(Vec3, Vec3)> = pixels.iter().map(|pixel| self.view.ray(*pixel)).collect();
+        let read = self.read(self.view, &rays, 1, Finds::Pick);
+        Answer::new(read, read_depths)
     }
 
-    /// The first `texels` of the four of a pick, a row per pixel.
-    fn read(&self, pixels: &[Vec2], texels: u32) -> Readback {
-        let (gpu, scene, view) = (self.gpu, self.scene, self.view);
+    /// Marches rays of subject space (origin, unit direction) and starts reading where each turns more than half
+    /// opaque. There has to be at least one, and no more than a texture has rows.
+    pub(crate) fn events(&self, rays: &[(Vec3, Vec3)]) -> PendingEvents {
+        let view = rays
+            .first()
+            .map_or(*self.view, |&(origin, dir)| View::along(origin, dir));
+        Answer::new(self.read(&view, rays, 4, Finds::Event), read_events)
+    }
+
+    /// The first `texels` of the four that are found, a row per ray. Steps are as fine as the view asks for.
+    fn read(&self, view: &View, rays: &[(Vec3, Vec3)], texels: u32, finds: Finds) -> Readback {
+        let (gpu, scene, layouts) = (self.gpu, self.scene, &self.passes.layouts);
         let frame = frame_of(view, view, scene.bounds(), self.subject.frame.detail, 0);
-        let frames: Vec<wgpu::BindGroup> = pixels
-            .iter()
-            .map(|pixel| {
-                let pick = pixel.to_array();
-                frame_group(gpu, &self.passes.layouts, &Frame { pick, ..frame })
-            })
-            .collect();
-        let rows = pixels.len() as u32;
-        let tiles: Vec<[u32; 4]> = (0..rows).map(|row| [0, row, texels, 1]).collect();
+        let frame = frame_group(gpu, layouts, &frame);
+        let rows = rays.len() as u32;
         let target = Target::new(gpu, "pick", [texels, rows], PICK_FORMAT);
-        let pipeline = self.passes.raycast.pipeline(gpu, scene.key(true));
+        let pipeline = self.passes.raycast.pipeline(gpu, scene.key_for(finds));
         let mut encoder = encoder(gpu);
-        encode_marches(
-            &mut encoder,
-            &March {
-                target: &target.view,
-                pipeline: &pipeline,
-                frame: &frames[0],
-                subject: &self.subject.bind_group,
-                scene: &scene.bindings,
-                baked: None,
-                viewport: [texels, rows],
-                tiles: &tiles,
-                weight: 1.0,
-            },
-            &frames,
-        );
+        for (batch, first) in rays
+            .chunks(MAX_ASKED_RAYS)
+            .zip((0..).step_by(MAX_ASKED_RAYS))
+        {
+            let asked = rays_group(gpu, layouts, batch);
+            encode_march(
+                &mut encoder,
+                &March {
+                    target: &target.view,
+                    pipeline: &pipeline,
+                    frame: &frame,
+                    subject: &self.subject.bind_group,
+                    scene: &scene.bindings,
+                    pass: Some(&asked),
+                    viewport: [texels, rows],
+                    tiles: &[[0, first, texels, batch.len() as u32]],
+                    weight: 1.0,
+                },
+            );
+        }
         read_texture(gpu, encoder, &target.texture, PITCH)
     }
 }

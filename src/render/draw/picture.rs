@@ -72,7 +72,7 @@ impl PictureJob {
                     frame: &frame_group,
                     subject: &self.subject.bind_group,
                     scene: &self.scene.bindings,
-                    baked,
+                    pass: baked,
                     viewport: self.size,
                     tiles: batch,
                     weight: 1.0 / (index + 1) as f32,
@@ -97,7 +97,7 @@ impl PictureJob {
         let baked = self.scene.baked();
         let key = match baked {
             Some(_) => self.scene.baked_key(),
-            None => self.scene.key(false),
+            None => self.scene.key(),
         };
         let (mut drawn, all) = (0, tiles_of(self.size).len() * samples as usize);
         for index in 0..samples {

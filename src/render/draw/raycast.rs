@@ -3,12 +3,14 @@
 use crate::render::device::bindings::entry;
 use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::gpu::Gpu;
-use crate::render::device::layouts::{Layouts, pipeline_layout};
+use crate::render::device::layouts::{Layouts, RAYS_BINDING, pipeline_layout};
 use crate::render::device::pipelines::{PipelineParts, Pipelines, render_pass, render_pipeline};
 use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
 use crate::render::device::textures::{LINEAR_FORMAT, PICK_FORMAT};
-use crate::render::pack::gpu_types::Frame;
+use crate::render::pack::gpu_types::{AskedRays, Frame};
 use crate::render::pack::raycast_key::{Finds, RaycastKey};
+use bytemuck::Zeroable as _;
+use glam::Vec3;
 
 /// The programs of the ray march. Built once per device.
 #[derive(Debug)]
@@ -17,21 +19,19 @@ pub(crate) struct RaycastPasses {
     modules: Pipelines<(ProgramId, SubjectShader), wgpu::ShaderModule>,
     layout: wgpu::PipelineLayout,
     baked_layout: wgpu::PipelineLayout,
+    asked_layout: wgpu::PipelineLayout,
     pipelines: Pipelines<RaycastKey, wgpu::RenderPipeline>,
 }
 
 impl RaycastPasses {
     pub(crate) fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
-        let groups = [
-            &layouts.frame,
-            &layouts.subject,
-            &layouts.scene,
-            &layouts.baked,
-        ];
+        let common = [&layouts.frame, &layouts.subject, &layouts.scene];
+        let with = |pass| [common.as_slice(), &[pass]].concat();
         Self {
             modules: Pipelines::default(),
-            layout: pipeline_layout(gpu, "raycast", &groups[..3]),
-            baked_layout: pipeline_layout(gpu, "raycast", &groups),
+            layout: pipeline_layout(gpu, "raycast", &common),
+            baked_layout: pipeline_layout(gpu, "raycast", &with(&layouts.baked)),
+            asked_layout: pipeline_layout(gpu, "raycast", &with(&layouts.rays)),
             pipelines: Pipelines::default(),
         }
     }
@@ -60,16 +60,17 @@ impl RaycastPasses {
         };
         let make = || module_for(gpu, program, key.subject);
         let module = self.modules.get((program, key.subject), make);
-        let layout = if key.is_baked {
-            &self.baked_layout
-        } else {
-            &self.layout
+        let layout = match key.finds {
+            Finds::Pick | Finds::Event => &self.asked_layout,
+            Finds::Picture | Finds::Segments if key.is_baked => &self.baked_layout,
+            Finds::Picture | Finds::Segments => &self.layout,
         };
         // Sample k, from 0, has the weight 1/(k + 1), so that the target holds the mean of all samples so far.
         let (entry, format, blend) = match key.finds {
             Finds::Picture => ("draw", LINEAR_FORMAT, Some(MEAN)),
             Finds::Pick => ("pick", PICK_FORMAT, None),
             Finds::Segments => ("identify", PICK_FORMAT, None),
+            Finds::Event => ("meet", PICK_FORMAT, None),
         };
         let parts = PipelineParts {
             label: "raycast",
@@ -105,6 +106,21 @@ pub(crate) fn frame_group(gpu: &Gpu, layouts: &Layouts, frame: &Frame) -> wgpu::
     })
 }
 
+/// Bind group 3 of picks: rays of subject space (origin, unit direction), at most [`MAX_ASKED_RAYS`].
+pub(crate) fn rays_group(gpu: &Gpu, layouts: &Layouts, rays: &[(Vec3, Vec3)]) -> wgpu::BindGroup {
+    let mut asked = AskedRays::zeroed();
+    for (slots, (origin, dir)) in asked.items.chunks_exact_mut(2).zip(rays) {
+        slots[0] = origin.extend(0.0).to_array();
+        slots[1] = dir.extend(0.0).to_array();
+    }
+    let buffer = uniform_buffer(gpu, "rays", &asked);
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("rays"),
+        layout: &layouts.rays,
+        entries: &[entry(RAYS_BINDING, buffer.as_entire_binding())],
+    })
+}
+
 /// One ray march pass.
 pub(crate) struct March<'a> {
     pub target: &'a wgpu::TextureView,
@@ -112,8 +128,8 @@ pub(crate) struct March<'a> {
     pub frame: &'a wgpu::BindGroup,
     pub subject: &'a wgpu::BindGroup,
     pub scene: &'a wgpu::BindGroup,
-    /// For pipelines that draw from the baked map.
-    pub baked: Option<&'a wgpu::BindGroup>,
+    /// Group 3: the baked map, or the rays that are asked, for pipelines that read either.
+    pub pass: Option<&'a wgpu::BindGroup>,
     /// Width and height of the used part of the target, pixels from its top left corner.
     pub viewport: [u32; 2],
     pub tiles: &'a [[u32; 4]],
@@ -125,19 +141,6 @@ pub(crate) struct March<'a> {
 pub(crate) fn encode_march(encoder: &mut wgpu::CommandEncoder, march: &March<'_>) {
     let mut pass = begin_march(encoder, march);
     for &tile in march.tiles {
-        draw_tile(&mut pass, tile);
-    }
-}
-
-/// Adds a ray march to the encoder that draws each tile with a frame of its own, in one pass.
-pub(crate) fn encode_marches(
-    encoder: &mut wgpu::CommandEncoder,
-    march: &March<'_>,
-    frames: &[wgpu::BindGroup],
-) {
-    let mut pass = begin_march(encoder, march);
-    for (&tile, frame) in march.tiles.iter().zip(frames) {
-        pass.set_bind_group(0, frame, &[]);
         draw_tile(&mut pass, tile);
     }
 }
@@ -156,8 +159,8 @@ fn begin_march<'e>(
     pass.set_bind_group(0, march.frame, &[]);
     pass.set_bind_group(1, march.subject, &[]);
     pass.set_bind_group(2, march.scene, &[]);
-    if let Some(baked) = march.baked {
-        pass.set_bind_group(3, baked, &[]);
+    if let Some(group) = march.pass {
+        pass.set_bind_group(3, group, &[]);
     }
     let weight = f64::from(march.weight);
     pass.set_blend_constant(wgpu::Color {

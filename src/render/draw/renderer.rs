@@ -749,7 +749,7 @@ impl Renderer {
         let baked = scene.baked().filter(|_| is_faster);
         let (work, key) = match baked {
             Some(_) => (Work::QuickBaked, scene.baked_key()),
-            None => (Work::Quick, scene.key(false)),
+            None => (Work::Quick, scene.key()),
         };
         let affordable = self.pace.affordable(budget, work);
         let affordable = (affordable as f32 / (width * height)).sqrt();
@@ -810,7 +810,7 @@ impl Renderer {
         let frame = frame_of(&view, &view, scene.bounds(), detail, sample);
         let [width, height] = targets.size.map(|side| side as f32);
         let shot = Shot {
-            key: scene.key(false),
+            key: scene.key(),
             frame,
             baked: None,
             viewport: targets.size,

@@ -204,7 +204,7 @@ impl SliceScene<'_> {
         is_read: bool,
     ) {
         let key = SliceKey {
-            drawn: self.scene.key(false),
+            drawn: self.scene.key(),
             is_read,
         };
         let pipeline = self.passes.pipeline(self.gpu, key);

@@ -4,7 +4,7 @@ use super::identify::{Sighting, identify};
 use super::image::Image;
 use super::object::object_samples;
 use super::passes::Passes;
-use super::pick::{Pick, PickScene};
+use super::pick::{Pick, PickScene, RayEvent};
 use super::picture::PictureJob;
 use super::probe::Sample;
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
@@ -21,6 +21,9 @@ use crate::render::subject::textures::SubjectTextures;
 use crate::render::subject::upload::{Upload, fitting};
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
+
+/// Rays that are read back at a time: each is a row of a texture.
+const RAYS_AT_ONCE: usize = 1024;
 
 /// Draws one picture without a window: uploads the subject, draws every sample, reads back. Deterministic on one
 /// adapter.
@@ -276,6 +279,24 @@ impl Studio {
         pixels: &[Vec2],
     ) -> impl Future<Output = Result<Vec<Option<f32>>, RenderError>> + 'static {
         self.with_picks(illustration, size_px, |picks| picks.depths(pixels))
+    }
+
+    /// Where each ray of subject space (origin, unit direction) turns more than half opaque, by what draws the picture
+    /// at rest; `None` for one that does not.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn events(
+        &self,
+        illustration: &Illustration,
+        rays: &[(Vec3, Vec3)],
+    ) -> Result<Vec<Option<RayEvent>>, RenderError> {
+        let mut events = Vec::with_capacity(rays.len());
+        for some in rays.chunks(RAYS_AT_ONCE) {
+            let asked = self.with_picks(illustration, [1; 2], |picks| picks.events(some));
+            events.extend(asked.await?);
+        }
+        Ok(events)
     }
 
     /// What each pixel of a picture shows: the object or not, and which of its segments. The future owns what it needs.

@@ -67,7 +67,7 @@ impl Targets {
                 frame: &frame_group(gpu, &passes.layouts, &shot.frame),
                 subject: &studio.subject.bind_group,
                 scene: &scene.bindings,
-                baked: shot.baked,
+                pass: shot.baked,
                 viewport: shot.viewport,
                 tiles: shot.tiles,
                 weight: shot.weight,

@@ -51,8 +51,7 @@ pub(crate) fn frame_of(
         occlusion_turn: k * 2.399_963,
         bounds_min: min.extend(0.0).to_array(),
         bounds_max: max.extend(0.0).to_array(),
-        pick: [0.0; 2],
         step,
-        padding: 0,
+        padding: [0; 3],
     }
 }

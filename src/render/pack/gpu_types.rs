@@ -327,12 +327,21 @@ pub struct Frame {
     pub bounds_min: [f32; 4],
     /// Box of the deformed object, highest corner.
     pub bounds_max: [f32; 4],
-    /// Pick pass only: the pixel.
-    pub pick: [f32; 2],
     /// Length of a step, subject units.
     pub step: f32,
     /// To the end of the row.
-    pub padding: u32,
+    pub padding: [u32; 3],
+}
+
+/// How many rays one uniform buffer holds.
+pub const MAX_ASKED_RAYS: usize = 256;
+
+/// Rays that are asked one by one.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct AskedRays {
+    /// Origin and unit direction of each, subject space.
+    pub items: [[f32; 4]; 2 * MAX_ASKED_RAYS],
 }
 
 /// The uploaded subject: where its values and segments lie and how their texels are read.

@@ -1,5 +1,6 @@
 //! How the segments of a mesh are drawn, as shaders take it.
 
+use super::filling::body_of;
 use super::gpu_types::{
     BODY_FULL, BODY_HOLLOW, BODY_THICK, MESH_LAYERS, MeshLayer, MeshLook, MeshSegment,
 };
@@ -38,12 +39,10 @@ pub(crate) fn mesh_look_of(look: &Look, segments: &[SurfaceSegment]) -> MeshLook
                 first
             }
         };
-        let kind = match surface.body {
-            BodyKind::Hollow => BODY_HOLLOW,
+        let kind = match body_of(surface.body, segment.is_closed) {
             BodyKind::Thick => BODY_THICK,
             BodyKind::Solid => BODY_FULL,
-            BodyKind::Auto if segment.is_closed => BODY_FULL,
-            BodyKind::Auto => BODY_HOLLOW,
+            BodyKind::Hollow | BodyKind::Auto => BODY_HOLLOW,
         };
         packed.has_shells |= u32::from(kind == BODY_THICK);
         *slot = MeshSegment {

@@ -1,6 +1,7 @@
 //! From a document to what the shaders read: uniforms, the transfer table, the camera. Nothing here needs a GPU.
 
 pub(crate) mod bodies;
+pub(crate) mod filling;
 pub(crate) mod frame;
 pub mod gpu_types;
 pub(crate) mod kept;

@@ -37,6 +37,8 @@ pub(crate) enum Finds {
     Pick,
     /// The segment under each pixel.
     Segments,
+    /// Where the ray turns more than half opaque.
+    Event,
 }
 
 impl RaycastKey {

@@ -38,6 +38,21 @@ impl View {
         }
     }
 
+    /// One pixel that looks along a ray of subject space, `dir` a unit vector.
+    pub(crate) fn along(origin: Vec3, dir: Vec3) -> Self {
+        let back = -dir;
+        let side = back.any_orthonormal_vector();
+        let turned = Mat3A::from_cols(side.into(), back.cross(side).into(), back.into());
+        Self {
+            subject_from_view: Affine3A {
+                matrix3: turned,
+                translation: origin.into(),
+            },
+            lens: Vec2::splat(1e-4),
+            size_px: Vec2::ONE,
+        }
+    }
+
     /// The eye, subject space.
     pub fn eye(&self) -> Vec3 {
         self.subject_from_view.translation.into()

@@ -101,7 +101,7 @@ impl MeshUpload {
             mesh_view: Some(mesh_view),
             sampler: layouts.linear_sampler.clone(),
             voxels,
-            label_voxels: Some(VoxelFrame::new(own.dims, own.subject_from_voxel())),
+            label_voxels: Some(VoxelFrame::new(own.dims, field.rest_from_inner_voxel())),
             foot_axis: 2,
             mesh_segments: surface.segments.clone(),
             segments,

@@ -30,6 +30,9 @@ pub(super) struct Common {
     /// A label volume beside the scan; may be given several times.
     #[arg(long, global = true, value_name = "FILE")]
     pub(super) segments: Vec<PathBuf>,
+    /// A mesh of the subject that the document names by its hash; may be given several times.
+    #[arg(long = "mesh", global = true, value_name = "FILE")]
+    pub(super) meshes: Vec<PathBuf>,
     #[command(flatten)]
     pub(super) reading: ReadingFlags,
     /// The graphics adapter to use, by (part of) its name.
@@ -73,6 +76,14 @@ pub(super) enum Command {
         /// Looks into the subject as well: adds value,segment, empty where there is nothing.
         #[arg(long)]
         object: bool,
+        /// Adds how deep under the surface of a mesh the material was, subject units; below 0 outside.
+        #[arg(long)]
+        depth: bool,
+        /// Reads ox,oy,oz,dx,dy,dz lines instead, from FILE or standard input, and prints what each ray meets:
+        /// ox,oy,oz,dx,dy,dz,t,x,y,z,nx,ny,nz,sx,sy,sz,what,segment,color.
+        #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-",
+            conflicts_with_all = ["points", "object", "depth"])]
+        rays: Option<PathBuf>,
         #[command(flatten)]
         moment: Moment,
     },

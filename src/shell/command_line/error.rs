@@ -42,12 +42,15 @@ pub(super) enum CliError {
     Render(#[from] RenderError),
     #[error("{path}: {source}; nothing was written")]
     Write { path: String, source: io::Error },
-    #[error("{path}, line {line}: expected x,y,z, three finite numbers, found “{found}”")]
-    Point {
+    #[error("{path}, line {line}: expected {expected}, found “{found}”")]
+    Numbers {
         path: String,
         line: usize,
+        expected: &'static str,
         found: String,
     },
+    #[error("ray {ray}: its direction has no length")]
+    NoDirection { ray: usize },
     #[error("standard output: {0}")]
     Output(io::Error),
     #[error("{0}")]

@@ -31,6 +31,8 @@ impl ReadingFlags {
             frame: self.frame.map_or(document.frame, |number| number - 1),
             raw: self.raw.clone().or(document.raw),
             mesh: document.mesh,
+            bounds: document.bounds,
+            meshes: document.meshes,
         }
     }
 

@@ -13,7 +13,8 @@ use super::info::info;
 use super::link::link;
 use super::opening::open;
 use super::output::{one_line, print, write_whole};
-use super::probe::probe;
+use super::probe::{Columns, probe};
+use super::rays::rays;
 use super::render::{Paper, render};
 use super::templates::{templates_json, templates_text};
 use crate::shell::native::{Opening, view};
@@ -82,15 +83,28 @@ fn execute(args: Args) -> Result<(), CliError> {
             doc,
             points,
             object,
+            depth,
+            rays: asked,
             moment,
         } => {
-            let points = points.filter(|path| path != Path::new("-"));
-            if doc == "-" && points.is_none() {
-                return Err(CliError::Usage(
-                    "document and points cannot both come from standard input: name a file by --points",
-                ));
+            let is_rays = asked.is_some();
+            let from = points.or(asked).filter(|path| path != Path::new("-"));
+            if doc == "-" && from.is_none() {
+                return Err(CliError::Usage(match is_rays {
+                    true => {
+                        "document and rays cannot both come from standard input: name a file behind --rays"
+                    }
+                    false => {
+                        "document and points cannot both come from standard input: name a file by --points"
+                    }
+                }));
             }
-            probe(common, &open(&doc)?, points.as_deref(), object, moment)
+            let opened = open(&doc)?;
+            if is_rays {
+                return rays(common, &opened, from.as_deref(), moment);
+            }
+            let columns = Columns { object, depth };
+            probe(common, &opened, from.as_deref(), columns, moment)
         }
         Command::ExportField {
             doc,

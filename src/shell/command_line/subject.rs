@@ -11,14 +11,14 @@ use super::reading::hint;
 use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
 use crate::data::{
     BuildError, Reducer, Resources, Subject, SubjectBuilder, SubjectPart, SubjectSink as _,
-    TimeSlices, VolumeBuilder, VolumeLimits, segment,
+    Surface, TimeSlices, VolumeBuilder, VolumeLimits, segment,
 };
 use crate::document::{Illustration, Reading};
 use crate::load::{LabelFile, LoadReport, ReadOptions, read_label_file};
 use crate::render::KeptTissue;
-use crate::shell::files::{Folder, local};
-use crate::shell::loading::read_scan;
-use crate::subjects::{FINE_RESOLUTION, Generator, SubjectError};
+use crate::shell::files::{Folder, local, mesh_set};
+use crate::shell::loading::{hash_of, read_scan};
+use crate::subjects::{FINE_RESOLUTION, Generator, SubjectError, mesh};
 
 /// The subject of a document with its segments: those of its own file, those of label volumes that the document names
 /// or that are given beside it, and those that its recipes make. `folder` is where relative addresses start; a larger
@@ -110,8 +110,9 @@ fn take_subject(
     limits: VolumeLimits,
 ) -> Result<(), MissingSubject> {
     let reading = common.reading.over(Some(&want.reading));
+    let read = |path: &Path| read(path, &reading, limits, folder, &common.meshes);
     if let Some(path) = &common.subject {
-        let data = read(path, &reading, limits)?;
+        let data = read(path)?;
         if let Some(Err(other)) = data.sha256().map(|found| want.check(found)) {
             notice(format!("{} is {other}", path.display()));
         }
@@ -133,11 +134,15 @@ fn take_subject(
         }
         Source::File { src: Some(src), .. } => {
             let path = local(folder, src).ok_or_else(|| MissingSubject::remote(want))?;
-            let data = read(&path, &reading, limits)?;
-            let taken = assets.take(want, data);
+            let taken = assets.take(want, read(&path)?);
             taken.map_err(|other| MissingSubject::other(&path, other))
         }
-        Source::File { src: None, .. } => Err(MissingSubject::wanted(want)),
+        Source::File { src: None, .. } => {
+            let path =
+                given_of(&common.meshes, want).ok_or_else(|| MissingSubject::wanted(want))?;
+            let taken = assets.take(want, read(path)?);
+            taken.map_err(|other| MissingSubject::other(path, other))
+        }
     }
 }
 
@@ -184,6 +189,11 @@ fn read_segments(path: &Path) -> Result<LabelFile, MissingSubject> {
 /// # Errors
 /// [`SubjectError::UnknownName`].
 fn generate(name: &str) -> Result<Subject, MissingSubject> {
+    if let Some(mesh) = mesh(name) {
+        let surface = Surface::new(&mesh, None, &mut |_| true);
+        let surface = surface.map_err(|error| SubjectError::Refused(error.to_string()))?;
+        return Ok(Arc::new(surface).into());
+    }
     let generator = Generator::new(name, FINE_RESOLUTION)?;
     let mut builder = VolumeBuilder::new();
     builder
@@ -228,14 +238,37 @@ fn generate(name: &str) -> Result<Subject, MissingSubject> {
     Ok(Subject::from(volume?))
 }
 
-/// Reads a subject from a file, reduced to these limits.
-fn read(path: &Path, reading: &Reading, limits: VolumeLimits) -> Result<Data, MissingSubject> {
+/// The given file that has the hash of a want.
+fn given_of<'a>(given: &'a [PathBuf], want: &Want) -> Option<&'a Path> {
+    let is_it = |path: &&PathBuf| {
+        let (mut files, name) = Folder::of(path);
+        hash_of(&mut files, &name).is_some_and(|hash| want.check(&hash).is_ok())
+    };
+    given.iter().find(is_it).map(PathBuf::as_path)
+}
+
+/// Reads a subject from a file, reduced to these limits. Further meshes of it lie at their addresses from `folder`, or
+/// are among those given.
+fn read(
+    path: &Path,
+    reading: &Reading,
+    limits: VolumeLimits,
+    folder: &Path,
+    given: &[PathBuf],
+) -> Result<Data, MissingSubject> {
     let mut builder = SubjectBuilder::default();
     let mut reducer = Reducer::new(&mut builder, limits);
     let mut report = LoadReport::default();
     let shown = path.display().to_string();
-    let (mut files, name) = Folder::of(path);
-    let result = read_scan(&mut files, &name, reading, &mut reducer, &mut report);
+    let name = Folder::of(path).1;
+    let result = if reading.meshes.is_empty() {
+        let mut files = Folder::of(path).0;
+        read_scan(&mut files, &name, reading, &mut reducer, &mut report)
+    } else {
+        let given = given.iter().cloned();
+        let (mut files, name) = mesh_set(folder, path, &reading.meshes, given);
+        read_scan(&mut files, &name, reading, &mut reducer, &mut report)
+    };
     if let Some(reduction) = reducer.reduction() {
         notice(reduction);
     }

@@ -15,7 +15,7 @@ use crate::assets::{LoadEvent, SegmentationsExpected};
 use crate::data::VolumeLimits;
 use crate::document::Reading;
 use crate::load::{is_field, main_name, read_field};
-use crate::shell::loading::{read_file, read_segments, take_segmentations};
+use crate::shell::loading::{make_mesh_subject, read_file, read_segments, take_segmentations};
 
 /// Called once when the part has been loaded.
 pub fn loaded() {
@@ -32,6 +32,10 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
     post::module_unless_known(&message)?;
     let limits = limits_of(&message)?;
     match ScanTask::of(&message)? {
+        ScanTask::Mesh(name) => {
+            make_mesh_subject(&name, &mut |event: LoadEvent| post::event(event).is_ok());
+            Ok(())
+        }
         ScanTask::Field { name, file } => post_field(name, file).await,
         ScanTask::Address {
             address,
@@ -42,7 +46,17 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
             let name = name.split(['?', '#']).next().unwrap_or_default().to_owned();
             match fetch(&address).await {
                 Ok(blob) => {
-                    let mut files = BlobFiles::new(vec![(name.clone(), blob)]).await?;
+                    let mut files = vec![(name.clone(), blob)];
+                    // What cannot be had is named by the reader of meshes.
+                    for src in reading
+                        .meshes
+                        .iter()
+                        .skip(1)
+                        .filter_map(|mesh| mesh.src.clone())
+                    {
+                        files.extend(fetch(&src).await.ok().map(|blob| (src, blob)));
+                    }
+                    let mut files = BlobFiles::new(files).await?;
                     if are_segments {
                         let mut post = |event: LoadEvent| post::event(event).is_ok();
                         read_segments(&mut files, &name, &mut post);

@@ -2,9 +2,11 @@
 //! compiled module, if the page has it), `max_dim` and `max_voxels` (the limits of the device), `task` (`true`), and
 //! - for the makers of subjects `builtin` (a name) and `resolution` (voxels along the longest side; without it the
 //!   coarse volume comes first, then the fine one),
-//! - for the readers of scans `files` (pairs of name and `Blob`), `address`, or `field` (a pair), with `reading`
-//!   (JSON), `are_segments` (of an address), `labels` (SHA-256 of label volumes), `has_scan` and `may_be_field`.
+//! - for the readers of scans `builtin` (of a mesh), `files` (pairs of name and `Blob`), `address`, or `field` (a
+//!   pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label volumes), `has_scan` and
+//!   `may_be_field`.
 
+use glam::DVec3;
 use js_sys::{Array, Object, Reflect};
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
@@ -12,7 +14,10 @@ use web_sys::Blob;
 
 use crate::assets::SegmentationsExpected;
 use crate::data::VolumeLimits;
-use crate::document::{MeshAxes, MeshParts, MeshReading, MeshUnits, RawVoxels, Reading};
+use crate::document::{
+    MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, RawVoxels, Reading, SubjectBox,
+};
+use crate::subjects::mesh_names;
 
 /// A program that runs in a worker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -72,6 +77,8 @@ pub enum ScanTask {
         /// How the file is to be read.
         reading: Reading,
     },
+    /// Make a built-in subject that is a mesh.
+    Mesh(String),
     /// Read a displacement field.
     Field {
         /// Name of the file, which tells its format.
@@ -85,6 +92,8 @@ impl Task {
     /// The program that does it.
     pub fn part(&self) -> Part {
         match self {
+            // The readers of scans hold what prepares meshes.
+            Self::Subject(name, _) if mesh_names().contains(&name.as_str()) => Part::Scans,
             Self::Subject(..) => Part::Subjects,
             Self::Scan(_) => Part::Scans,
         }
@@ -132,6 +141,9 @@ impl Task {
                 set("are_segments", &(*are_segments).into())?;
                 set("reading", &text_of_reading(reading).into())?;
             }
+            Self::Scan(ScanTask::Mesh(name)) => {
+                set("builtin", &name.into())?;
+            }
             Self::Scan(ScanTask::Field { name, file }) => {
                 set("field", &Array::of2(&name.into(), file))?;
             }
@@ -152,6 +164,9 @@ impl ScanTask {
             let name = pair.get(0).as_string().unwrap_or_default();
             (name, pair.get(1).unchecked_into::<Blob>())
         };
+        if let Some(name) = get("builtin")?.as_string() {
+            return Ok(Self::Mesh(name));
+        }
         let field = get("field")?;
         if field.is_truthy() {
             let (name, file) = pair(field);
@@ -201,17 +216,25 @@ pub fn text_of_reading(reading: &Reading) -> String {
             "spacing_mm": raw.spacing_mm, "skip_bytes": raw.skip_bytes,
         })
     });
-    let MeshReading {
-        units,
-        axes,
-        parts,
-        smooth_deg,
-    } = reading.mesh;
-    let mesh = json!({
-        "units": units.map(MeshUnits::name), "axes": axes.map(MeshAxes::name), "parts": parts.name(),
-        "smooth_deg": smooth_deg,
-    });
-    json!({ "frame": reading.frame, "raw": raw, "mesh": mesh }).to_string()
+    let bounds = reading
+        .bounds
+        .map(|bounds| json!([bounds.min_mm.to_array(), bounds.max_mm.to_array()]));
+    let meshes: Vec<Value> = reading.meshes.iter().map(|mesh| {
+        json!({
+            "src": mesh.src, "sha256": mesh.sha256, "name": mesh.name, "mesh": value_of_mesh(&mesh.reading),
+        })
+    }).collect();
+    json!({
+        "frame": reading.frame, "raw": raw, "mesh": value_of_mesh(&reading.mesh), "bounds": bounds, "meshes": meshes,
+    })
+    .to_string()
+}
+
+fn value_of_mesh(reading: &MeshReading) -> Value {
+    json!({
+        "units": reading.units.map(MeshUnits::name), "axes": reading.axes.map(MeshAxes::name),
+        "parts": reading.parts.name(), "smooth_deg": reading.smooth_deg,
+    })
 }
 
 /// How a file is to be read, from [`text_of_reading`]; nothing in particular if the text is not from there.
@@ -221,6 +244,38 @@ pub fn reading_of(text: &str) -> Reading {
         frame: value.get("frame").and_then(Value::as_u64).unwrap_or(0),
         raw: value.get("raw").and_then(raw_of),
         mesh: value.get("mesh").map(mesh_of).unwrap_or_default(),
+        bounds: value.get("bounds").and_then(bounds_of),
+        meshes: value
+            .get("meshes")
+            .and_then(Value::as_array)
+            .map_or_else(Vec::new, |list| {
+                list.iter()
+                    .enumerate()
+                    .map(|(index, mesh)| mesh_ref_of(index, mesh))
+                    .collect()
+            }),
+    }
+}
+
+fn bounds_of(value: &Value) -> Option<SubjectBox> {
+    let corner = |index: usize| {
+        let number = |axis: usize| value.get(index)?.get(axis)?.as_f64();
+        Some(DVec3::new(number(0)?, number(1)?, number(2)?))
+    };
+    Some(SubjectBox {
+        min_mm: corner(0)?,
+        max_mm: corner(1)?,
+    })
+}
+
+fn mesh_ref_of(index: usize, value: &Value) -> MeshRef {
+    let text = |key: &str| value.get(key).and_then(Value::as_str).map(str::to_owned);
+    MeshRef {
+        index,
+        src: text("src"),
+        sha256: text("sha256"),
+        name: text("name").unwrap_or_default(),
+        reading: value.get("mesh").map(mesh_of).unwrap_or_default(),
     }
 }
 

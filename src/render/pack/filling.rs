@@ -1,0 +1,170 @@
+//! What fills the bodies of a mesh, asked on the processor: for the command line and tests.
+
+use glam::Vec3;
+
+use crate::data::Surface;
+use crate::document::{BodyKind, Look, SurfaceLook};
+
+/// What fills a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Filling {
+    /// The segment: an index into the surface's.
+    pub segment: usize,
+    /// Depth under the segment's own triangles, subject units.
+    pub depth: f32,
+    /// Name of the layer there, or else of the segment.
+    pub name: String,
+}
+
+/// The bodies of a mesh as a document has them.
+#[derive(Clone, Debug)]
+pub struct Fillings<'a> {
+    surface: &'a Surface,
+    looks: Vec<SurfaceLook>,
+}
+
+/// What a body is, once `auto` is decided for a mesh that lies alone.
+pub(crate) fn body_of(body: BodyKind, is_closed: bool) -> BodyKind {
+    match body {
+        BodyKind::Auto if is_closed => BodyKind::Solid,
+        BodyKind::Auto => BodyKind::Hollow,
+        other => other,
+    }
+}
+
+impl<'a> Fillings<'a> {
+    /// The bodies of a surface.
+    pub fn of(surface: &'a Surface, look: &Look) -> Self {
+        let named = surface.segments.iter().zip(1..);
+        let looks = named.map(|(segment, number)| {
+            let mut own = look.of_mesh_segment(&segment.name, Some(number)).surface;
+            own.body = body_of(own.body, segment.is_closed);
+            own
+        });
+        Self {
+            surface,
+            looks: looks.collect(),
+        }
+    }
+
+    /// What fills a place of rest space: of several segments the first (spec/surfaces.md, `filled_k`). `None` where
+    /// nothing does.
+    pub fn at(&self, place: Vec3) -> Option<Filling> {
+        let inside = self.surface.inside_of(place);
+        let segments = self.looks.iter().enumerate();
+        let fills = |(segment, look): (usize, &SurfaceLook)| {
+            if inside >> segment & 1 == 0 || look.body == BodyKind::Hollow {
+                return None;
+            }
+            let depth = self.surface.distance_to(segment, place);
+            let is_filled = look.body == BodyKind::Solid || depth <= look.thickness;
+            is_filled.then(|| Filling {
+                segment,
+                depth,
+                name: self.name_of(segment, depth),
+            })
+        };
+        segments.filter_map(fills).next()
+    }
+
+    /// Name of the layer of a segment at a place of rest space, or else of the segment.
+    pub fn name_at(&self, segment: usize, place: Vec3) -> String {
+        self.name_of(segment, self.surface.distance_to(segment, place))
+    }
+
+    /// Name of the layer at a depth in a segment, or else of the segment.
+    fn name_of(&self, segment: usize, depth: f32) -> String {
+        let layers = self.looks[segment].layers.iter();
+        let layer = layers.take_while(|layer| layer.depth <= depth).last();
+        let named = layer.filter(|layer| !layer.name.is_empty());
+        named.map_or_else(
+            || self.surface.segments[segment].name.clone(),
+            |layer| layer.name.clone(),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::{Mesh, MeshPart};
+    use crate::document::Document;
+
+    /// Boxes of these half sides around the origin, a segment each.
+    fn boxes(halves: &[f32]) -> Surface {
+        let quads = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let mut mesh = Mesh::default();
+        for (&half, k) in halves.iter().zip(0_u32..) {
+            let sign = |i: u32, bit: u32| if i >> bit & 1 == 1 { half } else { -half };
+            let corners = (0..8).map(|i| Vec3::new(sign(i, 0), sign(i, 1), sign(i, 2)));
+            mesh.positions.extend(corners);
+            let at = mesh.triangles.len();
+            let triangles = quads
+                .iter()
+                .flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]);
+            mesh.triangles
+                .extend(triangles.map(|t| t.map(|i| 8 * k + i)));
+            mesh.parts.push(MeshPart {
+                name: format!("box {k}"),
+                triangles: at..mesh.triangles.len(),
+            });
+        }
+        Surface::new(&mesh, None, &mut |_| true).expect("a surface")
+    }
+
+    fn look(json: &str) -> Look {
+        let text =
+            format!(r#"{{"fabrica":1,"subject":{{"meshes":[{{"src":"a.stl"}}]}},"look":{json}}}"#);
+        let document = Document::from_json(&text).expect("a good document");
+        document.illustration().look.clone()
+    }
+
+    #[test]
+    fn the_first_segment_that_is_filled_decides() {
+        // The inner box is half as large as the outer one, whose sides are 1 unit long.
+        let surface = boxes(&[5.0, 10.0]);
+        let look = look(
+            r#"{"body":"solid","layers":[{"depth":0.05,"name":"flesh"},{"depth":0.1}],
+                "segments":{"box 0":{"body":"hollow"}}}"#,
+        );
+        let fillings = Fillings::of(&surface, &look);
+        let at = |x: f32| {
+            fillings
+                .at(Vec3::new(x, 0.0, 0.0))
+                .map(|f| (f.segment, f.name))
+        };
+        assert_eq!(at(0.49), Some((1, "box 1".to_owned())));
+        assert_eq!(at(0.43), Some((1, "flesh".to_owned())));
+        assert_eq!(
+            at(0.1),
+            Some((1, "box 1".to_owned())),
+            "a layer without a name"
+        );
+        assert_eq!(at(0.51), None);
+        let depth = fillings.at(Vec3::ZERO).expect("filled").depth;
+        assert!((depth - 0.5).abs() < 1e-5, "by its own triangles: {depth}");
+        assert!(
+            (surface.depth_at(Vec3::ZERO) - 0.5).abs() < 1e-5,
+            "the greatest"
+        );
+        assert!((surface.depth_at(Vec3::X) + 0.5).abs() < 1e-5);
+    }
+
+    #[test]
+    fn shells_are_filled_near_their_surface() {
+        let surface = boxes(&[10.0]);
+        let fillings = Fillings::of(&surface, &look(r#"{"body":"thick","thickness":0.1}"#));
+        let is_filled = |x: f32| fillings.at(Vec3::new(x, 0.0, 0.0)).is_some();
+        assert_eq!(
+            [0.51, 0.41, 0.39, 0.0].map(is_filled),
+            [false, true, false, false]
+        );
+    }
+}

@@ -1,0 +1,85 @@
+//! `fabrica probe --rays`: rays in, a line for each of what it meets out (spec/surfaces.md, "The command line").
+
+use std::io::{self, Write as _};
+use std::path::Path;
+
+use glam::{DVec3, Vec3};
+
+use super::args::{Common, Moment};
+use super::device::open_gpu;
+use super::error::CliError;
+use super::numbers::read_numbers;
+use super::opening::Opened;
+use super::probe::{Materials, WHOLE, quoted};
+use super::subject::{report_kept, subject_of};
+use crate::data::Subject;
+use crate::math::srgb_from_linear;
+use crate::render::{Meeting, RayEvent, Studio};
+
+/// Prints where each ray turns more than half opaque; empty columns for one that does not.
+pub(super) fn rays(
+    common: &Common,
+    opened: &Opened,
+    path: Option<&Path>,
+    moment: Moment,
+) -> Result<(), CliError> {
+    let (illustration, resources) = opened.illustration(moment, common)?;
+    let given: Vec<[f64; 6]> = read_numbers(path, "ox,oy,oz,dx,dy,dz, six finite numbers")?;
+    let mut asked = Vec::with_capacity(given.len());
+    for (numbers, index) in given.iter().zip(1..) {
+        let [ox, oy, oz, dx, dy, dz] = *numbers;
+        let dir = DVec3::new(dx, dy, dz).try_normalize();
+        let dir = dir.ok_or(CliError::NoDirection { ray: index })?;
+        asked.push((DVec3::new(ox, oy, oz).as_vec3(), dir.as_vec3()));
+    }
+    let gpu = open_gpu(common)?;
+    let subject = subject_of(&illustration, common, &opened.folder, WHOLE)?;
+    report_kept(&illustration, &resources, &subject);
+    let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
+    let events = pollster::block_on(studio.events(&illustration, &asked))?;
+    let materials = Materials::of(&subject, &illustration);
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    for ((numbers, ray), event) in given.iter().zip(&asked).zip(&events) {
+        let numbers = numbers.map(|number| number.to_string()).join(",");
+        let found = match event {
+            Some(event) => columns_of(event, *ray, &subject, &materials),
+            None => ",".repeat(12),
+        };
+        writeln!(out, "{numbers},{found}").map_err(CliError::Output)?;
+    }
+    out.flush().map_err(CliError::Output)
+}
+
+/// The columns behind the ray's own.
+fn columns_of(
+    event: &RayEvent,
+    (origin, dir): (Vec3, Vec3),
+    subject: &Subject,
+    materials: &Materials<'_>,
+) -> String {
+    let own = |k: usize| match subject {
+        Subject::Mesh(surface) => surface.segments[k].name.clone(),
+        Subject::Space(_) => String::new(),
+    };
+    let segment = match (event.meeting, event.segment, materials) {
+        (Meeting::Surface | Meeting::Inside, Some(k), _) => own(k),
+        (Meeting::Cut, Some(k), Materials::Mesh(fillings)) => {
+            fillings.name_at(k, event.pos_in_rest)
+        }
+        _ => materials.at(event.pos_in_rest).unwrap_or_default().1,
+    };
+    let places = [
+        origin + dir * event.distance,
+        event.normal,
+        event.pos_in_rest,
+    ];
+    let places = places.map(|place| place.to_array().map(|number| number.to_string()).join(","));
+    let [r, g, b] = (event.albedo.to_array()).map(|linear| srgb_from_linear(f64::from(linear)));
+    format!(
+        "{},{},{},{},#{r:02x}{g:02x}{b:02x}",
+        event.distance,
+        places.join(","),
+        event.meeting.name(),
+        quoted(&segment)
+    )
+}
