@@ -219,14 +219,14 @@ fn subjects_ui(ui: &mut Ui, library: &Library, width: f32, commands: &mut Vec<Co
         {
             push(commands, LibraryCommand::OfSubject(None));
         }
-        let is_there = |name: &&&str| library.examples.iter().any(|e| e.subject() == **name);
-        for name in crate::subjects::names().iter().filter(is_there) {
-            let is_chosen = chosen == Some(*name);
+        let is_there = |name: &&str| library.examples.iter().any(|e| e.subject() == *name);
+        for name in crate::subjects::all_names().filter(is_there) {
+            let is_chosen = chosen == Some(name);
             if ui
                 .selectable_label(is_chosen, names::subject(name))
                 .clicked()
             {
-                let name = Some((*name).to_owned());
+                let name = Some(name.to_owned());
                 push(commands, LibraryCommand::OfSubject(name));
             }
         }
