@@ -120,7 +120,7 @@ fn the_apple_is_made_in_the_page() {
         let link = payload(r#"{"fabrica":1,"subject":{"builtin":"apple"}}"#);
         let tab = session.coarse_viewer(&format!("#{link}"), PAGE).await;
         let is_apple = |page: &image::RgbaImage| {
-            let red = |p: &&image::Rgba<u8>| p.0[0] > 80 && p.0[0] > 2 * p.0[1].max(p.0[2]);
+            let red = |p: &&image::Rgba<u8>| p.0[0] > 80 && p.0[0] / 2 > p.0[1].max(p.0[2]);
             object_part(page).pixels().filter(red).count() > 4_000
         };
         tab.drawn("apple", is_apple).await;
