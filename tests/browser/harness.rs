@@ -286,6 +286,9 @@ impl Session {
     }
 }
 
+/// What a page wrote to its console so far.
+const MESSAGES: &str = "(window.messages ?? []).join('\\n')";
+
 /// A tab of the browser, with the hands and eyes of a test.
 pub(crate) struct Tab {
     /// Its connection with the browser.
@@ -306,8 +309,15 @@ impl Tab {
 
     /// Value of a JavaScript expression; a promise is awaited.
     pub(crate) async fn eval<T: serde::de::DeserializeOwned>(&self, expression: &str) -> T {
-        let found = self.page.evaluate_expression(expression).await;
-        let found = found.unwrap_or_else(|error| panic!("{expression}: {error}"));
+        let found = match self.page.evaluate_expression(expression).await {
+            Ok(found) => found,
+            // A program that has ended answers nothing any more; the reason is among its messages.
+            Err(error) => {
+                let said = self.page.evaluate_expression(MESSAGES).await;
+                let said: Option<String> = said.ok().and_then(|said| said.into_value().ok());
+                panic!("{expression}: {error}\n{}", said.unwrap_or_default())
+            }
+        };
         found
             .into_value()
             .unwrap_or_else(|error| panic!("{expression}: {error}"))
@@ -397,7 +407,7 @@ impl Tab {
 
     /// What the page wrote to its console so far.
     pub(crate) async fn messages(&self) -> String {
-        self.eval("(window.messages ?? []).join('\\n')").await
+        self.eval(MESSAGES).await
     }
 
     /// Fails if the page reported an error, broke its content policy or asked for something it should not.

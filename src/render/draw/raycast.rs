@@ -106,13 +106,23 @@ pub(crate) fn frame_group(gpu: &Gpu, layouts: &Layouts, frame: &Frame) -> wgpu::
     })
 }
 
-/// Bind group 3 of picks: rays of subject space (origin, unit direction), at most [`MAX_ASKED_RAYS`].
-pub(crate) fn rays_group(gpu: &Gpu, layouts: &Layouts, rays: &[(Vec3, Vec3)]) -> wgpu::BindGroup {
+/// Rays of subject space (origin, unit direction), at most [`MAX_ASKED_RAYS`], as shaders read them. The last ray fills
+/// the rows behind it: a GPU shades pixels in fours, and a software one marches those beside the picture as far as the
+/// others. A ray of zeros would take it half a minute.
+fn asked_rays(rays: &[(Vec3, Vec3)]) -> AskedRays {
     let mut asked = AskedRays::zeroed();
-    for (slots, (origin, dir)) in asked.items.chunks_exact_mut(2).zip(rays) {
+    let last = rays.last().into_iter().cycle();
+    let slots = asked.items.chunks_exact_mut(2);
+    for (slots, (origin, dir)) in slots.zip(rays.iter().chain(last)) {
         slots[0] = origin.extend(0.0).to_array();
         slots[1] = dir.extend(0.0).to_array();
     }
+    asked
+}
+
+/// Bind group 3 of picks: the rays of [`asked_rays`].
+pub(crate) fn rays_group(gpu: &Gpu, layouts: &Layouts, rays: &[(Vec3, Vec3)]) -> wgpu::BindGroup {
+    let asked = asked_rays(rays);
     let buffer = uniform_buffer(gpu, "rays", &asked);
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("rays"),
@@ -172,4 +182,23 @@ fn begin_march<'e>(
     let [width, height] = march.viewport.map(|side| side as f32);
     pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
     pass
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::pack::gpu_types::MAX_ASKED_RAYS;
+
+    #[test]
+    fn every_row_has_a_direction() {
+        let rays = [(Vec3::ZERO, Vec3::X), (Vec3::ONE, Vec3::NEG_Y)];
+        let asked = asked_rays(&rays).items;
+        assert_eq!(asked.len(), 2 * MAX_ASKED_RAYS);
+        assert_eq!(asked[..2], [[0.0; 4], [1.0, 0.0, 0.0, 0.0]]);
+        let rest = asked[2..].chunks_exact(2);
+        assert!(
+            rest.into_iter()
+                .all(|ray| ray == [[1.0, 1.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0]])
+        );
+    }
 }
