@@ -419,7 +419,7 @@ fn a_mesh_is_drawn_as_the_native_program_draws_it() {
             "look":{"layers":[{"depth":0,"color":"#b8433a"},{"depth":0.03,"color":"#f2e3b3","grain":0.2}]},
             "templates":[{"kind":"split","at":[0,0,0.1],"size":[0.7,1.2,0.9]}],"camera":{"rotate":[-0.3,0.05,0.1,0.94]}}"##;
         let tab = session
-            .viewer_sized(&format!("#{}", payload(json)), (300, 420))
+            .coarse_viewer(&format!("#{}", payload(json)), (300, 420))
             .await;
         tab.settled().await;
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;

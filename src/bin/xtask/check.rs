@@ -4,9 +4,13 @@
 use crate::house;
 use crate::imports;
 use crate::run::{Outcome, cargo, root, run};
+use std::process::Command;
 
-/// The checks, fast to slow: a name, and the arguments of cargo. Lints are errors here.
-const CHECKS: [(&str, &[&str]); 10] = [
+/// A check: its name, and the arguments of cargo.
+type Check = (&'static str, &'static [&'static str]);
+
+/// What is checked without the page's target, fast to slow. Lints are errors here.
+const NATIVE: [Check; 6] = [
     ("format", &["fmt", "--check"]),
     (
         "lint, xtask",
@@ -34,76 +38,63 @@ const CHECKS: [(&str, &[&str]); 10] = [
         ],
     ),
     ("lint, native", &["clippy", "--all-targets"]),
-    (
-        "lint, page",
-        &[
-            "clippy",
-            "--target",
-            "wasm32-unknown-unknown",
-            "--bin",
-            "fabrica",
-        ],
-    ),
+    ("docs", &["doc", "--no-deps", "--document-private-items"]),
+];
+
+/// The page's programs, each by its features; `None` for the default ones.
+const PAGE: [(&str, Option<&str>, &str); 4] = [
+    ("lint, page", None, "fabrica"),
     (
         "lint, the part that makes subjects",
-        &[
-            "clippy",
-            "--target",
-            "wasm32-unknown-unknown",
-            "--no-default-features",
-            "--features",
-            "part-subjects",
-            "--bin",
-            "fabrica_subjects",
-        ],
+        Some("part-subjects"),
+        "fabrica_subjects",
     ),
-    (
-        "lint, the reader",
-        &[
-            "clippy",
-            "--target",
-            "wasm32-unknown-unknown",
-            "--no-default-features",
-            "--features",
-            "reader",
-            "--bin",
-            "fabrica_reader",
-        ],
-    ),
+    ("lint, the reader", Some("reader"), "fabrica_reader"),
     (
         "lint, the part that reads scans",
-        &[
-            "clippy",
-            "--target",
-            "wasm32-unknown-unknown",
-            "--no-default-features",
-            "--features",
-            "part-scans",
-            "--bin",
-            "fabrica_scans",
-        ],
+        Some("part-scans"),
+        "fabrica_scans",
     ),
-    ("docs", &["doc", "--no-deps", "--document-private-items"]),
 ];
 
 /// Format, lints for every program and every set of features, docs. Goes on after a failure, so that all of them are
 /// seen at once.
 pub(crate) fn check() -> Outcome {
-    let outcomes: Vec<Outcome> = CHECKS.iter().map(|(what, args)| one(what, args)).collect();
+    all([check_native(), check_page(run)])
+}
+
+/// The checks without the page's target.
+pub(crate) fn check_native() -> Outcome {
+    all(NATIVE.map(|(what, args)| {
+        let mut command = cargo();
+        command.args(args).env("RUSTDOCFLAGS", "-D warnings");
+        if args.contains(&"clippy") {
+            command.args(["--", "-D", "warnings"]);
+        }
+        run(what, &mut command)
+    }))
+}
+
+/// Lints the page's programs. With the page's profile cargo works in other folders than it does for native programs, and
+/// neither waits for the other.
+pub(crate) fn check_page(run: fn(&str, &mut Command) -> Outcome) -> Outcome {
+    all(PAGE.map(|(what, features, program)| {
+        let mut command = cargo();
+        command.args(["clippy", "--target", "wasm32-unknown-unknown"]);
+        command.args(["--profile", "web", "--bin", program]);
+        if let Some(features) = features {
+            command.args(["--no-default-features", "--features", features]);
+        }
+        run(what, command.args(["--", "-D", "warnings"]))
+    }))
+}
+
+fn all(outcomes: impl IntoIterator<Item = Outcome>) -> Outcome {
     let failures: Vec<String> = outcomes.into_iter().filter_map(Result::err).collect();
     match failures.is_empty() {
         true => Ok(()),
         false => Err(failures.join("\n  ")),
     }
-}
-
-fn one(what: &str, args: &[&str]) -> Outcome {
-    let mut command = cargo();
-    command.args(args).env("RUSTDOCFLAGS", "-D warnings");
-    if args.contains(&"clippy") {
-        command.args(["--", "-D", "warnings"]);
-    }
-    run(what, &mut command)
 }
 
 /// Writes the assembled programs, as the GPU gets them, with their line maps.

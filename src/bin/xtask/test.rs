@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::check;
 use crate::page;
-use crate::run::{Outcome, cargo, report, root, run};
+use crate::run::{Outcome, cargo, report, root, run, run_beside};
 use crate::setup;
 
 /// The test binaries, fast to slow.
@@ -42,16 +42,18 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         return close(start, outcomes);
     }
     setup::for_page()?;
-    // The page is built beside the checks: for most of its time one core optimises one program, and they have ends that
-    // take one core too.
-    let (checked, built) = std::thread::scope(|scope| {
-        let page = scope.spawn(page::build_beside);
-        (check::check(), page.join())
+    // The page is built beside the native checks and the compiler of the tests: for most of its time one core optimises
+    // one program, and the others have ends that take one core too.
+    let (native, page) = std::thread::scope(|scope| {
+        let page = scope.spawn(|| [page::build_beside(), check::check_page(run_beside)]);
+        let compiled = |checked| [checked, run("compile the tests", &mut tests(&["--no-run"]))];
+        (compiled(check::check_native()), page.join())
     });
-    let mut outcomes = vec![checked];
-    // The page before the tests: where it cannot be built there is no use in waiting for the rest.
-    built.map_err(|_panic| "building the page panicked".to_owned())??;
-    outcomes.push(run("compile the tests", &mut tests(&["--no-run"])));
+    let [built, linted] = page.map_err(|_panic| "building the page panicked".to_owned())?;
+    // Where the page cannot be built there is no use in waiting for the rest.
+    built?;
+    let mut outcomes = Vec::from(native);
+    outcomes.push(linted);
     outcomes.push(run("unit tests", &mut tests(&["--lib"])));
     outcomes.extend(BINARIES.map(one));
     outcomes.push(run("examples in the documentation", &mut tests(&["--doc"])));
