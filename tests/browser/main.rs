@@ -31,6 +31,8 @@ mod server;
 mod size;
 mod slices;
 mod slow;
+#[path = "../support/surfaces.rs"]
+mod surfaces;
 mod tissue;
 
 use compare::{difference, drawn_pixels, object_part};

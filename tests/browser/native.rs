@@ -1,14 +1,11 @@
 //! Pictures of the page beside pictures of the native program.
 
 use super::harness::{Session, Tab};
+use super::surfaces::surface_of;
 use super::*;
-use fabrica::data::{
-    FieldSamples, Grid, Resources, Subject, SubjectPart, SubjectSink, VolumeBuilder,
-};
+use fabrica::data::{FieldSamples, Grid, Resources, VolumeBuilder};
 use fabrica::document::{Illustration, TemplateData};
-use fabrica::load::{
-    FieldUse, LoadReport, MemoryFiles, MeshFile, OneFile, read_field, read_mesh_subject,
-};
+use fabrica::load::{FieldUse, OneFile, read_field};
 use fabrica::subjects::FINE_RESOLUTION;
 use image::RgbaImage;
 use serde_json::{Value, json};
@@ -400,18 +397,6 @@ fn bumpy_ball() -> String {
 /// A mesh that a link names is fetched, prepared in a worker and drawn as the native program draws it.
 #[test]
 fn a_mesh_is_drawn_as_the_native_program_draws_it() {
-    struct Taken(Option<Subject>);
-    impl SubjectSink for Taken {
-        fn take(&mut self, part: SubjectPart) -> Result<(), String> {
-            if let SubjectPart::Surface(surface) = part {
-                self.0 = Some(surface.into());
-            }
-            Ok(())
-        }
-        fn progress(&mut self, _fraction: f32) -> bool {
-            true
-        }
-    }
     with_browser(BrowserGpu::Software, |session| async move {
         let bytes = bumpy_ball().into_bytes();
         session.server.add("ball.obj", bytes.clone());
@@ -424,15 +409,7 @@ fn a_mesh_is_drawn_as_the_native_program_draws_it() {
         tab.settled().await;
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
 
-        let mut taken = Taken(None);
-        let mut files = MemoryFiles::new([("ball.obj", bytes)]);
-        let mesh = MeshFile {
-            file: "ball.obj".to_owned(),
-            ..MeshFile::default()
-        };
-        let mut report = LoadReport::default();
-        read_mesh_subject(&mut files, &[mesh], None, &mut taken, &mut report).expect("a mesh");
-        let subject = taken.0.expect("it came");
+        let subject = surface_of("ball.obj", bytes).into();
         let native = Native::open().await;
         let studio = Studio::new(&native.gpu, &subject, true).expect("it fits");
         let document: Value = serde_json::from_str(json).expect("JSON");

@@ -11,6 +11,7 @@ mod house;
 mod icons;
 #[path = "../../src/bin/xtask/imports.rs"]
 mod imports;
+mod inside;
 mod layers;
 mod layout;
 mod links;
@@ -27,3 +28,5 @@ mod recipes;
 mod scans;
 mod shaders;
 mod subjects;
+#[path = "../support/surfaces.rs"]
+mod surfaces;

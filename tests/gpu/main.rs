@@ -34,3 +34,5 @@ mod scans;
 mod scatter;
 #[path = "../support/segment_files.rs"]
 mod segment_files;
+#[path = "../support/surfaces.rs"]
+mod surfaces;

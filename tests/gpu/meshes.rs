@@ -6,9 +6,9 @@ use std::sync::Arc;
 use crate::data::data_folder;
 use crate::gpu::gpu;
 use crate::scatter::Random;
-use fabrica::data::{Mesh, MeshPart, SubjectPart, SubjectSink, Surface};
+use crate::surfaces::surface_of;
+use fabrica::data::{Mesh, MeshPart, Surface};
 use fabrica::document::{Document, Illustration};
-use fabrica::load::{LoadReport, MemoryFiles, MeshFile, read_mesh_subject};
 use fabrica::render::{SliceColors, SlicePlane, SliceView, Studio, View};
 use glam::{Vec2, Vec3};
 
@@ -22,32 +22,6 @@ const FARTHEST: f32 = 1e-3;
 /// they meet may lie.
 const ASIDE: f32 = 0.002;
 const STEADY: f32 = 0.02;
-
-struct Taken(Option<Arc<Surface>>);
-
-impl SubjectSink for Taken {
-    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
-        if let SubjectPart::Surface(surface) = part {
-            self.0 = Some(surface);
-        }
-        Ok(())
-    }
-
-    fn progress(&mut self, _fraction: f32) -> bool {
-        true
-    }
-}
-
-fn read(name: &str, bytes: Vec<u8>) -> Arc<Surface> {
-    let (mut files, mut taken) = (MemoryFiles::new([(name, bytes)]), Taken(None));
-    let mesh = MeshFile {
-        file: name.to_owned(),
-        ..MeshFile::default()
-    };
-    let mut report = LoadReport::default();
-    read_mesh_subject(&mut files, &[mesh], None, &mut taken, &mut report).expect("a mesh");
-    taken.0.expect("it came")
-}
 
 /// A box of 100 × 60 × 80 mm.
 fn brick() -> Arc<Surface> {
@@ -268,5 +242,5 @@ fn rays_meet_a_scanned_figure_where_a_search_finds_it() {
         return;
     };
     let bytes = std::fs::read(folder.join("mesh/bunny.obj")).expect("the bunny");
-    check(&read("bunny.obj", bytes), "bunny", true, 1);
+    check(&surface_of("bunny.obj", bytes), "bunny", true, 1);
 }

@@ -15,6 +15,12 @@ pub const FIELD_MARGIN: u32 = 2;
 /// How far from triangles the distances are exact, voxels.
 const BAND: f32 = 2.0;
 
+/// Side of the blocks in which open surfaces are filled, voxels.
+const BLOCK: u32 = 16;
+
+/// So far the winding numbers at a block's corners have to be from the ½ that decides.
+const LEAST_MARGIN: f64 = 0.15;
+
 /// Distances on a grid, x fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceField {
@@ -165,57 +171,26 @@ impl<'a> FieldMaker<'a> {
         }
     }
 
-    /// Finds what is inside and finishes. `segments` are asked in their order, `each` of them at voxels near a triangle
-    /// and once in each region without one. `go_on` is told how far it is, 0 to 1; false stops it, and gives `None`.
+    /// Finds what is inside and finishes. `segments` are asked in their order, `each` of them at voxels near a triangle;
+    /// elsewhere once in each region without one if all are closed, else in blocks of voxels. `go_on` is told how far it
+    /// is, 0 to 1; false stops it, and gives `None`.
     pub(super) fn finish(
         self,
         segments: &[Winding],
+        are_closed: bool,
         go_on: &mut dyn FnMut(f32) -> bool,
     ) -> Option<SurfaceField> {
-        let count = self.nearest.len();
-        let mut sets = vec![0_u128];
-        sets.extend((0..segments.len()).map(|k| 1_u128 << (2 * k)));
-        let mut fills = vec![u8::MAX; count];
-        let far = 0.5 * self.spacing.max_element() * 1.001;
-        let [width, height, depth] = self.dims.to_array();
-        let mut waiting: Vec<usize> = Vec::new();
-        for start in 0..count {
-            if start % (width * height) as usize == 0 && !go_on(start as f32 / count as f32) {
-                return None;
-            }
-            if fills[start] != u8::MAX {
-                continue;
-            }
-            let voxel = UVec3::new(
-                start as u32 % width,
-                start as u32 / width % height,
-                start as u32 / (width * height),
-            );
-            let set = set_at(segments, self.center(voxel), &mut sets);
-            fills[start] = set;
-            waiting.push(start);
-            // Two neighbours that are both farther from all triangles than half their distance have none between them.
-            while let Some(index) = waiting.pop() {
-                if self.nearest[index].1 <= far {
-                    continue;
-                }
-                let i = index as u32;
-                let at = UVec3::new(i % width, i / width % height, i / (width * height));
-                let mut offer = |is_there: bool, neighbour: usize| {
-                    if is_there && fills[neighbour] == u8::MAX && self.nearest[neighbour].1 > far {
-                        fills[neighbour] = set;
-                        waiting.push(neighbour);
-                    }
-                };
-                let (row, slice) = (width as usize, (width * height) as usize);
-                offer(at.x > 0, index.wrapping_sub(1));
-                offer(at.x + 1 < width, index + 1);
-                offer(at.y > 0, index.wrapping_sub(row));
-                offer(at.y + 1 < height, index + row);
-                offer(at.z > 0, index.wrapping_sub(slice));
-                offer(at.z + 1 < depth, index + slice);
-            }
-        }
+        let mut sets = Sets {
+            segments,
+            known: vec![0_u128],
+        };
+        let alone = (0..segments.len()).map(|k| 1_u128 << (2 * k));
+        sets.known.extend(alone);
+        let fills = if are_closed {
+            self.flooded(&mut sets, go_on)
+        } else {
+            self.in_blocks(&mut sets, go_on)
+        }?;
         let band = BAND * self.spacing.min_element();
         let depths = self
             .nearest
@@ -236,27 +211,168 @@ impl<'a> FieldMaker<'a> {
                 * DAffine3::from_scale(DVec3::from(self.spacing)),
             depths: depths.collect(),
             fills,
-            sets,
+            sets: sets.known,
         })
+    }
+
+    /// The farthest that a triangle between two neighbours may be from the nearer one.
+    fn near(&self) -> f32 {
+        0.5 * self.spacing.max_element() * 1.001
+    }
+
+    fn voxel(&self, index: usize) -> UVec3 {
+        let i = index as u32;
+        let [width, height, _] = self.dims.to_array();
+        UVec3::new(i % width, i / width % height, i / (width * height))
+    }
+
+    /// The set of each voxel, by regions without a triangle: all of one is inside of the same closed segments.
+    fn flooded(&self, sets: &mut Sets<'_>, go_on: &mut dyn FnMut(f32) -> bool) -> Option<Vec<u8>> {
+        let count = self.nearest.len();
+        let mut fills = vec![u8::MAX; count];
+        let near = self.near();
+        let [width, height, depth] = self.dims.to_array();
+        let (row, slice) = (width as usize, (width * height) as usize);
+        let mut waiting: Vec<usize> = Vec::new();
+        for start in 0..count {
+            if start % slice == 0 && !go_on(start as f32 / count as f32) {
+                return None;
+            }
+            if fills[start] != u8::MAX {
+                continue;
+            }
+            let set = sets.index_at(self.center(self.voxel(start)));
+            fills[start] = set;
+            waiting.push(start);
+            // Two neighbours that are both farther from all triangles than half their distance have none between them.
+            while let Some(index) = waiting.pop() {
+                if self.nearest[index].1 <= near {
+                    continue;
+                }
+                let at = self.voxel(index);
+                let mut offer = |is_there: bool, neighbour: usize| {
+                    if is_there && fills[neighbour] == u8::MAX && self.nearest[neighbour].1 > near {
+                        fills[neighbour] = set;
+                        waiting.push(neighbour);
+                    }
+                };
+                offer(at.x > 0, index.wrapping_sub(1));
+                offer(at.x + 1 < width, index + 1);
+                offer(at.y > 0, index.wrapping_sub(row));
+                offer(at.y + 1 < height, index + row);
+                offer(at.z > 0, index.wrapping_sub(slice));
+                offer(at.z + 1 < depth, index + slice);
+            }
+        }
+        Some(fills)
+    }
+
+    /// The set of each voxel by blocks: through a hole the winding number changes without a triangle, but evenly.
+    fn in_blocks(
+        &self,
+        sets: &mut Sets<'_>,
+        go_on: &mut dyn FnMut(f32) -> bool,
+    ) -> Option<Vec<u8>> {
+        let mut fills = vec![0; self.nearest.len()];
+        for z in (0..self.dims.z).step_by(BLOCK as usize) {
+            if !go_on(z as f32 / self.dims.z as f32) {
+                return None;
+            }
+            for y in (0..self.dims.y).step_by(BLOCK as usize) {
+                for x in (0..self.dims.x).step_by(BLOCK as usize) {
+                    self.fill_block(UVec3::new(x, y, z), BLOCK, sets, &mut fills);
+                }
+            }
+        }
+        Some(fills)
+    }
+
+    /// Fills a block of voxels: at once where no triangle is in it and the winding numbers at its corners agree, else by
+    /// its eighths.
+    fn fill_block(&self, low: UVec3, side: u32, sets: &mut Sets<'_>, fills: &mut [u8]) {
+        if low.cmpge(self.dims).any() {
+            return;
+        }
+        let high = (low + side).min(self.dims);
+        if side == 1 {
+            fills[self.index(low)] = sets.index_at(self.center(low));
+            return;
+        }
+        let near = self.near();
+        let indices = (low.z..high.z).flat_map(|z| {
+            (low.y..high.y)
+                .flat_map(move |y| (low.x..high.x).map(move |x| self.index(UVec3::new(x, y, z))))
+        });
+        if indices.clone().all(|index| self.nearest[index].1 > near)
+            && let Some(set) = self.set_of_block(low, high - 1, sets)
+        {
+            indices.for_each(|index| fills[index] = set);
+            return;
+        }
+        let half = side / 2;
+        for corner in 0..8 {
+            let offset = UVec3::new(corner & 1, corner >> 1 & 1, corner >> 2) * half;
+            self.fill_block(low + offset, half, sets, fills);
+        }
+    }
+
+    /// The set of all voxels from `low` to `last`, if those at the corners have one, none of them by little.
+    fn set_of_block(&self, low: UVec3, last: UVec3, sets: &mut Sets<'_>) -> Option<u8> {
+        let mut common = None;
+        for corner in 0..8_u32 {
+            let is_last = |axis: u32| corner >> axis & 1 == 1;
+            let voxel = UVec3::select(
+                glam::BVec3::new(is_last(0), is_last(1), is_last(2)),
+                last,
+                low,
+            );
+            let (set, margin) = set_at(sets.segments, self.center(voxel));
+            if margin < LEAST_MARGIN || common.is_some_and(|known| known != set) {
+                return None;
+            }
+            common = Some(set);
+        }
+        common.map(|set| sets.index_of(set))
     }
 }
 
-/// The index of the set of segments that a place is inside of. A set that is met for the first time is added; where
-/// there are too many, the place counts as inside of the first of its segments alone.
-fn set_at(segments: &[Winding], place: Vec3, sets: &mut Vec<u128>) -> u8 {
-    let mut set = 0_u128;
+/// The sets of segments that occur.
+struct Sets<'a> {
+    segments: &'a [Winding],
+    known: Vec<u128>,
+}
+
+impl Sets<'_> {
+    /// The index of the set of segments that a place is inside of.
+    fn index_at(&mut self, place: Vec3) -> u8 {
+        self.index_of(set_at(self.segments, place).0)
+    }
+
+    /// The index of a set. One that is met for the first time is added; where there are too many, its first segment
+    /// stands for it.
+    fn index_of(&mut self, set: u128) -> u8 {
+        if let Some(index) = self.known.iter().position(|&known| known == set) {
+            return index as u8;
+        }
+        if self.known.len() < usize::from(u8::MAX) {
+            self.known.push(set);
+            return (self.known.len() - 1) as u8;
+        }
+        1 + (set.trailing_zeros() / 2) as u8
+    }
+}
+
+/// How often a place is inside of each segment: a set. And how far the winding numbers are from those at which it
+/// changes.
+fn set_at(segments: &[Winding], place: Vec3) -> (u128, f64) {
+    let (mut set, mut margin) = (0_u128, 0.5_f64);
     for (k, segment) in segments.iter().enumerate() {
         if segment.bounds().contains(place) {
-            let times = segment.at(place).abs().round().min(3.0) as u128;
-            set |= times << (2 * k);
+            let winding = segment.at(place).abs();
+            let times = winding.round().min(3.0);
+            margin = margin.min(0.5 - (winding - times).abs());
+            set |= (times as u128) << (2 * k);
         }
     }
-    if let Some(index) = sets.iter().position(|&known| known == set) {
-        return index as u8;
-    }
-    if sets.len() < usize::from(u8::MAX) {
-        sets.push(set);
-        return (sets.len() - 1) as u8;
-    }
-    1 + (set.trailing_zeros() / 2) as u8
+    (set, margin)
 }

@@ -162,8 +162,9 @@ impl Surface {
             maker.sweep(pass % 3);
             stop_at(0.5 + 0.05 * pass as f32)?;
         }
+        let are_closed = segments.iter().all(|segment| segment.is_closed);
         let field = maker
-            .finish(&windings, &mut |part| go_on(0.8 + 0.2 * part))
+            .finish(&windings, are_closed, &mut |part| go_on(0.8 + 0.2 * part))
             .ok_or(SurfaceError::Stopped)?;
         let segmentation = segmentation_of(grid, &field, &segments);
         Ok(Self {
@@ -659,6 +660,42 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn an_open_body_is_full_up_to_its_lid() {
+        // Half a ball, open at the top, where a flat lid closes it.
+        let n = 24;
+        let (positions, triangles) = ball(Vec3::ZERO, n);
+        let is_low = |triangle: &[u32; 3]| {
+            let height = |&index: &u32| positions[index as usize].z;
+            triangle.iter().all(|index| height(index) < 0.1)
+        };
+        let triangles: Vec<_> = triangles.into_iter().filter(is_low).collect();
+        let mesh = Mesh {
+            parts: vec![part("bowl", 0..triangles.len())],
+            positions,
+            triangles,
+            ..Mesh::default()
+        };
+        let bowl = surface(&mesh);
+        assert!(!bowl.segments[0].is_closed);
+        let mm = bowl.frame.mm_per_unit as f32;
+        let middle = bowl.frame.middle_mm.as_vec3();
+        let (mut filled, mut random) = (0, Random(9));
+        for _ in 0..2000 {
+            let place = random.place() * 60.0;
+            // Chords of 24 steps lie half a millimetre under the ball; the lid is known to a voxel.
+            let (far, voxel) = (place.length() - 50.0, 100.0 / 128.0);
+            if (-0.6..0.1).contains(&far) || place.z.abs() < voxel {
+                continue;
+            }
+            let is_filled = far < 0.0 && place.z < 0.0;
+            filled += u32::from(is_filled);
+            let found = bowl.segment_at((place - middle) / mm);
+            assert_eq!(found.is_some(), is_filled, "{place}");
+        }
+        assert!(filled > 200, "{filled}");
     }
 
     #[test]
