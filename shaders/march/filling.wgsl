@@ -45,7 +45,7 @@ fn filled_at(rest: vec3f) -> u32 {
 
 /// Linear RGB of a triangle at a point of these weights, from its front or its back.
 fn surface_color(triangle: u32, weights: vec3f, is_front: bool) -> vec3f {
-    let body = mesh_look.segments[u32(segment_and_opacity_of(triangle).x)];
+    let body = mesh_look.segments[segment_of(triangle)];
     var own = body.color.rgb;
     if body.color.a < 0.0 {
         own = color_of_triangle(triangle, weights);

@@ -11,7 +11,7 @@
 // Differs from the source: one rule for the deformed part and the rest, exact edges, no blending at borders.
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/compose.wgsl
 //   march/overrides.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl march/jacobian.wgsl march/surface.wgsl
-//   march/surroundings.wgsl march/marched.wgsl subject/place.wgsl subject/mesh.wgsl
+//   march/surroundings.wgsl march/marched.wgsl subject/place.wgsl subject/mesh.wgsl subject/crossing.wgsl
 //   march/filling.wgsl
 //   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
@@ -157,7 +157,7 @@ fn exact_spot(ray: Ray, here: Spot, next: Spot, crossing: TriangleCrossing, mask
 }
 
 fn met_triangle(at: Spot, crossing: TriangleCrossing, mask: u32) -> Met {
-    let segment = u32(segment_and_opacity_of(crossing.triangle).x) + 1u;
+    let segment = segment_of(crossing.triangle) + 1u;
     return Met(true, at, crossing.triangle, crossing.weights, crossing.is_front, segment, mask);
 }
 
@@ -354,8 +354,12 @@ fn look_of(ray: Ray, met: Met) -> MetLook {
         normal = normalize(normal - ray.dir * max(dot(normal, ray.dir), 0.0) * 1.02);
         look_here.normal = normal;
         look_here.plane_normal = normalize(side * face);
-        look_here.albedo = surface_color(met.triangle, met.weights, met.is_front);
-        look_here.opacity = segment_and_opacity_of(met.triangle).y;
+        if owner_of(met.triangle) >= LID {
+            look_here.albedo = filling_color(met.segment, met.at.pos);
+        } else {
+            look_here.albedo = surface_color(met.triangle, met.weights, met.is_front);
+            look_here.opacity = opacity_of_triangle(met.triangle);
+        }
     } else {
         let slope = length(map.slope);
         if !met.is_front {
@@ -436,7 +440,7 @@ fn met_at_start(ray: Ray) -> Met {
 /// What a ray is said to meet.
 fn event_of(met: Met, look_here: MetLook) -> Event {
     var what = MET_CUT;
-    if met.triangle != NO_TRIANGLE {
+    if met.triangle != NO_TRIANGLE && owner_of(met.triangle) < LID {
         what = select(MET_INSIDE, MET_SURFACE, met.is_front);
     }
     return Event(met.at.t, what, met.segment, look_here.plane_normal, met.at.pos, look_here.albedo);

@@ -1,6 +1,7 @@
 // A slice through a mesh: what is filled in the colours of its segments, and surfaces as lines.
 // needs: types.wgsl bind/subject.wgsl bind/mesh_look.wgsl bind/slice.wgsl affine.wgsl displace/compose.wgsl
-//   subject/place.wgsl subject/mesh.wgsl march/filling.wgsl slice/plane.wgsl march/plain.wgsl|march/align.wgsl
+//   subject/place.wgsl subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl slice/plane.wgsl
+//   march/plain.wgsl|march/align.wgsl
 
 /// Half the width of the line of a surface, pixels (spec/surfaces.md, "Alignment, constraints, labels": 1.5 points).
 const SLICE_LINE: f32 = 0.75;

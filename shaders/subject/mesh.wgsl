@@ -3,12 +3,14 @@
 //
 // Texels of `mesh_texels`:
 //   node        min, node behind its branch | max, first triangle and how many (4 bits, 0 in nodes that are no leaf)
-//   triangle    for each corner: place, normal | sRGB colours of the corners, segment and opacity
+//   triangle    for each corner: place, normal | sRGB colours of the corners, owner (8 bits) and opacity (8 bits)
 //   set         two bits for each of 64 segments: how often a place is inside of it
 // needs: types.wgsl affine.wgsl srgb.wgsl bind/subject.wgsl subject/place.wgsl
 
 /// Stands for no label.
 const NO_LABEL: u32 = 0xffffffffu;
+/// Marks the owner of a triangle that is part of a lid: what closes the hole of an open body.
+const LID: u32 = 128u;
 /// Stands for no triangle.
 const NO_TRIANGLE: u32 = 0xffffffffu;
 /// Texels in a row of `mesh_texels`.
@@ -48,10 +50,19 @@ fn face_of(triangle: u32) -> vec3f {
     return normalize(cross(corner_of(triangle, 1u) - a, corner_of(triangle, 2u) - a));
 }
 
-/// Segment of a triangle, from 0, and its opacity by the file, 0 to 1.
-fn segment_and_opacity_of(triangle: u32) -> vec2f {
-    let packed = mesh_texel(subject.triangles_at + 4u * triangle + 3u).w;
-    return vec2f(f32(packed & 255u), f32((packed >> 8u) & 255u) / 255.0);
+/// Segment of a triangle, from 0; with LID added if the triangle is part of a lid.
+fn owner_of(triangle: u32) -> u32 {
+    return mesh_texel(subject.triangles_at + 4u * triangle + 3u).w & 255u;
+}
+
+/// Segment of a triangle, from 0.
+fn segment_of(triangle: u32) -> u32 {
+    return owner_of(triangle) & ~LID;
+}
+
+/// Opacity of a triangle by the file, 0 to 1.
+fn opacity_of_triangle(triangle: u32) -> f32 {
+    return f32((mesh_texel(subject.triangles_at + 4u * triangle + 3u).w >> 8u) & 255u) / 255.0;
 }
 
 /// Linear RGB of a triangle at a point of these weights.
@@ -112,33 +123,6 @@ fn inverse_of(way: vec3f) -> vec3f {
     return 1.0 / select(way, select(-least, least, way >= vec3f(0.0)), abs(way) < least);
 }
 
-/// The first triangle on the way from a place to another, `skipped` left out.
-fn first_crossing(start: vec3f, end: vec3f, skipped: u32) -> TriangleCrossing {
-    let way = end - start;
-    let inverse_way = inverse_of(way);
-    var found = TriangleCrossing(NO_TRIANGLE, 1.0, vec3f(0.0), false);
-    var node = 0u;
-    while node < subject.node_count {
-        let low = mesh_texel(2u * node);
-        let high = mesh_texel(2u * node + 1u);
-        let span = part_in_box(start, inverse_way, bitcast<vec3f>(low.xyz), bitcast<vec3f>(high.xyz), found.part);
-        let count = high.w & 15u;
-        let is_met = span.x <= span.y;
-        var left = select(0u, count, is_met);
-        var triangle = high.w >> 4u;
-        while left > 0u {
-            left--;
-            let crossing = crossing_of(triangle, start, way);
-            if crossing.triangle != NO_TRIANGLE && crossing.triangle != skipped && crossing.part <= found.part {
-                found = crossing;
-            }
-            triangle++;
-        }
-        node = select(low.w, node + 1u, is_met && count == 0u);
-    }
-    return found;
-}
-
 /// How often a place is inside of segments by a set, with the triangles between the place and the middle of the voxel
 /// that the set is of. Returns the set of the place.
 fn set_beside(times: vec4u, place: vec3f, middle: vec3f) -> vec4u {
@@ -158,7 +142,7 @@ fn set_beside(times: vec4u, place: vec3f, middle: vec3f) -> vec4u {
             left--;
             let crossing = crossing_of(triangle, place, way);
             if crossing.triangle != NO_TRIANGLE {
-                let segment = u32(segment_and_opacity_of(triangle).x);
+                let segment = segment_of(triangle);
                 let word = segment >> 4u;
                 let shift = 2u * (segment & 15u);
                 let before = (more[word] >> shift) & 3u;
@@ -255,8 +239,8 @@ fn nearest_on(triangle: u32, place: vec3f) -> vec3f {
     return a + (ab * vb + ac * vc) / (va + vb + vc);
 }
 
-/// From a place of rest space to the nearest point of a segment's triangles (from 0), if that is nearer than `within`;
-/// w is the distance, or `within`.
+/// From a place of rest space to the nearest point of a segment's triangles (from 0), lids left out, if that is nearer
+/// than `within`; w is the distance, or `within`.
 fn to_nearest(rest: vec3f, within: f32, segment: u32) -> vec4f {
     var nearest = vec4f(0.0, 0.0, 0.0, within);
     var node = 0u;
@@ -272,7 +256,7 @@ fn to_nearest(rest: vec3f, within: f32, segment: u32) -> vec4f {
             left--;
             let way = nearest_on(triangle, rest) - rest;
             let far = length(way);
-            if far < nearest.w && u32(segment_and_opacity_of(triangle).x) == segment {
+            if far < nearest.w && owner_of(triangle) == segment {
                 nearest = vec4f(way, far);
             }
             triangle++;

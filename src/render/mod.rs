@@ -46,6 +46,7 @@ pub use pack::look::{
     TABLE_SIZE, TransferTable, absolute_points, auto_preset, linear_color, window_of,
 };
 pub use pack::marks::{Marks, ScaleBar};
+pub use pack::mesh_look::lidded;
 pub use pack::notice::RenderNotice;
 pub use pack::values::SubjectInfo;
 pub use pack::view::View;

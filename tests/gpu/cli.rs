@@ -764,6 +764,27 @@ fn rays_meet_what_a_page_says() {
             "nothing is there"
         );
     }
+    // Without its upper face a lid closes the box where it is to be full, and a notice says so.
+    let open = box_obj("box", [0.0; 3], 50.0).replace("f 5 6 8 7\n", "");
+    write(&folder, "open.obj", open);
+    let lid = "look: “box” is open; a lid closes its solid body";
+    for (body, distance, end, has_lid) in [
+        ("solid", 1.5, "cut,rind,#b8433a", true),
+        ("auto", 2.5, "inside,box,#405060", false),
+    ] {
+        let json = format!(
+            r##"{{"fabrica":1,"subject":{{"src":"open.obj","name":"box","axes":"ras"}},"look":{{"body":"{body}","inside":"#405060",
+                "layers":[{{"depth":0,"name":"rind","color":"#b8433a"}},{{"depth":0.6,"color":"#f2e3b3"}}]}}}}"##
+        );
+        write(&folder, "open.json", json);
+        let ray = b"0.2,0.3,2,0,0,-1\n";
+        let ran = fabrica_with(folder.path(), &["probe", "open.json", "--rays"], ray).ok();
+        let columns: Vec<&str> = ran.out.trim_end().split(',').collect();
+        let found: f32 = columns[6].parse().expect("a number");
+        assert!((found - distance).abs() < 2e-3, "{body}: {}", ran.out);
+        assert_eq!(columns[16..].join(","), end, "{body}");
+        assert_eq!(ran.err.contains(lid), has_lid, "{body}: {}", ran.err);
+    }
     let bad = |input: &[u8], what: &[&str]| {
         fabrica_with(folder.path(), &["probe", "box.json", "--rays"], input).failed(what);
     };

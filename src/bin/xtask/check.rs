@@ -75,8 +75,8 @@ pub(crate) fn check_native() -> Outcome {
     }))
 }
 
-/// Lints the page's programs. With the page's profile cargo works in other folders than it does for native programs, and
-/// neither waits for the other.
+/// Lints the page's programs. With the page's profile cargo works in other folders than it does for native programs,
+/// and neither waits for the other.
 pub(crate) fn check_page(run: fn(&str, &mut Command) -> Outcome) -> Outcome {
     all(PAGE.map(|(what, features, program)| {
         let mut command = cargo();

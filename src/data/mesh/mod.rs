@@ -2,6 +2,7 @@
 
 pub(crate) mod edges;
 mod measure;
+pub(crate) mod polygon;
 #[cfg(test)]
 pub(crate) mod testing;
 mod value;

@@ -5,7 +5,7 @@ use glam::{DAffine3, UVec3, Vec3};
 use super::field::{FIELD_MARGIN, SurfaceField};
 use super::tree::{Tree, TreeNode};
 use super::triangle::Triangle;
-use super::whole::{MAX_SURFACE_SEGMENTS, Surface, SurfaceSegment, frame_of, segmentation_of};
+use super::whole::{LID, MAX_SURFACE_SEGMENTS, Surface, SurfaceSegment, frame_of, segmentation_of};
 use crate::data::Grid;
 use crate::math::Aabb;
 
@@ -63,7 +63,7 @@ impl SurfaceArrays {
         arrays
             .bytes
             .extend(surface.colors.as_flattened().as_flattened());
-        arrays.bytes.extend(&surface.segment_of);
+        arrays.bytes.extend(&surface.owners);
         arrays.bytes.extend(&field.fills);
         for segment in &surface.segments {
             arrays.names.push(segment.name.clone());
@@ -130,7 +130,7 @@ impl SurfaceArrays {
         for _ in 0..triangle_count {
             colors.push([color()?, color()?, color()?]);
         }
-        let segment_of: Vec<u8> = bytes.by_ref().take(triangle_count as usize).collect();
+        let owners: Vec<u8> = bytes.by_ref().take(triangle_count as usize).collect();
         let fills: Vec<u8> = bytes.by_ref().take(voxels).collect();
         let mut segments = Vec::new();
         for name in &self.names {
@@ -149,11 +149,13 @@ impl SurfaceArrays {
             sets,
         };
         let is_whole = order.len() == triangles.len()
-            && segment_of.len() == triangles.len()
+            && owners.len() == triangles.len()
             && field.depths.len() == voxels
             && field.fills.len() == voxels
             && segments.len() <= MAX_SURFACE_SEGMENTS
-            && segment_of.iter().all(|&s| usize::from(s) < segments.len())
+            && owners
+                .iter()
+                .all(|&owner| usize::from(owner & !LID) < segments.len())
             && field
                 .fills
                 .iter()
@@ -165,7 +167,7 @@ impl SurfaceArrays {
             triangles,
             normals,
             colors,
-            segment_of,
+            owners,
             tree: Tree { nodes, order },
             field,
             segments,

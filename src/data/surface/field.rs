@@ -171,9 +171,9 @@ impl<'a> FieldMaker<'a> {
         }
     }
 
-    /// Finds what is inside and finishes. `segments` are asked in their order, `each` of them at voxels near a triangle;
-    /// elsewhere once in each region without one if all are closed, else in blocks of voxels. `go_on` is told how far it
-    /// is, 0 to 1; false stops it, and gives `None`.
+    /// Finds what is inside and finishes. `segments` are asked in their order, each of them at voxels near a triangle;
+    /// elsewhere once in each region without one if all are closed, else in blocks of voxels. `go_on` is told how far
+    /// it is, 0 to 1; false stops it, and gives `None`.
     pub(super) fn finish(
         self,
         segments: &[Winding],
@@ -287,8 +287,8 @@ impl<'a> FieldMaker<'a> {
         Some(fills)
     }
 
-    /// Fills a block of voxels: at once where no triangle is in it and the winding numbers at its corners agree, else by
-    /// its eighths.
+    /// Fills a block of voxels: at once where no triangle is in it and the winding numbers at its corners agree, else
+    /// by its eighths.
     fn fill_block(&self, low: UVec3, side: u32, sets: &mut Sets<'_>, fills: &mut [u8]) {
         if low.cmpge(self.dims).any() {
             return;

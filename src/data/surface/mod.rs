@@ -3,6 +3,7 @@
 
 mod arrays;
 mod field;
+mod lids;
 mod normals;
 #[cfg(test)]
 pub(crate) mod testing;

@@ -3,6 +3,7 @@
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::field::{FIELD_MARGIN, FieldMaker, SurfaceField, times_inside, voxels_of};
+use super::lids::lids_of;
 use super::normals::corner_normals;
 use super::tree::Tree;
 use super::triangle::Triangle;
@@ -15,6 +16,9 @@ use crate::math::{Aabb, linear_from_srgb, srgb_from_linear};
 
 /// Segments of one surface at most; the parts beyond them belong to the last one.
 pub const MAX_SURFACE_SEGMENTS: usize = 64;
+
+/// Marks the owner of a triangle that is part of a lid: what closes the hole of an open body.
+pub(super) const LID: u8 = 128;
 
 /// Colour where a file gives none, sRGB.
 pub const PLAIN_SRGB: [u8; 3] = [0xd8, 0xcd, 0xbd];
@@ -37,8 +41,8 @@ pub struct Surface {
     pub normals: Vec<[Vec3; 3]>,
     /// Colours at the corners of each triangle, sRGB.
     pub colors: Vec<[[u8; 3]; 3]>,
-    /// The segment of each triangle: an index into `segments`.
-    pub segment_of: Vec<u8>,
+    /// The segment of each triangle, an index into `segments`; with 128 added if the triangle is part of a lid.
+    pub owners: Vec<u8>,
     /// The tree over the triangles.
     pub tree: Tree,
     /// Distances and segments on a grid.
@@ -124,7 +128,7 @@ impl Surface {
         let each = |&(mesh, smooth): &(&Mesh, Option<f32>)| corner_normals(mesh, smooth);
         let mut normals: Vec<_> = meshes.iter().flat_map(each).collect();
         let mut colors: Vec<_> = meshes.iter().flat_map(|(m, _)| corner_colors(m)).collect();
-        let (segments, mut segment_of) = segments_of(mesh, &colors, &triangles);
+        let (segments, mut owners) = segments_of(mesh, &colors, &triangles);
         let mut stop_at = |part: f32| {
             if go_on(part) {
                 Ok(())
@@ -133,22 +137,36 @@ impl Surface {
             }
         };
         stop_at(0.1)?;
-        let windings = windings_of(&triangles, &segment_of, segments.len());
+        let mut windings = windings_of(&triangles, &owners, segments.len());
         turn_outwards(
             mesh,
             &mut triangles,
             &mut normals,
             &mut colors,
-            &segment_of,
+            &owners,
             &windings,
         );
         stop_at(0.2)?;
+        let voxel = frame.detail;
+        let mut are_closed = true;
+        for (k, segment) in segments.iter().enumerate().filter(|(_, s)| !s.is_closed) {
+            let mut own = of_segment(&triangles, &owners, k);
+            let lids = lids_of(&own, &windings[k], voxel);
+            are_closed &= lids.close_all;
+            own.extend(&lids.triangles);
+            windings[k] = Winding::new(&own);
+            owners.extend(lids.triangles.iter().map(|_| LID | k as u8));
+            colors.extend(lids.triangles.iter().map(|_| [segment.mean_srgb; 3]));
+            triangles.extend(lids.triangles);
+            normals.extend(lids.normals);
+            stop_at(0.25)?;
+        }
 
         let tree = Tree::new(&triangles);
         triangles = in_order(&tree.order, &triangles);
         normals = in_order(&tree.order, &normals);
         colors = in_order(&tree.order, &colors);
-        segment_of = in_order(&tree.order, &segment_of);
+        owners = in_order(&tree.order, &owners);
         stop_at(0.3)?;
 
         let mut maker = FieldMaker::new(&frame.bounds, &triangles);
@@ -162,7 +180,6 @@ impl Surface {
             maker.sweep(pass % 3);
             stop_at(0.5 + 0.05 * pass as f32)?;
         }
-        let are_closed = segments.iter().all(|segment| segment.is_closed);
         let field = maker
             .finish(&windings, are_closed, &mut |part| go_on(0.8 + 0.2 * part))
             .ok_or(SurfaceError::Stopped)?;
@@ -172,12 +189,22 @@ impl Surface {
             triangles,
             normals,
             colors,
-            segment_of,
+            owners,
             tree,
             field,
             segments,
             segmentation,
         })
+    }
+
+    /// The segment of a triangle: an index into `segments`.
+    pub fn segment_of(&self, triangle: usize) -> usize {
+        usize::from(self.owners[triangle] & !LID)
+    }
+
+    /// True if a triangle is not the file's: if it is part of a lid.
+    pub fn is_lid(&self, triangle: usize) -> bool {
+        self.owners[triangle] >= LID
     }
 
     /// Names the segment of a surface that has one.
@@ -212,7 +239,7 @@ impl Surface {
         // Who comes from the front of a triangle was outside of it, once less than behind it.
         self.tree
             .crossings(&self.triangles, place, center, |triangle, _, is_front| {
-                times[usize::from(self.segment_of[triangle])] += if is_front { -1 } else { 1 };
+                times[self.segment_of(triangle)] += if is_front { -1 } else { 1 };
             });
         let inside = times.iter().zip(0..).filter(|(times, _)| **times > 0);
         inside.fold(0, |all, (_, k)| all | 1 << k)
@@ -224,9 +251,10 @@ impl Surface {
         (inside != 0).then(|| inside.trailing_zeros() as usize)
     }
 
-    /// Distance of a place of rest space to the triangles of a segment, subject units; infinite if it has none.
+    /// Distance of a place of rest space to the triangles of a segment, lids left out, subject units; infinite if it
+    /// has none.
     pub fn distance_to(&self, segment: usize, place: Vec3) -> f32 {
-        let is_own = |triangle: usize| usize::from(self.segment_of[triangle]) == segment;
+        let is_own = |triangle: usize| usize::from(self.owners[triangle]) == segment;
         self.tree
             .nearest(&self.triangles, place, f32::INFINITY, is_own)
             .map_or(f32::INFINITY, |nearest| nearest.distance)
@@ -239,7 +267,7 @@ impl Surface {
         if inside == 0 {
             let nearest = self
                 .tree
-                .nearest(&self.triangles, place, f32::INFINITY, |_| true);
+                .nearest(&self.triangles, place, f32::INFINITY, |i| !self.is_lid(i));
             return nearest.map_or(f32::NEG_INFINITY, |nearest| -nearest.distance);
         }
         (0..self.segments.len())
@@ -420,15 +448,16 @@ fn segments_of(
     (segments, segment_of)
 }
 
-fn windings_of(triangles: &[Triangle], segment_of: &[u8], count: usize) -> Vec<Winding> {
-    let of_segment = |k: usize| {
-        let own = triangles
-            .iter()
-            .zip(segment_of)
-            .filter(|(_, s)| usize::from(**s) == k);
-        Winding::new(&own.map(|(triangle, _)| *triangle).collect::<Vec<_>>())
-    };
-    (0..count).map(of_segment).collect()
+fn of_segment(triangles: &[Triangle], owners: &[u8], segment: usize) -> Vec<Triangle> {
+    let all = triangles.iter().zip(owners);
+    let own = all.filter(|(_, owner)| usize::from(**owner) == segment);
+    own.map(|(triangle, _)| *triangle).collect()
+}
+
+fn windings_of(triangles: &[Triangle], owners: &[u8], count: usize) -> Vec<Winding> {
+    (0..count)
+        .map(|k| Winding::new(&of_segment(triangles, owners, k)))
+        .collect()
 }
 
 /// Turns pieces over that are inside out: those around which the winding number, mean of both sides and by area, is
@@ -438,7 +467,7 @@ fn turn_outwards(
     triangles: &mut [Triangle],
     normals: &mut [[Vec3; 3]],
     colors: &mut [[[u8; 3]; 3]],
-    segment_of: &[u8],
+    owners: &[u8],
     windings: &[Winding],
 ) {
     let (piece_of, count) = pieces(mesh.positions.len(), &mesh.triangles);
@@ -452,7 +481,7 @@ fn turn_outwards(
         for &triangle in piece.iter().step_by(stride) {
             let Triangle([a, b, c]) = triangles[triangle];
             let share = f64::from(triangles[triangle].area_normal().length());
-            let winding = &windings[usize::from(segment_of[triangle])];
+            let winding = &windings[usize::from(owners[triangle])];
             sum += share * winding.at((a + b + c) / 3.0);
             area += share;
         }
@@ -685,9 +714,9 @@ mod tests {
         let (mut filled, mut random) = (0, Random(9));
         for _ in 0..2000 {
             let place = random.place() * 60.0;
-            // Chords of 24 steps lie half a millimetre under the ball; the lid is known to a voxel.
-            let (far, voxel) = (place.length() - 50.0, 100.0 / 128.0);
-            if (-0.6..0.1).contains(&far) || place.z.abs() < voxel {
+            // Chords of 24 steps lie half a millimetre under the ball.
+            let far = place.length() - 50.0;
+            if (-0.6..0.1).contains(&far) || place.z.abs() < 0.1 {
                 continue;
             }
             let is_filled = far < 0.0 && place.z < 0.0;

@@ -12,6 +12,8 @@ use crate::math::Aabb;
 
 /// From how many times its radius on a branch counts as one dipole.
 const FAR: f64 = 3.0;
+/// The same where the number itself counts.
+const VERY_FAR: f64 = 10.0;
 
 /// Triangles, ready to be asked for their winding number.
 #[derive(Clone, Debug, Default)]
@@ -58,13 +60,22 @@ impl Winding {
     /// The winding number at a place: 1 inside a closed surface, 0 outside, between the two near the hole of an open
     /// one. Exactly on a triangle it is the mean of both sides.
     pub(super) fn at(&self, place: Vec3) -> f64 {
+        self.sum(place, FAR)
+    }
+
+    /// As [`Winding::at`], within 0.001, where the number itself counts.
+    pub(super) fn precisely_at(&self, place: Vec3) -> f64 {
+        self.sum(place, VERY_FAR)
+    }
+
+    fn sum(&self, place: Vec3, far: f64) -> f64 {
         let place = place.as_dvec3();
         let mut sum = 0.0;
         let mut at = 0;
         while let (Some(node), Some(dipole)) = (self.tree.nodes.get(at), self.dipoles.get(at)) {
             let away = dipole.middle - place;
             let distance = away.length();
-            if distance > FAR * dipole.radius {
+            if distance > far * dipole.radius {
                 // Half of the solid angle, as for triangles.
                 sum += 0.5 * dipole.normal.dot(away) / distance.powi(3);
                 at = node.skip as usize;
@@ -137,6 +148,10 @@ mod tests {
                 .sum::<f64>()
                 / std::f64::consts::TAU;
             assert!((winding.at(place) - exact).abs() < 0.02, "{place}");
+            assert!(
+                (winding.precisely_at(place) - exact).abs() < 0.001,
+                "{place}"
+            );
         }
     }
 }

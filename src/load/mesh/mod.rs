@@ -32,7 +32,6 @@ mod parts;
 mod picture;
 mod ply;
 mod ply_header;
-mod polygon;
 mod read;
 mod repair;
 mod report;

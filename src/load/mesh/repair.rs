@@ -4,10 +4,10 @@ use glam::{DMat3, DVec3, Vec3};
 
 use super::draft::{Corner, Draft};
 use super::error::MeshError;
-use super::polygon::triangulate;
 use super::report::Repair;
 use super::turn::{face_normal, turn};
 use super::weld::weld;
+use crate::data::mesh::polygon::triangulate;
 use crate::data::{Corners, Mesh, NO_INDEX};
 
 /// Repairs a draft and takes it to millimetres, RAS+. Parts are those of the file, with their names as they are.

@@ -220,7 +220,7 @@ mod tests {
         let kept = read(&both, Some([DVec3::ZERO, DVec3::new(10.0, 10.0, 0.0)])).expect("meshes");
         assert_eq!(kept.frame.mm_per_unit, 10.0);
         let of_first = |surface: &Surface| {
-            let own = surface.triangles.iter().zip(&surface.segment_of);
+            let own = surface.triangles.iter().zip(&surface.owners);
             own.filter(|(_, segment)| **segment == 0)
                 .map(|(t, _)| t.0)
                 .next()

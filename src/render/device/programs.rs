@@ -341,6 +341,7 @@ shader_files![
     "slice/mesh.wgsl",
     "slice/plane.wgsl",
     "slice/volume.wgsl",
+    "subject/crossing.wgsl",
     "subject/mesh.wgsl",
     "subject/place.wgsl",
     "subject/volume.wgsl",

@@ -106,9 +106,9 @@ pub(crate) fn frame_group(gpu: &Gpu, layouts: &Layouts, frame: &Frame) -> wgpu::
     })
 }
 
-/// Rays of subject space (origin, unit direction), at most [`MAX_ASKED_RAYS`], as shaders read them. The last ray fills
-/// the rows behind it: a GPU shades pixels in fours, and a software one marches those beside the picture as far as the
-/// others. A ray of zeros would take it half a minute.
+/// Rays of subject space (origin, unit direction) as shaders read them. The last ray fills the rows behind it: a GPU
+/// shades pixels in fours, and a software one marches those beside the picture as far as the others. A ray of zeros
+/// would take it half a minute.
 fn asked_rays(rays: &[(Vec3, Vec3)]) -> AskedRays {
     let mut asked = AskedRays::zeroed();
     let last = rays.last().into_iter().cycle();

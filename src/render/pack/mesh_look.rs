@@ -60,6 +60,16 @@ pub(crate) fn mesh_look_of(look: &Look, segments: &[SurfaceSegment]) -> MeshLook
     packed
 }
 
+/// Names of the open segments that `look` makes solid: lids close them.
+pub fn lidded(look: &Look, segments: &[SurfaceSegment]) -> Vec<String> {
+    let is_lidded = |(segment, number): &(&SurfaceSegment, u32)| {
+        let own = look.of_mesh_segment(&segment.name, Some(*number));
+        !segment.is_closed && own.surface.body == BodyKind::Solid
+    };
+    let lidded = segments.iter().zip(1..).filter(is_lidded);
+    lidded.map(|(segment, _)| segment.name.clone()).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -103,5 +113,21 @@ mod tests {
         assert_eq!([bone.thickness, skin.gloss], [0.05, 0.9]);
         assert_eq!(look.layers[1].grain, 0.2);
         assert_eq!(look.has_shells, 1);
+    }
+
+    #[test]
+    fn open_segments_that_are_solid_are_named() {
+        let document = Document::from_json(
+            r#"{"fabrica":1,"subject":{"src":"a.stl"},"look":{"body":"solid","segments":{"sheet":{"body":"hollow"}}}}"#,
+        )
+        .expect("a good document");
+        let segments = [("skull", true), ("hand", false), ("sheet", false)];
+        let segments = segments.map(|(name, is_closed)| SurfaceSegment {
+            name: name.to_owned(),
+            is_closed,
+            mean_srgb: [9; 3],
+            opacity: 1.0,
+        });
+        assert_eq!(lidded(&document.illustration().look, &segments), ["hand"]);
     }
 }

@@ -11,6 +11,8 @@ pub enum RenderNotice {
     UnknownKept(String),
     /// `look.segments` names a segment that the subject does not have.
     UnknownBody(String),
+    /// A segment of a mesh that is to be solid is open; a lid closes it.
+    Lid(String),
     /// The volume is larger than the device takes, and is drawn coarser.
     Reduced(Reduction),
 }
@@ -23,6 +25,7 @@ impl fmt::Display for RenderNotice {
                 "keep: the subject has no segment “{name}”; nothing is kept for it"
             ),
             Self::UnknownBody(name) => write!(f, "look: the subject has no segment “{name}”"),
+            Self::Lid(name) => write!(f, "look: “{name}” is open; a lid closes its solid body"),
             Self::Reduced(reduction) => reduction.fmt(f),
         }
     }

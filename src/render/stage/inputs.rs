@@ -9,7 +9,7 @@ use crate::render::pack::bodies::bodies_of;
 use crate::render::pack::gpu_types::{Bodies, MeshLook, Templates};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::look::{TransferTable, background_uniform};
-use crate::render::pack::mesh_look::mesh_look_of;
+use crate::render::pack::mesh_look::{lidded, mesh_look_of};
 use crate::render::pack::notice::RenderNotice;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::textures::SubjectTextures;
@@ -94,6 +94,7 @@ impl Inputs {
         self.mesh_look
             .set(mesh_look_of(look, &subject.mesh_segments));
         self.notify(&unknown, RenderNotice::UnknownBody);
+        self.notify(&lidded(look, &subject.mesh_segments), RenderNotice::Lid);
         self.bodies.set(bodies);
         let table = TransferTable::new(look, &illustration.subject, &subject.info);
         self.look.set(Some((table, look.opacity)));

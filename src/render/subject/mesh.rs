@@ -137,10 +137,14 @@ fn texels_of(surface: &Surface) -> Vec<[u32; 4]> {
             texels.push(with(*corner, octahedral(normal)));
         }
         let [a, b, c] = surface.colors[i].map(|[r, g, b]| u32::from_le_bytes([r, g, b, 255]));
-        let segment = surface.segment_of[i];
-        let opacity = surface.segments[usize::from(segment)].opacity;
+        let opacity = surface.segments[surface.segment_of(i)].opacity;
         let opacity = (opacity.clamp(0.0, 1.0) * 255.0).round() as u8;
-        texels.push([a, b, c, u32::from_le_bytes([segment, opacity, 0, 0])]);
+        texels.push([
+            a,
+            b,
+            c,
+            u32::from_le_bytes([surface.owners[i], opacity, 0, 0]),
+        ]);
     }
     for &set in &surface.field.sets {
         texels.push(std::array::from_fn(|word| (set >> (32 * word)) as u32));

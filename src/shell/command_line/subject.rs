@@ -15,7 +15,7 @@ use crate::data::{
 };
 use crate::document::{Illustration, Reading};
 use crate::load::{LabelFile, LoadReport, ReadOptions, read_label_file};
-use crate::render::KeptTissue;
+use crate::render::{KeptTissue, RenderNotice, lidded};
 use crate::shell::files::{Folder, local, mesh_set};
 use crate::shell::loading::{hash_of, read_scan};
 use crate::subjects::{FINE_RESOLUTION, Generator, SubjectError, mesh};
@@ -295,11 +295,16 @@ fn read(
     })
 }
 
-/// Names what `keep` asks for and the subject has not.
+/// Names what `keep` asks for and the subject has not, and the open segments that are to be solid.
 pub(super) fn report_kept(illustration: &Illustration, resources: &Resources, subject: &Subject) {
     let (segments, bounds) = (subject.segments(), subject.frame().bounds);
     let templates = &illustration.templates;
     for line in KeptTissue::of(templates, resources, segments, bounds).notices() {
         notice(line);
+    }
+    if let Subject::Mesh(surface) = subject {
+        for name in lidded(&illustration.look, &surface.segments) {
+            notice(RenderNotice::Lid(name));
+        }
     }
 }

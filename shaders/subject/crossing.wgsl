@@ -1,0 +1,37 @@
+// The triangles that a line meets, as the document has the bodies of a mesh.
+// needs: types.wgsl bind/subject.wgsl bind/mesh_look.wgsl subject/mesh.wgsl
+
+/// True for the triangles of the file, and for those of a lid where the body is full.
+fn is_seen(triangle: u32) -> bool {
+    let owner = owner_of(triangle);
+    return owner < LID || mesh_look.segments[owner & ~LID].kind == BODY_FULL;
+}
+
+/// The first triangle on the way from a place to another, `skipped` left out and lids of bodies that are not full.
+fn first_crossing(start: vec3f, end: vec3f, skipped: u32) -> TriangleCrossing {
+    let way = end - start;
+    let inverse_way = inverse_of(way);
+    var found = TriangleCrossing(NO_TRIANGLE, 1.0, vec3f(0.0), false);
+    var node = 0u;
+    while node < subject.node_count {
+        let low = mesh_texel(2u * node);
+        let high = mesh_texel(2u * node + 1u);
+        let span = part_in_box(start, inverse_way, bitcast<vec3f>(low.xyz), bitcast<vec3f>(high.xyz), found.part);
+        let count = high.w & 15u;
+        let is_met = span.x <= span.y;
+        var left = select(0u, count, is_met);
+        var triangle = high.w >> 4u;
+        while left > 0u {
+            left--;
+            let crossing = crossing_of(triangle, start, way);
+            if crossing.triangle != NO_TRIANGLE && crossing.triangle != skipped && crossing.part <= found.part {
+                if is_seen(triangle) {
+                    found = crossing;
+                }
+            }
+            triangle++;
+        }
+        node = select(low.w, node + 1u, is_met && count == 0u);
+    }
+    return found;
+}
