@@ -20,10 +20,11 @@ use crate::math::Aabb;
 /// many voxels of the field.
 const SIDES_ACROSS: f32 = 12.0;
 const LONGEST_SIDE: f32 = 2.0;
-/// Corners of a hole, holes of a segment, and triangles of a lid at most; what has more stays open.
+/// Corners of a hole and holes of a segment at most; what has more stays open.
 const MAX_CORNERS: usize = 10_000;
 const MAX_HOLES: usize = 4096;
-const MAX_TRIANGLES: usize = 20_000;
+/// Triangles that are tried for all lids of a surface; where they are used up, holes stay open. They bound the time.
+pub(super) const MAX_TRIANGLES: usize = 20_000;
 /// How far a corner is moved at most, as a part of the hole's width.
 const FARTHEST: f32 = 0.4;
 /// How often sides are parted at most: each time they become half as long.
@@ -47,7 +48,13 @@ pub(super) struct Lids {
 }
 
 /// Closes the holes of a segment, given its triangles, their winding number and the side of a voxel of the field.
-pub(super) fn lids_of(triangles: &[Triangle], winding: &Winding, voxel: f32) -> Lids {
+/// `left` is how many triangles may be tried, and is made less by those that were.
+pub(super) fn lids_of(
+    triangles: &[Triangle],
+    winding: &Winding,
+    voxel: f32,
+    left: &mut usize,
+) -> Lids {
     let (places, indexed) = welded(triangles);
     let Some(holes) = holes_of(&indexed) else {
         return Lids::default();
@@ -58,7 +65,7 @@ pub(super) fn lids_of(triangles: &[Triangle], winding: &Winding, voxel: f32) -> 
     };
     for hole in holes {
         let rim = hole.iter().map(|&index| places[index as usize]).collect();
-        match Lid::over(rim, winding, voxel) {
+        match Lid::over(rim, winding, voxel, left) {
             Some(lid) => lid.add_to(&mut lids),
             None => lids.close_all = false,
         }
@@ -138,8 +145,11 @@ struct Lid {
 }
 
 impl Lid {
-    /// The lid over a hole; `None` where none fits.
-    fn over(rim: Vec<Vec3>, winding: &Winding, voxel: f32) -> Option<Self> {
+    /// The lid over a hole; `None` where none fits, or no triangles are left to try.
+    fn over(rim: Vec<Vec3>, winding: &Winding, voxel: f32, left: &mut usize) -> Option<Self> {
+        if rim.len() > *left {
+            return None;
+        }
         let wide: Vec<DVec3> = rim.iter().map(|place| place.as_dvec3()).collect();
         let index = |corner: usize| corner as u32;
         let mut lid = Self {
@@ -156,10 +166,12 @@ impl Lid {
             if !lid.part(longest, winding, width) {
                 break;
             }
-            if lid.triangles.len() > MAX_TRIANGLES {
+            if lid.triangles.len() > *left {
+                *left = 0;
                 return None;
             }
         }
+        *left -= lid.triangles.len();
         let good = lid.triangles.iter().filter(|corners| {
             let triangle = Triangle(corners.map(|i| lid.places[i as usize]));
             let middle = triangle.0.iter().sum::<Vec3>() / 3.0;
@@ -308,8 +320,15 @@ mod tests {
     fn both_ends_of_a_tube_are_closed() {
         let tube = tube(40);
         let winding = Winding::new(&tube);
-        let lids = lids_of(&tube, &winding, 1.0 / 128.0);
+        let few = lids_of(&tube, &winding, 1.0 / 128.0, &mut 200);
+        assert!(
+            !few.close_all && few.triangles.is_empty(),
+            "no time for them"
+        );
+        let mut left = MAX_TRIANGLES;
+        let lids = lids_of(&tube, &winding, 1.0 / 128.0, &mut left);
         assert!(lids.close_all);
+        assert_eq!(left + lids.triangles.len(), MAX_TRIANGLES);
         assert_eq!(lids.triangles.len(), lids.normals.len());
         assert!(lids.triangles.len() > 300, "{}", lids.triangles.len());
         for (triangle, normals) in lids.triangles.iter().zip(&lids.normals) {
@@ -345,13 +364,13 @@ mod tests {
     #[test]
     fn sheets_and_soups_have_no_lid() {
         let soup: Vec<Triangle> = soup(200, 3).into_iter().map(Triangle).collect();
-        let lids = lids_of(&soup, &Winding::new(&soup), 1.0 / 128.0);
+        let lids = lids_of(&soup, &Winding::new(&soup), 1.0 / 128.0, &mut 5000);
         assert!(!lids.close_all);
         assert!(lids.triangles.len() < 20, "{}", lids.triangles.len());
         let many: Vec<Triangle> = (0..5000)
             .map(|i| Triangle([Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p + i as f32 * Vec3::Z)))
             .collect();
-        let lids = lids_of(&many, &Winding::new(&many), 1.0 / 128.0);
+        let lids = lids_of(&many, &Winding::new(&many), 1.0 / 128.0, &mut 5000);
         assert!(!lids.close_all && lids.triangles.is_empty());
     }
 

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::field::{FIELD_MARGIN, FieldMaker, SurfaceField, times_inside, voxels_of};
-use super::lids::lids_of;
+use super::lids::{MAX_TRIANGLES, lids_of};
 use super::normals::corner_normals;
 use super::tree::Tree;
 use super::triangle::Triangle;
@@ -148,10 +148,10 @@ impl Surface {
         );
         stop_at(0.2)?;
         let voxel = frame.detail;
-        let mut are_closed = true;
+        let (mut are_closed, mut left) = (true, MAX_TRIANGLES);
         for (k, segment) in segments.iter().enumerate().filter(|(_, s)| !s.is_closed) {
             let mut own = of_segment(&triangles, &owners, k);
-            let lids = lids_of(&own, &windings[k], voxel);
+            let lids = lids_of(&own, &windings[k], voxel, &mut left);
             are_closed &= lids.close_all;
             own.extend(&lids.triangles);
             windings[k] = Winding::new(&own);
