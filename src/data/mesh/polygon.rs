@@ -4,6 +4,9 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
+/// Corners of one polygon, at most: clipping its ears takes time with their square.
+pub(crate) const MAX_CORNERS: usize = 10_000;
+
 /// Newell's normal: twice the area of the polygon as a vector; of concave and crooked ones too.
 fn newell(corners: &[DVec3]) -> DVec3 {
     let next = corners.iter().cycle().skip(1);
@@ -270,7 +273,7 @@ mod tests {
     #[test]
     fn ten_thousand_corners_take_no_longer_than_their_square() {
         // A comb with long teeth: nearly every corner is blocked by many others.
-        let n = 10_000;
+        let n = MAX_CORNERS;
         let comb: Vec<DVec3> = (0..n)
             .map(|i| {
                 DVec3::new(

@@ -13,15 +13,14 @@ use glam::{DVec3, Vec3};
 use super::triangle::Triangle;
 use super::winding::Winding;
 use crate::data::mesh::edges::{by_edge, sides};
-use crate::data::mesh::polygon::triangulate;
+use crate::data::mesh::polygon::{MAX_CORNERS, triangulate};
 use crate::math::Aabb;
 
 /// Sides of the triangles of a lid, but for those along the rim: so many across it, unless they are shorter than so
 /// many voxels of the field.
 const SIDES_ACROSS: f32 = 12.0;
 const LONGEST_SIDE: f32 = 2.0;
-/// Corners of a hole and holes of a segment at most; what has more stays open.
-const MAX_CORNERS: usize = 10_000;
+/// Holes of a segment at most; one with more stays open, as does one with a hole of too many corners.
 const MAX_HOLES: usize = 4096;
 /// Triangles that are tried for all lids of a surface; where they are used up, holes stay open. They bound the time.
 pub(super) const MAX_TRIANGLES: usize = 20_000;

@@ -7,9 +7,6 @@ use super::options::Axes;
 use super::report::Aside;
 use crate::data::{Coloring, MeshMaterial, MeshTexture, NO_INDEX};
 
-/// Corners of one polygon, at most: clipping its ears takes time with their square.
-pub(super) const MAX_CORNERS: usize = 10_000;
-
 /// A corner of a face: indices into the lists of the draft, or [`NO_INDEX`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Corner {

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use glam::{Vec2, Vec3};
 
-use super::draft::{Corner, Draft, MAX_CORNERS};
+use super::draft::{Corner, Draft};
 use super::error::MeshError;
 use super::input::{Input, Lines, shown, space_in};
 use super::mtl::linear;
 use super::report::Aside;
+use crate::data::mesh::polygon::MAX_CORNERS;
 use crate::data::{MeshMaterial, NO_INDEX};
 
 /// Material libraries that are looked for, and materials.

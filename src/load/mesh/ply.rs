@@ -4,13 +4,14 @@ use std::fmt;
 
 use glam::{Vec2, Vec3};
 
-use super::draft::{Corner, Draft, MAX_CORNERS};
+use super::draft::{Corner, Draft};
 use super::error::MeshError;
 use super::input::{Input, Lines, shown};
 use super::mtl::linear;
 use super::ply_header::{Element, Form, Property, Scalar, read as read_header};
 use super::report::Aside;
 use crate::data::NO_INDEX;
+use crate::data::mesh::polygon::MAX_CORNERS;
 
 /// Reads a PLY; the word for its form.
 pub(super) fn read(

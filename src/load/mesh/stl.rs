@@ -115,7 +115,7 @@ fn read_text(input: &mut Input<'_, '_>, draft: &mut Draft) -> Result<(), MeshErr
                                 lines.wrong(format!("expected a number, found “{}”", shown(word)))
                             })?;
                 }
-                if corners.len() == super::draft::MAX_CORNERS {
+                if corners.len() == crate::data::mesh::polygon::MAX_CORNERS {
                     return Err(
                         lines.wrong(format!("a facet of more than {} corners", corners.len()))
                     );

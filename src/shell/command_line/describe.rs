@@ -8,7 +8,7 @@ use super::error::CliError;
 use super::fields::fields_of;
 use super::opening::Opened;
 use super::output::{notice, print};
-use super::subject::{report_kept, subject_of};
+use super::subject::{report_drawing, subject_of};
 use crate::describe::{Description, Lang, Measured, Sight, describe as in_words};
 use crate::render::{SIGHT_PX, Studio};
 
@@ -49,7 +49,7 @@ pub(super) fn describe(
         let shown = at_step.illustration();
         let resources = fields_of(shown, common, &opened.folder)?;
         if told.is_empty() {
-            report_kept(shown, &resources, &subject);
+            report_drawing(shown, &resources, &subject);
         }
         let studio = studio.clone().with_resources(resources);
         let sighting = pollster::block_on(studio.identify(shown, SIGHT_PX))?;

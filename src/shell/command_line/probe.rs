@@ -10,7 +10,7 @@ use super::device::open_gpu;
 use super::error::CliError;
 use super::numbers::read_numbers;
 use super::opening::Opened;
-use super::subject::{report_kept, subject_of};
+use super::subject::{report_drawing, subject_of};
 use crate::data::{Subject, VolumeLimits};
 use crate::document::Illustration;
 use crate::render::{Fillings, Probe, Sample, Studio};
@@ -56,7 +56,7 @@ pub(super) fn probe(
         .collect();
     let samples = match &subject {
         Some(subject) if columns.object => {
-            report_kept(&illustration, &resources, subject);
+            report_drawing(&illustration, &resources, subject);
             let studio = Studio::new(&gpu, subject, false)?.with_resources(resources);
             pollster::block_on(studio.probe_object(&illustration, &positions))?
         }

@@ -11,7 +11,7 @@ use super::error::CliError;
 use super::numbers::read_numbers;
 use super::opening::Opened;
 use super::probe::{Materials, WHOLE, quoted};
-use super::subject::{report_kept, subject_of};
+use super::subject::{report_drawing, subject_of};
 use crate::data::Subject;
 use crate::math::srgb_from_linear;
 use crate::render::{Meeting, RayEvent, Studio};
@@ -34,7 +34,7 @@ pub(super) fn rays(
     }
     let gpu = open_gpu(common)?;
     let subject = subject_of(&illustration, common, &opened.folder, WHOLE)?;
-    report_kept(&illustration, &resources, &subject);
+    report_drawing(&illustration, &resources, &subject);
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
     let events = pollster::block_on(studio.events(&illustration, &asked))?;
     let materials = Materials::of(&subject, &illustration);

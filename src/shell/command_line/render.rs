@@ -8,7 +8,7 @@ use super::device::open_gpu;
 use super::error::CliError;
 use super::opening::Opened;
 use super::output::{notice, write_whole};
-use super::subject::{report_kept, subject_of};
+use super::subject::{report_drawing, subject_of};
 use crate::render::{Studio, encode_png};
 
 /// What a picture is drawn on.
@@ -45,7 +45,7 @@ pub(super) fn render(
     }
     let gpu = open_gpu(common)?;
     let subject = subject_of(&illustration, common, &opened.folder, gpu.volume_limits())?;
-    report_kept(&illustration, &resources, &subject);
+    report_drawing(&illustration, &resources, &subject);
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
     let drawing = studio.render_image(&illustration, paper.size, paper.samples);
     let mut image = pollster::block_on(drawing)?;

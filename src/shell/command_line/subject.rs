@@ -296,7 +296,11 @@ fn read(
 }
 
 /// Names what `keep` asks for and the subject has not, and the open segments that are to be solid.
-pub(super) fn report_kept(illustration: &Illustration, resources: &Resources, subject: &Subject) {
+pub(super) fn report_drawing(
+    illustration: &Illustration,
+    resources: &Resources,
+    subject: &Subject,
+) {
     let (segments, bounds) = (subject.segments(), subject.frame().bounds);
     let templates = &illustration.templates;
     for line in KeptTissue::of(templates, resources, segments, bounds).notices() {
