@@ -147,6 +147,30 @@ struct MeshLook {
     has_shells: u32,
 }
 
+/// An object that stands in the scene and that no template moves (spec/surfaces.md, "objects").
+struct SceneObject {
+    /// Subject space to the object's own space: the middle of its box is the origin, its longest side 1.
+    object_from_subject: Affine,
+    /// Linear RGB; alpha below 0: the colours of the file.
+    color: vec4f,
+    /// Linear RGB of back sides; alpha below 0: a part of its own colour.
+    inside: vec4f,
+    /// Opacity of one crossing, 0 to 1.
+    opacity: f32,
+    /// Strength of the highlight, 0 to 1.
+    gloss: f32,
+    /// Texels of `object_texels` at which its nodes and its triangles begin, and how many nodes it has.
+    nodes_at: u32,
+    triangles_at: u32,
+    node_count: u32,
+}
+
+/// The objects that are drawn.
+struct SceneObjects {
+    items: array<SceneObject, 16>,
+    count: u32,
+}
+
 const BODY_HOLLOW: u32 = 0u;
 const BODY_THICK: u32 = 1u;
 const BODY_FULL: u32 = 2u;

@@ -2,8 +2,6 @@
 // a body is").
 // needs: types.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/noise.wgsl subject/mesh.wgsl
 
-/// How much of its own colour a back side or a cut face has.
-const INSIDE_SHARE: f32 = 0.75;
 /// Length of the grain of layers, subject units.
 const GRAIN_LENGTH: f32 = 0.02;
 /// Farther than any triangle is from a place inside.

@@ -6,6 +6,7 @@ const MET_NOTHING: u32 = 0u;
 const MET_SURFACE: u32 = 1u;
 const MET_INSIDE: u32 = 2u;
 const MET_CUT: u32 = 3u;
+const MET_OBJECT: u32 = 4u;
 const MET_VOLUME: u32 = 5u;
 
 /// The first thing on a ray after which it is more than half opaque.
@@ -14,7 +15,7 @@ struct Event {
     t: f32,
     /// One of the constants above.
     what: u32,
-    /// The segment, from 1; 0 for none. Of meshes, whose triangles know it.
+    /// The segment of a mesh, whose triangles know it, or the object: from 1; 0 for none.
     segment: u32,
     /// Unit normal towards the eye, subject space; of a triangle that of its plane.
     normal: vec3f,
@@ -34,7 +35,9 @@ struct Marched {
     surface_normal: vec3f,
     /// The tissue at the ray's surface, rest space.
     surface_rest: vec3f,
-    /// The segment at the ray's surface, 0 for none; of meshes, whose triangles know it.
+    /// What the ray's surface is, one of the constants above.
+    surface_what: u32,
+    /// The segment or object there, as in `Event`.
     segment: u32,
     /// Where the ray turns more than half opaque.
     event: Event,

@@ -11,12 +11,9 @@
 // Differs from the source: one rule for the deformed part and the rest, exact edges, no blending at borders.
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/compose.wgsl
 //   march/overrides.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl march/jacobian.wgsl march/surface.wgsl
-//   march/surroundings.wgsl march/marched.wgsl subject/place.wgsl subject/mesh.wgsl subject/crossing.wgsl
-//   march/filling.wgsl
-//   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
+//   march/surroundings.wgsl march/marched.wgsl march/gathered.wgsl march/objects.wgsl subject/place.wgsl
+//   subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
-/// Transmittance at which a ray ends: below half a level of 255.
-const OPAQUE: f32 = 0.002;
 /// Surfaces that count on one ray (spec/surfaces.md, "What the object has at a point").
 const MAX_CROSSINGS: u32 = 16u;
 /// Steps of one ray at most; a guard.
@@ -32,8 +29,6 @@ const GAP_STEP: f32 = 0.003;
 const MESH_BISECTIONS: u32 = 12u;
 /// A jump of the map is farther than this, rest space units.
 const LEAST_JUMP: f32 = 0.0001;
-/// Contribution that makes a surface that of the ray: occlusion, shadow and picking are for that one.
-const SURFACE_SHARE: f32 = 0.3;
 /// Step inside of shells, whose inner walls the field does not tell of, subject units.
 const SHELL_STEP: f32 = 0.004;
 
@@ -347,13 +342,8 @@ fn look_of(ray: Ray, met: Met) -> MetLook {
     if met.triangle != NO_TRIANGLE {
         let face = carried_over(map.jacobian, face_of(met.triangle));
         let smooth_normal = carried_over(map.jacobian, normal_of_triangle(met.triangle, met.weights));
-        // Towards the side of the plane on which the eye is.
-        let side = select(1.0, -1.0, dot(face, ray.dir) > 0.0);
-        var normal = normalize(side * smooth_normal);
-        // A smooth normal that points away from the eye is bent back to the edge of what the eye sees.
-        normal = normalize(normal - ray.dir * max(dot(normal, ray.dir), 0.0) * 1.02);
-        look_here.normal = normal;
-        look_here.plane_normal = normalize(side * face);
+        look_here.normal = normal_to_eye(smooth_normal, face, ray.dir);
+        look_here.plane_normal = normalize(select(face, -face, dot(face, ray.dir) > 0.0));
         if owner_of(met.triangle) >= LID {
             look_here.albedo = filling_color(met.segment, met.at.pos);
         } else {
@@ -406,7 +396,8 @@ fn cover_at(pos: vec3f, mask: u32) -> f32 {
 }
 
 /// What shadow and occlusion take from the light of the ray's surface.
-fn taken_by_bodies(pixel: vec2f, pos: vec3f, normal: vec3f, light: Lit) -> vec3f {
+fn taken_by_bodies(pixel: vec2f, gathered: Gathered, pos: vec3f) -> vec3f {
+    let normal = gathered.found.surface_normal;
     let noise = pixel_noise(floor(pixel));
     let key_dir = apply_linear(frame.subject_from_view, KEY_DIR);
     var closed = 0.0;
@@ -419,8 +410,8 @@ fn taken_by_bodies(pixel: vec2f, pos: vec3f, normal: vec3f, light: Lit) -> vec3f
         closed += tap.weight * cover;
         lit *= 1.0 - tap.shade * cover;
     }
-    let open = 1.0 - closed / weights;
-    return light.key * (1.0 - lit) + light.ambient * (0.8 * (1.0 - open)) + light.key * lit * (0.25 * (1.0 - open));
+    let around = past_objects(Surroundings(1.0 - closed / weights, lit), pos, normal, key_dir, noise);
+    return taken_from(gathered.light, around);
 }
 
 /// The cut face that a ray begins with: what fills the place of the eye.
@@ -446,54 +437,61 @@ fn event_of(met: Met, look_here: MetLook) -> Event {
     return Event(met.at.t, what, met.segment, look_here.plane_normal, met.at.pos, look_here.albedo);
 }
 
+/// How what is met is seen.
+fn seen_of(ray: Ray, met: Met) -> Seen {
+    let look_here = look_of(ray, met);
+    let normal_in_view = apply_transposed(frame.subject_from_view, look_here.normal);
+    let light = shade_surface(look_here.albedo, normal_in_view, -ray.dir_in_view, look_here.gloss);
+    return Seen(event_of(met, look_here), look_here.normal, light, look_here.opacity, 0.0);
+}
+
 /// Marches a ray. `pixel` tells its noise from that of its neighbours.
-fn march(ray: Ray, pixel: vec2f) -> Marched {
-    var result: Marched;
-    result.surface_t = -1.0;
+fn march(asked: Ray, pixel: vec2f) -> Marched {
+    var gathered = nothing_gathered();
+    var ray = asked;
+    var object: ObjectCrossing;
+    object.object = NO_OBJECT;
+    var objects_met = 0u;
+    if has_objects != 0u {
+        object = first_object(ray);
+        ray.t_end = end_at_object(ray, object);
+    }
     var walk = MeshWalk(unmoved_spot(ray, ray.t_start), 0u, LONGEST_STEP, 1.0, NO_TRIANGLE);
     var steps = 0u;
-    var clear = 1.0;
-    var color = vec3f(0.0);
-    var surface_light = Lit(vec3f(0.0), vec3f(0.0));
     var met = met_at_start(ray);
     for (var crossing = 0u; crossing < MAX_CROSSINGS; crossing++) {
         if !met.is_met {
             met = next_met(ray, &walk, &steps);
         }
-        if !met.is_met {
+        if has_objects != 0u {
+            let until = select(FAR_ON_RAY, met.at.t + OBJECT_FIRST, met.is_met);
+            while object.object != NO_OBJECT && object.part < until && objects_met < MAX_OBJECT_CROSSINGS {
+                gather(&gathered, seen_object(ray, object));
+                object = object_behind(ray, object);
+                objects_met++;
+            }
+        }
+        if !met.is_met || gathered.clear == 0.0 {
             break;
         }
-        let look_here = look_of(ray, met);
-        let weight = clear * look_here.opacity;
-        let normal_in_view = apply_transposed(frame.subject_from_view, look_here.normal);
-        let light = shade_surface(look_here.albedo, normal_in_view, -ray.dir_in_view, look_here.gloss);
-        color += weight * (light.key + light.ambient);
-        if result.surface_t < 0.0 && weight > SURFACE_SHARE * (0.25 + 0.75 * clear) {
-            result.surface_t = met.at.t;
-            result.surface_normal = look_here.normal;
-            result.surface_rest = met.at.pos;
-            result.segment = met.segment;
-            surface_light = Lit(light.key * weight, light.ambient * weight);
-        }
-        clear *= 1.0 - look_here.opacity;
-        if clear < 0.5 && result.event.what == MET_NOTHING {
-            result.event = event_of(met, look_here);
-        }
-        if clear < OPAQUE {
-            clear = 0.0;
+        gather(&gathered, seen_of(ray, met));
+        if gathered.clear == 0.0 {
             break;
         }
         met.is_met = false;
     }
-    if result.surface_t >= 0.0 {
-        let pos = ray.origin + ray.dir * result.surface_t;
-        color -= taken_by_bodies(pixel, pos, result.surface_normal, surface_light);
+    var color = gathered.color;
+    if gathered.found.surface_t >= 0.0 {
+        color -= taken_by_bodies(pixel, gathered, ray.origin + ray.dir * gathered.found.surface_t);
     }
-    result.color = vec4f(max(color, vec3f(0.0)), 1.0 - clear);
-    return result;
+    gathered.found.color = vec4f(max(color, vec3f(0.0)), 1.0 - gathered.clear);
+    return gathered.found;
 }
 
 /// Segment (0: none) of what a ray found, and its depth under the surface.
 fn tissue_of(found: Marched, _pos: vec3f, _dir: vec3f) -> vec2f {
+    if found.surface_what == MET_OBJECT {
+        return vec2f(0.0);
+    }
     return vec2f(f32(found.segment), texel_at(texture_from_rest(found.surface_rest)));
 }

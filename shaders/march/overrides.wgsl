@@ -9,6 +9,8 @@ override has_grid: u32 = 1u;
 override has_edges: u32 = 0u;
 /// 1 if segments are drawn as bodies of their own.
 override has_bodies: u32 = 0u;
+/// 1 if objects stand in the scene.
+override has_objects: u32 = 0u;
 /// Taps of ambient occlusion, once per ray. More are smoother and cost a map and two texture reads each.
 override occlusion_taps: u32 = 8u;
 /// Taps towards the key light, once per ray.

@@ -1,6 +1,7 @@
 // Obstacles in the light of a surface: ambient occlusion and the shadow of the key light, by taps of the opacity.
 // needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/look.wgsl displace/compose.wgsl march/overrides.wgsl
-//   march/opacity.wgsl march/bodies.wgsl march/value.wgsl march/sample.wgsl march/seek.wgsl
+//   march/opacity.wgsl march/bodies.wgsl march/value.wgsl march/sample.wgsl march/seek.wgsl march/gathered.wgsl
+//   march/objects.wgsl
 
 /// Direction k of n spread over the half sphere around +z, turned by `turn`.
 fn spread(k: u32, n: u32, turn: f32) -> vec3f {
@@ -31,14 +32,6 @@ fn shading_opacity(found: Sample) -> f32 {
         }
     }
     return found.opacity * gain;
-}
-
-/// What stands in the light of a surface.
-struct Surroundings {
-    /// How open they are, 0 to 1.
-    openness: f32,
-    /// How much of the key light arrives, 0 to 1.
-    key_light: f32,
 }
 
 /// A tap of the surroundings.
@@ -95,5 +88,25 @@ fn surroundings_of(pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Sur
             open *= 1.0 - tap.shade * smoothstep(0.02, 0.6, opacity);
         }
     }
-    return Surroundings(1.0 - closed / weights, open);
+    return past_objects(Surroundings(1.0 - closed / weights, open), pos, normal, key_dir, noise);
+}
+
+/// What is left of openness and key light where objects stand about.
+fn past_objects(around: Surroundings, pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Surroundings {
+    if has_objects == 0u {
+        return around;
+    }
+    let above = pos + normal * ABOVE_SURFACE;
+    var closed = 0.0;
+    var weights = 0.0001;
+    for (var k = 0u; k < occlusion_taps; k++) {
+        let tap = tap_at(k, pos, normal, key_dir, noise);
+        weights += tap.weight;
+        closed += tap.weight * object_cover(above, tap.pos - above);
+    }
+    // A ray to another place of the lamp in each pixel and sample makes its shadow soft.
+    let turn = 6.2831853 * noise + frame.occlusion_turn;
+    let lamp = key_dir + LAMP_SIZE * sqrt(fract(frame.first_step + noise)) * vec3f(cos(turn), sin(turn), cos(1.7 * turn));
+    let shade = 0.75 * object_cover(above, SHADOW_REACH * lamp);
+    return Surroundings(around.openness * (1.0 - closed / weights), around.key_light * (1.0 - shade));
 }

@@ -11,60 +11,64 @@
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/look.wgsl displace/compose.wgsl
 //   march/overrides.wgsl march/value.wgsl march/opacity.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl
 //   march/refine.wgsl march/jacobian.wgsl march/surface.wgsl march/edges.wgsl march/color.wgsl march/surroundings.wgsl
-//   march/marched.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
+//   march/marched.wgsl march/gathered.wgsl march/objects.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
-/// Transmittance at which a ray ends: below half a level of 255.
-const OPAQUE: f32 = 0.002;
 /// Events on one ray at most; a guard, a ray of 1.8 units at the finest step has fewer samples.
 const MAX_EVENTS: u32 = 4096u;
-/// Contribution that makes an event the ray's surface: occlusion, shadow and picking are for that one.
-const SURFACE_WEIGHT: f32 = 0.3;
-
-/// Light of the ray's surface, which shadow and occlusion act on, and how far above it they are looked for.
-struct SurfaceLight {
-    key: vec3f,
-    ambient: vec3f,
-    lift: f32,
-}
-
-/// Light that a stretch sends to the eye, premultiplied by its share (`weight`). A cut face is wet but flat: half the
-/// shine.
-fn light_of(ray: Ray, albedo: vec3f, surface: Surface, weight: f32) -> Lit {
+/// Light that a stretch would send to the eye if it were opaque. A cut face is wet but flat: half the shine.
+fn light_of(ray: Ray, albedo: vec3f, surface: Surface) -> Lit {
     let normal_in_view = apply_transposed(frame.subject_from_view, surface.normal);
     let specular = look.specular * (1.0 - 0.5 * surface.cut_weight);
     let solid = shade_surface(albedo, normal_in_view, -ray.dir_in_view, specular);
     let haze = shade_medium(albedo);
-    return Lit(
-        mix(haze.key, solid.key, surface.surfaceness) * weight,
-        mix(haze.ambient, solid.ambient, surface.surfaceness) * weight,
-    );
+    return Lit(mix(haze.key, solid.key, surface.surfaceness), mix(haze.ambient, solid.ambient, surface.surfaceness));
 }
 
 /// What shadow and occlusion take from the light of the ray's surface.
-fn taken_by_surroundings(pixel: vec2f, pos: vec3f, normal: vec3f, light: SurfaceLight) -> vec3f {
+fn taken_by_surroundings(pixel: vec2f, gathered: Gathered, pos: vec3f) -> vec3f {
+    let normal = gathered.found.surface_normal;
     var above = pos;
     if KEEPS_TISSUE {
-        above += normal * light.lift;
+        above += normal * gathered.lift;
     }
     let noise = pixel_noise(floor(pixel));
     let key_dir = apply_linear(frame.subject_from_view, KEY_DIR);
-    let around = surroundings_of(above, normal, key_dir, noise);
-    let open = around.openness;
-    let lit = around.key_light;
-    return light.key * (1.0 - lit) + light.ambient * (0.8 * (1.0 - open)) + light.key * lit * (0.25 * (1.0 - open));
+    return taken_from(gathered.light, surroundings_of(above, normal, key_dir, noise));
+}
+
+/// A stretch of a ray between two samples: opaque as at the first up to the crossing, as at the second behind it.
+struct Stretch {
+    /// Distance of the crossing from the eye.
+    t_edge: f32,
+    /// Opacities of 0.01 subject units before and behind it.
+    before: f32,
+    behind: f32,
+    /// How opacity follows the deformation.
+    exponent: f32,
+}
+
+/// The light that a part of a stretch lets through.
+fn passed_between(stretch: Stretch, t_from: f32, t_to: f32) -> f32 {
+    let before = max(min(t_to, stretch.t_edge) - t_from, 0.0);
+    let behind = max(t_to - max(t_from, stretch.t_edge), 0.0);
+    return transmittance(stretch.before, before * stretch.exponent)
+        * transmittance(stretch.behind, behind * stretch.exponent);
 }
 
 /// Marches a ray. `pixel` tells its noise from that of its neighbours.
-fn march(ray: Ray, pixel: vec2f) -> Marched {
-    var result: Marched;
-    result.color = vec4f(0.0);
-    result.surface_t = -1.0;
+fn march(asked: Ray, pixel: vec2f) -> Marched {
+    var gathered = nothing_gathered();
+    var ray = asked;
+    var object: ObjectCrossing;
+    object.object = NO_OBJECT;
+    var objects_met = 0u;
+    if has_objects != 0u {
+        object = first_object(ray);
+        ray.t_end = end_at_object(ray, object);
+    }
     var walk = walk_along(ray);
     // Share of its opacity that the sample before keeps.
     var gain_before = 1.0;
-    var clear = 1.0;
-    var color = vec3f(0.0);
-    var surface_light = SurfaceLight(vec3f(0.0), vec3f(0.0), 0.0);
     for (var event = 0u; event < MAX_EVENTS; event++) {
         if !seek(ray, &walk) {
             break;
@@ -76,30 +80,39 @@ fn march(ray: Ray, pixel: vec2f) -> Marched {
         let cut = cut_at(uvw, map, -ray.dir);
         let surface = surface_at(edge, uvw, map, cut, -ray.dir);
 
-        // Opacity over the way since the sample before: up to the crossing as there, behind it as here.
         let gains = gains_of(gain_before, walk.here, crossing, map, surface, cut);
         let exponent = opacity_exponent(map.jacobian, ray.dir);
-        let passed = transmittance(walk.before.opacity * gains.before, (crossing.t_edge - walk.t_before) * exponent)
-            * transmittance(walk.here.opacity * gains.behind, (walk.t - crossing.t_edge) * exponent);
-        let weight = clear * (1.0 - passed);
+        let stretch = Stretch(
+            crossing.t_edge,
+            walk.before.opacity * gains.before,
+            walk.here.opacity * gains.behind,
+            exponent,
+        );
         gain_before = gains.here;
 
         let albedo = albedo_of(edge, surface);
-        let light = light_of(ray, albedo, surface, weight);
-        color += light.key + light.ambient;
-        if result.surface_t < 0.0 && weight > SURFACE_WEIGHT * (0.25 + 0.75 * clear) {
-            result.surface_t = crossing.t_shade;
-            result.surface_normal = surface.normal;
-            result.surface_rest = edge.pos;
-            surface_light = SurfaceLight(light.key, light.ambient, surface.lift);
+        var seen: Seen;
+        seen.event = Event(crossing.t_shade, MET_VOLUME, 0u, surface.normal, edge.pos, albedo);
+        seen.normal = surface.normal;
+        seen.light = light_of(ray, albedo, surface);
+        seen.lift = surface.lift;
+        var t_from = walk.t_before;
+        if has_objects != 0u {
+            // Objects part the stretch in which they stand.
+            while object.object != NO_OBJECT && object.part < walk.t && objects_met < MAX_OBJECT_CROSSINGS {
+                let is_at_edge = abs(object.part - crossing.t_edge) < OBJECT_FIRST;
+                let t_object = max(select(object.part, crossing.t_edge, is_at_edge), t_from);
+                seen.opacity = 1.0 - passed_between(stretch, t_from, t_object);
+                gather(&gathered, seen);
+                gather(&gathered, seen_object(ray, object));
+                t_from = t_object;
+                object = object_behind(ray, object);
+                objects_met++;
+            }
         }
-
-        clear *= passed;
-        if clear < 0.5 && result.event.what == MET_NOTHING {
-            result.event = Event(crossing.t_shade, MET_VOLUME, 0u, surface.normal, edge.pos, albedo);
-        }
-        if clear < OPAQUE {
-            clear = 0.0;
+        seen.opacity = 1.0 - passed_between(stretch, t_from, walk.t);
+        gather(&gathered, seen);
+        if gathered.clear == 0.0 {
             break;
         }
         walk.before = walk.here;
@@ -107,13 +120,20 @@ fn march(ray: Ray, pixel: vec2f) -> Marched {
         walk.mask_before = walk.mask;
         walk.t += frame.step / clamp(stretch_along(map.jacobian, ray.dir), 0.6, 3.0);
     }
-    // Once per ray: what stands in the light of its surface.
-    if result.surface_t >= 0.0 {
-        let pos = ray.origin + ray.dir * result.surface_t;
-        color -= taken_by_surroundings(pixel, pos, result.surface_normal, surface_light);
+    if has_objects != 0u {
+        while object.object != NO_OBJECT && gathered.clear > 0.0 && objects_met < MAX_OBJECT_CROSSINGS {
+            gather(&gathered, seen_object(ray, object));
+            object = object_behind(ray, object);
+            objects_met++;
+        }
     }
-    result.color = vec4f(max(color, vec3f(0.0)), 1.0 - clear);
-    return result;
+    // Once per ray: what stands in the light of its surface.
+    var color = gathered.color;
+    if gathered.found.surface_t >= 0.0 {
+        color -= taken_by_surroundings(pixel, gathered, ray.origin + ray.dir * gathered.found.surface_t);
+    }
+    gathered.found.color = vec4f(max(color, vec3f(0.0)), 1.0 - gathered.clear);
+    return gathered.found;
 }
 
 /// Segment (0: none) and value a little deeper along a ray than its surface, on which half of the voxels are air.
@@ -134,6 +154,9 @@ fn tissue_under(pos: vec3f, dir: vec3f) -> vec2f {
 }
 
 /// Segment (0: none) and value of what a ray found.
-fn tissue_of(_found: Marched, pos: vec3f, dir: vec3f) -> vec2f {
+fn tissue_of(found: Marched, pos: vec3f, dir: vec3f) -> vec2f {
+    if found.surface_what == MET_OBJECT {
+        return vec2f(0.0);
+    }
     return tissue_under(pos, dir);
 }

@@ -26,7 +26,7 @@ fn asked_ray(row: f32) -> Ray {
 }
 
 /// The surface along each row's ray, as four texels: position and distance from the origin (below 0: no surface);
-/// normal and segment; rest position and value; accumulated opacity.
+/// normal and segment; rest position and value; object (from 1, 0 for none) and accumulated opacity.
 @fragment
 fn pick(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let ray = asked_ray(at.y);
@@ -43,7 +43,8 @@ fn pick(@builtin(position) at: vec4f) -> @location(0) vec4f {
     if part == 2u {
         return vec4f(found.surface_rest, tissue.y);
     }
-    return found.color;
+    let object = select(0u, found.segment, found.surface_what == MET_OBJECT);
+    return vec4f(f32(object), 0.0, 0.0, found.color.w);
 }
 
 /// Where each row's ray turns more than half opaque, as four texels: distance from the origin, what is there, segment;

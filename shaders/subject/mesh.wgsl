@@ -5,20 +5,10 @@
 //   node        min, node behind its branch | max, first triangle and how many (4 bits, 0 in nodes that are no leaf)
 //   triangle    for each corner: place, normal | sRGB colours of the corners, owner (8 bits) and opacity (8 bits)
 //   set         two bits for each of 64 segments: how often a place is inside of it
-// needs: types.wgsl affine.wgsl srgb.wgsl bind/subject.wgsl subject/place.wgsl
+// needs: types.wgsl affine.wgsl triangles.wgsl bind/subject.wgsl subject/place.wgsl
 
 /// Stands for no label.
 const NO_LABEL: u32 = 0xffffffffu;
-/// Marks the owner of a triangle that is part of a lid: what closes the hole of an open body.
-const LID: u32 = 128u;
-/// Stands for no triangle.
-const NO_TRIANGLE: u32 = 0xffffffffu;
-/// Texels in a row of `mesh_texels`.
-const MESH_ROW: u32 = 4096u;
-/// A line that passes this much beside a triangle, as a part of its size, counts as crossing it: so that none slips
-/// through between two of them.
-const EDGE_SLACK: f32 = 1e-6;
-
 /// Depth under the surface, subject units, by the field alone; below 0 outside.
 fn texel_at(uvw: vec3f) -> f32 {
     return textureSampleLevel(volume, linear_sampler, uvw, 0.0).x;
@@ -67,12 +57,7 @@ fn opacity_of_triangle(triangle: u32) -> f32 {
 
 /// Linear RGB of a triangle at a point of these weights.
 fn color_of_triangle(triangle: u32, weights: vec3f) -> vec3f {
-    let packed = mesh_texel(subject.triangles_at + 4u * triangle + 3u).xyz;
-    var sum = vec3f(0.0);
-    for (var corner = 0u; corner < 3u; corner++) {
-        sum += linear_from_srgb(unpack4x8unorm(packed[corner]).rgb) * weights[corner];
-    }
-    return sum;
+    return color_between(mesh_texel(subject.triangles_at + 4u * triangle + 3u).xyz, weights);
 }
 
 /// Smooth normal of a triangle at a point of these weights, unit, rest space, on the side of its front.
@@ -85,42 +70,16 @@ fn normal_of_triangle(triangle: u32, weights: vec3f) -> vec3f {
     return normalize(sum);
 }
 
-/// A unit vector from its place on the unfolded octahedron (Cigolle et al. 2014).
-fn from_octahedron(at: vec2f) -> vec3f {
-    let up = 1.0 - abs(at.x) - abs(at.y);
-    let fold = max(-up, 0.0);
-    return normalize(vec3f(at + select(vec2f(fold), vec2f(-fold), at >= vec2f(0.0)), up));
-}
-
-/// Where a line from `start` along `way` crosses a triangle (signed volumes of tetrahedra).
+/// Where a line from `start` along `way` crosses a triangle.
 fn crossing_of(triangle: u32, start: vec3f, way: vec3f) -> TriangleCrossing {
-    let a = corner_of(triangle, 0u) - start;
-    let b = corner_of(triangle, 1u) - start;
-    let c = corner_of(triangle, 2u) - start;
-    let sides = vec3f(dot(way, cross(c, b)), dot(way, cross(a, c)), dot(way, cross(b, a)));
-    let sum = sides.x + sides.y + sides.z;
-    let slack = EDGE_SLACK * (abs(sides.x) + abs(sides.y) + abs(sides.z));
-    let is_in = all(sides >= vec3f(-slack)) || all(sides <= vec3f(slack));
-    let weights = sides / select(sum, 1.0, sum == 0.0);
-    let met = a * weights.x + b * weights.y + c * weights.z;
-    let part = dot(met, way) / dot(way, way);
-    let is_met = is_in && sum != 0.0 && part >= 0.0 && part <= 1.0;
-    return TriangleCrossing(select(NO_TRIANGLE, triangle, is_met), part, weights, dot(way, cross(b - a, c - a)) < 0.0);
-}
-
-/// The part of a line, from 0 to `most`, that lies in a box; empty if x > y.
-fn part_in_box(start: vec3f, inverse_way: vec3f, low: vec3f, high: vec3f, most: f32) -> vec2f {
-    let a = (low - 1e-6 - start) * inverse_way;
-    let b = (high + 1e-6 - start) * inverse_way;
-    let near = min(a, b);
-    let far = max(a, b);
-    return vec2f(max(max(near.x, near.y), max(near.z, 0.0)), min(min(far.x, far.y), min(far.z, most)));
-}
-
-/// One over each component of a way; large, where a component is 0.
-fn inverse_of(way: vec3f) -> vec3f {
-    let least = vec3f(1e-20);
-    return 1.0 / select(way, select(-least, least, way >= vec3f(0.0)), abs(way) < least);
+    let found = line_crossing(
+        corner_of(triangle, 0u) - start,
+        corner_of(triangle, 1u) - start,
+        corner_of(triangle, 2u) - start,
+        way,
+    );
+    let is_met = found.is_met && found.part <= 1.0;
+    return TriangleCrossing(select(NO_TRIANGLE, triangle, is_met), found.part, found.weights, found.is_front);
 }
 
 /// How often a place is inside of segments by a set, with the triangles between the place and the middle of the voxel

@@ -3,7 +3,9 @@ use std::sync::Arc;
 use super::naming::rename;
 use super::news::ResourceNews;
 use super::want::{OtherFile, Role, Source, Want, Wanted};
-use crate::data::{FieldKey, FieldSamples, Grid, Resources, Segment, Segmentation, Subject};
+use crate::data::{
+    FieldKey, FieldSamples, Grid, ObjectMeshes, Resources, Segment, Segmentation, Subject, Surface,
+};
 use crate::document::{Illustration, SegmentsRef, TemplateData};
 use crate::load::{FieldFile, FieldUse, LabelFile};
 
@@ -21,13 +23,20 @@ pub enum Data {
     Segments(LabelFile),
     /// The samples of a displacement field.
     Field(FieldFile),
+    /// The mesh of an object. `sha256` is that of its file; a built-in one has none.
+    Object {
+        /// The mesh in its own space.
+        mesh: Arc<Surface>,
+        /// SHA-256 of the file, lower-case hex.
+        sha256: Option<String>,
+    },
 }
 
 impl Data {
     /// SHA-256 of the file with these data, lower-case hex; `None` for a built-in subject.
     pub fn sha256(&self) -> Option<&str> {
         match self {
-            Self::Subject { sha256, .. } => sha256.as_deref(),
+            Self::Subject { sha256, .. } | Self::Object { sha256, .. } => sha256.as_deref(),
             Self::Segments(file) => Some(&file.sha256),
             Self::Field(file) => Some(&file.sha256),
         }
@@ -58,6 +67,8 @@ pub struct Assets {
     grid: Option<Grid>,
     segments: Vec<Held<LabelFile>>,
     fields: Vec<Held<FieldFile>>,
+    /// Meshes of objects, each with the want that it met.
+    objects: Vec<(Want, Arc<Surface>)>,
     /// Label volumes that no document names; they come after those that the document names.
     added: Vec<Arc<Segmentation>>,
     /// Wants that cannot be met.
@@ -91,7 +102,13 @@ impl Assets {
             },
             (data, _) => data,
         };
-        self.hold(want.src().map(str::to_owned), data);
+        match data {
+            Data::Object { mesh, .. } => {
+                self.objects.retain(|(met, _)| !met.is_same_mesh(want));
+                self.objects.push((want.clone(), mesh));
+            }
+            data => self.hold(want.src().map(str::to_owned), data),
+        }
         Ok(())
     }
 
@@ -128,6 +145,8 @@ impl Assets {
                 self.fitted.clear();
                 put(&mut self.fields, src, file.sha256.clone(), file);
             }
+            // An object is nothing without the want that it meets.
+            Data::Object { .. } => {}
         }
     }
 
@@ -163,6 +182,7 @@ impl Assets {
         self.fitted.clear();
         self.segments.iter_mut().for_each(|one| one.src = None);
         self.fields.iter_mut().for_each(|one| one.src = None);
+        self.objects.retain(|(met, _)| met.src().is_none() || met.sha256().is_some());
     }
 
     /// True if the file of this want has arrived. Only one subject is held at a time.
@@ -171,9 +191,15 @@ impl Assets {
             Role::Subject => self.subject.is_some(),
             Role::Segments => find(&self.segments, want).is_some(),
             Role::Field => find(&self.fields, want).is_some(),
+            Role::Object => self.object(want).is_some(),
             // Nothing reads these yet.
-            Role::Mesh | Role::Object => false,
+            Role::Mesh => false,
         }
+    }
+
+    fn object(&self, want: &Want) -> Option<&Arc<Surface>> {
+        let found = self.objects.iter().find(|(met, _)| met.is_same_mesh(want));
+        found.map(|(_, mesh)| mesh)
     }
 
     /// What has not come, in the order in which it is wanted.
@@ -218,8 +244,22 @@ impl Assets {
             own_segments,
             segmentations,
             fields: self.field_samples(illustration, &mut news),
+            objects: self.object_meshes(illustration),
         };
         (resources, news)
+    }
+
+    /// The meshes of objects that are here, each once.
+    fn object_meshes(&self, illustration: &Illustration) -> ObjectMeshes {
+        let mut meshes = ObjectMeshes::new();
+        for object in &illustration.objects {
+            if meshes.iter().all(|(known, _)| *known != object.source)
+                && let Some(mesh) = Want::object(object).and_then(|want| self.object(&want))
+            {
+                meshes.push((object.source.clone(), Arc::clone(mesh)));
+            }
+        }
+        meshes
     }
 
     /// The segments of the subject's own file, where the author names any, and the label volumes that are here.

@@ -118,10 +118,14 @@ impl Want {
         Self::file(Role::Mesh, src, sha256, name, mesh.reading)
     }
 
-    /// The file of an object; `None` for one that the program generates.
+    /// The mesh of an object; `None` where the document names no file.
     pub fn object(object: &SceneObject) -> Option<Self> {
         match &object.source {
-            ObjectSource::Builtin(_) => None,
+            ObjectSource::Builtin(name) => Some(Self {
+                role: Role::Object,
+                source: Source::Builtin((*name).to_owned()),
+                reading: Reading::default(),
+            }),
             ObjectSource::File {
                 src,
                 sha256,
@@ -157,6 +161,18 @@ impl Want {
             max_triangles,
             ..MeshOptions::from(&self.reading.mesh)
         }
+    }
+
+    /// True if both mean one file, read in one way, in one role, whatever they call it.
+    pub fn is_same_mesh(&self, other: &Self) -> bool {
+        let is_same_source = match (&self.source, &other.source) {
+            (Source::Builtin(own), Source::Builtin(theirs)) => own == theirs,
+            (Source::File { .. }, Source::File { .. }) => {
+                self.src() == other.src() && self.sha256() == other.sha256()
+            }
+            _ => false,
+        };
+        self.role == other.role && is_same_source && self.reading == other.reading
     }
 
     /// Address of the file, as written in the document; `None` without one.
@@ -243,6 +259,7 @@ mod tests {
         let roles: Vec<(Role, Option<&str>)> = wants.iter().map(|w| (w.role, w.src())).collect();
         let expected = [
             (Role::Subject, Some("talus.stl")),
+            (Role::Object, None),
             (Role::Object, Some("plate.obj")),
         ];
         assert_eq!(roles, expected);
@@ -255,8 +272,9 @@ mod tests {
         let read_with_it = &wants[0].reading.meshes;
         assert_eq!(read_with_it.len(), 4, "all are one subject");
         assert_eq!(read_with_it[3].src.as_deref(), Some("talus.stl"));
-        assert_eq!(wants[1].mesh_options(7).units, Some(Units::Inch));
-        let Source::File { name, .. } = &wants[1].source else {
+        assert_eq!(wants[1].source, Source::Builtin("needle".to_owned()));
+        assert_eq!(wants[2].mesh_options(7).units, Some(Units::Inch));
+        let Source::File { name, .. } = &wants[2].source else {
             panic!("a file");
         };
         assert_eq!(name, "plate", "by this name the reader is asked for it");

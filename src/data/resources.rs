@@ -1,8 +1,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::{FieldSamples, Segment, Segmentation, Subject};
-use crate::document::{ParamValue, PlacedTemplate, TemplateData};
+use super::{FieldSamples, Segment, Segmentation, Subject, Surface};
+use crate::document::{ObjectSource, ParamValue, PlacedTemplate, SceneObject, TemplateData};
 
 /// The data of the files that a document names, as far as they have arrived. An
 /// [`Illustration`](crate::document::Illustration) only names the files, so drawing and measuring take both. Cheap to
@@ -17,7 +17,12 @@ pub struct Resources {
     pub segmentations: Vec<Arc<Segmentation>>,
     /// Samples of displacement fields, by file and reading.
     pub fields: Vec<(FieldKey, FieldSamples)>,
+    /// Meshes of the objects that have arrived, by where each comes from.
+    pub objects: ObjectMeshes,
 }
+
+/// Meshes of objects, by where each comes from.
+pub type ObjectMeshes = Vec<(ObjectSource, Arc<Surface>)>;
 
 /// The key of a field's samples: the file, and how the template reads its vectors.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,6 +70,12 @@ impl Resources {
         self.fields.push((key, samples));
     }
 
+    /// The mesh of an object, if it has arrived.
+    pub fn object(&self, object: &SceneObject) -> Option<&Arc<Surface>> {
+        let found = self.objects.iter().find(|(source, _)| *source == object.source);
+        found.map(|(_, mesh)| mesh)
+    }
+
     /// The template as it acts ([`PlacedTemplate::acting`]). A `field` that the document gives no place lies where its
     /// file says.
     pub fn acting(&self, template: &PlacedTemplate) -> PlacedTemplate {
@@ -76,6 +87,13 @@ impl Resources {
             acting.placement = samples.placement;
         }
         acting
+    }
+
+    /// True if both have the same meshes for objects.
+    pub fn has_objects_of(&self, other: &Self) -> bool {
+        let pairs = self.objects.iter().zip(&other.objects);
+        self.objects.len() == other.objects.len()
+            && pairs.into_iter().all(|((a, mesh), (b, theirs))| a == b && Arc::ptr_eq(mesh, theirs))
     }
 
     /// The label volume of the subject's own file, under the author's names.
@@ -106,5 +124,6 @@ impl PartialEq for Resources {
             && self.segmentations.len() == other.segmentations.len()
             && segmentations.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))
             && self.fields == other.fields
+            && self.has_objects_of(other)
     }
 }

@@ -18,6 +18,7 @@ use crate::render::stage::fields::FieldTexture;
 use crate::render::stage::inputs::Inputs;
 use crate::render::stage::kept::KeptTextures;
 use crate::render::stage::look::LookTable;
+use crate::render::stage::objects::ObjectTextures;
 use crate::render::stage::programs::StagePrograms;
 use crate::render::stage::rigid::RigidMotions;
 use crate::render::stage::skip_grid::{GridInput, SkipGrid};
@@ -48,12 +49,13 @@ pub(crate) struct Scene {
     motions: RigidMotions,
     bodies: BodyTextures,
     look: LookTable,
+    objects: ObjectTextures,
     grid: Option<SkipGrid>,
     /// Bound where there is no skip grid.
     no_grid: (wgpu::Buffer, wgpu::TextureView),
     baked: Option<BakedTexture>,
     baked_from: MadeFrom<3>,
-    bound_from: MadeFrom<3>,
+    bound_from: MadeFrom<4>,
 }
 
 impl Drop for Scene {
@@ -64,6 +66,7 @@ impl Drop for Scene {
             &self.fields.view,
             &self.bodies.view,
             &self.look.view,
+            &self.objects.view,
             &self.no_grid.1,
         ];
         for view in views {
@@ -75,6 +78,7 @@ impl Drop for Scene {
             &self.bodies.uniform,
             &self.look.uniform,
             &self.look.mesh_uniform,
+            &self.objects.uniform,
             &self.no_grid.0,
         ];
         for buffer in buffers {
@@ -97,6 +101,7 @@ impl Scene {
         let kept_textures = KeptTextures::new(gpu);
         let bodies = BodyTextures::new(gpu);
         let look = LookTable::new(gpu);
+        let objects = ObjectTextures::new(gpu);
         let grid = wants_grid.then(|| SkipGrid::new(gpu));
         let no_grid = SkipGrid::none(gpu);
         let bindings = Bound {
@@ -108,6 +113,7 @@ impl Scene {
             kept_textures: &kept_textures,
             fields: &fields,
             bodies: &bodies,
+            objects: &objects,
         }
         .group(gpu, layouts);
         Self {
@@ -123,6 +129,7 @@ impl Scene {
             motions: RigidMotions::default(),
             bodies,
             look,
+            objects,
             grid,
             no_grid,
             baked: None,
@@ -161,6 +168,7 @@ impl Scene {
             .update(gpu, &programs.bodies, subject, &inputs.bodies);
         self.look.update(gpu, subject, &inputs.look);
         self.look.update_mesh(gpu, &inputs.mesh_look);
+        self.objects.update(gpu, &inputs.objects);
         if let Some(grid) = &mut self.grid {
             let input = GridInput {
                 inputs,
@@ -186,6 +194,7 @@ impl Scene {
             self.fields.stamp,
             self.kept_textures.stamp,
             self.bodies.stamp,
+            self.objects.stamp,
         ];
         if self.bound_from.is_stale(textures) {
             self.bindings = self.bound().group(gpu, layouts);
@@ -203,6 +212,7 @@ impl Scene {
             kept_textures: &self.kept_textures,
             fields: &self.fields,
             bodies: &self.bodies,
+            objects: &self.objects,
         }
     }
 
@@ -224,6 +234,7 @@ impl Scene {
             constraints: kept.map_or(0, |kept| kept.constraints),
             kept_by: kept.map_or(0, KeptTissue::kept_by),
             has_bodies: self.inputs.bodies.get().is_any(),
+            has_objects: self.inputs.objects.get().items.count > 0,
             has_edges: table.is_some_and(|table| table.gradient > 0.0),
             finds: Finds::Picture,
         }
@@ -306,6 +317,11 @@ impl Scene {
         }
     }
 
+    /// Index in the document's list of an object that a ray met, from 0.
+    pub(crate) fn objects_drawn(&self) -> &[usize] {
+        &self.inputs.objects.get().indices
+    }
+
     /// What templates leave alone.
     pub(crate) fn kept_textures(&self) -> &KeptTextures {
         &self.kept_textures
@@ -320,6 +336,7 @@ struct Bound<'a> {
     kept_textures: &'a KeptTextures,
     fields: &'a FieldTexture,
     bodies: &'a BodyTextures,
+    objects: &'a ObjectTextures,
 }
 
 impl Bound<'_> {
@@ -340,6 +357,8 @@ impl Bound<'_> {
                 entry(8, self.bodies.uniform.as_entire_binding()),
                 entry(9, view(&self.bodies.view)),
                 entry(10, self.look.mesh_uniform.as_entire_binding()),
+                entry(11, self.objects.uniform.as_entire_binding()),
+                entry(12, view(&self.objects.view)),
             ],
         })
     }

@@ -47,6 +47,8 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         MeshSegment { color, inside, kind, thickness, gloss, opacity, first_layer, layer_count }
         MeshLayer { color, depth, grain }
         MeshLook { segments, layers, has_shells }
+        SceneObject { object_from_subject, color, inside, opacity, gloss, nodes_at, triangles_at, node_count }
+        SceneObjects { items, count }
         Look { table_scale, table_offset, tint, specular, opacity_mode, edges }
         Grid { origin_min, cell_size, cells, is_used }
         Baked { origin_min, per_unit, texels, map_step, first_slab }

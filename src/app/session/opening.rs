@@ -21,15 +21,10 @@ fn is_of(one: &Option<SubjectRef>, subject: &SubjectRef) -> bool {
 /// A notice on a document, in the language of the interface where it is for everybody: most speak of keys and values,
 /// to who writes documents by hand.
 fn notice_text(notice: &Notice) -> String {
-    let NoticeKind::NotDrawnYet { keys } = &notice.kind else {
-        return notice.to_string();
-    };
-    let name_of = |key: &&str| match *key {
-        "/subject/meshes" => w().meshes_beside,
-        _ => w().objects,
-    };
-    let names: Vec<&str> = keys.iter().map(name_of).collect();
-    fill(w().not_drawn_yet, &[&names.join(", ")])
+    match notice.kind {
+        NoticeKind::NotDrawnYet { .. } => fill(w().not_drawn_yet, &[&w().meshes_beside]),
+        _ => notice.to_string(),
+    }
 }
 
 impl Session {

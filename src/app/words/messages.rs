@@ -21,7 +21,6 @@ words! {
         more_notices: "{0} (and {1} more)", "{0} (und {1} weitere)", "{0} (y {1} más)", "{0}（另有 {1} 条）";
         not_drawn_yet: "{0}: kept in the document, but not drawn yet", "{0}: im Dokument behalten, aber noch nicht gezeichnet", "{0}: se conserva en el documento, pero aún no se dibuja", "{0}：已保留在文档中，但尚未绘制";
         meshes_beside: "Further meshes (subject.meshes)", "Weitere Netze (subject.meshes)", "Otras mallas (subject.meshes)", "其他网格（subject.meshes）";
-        objects: "Objects (objects)", "Gegenstände (objects)", "Objetos (objects)", "物体（objects）";
         cannot_be_opened: "This document cannot be opened: {0}", "Dieses Dokument lässt sich nicht öffnen: {0}", "Este documento no se puede abrir: {0}", "无法打开此文档：{0}";
         step_too_far: "The link opens at step {0}, the last is {1}", "Der Link öffnet bei Schritt {0}, der letzte ist {1}", "El enlace abre en el paso {0}; el último es {1}", "链接要打开第 {0} 步，但最后一步是第 {1} 步";
         other_file: "This is another file than the one the document was made with; undo brings the first one's name back", "Das ist eine andere Datei als die, mit der das Dokument gemacht wurde; Rückgängig bringt den ersten Namen zurück", "Este no es el archivo con el que se hizo el documento; deshacer recupera el nombre del primero", "这不是制作该文档时所用的文件；撤销可恢复原来的名称";

@@ -4,7 +4,7 @@ use super::object::{Object, wrong};
 use super::reader::Reader;
 use crate::document::limits::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS};
 use crate::document::model::{
-    Camera, Caption, Illustration, MeshRef, PlacedTemplate, SceneObject, Step, TemplateData,
+    Camera, Caption, Illustration, MeshRef, PlacedTemplate, Step, TemplateData,
     keep_sets,
 };
 use crate::document::schema::ROOT;
@@ -56,7 +56,7 @@ impl Reader {
         let segments = self.segments(&subject_object)?;
         let recipes = self.recipes(&subject_object)?;
         let objects = self.objects(&root)?;
-        self.not_drawn_yet(&meshes_beside, &objects);
+        self.not_drawn_yet(&meshes_beside);
         let mut templates = Vec::new();
         for (index, object) in root.children("templates")?.enumerate() {
             templates.extend(self.template(index, &object?)?);
@@ -126,16 +126,10 @@ impl Reader {
     }
 
     /// One notice for all keys that this version reads and does not draw.
-    fn not_drawn_yet(&mut self, beside: &[MeshRef], objects: &[SceneObject]) {
-        let mut keys = Vec::new();
+    fn not_drawn_yet(&mut self, beside: &[MeshRef]) {
         if !beside.is_empty() {
-            keys.push("/subject/meshes");
-        }
-        if !objects.is_empty() {
-            keys.push("/objects");
-        }
-        if let Some(first) = keys.first().copied() {
-            self.note(first, NoticeKind::NotDrawnYet { keys });
+            let keys = vec!["/subject/meshes"];
+            self.note("/subject/meshes", NoticeKind::NotDrawnYet { keys });
         }
     }
 

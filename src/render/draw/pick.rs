@@ -29,12 +29,15 @@ pub struct Pick {
     pub segment: Option<u16>,
     /// Distance from the eye, subject units.
     pub depth: f32,
+    /// The object there, an index into the document's list; `None` where the subject is seen.
+    pub object: Option<usize>,
 }
 
 /// A pick on its way back; `None` where there is nothing under the pixel.
 pub type PendingPick = Answer<Option<Pick>>;
 
-fn read_pick(bytes: &[u8], has_labels: bool) -> Option<Pick> {
+/// `objects` are the indices of those that are drawn.
+fn read_pick(bytes: &[u8], has_labels: bool, objects: &[usize]) -> Option<Pick> {
     let floats: Vec<f32> = bytes
         .chunks_exact(4)
         .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
@@ -42,8 +45,8 @@ fn read_pick(bytes: &[u8], has_labels: bool) -> Option<Pick> {
     let quad = |i: usize| -> Option<[f32; 4]> {
         floats.get(4 * i..4 * i + 4).and_then(|q| q.try_into().ok())
     };
-    let ([x, y, z, depth], [nx, ny, nz, label], [rx, ry, rz, value]) =
-        (quad(0)?, quad(1)?, quad(2)?);
+    let ([x, y, z, depth], [nx, ny, nz, label], [rx, ry, rz, value], [object, ..]) =
+        (quad(0)?, quad(1)?, quad(2)?, quad(3)?);
     (depth >= 0.0).then_some(Pick {
         pos_in_subject: Vec3::new(x, y, z),
         normal: Vec3::new(nx, ny, nz),
@@ -51,7 +54,14 @@ fn read_pick(bytes: &[u8], has_labels: bool) -> Option<Pick> {
         value,
         segment: (has_labels && label > 0.5).then_some(label as u16),
         depth,
+        object: numbered(object, objects),
     })
+}
+
+/// The index of an object that shaders number from 1; `None` for 0.
+fn numbered(number: f32, objects: &[usize]) -> Option<usize> {
+    let drawn = (number as usize).checked_sub(1)?;
+    objects.get(drawn).copied()
 }
 
 /// How far away the surface is under each of several pixels, on its way back. One item per pixel: the distance from the
@@ -76,6 +86,8 @@ pub enum Meeting {
     Inside,
     /// The cut face of a body.
     Cut,
+    /// A triangle of an object.
+    Object,
     /// Opacity of a scan.
     Volume,
 }
@@ -87,6 +99,7 @@ impl Meeting {
             Self::Surface => "surface",
             Self::Inside => "inside",
             Self::Cut => "cut",
+            Self::Object => "object",
             Self::Volume => "volume",
         }
     }
@@ -99,7 +112,7 @@ pub struct RayEvent {
     pub distance: f32,
     /// What is there.
     pub meeting: Meeting,
-    /// The segment, from 0, if a mesh is met.
+    /// The segment of a mesh, or the object as an index into the document's list, from 0.
     pub segment: Option<usize>,
     /// Unit normal towards the origin, subject space; of a triangle that of its plane.
     pub normal: Vec3,
@@ -112,7 +125,7 @@ pub struct RayEvent {
 /// Events on their way back, one per ray; `None` for a ray that stays more than half clear.
 pub type PendingEvents = Answer<Vec<Option<RayEvent>>>;
 
-fn read_events(bytes: &[u8]) -> Vec<Option<RayEvent>> {
+fn read_events(bytes: &[u8], objects: &[usize]) -> Vec<Option<RayEvent>> {
     let event = |row: &[u8]| {
         let [at, normal, rest, albedo]: [[f32; 4]; 4] = std::array::from_fn(|texel| {
             std::array::from_fn(|i| {
@@ -124,6 +137,7 @@ fn read_events(bytes: &[u8]) -> Vec<Option<RayEvent>> {
             1 => Meeting::Surface,
             2 => Meeting::Inside,
             3 => Meeting::Cut,
+            4 => Meeting::Object,
             5 => Meeting::Volume,
             _ => return None,
         };
@@ -131,7 +145,10 @@ fn read_events(bytes: &[u8]) -> Vec<Option<RayEvent>> {
         Some(RayEvent {
             distance: at[0],
             meeting,
-            segment: (at[2] as usize).checked_sub(1),
+            segment: match meeting {
+                Meeting::Object => numbered(at[2], objects),
+                _ => (at[2] as usize).checked_sub(1),
+            },
             normal: place(normal),
             pos_in_rest: place(rest),
             albedo: place(albedo),
@@ -157,7 +174,8 @@ impl PickScene<'_> {
     pub(crate) fn pick(&self, pixel: Vec2) -> PendingPick {
         let has_labels = self.subject.uniform.has_labels != 0;
         let read = self.read(self.view, &[self.view.ray(pixel)], 4, Finds::Pick);
-        Answer::new(read, move |bytes| read_pick(bytes, has_labels))
+        let objects = self.scene.objects_drawn().to_vec();
+        Answer::new(read, move |bytes| read_pick(bytes, has_labels, &objects))
     }
 
     /// Marches a ray per pixel, all in one go, and starts reading how far away their surfaces are. There has to be at
@@ -174,7 +192,9 @@ impl PickScene<'_> {
         let view = rays
             .first()
             .map_or(*self.view, |&(origin, dir)| View::along(origin, dir));
-        Answer::new(self.read(&view, rays, 4, Finds::Event), read_events)
+        let objects = self.scene.objects_drawn().to_vec();
+        let read = self.read(&view, rays, 4, Finds::Event);
+        Answer::new(read, move |bytes| read_events(bytes, &objects))
     }
 
     /// The first `texels` of the four that are found, a row per ray. Steps are as fine as the view asks for.

@@ -232,6 +232,7 @@ impl Renderer {
             && shown.look == illustration.look
             && shown.camera == illustration.camera
             && shown.subject == illustration.subject
+            && shown.objects == illustration.objects
         {
             return;
         }
@@ -240,9 +241,9 @@ impl Renderer {
     }
 
     /// Draws illustrations with what has come of the files that they name, from the next [`Renderer::draw`] on: the
-    /// samples of their fields.
+    /// samples of their fields and the meshes of their objects.
     pub fn set_resources(&mut self, resources: Resources) {
-        if resources.fields != self.resources.fields {
+        if resources.fields != self.resources.fields || !resources.has_objects_of(&self.resources) {
             self.touch();
         }
         self.resources = resources;

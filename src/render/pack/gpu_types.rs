@@ -1,7 +1,7 @@
 //! Mirrors of the structs in `shaders/types.wgsl`, member by member and in order; `tests/layout.rs` compares them.
 
 use crate::data::{FieldSamples, Resources};
-use crate::document::{MAX_FIELDS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData, TemplateMode};
+use crate::document::{MAX_FIELDS, MAX_OBJECTS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData, TemplateMode};
 use crate::placed::solved_points;
 use glam::{Affine3A, Mat3A, Vec3A};
 
@@ -441,6 +441,42 @@ impl Default for MeshLook {
     fn default() -> Self {
         bytemuck::Zeroable::zeroed()
     }
+}
+
+/// An object that stands in the scene.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct SceneObject {
+    /// Subject space to the object's own space.
+    pub object_from_subject: Affine,
+    /// Linear RGB; alpha below 0: the colours of the file.
+    pub color: [f32; 4],
+    /// Linear RGB of back sides; alpha below 0: a part of its own colour.
+    pub inside: [f32; 4],
+    /// Opacity of one crossing, 0 to 1.
+    pub opacity: f32,
+    /// Strength of the highlight, 0 to 1.
+    pub gloss: f32,
+    /// Texel at which its nodes begin.
+    pub nodes_at: u32,
+    /// Texel at which its triangles begin.
+    pub triangles_at: u32,
+    /// How many nodes it has.
+    pub node_count: u32,
+    /// To the next row of four.
+    pub padding: [u32; 3],
+}
+
+/// The objects that are drawn.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct SceneObjects {
+    /// In the order of the document.
+    pub items: [SceneObject; MAX_OBJECTS],
+    /// How many of them count.
+    pub count: u32,
+    /// To the next row of four.
+    pub padding: [u32; 3],
 }
 
 /// [`MeshSegment::kind`]: the surface alone.

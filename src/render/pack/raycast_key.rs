@@ -22,6 +22,8 @@ pub(crate) struct RaycastKey {
     pub has_edges: bool,
     /// Segments are drawn as bodies of their own.
     pub has_bodies: bool,
+    /// Objects stand in the scene.
+    pub has_objects: bool,
     /// The map is read from its baked texture.
     pub is_baked: bool,
     /// What is wanted of each ray.

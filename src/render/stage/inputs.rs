@@ -11,6 +11,7 @@ use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::look::{TransferTable, background_uniform};
 use crate::render::pack::mesh_look::{lidded, mesh_look_of};
 use crate::render::pack::notice::RenderNotice;
+use crate::render::pack::objects::DrawnObjects;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::textures::SubjectTextures;
 
@@ -31,6 +32,8 @@ pub(crate) struct Inputs {
     pub bodies: Stamped<Bodies>,
     /// How the segments of a mesh are drawn.
     pub mesh_look: Stamped<MeshLook>,
+    /// The objects of the scene.
+    pub objects: Stamped<DrawnObjects>,
     /// The transfer function and how opacity follows the deformation; `None` before the first update.
     pub look: Stamped<Option<(TransferTable, OpacityMode)>>,
     /// Linear RGB; w: 1 if there is a background.
@@ -52,6 +55,7 @@ impl Inputs {
             bounds: Stamped::new(Aabb::EMPTY),
             bodies: Stamped::new(Bodies::NONE),
             mesh_look: Stamped::default(),
+            objects: Stamped::default(),
             look: Stamped::default(),
             background: Stamped::default(),
             bounds_from: MadeFrom::default(),
@@ -96,6 +100,8 @@ impl Inputs {
         self.notify(&unknown, RenderNotice::UnknownBody);
         self.notify(&lidded(look, &subject.mesh_segments), RenderNotice::Lid);
         self.bodies.set(bodies);
+        let objects = DrawnObjects::of(&illustration.objects, resources, &subject.frame);
+        self.objects.set(objects);
         let table = TransferTable::new(look, &illustration.subject, &subject.info);
         self.look.set(Some((table, look.opacity)));
         self.background.set(background_uniform(look.background));
@@ -110,6 +116,7 @@ impl Inputs {
             self.kept.stamp(),
             self.bodies.stamp(),
             self.mesh_look.stamp(),
+            self.objects.stamp(),
             self.look.stamp(),
             self.background.stamp(),
         ]

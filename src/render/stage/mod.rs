@@ -6,6 +6,7 @@ pub(crate) mod fields;
 pub(crate) mod inputs;
 pub(crate) mod kept;
 pub(crate) mod look;
+pub(crate) mod objects;
 pub(crate) mod programs;
 pub(crate) mod rigid;
 pub(crate) mod skip_grid;

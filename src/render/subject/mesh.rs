@@ -12,13 +12,11 @@ use crate::render::device::layouts::Layouts;
 use crate::render::device::programs::SubjectShader;
 use crate::render::device::textures::{volume_texture, write_slices};
 use crate::render::pack::gpu_types::Subject;
+use crate::render::pack::triangles::{pack_triangles, texels_of};
 use crate::render::pack::values::SubjectInfo;
-use glam::{DAffine3, UVec3, Vec2, Vec3};
+use glam::{DAffine3, UVec3};
 use half::f16;
 use std::sync::Arc;
-
-/// Bits of a node that hold the number of triangles in it.
-const COUNT_BITS: u32 = 4;
 
 /// A mesh on its way to the GPU. It is handed over in one piece: its texels are a copy of what is there.
 #[derive(Debug)]
@@ -63,7 +61,7 @@ impl MeshUpload {
         let label_texture = label_texture(gpu, segmentation.grid.dims);
         let slices = segmentation.grid.dims.z;
         write_slices(gpu, &label_texture, 0, slices, 1, &segmentation.labels);
-        let texels = texels_of(surface);
+        let texels = packed(surface);
         let rows = (texels.len() / MESH_ROW as usize) as u32;
         let mesh = mesh_texture(gpu, [MESH_ROW, rows]);
         write_slices(gpu, &mesh, 0, 1, 16, bytemuck::cast_slice(&texels));
@@ -109,43 +107,16 @@ impl MeshUpload {
     }
 }
 
-/// Where the parts of the texture begin: triangles and sets of segments, and how many texels there are.
-fn parts_of(surface: &Surface) -> [usize; 3] {
-    let triangles_at = 2 * surface.tree.nodes.len();
-    let sets_at = triangles_at + 4 * surface.triangles.len();
-    [triangles_at, sets_at, sets_at + surface.field.sets.len()]
-}
-
+/// Texels of a mesh's texture: those of its triangles, and behind them its sets of segments.
 fn texel_count(surface: &Surface) -> usize {
-    parts_of(surface)[2]
+    texels_of(surface) as usize + surface.field.sets.len()
 }
 
 /// The texels of the mesh, whole rows of them, as shaders/subject/mesh.wgsl reads them.
-fn texels_of(surface: &Surface) -> Vec<[u32; 4]> {
+fn packed(surface: &Surface) -> Vec<[u32; 4]> {
     let count = texel_count(surface).next_multiple_of(MESH_ROW as usize);
     let mut texels = Vec::with_capacity(count);
-    let with = |place: Vec3, last: u32| {
-        let [x, y, z] = place.to_array().map(f32::to_bits);
-        [x, y, z, last]
-    };
-    for node in &surface.tree.nodes {
-        texels.push(with(node.bounds.min, node.skip));
-        texels.push(with(node.bounds.max, node.first << COUNT_BITS | node.count));
-    }
-    for (i, triangle) in surface.triangles.iter().enumerate() {
-        for (corner, normal) in triangle.0.iter().zip(surface.normals[i]) {
-            texels.push(with(*corner, octahedral(normal)));
-        }
-        let [a, b, c] = surface.colors[i].map(|[r, g, b]| u32::from_le_bytes([r, g, b, 255]));
-        let opacity = surface.segments[surface.segment_of(i)].opacity;
-        let opacity = (opacity.clamp(0.0, 1.0) * 255.0).round() as u8;
-        texels.push([
-            a,
-            b,
-            c,
-            u32::from_le_bytes([surface.owners[i], opacity, 0, 0]),
-        ]);
-    }
+    pack_triangles(surface, &mut texels);
     for &set in &surface.field.sets {
         texels.push(std::array::from_fn(|word| (set >> (32 * word)) as u32));
     }
@@ -153,25 +124,11 @@ fn texels_of(surface: &Surface) -> Vec<[u32; 4]> {
     texels
 }
 
-/// A unit vector as its place on the unfolded octahedron, two numbers of 16 bits (Cigolle et al. 2014).
-fn octahedral(normal: Vec3) -> u32 {
-    let n = normal / normal.abs().element_sum().max(1e-9);
-    let sign = |v: f32| if v >= 0.0 { 1.0 } else { -1.0 };
-    let at = if n.z >= 0.0 {
-        Vec2::new(n.x, n.y)
-    } else {
-        Vec2::new((1.0 - n.y.abs()) * sign(n.x), (1.0 - n.x.abs()) * sign(n.y))
-    };
-    let [x, y] = (at * 32767.0).round().to_array().map(|v| v as i16 as u16);
-    u32::from(x) | u32::from(y) << 16
-}
-
 fn uniform_of(surface: &Surface) -> Subject {
     let field = &surface.field;
     let label_grid = &surface.segmentation.grid;
     let field_voxels = VoxelFrame::new(field.dims, field.rest_from_voxel);
     let affine = |affine: DAffine3| affine.as_affine3a().into();
-    let [triangles_at, sets_at, _] = parts_of(surface);
     Subject {
         texture_from_rest: affine(field_voxels.texture_from_rest()),
         label_from_rest: affine(label_grid.texture_from_subject()),
@@ -185,8 +142,8 @@ fn uniform_of(surface: &Surface) -> Subject {
         mesh_min: surface.frame.bounds.min.extend(0.0).to_array(),
         mesh_max: surface.frame.bounds.max.extend(0.0).to_array(),
         node_count: surface.tree.nodes.len() as u32,
-        triangles_at: triangles_at as u32,
-        sets_at: sets_at as u32,
+        triangles_at: 2 * surface.tree.nodes.len() as u32,
+        sets_at: texels_of(surface),
         padding: 0,
     }
 }
@@ -216,26 +173,4 @@ fn seen_bricks(field: &SurfaceField) -> Vec<bool> {
         }
     }
     seen
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn normals_survive_packing() {
-        for i in 0..1000 {
-            let t = i as f32 * 0.37;
-            let normal = Vec3::new(t.sin(), (t * 1.7).cos(), (t * 0.61).sin()).normalize();
-            let packed = octahedral(normal);
-            let part = |bits: u32| f32::from(bits as u16 as i16) / 32767.0;
-            let at = Vec2::new(part(packed), part(packed >> 16));
-            // As the shader unpacks it.
-            let up = 1.0 - at.x.abs() - at.y.abs();
-            let fold = (-up).max(0.0);
-            let back = |v: f32| v + if v >= 0.0 { -fold } else { fold };
-            let unpacked = Vec3::new(back(at.x), back(at.y), up).normalize();
-            assert!(unpacked.distance(normal) < 1e-4, "{normal} {unpacked}");
-        }
-    }
 }

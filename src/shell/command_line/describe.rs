@@ -6,6 +6,7 @@ use super::args::Common;
 use super::device::open_gpu;
 use super::error::CliError;
 use super::fields::fields_of;
+use super::objects::objects_of;
 use super::opening::Opened;
 use super::output::{notice, print};
 use super::subject::{report_drawing, subject_of};
@@ -47,7 +48,8 @@ pub(super) fn describe(
             }
         }
         let shown = at_step.illustration();
-        let resources = fields_of(shown, common, &opened.folder)?;
+        let mut resources = fields_of(shown, common, &opened.folder)?;
+        resources.objects = objects_of(shown, common, &opened.folder)?;
         if told.is_empty() {
             report_drawing(shown, &resources, &subject);
         }

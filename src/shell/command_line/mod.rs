@@ -13,6 +13,7 @@ mod fields;
 mod info;
 mod link;
 mod numbers;
+mod objects;
 mod opening;
 mod output;
 mod probe;

@@ -9,6 +9,7 @@ use super::args::{Common, Moment};
 use super::device::open_gpu;
 use super::error::CliError;
 use super::numbers::read_numbers;
+use super::objects::objects_of;
 use super::opening::Opened;
 use super::probe::{Materials, WHOLE, quoted};
 use super::subject::{report_drawing, subject_of};
@@ -23,7 +24,7 @@ pub(super) fn rays(
     path: Option<&Path>,
     moment: Moment,
 ) -> Result<(), CliError> {
-    let (illustration, resources) = opened.illustration(moment, common)?;
+    let (illustration, mut resources) = opened.illustration(moment, common)?;
     let given: Vec<[f64; 6]> = read_numbers(path, "ox,oy,oz,dx,dy,dz, six finite numbers")?;
     let mut asked = Vec::with_capacity(given.len());
     for (numbers, index) in given.iter().zip(1..) {
@@ -35,14 +36,19 @@ pub(super) fn rays(
     let gpu = open_gpu(common)?;
     let subject = subject_of(&illustration, common, &opened.folder, WHOLE)?;
     report_drawing(&illustration, &resources, &subject);
+    resources.objects = objects_of(&illustration, common, &opened.folder)?;
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
     let events = pollster::block_on(studio.events(&illustration, &asked))?;
     let materials = Materials::of(&subject, &illustration);
+    let name_of = |index: usize| {
+        let named = illustration.objects.iter().find(|object| object.index == index);
+        named.map_or("", |object| &object.name)
+    };
     let mut out = io::BufWriter::new(io::stdout().lock());
     for ((numbers, ray), event) in given.iter().zip(&asked).zip(&events) {
         let numbers = numbers.map(|number| number.to_string()).join(",");
         let found = match event {
-            Some(event) => columns_of(event, *ray, &subject, &materials),
+            Some(event) => columns_of(event, *ray, &subject, &materials, name_of),
             None => ",".repeat(12),
         };
         writeln!(out, "{numbers},{found}").map_err(CliError::Output)?;
@@ -51,11 +57,12 @@ pub(super) fn rays(
 }
 
 /// The columns behind the ray's own.
-fn columns_of(
+fn columns_of<'o>(
     event: &RayEvent,
     (origin, dir): (Vec3, Vec3),
     subject: &Subject,
     materials: &Materials<'_>,
+    object_name: impl Fn(usize) -> &'o str,
 ) -> String {
     let own = |k: usize| match subject {
         Subject::Mesh(surface) => surface.segments[k].name.clone(),
@@ -66,6 +73,7 @@ fn columns_of(
         (Meeting::Cut, Some(k), Materials::Mesh(fillings)) => {
             fillings.name_at(k, event.pos_in_rest)
         }
+        (Meeting::Object, Some(k), _) => object_name(k).to_owned(),
         _ => materials.at(event.pos_in_rest).unwrap_or_default().1,
     };
     let places = [

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::args::{Common, Moment};
 use super::device::open_gpu;
 use super::error::CliError;
+use super::objects::objects_of;
 use super::opening::Opened;
 use super::output::{notice, write_whole};
 use super::subject::{report_drawing, subject_of};
@@ -28,7 +29,7 @@ pub(super) fn render(
     moment: Moment,
     paper: Paper,
 ) -> Result<(), CliError> {
-    let (illustration, resources) = opened.illustration(moment, common)?;
+    let (illustration, mut resources) = opened.illustration(moment, common)?;
     // Found out before minutes of drawing, not after.
     let folder = output
         .parent()
@@ -46,6 +47,7 @@ pub(super) fn render(
     let gpu = open_gpu(common)?;
     let subject = subject_of(&illustration, common, &opened.folder, gpu.volume_limits())?;
     report_drawing(&illustration, &resources, &subject);
+    resources.objects = objects_of(&illustration, common, &opened.folder)?;
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
     let drawing = studio.render_image(&illustration, paper.size, paper.samples);
     let mut image = pollster::block_on(drawing)?;

@@ -47,7 +47,8 @@ pub(super) fn subject_of(
             Role::Field => {}
             // The document's notices say that these are not drawn; here those are named that are not even there.
             Role::Mesh => report_missing("mesh", &want, folder),
-            Role::Object => report_missing("object", &want, folder),
+            // Objects come by `objects_of`: they are no part of the subject.
+            Role::Object => {}
         }
     }
     for (_, file) in given {
@@ -73,7 +74,7 @@ pub(super) fn subject_of(
 }
 
 /// Names the file of a mesh or of an object if it is not there; what it would be is left out.
-fn report_missing(what: &str, want: &Want, folder: &Path) {
+pub(super) fn report_missing(what: &str, want: &Want, folder: &Path) {
     let Source::File { src, name, .. } = &want.source else {
         return;
     };
@@ -239,7 +240,7 @@ fn generate(name: &str) -> Result<Subject, MissingSubject> {
 }
 
 /// The given file that has the hash of a want.
-fn given_of<'a>(given: &'a [PathBuf], want: &Want) -> Option<&'a Path> {
+pub(super) fn given_of<'a>(given: &'a [PathBuf], want: &Want) -> Option<&'a Path> {
     let is_it = |path: &&PathBuf| {
         let (mut files, name) = Folder::of(path);
         hash_of(&mut files, &name).is_some_and(|hash| want.check(&hash).is_ok())
@@ -249,7 +250,7 @@ fn given_of<'a>(given: &'a [PathBuf], want: &Want) -> Option<&'a Path> {
 
 /// Reads a subject from a file, reduced to these limits. Further meshes of it lie at their addresses from `folder`, or
 /// are among those given.
-fn read(
+pub(super) fn read(
     path: &Path,
     reading: &Reading,
     limits: VolumeLimits,

@@ -1,0 +1,81 @@
+//! Objects of the scene for the command line: generated, or read from local files.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::args::Common;
+use super::error::{CliError, MissingSubject};
+use super::subject::{given_of, read, report_missing};
+use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
+use crate::data::{ObjectMeshes, Subject, Surface, VolumeLimits};
+use crate::document::Illustration;
+use crate::load::LoadError;
+use crate::shell::files::local;
+use crate::subjects::{SubjectError, tool};
+
+/// The meshes of a document's objects. A notice names those whose files are not there; they are left out.
+///
+/// # Errors
+/// [`CliError::Subject`] if a file cannot be read, is no mesh, or is another one than the document means.
+pub(super) fn objects_of(
+    illustration: &Illustration,
+    common: &Common,
+    folder: &Path,
+) -> Result<ObjectMeshes, CliError> {
+    let mut assets = Assets::default();
+    for want in Wanted::of(illustration).0 {
+        if want.role != Role::Object {
+            continue;
+        }
+        match &want.source {
+            Source::Builtin(name) => {
+                let data = generated(name)?;
+                // What is generated has no hash that could be another one.
+                let _always_taken = assets.take(&want, data);
+            }
+            Source::File { src, .. } => {
+                let given = match src {
+                    Some(src) => local(folder, src).filter(|path| path.exists()),
+                    None => given_of(&common.meshes, &want).map(Path::to_owned),
+                };
+                let Some(path) = given else {
+                    report_missing("object", &want, folder);
+                    continue;
+                };
+                let taken = assets.take(&want, of_file(&path, &want, folder)?);
+                taken.map_err(|other| MissingSubject::other(&path, other))?;
+            }
+        }
+    }
+    Ok(assets.resources(illustration).0.objects)
+}
+
+/// A tool that the program generates.
+fn generated(name: &str) -> Result<Data, MissingSubject> {
+    let mesh = tool(name).ok_or_else(|| SubjectError::UnknownName(name.to_owned()))?;
+    let surface = Surface::new(&mesh, None, &mut |_| true);
+    let surface = surface.map_err(|error| SubjectError::Refused(error.to_string()))?;
+    Ok(Data::Object {
+        mesh: Arc::new(surface),
+        sha256: None,
+    })
+}
+
+fn of_file(path: &Path, want: &Want, folder: &Path) -> Result<Data, MissingSubject> {
+    let limits = VolumeLimits {
+        max_dim: u32::MAX,
+        max_voxels: u64::MAX,
+    };
+    match read(path, &want.reading, limits, folder, &[])? {
+        Data::Subject {
+            subject: Subject::Mesh(mesh),
+            sha256,
+        } => Ok(Data::Object { mesh, sha256 }),
+        _ => Err(MissingSubject::File {
+            path: path.display().to_string(),
+            source: LoadError::Mesh {
+                message: "a scan, not a surface mesh: an object has to be OBJ, STL, PLY or GLB".to_owned(),
+            },
+        }),
+    }
+}
