@@ -6,7 +6,7 @@ use crate::app::session::{Gravity, Load, LoadOf, Shipped, Taken};
 use crate::app::window::App;
 use crate::app::words::{self, fill};
 use crate::assets::{Data, LoadEvent, Role, SegmentationsExpected, Want};
-use crate::data::{SubjectBuilder, SubjectSink as _};
+use crate::data::{Subject, SubjectBuilder, SubjectSink as _};
 use crate::document::{SegmentsRef, SubjectRef};
 
 impl App {
@@ -135,6 +135,9 @@ impl App {
                     let details = fill(text.other_file_details, &[hashes[0], hashes[1]]);
                     return self.refuse(text.wrong_file, details);
                 }
+                if self.takes_object(sha256.as_deref()) {
+                    return self.session.load_ended();
+                }
                 self.show_incoming();
                 let is_step = self.session.load_done(sha256);
                 if let Some(load) = load {
@@ -165,7 +168,7 @@ impl App {
     /// Goes on with the segments that are being made, and shows them when they are there.
     pub(crate) fn advance_tissue(&mut self, ui: &egui::Ui) {
         let is_dragging = ui.input(|i| i.pointer.any_down());
-        self.look_after_segments();
+        self.look_after_files_beside();
         self.tissue.set_edited(self.session.tissues.open.is_some());
         let shown = self.session.shown();
         let made = self
@@ -207,9 +210,9 @@ impl App {
         }
     }
 
-    /// Asks for label volumes that the document names by an address, tells the shell which it names by a hash, and the
-    /// reader which of those nobody has opened.
-    fn look_after_segments(&mut self) {
+    /// Asks for label volumes and objects that the document names by an address, tells the shell which label volumes it
+    /// names by a hash, and the reader which of those nobody has opened.
+    fn look_after_files_beside(&mut self) {
         let illustration = self.session.illustration();
         let named = illustration.segments.clone();
         let is_file = !matches!(illustration.subject, SubjectRef::Builtin { .. });
@@ -226,13 +229,13 @@ impl App {
             return;
         }
         let mut missing = self.assets.missing(self.session.shown());
-        missing.retain(|want| want.role == Role::Segments);
         if let Some(want) = missing.iter().find(|want| self.can_be_fetched(want)) {
             let want = want.clone();
             let ticket = self.services.load(&want);
-            self.session.segments_started(ticket, want);
+            self.session.beside_started(ticket, want);
         } else if self.reported_segments != named {
             self.reported_segments = named;
+            missing.retain(|want| want.role == Role::Segments);
             let text = words::tissue::w().labels_wanted;
             if is_file && missing.iter().any(|want| want.sha256().is_some()) {
                 // It stays until it is not true any more.
@@ -244,11 +247,17 @@ impl App {
     }
 
     fn can_be_fetched(&self, want: &Want) -> bool {
-        want.role == Role::Segments && want.src().is_some() && !self.assets.is_refused(want)
+        let is_known = match want.role {
+            Role::Segments => want.src().is_some(),
+            // One that only the reader has is asked for once, so that the reader is told.
+            Role::Object => true,
+            Role::Subject | Role::Field | Role::Mesh => false,
+        };
+        is_known && !self.assets.is_refused(want)
     }
 
-    /// True while a label volume is still to be asked for.
-    pub(crate) fn wants_segments(&self) -> bool {
+    /// True while a label volume or an object is still to be asked for.
+    pub(crate) fn wants_beside(&self) -> bool {
         let missing = self.assets.missing(self.session.shown());
         self.session.view.subject.is_some() && missing.iter().any(|want| self.can_be_fetched(want))
     }
@@ -257,7 +266,7 @@ impl App {
     /// from now on. `is_step`: the load's scan was a step of undo, which its label volumes are a part of.
     fn take_segmentations(&mut self, of: &LoadOf, is_step: bool) {
         for file in std::mem::take(&mut self.incoming_labels) {
-            if let LoadOf::Segments(want) = of {
+            if let LoadOf::Beside(want) = of {
                 if let Err(other) = self.assets.take(want, Data::Segments(file)) {
                     self.session.notify_other_file(&other);
                 }
@@ -278,11 +287,49 @@ impl App {
         self.reported_segments.clear();
     }
 
-    /// Throws away the pieces of a load that ends early. A label volume is not asked for again.
+    /// Takes the mesh of an object that a load has brought, and lets go of a file that the user opened if it turns out to
+    /// be one that an object waits for. False if the load is about something else.
+    fn takes_object(&mut self, sha256: Option<&str>) -> bool {
+        let Some(load) = &self.session.load else {
+            return false;
+        };
+        match &load.of {
+            LoadOf::Beside(want) if want.role == Role::Object => {
+                let whole = std::mem::take(&mut self.incoming).finish();
+                let Some(Ok((Subject::Mesh(mesh), _))) = whole else {
+                    self.assets.refuse(want);
+                    let text = words::messages::w().no_object;
+                    self.session.notify(Gravity::Error, text, "");
+                    return true;
+                };
+                let sha256 = sha256.map(str::to_owned);
+                if let Err(other) = self.assets.take(want, Data::Object { mesh, sha256 }) {
+                    self.session.notify_other_file(&other);
+                }
+                true
+            }
+            LoadOf::File => {
+                let missing = self.assets.missing(self.session.shown());
+                let waits = |want: &&Want| {
+                    want.role == Role::Object && want.sha256().is_some() && want.sha256() == sha256
+                };
+                let Some(want) = missing.iter().find(waits) else {
+                    return false;
+                };
+                // The shell knows the file from now on; the object says how it is to be read.
+                self.assets.ask_again(want);
+                self.incoming = SubjectBuilder::default();
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Throws away the pieces of a load that ends early. A file beside the subject is not asked for again.
     fn drop_incoming(&mut self) {
         self.incoming = SubjectBuilder::default();
         self.incoming_labels.clear();
-        if let Some(LoadOf::Segments(want)) = self.session.load.as_ref().map(|load| &load.of) {
+        if let Some(LoadOf::Beside(want)) = self.session.load.as_ref().map(|load| &load.of) {
             self.assets.refuse(want);
         }
     }

@@ -38,7 +38,7 @@ impl App {
         if resources == self.resources {
             return;
         }
-        if resources.fields != self.resources.fields {
+        if resources.fields != self.resources.fields || !resources.has_objects_of(&self.resources) {
             self.session.revision += 1;
         }
         if let Some(picture) = &mut self.picture {

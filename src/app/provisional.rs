@@ -42,9 +42,11 @@ impl App {
         if load.is_some_and(|load| load.is_coarse) {
             return Some(w.coarse);
         }
-        let are_segments = |of: &LoadOf| matches!(of, LoadOf::Segments(_));
-        if load.is_some_and(|load| are_segments(&load.of)) {
-            return Some(w.segments_coming);
+        if let Some(LoadOf::Beside(want)) = load.map(|load| &load.of) {
+            return Some(match want.role {
+                Role::Object => w.object_coming,
+                _ => w.segments_coming,
+            });
         }
         let shown = self.session.shown();
         let is_field = self.services.is_reading()

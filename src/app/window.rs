@@ -244,7 +244,7 @@ impl App {
         self.session.load.is_none()
             && !self.services.is_reading()
             && !self.tissue.is_behind(&self.assets, self.session.shown())
-            && !self.wants_segments()
+            && !self.wants_beside()
             && self.pending.is_empty()
             && self.session.library.listing != Listing::Asked
             && !self.viewport.is_waiting()

@@ -169,6 +169,11 @@ impl Assets {
         }
     }
 
+    /// A want that could not be met can be met now.
+    pub fn ask_again(&mut self, want: &Want) {
+        self.refused.retain(|refused| refused != want);
+    }
+
     /// True if a want could not be met.
     pub fn is_refused(&self, want: &Want) -> bool {
         self.refused.contains(want)
@@ -182,7 +187,8 @@ impl Assets {
         self.fitted.clear();
         self.segments.iter_mut().for_each(|one| one.src = None);
         self.fields.iter_mut().for_each(|one| one.src = None);
-        self.objects.retain(|(met, _)| met.src().is_none() || met.sha256().is_some());
+        self.objects
+            .retain(|(met, _)| met.src().is_none() || met.sha256().is_some());
     }
 
     /// True if the file of this want has arrived. Only one subject is held at a time.

@@ -72,7 +72,10 @@ impl Resources {
 
     /// The mesh of an object, if it has arrived.
     pub fn object(&self, object: &SceneObject) -> Option<&Arc<Surface>> {
-        let found = self.objects.iter().find(|(source, _)| *source == object.source);
+        let found = self
+            .objects
+            .iter()
+            .find(|(source, _)| *source == object.source);
         found.map(|(_, mesh)| mesh)
     }
 
@@ -93,7 +96,9 @@ impl Resources {
     pub fn has_objects_of(&self, other: &Self) -> bool {
         let pairs = self.objects.iter().zip(&other.objects);
         self.objects.len() == other.objects.len()
-            && pairs.into_iter().all(|((a, mesh), (b, theirs))| a == b && Arc::ptr_eq(mesh, theirs))
+            && pairs
+                .into_iter()
+                .all(|((a, mesh), (b, theirs))| a == b && Arc::ptr_eq(mesh, theirs))
     }
 
     /// The label volume of the subject's own file, under the author's names.

@@ -1,7 +1,7 @@
 //! The data of documents: a subject with its segments, on the GPU once for all pictures that show it.
 
 use crate::assets::{Assets, Data, LoadEvent, Role, Source, TissueWork, Want, Wanted};
-use crate::data::{Resources, SubjectBuilder, SubjectSink as _};
+use crate::data::{Resources, Subject, SubjectBuilder, SubjectSink as _};
 use crate::document::{Illustration, Recipe, SegmentsRef, SubjectRef};
 use crate::load::{FieldFile, LabelFile};
 use crate::render::{Clock, Gpu, RenderError, Renderer};
@@ -119,6 +119,19 @@ impl Stock {
         self.loading.clone()
     }
 
+    /// Takes an object that an illustration shows and that has not come as what should be fetched next, and counts it as
+    /// under way.
+    pub fn next_object(&mut self, shown: &Illustration) -> Option<Want> {
+        if self.loading.is_some() || !self.is_whole {
+            return None;
+        }
+        let mut missing = self.assets.missing(shown);
+        missing.retain(|want| want.role == Role::Object && !self.assets.is_refused(want));
+        self.loading = missing.into_iter().next();
+        self.fraction = 0.0;
+        self.loading.clone()
+    }
+
     /// A displacement field that an illustration shows and that has not come, if it was not refused.
     pub fn missing_fields(&self, shown: &Illustration) -> Vec<Want> {
         let mut missing = self.assets.missing(shown);
@@ -201,7 +214,16 @@ impl Stock {
                 }
             }
             LoadEvent::Progress { fraction, .. } => self.fraction = fraction,
-            LoadEvent::Coarse => self.show_incoming(None),
+            // An object is shown when it is whole.
+            LoadEvent::Coarse => {
+                if self
+                    .loading
+                    .as_ref()
+                    .is_some_and(|want| want.role == Role::Subject)
+                {
+                    self.show_incoming(None);
+                }
+            }
             LoadEvent::LabelFile(file) => self.incoming_labels.push(*file),
             LoadEvent::Done { sha256 } => self.take_end(sha256),
             LoadEvent::Notice(message) => self.troubles.push(Trouble {
@@ -228,10 +250,13 @@ impl Stock {
             {
                 return self.fail(other.to_string());
             }
-            self.show_incoming(sha256);
+            self.show_incoming(sha256.clone());
             self.is_whole = !self.has_failed();
         }
         self.loading = None;
+        if want.role == Role::Object {
+            self.take_object(&want, sha256);
+        }
         for file in std::mem::take(&mut self.incoming_labels) {
             let data = Data::Segments(file);
             match want.role {
@@ -247,6 +272,24 @@ impl Stock {
             }
         }
         self.revision += 1;
+    }
+
+    /// The mesh of an object has come.
+    fn take_object(&mut self, want: &Want, sha256: Option<String>) {
+        let message = match std::mem::take(&mut self.incoming).finish() {
+            Some(Ok((Subject::Mesh(mesh), _))) => {
+                let taken = self.assets.take(want, Data::Object { mesh, sha256 });
+                taken.err().map(|other| other.to_string())
+            }
+            _ => {
+                self.assets.refuse(want);
+                Some("An object has to be a surface mesh: OBJ, STL, PLY or GLB".to_owned())
+            }
+        };
+        self.troubles.extend(message.map(|message| Trouble {
+            message,
+            is_fatal: false,
+        }));
     }
 
     /// A displacement field has come, or why there is none.

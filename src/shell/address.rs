@@ -58,6 +58,14 @@ pub(super) fn at_base(want: &Want, base: &str) -> Want {
     want
 }
 
+/// The task to make what the program generates: a subject, or a tool that stands as an object in the scene.
+pub(super) fn builtin_task(name: &str, role: Role) -> Task {
+    match role {
+        Role::Object => Task::Scan(ScanTask::Mesh(name.to_owned())),
+        _ => Task::Subject(name.to_owned(), None),
+    }
+}
+
 /// The task to fetch an address and to read the bytes that come.
 pub(super) fn address_task(address: String, want: &Want) -> Task {
     Task::Scan(ScanTask::Address {

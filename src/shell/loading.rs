@@ -14,7 +14,9 @@ use crate::load::{
     ReadOptions, Warning, is_segmentation, mesh_or_not, read_header, read_label_file,
     read_mesh_subject, read_raw, read_subject,
 };
-use crate::subjects::{COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab, SubjectError, mesh};
+use crate::subjects::{
+    COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab, SubjectError, mesh, tool,
+};
 
 /// Slabs are made of about this many voxels: large enough to travel well, small enough to stop soon.
 const SLAB_VOXELS: usize = 1 << 20;
@@ -93,9 +95,9 @@ pub fn make_subject(
     }
 }
 
-/// Makes a built-in subject that is a mesh.
-pub fn make_mesh_subject(name: &str, post: &mut dyn Post) {
-    let Some(mesh) = mesh(name) else {
+/// Makes a built-in subject that is a mesh, or a tool.
+pub fn make_mesh(name: &str, post: &mut dyn Post) {
+    let Some(mesh) = mesh(name).or_else(|| tool(name)) else {
         post.post(LoadEvent::Failed {
             message: SubjectError::UnknownName(name.chars().take(40).collect()).to_string(),
             details: String::new(),
@@ -390,7 +392,7 @@ pub fn wanted_file(name: &str) -> String {
         format!(" (“{}”)", name.chars().take(80).collect::<String>())
     };
     format!(
-        "This illustration was made with a scan that is not part of it{called}: open the file, or drop it here"
+        "This illustration was made with a file that is not part of it{called}: open the file, or drop it here"
     )
 }
 

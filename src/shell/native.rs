@@ -11,8 +11,7 @@ use std::time::Instant;
 use super::command_line::ReadingFlags;
 use super::files::{Folder, Picked, local, mesh_set};
 use super::loading::{
-    make_mesh_subject, make_subject, read_file, read_segments, resolutions, take_segmentations,
-    wanted_file,
+    make_mesh, make_subject, read_file, read_segments, resolutions, take_segmentations, wanted_file,
 };
 use crate::app::{App, LinkChange, Message, SaveFile, SavedTo, Services, Shipped, Start, Ticket};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
@@ -295,14 +294,15 @@ impl NativeServices {
         ticket
     }
 
-    fn start_builtin(&mut self, name: String) -> Ticket {
+    fn start_builtin(&mut self, name: String, role: Role) -> Ticket {
+        let is_mesh = role == Role::Object || mesh_names().contains(&name.as_str());
         let (ticket, is_wanted) = self.new_ticket();
         let (sender, ctx, limits) = (self.sender.clone(), self.ctx.clone(), self.limits);
         std::thread::spawn(move || {
             let mut post =
                 |event: LoadEvent| post_while_wanted(&sender, &ctx, ticket, &is_wanted, event);
-            match mesh_names().contains(&name.as_str()) {
-                true => make_mesh_subject(&name, &mut post),
+            match is_mesh {
+                true => make_mesh(&name, &mut post),
                 false => make_subject(&name, &resolutions(limits), slabs_in_threads, &mut post),
             }
         });
@@ -542,7 +542,7 @@ impl Services for NativeServices {
 
     fn load(&mut self, want: &Want) -> Ticket {
         let (src, name) = match &want.source {
-            Source::Builtin(name) => return self.start_builtin(name.clone()),
+            Source::Builtin(name) => return self.start_builtin(name.clone(), want.role),
             Source::File { src, name, .. } => (src.clone(), name),
         };
         // A file is read where the document says that it is, even if the same bytes were opened before.

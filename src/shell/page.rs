@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storage, Url, Window};
 
-use super::address::{absolute, address_task, at_base, fetched, foreign_host};
+use super::address::{absolute, address_task, at_base, builtin_task, fetched, foreign_host};
 use super::loading::wanted_file;
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
@@ -447,7 +447,7 @@ impl Services for PageServices {
         let (src, sha256, name) = match &want.source {
             Source::Builtin(name) => {
                 let ticket = self.0.borrow_mut().new_ticket();
-                self.start(ticket, &Task::Subject(name.clone(), None));
+                self.start(ticket, &builtin_task(name, want.role));
                 return ticket;
             }
             Source::File { src, sha256, name } => (src, sha256, name),

@@ -10,13 +10,15 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 use web_sys::{Blob, HtmlCanvasElement};
 
-use super::address::{absolute, address_task, at_base, fetched, foreign_host, part_of};
+use super::address::{
+    absolute, address_task, at_base, builtin_task, fetched, foreign_host, part_of,
+};
 use super::loading::wanted_file;
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
 use super::worker::run::{self, Maker, WorkerLoad};
 use super::worker::task::{Part, ScanTask, Task};
-use crate::assets::{LoadEvent, SegmentationsExpected, Source, Want};
+use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::describe::{Lang, seen_from};
 use crate::link::{self, Qr};
 use crate::reader::{Picture, Stock, StockKey, Visit, outline, texts};
@@ -761,7 +763,14 @@ impl Inner {
         let this = &mut *this;
         let ids: Vec<u32> = this.stocks.keys().copied().collect();
         for id in ids {
-            let Some(want) = this.stocks.get_mut(&id).and_then(|s| s.stock.next_want()) else {
+            let Some(stocked) = this.stocks.get_mut(&id) else {
+                continue;
+            };
+            let shown = this.shown.values().filter(|shown| shown.stock == id);
+            let mut shown = shown.map(|shown| shown.picture.visit.shown());
+            let wanted = stocked.stock.next_want();
+            let object = || shown.find_map(|shown| stocked.stock.next_object(shown));
+            let Some(want) = wanted.or_else(object) else {
                 continue;
             };
             let way = this.way(id, &want);
@@ -786,11 +795,14 @@ impl Inner {
 
     fn way(&self, stock: u32, want: &Want) -> Way {
         let (src, name) = match &want.source {
-            Source::Builtin(name) => return Way::Start(Task::Subject(name.clone(), None)),
+            Source::Builtin(name) => return Way::Start(builtin_task(name, want.role)),
             Source::File { src, name, .. } => (src, name),
         };
         let Some(src) = src else {
-            return Way::File(wanted_file(name));
+            return match want.role {
+                Role::Object => Way::Fail(wanted_file(name)),
+                _ => Way::File(wanted_file(name)),
+            };
         };
         let base = self.stocks.get(&stock).map_or("", |s| s.stock.key().base());
         match absolute(src, base) {

@@ -793,6 +793,65 @@ fn rays_meet_what_a_page_says() {
 }
 
 #[test]
+fn rays_meet_objects() {
+    let folder = folder();
+    write(&folder, "box.obj", box_obj("box", [0.0; 3], 50.0));
+    write(&folder, "tool.obj", box_obj("tool", [0.0, 0.0, 90.0], 10.0));
+    let probe = |objects: &str, ray: &str| {
+        let json = format!(
+            r#"{{"fabrica":1,"subject":{{"src":"box.obj","axes":"ras"}},"objects":[{objects}]}}"#
+        );
+        write(&folder, "scene.json", json);
+        fabrica_with(
+            folder.path(),
+            &["probe", "scene.json", "--rays"],
+            ray.as_bytes(),
+        )
+    };
+    let columns = |ran: &Outcome| -> (f32, String) {
+        let columns: Vec<&str> = ran.out.trim_end().split(',').collect();
+        let distance = columns[6].parse().expect("a number");
+        (distance, columns[16..].join(","))
+    };
+    // Where its file says, in the subject's millimetres: one unit is 100 of them.
+    let own = r##"{"src":"tool.obj","name":"knife","axes":"ras","color":"#3366cc"}"##;
+    let ran = probe(own, "0,0,2,0,0,-1\n").ok();
+    let (distance, end) = columns(&ran);
+    assert!((distance - 1.0).abs() < 1e-4, "{}", ran.out);
+    assert_eq!(end, "object,knife,#3366cc");
+    // Beside it the subject is met as before.
+    assert_eq!(
+        columns(&probe(own, "0.3,0.3,2,0,0,-1\n").ok()).1,
+        "surface,surface,#d8cdbd"
+    );
+    // With a place of its own, and from inside of it.
+    let placed = r##"{"src":"tool.obj","at":[0,0,0.8],"size":0.4,"inside":"#102030"}"##;
+    let (distance, end) = columns(&probe(placed, "0,0,2,0,0,-1\n").ok());
+    assert!((distance - 1.0).abs() < 1e-4);
+    assert_eq!(end, "object,object 1,#d8cdbd");
+    let (distance, end) = columns(&probe(placed, "0,0,0.8,0,0,-1\n").ok());
+    assert!((distance - 0.2).abs() < 1e-4);
+    assert_eq!(end, "object,object 1,#102030");
+    // What is not there is named and left out; what is no mesh is an error.
+    let ran = probe(r#"{"src":"gone.obj","name":"saw"}"#, "0,0,2,0,0,-1\n").ok();
+    assert!(
+        ran.err.contains("“saw” is not there, and it is left out"),
+        "{}",
+        ran.err
+    );
+    assert_eq!(columns(&ran).1, "surface,surface,#d8cdbd");
+    write(
+        &folder,
+        "scan.nrrd",
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n1 2 3 4 5 6 7 8\n",
+    );
+    probe(r#"{"src":"scan.nrrd"}"#, "0,0,2,0,0,-1\n")
+        .failed(&["scan.nrrd", "a scan, not a surface mesh"]);
+    write(&folder, "bad.obj", "v 0 0 0\nf 1 2 3\n");
+    probe(r#"{"src":"bad.obj"}"#, "0,0,2,0,0,-1\n").failed(&["bad.obj", "line 2"]);
+}
+
+#[test]
 fn several_meshes_are_one_subject() {
     let folder = folder();
     let inner = box_obj("inner", [0.0; 3], 10.0);

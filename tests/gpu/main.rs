@@ -15,6 +15,7 @@ mod images;
 mod kinds;
 mod load_memory;
 mod meshes;
+mod objects;
 mod probes;
 mod slices;
 

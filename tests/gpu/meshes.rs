@@ -6,8 +6,8 @@ use std::sync::Arc;
 use crate::data::data_folder;
 use crate::gpu::gpu;
 use crate::scatter::Random;
-use crate::surfaces::surface_of;
-use fabrica::data::{Mesh, MeshPart, Surface};
+use crate::surfaces::{brick, surface_of};
+use fabrica::data::Surface;
 use fabrica::document::{Document, Illustration};
 use fabrica::render::{SliceColors, SlicePlane, SliceView, Studio, View};
 use glam::{Vec2, Vec3};
@@ -22,36 +22,6 @@ const FARTHEST: f32 = 1e-3;
 /// they meet may lie.
 const ASIDE: f32 = 0.002;
 const STEADY: f32 = 0.02;
-
-/// A box of 100 × 60 × 80 mm.
-fn brick() -> Arc<Surface> {
-    let half = Vec3::new(50.0, 30.0, 40.0);
-    let corner = |i: u32| {
-        let sign = |bit: u32| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
-        half * Vec3::new(sign(0), sign(1), sign(2))
-    };
-    let quads = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let mesh = Mesh {
-        positions: (0..8).map(corner).collect(),
-        triangles: quads
-            .iter()
-            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
-            .collect(),
-        parts: vec![MeshPart {
-            name: "brick".to_owned(),
-            triangles: 0..12,
-        }],
-        ..Mesh::default()
-    };
-    Arc::new(Surface::new(&mesh, None, &mut |_| true).expect("it has a size"))
-}
 
 fn document(templates: &str, turn: [f32; 4]) -> Document {
     Document::from_json(&format!(

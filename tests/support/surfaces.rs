@@ -1,7 +1,10 @@
-//! Surfaces made of the bytes of a mesh file, as the program makes them.
+//! Surfaces made of the bytes of a mesh file, as the program makes them, and a plain one.
 
-use fabrica::data::{SubjectPart, SubjectSink, Surface};
+#![allow(dead_code, reason = "each test uses a part of it")]
+
+use fabrica::data::{Mesh, MeshPart, SubjectPart, SubjectSink, Surface};
 use fabrica::load::{LoadReport, MemoryFiles, MeshFile, read_mesh_subject};
+use glam::Vec3;
 use std::sync::Arc;
 
 struct Taken(Option<Arc<Surface>>);
@@ -29,4 +32,34 @@ pub(crate) fn surface_of(name: &str, bytes: Vec<u8>) -> Arc<Surface> {
     let mut report = LoadReport::default();
     read_mesh_subject(&mut files, &[mesh], None, &mut taken, &mut report).expect("a mesh");
     taken.0.expect("it came")
+}
+
+/// A box of 100 × 60 × 80 mm.
+pub(crate) fn brick() -> Arc<Surface> {
+    let half = Vec3::new(50.0, 30.0, 40.0);
+    let corner = |i: u32| {
+        let sign = |bit: u32| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        half * Vec3::new(sign(0), sign(1), sign(2))
+    };
+    let quads = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let mesh = Mesh {
+        positions: (0..8).map(corner).collect(),
+        triangles: quads
+            .iter()
+            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+            .collect(),
+        parts: vec![MeshPart {
+            name: "brick".to_owned(),
+            triangles: 0..12,
+        }],
+        ..Mesh::default()
+    };
+    Arc::new(Surface::new(&mesh, None, &mut |_| true).expect("it has a size"))
 }

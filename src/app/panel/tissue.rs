@@ -47,7 +47,7 @@ pub(crate) fn ui(
     // Recipes find tissue by values.
     let has_values = session.view.has_values();
     // A coarse copy comes before the scan: lengths in its voxels would be too long.
-    let is_arriving = |of: &LoadOf| !matches!(of, LoadOf::Segments(_));
+    let is_arriving = |of: &LoadOf| !matches!(of, LoadOf::Beside(_));
     let is_loading = session
         .load
         .as_ref()

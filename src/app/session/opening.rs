@@ -125,13 +125,9 @@ impl Session {
         self.load = Some(Load::new(ticket, "Reading", LoadOf::Instead));
     }
 
-    /// A label volume of the document is on its way.
-    pub fn segments_started(&mut self, ticket: Ticket, want: Want) {
-        self.load = Some(Load::new(
-            ticket,
-            "Loading",
-            LoadOf::Segments(Box::new(want)),
-        ));
+    /// A label volume or the mesh of an object is on its way.
+    pub fn beside_started(&mut self, ticket: Ticket, want: Want) {
+        self.load = Some(Load::new(ticket, "Loading", LoadOf::Beside(Box::new(want))));
     }
 
     /// What is wrong with the file of a load, by the hash of its bytes: the document asks for another one. A file that
@@ -142,7 +138,7 @@ impl Session {
         let is_answer = match load.of {
             LoadOf::Subject => true,
             LoadOf::File => self.waits_for_file() && subject.supplied_sha256().is_some(),
-            LoadOf::Instead | LoadOf::Segments(_) => false,
+            LoadOf::Instead | LoadOf::Beside(_) => false,
         };
         let check = Want::subject(subject).check(found);
         check.err().filter(|_| is_answer)
@@ -168,7 +164,7 @@ impl Session {
         if let Some(load) = &self.load {
             self.effects.push(Effect::CancelLoad(load.ticket));
         }
-        let is_beside = self.is_loading_segments();
+        let is_beside = self.is_loading_beside();
         self.load_ended();
         self.notify(Gravity::Error, message, details);
         if !is_beside {
@@ -176,9 +172,9 @@ impl Session {
         }
     }
 
-    fn is_loading_segments(&self) -> bool {
+    fn is_loading_beside(&self) -> bool {
         let load = self.load.as_ref();
-        load.is_some_and(|load| matches!(load.of, LoadOf::Segments(_)))
+        load.is_some_and(|load| matches!(load.of, LoadOf::Beside(_)))
     }
 
     /// The load is over. A file that the document waited for becomes its subject; any other begins a new document. Both
@@ -187,7 +183,7 @@ impl Session {
         let Some(load) = self.load.take() else {
             return false;
         };
-        if matches!(load.of, LoadOf::Segments(_)) {
+        if matches!(load.of, LoadOf::Beside(_)) {
             return false;
         }
         // A message that the load failed is no longer true.

@@ -37,8 +37,8 @@ pub enum LoadOf {
     File,
     /// A file that takes the place of the document's subject, whichever that is.
     Instead,
-    /// A label volume that the document names.
-    Segments(Box<Want>),
+    /// A label volume or the mesh of an object that the document names: the subject stays.
+    Beside(Box<Want>),
 }
 
 /// A load under way.

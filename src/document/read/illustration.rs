@@ -4,8 +4,7 @@ use super::object::{Object, wrong};
 use super::reader::Reader;
 use crate::document::limits::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS};
 use crate::document::model::{
-    Camera, Caption, Illustration, MeshRef, PlacedTemplate, Step, TemplateData,
-    keep_sets,
+    Camera, Caption, Illustration, MeshRef, PlacedTemplate, Step, TemplateData, keep_sets,
 };
 use crate::document::schema::ROOT;
 use crate::document::text::json::number_text;

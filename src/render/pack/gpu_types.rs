@@ -1,7 +1,9 @@
 //! Mirrors of the structs in `shaders/types.wgsl`, member by member and in order; `tests/layout.rs` compares them.
 
 use crate::data::{FieldSamples, Resources};
-use crate::document::{MAX_FIELDS, MAX_OBJECTS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData, TemplateMode};
+use crate::document::{
+    MAX_FIELDS, MAX_OBJECTS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData, TemplateMode,
+};
 use crate::placed::solved_points;
 use glam::{Affine3A, Mat3A, Vec3A};
 

@@ -42,14 +42,20 @@ impl DrawnObjects {
             Some(srgb) => linear_color(srgb).extend(1.0).to_array(),
             None => [0.0, 0.0, 0.0, -1.0],
         };
-        for object in objects.iter().filter(|object| object.enabled && object.opacity > 0.0) {
+        for object in objects
+            .iter()
+            .filter(|object| object.enabled && object.opacity > 0.0)
+        {
             let Some(mesh) = resources.object(object) else {
                 continue;
             };
             let Some(slot) = drawn.items.items.get_mut(drawn.indices.len()) else {
                 break;
             };
-            let known = drawn.meshes.iter().position(|known| Arc::ptr_eq(known, mesh));
+            let known = drawn
+                .meshes
+                .iter()
+                .position(|known| Arc::ptr_eq(known, mesh));
             let at = known.unwrap_or_else(|| {
                 begin.push(texels);
                 texels += texels_of(mesh);

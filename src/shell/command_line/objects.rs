@@ -74,7 +74,8 @@ fn of_file(path: &Path, want: &Want, folder: &Path) -> Result<Data, MissingSubje
         _ => Err(MissingSubject::File {
             path: path.display().to_string(),
             source: LoadError::Mesh {
-                message: "a scan, not a surface mesh: an object has to be OBJ, STL, PLY or GLB".to_owned(),
+                message: "a scan, not a surface mesh: an object has to be OBJ, STL, PLY or GLB"
+                    .to_owned(),
             },
         }),
     }

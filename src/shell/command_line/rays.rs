@@ -41,7 +41,10 @@ pub(super) fn rays(
     let events = pollster::block_on(studio.events(&illustration, &asked))?;
     let materials = Materials::of(&subject, &illustration);
     let name_of = |index: usize| {
-        let named = illustration.objects.iter().find(|object| object.index == index);
+        let named = illustration
+            .objects
+            .iter()
+            .find(|object| object.index == index);
         named.map_or("", |object| &object.name)
     };
     let mut out = io::BufWriter::new(io::stdout().lock());

@@ -15,7 +15,7 @@ use crate::assets::{LoadEvent, SegmentationsExpected};
 use crate::data::VolumeLimits;
 use crate::document::Reading;
 use crate::load::{is_field, main_name, read_field};
-use crate::shell::loading::{make_mesh_subject, read_file, read_segments, take_segmentations};
+use crate::shell::loading::{make_mesh, read_file, read_segments, take_segmentations};
 
 /// Called once when the part has been loaded.
 pub fn loaded() {
@@ -33,7 +33,7 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
     let limits = limits_of(&message)?;
     match ScanTask::of(&message)? {
         ScanTask::Mesh(name) => {
-            make_mesh_subject(&name, &mut |event: LoadEvent| post::event(event).is_ok());
+            make_mesh(&name, &mut |event: LoadEvent| post::event(event).is_ok());
             Ok(())
         }
         ScanTask::Field { name, file } => post_field(name, file).await,
