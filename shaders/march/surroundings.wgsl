@@ -1,7 +1,13 @@
 // Obstacles in the light of a surface: ambient occlusion and the shadow of the key light, by taps of the opacity.
 // needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/look.wgsl displace/compose.wgsl march/overrides.wgsl
 //   march/opacity.wgsl march/bodies.wgsl march/value.wgsl march/sample.wgsl march/seek.wgsl march/gathered.wgsl
-//   march/objects.wgsl
+//   objects.wgsl
+
+/// How far shadows of objects reach, subject units, and how far above a surface they are looked for.
+const SHADOW_REACH: f32 = 0.6;
+const ABOVE_SURFACE: f32 = 0.0015;
+/// How wide the key light is, as a part of its distance.
+const LAMP_SIZE: f32 = 0.06;
 
 /// Direction k of n spread over the half sphere around +z, turned by `turn`.
 fn spread(k: u32, n: u32, turn: f32) -> vec3f {

@@ -3,7 +3,8 @@
 //
 //   pixel --> subject space --> object_from_subject --> value, label --> grey by the window, or colours of the look
 //
-// needs: types.wgsl bind/subject.wgsl bind/slice.wgsl srgb.wgsl slice/plane.wgsl slice/volume.wgsl|slice/mesh.wgsl
+// needs: types.wgsl bind/subject.wgsl bind/slice.wgsl srgb.wgsl slice/plane.wgsl slice/objects.wgsl
+//   slice/volume.wgsl|slice/mesh.wgsl
 
 /// One triangle that covers everything.
 @vertex
@@ -18,7 +19,8 @@ fn draw(@builtin(position) at: vec4f) -> @location(0) vec4f {
     var sum = vec3f(0.0);
     for (var k = 0u; k < side * side; k++) {
         let place = (vec2f(vec2u(k % side, k / side)) + 0.5) / f32(side);
-        sum += color_at(floor(at.xy) + place);
+        let pixel = floor(at.xy) + place;
+        sum += with_objects(pixel, color_at(pixel));
     }
     return vec4f(srgb_from_linear(sum / f32(side * side)), 1.0);
 }

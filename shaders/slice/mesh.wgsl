@@ -3,10 +3,6 @@
 //   subject/place.wgsl subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl slice/plane.wgsl
 //   march/plain.wgsl|march/align.wgsl
 
-/// Half the width of the line of a surface, pixels (spec/surfaces.md, "Alignment, constraints, labels": 1.5 points).
-const SLICE_LINE: f32 = 0.75;
-/// How much of its colour the line of a surface has.
-const SLICE_SURFACE: f32 = 0.3;
 /// Between two pixels the map goes no farther than this many times their distance; farther is a jump.
 const SLICE_STRETCH: f32 = 12.0;
 

@@ -1,6 +1,11 @@
 // Places in a slice, and what the deformed object has there.
 // needs: types.wgsl affine.wgsl bind/slice.wgsl
 
+/// Half the width of the line of a surface, pixels (spec/surfaces.md, "Alignment, constraints, labels": 1.5 points).
+const SLICE_LINE: f32 = 0.75;
+/// How much of its colour the line of a surface has.
+const SLICE_SURFACE: f32 = 0.3;
+
 /// What the object has at a point.
 struct Here {
     /// Where the material was at rest, rest space.

@@ -287,8 +287,8 @@ impl App {
         self.reported_segments.clear();
     }
 
-    /// Takes the mesh of an object that a load has brought, and lets go of a file that the user opened if it turns out to
-    /// be one that an object waits for. False if the load is about something else.
+    /// Takes the mesh of an object that a load has brought, and lets go of a file that the user opened if it turns out
+    /// to be one that an object waits for. False if the load is about something else.
     fn takes_object(&mut self, sha256: Option<&str>) -> bool {
         let Some(load) = &self.session.load else {
             return false;

@@ -119,8 +119,8 @@ impl Stock {
         self.loading.clone()
     }
 
-    /// Takes an object that an illustration shows and that has not come as what should be fetched next, and counts it as
-    /// under way.
+    /// Takes an object that an illustration shows and that has not come as what should be fetched next, and counts it
+    /// as under way.
     pub fn next_object(&mut self, shown: &Illustration) -> Option<Want> {
         if self.loading.is_some() || !self.is_whole {
             return None;

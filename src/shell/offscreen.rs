@@ -89,14 +89,17 @@ pub async fn bench(
     let report = crate::render::bench(
         &gpu,
         (&subject, &illustration.subject),
-        match side_px {
-            0 => BENCH_SIZE_PX,
-            side => [side; 2],
-        },
-        match repeats {
-            0 => BENCH_REPEATS,
-            n => n as usize,
-        },
+        None,
+        (
+            match side_px {
+                0 => BENCH_SIZE_PX,
+                side => [side; 2],
+            },
+            match repeats {
+                0 => BENCH_REPEATS,
+                n => n as usize,
+            },
+        ),
         seconds,
         |part| {
             let _ignored = on_progress.call1(&JsValue::NULL, &JsValue::from_f64(f64::from(part)));

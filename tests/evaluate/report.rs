@@ -389,7 +389,14 @@ fn cost(page: &mut Page) {
     };
     let subject = Subject::from(volume);
     let bench = (&subject, &named);
-    let bench = render::bench(gpu(), bench, [160, 120], 5, render::system_clock, |_| {});
+    let bench = render::bench(
+        gpu(),
+        bench,
+        None,
+        ([160, 120], 5),
+        render::system_clock,
+        |_| {},
+    );
     let bench = pollster::block_on(bench).expect("a bench").rows;
     let peel = bench
         .iter()

@@ -5,6 +5,7 @@ mod arrays;
 mod field;
 mod lids;
 mod normals;
+mod parted;
 #[cfg(test)]
 pub(crate) mod testing;
 mod tree;

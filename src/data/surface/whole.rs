@@ -277,7 +277,7 @@ impl Surface {
     }
 }
 
-fn in_order<T: Copy>(order: &[u32], values: &[T]) -> Vec<T> {
+pub(super) fn in_order<T: Copy>(order: &[u32], values: &[T]) -> Vec<T> {
     order.iter().map(|&i| values[i as usize]).collect()
 }
 

@@ -272,6 +272,7 @@ static KINDS: LazyLock<ShaderFile> = LazyLock::new(|| ShaderFile {
 
 shader_files![
     "affine.wgsl",
+    "objects.wgsl",
     "srgb.wgsl",
     "triangles.wgsl",
     "types.wgsl",
@@ -343,6 +344,7 @@ shader_files![
     "march/value.wgsl",
     "march/volume.wgsl",
     "slice/mesh.wgsl",
+    "slice/objects.wgsl",
     "slice/plane.wgsl",
     "slice/volume.wgsl",
     "subject/crossing.wgsl",

@@ -1,8 +1,10 @@
 use super::clock::Clock;
 use super::studio::Studio;
-use crate::data::Subject;
-use crate::document::{Align, Illustration, PlacedTemplate};
-use crate::document::{Document, SubjectRef, TemplateKind};
+use crate::data::{Resources, Subject, Surface};
+use crate::document::{
+    Align, BodyKind, Document, Illustration, ObjectPlacement, ObjectSource, PlacedTemplate,
+    SceneObject, SubjectRef, TemplateKind,
+};
 use crate::math::Placement;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -10,6 +12,7 @@ use crate::render::device::readback::WorkDone;
 use glam::Quat;
 use glam::Vec3;
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// One line of a [`BenchReport`].
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +39,7 @@ impl std::fmt::Display for BenchRow {
         let grid = if self.has_grid { "grid" } else { "no grid" };
         write!(
             f,
-            "{:<16} {:<8} {:>9.1} ms  {:>5.2} x  made ready in {:>6.1} ms",
+            "{:<24} {:<8} {:>9.1} ms  {:>5.2} x  made ready in {:>6.1} ms",
             self.name,
             grid,
             self.seconds * 1e3,
@@ -57,6 +60,8 @@ pub struct BenchReport {
     pub adapter: String,
     /// Voxels along each axis of the subject that was drawn.
     pub voxels: [u32; 3],
+    /// Bytes that the measured mesh takes on the GPU, if one was measured.
+    pub mesh_bytes: Option<u64>,
     /// Width and height of the measured picture, pixels.
     pub size_px: [u32; 2],
     /// One row per scene, with and without the skip grid.
@@ -64,7 +69,7 @@ pub struct BenchReport {
 }
 
 impl BenchReport {
-    /// The report as JSON: `adapter`, `voxels`, `size`, and `frames` with times in milliseconds.
+    /// The report as JSON: `adapter`, `voxels`, `bytes` of the mesh, `size`, and `frames` with times in milliseconds.
     pub fn to_json(&self) -> Value {
         let row = |row: &BenchRow| {
             json!({
@@ -73,7 +78,7 @@ impl BenchReport {
             })
         };
         let frames: Vec<Value> = self.rows.iter().map(row).collect();
-        json!({ "adapter": self.adapter, "voxels": self.voxels, "size": self.size_px, "frames": frames })
+        json!({ "adapter": self.adapter, "voxels": self.voxels, "bytes": self.mesh_bytes, "size": self.size_px, "frames": frames })
     }
 }
 
@@ -107,92 +112,180 @@ const CASES: [(&str, usize); 6] = [
     (BAKED, 8),
 ];
 
+/// What is drawn to be measured.
+struct Case {
+    name: &'static str,
+    studio: Studio,
+    illustration: Illustration,
+}
+
+/// A mesh to measure beside a subject, and a tool to stand before the subject.
+#[derive(Clone, Debug)]
+pub struct BenchMeshes {
+    /// The mesh.
+    pub surface: Arc<Surface>,
+    /// The tool.
+    pub tool: Arc<Surface>,
+}
+
 /// Times frames (one sample per pixel at rest quality, read back) of a subject, which documents name as `named`:
 /// undeformed, one peel, eight templates, a peel aligned to the surface and to segments, each with and without the
-/// grid. After a frame of each that warms up come `repeats` rounds of a frame of each; the median counts. What is made
-/// once per edit, before a frame, is timed apart. `on_progress` hears how much is measured, 0 to 1.
+/// grid; and, if there are `meshes`, of these. After a frame of each that warms up come `repeats` rounds of a frame of
+/// each; the median counts. What is made once per edit, before a frame, is timed apart. `on_progress` hears how much is
+/// measured, 0 to 1.
 ///
 /// # Errors
 /// As [`Studio::render_image`].
 pub async fn bench(
     gpu: &Gpu,
     (subject, named): (&Subject, &SubjectRef),
-    size_px: [u32; 2],
-    repeats: usize,
+    meshes: Option<&BenchMeshes>,
+    (size_px, repeats): ([u32; 2], usize),
     clock: Clock,
     on_progress: impl Fn(f32),
 ) -> Result<BenchReport, RenderError> {
     let studio = Studio::new(gpu, subject, true)?;
     let repeats = repeats.max(1);
     let mut cases = Vec::new();
-    let all = (2 * CASES.len() * (1 + repeats)) as f32;
+    for has_grid in [true, false] {
+        cases.extend(CASES.map(|(name, template_count)| Case {
+            name,
+            studio: studio.with_grid(has_grid),
+            illustration: aligned_case(named, name, template_count),
+        }));
+    }
+    let mut bytes = None;
+    if let Some(meshes) = meshes {
+        let drawn = Studio::new(gpu, &Subject::from(Arc::clone(&meshes.surface)), true)?;
+        bytes = Some(drawn.subject.bytes());
+        cases.extend(mesh_cases(gpu, &drawn, meshes)?);
+        cases.push(tool_case(&studio, named, &meshes.tool));
+    }
+    let all = (cases.len() * (1 + repeats)) as f32;
     let mut measured = 0.0;
     let mut tell = || {
         measured += 1.0;
         on_progress(measured / all);
     };
-    for has_grid in [true, false] {
-        let studio = studio.with_grid(has_grid);
-        for (name, template_count) in CASES {
-            let illustration = aligned_case(named, name, template_count);
-            // Compiles, and fills caches.
-            if name == BAKED {
-                studio.render_baked(&illustration, size_px, 1, None).await?;
-            } else {
-                studio.render_image(&illustration, size_px, 1).await?;
-            }
-            tell();
-            let row = BenchRow {
-                name,
-                template_count,
-                has_grid,
-                seconds: 0.0,
-                making_seconds: 0.0,
-                ratio: 1.0,
-                grid_gain: None,
-            };
-            cases.push((row, studio.clone(), illustration, Vec::new(), Vec::new()));
+    for case in &cases {
+        // Compiles, and fills caches.
+        if case.name == BAKED {
+            let baked = case
+                .studio
+                .render_baked(&case.illustration, size_px, 1, None);
+            baked.await?;
+        } else {
+            case.studio
+                .render_image(&case.illustration, size_px, 1)
+                .await?;
         }
+        tell();
     }
+    let mut times = vec![[const { Vec::new() }; 2]; cases.len()];
     // In rounds: whatever else the machine does meets every case alike.
     for _ in 0..repeats {
-        for (row, studio, illustration, times, making_times) in &mut cases {
+        for (case, [frames, makings]) in cases.iter().zip(&mut times) {
             let start = clock();
-            let mut job = studio.picture(illustration, size_px)?;
-            if row.name == BAKED {
+            let mut job = case.studio.picture(&case.illustration, size_px)?;
+            if case.name == BAKED {
                 job.bake(None);
             }
             WorkDone::start(gpu).await?;
             let ready = clock();
             job.draw(1, |_| {}).await?;
-            times.push(clock() - ready);
-            making_times.push(ready - start);
+            frames.push(clock() - ready);
+            makings.push(ready - start);
             tell();
         }
     }
-    let mut rows: Vec<BenchRow> = cases
-        .into_iter()
-        .map(|(row, _, _, mut times, mut making_times)| BenchRow {
-            seconds: median(&mut times),
-            making_seconds: median(&mut making_times),
-            ..row
-        })
+    let seconds: Vec<[f64; 2]> = (times.iter_mut())
+        .map(|[frames, makings]| [median(frames), median(makings)])
         .collect();
-    let seconds: Vec<f64> = rows.iter().map(|row| row.seconds).collect();
-    let base = seconds.first().copied().unwrap_or(1.0).max(1e-9);
-    for (i, row) in rows.iter_mut().enumerate() {
-        row.ratio = row.seconds / base;
-        row.grid_gain = seconds
-            .get(i + CASES.len())
-            .filter(|_| row.has_grid)
-            .map(|without| without / row.seconds.max(1e-9));
-    }
+    let base = seconds.first().map_or(1.0, |[first, _]| *first).max(1e-9);
+    let row = |(i, case): (usize, &Case)| {
+        let [frame, making] = seconds[i];
+        let has_grid = case.studio.wants_grid;
+        let is_same = |other: &&Case| other.name == case.name && !other.studio.wants_grid;
+        let without = cases
+            .iter()
+            .position(|other| is_same(&other))
+            .filter(|_| has_grid);
+        BenchRow {
+            name: case.name,
+            template_count: case.illustration.templates.len(),
+            has_grid,
+            seconds: frame,
+            making_seconds: making,
+            ratio: frame / base,
+            grid_gain: without.map(|other| seconds[other][0] / frame.max(1e-9)),
+        }
+    };
     Ok(BenchReport {
         adapter: gpu.info.name.clone(),
         voxels: subject.values().map_or([0; 3], |v| v.grid.dims.to_array()),
+        mesh_bytes: bytes,
         size_px,
-        rows,
+        rows: cases.iter().enumerate().map(row).collect(),
     })
+}
+
+/// The cases of a mesh (spec/surfaces.md, "The command line"). The cuts are measured without the grid too.
+fn mesh_cases(gpu: &Gpu, drawn: &Studio, meshes: &BenchMeshes) -> Result<Vec<Case>, RenderError> {
+    let named = Document::new().illustration().subject.clone();
+    let shown = |count: usize, body: BodyKind| {
+        let mut illustration = case(&named, count);
+        illustration.look.surface.body = body;
+        illustration
+    };
+    let mut poked = shown(8, BodyKind::Auto);
+    poked.templates.retain(|t| t.kind == TemplateKind::Poke);
+    let of = |name, studio: &Studio, illustration| Case {
+        name,
+        studio: studio.clone(),
+        illustration,
+    };
+    let no_grid = drawn.with_grid(false);
+    let finer = Subject::from(Arc::new(meshes.surface.parted().parted()));
+    let finer = Studio::new(gpu, &finer, true)?;
+    Ok(vec![
+        of("surface", drawn, shown(0, BodyKind::Auto)),
+        of("surface, one poke", drawn, poked),
+        of("surface, hollow cut", drawn, shown(1, BodyKind::Hollow)),
+        of("surface, solid cut", drawn, shown(1, BodyKind::Solid)),
+        of("surface, hollow cut", &no_grid, shown(1, BodyKind::Hollow)),
+        of("surface, solid cut", &no_grid, shown(1, BodyKind::Solid)),
+        of("surface, eight templates", drawn, shown(8, BodyKind::Auto)),
+        of("surface, 16 x", &finer, shown(0, BodyKind::Auto)),
+    ])
+}
+
+/// The undeformed subject with a tool before its middle.
+fn tool_case(studio: &Studio, named: &SubjectRef, tool: &Arc<Surface>) -> Case {
+    let mut illustration = case(named, 0);
+    let object = SceneObject {
+        index: 0,
+        name: "tool".to_owned(),
+        source: ObjectSource::Builtin(SceneObject::BUILTINS[0]),
+        placement: Some(ObjectPlacement {
+            at: Vec3::new(0.1, 0.6, 0.1),
+            ..ObjectPlacement::DOCUMENT_DEFAULT
+        }),
+        color_srgb: None,
+        inside_srgb: None,
+        opacity: 1.0,
+        gloss: SceneObject::DEFAULT_GLOSS,
+        enabled: true,
+    };
+    let resources = Resources {
+        objects: vec![(object.source.clone(), Arc::clone(tool))],
+        ..Resources::default()
+    };
+    illustration.objects.push(object);
+    Case {
+        name: "head and tool",
+        studio: studio.clone().with_resources(resources),
+        illustration,
+    }
 }
 
 fn median(times: &mut [f64]) -> f64 {

@@ -1,24 +1,39 @@
 //! `fabrica bench`: frame times on this adapter.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::args::Common;
 use super::device::open_gpu;
-use super::error::CliError;
+use super::error::{CliError, MissingSubject};
+use super::objects::generated;
 use super::output::print;
-use super::subject::subject_of;
-use crate::document::Document;
-use crate::render::{BENCH_REPEATS, BENCH_SIZE_PX, system_clock};
+use super::subject::{generate, subject_of, surface_of};
+use crate::data::{Subject, Surface};
+use crate::document::{Document, SceneObject};
+use crate::render::{BENCH_REPEATS, BENCH_SIZE_PX, BenchMeshes, system_clock};
+use crate::subjects::{SubjectError, mesh};
 
+/// The mesh that is measured where none is given.
+const MESH: &str = "apple";
+/// The scan that is measured where none is given.
+const SCAN: &str = "head";
+
+/// Measures the head and the apple. A file of `--subject` takes the place of the one or the other, whichever it is.
 pub(super) fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
     let gpu = open_gpu(common)?;
     let illustration = Document::new().illustration().clone();
-    let subject = subject_of(&illustration, common, Path::new("."), gpu.volume_limits())?;
+    let given = subject_of(&illustration, common, Path::new("."), gpu.volume_limits())?;
+    let (scan, surface) = match given {
+        Subject::Mesh(surface) => (generate(SCAN)?, surface),
+        scan @ Subject::Space(_) => (scan, built_in_mesh()?),
+    };
+    let tool = generated(SceneObject::BUILTINS[0])?;
     let report = pollster::block_on(crate::render::bench(
         &gpu,
-        (&subject, &illustration.subject),
-        BENCH_SIZE_PX,
-        BENCH_REPEATS,
+        (&scan, &illustration.subject),
+        Some(&BenchMeshes { surface, tool }),
+        (BENCH_SIZE_PX, BENCH_REPEATS),
         system_clock,
         |_| {},
     ))?;
@@ -26,4 +41,9 @@ pub(super) fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
         return print(&format!("{:#}\n", report.to_json()));
     }
     print(&report.to_string())
+}
+
+fn built_in_mesh() -> Result<Arc<Surface>, MissingSubject> {
+    let mesh = mesh(MESH).ok_or_else(|| SubjectError::UnknownName(MESH.to_owned()))?;
+    surface_of(&mesh)
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::args::Common;
 use super::error::{CliError, MissingSubject};
-use super::subject::{given_of, read, report_missing};
+use super::subject::{given_of, read, report_missing, surface_of};
 use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
 use crate::data::{ObjectMeshes, Subject, Surface, VolumeLimits};
 use crate::document::Illustration;
@@ -29,7 +29,10 @@ pub(super) fn objects_of(
         }
         match &want.source {
             Source::Builtin(name) => {
-                let data = generated(name)?;
+                let data = Data::Object {
+                    mesh: generated(name)?,
+                    sha256: None,
+                };
                 // What is generated has no hash that could be another one.
                 let _always_taken = assets.take(&want, data);
             }
@@ -51,14 +54,12 @@ pub(super) fn objects_of(
 }
 
 /// A tool that the program generates.
-fn generated(name: &str) -> Result<Data, MissingSubject> {
+///
+/// # Errors
+/// [`SubjectError::UnknownName`].
+pub(super) fn generated(name: &str) -> Result<Arc<Surface>, MissingSubject> {
     let mesh = tool(name).ok_or_else(|| SubjectError::UnknownName(name.to_owned()))?;
-    let surface = Surface::new(&mesh, None, &mut |_| true);
-    let surface = surface.map_err(|error| SubjectError::Refused(error.to_string()))?;
-    Ok(Data::Object {
-        mesh: Arc::new(surface),
-        sha256: None,
-    })
+    surface_of(&mesh)
 }
 
 fn of_file(path: &Path, want: &Want, folder: &Path) -> Result<Data, MissingSubject> {

@@ -10,7 +10,7 @@ use super::output::notice;
 use super::reading::hint;
 use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
 use crate::data::{
-    BuildError, Reducer, Resources, Subject, SubjectBuilder, SubjectPart, SubjectSink as _,
+    BuildError, Mesh, Reducer, Resources, Subject, SubjectBuilder, SubjectPart, SubjectSink as _,
     Surface, TimeSlices, VolumeBuilder, VolumeLimits, segment,
 };
 use crate::document::{Illustration, Reading};
@@ -185,15 +185,23 @@ fn read_segments(path: &Path) -> Result<LabelFile, MissingSubject> {
     })
 }
 
+/// A mesh of the program's own, prepared to be drawn.
+///
+/// # Errors
+/// [`SubjectError::Refused`] if the mesh has no size.
+pub(super) fn surface_of(mesh: &Mesh) -> Result<Arc<Surface>, MissingSubject> {
+    let surface = Surface::new(mesh, None, &mut |_| true);
+    let surface = surface.map_err(|error| SubjectError::Refused(error.to_string()))?;
+    Ok(Arc::new(surface))
+}
+
 /// A built-in subject in full resolution, with as many threads as there are cores.
 ///
 /// # Errors
 /// [`SubjectError::UnknownName`].
-fn generate(name: &str) -> Result<Subject, MissingSubject> {
+pub(super) fn generate(name: &str) -> Result<Subject, MissingSubject> {
     if let Some(mesh) = mesh(name) {
-        let surface = Surface::new(&mesh, None, &mut |_| true);
-        let surface = surface.map_err(|error| SubjectError::Refused(error.to_string()))?;
-        return Ok(Arc::new(surface).into());
+        return Ok(surface_of(&mesh)?.into());
     }
     let generator = Generator::new(name, FINE_RESOLUTION)?;
     let mut builder = VolumeBuilder::new();
