@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::app::session::Gravity;
+use crate::app::session::{Gravity, Selection};
 use crate::app::window::App;
 use crate::app::words::{fill, messages};
 use crate::assets::{Data, ResourceNews, Role, Want};
@@ -97,6 +97,7 @@ impl App {
             templates: vec![value],
         };
         self.session.apply(&edit, false);
-        self.session.selected = self.session.template_count().checked_sub(1);
+        let last = self.session.template_count().checked_sub(1);
+        self.session.selection = Selection::of_template(last);
     }
 }

@@ -235,7 +235,12 @@ impl App {
 
     /// Index of the selected template, if one is.
     pub fn selected(&self) -> Option<usize> {
-        self.session.selected
+        self.session.selection.template()
+    }
+
+    /// Index of the selected object, if one is.
+    pub fn selected_object(&self) -> Option<usize> {
+        self.session.selection.object()
     }
 
     /// True when the picture is complete, nothing is being loaded and no question to the picture is open.

@@ -145,13 +145,21 @@ pub fn group_of(document: &Document, template: usize) -> &str {
     group.and_then(Value::as_str).unwrap_or_default()
 }
 
-/// Names of the groups, in the order in which they first occur.
+/// The group of an object, by its index; empty if it is in none.
+pub fn object_group_of(document: &Document, object: usize) -> &str {
+    let group = document.get(&format!("/objects/{object}/group"));
+    group.and_then(Value::as_str).unwrap_or_default()
+}
+
+/// Names of the groups of templates and objects, in the order in which they first occur.
 pub fn groups(document: &Document) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
-    let count = document.get("/templates").and_then(Value::as_array);
-    for index in 0..count.map_or(0, Vec::len) {
-        let name = group_of(document, index);
-        if !name.is_empty() && !names.iter().any(|known| known == name) {
+    let lists = ["/templates", "/objects"].map(|at| document.get(at).and_then(Value::as_array));
+    for entry in lists.into_iter().flatten().flatten() {
+        let name = entry.get("group").and_then(Value::as_str);
+        if let Some(name) = name.filter(|name| !name.is_empty())
+            && !names.iter().any(|known| known == name)
+        {
             names.push(name.to_owned());
         }
     }

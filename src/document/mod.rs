@@ -57,8 +57,8 @@ mod write;
 
 pub use crate::math::plain_f64;
 pub use authoring::{
-    Plane, free_group_name, group_of, groups, mirror, mirrored, templates_from_text,
-    templates_to_text,
+    Plane, free_group_name, group_of, groups, mirror, mirrored, object_group_of,
+    templates_from_text, templates_to_text,
 };
 pub use autoplay::{Autoplay, Turn};
 pub use carry::carried_templates;

@@ -50,12 +50,14 @@ impl Edit {
                     .iter()
                     .find(|t| t.index == *template)
                     .map(|t| t.placement);
-                let verb = match before {
-                    Some(b) if b.rotate == placement.rotate && b.size == placement.size => "Move",
-                    Some(b) if b.at == placement.at && b.size == placement.size => "Turn",
-                    Some(b) if b.rotate == placement.rotate => "Resize",
-                    _ => "Place",
-                };
+                let verb = placing_verb(before.map(|b| {
+                    let is_same_size = b.size == placement.size;
+                    [
+                        b.at == placement.at,
+                        b.rotate == placement.rotate,
+                        is_same_size,
+                    ]
+                }));
                 format!("{verb} {}", name_of(template))
             }
             Self::SetCurve {
@@ -99,7 +101,20 @@ impl Edit {
             Self::RemoveObject { object } => format!("Remove {}", object_name(object)),
             Self::DuplicateObject { object } => format!("Duplicate {}", object_name(object)),
             Self::MoveObject { from, .. } => format!("Reorder {}", object_name(from)),
-            Self::PlaceObject { object, .. } => format!("Move {}", object_name(object)),
+            Self::PlaceObject { object, placement } => {
+                let mut objects = document.illustration().objects.iter();
+                let before = objects.find(|o| o.index == *object);
+                let before = before.and_then(|o| o.placement);
+                let verb = placing_verb(before.map(|b| {
+                    let is_same_size = b.size == placement.size;
+                    [
+                        b.at == placement.at,
+                        b.rotate == placement.rotate,
+                        is_same_size,
+                    ]
+                }));
+                format!("{verb} {}", object_name(object))
+            }
             Self::AddCaption(_) => "Add label".to_owned(),
             Self::ReplaceCaption { .. } => "Change label".to_owned(),
             Self::RemoveCaption { .. } => "Remove label".to_owned(),
@@ -112,5 +127,15 @@ impl Edit {
             Self::RemoveStep { .. } => "Remove step".to_owned(),
             Self::MoveStep { .. } => "Reorder steps".to_owned(),
         }
+    }
+}
+
+/// What a new placement does, by whether centre, turn and size stay as they are; nothing where there was none.
+fn placing_verb(stays: Option<[bool; 3]>) -> &'static str {
+    match stays {
+        Some([_, true, true]) => "Move",
+        Some([true, _, true]) => "Turn",
+        Some([_, true, _]) => "Resize",
+        Some(_) | None => "Place",
     }
 }

@@ -188,8 +188,10 @@ fn is_of_all_steps(target: &str) -> bool {
     const KEYS: [&str; 7] = [
         "/fabrica", "/title", "/caption", "/credit", "/lang", "/subject", "/steps",
     ];
-    let is_fixed = || pointer::keys(target).is_ok_and(|keys| is_fixed(&keys));
-    KEYS.iter().any(|key| is_in(target, key)) || is_fixed()
+    // Groups are the editor's: it asks the document for them, whatever step is shown.
+    let is_group = |keys: &[String]| matches!(keys, [_, _, key] if key == "group");
+    let keys = || pointer::keys(target).is_ok_and(|keys| is_fixed(&keys) || is_group(&keys));
+    KEYS.iter().any(|key| is_in(target, key)) || keys()
 }
 
 /// Adds templates, an object or a caption while a step is shown: they are switched off before it. A template grows in

@@ -2,12 +2,14 @@
 
 mod assets;
 mod authoring;
+mod bodies;
 mod canvas;
 mod captions;
 mod comfort;
 mod library;
 mod looking;
 mod making;
+mod objects;
 mod opening;
 mod screens;
 #[path = "../support/segment_files.rs"]

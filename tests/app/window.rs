@@ -338,6 +338,26 @@ impl Window {
         self.steps(3);
     }
 
+    pub(crate) fn undo(&mut self) {
+        self.press_with(Modifiers::COMMAND, Key::Z);
+    }
+
+    /// Runs a command as a button does.
+    pub(crate) fn run_command(&mut self, command: fabrica::app::Command) {
+        self.harness.state_mut().run(command);
+        self.steps(2);
+    }
+
+    /// Types into the field of this name, in place of what stands there.
+    pub(crate) fn type_into(&mut self, field: &str, text: &str) {
+        self.click(field);
+        self.press_with(Modifiers::COMMAND, Key::A);
+        self.harness.event(egui::Event::Text(text.to_owned()));
+        self.steps(2);
+        self.press(Key::Enter);
+        self.steps(2);
+    }
+
     /// Saves the picture by its keys and returns it.
     pub(crate) fn saved_picture(&mut self) -> image::RgbaImage {
         let before = self.log.0.borrow().saved.len();

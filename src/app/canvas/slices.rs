@@ -439,7 +439,7 @@ impl Slices {
     /// Boxes cut by the slice, and dots to take hold of.
     fn templates_ui(&self, ui: &Ui, painter: &Painter, i: usize, map: &Map<'_>, session: &Session) {
         for template in &session.shown().templates {
-            let is_selected = session.selected == Some(template.index);
+            let is_selected = session.selection.template() == Some(template.index);
             let fade = if template.enabled { 1.0 } else { 0.45 };
             let width = if is_selected { 2.2 } else { 1.4 };
             let color = if is_selected { ink::HANDLE } else { ink::HOT };
@@ -732,11 +732,11 @@ fn outwards(pos: Vec3, center: Vec3, axes: &Axes) -> Vec3 {
 fn template_at<'a>(at: Pos2, map: &Map<'_>, session: &'a Session) -> Option<&'a PlacedTemplate> {
     let templates = &session.shown().templates;
     let near = templates.iter().filter(|t| {
-        let is_selected = session.selected == Some(t.index);
+        let is_selected = session.selection.template() == Some(t.index);
         map.ui(t.placement.at).distance(at) <= REACH
             && (is_selected || !sections(map, t).is_empty())
     });
-    near.max_by_key(|t| session.selected == Some(t.index))
+    near.max_by_key(|t| session.selection.template() == Some(t.index))
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, template_menu, widget};
 use crate::app::picture::host::{Picture, found};
 use crate::app::session::camera;
-use crate::app::session::{Command, Gravity, Place, Question, Session, Tool};
+use crate::app::session::{Command, Gravity, Place, Question, Selection, Session, Tool};
 use crate::app::words::picture::w;
 use crate::app::words::{self, fill, in_sentence, kinds, messages, names};
 use crate::displace::Holds;
@@ -193,7 +193,11 @@ impl Viewport {
             }
         }
         let selects = matches!(session.tool(), Tool::Look | Tool::Seed(_) | Tool::Level);
-        if response.clicked() && selects && !self.gizmo.is_hot() && session.selected.is_some() {
+        if response.clicked()
+            && selects
+            && !self.gizmo.is_hot()
+            && session.selection != Selection::Nothing
+        {
             commands.push(Command::Select(None));
         }
         self.seen_ui(ui, rect, &view, session, commands);
@@ -559,7 +563,7 @@ impl Viewport {
         }
         let palette = Palette::get(ui);
         for template in &session.shown().templates {
-            if Some(template.index) == session.selected {
+            if Some(template.index) == session.selection.template() {
                 continue;
             }
             let Some(at) = view

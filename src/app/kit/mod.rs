@@ -1,6 +1,7 @@
 //! Widgets, colours, type, drawn icons and sheets of pictures that every panel uses.
 
 pub(crate) mod dialog;
+pub(crate) mod entry;
 pub(crate) mod float;
 pub(crate) mod icon;
 pub(crate) mod menu;

@@ -12,7 +12,7 @@ use crate::document::{Plane, group_of};
 /// Entries of the menu: those that can be run now.
 pub(crate) fn menu_entries(session: &Session) -> Vec<MenuEntry> {
     let w = w();
-    let has_one = session.selected.is_some();
+    let has_one = session.selection.template().is_some();
     let mut entries = Vec::new();
     let mut add = |icon, text: &'static str, command| {
         entries.push(MenuEntry {
@@ -26,7 +26,7 @@ pub(crate) fn menu_entries(session: &Session) -> Vec<MenuEntry> {
         add(Icon::Cut, w.cut, Command::Cut);
     }
     add(Icon::Paste, w.paste, Command::Paste);
-    if let Some(selected) = session.selected {
+    if let Some(selected) = session.selection.template() {
         let words = words::picture::w();
         let is_on = session.selected_template().is_some_and(|t| t.enabled);
         let (eye, text) = match is_on {

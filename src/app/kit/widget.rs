@@ -458,15 +458,20 @@ pub(crate) struct NumberRow<'a> {
 impl NumberRow<'_> {
     /// Draws the row and returns the change, in shown units.
     pub(crate) fn ui(self, ui: &mut Ui) -> Option<Change<f64>> {
-        self.row_ui(ui, None)
+        self.row_ui(ui, None, false)
+    }
+
+    /// The same with a slider on which small numbers have as much room as large ones.
+    pub(crate) fn ui_logarithmic(self, ui: &mut Ui) -> Option<Change<f64>> {
+        self.row_ui(ui, None, true)
     }
 
     /// The same with a note beside the number, such as the number in another unit.
     pub(crate) fn ui_with_note(self, ui: &mut Ui, note: &str) -> Option<Change<f64>> {
-        self.row_ui(ui, Some(note))
+        self.row_ui(ui, Some(note), false)
     }
 
-    fn row_ui(self, ui: &mut Ui, note: Option<&str>) -> Option<Change<f64>> {
+    fn row_ui(self, ui: &mut Ui, note: Option<&str>, is_logarithmic: bool) -> Option<Change<f64>> {
         let mut result = None;
         row(ui, |ui| {
             let [low, high] = self.range;
@@ -479,14 +484,20 @@ impl NumberRow<'_> {
             let mut value = self.value;
             let step = if self.decimals == 0 { 1.0 } else { 0.0 };
             let slider = slim(ui, width, |ui| {
-                let slider = Slider::new(&mut value, low..=high).show_value(false);
+                let slider = Slider::new(&mut value, low..=high)
+                    .show_value(false)
+                    .logarithmic(is_logarithmic);
                 ui.add(slider.step_by(step).max_decimals(self.decimals))
             });
             let slider = slider.named(fill(w().slider, &[&self.name]));
             let mut typed = self.value;
+            let speed = match is_logarithmic {
+                true => (self.value * 0.01).max(0.1_f64.powi(self.decimals as i32)),
+                false => (high - low) / 400.0,
+            };
             let field = number_field(&mut typed, self.decimals)
                 .range(low..=high)
-                .speed((high - low) / 400.0)
+                .speed(speed)
                 .suffix(self.unit);
             let field = ui.add_sized(vec2(field_width, control_height()), field);
             if let Some(note) = note {
@@ -615,6 +626,8 @@ pub(crate) fn vector_row(
     let mut result = None;
     row(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
+        // Three angles such as −143.9° have just room.
+        ui.spacing_mut().button_padding.x = 2.0;
         row_label(ui, name, summary);
         let width = ((ui.available_width() - 2.0 * 4.0) / 3.0).clamp(44.0, 80.0);
         for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {

@@ -2,9 +2,11 @@
 
 use egui::{Ui, vec2};
 
+use crate::app::kit::entry;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{Palette, control_height};
-use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
+use crate::app::kit::widget::{self, Change, Named as _};
+use crate::app::panel::bodies;
 use crate::app::panel::presets::{self, Pictures};
 use crate::app::panel::transfer::Editor;
 use crate::app::session::Command;
@@ -43,6 +45,20 @@ pub(crate) fn ui(
         values_ui(ui, session, info, (editor, pictures), commands);
         widget::divider(ui);
     }
+    if session.has_meshes() {
+        bodies::ui(ui, session, commands);
+        widget::divider(ui);
+    }
+    if session.view.has_values() {
+        opacity_ui(ui, look, commands);
+        widget::divider(ui);
+    }
+    background_ui(ui, look.background, commands);
+    marks_ui(ui, look, commands);
+}
+
+/// How opacity follows the deformation and the steepness of the value.
+fn opacity_ui(ui: &mut Ui, look: &Look, commands: &mut Vec<Command>) {
     widget::heading(ui, w().opacity_heading, |_| {});
     let options = [
         (OpacityMode::Constancy, w().surfaces, w().surfaces_hint),
@@ -60,9 +76,6 @@ pub(crate) fn ui(
     let weak = Palette::get(ui).weak;
     ui.add(egui::Label::new(egui::RichText::new(hint).small().color(weak)).wrap());
     edges_ui(ui, look, commands);
-    widget::divider(ui);
-    background_ui(ui, look.background, commands);
-    marks_ui(ui, look, commands);
 }
 
 /// What stands at the picture's edges for readers and in saved pictures.
@@ -259,19 +272,11 @@ struct PartRow {
 
 impl PartRow {
     fn ui(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
-        let row = NumberRow {
-            name: self.name,
-            summary: self.summary,
-            value: f64::from(self.value) * 100.0,
-            default: self.default.map(|part| f64::from(part) * 100.0),
-            range: [0.0, 100.0],
-            unit: " %",
-            decimals: 0,
-        };
-        if let Some(change) = row.ui(ui) {
-            commands.push(widget::command(change.map(|percent| Edit::Set {
+        let names = (self.name, self.summary);
+        if let Some(change) = entry::part_row(ui, names, self.value, self.default) {
+            commands.push(widget::command(change.map(|part| Edit::Set {
                 pointer: self.pointer.to_owned(),
-                value: (percent.round() / 100.0).into(),
+                value: part.into(),
                 name: self.undo.to_owned(),
             })));
         }

@@ -1,5 +1,6 @@
 //! One panel or dialog each.
 
+pub(crate) mod bodies;
 pub(crate) mod captions;
 pub(crate) mod catalogue;
 pub(crate) mod controls;
@@ -10,6 +11,7 @@ pub(crate) mod keys;
 pub(crate) mod library;
 pub(crate) mod look;
 pub(crate) mod notice;
+mod objects;
 mod paint;
 pub(crate) mod points;
 pub(crate) mod presets;

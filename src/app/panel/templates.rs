@@ -1,29 +1,23 @@
 //! The list of placed templates and everything about the selected one: parameters, mode, placement.
 
-use egui::{
-    CornerRadius, DragAndDrop, Id, Label, Rect, Role, Sense, Stroke, TextEdit, Ui, WidgetInfo, vec2,
-};
-use glam::{EulerRot, Quat, Vec3};
+use egui::{DragAndDrop, Id, Label, Rect, Stroke, Ui, vec2};
 
-use super::{curve, kept, points};
+use super::{curve, kept, objects, points};
+use crate::app::kit::entry::{self, EntryRow, rotation_row, vec3};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::template_menu;
-use crate::app::kit::theme::{self, Palette};
+use crate::app::kit::theme::Palette;
 use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
 use crate::app::session::{Command, LibraryCommand, Session};
 use crate::app::words::templates::w;
-use crate::app::words::{self, fill, kinds, names};
+use crate::app::words::{self, kinds, names};
 use crate::data::Segment;
 use crate::document::{
-    Edit, ParamKind, ParamSpec, ParamValue, PlacedTemplate, TemplateMode, free_group_name,
-    group_of, groups,
+    Edit, ParamKind, ParamSpec, ParamValue, PlacedTemplate, TemplateMode, group_of, groups,
 };
 use crate::math::Placement;
 
-/// Height of a row of the list, points.
-const ROW: f32 = 40.0;
-
-/// The list, then the selected template.
+/// The lists of templates and of objects, then what is selected in one of them.
 pub(crate) fn ui(
     ui: &mut Ui,
     session: &Session,
@@ -32,10 +26,13 @@ pub(crate) fn ui(
     commands: &mut Vec<Command>,
 ) {
     list_ui(ui, session, commands);
+    widget::divider(ui);
+    objects::list_ui(ui, session, commands);
+    objects::selected_ui(ui, session, commands);
     if let Some(template) = session.selected_template() {
         widget::divider(ui);
         template_ui(ui, session, (segments, inside), template, commands);
-    } else if let Some(index) = session.selected {
+    } else if let Some(index) = session.selection.template() {
         widget::divider(ui);
         let weak = Palette::get(ui).weak;
         let text = w().unknown_kind;
@@ -53,7 +50,7 @@ struct DraggedRow(usize);
 fn list_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let count = session.template_count();
     widget::heading(ui, w().heading, |ui| {
-        let from = session.selected;
+        let from = session.selection.template();
         let can_later = from.is_some_and(|from| from + 1 < count);
         if widget::icon_button(ui, Icon::Down, w().later, can_later).clicked() {
             commands.push(Command::ShiftSelected(1));
@@ -112,105 +109,41 @@ fn list_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 
 /// One entry; returns its rectangle.
 fn row_ui(ui: &mut Ui, session: &Session, index: usize, commands: &mut Vec<Command>) -> Rect {
-    let palette = Palette::get(ui);
     let template = session.template(index);
     let title = template.map_or_else(|| w().unknown.to_owned(), names::template_title);
-    let is_selected = session.selected == Some(index);
-    let (rect, response) =
-        ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click_and_drag());
-    let number = index + 1;
-    let name = format!("{number}. {title}");
-    response
-        .widget_info(|| WidgetInfo::selected(Role::ListItem, ui.is_enabled(), is_selected, &name));
-    let (back, stroke) = if is_selected {
-        (palette.accent_wash, palette.accent)
-    } else if response.hovered() {
-        (palette.hover, palette.line)
-    } else {
-        (palette.raised, palette.line)
-    };
-    ui.painter().rect(
-        rect,
-        CornerRadius::same(6),
-        back,
-        Stroke::new(1.0, stroke),
-        egui::StrokeKind::Inside,
-    );
-    widget::focus_ring(ui, &response, rect);
-
-    let grip = Rect::from_center_size(rect.left_center() + vec2(14.0, 0.0), vec2(16.0, 16.0));
-    Icon::Grip.paint(
-        ui.painter(),
-        widget::sided(rect, grip),
-        palette.weak.gamma_multiply(0.7),
-    );
+    let is_selected = session.selection.template() == Some(index);
     let group = group_of(session.document(), index);
-    if let Some(place) = groups(session.document()).iter().position(|g| g == group) {
-        let bar = rect.shrink(1.0).with_max_x(rect.left() + 5.0);
-        let color = GROUP_COLORS[place % GROUP_COLORS.len()];
-        let bar = widget::sided(rect, bar);
-        ui.painter().rect_filled(bar, CornerRadius::same(2), color);
-    }
-    let is_on = template.is_some_and(|t| t.enabled);
-    let color = if is_on { palette.text } else { palette.weak };
-    let clip = widget::sided(rect, rect.with_max_x(rect.right() - 66.0));
-    let painter = ui.painter().with_clip_rect(clip);
-    let shown = widget::line_text(
-        &painter,
-        rect,
-        28.0,
-        &title,
-        theme::strong_font(13.0),
-        color,
-    );
+    let mut notes = Vec::new();
     if let Some(template) = template {
-        let mut note = if template.name.is_empty() {
-            String::new()
-        } else {
-            kinds::title(template.kind).to_owned()
-        };
+        if !template.name.is_empty() {
+            notes.push(kinds::title(template.kind));
+        }
         if template.mode == TemplateMode::Add && index > 0 {
-            note = if note.is_empty() {
-                w().added.to_owned()
-            } else {
-                format!("{note}, {}", w().added)
-            };
+            notes.push(w().added);
         }
         if !group.is_empty() {
-            note = if note.is_empty() {
-                group.to_owned()
-            } else {
-                format!("{note}, {group}")
-            };
+            notes.push(group);
         }
-        let inset = 28.0 + shown.width() + 8.0;
-        let font = egui::FontId::proportional(11.5);
-        widget::line_text(&painter, rect, inset, &note, font, palette.weak);
     }
-
-    if let Some(template) = template {
-        let (icon, verb) = if template.enabled {
-            (Icon::Eye, w().hide)
-        } else {
-            (Icon::EyeOff, w().show)
+    let row = EntryRow {
+        id: ("row", index),
+        name: &format!("{}. {title}", index + 1),
+        title: &title,
+        note: &notes.join(", "),
+        is_selected,
+        has_grip: true,
+        group: groups(session.document()).iter().position(|g| g == group),
+        is_shown: template.map(|template| template.enabled),
+    };
+    let entry = row.ui(ui);
+    if let Some(template) = template.filter(|_| entry.is_toggled) {
+        let edit = Edit::SetEnabled {
+            template: index,
+            enabled: !template.enabled,
         };
-        let right = Rect::from_center_size(
-            rect.right_center() - vec2(20.0, 0.0),
-            egui::Vec2::splat(theme::control_height()),
-        );
-        let mut inner = ui.new_child(
-            egui::UiBuilder::new()
-                .id_salt(("row", index))
-                .max_rect(widget::sided(rect, right)),
-        );
-        if widget::icon_button(&mut inner, icon, &fill(verb, &[&name]), true).clicked() {
-            let edit = Edit::SetEnabled {
-                template: index,
-                enabled: !template.enabled,
-            };
-            commands.push(Command::Apply(edit));
-        }
+        commands.push(Command::Apply(edit));
     }
+    let response = entry.response;
     if response.clicked() {
         commands.push(Command::Select(if is_selected {
             None
@@ -225,7 +158,7 @@ fn row_ui(ui: &mut Ui, session: &Session, index: usize, commands: &mut Vec<Comma
     if response.drag_started() {
         response.dnd_set_drag_payload(DraggedRow(index));
     }
-    rect
+    response.rect
 }
 
 fn template_ui(
@@ -256,23 +189,13 @@ fn template_ui(
     points::ui(ui, template, commands);
     curve::ui(ui, template, commands);
     ui.add_space(2.0);
-    widget::row(ui, |ui| {
-        let label = widget::row_label(ui, w().name, w().name_hint);
-        let mut name = template.name.clone();
-        let edit = TextEdit::singleline(&mut name)
-            .hint_text(kinds::title(template.kind))
-            .desired_width(f32::INFINITY)
-            .min_size(vec2(0.0, theme::control_height()))
-            .align(egui::Align2::LEFT_CENTER)
-            .char_limit(80)
-            .id(Id::unique(("template name", index)));
-        if ui.add(edit).labelled_by(label.id).changed() {
-            commands.push(Command::Drag(Edit::RenameTemplate {
-                template: index,
-                name,
-            }));
-        }
-    });
+    let hints = (kinds::title(template.kind), w().name_hint);
+    if let Some(name) = entry::name_row(ui, ("template name", index), &template.name, hints) {
+        commands.push(Command::Drag(Edit::RenameTemplate {
+            template: index,
+            name,
+        }));
+    }
     if index > 0 {
         widget::row(ui, |ui| {
             widget::row_label(ui, w().joins, w().joins_hint);
@@ -289,7 +212,15 @@ fn template_ui(
         });
     }
     if session.template_count() > 1 {
-        group_ui(ui, session, index, commands);
+        let current = group_of(session.document(), index);
+        let known = groups(session.document());
+        let hint = words::authoring::w().group_hint;
+        if let Some(group) = entry::group_row(ui, current, &known, hint) {
+            commands.push(Command::Apply(Edit::SetGroup {
+                template: index,
+                group,
+            }));
+        }
     }
     widget::divider(ui);
     let illustration = session.shown();
@@ -318,47 +249,6 @@ fn amount_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>
         })));
     }
 }
-
-/// Which group the template is in: none, one that there is, a new one.
-fn group_ui(ui: &mut Ui, session: &Session, template: usize, commands: &mut Vec<Command>) {
-    let w = words::authoring::w();
-    let current = group_of(session.document(), template);
-    let known = groups(session.document());
-    widget::row(ui, |ui| {
-        widget::row_label(ui, w.group, w.group_hint);
-        let shown = if current.is_empty() {
-            w.no_group
-        } else {
-            current
-        };
-        let mut set = |group: &str| {
-            let group = group.to_owned();
-            commands.push(Command::Apply(Edit::SetGroup { template, group }));
-        };
-        let combo = widget::combo("group", shown, ui.available_width() - 4.0);
-        let shown = combo.show_ui(ui, |ui| {
-            if ui
-                .selectable_label(current.is_empty(), w.no_group)
-                .clicked()
-            {
-                set("");
-            }
-            for group in &known {
-                if ui.selectable_label(current == group, group).clicked() {
-                    set(group);
-                }
-            }
-            if ui.selectable_label(false, w.new_group).clicked() {
-                set(&free_group_name(w.group, &known));
-            }
-        });
-        let response = shown.response.on_hover_text(w.group_hint);
-        response.named(w.group.to_owned());
-    });
-}
-
-/// Colours by which groups are told apart in the list.
-const GROUP_COLORS: [egui::Color32; 4] = theme::GROUPS;
 
 /// True if a parameter is an angle in radians, which people read in degrees.
 fn is_angle(param: &ParamSpec) -> bool {
@@ -532,20 +422,4 @@ fn placement_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comma
             commands,
         );
     }
-}
-
-/// A rotation as three angles in degrees.
-fn rotation_row(ui: &mut Ui, name: &str, summary: &str, q: Quat) -> Option<Change<Quat>> {
-    let (z, y, x) = q.to_euler(EulerRot::ZYX);
-    let degrees =
-        [x, y, z].map(|angle| (f64::from(angle.to_degrees()) * 10.0).round() / 10.0 + 0.0);
-    let change = widget::vector_row(ui, name, summary, degrees, [-360.0, 360.0], "°", 1)?;
-    Some(change.map(|v| {
-        let [x, y, z] = v.map(|degrees| (degrees as f32).to_radians());
-        Quat::from_euler(EulerRot::ZYX, z, y, x).normalize()
-    }))
-}
-
-fn vec3(v: [f64; 3]) -> Vec3 {
-    Vec3::from_array(v.map(|x| x as f32))
 }

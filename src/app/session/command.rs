@@ -66,11 +66,18 @@ pub enum Command {
     Escape,
     /// Selects a template by its index in the document.
     Select(Option<usize>),
-    /// Selects the next one in the list, or with `false` the one before.
+    /// Selects an object of the scene by its index in the document.
+    SelectObject(Option<usize>),
+    /// Puts a tool of this name into the scene, at what the middle of the picture shows.
+    AddTool(&'static str),
+    /// Puts the tool of this index among those of the program to the surface that was found, else to where the camera
+    /// looks.
+    PlaceTool(usize, Option<Found>),
+    /// Selects the next one in the list of templates, then in that of objects, or with `false` the one before.
     SelectNext(bool),
-    /// Removes the selected template.
+    /// Removes the selected template or object.
     DeleteSelected,
-    /// Makes a copy of the selected template behind it.
+    /// Makes a copy of the selected template or object behind it.
     DuplicateSelected,
     /// Puts the selected template, with its group, on the clipboard.
     Copy,
@@ -102,11 +109,12 @@ pub enum Command {
     SeekFirst,
     /// Turns the view to where that lies; there is none of it where no place is known.
     TurnTo(Sought, Option<Site>),
-    /// Shows or hides the selected template.
+    /// Shows or hides the selected template or object.
     ToggleSelected,
-    /// Makes the selected template act earlier (`-1`) or later (`1`).
+    /// Makes the selected template act earlier (`-1`) or later (`1`); moves the selected object in its list.
     ShiftSelected(i8),
-    /// Adds to the main parameter of the selected template, in hundredths of its range.
+    /// Adds to the main parameter of the selected template, in hundredths of its range. Pushes the selected object
+    /// towards its working end, in hundredths of its size.
     NudgeMain(f32),
     /// What the handles in the picture do.
     SetGizmo(GizmoMode),

@@ -2,6 +2,7 @@
 
 use super::effect::{Effect, LinkChange};
 use super::library::{LibraryCommand, LibraryPage, Listing, RecentChange, Shipped};
+use super::selection::Selection;
 use super::session::{Session, Tab, payload_of};
 use crate::app::words::{self, fill};
 use crate::document::{Document, Edit};
@@ -40,7 +41,8 @@ impl Session {
                     self.are_panels_hidden = false;
                     self.side_tab = Tab::Templates;
                     let templates = &self.illustration().templates;
-                    self.selected = templates.first().map(|template| template.index);
+                    let first = templates.first().map(|template| template.index);
+                    self.selection = Selection::of_template(first);
                 }
             }
             LibraryCommand::OpenRecent(index) => {

@@ -7,6 +7,8 @@
 //! | file | holds |
 //! |---|---|
 //! | `tool`, `mode`, `walk` | the active tool; author or lesson; the steps of a lesson |
+//! | `selection`, `selecting`, `grouping` | what is selected, and what is done with it and its group |
+//! | `objects`, `bodies` | objects of the scene; what meshes are made of |
 //! | `command`, `effect`, `question`, `found`, `sought`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
 //! | `line`, `brush` | the way of a hand, and the ball that paints along it |
@@ -19,6 +21,7 @@
 //! | `seeking` | the search for a structure by name |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
 
+mod bodies;
 pub mod brush;
 pub mod camera;
 mod clipboard;
@@ -27,6 +30,7 @@ mod command;
 mod effect;
 mod files;
 mod found;
+mod grouping;
 mod lending;
 mod library;
 mod line;
@@ -35,6 +39,7 @@ mod making;
 mod measures;
 mod mode;
 mod notices;
+pub mod objects;
 mod opening;
 mod painting;
 mod playing;
@@ -42,6 +47,8 @@ mod question;
 mod raw;
 mod run;
 mod seeking;
+mod selecting;
+mod selection;
 #[expect(
     clippy::module_inception,
     reason = "the room is named for the type that this file holds"
@@ -82,6 +89,7 @@ pub use self::mode::Mode;
 pub use self::notices::{Gravity, Notice, Notices, Offer};
 pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
+pub use self::selection::Selection;
 pub use self::session::{Load, LoadOf, STORED_DOCUMENT, Session, Tab};
 pub use self::small_picture::{
     STORED_PICTURE, STORED_RECENT_PICTURES, SmallPicture, changed_pictures, picture_of,

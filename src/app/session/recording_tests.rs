@@ -95,7 +95,7 @@ fn an_edit_at_a_step_stays_at_the_step() {
     run(&mut session, Command::Drag(set_amount(0, 0.7)));
     run(&mut session, Command::Drag(set_amount(0, 0.75)));
     session.end_drag();
-    assert_eq!((session.step(), session.selected), (2, Some(0)));
+    assert_eq!((session.step(), session.selection.template()), (2, Some(0)));
     assert_eq!(amount(&session), 0.75);
     assert_eq!(session.illustration().templates[0].amount, 0.25);
     let after = Seen::all(&session);
@@ -135,7 +135,7 @@ fn what_is_placed_at_a_step_is_there_from_then_on() {
         segment: None,
     };
     run(&mut session, Command::PlaceOn(Some(found)));
-    assert_eq!((session.step(), session.selected), (2, Some(2)));
+    assert_eq!((session.step(), session.selection.template()), (2, Some(2)));
     run(&mut session, Command::ToggleCaptioning);
     run(&mut session, Command::CaptionOn(Some(found)));
     let after = Seen::all(&session);
@@ -169,7 +169,7 @@ fn what_is_deleted_at_a_step_is_hidden_from_then_on() {
     show(&mut session, 2);
     run(&mut session, Command::Select(Some(0)));
     run(&mut session, Command::DeleteSelected);
-    assert_eq!(session.selected, None);
+    assert_eq!(session.selection.template(), None);
     assert_eq!(session.notices.shown().count(), 1, "it says so");
     let after = Seen::all(&session);
     assert_eq!(after[..2], before[..2]);
@@ -204,7 +204,7 @@ fn an_order_holds_for_all_steps() {
     show(&mut session, 3);
     run(&mut session, Command::Select(Some(0)));
     run(&mut session, Command::ShiftSelected(1));
-    assert_eq!((session.step(), session.selected), (3, Some(1)));
+    assert_eq!((session.step(), session.selection.template()), (3, Some(1)));
     assert_eq!(session.notices.shown().count(), 1, "it says so");
     let kinds = |state: &Seen| -> Vec<_> { state.templates.iter().map(|t| t.kind).collect() };
     let (peel, hole) = (TemplateKind::Peel, TemplateKind::Hole);

@@ -1,17 +1,18 @@
 //! Runs commands: each changes the session and may return effects.
 
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
 use super::camera;
 use super::command::{Command, StepCommand};
 use super::effect::{Effect, Focus};
 use super::notices::Gravity;
 use super::question::{Place, Question};
+use super::selection::Selection;
 use super::session::{Session, Tab};
 use super::tool::Tool;
 use super::view::See;
 use crate::app::words::{self, fill};
-use crate::document::{Camera, Document, Edit, ParamKind, ParamValue, TemplateKind};
+use crate::document::{Camera, Document, TemplateKind};
 
 /// The key under which it is kept that the first hint was seen.
 pub const STORED_HINT: &str = "hint";
@@ -72,16 +73,13 @@ impl Session {
             Command::LayOn(template, found) => self.lay_on(template, found),
             Command::Trace(index, found) => self.trace(index, found),
             Command::Escape => self.escape(),
-            Command::Select(index) => self.select(index),
+            Command::Select(index) => self.select(Selection::of_template(index)),
+            Command::SelectObject(index) => self.select(Selection::of_object(index)),
+            Command::AddTool(tool) => self.ask_place_of_tool(tool),
+            Command::PlaceTool(tool, found) => self.place_tool(tool, found),
             Command::SelectNext(forward) => self.select_next(forward),
             Command::DeleteSelected => self.delete_selected(),
-            Command::DuplicateSelected => {
-                if let Some(template) = self.selected
-                    && self.apply(&Edit::DuplicateTemplate { template }, false)
-                {
-                    self.selected = Some(template + 1);
-                }
-            }
+            Command::DuplicateSelected => self.duplicate_selected(),
             Command::Copy => {
                 self.copy_templates();
             }
@@ -103,15 +101,7 @@ impl Session {
             Command::Seek(sought) => self.seek(sought),
             Command::SeekFirst => self.seek_first(),
             Command::TurnTo(sought, site) => self.turn_to(&sought, site),
-            Command::ToggleSelected => {
-                if let Some(template) = self.selected_template() {
-                    let edit = Edit::SetEnabled {
-                        template: template.index,
-                        enabled: !template.enabled,
-                    };
-                    self.apply(&edit, false);
-                }
-            }
+            Command::ToggleSelected => self.toggle_selected(),
             Command::ShiftSelected(by) => self.shift_selected(by),
             // The keys are those of the ball while it is in hand.
             Command::NudgeMain(by) if self.tool().ball().is_some() => self.resize_ball(by > 0.0),
@@ -259,84 +249,9 @@ impl Session {
         } else if self.are_panels_hidden {
             self.are_panels_hidden = false;
         } else {
-            self.selected = None;
+            self.selection = Selection::Nothing;
             self.tissues.selected = None;
         }
-    }
-
-    fn select(&mut self, index: Option<usize>) {
-        self.selected = index;
-        if self.tool.placing().is_some() {
-            self.take_tool(Tool::Look);
-        }
-        if index.is_some() {
-            self.side_tab = Tab::Templates;
-        }
-    }
-
-    fn select_next(&mut self, forward: bool) {
-        let count = self.template_count();
-        if count == 0 {
-            return;
-        }
-        let step = if forward { 1 } else { count - 1 };
-        self.selected = Some(match self.selected {
-            Some(index) => (index + step) % count,
-            None if forward => 0,
-            None => count - 1,
-        });
-        self.side_tab = Tab::Templates;
-    }
-
-    fn delete_selected(&mut self) {
-        if let Some(template) = self.selected {
-            let before = self.template_count();
-            self.apply(&Edit::RemoveTemplate { template }, false);
-            let count = self.template_count();
-            // At a step it may stay in the list, switched off.
-            let is_gone = count < before;
-            let last = count.checked_sub(1).filter(|_| is_gone);
-            self.selected = last.map(|last| template.min(last));
-        }
-    }
-
-    fn shift_selected(&mut self, by: i8) {
-        let Some(from) = self.selected else {
-            return;
-        };
-        let to = from.saturating_add_signed(isize::from(by));
-        let is_there = to != from && to < self.template_count();
-        // The selection goes with the template.
-        if is_there && self.apply(&Edit::MoveTemplate { from, to }, false) {
-            self.selected = Some(to);
-        }
-    }
-
-    fn nudge_main(&mut self, hundredths: f32) {
-        let Some(template) = self.selected_template() else {
-            return;
-        };
-        let spec = template.kind.spec();
-        let Some(param) = spec.main_param else {
-            return;
-        };
-        let (kind, value) = (&spec.params[param].kind, template.params[param]);
-        let value = match (kind, value) {
-            (
-                ParamKind::Number { min, max, .. } | ParamKind::Count { min, max, .. },
-                ParamValue::Number(value),
-            ) => ParamValue::Number((value + (max - min) * hundredths / 100.0).clamp(*min, *max)),
-            (_, ParamValue::Vector(v)) => {
-                ParamValue::Vector(v + v.normalize_or(Vec3::Z) * hundredths / 100.0)
-            }
-            _ => return,
-        };
-        let edit = Edit::SetParam {
-            template: template.index,
-            param: spec.params[param].name,
-            value,
-        };
-        self.apply(&edit, true);
     }
 
     fn run_see(&mut self, see: See) {

@@ -9,6 +9,7 @@ use super::files::{FileChoice, RawDraft};
 use super::library::Library;
 use super::mode::Mode;
 use super::notices::{Gravity, Notices};
+use super::selection::Selection;
 use super::ticket::Ticket;
 use super::tissues::Tissues;
 use super::tool::Tool;
@@ -132,8 +133,8 @@ pub struct Session {
     pub(super) glide: Option<Glide>,
     pub(super) mode: Mode,
     pub(super) tool: Tool,
-    /// Index in the document's `templates` of the selected one.
-    pub selected: Option<usize>,
+    /// The selected template or object.
+    pub selection: Selection,
     /// What the handles in the picture do.
     pub gizmo: GizmoMode,
     /// Messages to the user, oldest first.
@@ -231,7 +232,7 @@ impl Session {
             glide: None,
             mode: Mode::default(),
             tool: Tool::default(),
-            selected: None,
+            selection: Selection::Nothing,
             gizmo: GizmoMode::Move,
             notices: Notices::default(),
             load: None,
@@ -317,7 +318,7 @@ impl Session {
 
     /// The selected template as the picture shows it, if its kind can be drawn.
     pub fn selected_template(&self) -> Option<&PlacedTemplate> {
-        self.template(self.selected?)
+        self.template(self.selection.template()?)
     }
 
     /// The template of this index in the document as the picture shows it, if its kind can be drawn.
@@ -410,7 +411,7 @@ impl Session {
     /// Goes to a step, by a passage to a neighbour unless `is_cut`.
     pub(super) fn go(&mut self, step: usize, is_cut: bool) {
         self.glide = None;
-        self.selected = None;
+        self.selection = Selection::Nothing;
         if self.tool.is_for_authors() {
             self.take_tool(Tool::Look);
         }
@@ -479,7 +480,7 @@ impl Session {
     /// Changes what is shown, as a part of a drag or as one step of undo: the document, at a step above 0 what that
     /// sets. True if the document took the change; else a message tells why.
     pub fn apply(&mut self, edit: &Edit, is_drag: bool) -> bool {
-        let before = self.template_count() + self.illustration().captions.len();
+        let before = self.entry_count();
         let is_done = self.apply_to_document(&self.at_step_shown(edit), is_drag);
         if is_done {
             self.tell_of_steps(edit, before);
@@ -526,11 +527,13 @@ impl Session {
         self.playing = None;
         self.mode.rest(self.history.document());
         self.revision += 1;
-        if self
-            .selected
-            .is_some_and(|index| index >= self.template_count())
-        {
-            self.selected = None;
+        let is_gone = match self.selection {
+            Selection::Nothing => false,
+            Selection::Template(index) => index >= self.template_count(),
+            Selection::Object(index) => index >= self.object_count(),
+        };
+        if is_gone {
+            self.selection = Selection::Nothing;
         }
         self.touch_link(change);
     }

@@ -3,6 +3,7 @@
 use super::effect::LinkChange;
 use super::mode::Mode;
 use super::notices::{Gravity, Offer};
+use super::selection::Selection;
 use super::session::{Left, Session, Tab};
 use super::tissues::Tissues;
 use super::tool::Tool;
@@ -63,7 +64,7 @@ impl Session {
     /// Ends whatever is being done with the document that is left.
     pub(super) fn put_down(&mut self) {
         self.glide = None;
-        self.selected = None;
+        self.selection = Selection::Nothing;
         if self.tool.is_for_authors() {
             self.tool = Tool::Look;
         }
@@ -170,7 +171,7 @@ fn is_same_file(one: &SubjectRef, other: &SubjectRef) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Command, Effect, Gravity, Load, LoadOf, Session, Ticket};
+    use super::super::{Command, Effect, Gravity, Load, LoadOf, Selection, Session, Ticket};
     use super::*;
     use crate::document::Reading;
 
@@ -215,7 +216,7 @@ mod tests {
             let now = session.illustration();
             assert!(now.templates.is_empty() && now.captions.is_empty() && now.title.is_empty());
             assert_eq!(session.camera, Document::new().illustration().camera);
-            assert_eq!(session.selected, None);
+            assert_eq!(session.selection, Selection::Nothing);
             session.run(Command::Orbit(0.1, 0.1), 0.0);
             let turned = session.camera;
             let effects = session.run(Command::Undo, 0.0);

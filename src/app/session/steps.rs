@@ -122,16 +122,23 @@ impl Session {
         }
     }
 
-    /// Says what an edit means for other steps, where that is not plain to see. `before` is the number of templates and
-    /// captions before it.
+    /// Templates, objects and captions of the document, all together.
+    pub(super) fn entry_count(&self) -> usize {
+        self.template_count() + self.object_count() + self.illustration().captions.len()
+    }
+
+    /// Says what an edit means for other steps, where that is not plain to see. `before` is the number of entries
+    /// before it.
     pub(super) fn tell_of_steps(&mut self, edit: &Edit, before: usize) {
         if self.document().step_count() == 0 {
             return;
         }
-        let after = self.template_count() + self.illustration().captions.len();
+        let after = self.entry_count();
         let text = match edit {
             Edit::MoveTemplate { .. } => w().order_for_all,
-            Edit::RemoveTemplate { .. } | Edit::RemoveCaption { .. }
+            Edit::RemoveTemplate { .. }
+            | Edit::RemoveObject { .. }
+            | Edit::RemoveCaption { .. }
                 if self.step() > 0 && after == before =>
             {
                 w().hidden_from_here

@@ -33,7 +33,7 @@ impl Session {
 
     /// Asks for the surface under the middle of the selected template.
     pub(super) fn ask_surface_under_selected(&mut self) {
-        let Some(template) = self.selected else {
+        let Some(template) = self.selection.template() else {
             return;
         };
         if let Some(sight) = self.sight_along(template) {

@@ -1,12 +1,12 @@
 //! What an author does with whole templates: copy them to another document, mirror, group. Templates of a group are
 //! copied, mirrored and moved together.
 
-use glam::Vec3;
 use serde_json::Value;
 
 use super::clipboard::Copied;
 use super::effect::Effect;
 use super::notices::Gravity;
+use super::selection::Selection;
 use super::session::{Session, Tab};
 use super::tool::Tool;
 use crate::app::words::authoring::w;
@@ -15,12 +15,11 @@ use crate::app::words::names::template_title;
 use crate::document::{
     Edit, Plane, free_group_name, group_of, groups, mirror, templates_from_text, templates_to_text,
 };
-use crate::math::Placement;
 
 impl Session {
     /// The selected template and those of its group, by their indices in the document.
     pub(super) fn acted_on(&self) -> Vec<usize> {
-        let Some(selected) = self.selected else {
+        let Some(selected) = self.selection.template() else {
             return Vec::new();
         };
         let group = group_of(self.document(), selected);
@@ -60,7 +59,7 @@ impl Session {
             edits: edits.collect(),
         };
         if self.apply(&edit, false) {
-            self.selected = None;
+            self.selection = Selection::Nothing;
         }
     }
 
@@ -79,7 +78,8 @@ impl Session {
         };
         self.rename_groups(&mut templates);
         let index = self
-            .selected
+            .selection
+            .template()
             .map_or(self.template_count(), |selected| selected + 1);
         if self.apply(&Edit::InsertTemplates { index, templates }, false) {
             self.select_made(index);
@@ -120,7 +120,7 @@ impl Session {
     }
 
     fn select_made(&mut self, index: usize) {
-        self.selected = Some(index);
+        self.selection = Selection::Template(index);
         if self.tool.placing().is_some() {
             self.tool = Tool::Look;
         }
@@ -129,7 +129,7 @@ impl Session {
 
     /// Mirrors the selected templates across a middle plane of the subject, where they are or as copies.
     pub(super) fn mirror_selected(&mut self, plane: Plane, as_copy: bool) {
-        let (Some(selected), acted_on) = (self.selected, self.acted_on()) else {
+        let (Some(selected), acted_on) = (self.selection.template(), self.acted_on()) else {
             return;
         };
         let group = group_of(self.document(), selected);
@@ -169,90 +169,6 @@ impl Session {
         if self.apply(&edit, false) && as_copy {
             let before = acted_on.iter().filter(|index| **index < selected).count();
             self.select_made(selected + before + 1);
-        }
-    }
-
-    /// Puts the selected template into the group of the one before it in the list, or both into a new one.
-    pub(super) fn group_with_previous(&mut self) {
-        let Some(template) = self.selected else {
-            return;
-        };
-        let Some(previous) = template.checked_sub(1) else {
-            self.notify(Gravity::Info, w().nothing_before, "");
-            return;
-        };
-        let known = group_of(self.document(), previous);
-        let edit = if known.is_empty() {
-            let group = free_group_name(w().group, &groups(self.document()));
-            let both = [previous, template].map(|template| Edit::SetGroup {
-                template,
-                group: group.clone(),
-            });
-            Edit::All {
-                name: "Group templates".to_owned(),
-                edits: both.to_vec(),
-            }
-        } else {
-            Edit::SetGroup {
-                template,
-                group: known.to_owned(),
-            }
-        };
-        self.apply(&edit, false);
-    }
-
-    /// Takes the selected template out of its group.
-    pub(super) fn leave_group(&mut self) {
-        if let Some(template) = self.selected {
-            let group = String::new();
-            self.apply(&Edit::SetGroup { template, group }, false);
-        }
-    }
-
-    /// A template's new place taken over by those of its group: they turn and move with it as one.
-    pub(super) fn with_group(&self, edit: Edit) -> Edit {
-        let Edit::SetPlacement {
-            template,
-            placement,
-        } = edit
-        else {
-            return edit;
-        };
-        let group = group_of(self.document(), template);
-        let Some(before) = self.template(template).map(|t| t.placement) else {
-            return edit;
-        };
-        // A side that is drawn out belongs to the one box alone.
-        if group.is_empty() || self.is_alone || before.size != placement.size {
-            return edit;
-        }
-        let turn = placement.rotate * before.rotate.conjugate();
-        let mut edits = vec![Edit::SetPlacement {
-            template,
-            placement,
-        }];
-        for other in &self.shown().templates {
-            if other.index != template && group_of(self.document(), other.index) == group {
-                let offset = turn * (other.placement.at - before.at);
-                let limit = Vec3::splat(4.0);
-                edits.push(Edit::SetPlacement {
-                    template: other.index,
-                    placement: Placement {
-                        at: (placement.at + offset).clamp(-limit, limit),
-                        rotate: (turn * other.placement.rotate).normalize(),
-                        size: other.placement.size,
-                    },
-                });
-            }
-        }
-        let verb = if before.rotate == placement.rotate {
-            "Move"
-        } else {
-            "Turn"
-        };
-        Edit::All {
-            name: format!("{verb} group {group}"),
-            edits,
         }
     }
 }

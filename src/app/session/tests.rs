@@ -141,7 +141,7 @@ fn a_caption_under_way_ends_when_a_template_is_placed() {
     assert!(matches!(asked.place, Place::Middle), "{asked:?}");
     answer(&mut session, &asked, Some(found()));
     assert_eq!(session.template_count(), 1);
-    assert_eq!(session.selected, Some(0));
+    assert_eq!(session.selection.template(), Some(0));
     assert_eq!(session.tool(), Tool::Look);
     assert!(session.illustration().captions.is_empty());
 }
@@ -333,15 +333,15 @@ fn a_change_stays_at_its_step() {
     assert_ne!(session.shown(), session.illustration());
     // What is selected is shown as the step has it.
     run(&mut session, Command::SelectNext(true));
-    assert_eq!((session.step(), session.selected), (2, Some(0)));
+    assert_eq!((session.step(), session.selection.template()), (2, Some(0)));
     run(&mut session, Command::Select(Some(0)));
-    assert_eq!((session.step(), session.selected), (2, Some(0)));
+    assert_eq!((session.step(), session.selection.template()), (2, Some(0)));
     let shown = session.selected_template();
     assert_eq!(shown, session.shown().templates.first());
     assert_ne!(shown, session.illustration().templates.first());
     let edit = Edit::SetTitle("Other".to_owned());
     run(&mut session, Command::Apply(edit));
-    assert_eq!((session.step(), session.selected), (2, Some(0)));
+    assert_eq!((session.step(), session.selection.template()), (2, Some(0)));
     assert_eq!(session.illustration().title, "Other");
 }
 

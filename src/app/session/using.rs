@@ -8,6 +8,7 @@ use super::effect::{Effect, Focus};
 use super::found::Found;
 use super::notices::Gravity;
 use super::question::{Place, Question};
+use super::selection::Selection;
 use super::session::{Session, Tab};
 use super::shape::placement_on_surface;
 use super::tissues::{with_range, with_seeds};
@@ -83,7 +84,7 @@ impl Session {
             placement: placement_on_surface(kind, pos, normal, &self.camera),
         };
         if self.apply(&edit, false) {
-            self.selected = Some(index);
+            self.selection = Selection::Template(index);
             self.side_tab = Tab::Templates;
         }
     }

@@ -36,6 +36,7 @@ macro_rules! words {
 
 pub(crate) mod authoring;
 pub(crate) mod bar;
+pub(crate) mod bodies;
 pub(crate) mod captions;
 pub(crate) mod catalogue;
 pub(crate) mod controls;
@@ -50,6 +51,7 @@ pub(crate) mod library;
 pub(crate) mod look;
 pub(crate) mod messages;
 pub(crate) mod names;
+pub(crate) mod objects;
 pub(crate) mod picture;
 pub(crate) mod points;
 pub(crate) mod search;

@@ -27,6 +27,10 @@ words! {
         mode: "mode", "Wirkung", "el modo", "组合方式";
         alignment: "alignment", "Ausrichtung", "la alineación", "对齐";
         amount: "amount", "Anteil", "la cantidad", "程度";
+        colour: "colour", "Farbe", "el color", "颜色";
+        inside: "inside colour", "Farbe innen", "el color interior", "内侧颜色";
+        opacity: "opacity", "Deckkraft", "la opacidad", "不透明度";
+        gloss: "gloss", "Glanz", "el brillo", "光泽";
     }
 }
 
@@ -134,6 +138,18 @@ pub(crate) fn edit_title(name: &str) -> String {
         "Remove label" => ["", "Beschriftung entfernen", "Quitar rótulo", "移除标注"],
         "Add mesh" => ["", "Netz hinzufügen", "Añadir malla", "添加网格"],
         "Remove mesh" => ["", "Netz entfernen", "Quitar malla", "移除网格"],
+        "Change bodies" => ["", "Körper ändern", "Cambiar los cuerpos", "更改实体"],
+        "Change inside colour" => [
+            "",
+            "Farbe innen ändern",
+            "Cambiar el color interior",
+            "更改内侧颜色",
+        ],
+        "Change gloss" => ["", "Glanz ändern", "Cambiar el brillo", "更改光泽"],
+        "Change thickness" => ["", "Dicke ändern", "Cambiar el grosor", "更改厚度"],
+        "Add layer" => ["", "Schicht hinzufügen", "Añadir capa", "添加层"],
+        "Remove layer" => ["", "Schicht entfernen", "Quitar capa", "移除层"],
+        "Change layer" => ["", "Schicht ändern", "Cambiar capa", "更改层"],
         "Add object" => ["", "Gegenstand hinzufügen", "Añadir objeto", "添加物体"],
         "Add step" => ["", "Schritt hinzufügen", "Añadir paso", "添加步骤"],
         "Remove step" => ["", "Schritt entfernen", "Quitar paso", "移除步骤"],
@@ -181,6 +197,10 @@ pub(crate) fn edit_title(name: &str) -> String {
                 "mode" => w.mode,
                 "alignment" => w.alignment,
                 "amount" if param.is_none() => w.amount,
+                "colour" => w.colour,
+                "inside colour" => w.inside,
+                "opacity" => w.opacity,
+                "gloss" => w.gloss,
                 "constraint" => super::kept::w().constraint,
                 _ => param.unwrap_or(what),
             };
@@ -266,6 +286,11 @@ mod tests {
         set_lang(Lang::Chinese);
         for name in crate::subjects::names() {
             assert!(!subject(name).is_ascii(), "{name}");
+        }
+        for tool in crate::document::SceneObject::BUILTINS {
+            let name = super::super::objects::tool(tool);
+            assert!(!name.is_ascii(), "{tool}");
+            assert_ne!(name, super::super::objects::tool("unknown"), "{tool}");
         }
         for one in crate::document::presets() {
             assert!(

@@ -8,6 +8,7 @@ type Line = (&'static str, [&'static str; Lang::COUNT]);
 fn lines() -> impl Iterator<Item = &'static Line> {
     let tables = [
         bar::LINES,
+        bodies::LINES,
         catalogue::LINES,
         controls::LINES,
         faults::LINES,
@@ -20,6 +21,7 @@ fn lines() -> impl Iterator<Item = &'static Line> {
         look::LINES,
         authoring::LINES,
         names::LINES,
+        objects::LINES,
         picture::LINES,
         curve::LINES,
         points::LINES,
