@@ -39,6 +39,9 @@ impl App {
             return;
         }
         if resources.fields != self.resources.fields || !resources.has_objects_of(&self.resources) {
+            let frames = resources.objects.iter();
+            let frames = frames.map(|(source, mesh)| (source.clone(), mesh.frame));
+            self.session.view.object_frames = frames.collect();
             self.session.revision += 1;
         }
         if let Some(picture) = &mut self.picture {

@@ -1,10 +1,11 @@
-//! The handles over the picture: a template is moved, turned and sized where it is, and its main parameter is dragged
-//! where it acts. Lines and dots are drawn by the interface over the picture with the picture's own projection.
+//! The handles over the picture: a template or an object is moved, turned and sized where it is, and a template's main
+//! parameter is dragged where it acts. Lines and dots are drawn by the interface over the picture with the picture's own projection.
 
 use egui::{Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2};
 use glam::{Quat, Vec3};
 
 use super::apart::{APART, Apart, drawn_out, on_stems};
+use super::held::Held;
 use super::snap;
 use crate::app::canvas::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;
@@ -69,7 +70,7 @@ impl Part {
     }
 }
 
-/// The part that is dragged, and the state of the template and of the pointer when the drag began.
+/// The part that is dragged, and the state of what is held and of the pointer when the drag began.
 #[derive(Clone, Debug)]
 struct Hold {
     part: Part,
@@ -81,7 +82,7 @@ struct Hold {
     offset: Vec2,
 }
 
-/// The handles of the selected template.
+/// The handles of what is selected.
 #[derive(Default)]
 pub(crate) struct Gizmo {
     hold: Option<Hold>,
@@ -111,10 +112,10 @@ impl Gizmo {
         ui: &Ui,
         picture: &Response,
         view: &Projection,
-        template: &PlacedTemplate,
+        held: Held<'_>,
         session: &Session,
     ) -> Option<Edit> {
-        let handles = Handles::new(view, template, session.gizmo);
+        let handles = Handles::new(view, held, session.gizmo);
         let is_touch = ui.input(|i| i.any_touches());
         let reach = if is_touch { REACH_TOUCH } else { REACH_MOUSE };
         let pointer = ui.input(|i| i.pointer.latest_pos());
@@ -148,7 +149,7 @@ impl Gizmo {
                 self.hold = Some(Hold {
                     part,
                     start: pos,
-                    placement: template.placement,
+                    placement: held.placement(),
                     view: *view,
                     offset: anchor.map_or(Vec2::ZERO, |anchor| anchor - pos),
                 });
@@ -162,7 +163,7 @@ impl Gizmo {
                 let modifiers = ui.input(|i| i.modifiers);
                 // The key reverses the setting while it is held.
                 let snap = session.is_snapping != modifiers.command;
-                edit = hold.drag(pos, template, snap, modifiers.alt);
+                edit = hold.drag(pos, held, snap, modifiers.alt);
             }
         }
         if self.is_hot() {
@@ -174,20 +175,20 @@ impl Gizmo {
             ui.ctx().set_cursor_icon(icon);
         }
         handles.paint(&ui.painter_at(view.rect), self.hot);
-        handles.announce(ui, template);
+        handles.announce(ui, held);
         edit
     }
 }
 
 impl Hold {
-    /// What holding it and being at `pos` now makes of the template. `snap` goes in steps; `both` takes the opposite
+    /// What holding it and being at `pos` now makes of what is held. `snap` goes in steps; `both` takes the opposite
     /// face along.
-    fn drag(&self, pos: Pos2, template: &PlacedTemplate, snap: bool, both: bool) -> Option<Edit> {
+    fn drag(&self, pos: Pos2, held: Held<'_>, snap: bool, both: bool) -> Option<Edit> {
         let view = &self.view;
         let mut placement = self.placement;
         let at = placement.at;
         match self.part {
-            Part::Main => return self.drag_main(pos, template, snap),
+            Part::Main => return self.drag_main(pos, held.template()?, snap),
             Part::Free => {
                 let from = view.on_plane(self.start, at, view.back)?;
                 placement.at += view.on_plane(pos, at, view.back)? - from;
@@ -229,10 +230,11 @@ impl Hold {
             }
         }
         placement.at = placement.at.clamp(Vec3::splat(-4.0), Vec3::splat(4.0));
-        (placement != template.placement).then_some(Edit::SetPlacement {
-            template: template.index,
-            placement,
-        })
+        let sized = match self.part {
+            Part::Face(axis, _) => Some(axis),
+            _ => None,
+        };
+        held.put(placement, sized)
     }
 
     /// Turn by a drag along the tangent of the ring where it was taken: a ring seen edge-on turns as well as one seen
@@ -317,10 +319,10 @@ fn ring(view: &Projection, placement: &Placement, axis: usize) -> Vec<RingPoint>
         .collect()
 }
 
-/// Where every handle of a template is seen.
+/// Where every handle is seen.
 struct Handles<'a> {
     view: &'a Projection,
-    placement: &'a Placement,
+    placement: Placement,
     bent: Option<Bent>,
     mode: GizmoMode,
     center: Option<Pos2>,
@@ -352,8 +354,8 @@ struct Face {
 }
 
 impl<'a> Handles<'a> {
-    fn new(view: &'a Projection, template: &'a PlacedTemplate, mode: GizmoMode) -> Self {
-        let placement = &template.placement;
+    fn new(view: &'a Projection, held: Held<'_>, mode: GizmoMode) -> Self {
+        let placement = held.placement();
         let unit = 1.0 / view.points_per_unit(placement.at);
         let arrows = AXES.map(|axis| {
             view.ui_from_subject(placement.at + placement.rotate * axis * (ARROW * unit))
@@ -362,7 +364,7 @@ impl<'a> Handles<'a> {
         for (i, axis) in AXES.into_iter().enumerate() {
             for high in [false, true] {
                 let sign = if high { 0.5 } else { -0.5 };
-                let pos = template.subject_from_template(Vec3::splat(0.5) + axis * sign);
+                let pos = held.subject_from_own(Vec3::splat(0.5) + axis * sign);
                 let outward = placement.rotate * axis * sign;
                 if let Some(seen) = view.ui_from_subject(pos) {
                     faces.push(Face {
@@ -375,20 +377,22 @@ impl<'a> Handles<'a> {
                 }
             }
         }
-        let spec = template.kind.spec();
         let center = view.ui_from_subject(placement.at);
-        let main_at = placed::handle(template).and_then(|handle| view.ui_from_subject(handle.at));
+        let handle = held.template().and_then(placed::handle);
+        let main_at = handle.and_then(|handle| view.ui_from_subject(handle.at));
+        let main_name = held.template().and_then(|template| {
+            let main = template.kind.spec().main_param?;
+            Some(kinds::param_name(template.kind, main))
+        });
         let mut handles = Self {
             view,
             placement,
-            bent: template.bent(),
+            bent: held.bent(),
             mode,
             center,
             main: None,
             main_at,
-            main_name: spec
-                .main_param
-                .map_or("", |i| kinds::param_name(template.kind, i)),
+            main_name: main_name.unwrap_or_default(),
             tips: [None; 3],
             squares: [None; 3],
             faces,
@@ -504,7 +508,7 @@ impl<'a> Handles<'a> {
                     return Some(part);
                 }
                 let distance = |i: usize| {
-                    let points = ring(self.view, self.placement, i);
+                    let points = ring(self.view, &self.placement, i);
                     points
                         .windows(2)
                         .map(|w| {
@@ -645,7 +649,7 @@ impl<'a> Handles<'a> {
     fn paint_turn(&self, painter: &Painter, hot: Option<Part>) {
         for pass in [false, true] {
             for (i, axis_color) in AXIS_COLORS.into_iter().enumerate() {
-                let points = ring(self.view, self.placement, i);
+                let points = ring(self.view, &self.placement, i);
                 let is_hot = hot == Some(Part::Ring(i));
                 let color = if is_hot { ink::HOT } else { axis_color };
                 for run in points.chunk_by(|a, b| a.is_front == b.is_front) {
@@ -701,14 +705,16 @@ impl<'a> Handles<'a> {
     }
 
     /// Names the handles to screen readers and tests. They do not take the pointer: the picture does.
-    fn announce(&self, ui: &Ui, template: &PlacedTemplate) {
+    fn announce(&self, ui: &Ui, held: Held<'_>) {
         let announce = |part: Part, at: Option<Pos2>| {
             let Some(at) = at.filter(|at| self.view.rect.contains(*at)) else {
                 return;
             };
             let name = part.name(&in_sentence(self.main_name));
             let rect = Rect::from_center_size(at, Vec2::splat(12.0));
-            let id = ui.scope_id().with(("gizmo", template.index, &name));
+            let id = ui
+                .scope_id()
+                .with(("gizmo", held.template().is_some(), held.index(), &name));
             let response = ui.interact(rect, id, Sense::empty());
             response.widget_info(|| WidgetInfo::labeled(Role::GraphicsObject, true, &name));
         };
@@ -723,7 +729,7 @@ impl<'a> Handles<'a> {
             }
             GizmoMode::Turn => {
                 for i in 0..3 {
-                    let points = ring(self.view, self.placement, i);
+                    let points = ring(self.view, &self.placement, i);
                     let front = points.iter().filter(|point| point.is_front);
                     announce(Part::Ring(i), front.map(|point| point.seen).nth(3));
                 }

@@ -7,6 +7,7 @@ pub(crate) mod captions;
 pub(crate) mod curve;
 pub(crate) mod foot;
 pub(crate) mod gizmo;
+pub(crate) mod held;
 pub(crate) mod hint;
 pub(crate) mod lettering;
 pub(crate) mod levelling;

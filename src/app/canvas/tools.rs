@@ -9,7 +9,6 @@ use crate::app::kit::{template_menu, widget};
 use crate::app::session::{Command, GizmoMode, Session};
 use crate::app::words::authoring;
 use crate::app::words::picture::w;
-use crate::document::PlacedTemplate;
 
 /// The bar at the head of the picture, of a width where there is room for it.
 fn bar_rect(rect: Rect, width: f32) -> Rect {
@@ -36,16 +35,17 @@ pub(super) fn head_bar(ui: &mut Ui, rect: Rect, width: f32, id_salt: &str) -> (U
 pub(crate) fn bar_bottom(rect: Rect, session: &Session) -> Option<f32> {
     let has_bar = session.tool().wants_place()
         || session.tool().ball().is_some()
-        || session.selected_template().is_some();
+        || session.selected_template().is_some()
+        || session.selected_object().is_some();
     has_bar.then(|| bar_rect(rect, 0.0).bottom())
 }
 
-/// Floating over the picture: what the handles do, and the commonest commands of the selected template.
+/// Floating over the picture: what the handles do, and the commonest commands of what is selected.
 pub(crate) fn tools_ui(
     ui: &mut Ui,
     rect: Rect,
     session: &Session,
-    template: &PlacedTemplate,
+    is_enabled: bool,
     commands: &mut Vec<Command>,
 ) {
     let (mut inner, width) = head_bar(ui, rect, 372.0, "tools");
@@ -62,7 +62,7 @@ pub(crate) fn tools_ui(
         }
     });
     ui.add_space(6.0);
-    let (eye, eye_name) = if template.enabled {
+    let (eye, eye_name) = if is_enabled {
         (Icon::Eye, w().hide)
     } else {
         (Icon::EyeOff, w().show)

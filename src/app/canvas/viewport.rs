@@ -10,6 +10,7 @@ use glam::Vec3;
 use super::ball::{self, PictureBall};
 use super::captions::Followed;
 use super::gizmo::Gizmo;
+use super::held::Held;
 use super::measure::Distances;
 use super::panes::ONE_PANE;
 use super::projection::{self, Projection};
@@ -224,6 +225,17 @@ impl Viewport {
         commands: &mut Vec<Command>,
     ) {
         self.markers_ui(ui, view, session, commands);
+        let object = session.selected_object();
+        if let Some(object) = object.and_then(|object| session.placed_object(object)) {
+            let held = Held::Object(&object);
+            if let Some(edit) = self.gizmo.ui(ui, response, view, held, session) {
+                commands.push(Command::Drag(edit));
+            }
+            let is_enabled = session
+                .selected_object()
+                .is_some_and(|object| object.enabled);
+            return tools_ui(ui, bars, session, is_enabled, commands);
+        }
         let Some(template) = session.selected_template() else {
             self.gizmo.release();
             return;
@@ -233,10 +245,13 @@ impl Viewport {
         let is_point = points::ui(ui, view, template, asked, commands);
         if curve::ui(ui, view, template, commands) || is_point {
             self.gizmo.release();
-        } else if let Some(edit) = self.gizmo.ui(ui, response, view, template, session) {
+        } else if let Some(edit) =
+            self.gizmo
+                .ui(ui, response, view, Held::Template(template), session)
+        {
             commands.push(Command::Drag(edit));
         }
-        tools_ui(ui, bars, session, template, commands);
+        tools_ui(ui, bars, session, template.enabled, commands);
     }
 
     fn announce(&self, response: &Response, session: &Session) {
@@ -494,6 +509,15 @@ impl Viewport {
             Some(at) if session.tool() == Tool::Look && response.double_clicked() && is_free => {
                 commands.push(Command::LookAtPixel(at));
             }
+            // Without objects a click on the picture selects nothing, and nothing has to be asked.
+            Some(at)
+                if session.tool() == Tool::Look
+                    && response.clicked()
+                    && !self.gizmo.is_hot()
+                    && !session.shown().objects.is_empty() =>
+            {
+                commands.push(Command::SelectAt(at));
+            }
             _ => {}
         }
     }
@@ -550,7 +574,7 @@ impl Viewport {
         );
     }
 
-    /// A dot for each template that is not selected; a click selects it.
+    /// A dot for each template and object that is not selected; a click selects it.
     fn markers_ui(
         &mut self,
         ui: &Ui,
@@ -561,50 +585,31 @@ impl Viewport {
         if self.gizmo.is_held() {
             return;
         }
-        let palette = Palette::get(ui);
         for template in &session.shown().templates {
-            if Some(template.index) == session.selection.template() {
-                continue;
+            if session.selection != Selection::Template(template.index) {
+                let name = names::template_title(template);
+                let id = ("marker", template.index);
+                if marker_ui(
+                    ui,
+                    view,
+                    (template.placement.at, template.enabled),
+                    &name,
+                    id,
+                ) {
+                    commands.push(Command::Select(Some(template.index)));
+                }
             }
-            let Some(at) = view
-                .ui_from_subject(template.placement.at)
-                .filter(|at| view.rect.contains(*at))
-            else {
-                continue;
-            };
-            let hit = Rect::from_center_size(
-                at,
-                Vec2::splat(if theme::is_touch() { 40.0 } else { 26.0 }),
-            );
-            let response = ui.interact(
-                hit,
-                ui.scope_id().with(("marker", template.index)),
-                Sense::click(),
-            );
-            let name = names::template_title(template);
-            response.widget_info(|| {
-                WidgetInfo::labeled(Role::Button, true, fill(w().select, &[&name]))
-            });
-            let is_hot = response.hovered() || response.has_focus();
-            let fade = if template.enabled { 1.0 } else { 0.5 };
-            let painter = ui.painter_at(view.rect);
-            painter.circle_filled(
-                at,
-                if is_hot { 9.0 } else { 7.0 },
-                theme::over_picture::HALO_DARK.gamma_multiply(fade),
-            );
-            painter.circle_filled(
-                at,
-                if is_hot { 7.5 } else { 5.5 },
-                Color32::WHITE.gamma_multiply(fade),
-            );
-            painter.circle_filled(
-                at,
-                if is_hot { 5.0 } else { 3.2 },
-                palette.accent.gamma_multiply(fade),
-            );
-            if response.on_hover_text(name).clicked() {
-                commands.push(Command::Select(Some(template.index)));
+        }
+        for object in &session.shown().objects {
+            let placed = session.placed_object(object);
+            if session.selection != Selection::Object(object.index)
+                && let Some(placed) = placed
+            {
+                let id = ("object", object.index);
+                let at = (placed.placement.at, object.enabled);
+                if marker_ui(ui, view, at, &object.name, id) {
+                    commands.push(Command::SelectObject(Some(object.index)));
+                }
             }
         }
     }
@@ -717,6 +722,35 @@ fn paint_progress(ui: &Ui, rect: Rect, progress: f32) {
 }
 
 /// The box of the template that would be placed.
+/// A dot at a place, paler if what it stands for is not enabled. True if it was clicked.
+fn marker_ui(
+    ui: &Ui,
+    view: &Projection,
+    (place, is_enabled): (Vec3, bool),
+    name: &str,
+    id: (&str, usize),
+) -> bool {
+    let at = view.ui_from_subject(place);
+    let Some(at) = at.filter(|at| view.rect.contains(*at)) else {
+        return false;
+    };
+    let side = if theme::is_touch() { 40.0 } else { 26.0 };
+    let hit = Rect::from_center_size(at, Vec2::splat(side));
+    let response = ui.interact(hit, ui.scope_id().with(id), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, fill(w().select, &[&name])));
+    let is_hot = response.hovered() || response.has_focus();
+    let fade = if is_enabled { 1.0 } else { 0.5 };
+    let painter = ui.painter_at(view.rect);
+    let dot = |radius: [f32; 2], color: Color32| {
+        let radius = if is_hot { radius[1] } else { radius[0] };
+        painter.circle_filled(at, radius, color.gamma_multiply(fade));
+    };
+    dot([7.0, 9.0], theme::over_picture::HALO_DARK);
+    dot([5.5, 7.5], Color32::WHITE);
+    dot([3.2, 5.0], Palette::get(ui).accent);
+    response.on_hover_text(name).clicked()
+}
+
 fn paint_preview(ui: &Ui, rect: Rect, view: &Projection, placement: &Placement) {
     let painter = ui.painter_at(rect);
     let corner = |bits: usize| {

@@ -424,5 +424,6 @@ pub(crate) fn found(pick: Pick) -> Found {
         pos_in_rest: pick.pos_in_rest,
         value: pick.value,
         segment: pick.segment,
+        object: pick.object,
     }
 }

@@ -68,6 +68,10 @@ pub enum Command {
     Select(Option<usize>),
     /// Selects an object of the scene by its index in the document.
     SelectObject(Option<usize>),
+    /// Selects the object that is seen at a pixel of the picture, if one is.
+    SelectAt([f32; 2]),
+    /// Selects the object that was found, if one was. The number is of no use.
+    SelectSeen(usize, Option<Found>),
     /// Puts a tool of this name into the scene, at what the middle of the picture shows.
     AddTool(&'static str),
     /// Puts the tool of this index among those of the program to the surface that was found, else to where the camera

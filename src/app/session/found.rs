@@ -15,4 +15,6 @@ pub struct Found {
     pub value: f32,
     /// Label of the segment that the tissue belongs to, if it belongs to one.
     pub segment: Option<u16>,
+    /// The object of the scene that is seen there, an index in the document; `None` where the subject is seen.
+    pub object: Option<usize>,
 }

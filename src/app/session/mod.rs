@@ -87,6 +87,7 @@ pub use self::library::{
 pub use self::measures::Measures;
 pub use self::mode::Mode;
 pub use self::notices::{Gravity, Notice, Notices, Offer};
+pub use self::objects::PlacedObject;
 pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
 pub use self::selection::Selection;

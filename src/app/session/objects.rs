@@ -18,6 +18,17 @@ const HELD_ASIDE: f32 = 0.8;
 /// Between the working end of a new tool and the surface, parts of its size.
 const GAP: f32 = 0.03;
 
+/// An object where it is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedObject {
+    /// Index in the document's list.
+    pub index: usize,
+    /// Its place in the subject.
+    pub placement: ObjectPlacement,
+    /// Sides of its box before the turn, as parts of the longest.
+    pub sides: Vec3,
+}
+
 impl Session {
     /// Entries of the document's `objects`, unknown ones included.
     pub fn object_count(&self) -> usize {
@@ -34,6 +45,31 @@ impl Session {
     /// The selected object as the picture shows it.
     pub fn selected_object(&self) -> Option<&SceneObject> {
         self.object(self.selection.object()?)
+    }
+
+    /// An object where it is seen, once its mesh and the subject have come.
+    pub fn placed_object(&self, object: &SceneObject) -> Option<PlacedObject> {
+        let frames = &self.view.object_frames;
+        let (_, frame) = frames.iter().find(|(source, _)| *source == object.source)?;
+        let subject = self.view.subject.as_ref()?;
+        let mm_per_unit = f64::from(subject.mm_per_unit);
+        // One without a place lies where its file says.
+        let own = || ObjectPlacement {
+            at: ((frame.middle_mm - subject.middle_mm) / mm_per_unit).as_vec3(),
+            rotate: Quat::IDENTITY,
+            size: (frame.mm_per_unit / mm_per_unit) as f32,
+        };
+        Some(PlacedObject {
+            index: object.index,
+            placement: object.placement.unwrap_or_else(own),
+            sides: frame.bounds.max - frame.bounds.min,
+        })
+    }
+
+    /// Asks whether an object is seen at a pixel of the picture, which is selected then.
+    pub(super) fn ask_what_to_select(&mut self, pixel: [f32; 2]) {
+        let question = Question::new(Place::Pixel(pixel), Command::SelectSeen);
+        self.effect(Effect::Ask(question));
     }
 
     /// Asks where a tool of the program goes: to what the middle of the picture shows.

@@ -394,6 +394,7 @@ mod tests {
         let mut on = |x: f32, y: f32| {
             let pos = Vec3::new(x, y, 0.0);
             let found = Found {
+                object: None,
                 pos,
                 normal: Vec3::Y,
                 pos_in_rest: pos,

@@ -128,6 +128,7 @@ fn what_is_placed_at_a_step_is_there_from_then_on() {
         (2, Tool::Place(TemplateKind::Split))
     );
     let found = Found {
+        object: None,
         pos: Vec3::new(0.0, 0.5, 0.0),
         normal: Vec3::Y,
         pos_in_rest: Vec3::new(0.0, 0.5, 0.0),

@@ -76,6 +76,12 @@ impl Session {
             Command::Select(index) => self.select(Selection::of_template(index)),
             Command::SelectObject(index) => self.select(Selection::of_object(index)),
             Command::AddTool(tool) => self.ask_place_of_tool(tool),
+            Command::SelectAt(pixel) => self.ask_what_to_select(pixel),
+            Command::SelectSeen(_, found) => {
+                if let Some(object) = found.and_then(|found| found.object) {
+                    self.select(Selection::Object(object));
+                }
+            }
             Command::PlaceTool(tool, found) => self.place_tool(tool, found),
             Command::SelectNext(forward) => self.select_next(forward),
             Command::DeleteSelected => self.delete_selected(),

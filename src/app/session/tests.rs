@@ -48,6 +48,7 @@ fn run(session: &mut Session, command: Command) -> Vec<Effect> {
 
 fn found() -> Found {
     Found {
+        object: None,
         pos: Vec3::new(0.1, 0.45, 0.2),
         normal: Vec3::Y,
         pos_in_rest: Vec3::new(0.1, 0.4, 0.2),

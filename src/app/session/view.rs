@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use glam::{DVec3, Vec3};
 
 use super::measures::Measures;
-use crate::data::{Segment, Subject};
+use crate::data::{Segment, Subject, SubjectFrame};
+use crate::document::ObjectSource;
 use crate::math::Aabb;
 
 /// A part of the window in which the object is seen.
@@ -172,6 +173,8 @@ pub struct ViewState {
     pub measures: Measures,
     /// Rises with every subject.
     pub subject_revision: u64,
+    /// The frames of the meshes of objects that have come, by where each comes from.
+    pub object_frames: Vec<(ObjectSource, SubjectFrame)>,
 }
 
 impl ViewState {

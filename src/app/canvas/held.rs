@@ -1,0 +1,93 @@
+//! What the handles over the picture belong to: a template, or an object of the scene.
+
+use glam::Vec3;
+
+use crate::app::session::PlacedObject;
+use crate::document::{Edit, ObjectPlacement, PlacedTemplate};
+use crate::math::{Bent, Placement};
+
+/// Sides of a flat object are taken as this long at least, as parts of its longest side: its box can be seen.
+const THINNEST: f32 = 0.01;
+
+/// What the handles belong to.
+#[derive(Clone, Copy)]
+pub(crate) enum Held<'a> {
+    /// A template, by its box and its main parameter.
+    Template(&'a PlacedTemplate),
+    /// An object, by the box of its mesh: all sides grow together.
+    Object(&'a PlacedObject),
+}
+
+impl<'a> Held<'a> {
+    /// The template; `None` for an object.
+    pub(crate) fn template(self) -> Option<&'a PlacedTemplate> {
+        match self {
+            Self::Template(template) => Some(template),
+            Self::Object(_) => None,
+        }
+    }
+
+    /// Its place among those of its kind.
+    pub(crate) fn index(self) -> usize {
+        match self {
+            Self::Template(template) => template.index,
+            Self::Object(object) => object.index,
+        }
+    }
+
+    /// Its box.
+    pub(crate) fn placement(self) -> Placement {
+        match self {
+            Self::Template(template) => template.placement,
+            Self::Object(object) => Placement {
+                at: object.placement.at,
+                rotate: object.placement.rotate,
+                size: sides_of(object) * object.placement.size,
+            },
+        }
+    }
+
+    /// The curve that it lies along.
+    pub(crate) fn bent(self) -> Option<Bent> {
+        self.template().and_then(PlacedTemplate::bent)
+    }
+
+    /// Subject space from a point of its unit box.
+    pub(crate) fn subject_from_own(self, q: Vec3) -> Vec3 {
+        match self {
+            Self::Template(template) => template.subject_from_template(q),
+            Self::Object(_) => self.placement().subject_from_template(q),
+        }
+    }
+
+    /// The edit that puts it there; `None` if that changes nothing. `sized`: the axis along which a face was dragged.
+    pub(crate) fn put(self, placement: Placement, sized: Option<usize>) -> Option<Edit> {
+        if placement == self.placement() {
+            return None;
+        }
+        Some(match self {
+            Self::Template(template) => Edit::SetPlacement {
+                template: template.index,
+                placement,
+            },
+            Self::Object(object) => {
+                let sides = sides_of(object);
+                let size = sized.map_or(object.placement.size, |axis| {
+                    (placement.size[axis] / sides[axis]).clamp(0.001, 10.0)
+                });
+                Edit::PlaceObject {
+                    object: object.index,
+                    placement: ObjectPlacement {
+                        at: placement.at,
+                        rotate: placement.rotate,
+                        size,
+                    },
+                }
+            }
+        })
+    }
+}
+
+fn sides_of(object: &PlacedObject) -> Vec3 {
+    object.sides.max(Vec3::splat(THINNEST))
+}
