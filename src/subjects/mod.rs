@@ -107,11 +107,6 @@ pub fn mesh(name: &str) -> Option<Mesh> {
     (name == "apple").then(apple::apple)
 }
 
-/// A tool that stands as an object in the scene, mm. `None` for a name that means none.
-pub fn tool(_name: &str) -> Option<Mesh> {
-    None
-}
-
 /// Names of the built-in subjects that are made of voxels, as written in documents.
 pub fn names() -> &'static [&'static str] {
     &[

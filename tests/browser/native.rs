@@ -394,13 +394,16 @@ fn bumpy_ball() -> String {
     text
 }
 
-/// A mesh that a link names is fetched, prepared in a worker and drawn as the native program draws it.
+/// A mesh that a link names is fetched, prepared in a worker and drawn as the native program draws it; so are objects, by
+/// the link's address and of the program's own.
 #[test]
 fn a_mesh_is_drawn_as_the_native_program_draws_it() {
     with_browser(BrowserGpu::Software, |session| async move {
         let bytes = bumpy_ball().into_bytes();
         session.server.add("ball.obj", bytes.clone());
-        let json = r##"{"fabrica":1,"subject":{"src":"ball.obj"},
+        let json = r##"{"fabrica":1,"subject":{"src":"ball.obj"},"objects":[
+            {"src":"ball.obj","at":[-0.3,-0.35,0.3],"size":0.3,"color":"#3366cc","opacity":0.6},
+            {"builtin":"scalpel","name":"knife","at":[0.25,-0.45,0.15],"rotate":[0.3,0.2,0.1,0.93],"size":0.7}],
             "look":{"layers":[{"depth":0,"color":"#b8433a"},{"depth":0.03,"color":"#f2e3b3","grain":0.2}]},
             "templates":[{"kind":"split","at":[0,0,0.1],"size":[0.7,1.2,0.9]}],"camera":{"rotate":[-0.3,0.05,0.1,0.94]}}"##;
         let tab = session
@@ -409,9 +412,17 @@ fn a_mesh_is_drawn_as_the_native_program_draws_it() {
         tab.settled().await;
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
 
-        let subject = surface_of("ball.obj", bytes).into();
+        let ball = surface_of("ball.obj", bytes);
         let native = Native::open().await;
-        let studio = Studio::new(&native.gpu, &subject, true).expect("it fits");
+        let studio = Studio::new(&native.gpu, &Arc::clone(&ball).into(), true).expect("it fits");
+        let knife = tool("scalpel").expect("it is generated");
+        let knife = Surface::new(&knife, None, &mut |_| true).expect("it has a size");
+        let shown = Document::from_json(json).expect("a good document");
+        let sources = shown.illustration().objects.iter().map(|o| o.source.clone());
+        let studio = studio.with_resources(Resources {
+            objects: sources.zip([ball, Arc::new(knife)]).collect(),
+            ..Resources::default()
+        });
         let document: Value = serde_json::from_str(json).expect("JSON");
         let draw = async |document: &Value| {
             let document = Document::from_json(&document.to_string()).expect("a good document");
@@ -420,7 +431,7 @@ fn a_mesh_is_drawn_as_the_native_program_draws_it() {
         };
         let image = draw(&document).await;
         let mut plain = Vec::new();
-        for pointer in ["/templates/0", "/look/layers"] {
+        for pointer in ["/templates/0", "/look/layers", "/objects/0", "/objects/1"] {
             plain.push((pointer, draw(&without(&document, pointer)).await));
         }
         let mut findings = Findings::default();
