@@ -82,7 +82,7 @@ impl Session {
     }
 
     /// A name for an object that no other one has: the wanted one, with a number if need be.
-    fn free_object_name(&self, wanted: &str) -> String {
+    pub(super) fn free_object_name(&self, wanted: &str) -> String {
         let taken = self.illustration().objects.iter();
         let taken: Vec<String> = taken.map(|object| object.name.clone()).collect();
         free_group_name(wanted, &taken)
