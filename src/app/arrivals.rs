@@ -138,11 +138,13 @@ impl App {
                 if self.takes_object(sha256.as_deref()) {
                     return self.session.load_ended();
                 }
-                self.show_incoming();
-                let is_step = self.session.load_done(sha256);
-                if let Some(load) = load {
-                    self.take_segmentations(&load.of, is_step);
+                if sha256
+                    .as_ref()
+                    .is_some_and(|sha256| self.holds_back(sha256))
+                {
+                    return;
                 }
+                self.end_load(sha256);
             }
             LoadEvent::Notice(text) => self.session.notify(Gravity::Warning, text, ""),
             LoadEvent::Failed {
@@ -162,6 +164,16 @@ impl App {
                 self.session
                     .notify(Gravity::Info, words::messages::w().loading_stopped, "");
             }
+        }
+    }
+
+    /// Shows what a load brought that is done, and makes it the document's if it is a file that the reader opened.
+    pub(crate) fn end_load(&mut self, sha256: Option<String>) {
+        let load = self.session.load.clone();
+        self.show_incoming();
+        let is_step = self.session.load_done(sha256);
+        if let Some(load) = load {
+            self.take_segmentations(&load.of, is_step);
         }
     }
 

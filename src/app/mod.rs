@@ -29,6 +29,8 @@ mod arrivals;
 #[cfg(feature = "app")]
 mod canvas;
 #[cfg(feature = "app")]
+mod dropped;
+#[cfg(feature = "app")]
 mod fields;
 #[cfg(feature = "app")]
 mod kit;

@@ -1,5 +1,6 @@
 //! The window: input becomes commands, commands change the session, and what they ask for is done.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use egui::Ui;
@@ -11,7 +12,8 @@ use crate::app::canvas::viewport::{self, Viewport};
 use crate::app::kit::theme;
 use crate::app::kit::{slow_click, widget};
 use crate::app::panel::{
-    catalogue, frames, kept, keys, library, notice, presets, raw, share, shortcuts, strip, transfer,
+    catalogue, dropped, frames, kept, keys, library, notice, presets, raw, share, shortcuts, strip,
+    transfer,
 };
 use crate::app::picture::host::Picture;
 use crate::app::picture::small::OpenPicture;
@@ -22,7 +24,7 @@ use crate::app::session::{
 };
 use crate::app::words::{self, Lang};
 use crate::assets::{Assets, SegmentationsExpected, TissueWork, Want};
-use crate::data::{Resources, Site, SubjectBuilder};
+use crate::data::{Resources, Site, SubjectBuilder, Surface};
 use crate::document::{Document, SegmentsRef};
 use crate::load::LabelFile;
 use crate::render::{Clock, RenderNotice};
@@ -94,6 +96,8 @@ pub struct App {
     pub(crate) tissue: TissueWork,
     /// What lies inside of the tissue that the selected template keeps.
     pub(crate) inside: kept::Inside,
+    /// A mesh file that waits for the reader's answer what it is to be.
+    pub(crate) held_mesh: Option<Arc<Surface>>,
     /// Label volumes of the load under way.
     pub(crate) incoming_labels: Vec<LabelFile>,
     /// The label volumes that the shell was last told to expect.
@@ -207,6 +211,7 @@ impl App {
             slices: Slices::default(),
             tissue: TissueWork::new(start.clock),
             inside: kept::Inside::default(),
+            held_mesh: None,
             incoming_labels: Vec::new(),
             labels_expected: SegmentationsExpected::default(),
             reported_segments: Vec::new(),
@@ -269,6 +274,7 @@ impl App {
             || self.session.is_messages_open
             || self.session.library.is_open
             || self.session.raw_draft().is_some()
+            || self.session.is_asking_about_mesh()
     }
 
     /// True if the graphics device was lost; whoever embeds the app makes a new one with [`App::document`].
@@ -301,6 +307,7 @@ impl App {
     fn perform(&mut self, effects: Vec<Effect>) {
         let services = self.services.as_mut();
         let (mut located, mut recent) = (Vec::new(), Vec::new());
+        let mut mesh = None;
         for effect in effects {
             match effect {
                 Effect::LoadSubject(subject) => {
@@ -310,6 +317,8 @@ impl App {
                 Effect::CancelLoad(ticket) => services.cancel_load(ticket),
                 Effect::AllowHost(ticket) => services.allow_host(ticket),
                 Effect::AnswerRaw(ticket, voxels) => services.answer_raw(ticket, &voxels),
+                Effect::ShowMesh(sha256) => mesh = Some(sha256),
+                Effect::DropMesh => self.held_mesh = None,
                 Effect::StopTissues => self.tissue.stop(&self.assets, self.session.shown()),
                 Effect::FindTissues => self.tissue.find(),
                 Effect::OpenFile => services.open_file(),
@@ -338,6 +347,9 @@ impl App {
                 | Effect::ToggleContrast
                 | Effect::Scale(_) => self.pending.push(effect),
             }
+        }
+        if let Some(sha256) = mesh {
+            self.show_held_mesh(sha256);
         }
         for change in recent {
             self.change_recent(&change);
@@ -445,6 +457,7 @@ impl App {
         }
         frames::ui(ui, &self.session, &mut commands);
         raw::ui(ui, &self.session, &mut commands);
+        dropped::ui(ui, &self.session, &mut commands);
 
         // A drag is one step of undo: it ends when nothing is held any more.
         if !ui.input(|i| i.pointer.any_down())

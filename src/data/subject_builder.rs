@@ -13,6 +13,11 @@ pub struct SubjectBuilder {
 }
 
 impl SubjectBuilder {
+    /// The mesh, if the subject is one.
+    pub fn surface(&self) -> Option<&Arc<Surface>> {
+        self.surface.as_ref()
+    }
+
     /// The subject, and how often which of its values occur if it has values; `None` if no piece came.
     ///
     /// # Errors

@@ -6,6 +6,7 @@ mod bodies;
 mod canvas;
 mod captions;
 mod comfort;
+mod dropping;
 mod library;
 mod looking;
 mod making;

@@ -3,10 +3,10 @@
 use super::harness::{Session, Tab};
 use super::surfaces::surface_of;
 use super::*;
-use fabrica::data::{FieldSamples, Grid, Resources, VolumeBuilder};
+use fabrica::data::{FieldSamples, Grid, Resources, Surface, VolumeBuilder};
 use fabrica::document::{Illustration, TemplateData};
 use fabrica::load::{FieldUse, OneFile, read_field};
-use fabrica::subjects::FINE_RESOLUTION;
+use fabrica::subjects::{FINE_RESOLUTION, tool};
 use image::RgbaImage;
 use serde_json::{Value, json};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -418,7 +418,11 @@ fn a_mesh_is_drawn_as_the_native_program_draws_it() {
         let knife = tool("scalpel").expect("it is generated");
         let knife = Surface::new(&knife, None, &mut |_| true).expect("it has a size");
         let shown = Document::from_json(json).expect("a good document");
-        let sources = shown.illustration().objects.iter().map(|o| o.source.clone());
+        let sources = shown
+            .illustration()
+            .objects
+            .iter()
+            .map(|o| o.source.clone());
         let studio = studio.with_resources(Resources {
             objects: sources.zip([ball, Arc::new(knife)]).collect(),
             ..Resources::default()

@@ -5,6 +5,7 @@ pub(crate) mod captions;
 pub(crate) mod catalogue;
 pub(crate) mod controls;
 pub(crate) mod curve;
+pub(crate) mod dropped;
 pub(crate) mod frames;
 pub(crate) mod kept;
 pub(crate) mod keys;

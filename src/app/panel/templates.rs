@@ -26,9 +26,12 @@ pub(crate) fn ui(
     commands: &mut Vec<Command>,
 ) {
     list_ui(ui, session, commands);
-    widget::divider(ui);
-    objects::list_ui(ui, session, commands);
-    objects::selected_ui(ui, session, commands);
+    let has_objects = session.object_count() > 0;
+    if has_objects {
+        widget::divider(ui);
+        objects::list_ui(ui, session, commands);
+        objects::selected_ui(ui, session, commands);
+    }
     if let Some(template) = session.selected_template() {
         widget::divider(ui);
         template_ui(ui, session, (segments, inside), template, commands);
@@ -40,6 +43,11 @@ pub(crate) fn ui(
         if widget::labelled_button(ui, Icon::Trash, w().delete, false, true).clicked() {
             commands.push(Command::Apply(Edit::RemoveTemplate { template: index }));
         }
+    }
+    // While there are none they take no room from the selected template.
+    if !has_objects {
+        widget::divider(ui);
+        objects::list_ui(ui, session, commands);
     }
 }
 

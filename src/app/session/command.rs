@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::camera::StandardView;
+use super::dropped::MeshUse;
 use super::files::RawCommand;
 use super::found::Found;
 use super::library::LibraryCommand;
@@ -161,6 +162,8 @@ pub enum Command {
     CancelLoad,
     /// Fetches from the host that was asked about.
     AllowHost,
+    /// Answers the question what a mesh file is to be.
+    UseMesh(MeshUse),
     /// Answers the question how the voxels of a bare file lie.
     Raw(RawCommand),
     /// Shows or hides the sheet of keys.

@@ -49,6 +49,10 @@ pub enum Effect {
     CancelLoad(Ticket),
     /// Let a load fetch from the host that the user was asked about.
     AllowHost(Ticket),
+    /// Go on with the mesh of this hash that was held back: it becomes the subject.
+    ShowMesh(String),
+    /// Let go of the mesh that was held back.
+    DropMesh,
     /// Say how the voxels of the file lie that a load asked about.
     AnswerRaw(Ticket, RawVoxels),
     /// Stop finding the tissues of the document.

@@ -8,7 +8,7 @@
 //! |---|---|
 //! | `tool`, `mode`, `walk` | the active tool; author or lesson; the steps of a lesson |
 //! | `selection`, `selecting`, `grouping` | what is selected, and what is done with it and its group |
-//! | `objects`, `bodies` | objects of the scene; what meshes are made of |
+//! | `objects`, `bodies`, `dropped` | objects of the scene; what meshes are made of; what a mesh file is to be |
 //! | `command`, `effect`, `question`, `found`, `sought`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
 //! | `line`, `brush` | the way of a hand, and the ball that paints along it |
@@ -27,6 +27,7 @@ pub mod camera;
 mod clipboard;
 mod clock;
 mod command;
+mod dropped;
 mod effect;
 mod files;
 mod found;
@@ -77,6 +78,7 @@ mod tests;
 pub use self::camera::StandardView;
 pub use self::clipboard::{Clipboard, Copied};
 pub use self::command::{Command, GizmoMode, StepCommand};
+pub use self::dropped::{MeshQuestion, MeshUse};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};
 pub use self::files::{FileChoice, Fit, RawCommand, RawDraft};
 pub use self::found::Found;

@@ -11,6 +11,7 @@ use super::question::{Place, Question};
 use super::selection::Selection;
 use super::session::{Session, Tab};
 use crate::app::words::{in_sentence, objects};
+use crate::data::SubjectFrame;
 use crate::document::{Camera, Edit, ObjectPlacement, SceneObject, free_group_name};
 
 /// A new tool is held like a pen: so far aside from the line of sight, radians, to the upper right.
@@ -51,19 +52,28 @@ impl Session {
     pub fn placed_object(&self, object: &SceneObject) -> Option<PlacedObject> {
         let frames = &self.view.object_frames;
         let (_, frame) = frames.iter().find(|(source, _)| *source == object.source)?;
+        let placement = object.placement.or_else(|| self.own_placement(frame))?;
+        Some(PlacedObject {
+            index: object.index,
+            placement,
+            sides: frame.bounds.max - frame.bounds.min,
+        })
+    }
+
+    /// Where the file of an object says that the object lies, in the subject that is shown.
+    pub(super) fn own_placement(&self, frame: &SubjectFrame) -> Option<ObjectPlacement> {
         let subject = self.view.subject.as_ref()?;
         let mm_per_unit = f64::from(subject.mm_per_unit);
-        // One without a place lies where its file says.
-        let own = || ObjectPlacement {
+        Some(ObjectPlacement {
             at: ((frame.middle_mm - subject.middle_mm) / mm_per_unit).as_vec3(),
             rotate: Quat::IDENTITY,
             size: (frame.mm_per_unit / mm_per_unit) as f32,
-        };
-        Some(PlacedObject {
-            index: object.index,
-            placement: object.placement.unwrap_or_else(own),
-            sides: frame.bounds.max - frame.bounds.min,
         })
+    }
+
+    /// The place of a new object before the camera's target.
+    pub(super) fn held_in_the_middle(&self) -> ObjectPlacement {
+        held_before(self.camera.target, &self.camera)
     }
 
     /// Asks whether an object is seen at a pixel of the picture, which is selected then.
@@ -118,7 +128,7 @@ impl Session {
     }
 
     /// A name for an object that no other one has: the wanted one, with a number if need be.
-    fn free_object_name(&self, wanted: &str) -> String {
+    pub(super) fn free_object_name(&self, wanted: &str) -> String {
         let taken = self.illustration().objects.iter();
         let taken: Vec<String> = taken.map(|object| object.name.clone()).collect();
         free_group_name(wanted, &taken)

@@ -145,7 +145,7 @@ impl Session {
     }
 
     /// The document's own file could not be had, and was asked for in this session: a file that is opened answers.
-    fn waits_for_file(&self) -> bool {
+    pub(super) fn waits_for_file(&self) -> bool {
         let subject = &self.illustration().subject;
         let is_here = is_of(&self.requested, subject);
         let is_file = !matches!(subject, SubjectRef::Builtin { .. });

@@ -4,6 +4,7 @@ use glam::Vec2;
 
 use super::camera;
 use super::command::{Command, StepCommand};
+use super::dropped::MeshUse;
 use super::effect::{Effect, Focus};
 use super::notices::Gravity;
 use super::question::{Place, Question};
@@ -153,6 +154,7 @@ impl Session {
                     self.effects.push(Effect::AllowHost(load.ticket));
                 }
             }
+            Command::UseMesh(answer) => self.use_mesh(answer),
             Command::Raw(command) => self.run_raw(command),
             Command::See(see) => self.run_see(see),
             Command::Tissue(command) => self.run_tissue(command),
@@ -229,7 +231,9 @@ impl Session {
 
     /// Closes or ends the topmost thing: one at a time.
     fn escape(&mut self) {
-        if self.is_share_open {
+        if self.is_asking_about_mesh() {
+            self.use_mesh(MeshUse::Nothing);
+        } else if self.is_share_open {
             self.is_share_open = false;
         } else if self.is_keys_sheet_open || self.is_messages_open {
             self.is_keys_sheet_open = false;

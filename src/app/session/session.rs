@@ -4,6 +4,7 @@
 use super::camera;
 use super::clipboard::Clipboard;
 use super::command::GizmoMode;
+use super::dropped::MeshQuestion;
 use super::effect::{Effect, LinkChange};
 use super::files::{FileChoice, RawDraft};
 use super::library::Library;
@@ -147,6 +148,8 @@ pub struct Session {
     pub saving: Option<f32>,
     /// Number of the message of the last load that failed, until one is done.
     pub(super) load_failure: Option<u64>,
+    /// The reader is asked what a mesh file is to be.
+    pub(super) mesh_question: Option<MeshQuestion>,
     /// What the subject's file leaves to choose.
     pub files: FileChoice,
     /// The subject that was loaded, or is on its way.
@@ -239,6 +242,7 @@ impl Session {
             is_reading: false,
             saving: None,
             load_failure: None,
+            mesh_question: None,
             files: FileChoice::default(),
             requested: None,
             shown_subject: None,

@@ -15,6 +15,15 @@ words! {
         mesh: "mesh file", "Netzdatei", "archivo de malla", "网格文件";
         unknown: "Unknown object", "Unbekannter Gegenstand", "Objeto desconocido", "未知物体";
         unknown_hint: "This version does not know this object. It is kept as it is, and not drawn.", "Diese Version kennt diesen Gegenstand nicht. Er bleibt erhalten und wird nicht gezeichnet.", "Esta versión no conoce este objeto. Se conserva tal cual y no se dibuja.", "此版本不认识这个物体。它会原样保留，但不绘制。";
+        one: "object", "Gegenstand", "objeto", "物体";
+        what_is_it: "What is this mesh?", "Was ist dieses Netz?", "¿Qué es esta malla?", "这个网格是什么？";
+        leave_it: "Leave it", "Nicht verwenden", "Dejarla", "不使用";
+        as_subject: "The subject", "Das Objekt", "El sujeto", "对象";
+        as_subject_hint: "A new document begins with it.", "Ein neues Dokument beginnt mit ihm.", "Empieza con ella un documento nuevo.", "以它开始一个新文档。";
+        as_part: "A part of the subject", "Ein Teil des Objekts", "Una parte del sujeto", "对象的一部分";
+        as_part_hint: "It is cut and moved with the meshes that are there, in the same millimetres. Only beside meshes from files.", "Es wird mit den vorhandenen Netzen geschnitten und bewegt, in denselben Millimetern. Nur neben Netzen aus Dateien.", "Se corta y se mueve con las mallas presentes, en los mismos milímetros. Solo junto a mallas de archivos.", "与现有网格一起被切割和移动，使用相同的毫米坐标。仅限来自文件的网格。";
+        as_object: "An object", "Ein Gegenstand", "Un objeto", "物体";
+        as_object_hint: "It stands beside the subject, and no template moves it.", "Es steht neben dem Objekt, und keine Vorlage bewegt es.", "Está junto al sujeto y ninguna plantilla la mueve.", "位于对象旁边，不受模板影响。";
         row: "Object {0}: {1}", "Gegenstand {0}: {1}", "Objeto {0}: {1}", "物体 {0}：{1}";
         up: "Move the object up", "Gegenstand nach oben", "Subir el objeto", "上移物体";
         down: "Move the object down", "Gegenstand nach unten", "Bajar el objeto", "下移物体";

@@ -70,6 +70,7 @@ pub(crate) const ORDER: [(&str, &[&[&str]]); 3] = [
             &["window.rs"],
             &[
                 "arrivals.rs",
+                "dropped.rs",
                 "fields.rs",
                 "layout.rs",
                 "provisional.rs",
