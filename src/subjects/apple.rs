@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec3, Vec3};
 
-use crate::data::{Coloring, Corners, Mesh, MeshPart};
-use crate::math::linear_from_srgb;
+use super::loft::{Loft, hermite, linear};
+use crate::data::Mesh;
 
 /// Radius and height of the outline, mm, from the middle of the calyx to the middle of the stem's hollow.
 const OUTLINE: [[f64; 2]; 15] = [
@@ -44,82 +44,35 @@ const BROWN: [u8; 3] = [0x5c, 0x42, 0x2b];
 
 /// The apple, mm: parts `body` and `stem`, about 12,000 triangles.
 pub(super) fn apple() -> Mesh {
-    let mut mesh = Mesh {
-        coloring: Coloring::First,
-        colors: Some(Corners {
-            values: Vec::new(),
-            at: Vec::new(),
-        }),
-        ..Mesh::default()
-    };
-    add_tube(&mut mesh, "body", RINGS, AROUND, body_at, skin_at);
-    add_tube(
-        &mut mesh,
-        "stem",
-        STEM_RINGS,
-        STEM_AROUND,
-        stem_at,
-        |_, _| linear(BROWN),
-    );
-    mesh
+    let mut loft = Loft::new();
+    add_tube(&mut loft, RINGS, AROUND, body_at, skin_at);
+    loft.end_part("body");
+    add_tube(&mut loft, STEM_RINGS, STEM_AROUND, stem_at, |_, _| {
+        linear(BROWN)
+    });
+    loft.end_part("stem");
+    loft.finish()
 }
 
-/// Adds a closed part: rings of vertices about an axis from one end to the other, with a vertex at each end. `place`
+/// Adds a closed body: rings of vertices about an axis from one end to the other, with a vertex at each end. `place`
 /// gives mm and `color` linear RGB at a share of the way, 0 to 1, and an angle.
 fn add_tube(
-    mesh: &mut Mesh,
-    name: &str,
+    loft: &mut Loft,
     rings: usize,
     around: usize,
     place: impl Fn(f64, f64) -> DVec3,
     color: impl Fn(f64, f64) -> Vec3,
 ) {
-    let (first, first_triangle) = (mesh.positions.len() as u32, mesh.triangles.len());
-    let mut add = |part: f64, angle: f64| {
-        mesh.positions.push(place(part, angle).as_vec3());
-        if let Some(colors) = &mut mesh.colors {
-            colors.values.push(color(part, angle));
-        }
-    };
-    add(0.0, 0.0);
-    for ring in 1..=rings {
-        for k in 0..around {
-            add(
-                ring as f64 / (rings + 1) as f64,
-                TAU * k as f64 / around as f64,
-            );
-        }
-    }
-    add(1.0, 0.0);
-    let last = first + (rings * around) as u32 + 1;
-    let at = |ring: usize, k: usize| first + 1 + (ring * around + k % around) as u32;
-    for k in 0..around {
-        mesh.triangles.push([first, at(0, k + 1), at(0, k)]);
-    }
-    for ring in 0..rings - 1 {
-        for k in 0..around {
-            let [a, b] = [at(ring, k), at(ring, k + 1)];
-            let [c, d] = [at(ring + 1, k), at(ring + 1, k + 1)];
-            mesh.triangles.extend([[a, b, d], [a, d, c]]);
-        }
-    }
-    for k in 0..around {
-        mesh.triangles
-            .push([at(rings - 1, k), at(rings - 1, k + 1), last]);
-    }
-    if let Some(colors) = &mut mesh.colors {
-        colors
-            .at
-            .extend_from_slice(&mesh.triangles[first_triangle..]);
-    }
-    mesh.parts.push(MeshPart {
-        name: name.to_owned(),
-        triangles: first_triangle..mesh.triangles.len(),
+    let rings = (0..=rings + 1).map(|ring| {
+        let part = ring as f64 / (rings + 1) as f64;
+        let is_tip = ring == 0 || ring == rings + 1;
+        let around = if is_tip { 1 } else { around };
+        let angles = (0..around).map(|k| TAU * k as f64 / around as f64);
+        angles
+            .map(|angle| (place(part, angle), color(part, angle)))
+            .collect()
     });
-}
-
-fn linear(srgb: [u8; 3]) -> Vec3 {
-    Vec3::from(srgb.map(linear_from_srgb))
+    loft.add_body(rings);
 }
 
 /// The outline at a share of its way: a cubic curve through its points (Catmull-Rom).
@@ -138,15 +91,8 @@ fn outline_at(part: f64) -> [f64; 2] {
         [if is_beyond { -r } else { r }, z]
     };
     let [a, b, c, d] = [-1, 0, 1, 2].map(|step| point(i as isize + step));
-    let cubic = |k: usize| {
-        let (m, n) = ((c[k] - a[k]) * 0.5, (d[k] - b[k]) * 0.5);
-        let (t2, t3) = (t * t, t * t * t);
-        b[k] * (2.0 * t3 - 3.0 * t2 + 1.0)
-            + m * (t3 - 2.0 * t2 + t)
-            + c[k] * (3.0 * t2 - 2.0 * t3)
-            + n * (t3 - t2)
-    };
-    [cubic(0), cubic(1)]
+    let slope = |from: [f64; 2], to: [f64; 2]| [0, 1].map(|k| (to[k] - from[k]) * 0.5);
+    hermite([b, slope(a, c), c, slope(b, d)], t)
 }
 
 fn body_at(part: f64, angle: f64) -> DVec3 {

@@ -40,11 +40,13 @@ mod head_soft;
 mod knee;
 mod lanes;
 mod limb;
+mod loft;
 mod paint;
 mod piggybank;
 mod profile;
 mod shape;
 mod tomato;
+mod tools;
 mod torso;
 mod torso_belly;
 mod torso_chest;
@@ -58,6 +60,8 @@ use glam::{DAffine3, DMat3, DVec3, UVec3, Vec3};
 use crate::data::{Grid, Mesh, Segment, Segmentation, SubjectPart, SubjectSink, Volume, Voxels};
 use lanes::LANES;
 use paint::{Block, Canvas, Model, ROWS};
+
+pub use tools::tool;
 
 /// Voxels along the longest side of a subject for the picture that is shown first.
 pub const COARSE_RESOLUTION: u32 = 64;
