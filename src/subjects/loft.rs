@@ -272,8 +272,8 @@ pub(super) fn linear(srgb: [u8; 3]) -> Vec3 {
     Vec3::from(srgb.map(linear_from_srgb))
 }
 
-/// A cubic curve from `a` to `b`, at a share of the way; it leaves `a` by the slope `m` and meets `b` by the slope `n`, a
-/// whole way each.
+/// A cubic curve from `a` to `b`, at a share of the way. It leaves `a` by the slope `m` and meets `b` by the slope `n`,
+/// which count for the whole way.
 pub(super) fn hermite<const N: usize>([a, m, b, n]: [[f64; N]; 4], t: f64) -> [f64; N] {
     let (t2, t3) = (t * t, t * t * t);
     std::array::from_fn(|k| {

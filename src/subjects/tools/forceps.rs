@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use super::{BRUSHED, POLISHED};
+use super::steel::{BRUSHED, POLISHED};
 use crate::subjects::loft::{Loft, Station, curve_at, linear};
 
 /// Height of an arm, its distance from the middle, half of its width and half of its thickness, mm.

@@ -6,14 +6,10 @@ mod forceps;
 mod needle;
 mod retractor;
 mod scalpel;
+mod steel;
 
 use super::loft::Loft;
 use crate::data::Mesh;
-
-/// sRGB colours of steel: brushed, where it is held; polished, where it works; and ground to an edge.
-const BRUSHED: [u8; 3] = [0xa6, 0xaa, 0xad];
-const POLISHED: [u8; 3] = [0x7c, 0x89, 0x98];
-const GROUND: [u8; 3] = [0xc2, 0xcc, 0xd6];
 
 /// A built-in tool, mm, of one part with the tool's name: the same vertices bit for bit on every machine. `None` for a
 /// name that means none.
@@ -36,7 +32,6 @@ mod tests {
 
     use super::*;
     use crate::data::measure;
-    use crate::document::SceneObject;
 
     /// Names with a sum over the bits of their vertices and triangles, and the sides of their boxes, mm.
     const TOOLS: [(&str, u64, [f64; 3]); 4] = [
@@ -53,7 +48,6 @@ mod tests {
     #[test]
     fn every_tool_is_closed_and_right_side_out() {
         assert!(tool("hammer").is_none());
-        assert_eq!(TOOLS.map(|(name, ..)| name), SceneObject::BUILTINS);
         for (name, _, size) in TOOLS {
             let mesh = made(name);
             let all = measure(&mesh.positions, &mesh.triangles);

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{BRUSHED, GROUND, POLISHED};
+use super::steel::{BRUSHED, GROUND, POLISHED};
 use crate::subjects::loft::{Loft, Station, curve_at, linear};
 
 /// Height, half of the width and half of the thickness, mm.

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec2, DVec3};
 
-use super::{BRUSHED, POLISHED};
+use super::steel::{BRUSHED, POLISHED};
 use crate::subjects::loft::{Loft, Station, curve_at, linear};
 
 /// Way from the lip's border, half of the width and half of the thickness of lip, blade and bend, mm.

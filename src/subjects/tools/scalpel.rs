@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec2, DVec3};
 
-use super::{BRUSHED, GROUND, POLISHED};
+use super::steel::{BRUSHED, GROUND, POLISHED};
 use crate::subjects::loft::{Loft, Point, Station, curve_at, hermite, linear};
 
 /// Height, half of the width and half of the thickness of the handle, mm.
