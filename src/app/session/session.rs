@@ -4,7 +4,6 @@
 use super::camera;
 use super::clipboard::Clipboard;
 use super::command::GizmoMode;
-use super::dropped::MeshQuestion;
 use super::effect::{Effect, LinkChange};
 use super::files::{FileChoice, RawDraft};
 use super::library::Library;
@@ -86,6 +85,15 @@ impl Load {
     pub fn is_file(&self) -> bool {
         matches!(self.of, LoadOf::File | LoadOf::Instead)
     }
+}
+
+/// The question about a mesh file.
+#[derive(Clone, Debug)]
+pub struct MeshQuestion {
+    /// The load that brought it, which is over but for its end.
+    pub(super) load: Load,
+    /// SHA-256 of the file's bytes.
+    pub(super) sha256: String,
 }
 
 /// The camera on its way to a standard view or to a point.
