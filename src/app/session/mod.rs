@@ -8,7 +8,8 @@
 //! |---|---|
 //! | `tool`, `mode`, `walk` | the active tool; author or lesson; the steps of a lesson |
 //! | `selection`, `selecting`, `grouping` | what is selected, and what is done with it and its group |
-//! | `objects`, `bodies`, `mesh_use`, `dropped` | objects of the scene; what meshes are made of; what a mesh file is to be |
+//! | `objects`, `bodies` | objects of the scene; what meshes are made of |
+//! | `mesh_use`, `dropped` | what a mesh file is to be |
 //! | `command`, `effect`, `question`, `found`, `sought`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
 //! | `line`, `brush` | the way of a hand, and the ball that paints along it |
