@@ -3,10 +3,10 @@
 use glam::Vec3;
 
 use super::camera::StandardView;
-use super::dropped::MeshUse;
 use super::files::RawCommand;
 use super::found::Found;
 use super::library::LibraryCommand;
+use super::mesh_use::MeshUse;
 use super::notices::Gravity;
 use super::sought::Sought;
 use super::tissues::TissueCommand;

@@ -3,8 +3,9 @@
 use serde_json::{Value, json};
 
 use super::effect::Effect;
+use super::mesh_use::MeshUse;
 use super::selection::Selection;
-use super::session::{Load, LoadOf, Session, Tab};
+use super::session::{LoadOf, MeshQuestion, Session, Tab};
 use crate::app::words::objects;
 use crate::data::SubjectFrame;
 use crate::document::{Edit, MAX_MESHES, MAX_OBJECTS, MeshRef, SubjectBox, SubjectRef};
@@ -13,30 +14,6 @@ use crate::document::{Edit, MAX_MESHES, MAX_OBJECTS, MeshRef, SubjectBox, Subjec
 const FARTHEST: f32 = 1.2;
 /// So is one that is smaller or larger than these.
 const SIZES: std::ops::RangeInclusive<f32> = 0.02..=3.0;
-
-/// What a mesh file is to be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MeshUse {
-    /// It takes the subject's place: a new document begins.
-    Subject,
-    /// A part of the subject, which is made of meshes too.
-    Part,
-    /// An object beside the subject.
-    Object,
-    /// Nothing: all stays as it is.
-    Nothing,
-}
-
-/// The question about a mesh file.
-#[derive(Clone, Debug)]
-pub struct MeshQuestion {
-    /// The load that brought it, which is over but for its end.
-    load: Load,
-    /// SHA-256 of the file's bytes.
-    sha256: String,
-    /// Where its file says that it lies.
-    frame: SubjectFrame,
-}
 
 impl Session {
     /// Asks what the mesh of the load under way is to be. False if that is plain: nothing is shown yet, or the document

@@ -8,7 +8,8 @@
 //! |---|---|
 //! | `tool`, `mode`, `walk` | the active tool; author or lesson; the steps of a lesson |
 //! | `selection`, `selecting`, `grouping` | what is selected, and what is done with it and its group |
-//! | `objects`, `bodies`, `dropped` | objects of the scene; what meshes are made of; what a mesh file is to be |
+//! | `objects`, `bodies` | objects of the scene; what meshes are made of |
+//! | `mesh_use`, `dropped` | what a mesh file is to be |
 //! | `command`, `effect`, `question`, `found`, `sought`, `ticket` | what goes in and out |
 //! | `camera`, `shape`, `tracing`, `measures` | cameras, boxes of new templates, surfaces, distances |
 //! | `line`, `brush` | the way of a hand, and the ball that paints along it |
@@ -38,6 +39,7 @@ mod line;
 mod link;
 mod making;
 mod measures;
+mod mesh_use;
 mod mode;
 mod notices;
 pub mod objects;
@@ -78,7 +80,6 @@ mod tests;
 pub use self::camera::StandardView;
 pub use self::clipboard::{Clipboard, Copied};
 pub use self::command::{Command, GizmoMode, StepCommand};
-pub use self::dropped::{MeshQuestion, MeshUse};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};
 pub use self::files::{FileChoice, Fit, RawCommand, RawDraft};
 pub use self::found::Found;
@@ -87,13 +88,14 @@ pub use self::library::{
     Shipped, changed_recent,
 };
 pub use self::measures::Measures;
+pub use self::mesh_use::MeshUse;
 pub use self::mode::Mode;
 pub use self::notices::{Gravity, Notice, Notices, Offer};
 pub use self::objects::PlacedObject;
 pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
 pub use self::selection::Selection;
-pub use self::session::{Load, LoadOf, STORED_DOCUMENT, Session, Tab};
+pub use self::session::{Load, LoadOf, MeshQuestion, STORED_DOCUMENT, Session, Tab};
 pub use self::small_picture::{
     STORED_PICTURE, STORED_RECENT_PICTURES, SmallPicture, changed_pictures, picture_of,
 };

@@ -4,8 +4,8 @@ use glam::Vec2;
 
 use super::camera;
 use super::command::{Command, StepCommand};
-use super::dropped::MeshUse;
 use super::effect::{Effect, Focus};
+use super::mesh_use::MeshUse;
 use super::notices::Gravity;
 use super::question::{Place, Question};
 use super::selection::Selection;

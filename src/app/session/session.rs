@@ -4,7 +4,6 @@
 use super::camera;
 use super::clipboard::Clipboard;
 use super::command::GizmoMode;
-use super::dropped::MeshQuestion;
 use super::effect::{Effect, LinkChange};
 use super::files::{FileChoice, RawDraft};
 use super::library::Library;
@@ -18,6 +17,7 @@ use super::tracing::Tracing;
 use super::view::ViewState;
 use crate::assets::Want;
 use crate::data::Subject;
+use crate::data::SubjectFrame;
 use crate::document::{
     Autoplay, Camera, Document, DocumentError, Edit, History, Illustration, PlacedTemplate,
     Reading, SubjectRef,
@@ -86,6 +86,17 @@ impl Load {
     pub fn is_file(&self) -> bool {
         matches!(self.of, LoadOf::File | LoadOf::Instead)
     }
+}
+
+/// The question about a mesh file.
+#[derive(Clone, Debug)]
+pub struct MeshQuestion {
+    /// The load that brought it, which is over but for its end.
+    pub(super) load: Load,
+    /// SHA-256 of the file's bytes.
+    pub(super) sha256: String,
+    /// Where its file says that it lies.
+    pub(super) frame: SubjectFrame,
 }
 
 /// The camera on its way to a standard view or to a point.

@@ -804,7 +804,7 @@ fn pointers_of_steps_follow_their_objects() {
             placement,
         })
         .expect("placed");
-    assert_eq!(history.undo_name(), Some("Move knife"));
+    assert_eq!(history.undo_name(), Some("Resize knife"));
     assert_eq!(
         history.document().get("/objects/2/size"),
         Some(&json!(0.001))
