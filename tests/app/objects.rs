@@ -285,3 +285,31 @@ fn the_panel_speaks_other_languages() {
         window.look(&format!("objects_{tag}"));
     }
 }
+
+/// A tool comes from the shell, is drawn, and is moved, turned and sized by its handles.
+#[test]
+fn a_tool_is_dragged_by_its_handles() {
+    let json = r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "objects": [
+        { "builtin": "scalpel", "name": "knife", "at": [0, -0.8, 0], "size": 0.5 } ] }"#;
+    let mut window = Window::open(DESK, json);
+    window.settle();
+    window.look("objects_tool");
+    let placed = |window: &Window| {
+        let placement = window.document().illustration().objects[0].placement;
+        placement.expect("it has a place")
+    };
+    let before = placed(&window);
+    // A dot stands for it until it is selected.
+    window.click("Select knife");
+    window.settle();
+    window.look("objects_handles");
+    let start = window.harness.get_by_label("Move freely").rect().center();
+    window.drag(start, egui::vec2(60.0, 0.0));
+    window.settle();
+    let moved = placed(&window);
+    assert!(moved.at.distance(before.at) > 0.05, "{moved:?}");
+    assert_eq!((moved.rotate, moved.size), (before.rotate, before.size));
+    window.undo();
+    assert_eq!(placed(&window), before);
+    assert_eq!(window.harness.state().selected_object(), Some(0));
+}

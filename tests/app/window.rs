@@ -144,7 +144,16 @@ impl Services for Fake {
             } else {
                 RESOLUTION
             };
-            let generated = fabrica::subjects::generate(name, resolution, &mut Queue(log, ticket));
+            let generated = match (want.role, fabrica::subjects::tool(name)) {
+                (Role::Object, Some(mesh)) => {
+                    let surface = fabrica::data::Surface::new(&mesh, None, &mut |_| true);
+                    let surface = Arc::new(surface.expect("it has a size"));
+                    let event = LoadEvent::Part(SubjectPart::Surface(surface));
+                    log.queue.push(Message::Load { ticket, event });
+                    Ok(())
+                }
+                _ => fabrica::subjects::generate(name, resolution, &mut Queue(log, ticket)),
+            };
             let event = match generated {
                 Ok(()) => LoadEvent::Done { sha256: None },
                 Err(error) => LoadEvent::Failed {
