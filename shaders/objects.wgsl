@@ -64,7 +64,7 @@ fn object_on(origin: vec3f, way: vec3f, after: f32, until: f32) -> ObjectCrossin
                 }
                 triangle++;
             }
-            node = select(least.w, node + 1u, is_met && count == 0u);
+            node = max(select(least.w, node + 1u, is_met && count == 0u), node + 1u);
         }
     }
     return found;

@@ -449,36 +449,33 @@ fn seen_of(ray: Ray, met: Met) -> Seen {
 fn march(asked: Ray, pixel: vec2f) -> Marched {
     var gathered = nothing_gathered();
     var ray = asked;
-    var object: ObjectCrossing;
-    object.object = NO_OBJECT;
-    var objects_met = 0u;
+    var on_ray: ObjectsMet;
     if has_objects != 0u {
-        object = first_object(ray);
-        ray.t_end = end_at_object(ray, object);
+        objects_on(ray, &on_ray);
+        ray.t_end = end_at_object(ray, &on_ray);
     }
     var walk = MeshWalk(unmoved_spot(ray, ray.t_start), 0u, LONGEST_STEP, 1.0, NO_TRIANGLE);
     var steps = 0u;
     var met = met_at_start(ray);
-    for (var crossing = 0u; crossing < MAX_CROSSINGS; crossing++) {
-        if !met.is_met {
+    var crossings = 0u;
+    // What comes next, a part of the subject or an object, is gathered in one place of the program.
+    while gathered.clear > 0.0 && crossings <= MAX_CROSSINGS {
+        if !met.is_met && crossings < MAX_CROSSINGS {
             met = next_met(ray, &walk, &steps);
         }
-        if has_objects != 0u {
-            let until = select(FAR_ON_RAY, met.at.t + OBJECT_FIRST, met.is_met);
-            while object.object != NO_OBJECT && object.part < until && objects_met < MAX_OBJECT_CROSSINGS {
-                gather(&gathered, seen_object(ray, object));
-                object = object_behind(ray, object);
-                objects_met++;
+        var seen: Seen;
+        if has_objects != 0u && is_object_before(&on_ray, select(FAR_ON_RAY, met.at.t + OBJECT_FIRST, met.is_met)) {
+            seen = seen_object(ray, on_ray.items[on_ray.next]);
+            on_ray.next++;
+        } else {
+            if !met.is_met {
+                break;
             }
+            seen = seen_of(ray, met);
+            met.is_met = false;
+            crossings++;
         }
-        if !met.is_met || gathered.clear == 0.0 {
-            break;
-        }
-        gather(&gathered, seen_of(ray, met));
-        if gathered.clear == 0.0 {
-            break;
-        }
-        met.is_met = false;
+        gather(&gathered, seen);
     }
     var color = gathered.color;
     if gathered.found.surface_t >= 0.0 {

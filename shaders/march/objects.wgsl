@@ -11,22 +11,49 @@ const OBJECT_FIRST: f32 = 1e-4;
 /// The next crossing is looked for so far behind the last one, subject units.
 const BEHIND_CROSSING: f32 = 1e-5;
 
-/// The first object on a ray.
-fn first_object(ray: Ray) -> ObjectCrossing {
-    return object_on(ray.origin, ray.dir, 0.0, FAR_ON_RAY);
+/// The objects on a ray, the nearest first.
+struct ObjectsMet {
+    items: array<ObjectCrossing, MAX_OBJECT_CROSSINGS>,
+    count: u32,
+    /// The first that is still to be gathered.
+    next: u32,
 }
 
-/// The next object on a ray.
-fn object_behind(ray: Ray, last: ObjectCrossing) -> ObjectCrossing {
-    return object_on(ray.origin, ray.dir, last.part + BEHIND_CROSSING, FAR_ON_RAY);
+/// Finds the objects on a ray, as far as they are seen, before the ray is marched. The search stands in one place of
+/// the program: software GPUs compile it anew for each place.
+fn objects_on(ray: Ray, met: ptr<function, ObjectsMet>) {
+    (*met).count = 0u;
+    (*met).next = 0u;
+    var after = 0.0;
+    while (*met).count < MAX_OBJECT_CROSSINGS {
+        let found = object_on(ray.origin, ray.dir, after, FAR_ON_RAY);
+        if found.object == NO_OBJECT {
+            break;
+        }
+        (*met).items[(*met).count] = found;
+        (*met).count++;
+        after = found.part + BEHIND_CROSSING;
+        if objects.items[found.object].opacity >= 1.0 - OPAQUE {
+            break;
+        }
+    }
 }
 
 /// Where a ray ends at an object that hides what is behind it.
-fn end_at_object(ray: Ray, first: ObjectCrossing) -> f32 {
-    if first.object == NO_OBJECT || objects.items[first.object].opacity < 1.0 - OPAQUE {
+fn end_at_object(ray: Ray, met: ptr<function, ObjectsMet>) -> f32 {
+    if (*met).count == 0u {
         return ray.t_end;
     }
-    return min(ray.t_end, first.part + 2.0 * frame.step);
+    let last = (*met).items[(*met).count - 1u];
+    if objects.items[last.object].opacity < 1.0 - OPAQUE {
+        return ray.t_end;
+    }
+    return min(ray.t_end, last.part + 2.0 * frame.step);
+}
+
+/// True if an object that is still to be gathered lies before a place of the ray.
+fn is_object_before(met: ptr<function, ObjectsMet>, t: f32) -> bool {
+    return (*met).next < (*met).count && (*met).items[min((*met).next, MAX_OBJECT_CROSSINGS - 1u)].part < t;
 }
 
 /// How an object looks where a ray meets it.

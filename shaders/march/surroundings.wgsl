@@ -103,16 +103,21 @@ fn past_objects(around: Surroundings, pos: vec3f, normal: vec3f, key_dir: vec3f,
         return around;
     }
     let above = pos + normal * ABOVE_SURFACE;
-    var closed = 0.0;
-    var weights = 0.0001;
-    for (var k = 0u; k < occlusion_taps; k++) {
-        let tap = tap_at(k, pos, normal, key_dir, noise);
-        weights += tap.weight;
-        closed += tap.weight * object_cover(above, tap.pos - above);
-    }
     // A ray to another place of the lamp in each pixel and sample makes its shadow soft.
     let turn = 6.2831853 * noise + frame.occlusion_turn;
     let lamp = key_dir + LAMP_SIZE * sqrt(fract(frame.first_step + noise)) * vec3f(cos(turn), sin(turn), cos(1.7 * turn));
-    let shade = 0.75 * object_cover(above, SHADOW_REACH * lamp);
+    var closed = 0.0;
+    var weights = 0.0001;
+    var shade = 0.0;
+    // The last turn is the shadow: the search stands in one place of the program.
+    for (var k = 0u; k <= occlusion_taps; k++) {
+        let tap = tap_at(min(k, max(occlusion_taps, 1u) - 1u), pos, normal, key_dir, noise);
+        let is_shadow = k == occlusion_taps;
+        let cover = object_cover(above, select(tap.pos - above, SHADOW_REACH * lamp, is_shadow));
+        let weight = select(tap.weight, 0.0, is_shadow);
+        weights += weight;
+        closed += weight * cover;
+        shade = 0.75 * cover;
+    }
     return Surroundings(around.openness * (1.0 - closed / weights), around.key_light * (1.0 - shade));
 }

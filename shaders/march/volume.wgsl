@@ -59,12 +59,10 @@ fn passed_between(stretch: Stretch, t_from: f32, t_to: f32) -> f32 {
 fn march(asked: Ray, pixel: vec2f) -> Marched {
     var gathered = nothing_gathered();
     var ray = asked;
-    var object: ObjectCrossing;
-    object.object = NO_OBJECT;
-    var objects_met = 0u;
+    var on_ray: ObjectsMet;
     if has_objects != 0u {
-        object = first_object(ray);
-        ray.t_end = end_at_object(ray, object);
+        objects_on(ray, &on_ray);
+        ray.t_end = end_at_object(ray, &on_ray);
     }
     var walk = walk_along(ray);
     // Share of its opacity that the sample before keeps.
@@ -99,15 +97,15 @@ fn march(asked: Ray, pixel: vec2f) -> Marched {
         var t_from = walk.t_before;
         if has_objects != 0u {
             // Objects part the stretch in which they stand.
-            while object.object != NO_OBJECT && object.part < walk.t && objects_met < MAX_OBJECT_CROSSINGS {
+            while is_object_before(&on_ray, walk.t) {
+                let object = on_ray.items[on_ray.next];
                 let is_at_edge = abs(object.part - crossing.t_edge) < OBJECT_FIRST;
                 let t_object = max(select(object.part, crossing.t_edge, is_at_edge), t_from);
                 seen.opacity = 1.0 - passed_between(stretch, t_from, t_object);
                 gather(&gathered, seen);
                 gather(&gathered, seen_object(ray, object));
                 t_from = t_object;
-                object = object_behind(ray, object);
-                objects_met++;
+                on_ray.next++;
             }
         }
         seen.opacity = 1.0 - passed_between(stretch, t_from, walk.t);
@@ -121,10 +119,9 @@ fn march(asked: Ray, pixel: vec2f) -> Marched {
         walk.t += frame.step / clamp(stretch_along(map.jacobian, ray.dir), 0.6, 3.0);
     }
     if has_objects != 0u {
-        while object.object != NO_OBJECT && gathered.clear > 0.0 && objects_met < MAX_OBJECT_CROSSINGS {
-            gather(&gathered, seen_object(ray, object));
-            object = object_behind(ray, object);
-            objects_met++;
+        while gathered.clear > 0.0 && is_object_before(&on_ray, FAR_ON_RAY) {
+            gather(&gathered, seen_object(ray, on_ray.items[on_ray.next]));
+            on_ray.next++;
         }
     }
     // Once per ray: what stands in the light of its surface.

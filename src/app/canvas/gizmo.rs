@@ -1,5 +1,6 @@
 //! The handles over the picture: a template or an object is moved, turned and sized where it is, and a template's main
-//! parameter is dragged where it acts. Lines and dots are drawn by the interface over the picture with the picture's own projection.
+//! parameter is dragged where it acts. Lines and dots are drawn by the interface over the picture with the picture's
+//! own projection.
 
 use egui::{Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2};
 use glam::{Quat, Vec3};

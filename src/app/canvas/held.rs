@@ -35,7 +35,7 @@ impl<'a> Held<'a> {
         }
     }
 
-    /// Its box.
+    /// Where its box lies: the unit cube of a template, or around the mesh of an object.
     pub(crate) fn placement(self) -> Placement {
         match self {
             Self::Template(template) => template.placement,

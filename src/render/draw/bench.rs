@@ -122,9 +122,9 @@ struct Case {
 /// A mesh to measure beside a subject, and a tool to stand before the subject.
 #[derive(Clone, Debug)]
 pub struct BenchMeshes {
-    /// The mesh.
+    /// Drawn as a subject.
     pub surface: Arc<Surface>,
-    /// The tool.
+    /// Drawn as an object.
     pub tool: Arc<Surface>,
 }
 

@@ -49,7 +49,10 @@ impl RaycastPasses {
             ("has_grid", number(key.has_grid)),
             ("has_edges", number(key.has_edges)),
             ("has_bodies", number(key.has_bodies)),
-            ("has_objects", number(key.has_objects)),
+            (
+                "has_objects",
+                number(key.has_objects && !is_endless_to_compile(gpu, key)),
+            ),
         ];
         let program = if key.is_baked {
             ProgramId::RaycastBaked
@@ -84,6 +87,13 @@ impl RaycastPasses {
         };
         render_pipeline(gpu, &parts)
     }
+}
+
+/// True for a program that the software GPU of browsers compiles for minutes, so that the browser ends it: objects
+/// beside a mesh that templates move. There the picture goes without its objects.
+fn is_endless_to_compile(gpu: &Gpu, key: RaycastKey) -> bool {
+    let is_long = key.subject == SubjectShader::Mesh && key.drawn_kinds != 0;
+    cfg!(target_arch = "wasm32") && gpu.is_software() && is_long
 }
 
 const MEAN_PART: wgpu::BlendComponent = wgpu::BlendComponent {
