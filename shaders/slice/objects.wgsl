@@ -1,5 +1,5 @@
 // Objects in a slice: their surfaces as lines. No template moves them.
-// needs: types.wgsl bind/slice.wgsl affine.wgsl objects.wgsl slice/plane.wgsl
+// needs: types.wgsl bind/slice.wgsl affine.wgsl objects.wgsl march/overrides.wgsl slice/plane.wgsl
 
 /// The object that lies between two places of the slice.
 fn object_between(first: vec2f, second: vec2f) -> ObjectCrossing {
@@ -9,7 +9,7 @@ fn object_between(first: vec2f, second: vec2f) -> ObjectCrossing {
 
 /// Linear RGB of the slice at a place, with the lines of objects over what is there.
 fn with_objects(pixel: vec2f, color: vec3f) -> vec3f {
-    if objects.count == 0u {
+    if has_objects == 0u {
         return color;
     }
     var met = object_between(pixel - vec2f(SLICE_LINE, 0.0), pixel + vec2f(SLICE_LINE, 0.0));

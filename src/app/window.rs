@@ -258,6 +258,7 @@ impl App {
             && self.pending.is_empty()
             && self.session.library.listing != Listing::Asked
             && !self.viewport.is_waiting()
+            && !(self.session.view.is_split && self.slices.is_waiting())
             && !self.preset_pictures.is_waiting()
             && !self.step_pictures.is_waiting()
             && self.picture.as_ref().is_none_or(is_picture_done)

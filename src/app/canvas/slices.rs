@@ -595,6 +595,11 @@ impl Slices {
         }
     }
 
+    /// True while it is asked what lies under the pointer or the crosshair.
+    pub(crate) fn is_waiting(&self) -> bool {
+        self.reading.is_some()
+    }
+
     /// Position, value and segment under the pointer, else under the crosshair.
     fn readout_ui(
         &mut self,
@@ -608,6 +613,7 @@ impl Slices {
         let first = places.slices.iter().flatten().next().copied();
         let Some((pos, rect)) = hovered.or(first.map(|rect| (cross, rect))) else {
             self.readout = None;
+            self.reading = None;
             return;
         };
         if let Some(picture) = picture {

@@ -160,7 +160,10 @@ impl SlicePasses {
     }
 
     fn make(&self, gpu: &Gpu, key: SliceKey) -> wgpu::RenderPipeline {
-        let mut constants = vec![("drawn_kinds", f64::from(key.drawn.drawn_kinds))];
+        let mut constants = vec![
+            ("drawn_kinds", f64::from(key.drawn.drawn_kinds)),
+            ("has_objects", f64::from(u8::from(key.drawn.has_objects))),
+        ];
         let mut program = ProgramId::Slice;
         if key.drawn.keeps_tissue() {
             constants.extend(key.drawn.align_constants());
