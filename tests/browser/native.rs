@@ -405,19 +405,6 @@ fn a_mesh_is_drawn_as_the_native_program_draws_it() {
     );
 }
 
-/// Objects come by their address and from the program itself. (No template acts: with one the software GPU of browsers
-/// does not end compiling.)
-#[test]
-fn objects_are_drawn_as_the_native_program_draws_them() {
-    compare_ball(
-        r##"{"fabrica":1,"subject":{"src":"ball.obj"},"objects":[
-            {"src":"ball.obj","at":[-0.3,-0.35,0.3],"size":0.3,"color":"#3366cc","opacity":0.6},
-            {"builtin":"scalpel","name":"knife","at":[0.25,-0.45,0.15],"rotate":[0.3,0.2,0.1,0.93],"size":0.7}],
-            "camera":{"rotate":[-0.3,0.05,0.1,0.94]}}"##,
-        &["/objects/0", "/objects/1"],
-    );
-}
-
 /// Draws a document of the bumpy ball in the page and natively. Without each of `about` the picture is another.
 fn compare_ball(json: &'static str, about: &'static [&'static str]) {
     with_browser(BrowserGpu::Software, move |session| async move {
