@@ -1,13 +1,16 @@
-//! The dissertation's chapter 6 done again, with ground truth: what baked maps lose, which normals are right, whether
-//! opacity is conserved, what lighting and alignment cost. Maps, scans and pictures come from the program's own WGSL;
-//! what they are held against is f64 closed form.
+//! The dissertation's chapters 6 and 8 done again, with ground truth: what baked maps lose, which normals are right,
+//! whether opacity is conserved, what lighting and alignment cost; how surfaces deform without remeshing, and what that
+//! costs. Maps, scans and pictures come from the program's own WGSL; what they are held against is f64 closed form.
 //!
 //! The claims that must hold are tests. `cargo xtask evaluate` runs the whole, for some minutes, and writes
 //! target/evaluation/index.html; so does `cargo test --test evaluate -- --ignored`.
 
 mod bench;
+#[path = "../support/data.rs"]
+mod data;
 #[path = "../support/gpu.rs"]
 mod gpu;
+mod layered;
 mod maps;
 mod normals;
 mod opacity;
@@ -15,13 +18,23 @@ mod page;
 #[path = "../reference/mod.rs"]
 mod reference;
 mod report;
+#[path = "../support/scatter.rs"]
+mod scatter;
+mod shapes;
+mod surface_report;
+#[path = "../support/surfaces.rs"]
+mod surfaces;
 
 use bench::{Object, Scan};
+use fabrica::data::Surface as MeshSurface;
 use fabrica::document::{Document, PlacedTemplate};
 use glam::{DVec3, UVec3};
+use layered::Layered;
 use maps::{Baked, Places, Precision};
 use normals::{Relief, Surface, normal_errors};
 use opacity::{MODES, haze, stopped};
+use shapes::{Search, Truth};
+use std::sync::Arc;
 
 /// The templates of a document's list.
 fn templates(list: &str) -> Vec<PlacedTemplate> {
@@ -146,6 +159,62 @@ fn opacity_is_what_each_mode_promises() {
             }
         }
     }
+}
+
+#[test]
+fn triangles_that_stay_are_exact_and_moved_vertices_are_not() {
+    let list = templates(surface_report::TURN);
+    let coarse = shapes::egg(24);
+    let fine = Arc::new(coarse.parted());
+    let moved = [&coarse, &fine].map(|surface| shapes::error_of_moved(surface, &list, 4_000));
+    // Parting the triangles in four makes chords half as long, and their height over an arc a quarter.
+    assert!(
+        moved[0].mean > 2.5 * moved[1].mean && moved[0].mean > 1e-3,
+        "{moved:?}"
+    );
+    for surface in [&coarse, &fine] {
+        let ours = shapes::error_of_rays(surface, &list, 300);
+        assert!(ours.worst < 1e-4, "{ours:?}");
+    }
+}
+
+#[test]
+fn a_narrow_pull_is_missed_by_even_steps_and_not_by_the_picture() {
+    let surface = shapes::egg(48);
+    let list = templates(surface_report::PULL);
+    let scene = shapes::scene(&list, 0.4);
+    let rays = shapes::rays(&scene, surface_report::PULLED, 200);
+    let truth = Truth::new(&surface, &list, rays);
+    assert!(truth.met() > 20, "{} rays meet it", truth.met());
+    let layered = Layered::field(&surface, 64);
+    let even = truth.wrong_of(Search::Signs(1.0 / 32.0), &layered, &surface, &list);
+    println!("{} rays meet it; even steps lose {even:?}", truth.met());
+    assert!(even.0 > 0, "even steps miss nothing: {even:?}");
+    assert_eq!(truth.wrong_of_picture(&surface, &scene), 0);
+}
+
+#[test]
+fn depth_maps_do_for_what_they_see_whole() {
+    let rays = layered::rays(1_000, true);
+    let wrong = |surface: &MeshSurface, kind: fn(&MeshSurface, u32) -> Layered| {
+        layered::error_of(&kind(surface, 64), surface, &rays).wrong
+    };
+    let (egg, vase) = (shapes::egg(48), shapes::vase(48));
+    let errors = [
+        wrong(&egg, Layered::field),
+        wrong(&egg, Layered::depth_map),
+        wrong(&egg, Layered::cube),
+        wrong(&vase, Layered::field),
+        wrong(&vase, Layered::cube),
+    ];
+    println!("{errors:?}");
+    let [egg_field, egg_map, egg_cube, vase_field, vase_cube] = errors;
+    assert!(
+        egg_field < 0.02 && egg_map < 0.08 && egg_cube < 0.08,
+        "{errors:?}"
+    );
+    // No side of the cube sees the vase's inner wall.
+    assert!(vase_field < 0.05 && vase_cube > 0.1, "{errors:?}");
 }
 
 /// Not a test: writes the report.

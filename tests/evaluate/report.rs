@@ -45,7 +45,7 @@ pub(crate) fn deformations() -> Vec<(&'static str, Vec<PlacedTemplate>)> {
     .collect()
 }
 
-fn folder() -> PathBuf {
+pub(crate) fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target/evaluation")
 }
 
@@ -54,19 +54,20 @@ pub(crate) fn write() {
     std::fs::create_dir_all(&folder).expect("target/evaluation");
     let mut page = Page::new();
     let info = &gpu().info;
-    page.title("Evaluation of deformed volumes");
+    page.title("Evaluation of deformed volumes and surfaces");
     page.text(&format!(
-        "Chapter 6 of Correa’s dissertation (2007) done again, with ground truth. Maps, scans and pictures come from Fabrica’s WGSL on {} ({}); what they are held against is closed form in f64. Written by <code>cargo xtask evaluate</code>, version {}; every number comes out again.",
+        "Chapters 6 and 8 of Correa’s dissertation (2007) done again, with ground truth. Maps, scans and pictures come from Fabrica’s WGSL on {} ({}); what they are held against is closed form in f64. Written by <code>cargo xtask evaluate</code>, version {}; every number comes out again.",
         info.name, info.driver_info, env!("CARGO_PKG_VERSION")
     ));
     type Part = fn(&mut Page);
-    let parts: [(&str, Part); 6] = [
+    let parts: [(&str, Part); 7] = [
         ("maps", maps),
         ("Jacobians", jacobians),
         ("opacity", opacity),
         ("normals", normals),
         ("shape", shape),
         ("cost", cost),
+        ("surfaces", super::surface_report::write),
     ];
     for (name, part) in parts {
         let start = std::time::Instant::now();

@@ -1,4 +1,4 @@
-//! `cargo xtask evaluate`: the dissertation's chapter 6 with ground truth, as a page of tables and plots.
+//! `cargo xtask evaluate`: the dissertation's chapters 6 and 8 with ground truth, as a page of tables and plots.
 
 use crate::run::{Outcome, report, root, run};
 use crate::setup;
