@@ -785,3 +785,95 @@ fn an_exported_map_is_the_same_map_when_it_comes_back() {
     assert!(other_side * 5 < gaps, "{other_side} of {gaps}");
     let _left = std::fs::remove_dir_all(&folder);
 }
+
+/// `probe` and `export-field` tell the map with its constraints: in tissue as `--object` has it.
+#[test]
+fn the_map_is_told_with_its_constraints() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let run = |args: &[&str], input: &str| {
+        use std::io::Write as _;
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_fabrica"))
+            .args(args)
+            .current_dir(folder)
+            .stdin(std::process::Stdio::piped())
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        let mut pipe = child.stdin.take().expect("a pipe");
+        pipe.write_all(input.as_bytes()).expect("it reads");
+        drop(pipe);
+        let out = child.wait_with_output().expect("it ends");
+        let err = String::from_utf8(out.stderr).expect("text");
+        assert!(out.status.success(), "{args:?}: {err}");
+        (String::from_utf8(out.stdout).expect("text"), err)
+    };
+    let sources = |text: &str| -> Vec<([f64; 3], f64)> {
+        let lines = text.lines().map(|line| {
+            let numbers = line.split(',').skip(3).take(4);
+            let numbers: Vec<f64> = numbers.map(|x| x.parse().expect("a number")).collect();
+            ([numbers[0], numbers[1], numbers[2]], numbers[3])
+        });
+        lines.collect()
+    };
+    let document = |constrain: &str, align: &str| {
+        format!(
+            r#"{{"fabrica":1,"subject":{{"builtin":"bar"}},"templates":[{{"kind":"twist","rotate":[0.7071,0,0,0.7071],"size":[0.6,0.6,1],"params":{{"angle":0.8}}{constrain}{align}}}]}}"#
+        )
+    };
+    let constrain = r#","constrain":{"by":"displacement","keep":["core"]}"#;
+    let align = r#","align":{"to":"segment","keep":["core"]}"#;
+    for (name, text) in [
+        ("free", document("", "")),
+        ("kept", document(constrain, "")),
+        ("both", document(constrain, align)),
+    ] {
+        std::fs::write(folder.join(format!("{name}.json")), text).expect("written");
+    }
+    let mut random = Random(0x0b01_71ca);
+    let points: String = (0..2000)
+        .map(|_| random.vector(-0.2, 0.2) * Vec3::new(1.0, 2.2, 1.0))
+        .map(|p| format!("{},{},{}\n", p.x, p.y, p.z))
+        .collect();
+    let free = sources(&run(&["probe", "free.json"], &points).0);
+    let kept = sources(&run(&["probe", "kept.json"], &points).0);
+    let object = sources(&run(&["probe", "kept.json", "--object"], &points).0);
+    let both = sources(&run(&["probe", "both.json"], &points).0);
+    let off =
+        |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+    assert_eq!(kept, object, "the map is what the object shows");
+    assert_eq!(kept, both, "alignment is no map");
+    let changed = free
+        .iter()
+        .zip(&kept)
+        .filter(|(a, b)| off(&a.0, &b.0) > 1e-3)
+        .count();
+    assert!(changed > 100, "the constraint changes {changed} of them");
+    // And the file is that map, to its samples.
+    let (_, err) = run(
+        &[
+            "export-field",
+            "both.json",
+            "-o",
+            "map.nrrd",
+            "--size",
+            "64",
+        ],
+        "",
+    );
+    assert!(
+        err.contains("/templates/0/align"),
+        "the alignment is named: {err}"
+    );
+    let back = r#"{"fabrica":1,"subject":{"builtin":"bar"},"templates":[{"kind":"field","params":{"src":"map.nrrd"}}]}"#;
+    std::fs::write(folder.join("back.json"), back).expect("written");
+    let back = sources(&run(&["probe", "back.json"], &points).0);
+    let worst = |of: &[([f64; 3], f64)]| {
+        let ways = back.iter().zip(of).map(|(a, b)| off(&a.0, &b.0));
+        ways.fold(0.0, f64::max)
+    };
+    let (right, wrong) = (worst(&kept), worst(&free));
+    println!("the file is off by {right:.1e}, from the map without constraints by {wrong:.1e}");
+    assert!(right < 0.012 && wrong > 4.0 * right, "{right}, {wrong}");
+}
