@@ -12,8 +12,8 @@
 //
 // Differs from the source: A is a distance and not 0 or 1, so that the cut is found by bisection and has a normal; 1
 // where nothing is displaced. What the sum misses at a point, where points lie too close for 32 bits, is added in a
-// bump (1 - |p - p_i|²/w²)³ up to the next point. Solved by the processor (src/displace/interpolant.rs), which leaves in
-// `templates.pool`, from `held` on:
+// bump (1 - |p - p_i|²/w²)³ up to the next point. Solved by the processor (src/displace/interpolant.rs), which leaves
+// in `templates.pool`, from `held` on:
 //   points and bumps of P, those of Q, pieces of the cut;  per side b_0, B x, B y, B z, then a place (w: 0, or 1/w² of
 //   a bump) and a coefficient per point;  per piece a and b
 // Beyond the faces at rest; `edge` brings the displacement to 0 there.

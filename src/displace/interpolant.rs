@@ -9,8 +9,8 @@ use glam::{DVec2, DVec3, Vec3};
 /// A point that lies nearer than this to one before it is left out, template units: two different displacements at one
 /// place have no smooth interpolant.
 const NEAREST: f64 = 1e-3;
-/// The coefficients of a side are kept below this in sum where the basis falls with the distance: 32-bit floats hold the
-/// result to a few ten thousandths then, and a larger sum is a fold of broad functions that nearly cancel.
+/// The coefficients of a side are kept below this in sum where the basis falls with the distance: 32-bit floats hold
+/// the result to a few ten thousandths then, and a larger sum is a fold of broad functions that nearly cancel.
 const MOST_FALLING: f64 = 4000.0;
 /// The terms of a side are kept below this in sum at any place where the basis grows with the distance, so that the map
 /// has noise of 1e-5 and not more: a term was measured to have noise of 3e-8 of it where the basis is a square root, of
@@ -19,8 +19,8 @@ const MOST_ROOTS: f64 = 200.0;
 const MOST_POWERS: f64 = 64.0;
 /// A point that is missed by more than this is told of, template units.
 const MISSED: f64 = 1e-3;
-/// Least and greatest weight of smallness that is tried where points lie too close for their softness, and how often the
-/// range is halved.
+/// Least and greatest weight of smallness that is tried where points lie too close for their softness, and how often
+/// the range is halved.
 const RIDGE: [f64; 2] = [1e-15, 1e3];
 const RIDGE_TURNS: usize = 26;
 
@@ -51,10 +51,10 @@ pub struct Missed {
 
 /// The solved interpolant. Source: Correa, eq. 4.32 to 4.36.
 ///
-/// Where points lie so close for their softness that only large coefficients would reach them, which 32 bits cannot hold,
-/// the sum is the smoothest that keeps its terms small (it weighs the squares of the coefficients against what it misses:
-/// Wahba 1990, "Spline models for observational data", section 1.3), and what it misses at a point is added in a bump no
-/// wider than the way to the next point. Both change evenly with the points; the points themselves are met.
+/// Where points lie so close for their softness that only large coefficients would reach them, which 32 bits cannot
+/// hold, the sum is the smoothest that keeps its terms small (it weighs the squares of the coefficients against what it
+/// misses: Wahba 1990, "Spline models for observational data", section 1.3), and what it misses at a point is added in
+/// a bump no wider than the way to the next point. Both change evenly with the points; the points themselves are met.
 ///
 /// Differs from the source: the basis is scaled to 1 at its centre (the same functions with other coefficients); the
 /// linear part is the one of least slope where the points do not determine it (all in a plane, say); the bumps.
@@ -295,19 +295,24 @@ fn solve(points: &[(DVec3, DVec3)], p: &[f64; MAX_PARAM_FLOATS]) -> Side {
         };
     }
     let system = System::of(points, p);
-    let exact = system.solved(0.0).filter(|s| s.terms <= system.most);
-    let is_exact = exact.is_some();
-    let solution = exact.unwrap_or_else(|| system.tamed());
+    if let Some(exact) = system.solved(0.0).filter(|s| s.terms <= system.most) {
+        return Side {
+            centers,
+            coefficients: exact.coefficients,
+            polynomial: exact.polynomial,
+            bumps: Vec::new(),
+        };
+    }
+    // As the shader gets them, so that the bumps make up for the rounding too.
+    let tamed = system.tamed();
     let rounded = |v: DVec3| v.as_vec3().as_dvec3();
     let mut side = Side {
         centers: centers.into_iter().map(rounded).collect(),
-        coefficients: solution.coefficients.into_iter().map(rounded).collect(),
-        polynomial: solution.polynomial.map(rounded),
+        coefficients: tamed.coefficients.into_iter().map(rounded).collect(),
+        polynomial: tamed.polynomial.map(rounded),
         bumps: Vec::new(),
     };
-    if !is_exact {
-        side.bumps = bumps(points, &side, p);
-    }
+    side.bumps = bumps(points, &side, p);
     side
 }
 

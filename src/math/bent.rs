@@ -167,7 +167,8 @@ impl Bent {
     }
 
     /// As the shader takes it: x where the line begins along the box, y its height over the bottom, z the number of
-    /// segments (below 0: lit as a smooth line), w the straight box's side along x; then place and mitre of every corner.
+    /// segments (below 0: lit as a smooth line), w the straight box's side along x; then place and mitre of every
+    /// corner.
     pub fn rows(&self) -> Vec<[f32; 4]> {
         let segments = self.joints.len() - 1;
         let head = [
@@ -428,8 +429,8 @@ mod tests {
         }
     }
 
-    /// A spline of any number of points goes through each of them, and turns no more at a corner than the sixteen pieces
-    /// did that left its points aside.
+    /// A spline of any number of points goes through each of them, and turns no more at a corner than the sixteen
+    /// pieces did that left its points aside.
     #[test]
     fn a_spline_meets_its_own_points() {
         for count in 3..=9_usize {

@@ -38,8 +38,8 @@ pub fn solved_points(template: &PlacedTemplate) -> Vec<[f32; 4]> {
     Interpolant::of(&given(template, None)).pack()
 }
 
-/// The control points of an `rbf` that its map misses, because another point with another displacement stands at the same
-/// place; none for other kinds.
+/// The control points of an `rbf` that its map misses, because another point with another displacement stands at the
+/// same place; none for other kinds.
 pub fn missed_points(template: &PlacedTemplate) -> Vec<Missed> {
     match &template.data {
         TemplateData::Points(points) => Interpolant::of(&given(template, None)).missed(points),
