@@ -59,7 +59,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Lattice { corner, cells, side, count }
         KeptGroup { keeps, run, gives_way_to, constraint, depth, blend, longest, before }
         Kept {
-            distance_from_rest, distance_dims, spacing, slab_count, exact_slab, depth_slab, label_sets, items, motions,
+            distance_from_rest, distance_dims, spacing, slab_count, exact_slab, depth_slab, label_sets, items, motions, seams,
         }
         DistanceJob {
             volume_from_voxel, fine, coarse, spacing, ratio, label_from_voxel, half_box, half_ball, channel, threshold, reads_labels,
