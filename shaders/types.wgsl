@@ -35,7 +35,7 @@ struct Templates {
     /// How many of them count.
     count: u32,
     /// What templates hold besides parameters, see displace/{curve,rbf,field}.wgsl. The first row is 0: nothing held.
-    pool: array<vec4f, 640>,
+    pool: array<vec4f, 1536>,
 }
 
 /// One picture's camera and sampling.
@@ -341,8 +341,8 @@ struct KeptGroup {
     blend: f32,
     /// The longest displacement of the group, subject units.
     longest: f32,
-    /// How far around a segment that moves as a whole other tissue goes with it, subject units.
-    fade: f32,
+    /// Tissue that gives way is where the templates before this index have brought it; 0: it is at rest.
+    before: u32,
 }
 
 /// Bit of `KeptGroup.keeps`: what lies deeper than `depth` under the outer surface.
@@ -357,7 +357,8 @@ const CONSTRAIN_RIGID: u32 = 3u;
 struct Kept {
     /// Rest space to texture space of the distances.
     distance_from_rest: Affine,
-    /// xyz: voxels of the distances along each axis.
+    /// xyz: voxels of the distances along each axis. w: by how much a distance between them may be too long, subject
+    /// units.
     distance_dims: vec4f,
     /// Smallest spacing of the distances, subject units.
     spacing: f32,
@@ -372,8 +373,12 @@ struct Kept {
     label_sets: array<vec4u, 8>,
     /// As in `Templates`, in the same order; only heads of groups count.
     items: array<KeptGroup, 32>,
-    /// Rigid motions (subject space to rest space) of segments that move as a whole; only heads of groups count.
-    motions: array<Affine, 32>,
+    /// Rigid motions (subject space to rest space) of segments that move as a whole, four for each template: those of
+    /// the four sets. Of a group that gives way by its coordinate, the longest displacement in the first number of its
+    /// first. Only heads of groups count.
+    motions: array<Affine, 128>,
+    /// How far around each segment that moves as a whole other tissue goes with it, subject units, per head and set.
+    seams: array<vec4f, 32>,
 }
 
 /// One pass of the making of distances.
@@ -386,8 +391,14 @@ struct DistanceJob {
     coarse: vec4u,
     /// xyz: spacing of fine voxels, subject units.
     spacing: vec4f,
-    /// Fine voxels along each side of a coarse one.
-    factor: u32,
+    /// xyz: fine voxels from one coarse sample to the next.
+    ratio: vec4f,
+    /// Fine voxels to voxels of the segmentation.
+    label_from_voxel: Affine,
+    /// How much of a voxel is taken off a way along each axis, fine voxels: half for boxes, else 0.
+    half_box: f32,
+    /// How much is taken off a distance, subject units: half a voxel for balls, else 0.
+    half_ball: f32,
     /// Channel that is worked on: 0 to 3 for a set, 4 for the outside.
     channel: u32,
     /// Normalised value from which on a voxel is something.

@@ -11,10 +11,11 @@
 //     0     ½     1
 //
 // Differs from the source: A is a distance and not 0 or 1, so that the cut is found by bisection and has a normal; 1
-// where nothing is displaced. Solved by the processor (src/displace/rbf.rs), which leaves in `templates.pool`, from
-// `held` on:
-//   points of P, points of Q, pieces of the cut;  per side b_0, B x, B y, B z, then a place and a coefficient per
-//   point;  per piece a and b
+// where nothing is displaced. What the sum misses at a point, where points lie too close for 32 bits, is added in a
+// bump (1 - |p - p_i|²/w²)³ up to the next point. Solved by the processor (src/displace/interpolant.rs), which leaves
+// in `templates.pool`, from `held` on:
+//   points and bumps of P, those of Q, pieces of the cut;  per side b_0, B x, B y, B z, then a place (w: 0, or 1/w² of
+//   a bump) and a coefficient per point;  per piece a and b
 // Beyond the faces at rest; `edge` brings the displacement to 0 there.
 // needs: types.wgsl bind/templates.wgsl displace/frame.wgsl
 
@@ -54,6 +55,17 @@ fn inner_weight(q: vec3f, edge: f32) -> f32 {
     return s.x * s.y * s.z;
 }
 
+/// A power of a number of at least 1; where there is a function of its own it has less noise.
+fn power(x: f32, exponent: f32) -> f32 {
+    if exponent == -0.5 {
+        return inverseSqrt(x);
+    }
+    if exponent == 0.5 {
+        return sqrt(x);
+    }
+    return pow(x, exponent);
+}
+
 /// p0: strength, softness, exponent, extrude. p1: falloff, edge. held: index in the pool.
 fn displace_rbf(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Displaced {
     let first = held;
@@ -83,8 +95,17 @@ fn displace_rbf(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Displ
     let exponent = select(p0.z, -0.05, abs(p0.z) < 0.05);
     let inverse = 1.0 / (p0.y * p0.y);
     for (var i = 0u; i < count; i++) {
-        let way = at - templates.pool[from_index + 4u + 2u * i].xyz;
-        sum += templates.pool[from_index + 5u + 2u * i].xyz * pow(dot(way, way) * inverse + 1.0, exponent);
+        let center = templates.pool[from_index + 4u + 2u * i];
+        let way = at - center.xyz;
+        let square = dot(way, way);
+        var part = 0.0;
+        if center.w == 0.0 {
+            part = power(square * inverse + 1.0, exponent);
+        } else {
+            let near = max(1.0 - square * center.w, 0.0);
+            part = near * near * near;
+        }
+        sum += templates.pool[from_index + 5u + 2u * i].xyz * part;
     }
     let across = select(1.0, falloff_weight(abs(q.z - 0.5), p1.x), is_flat);
     let moved = sum * (p0.x * across * inner_weight(q, p1.y));

@@ -1,17 +1,33 @@
 // Displacements that give way to kept tissue (Correa, section 5.7).
 //
-// Let C(x) = min(1, distance of x to the kept set / the group's longest displacement). There are three modes:
-// - by displacement: D(x) becomes C(x) D(x), which is never longer than the way to the kept set (eq. 5.15);
-// - by coordinate: the main parameter of each member is multiplied by C(x) (eq. 5.19; the templates here are even along
-//   their coordinate, so that a twist near its anchor is a smaller twist);
-// - rigid: the kept tissue moves as a whole, by a rigid motion that pass/rigid.wgsl finds.
-// In the first two modes kept tissue stays where it is.
+// Let d(x) be a distance that the way from x to the kept set has at least, D(x) the displacement. There are three
+// modes:
+// - by displacement: D(x) becomes min(1, d(x) / (h |D(x)|)) D(x), with h = HEADROOM;
+// - by coordinate: the main parameter of each member is multiplied by min(1, d(x) / longest), `longest` the group's
+//   longest displacement (eq. 5.19; the templates here are even along their coordinate, so that a twist near its anchor
+//   is a smaller twist), and what comes of it is no longer than d(x);
+// - rigid: the kept tissue moves as a whole, by a rigid motion that pass/rigid.wgsl finds, each set by its own.
+// In the first two modes kept tissue stays where it is. In a list that is where the templates before have brought it:
+// the object is asked there, as for an alignment (`KeptGroup.keeps` has the set too, march/asked.wgsl), and the
+// distance is that at rest from what is there.
+//
+// Differs from the source: eq. 5.15 multiplies by d(x) / max |D|, one number for the whole space, so that tissue far
+// from what is kept hardly moves where the displacement is long elsewhere. Here the displacement at the point itself is
+// compared. The promise is the same, with a shorter proof: the source p of a point x has
+// |p - x| = min(|D|, d(x) / h) <= d(x), and the ball of radius d(x) about x holds nothing of the kept set. Along a
+// displacement of one direction u in that zone the map has the slope 1 + (u . grad d) / h >= 1 - 1/h > 0: it does not
+// fold, as eq. 5.15 may where |D| is its maximum. `d` is the distance as it is stored less what linear interpolation
+// between its samples may add (`kept.distance_dims.w`).
 // needs: types.wgsl affine.wgsl kinds.wgsl bind/templates.wgsl bind/kept.wgsl displace/frame.wgsl displace/compose.wgsl
 //   march/kept.wgsl
 
 /// How displacements give way to kept tissue, a bit for each CONSTRAIN_ mode that occurs; 0: none does. A pipeline
 /// constant.
 override has_constraints: u32 = 14u;
+
+/// How many times as long as the displacement the way to kept tissue has to be for the displacement to be whole. Nearer
+/// to 1 more tissue goes its whole way, and what lies beside kept tissue is stretched more, by h / (h - 1) at most.
+const HEADROOM: f32 = 1.25;
 
 /// The main parameters among the first four of a kind, which say how much a template does: 1 for those, 0 for others.
 fn main_parameters(kind: u32) -> vec4f {
@@ -37,33 +53,65 @@ fn group_done_partly(pos: vec3f, bits: u32, part: f32) -> Mapped {
     return Mapped(pos + sum, continuity);
 }
 
-/// The map where a segment moves as a whole: the segment by its own rigid motion, the tissue around by a blend that
-/// turns into the map of the templates (`whole`) with the distance. Where the templates alone would move other tissue
-/// through the segment, tissue beside the segment is taken.
+/// What the templates before a group have at a point in which the group acts: where it was at rest; the continuity is
+/// below 0 where they opened a gap. Constraints of theirs are left out: tissue that they guard too has not moved, and
+/// `before` is where the first of those stands.
+fn before_group(pos: vec3f, head: u32) -> Mapped {
+    let before = kept.items[head].before;
+    if before == 0u {
+        return Mapped(pos, 1.0);
+    }
+    return rest_from_subject(pos, ~(0xffffffffu << before));
+}
+
+/// True if what the templates before a group have at a point is in one of some sets.
+fn is_guarded(pos: vec3f, head: u32, sets: u32) -> bool {
+    let there = before_group(pos, head);
+    return there.continuity >= 0.0 && is_kept(there.pos, sets, 0.0);
+}
+
+/// How far a point lies from some sets as the templates before a group have them, by the distance at rest.
+fn distance_to_guarded(pos: vec3f, head: u32, sets: u32) -> f32 {
+    return distance_to_kept(before_group(pos, head).pos, sets, 0.0, kept.exact_slab);
+}
+
+/// The map where segments move as a whole: each segment by its own rigid motion, the tissue around by a blend that
+/// turns into the map of the templates (`whole`) with the distance; between segments the nearer has more to say (by the
+/// inverse square of the distance). Where the templates alone would move other tissue through a segment, tissue beside
+/// the segment is taken.
 fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     let sets = kept.items[head].gives_way_to;
-    let rigid = apply_affine(kept.motions[head], pos);
-    if is_kept(rigid, sets, 0.0) {
-        return Mapped(rigid, 1.0);
+    var by = vec3f(0.0);
+    var total = 1e-9;
+    for (var channel = 0u; channel < 4u; channel++) {
+        let own = sets & (1u << channel);
+        if own != 0u {
+            let rigid = apply_affine(kept.motions[4u * head + channel], pos);
+            if is_guarded(rigid, head, own) {
+                return Mapped(rigid, 1.0);
+            }
+            let away = max(distance_to_guarded(rigid, head, own), 0.0);
+            let nearness = 1.0 / max(away * away, 1e-8);
+            let part = 1.0 - smoothstep(0.0, max(kept.seams[head][channel], 1e-6), away);
+            by += nearness * part * (rigid - whole.pos);
+            total += nearness;
+        }
     }
-    let exact = kept.exact_slab;
-    let away = max(distance_to_kept(rigid, sets, 0.0, exact), 0.0);
-    let part = 1.0 - smoothstep(0.0, kept.items[head].fade, away);
-    var source = mix(whole.pos, rigid, part);
+    var source = whole.pos + by / total;
     let voxel = kept.spacing;
     for (var turn = 0u; turn < 2u; turn++) {
-        let here = distance_to_kept(source, sets, 0.0, exact);
+        let here = distance_to_guarded(source, head, sets);
         if here >= 0.5 * voxel {
             break;
         }
         var slope = vec3f(0.0);
         for (var axis = 0u; axis < 3u; axis++) {
             let along = select(vec3f(0.0), vec3f(voxel), vec3u(0u, 1u, 2u) == vec3u(axis));
-            slope += along * (distance_to_kept(source + along, sets, 0.0, exact) - here);
+            slope += along * (distance_to_guarded(source + along, head, sets) - here);
         }
         source += slope / max(length(slope), 1e-9) * (0.5 * voxel - here);
     }
-    return Mapped(source, select(whole.continuity, -1.0, is_kept(source, sets, 0.0)));
+    return Mapped(source, select(whole.continuity, -1.0, is_guarded(source, head, sets)));
 }
 
 /// The map of one group, with its constraint.
@@ -85,19 +133,21 @@ fn group_map(pos: vec3f, head: u32, bits: u32) -> Mapped {
         return whole;
     }
     let sets = kept.items[head].gives_way_to;
-    if is_kept(pos, sets, 0.0) {
+    if is_guarded(pos, head, sets) {
         return Mapped(pos, 1.0);
     }
-    // Between its voxels a distance is wrong by less than half of one.
-    let away = max(distance_to_kept(pos, sets, 0.0, kept.exact_slab) - 0.5 * kept.spacing, 0.0);
-    let part = min(away / max(kept.items[head].longest, 1e-6), 1.0);
+    let stored = distance_to_guarded(pos, head, sets);
+    let away = max(stored - kept.distance_dims.w, 0.0);
     if (has_constraints & (1u << CONSTRAIN_COORDINATE)) != 0u {
         if mode == CONSTRAIN_COORDINATE {
+            let part = min(away / max(kept.motions[4u * head].row0.x, 1e-6), 1.0);
             // Half of a turn is more than half of its chord: no farther than the way there is.
             let partly = group_done_partly(pos, bits, part);
             let way = partly.pos - pos;
             return Mapped(pos + way * min(away / max(length(way), 1e-9), 1.0), partly.continuity);
         }
     }
-    return Mapped(pos + part * (whole.pos - pos), whole.continuity);
+    let way = whole.pos - pos;
+    let part = min(away / max(HEADROOM * length(way), 1e-9), 1.0);
+    return Mapped(pos + part * way, whole.continuity);
 }

@@ -1,5 +1,6 @@
 // How the map changes around a point of the deformed space.
-// needs: types.wgsl displace/compose.wgsl march/sample.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
+// needs: types.wgsl kinds.wgsl displace/curve.wgsl displace/compose.wgsl march/sample.wgsl
+//   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
 /// Columns of the Jacobian longer than this come from a jump of the map, not from tissue.
 const MAX_STRETCH: f32 = 12.0;
@@ -32,7 +33,10 @@ fn differential_at(pos: vec3f, forward: vec3f, edge: Sample, mask: u32) -> Diffe
         if KEEPS_TISSUE {
             path = edge.path;
         }
-        var turn = select(4u, select(0u, 1u, KEEPS_TISSUE), path != 0u);
+        // A spline has another shape for its slopes than for its places: there the point itself is asked anew too.
+        let has_base = KEEPS_TISSUE && (drawn_kinds & DRAWN_CURVES) == 0u;
+        var turn = select(4u, select(0u, 1u, has_base), path != 0u);
+        rounds_splines = true;
         while turn < 4u {
             let along = select(vec3f(0.0), forward * map_step(), vec3u(1u, 2u, 3u) == vec3u(turn));
             let moved = map_along(pos + along, path);
@@ -50,6 +54,7 @@ fn differential_at(pos: vec3f, forward: vec3f, edge: Sample, mask: u32) -> Diffe
             slope = select(slope, vec3f(change), vec3u(1u, 2u, 3u) == vec3u(turn));
             turn++;
         }
+        rounds_splines = false;
     }
     return Differential(mat3x3f(col0, col1, col2), base.continuity, slope, path);
 }

@@ -10,10 +10,13 @@
 // Exact: the squared distance is the smallest sum of squares along the three axes, taken axis by axis (Felzenszwalb and
 // Huttenlocher 2012, with a search that ends as soon as nothing nearer can come in place of the envelope of parabolas:
 // near a surface, where distances are used most, the search ends after a few steps). Distances are measured to fine
-// voxels and stored at coarse samples. The signed distance is (way to the set - half a voxel)
-// outside, less (way out of it - half a voxel) inside, so that its zero lies on the faces of voxels. Anisotropic
-// spacing counts; axes are taken as perpendicular (a sheared grid, from a tilted gantry, is off by the cosine of its
-// shear).
+// voxels and stored at samples, which are even along the three axes: coarser than the voxels of a large scan, several
+// in the height of a thick slice. The signed distance is the way to the set outside, less the way out of it inside; its
+// zero lies on the faces of voxels. A voxel is its box, whatever its sides, and half of each side is taken off along
+// its axis. Cubes are balls of half a side where nothing gives way to the set: so they were measured before other
+// voxels counted, and pictures keep the shape that they have.
+// Axes are perpendicular: the voxels of a sheared grid (a tilted gantry) are read by their nearest voxel on a grid that
+// is not (`label_from_voxel`).
 //
 // Source of the use: Correa, sections 5.4.2 and 5.7 (distance field after a background segmentation).
 // The outside of the object: voxels below a threshold that belong to no segment and are connected with a side face of
@@ -47,7 +50,9 @@ const CHANNEL_OUTSIDE: u32 = 4u;
 
 /// Label of a fine voxel.
 fn label_of(voxel: vec3i) -> u32 {
-    return textureLoad(labels, voxel, 0).x;
+    let at = vec3i(floor(apply_affine(job.label_from_voxel, vec3f(voxel)) + 0.5));
+    let is_inside = all(at >= vec3i(0)) && all(at < vec3i(textureDimensions(labels)));
+    return select(0u, textureLoad(labels, clamp(at, vec3i(0), vec3i(textureDimensions(labels)) - 1), 0).x, is_inside);
 }
 
 /// Normalised value at a fine voxel; below every threshold beyond the volume.
@@ -80,7 +85,7 @@ fn is_member(voxel: vec3i) -> bool {
         return false;
     }
     // Its coarse voxel may be filled in part; then the ones around tell.
-    let block = voxel / i32(job.factor);
+    let block = vec3i(floor((vec3f(voxel) + 0.5) / job.ratio.xyz));
     let last = vec3i(job.coarse.xyz) - 1;
     var found = false;
     for (var i = 0; i < 27; i++) {
@@ -91,9 +96,14 @@ fn is_member(voxel: vec3i) -> bool {
     return found;
 }
 
-/// Where a coarse sample lies among the fine voxels of an axis.
-fn fine_position(coarse: u32) -> f32 {
-    return (f32(coarse) + 0.5) * f32(job.factor) - 0.5;
+/// Where a coarse sample lies among the fine voxels of an axis (0 to 2).
+fn fine_position(coarse: u32, axis: u32) -> f32 {
+    return (f32(coarse) + 0.5) * job.ratio[axis] - 0.5;
+}
+
+/// Ways along an axis, in fine voxels, from centre to centre to ways to the voxels' faces.
+fn to_face(ways: vec2f) -> vec2f {
+    return max(ways - job.half_box, vec2f(0.0));
 }
 
 /// First: which coarse voxels hold nothing, and which of them lie at a side of the grid. `job.axis` runs from
@@ -103,8 +113,9 @@ fn open_blocks(@builtin(global_invocation_id) at: vec3u) {
     if any(at >= job.coarse.xyz) {
         return;
     }
-    let low = at * job.factor;
-    let high = min(low + job.factor, job.fine.xyz);
+    // The voxels that share more than a hair with it.
+    let low = vec3u(floor(vec3f(at) * job.ratio.xyz + 1e-3));
+    let high = min(vec3u(ceil(vec3f(at + 1u) * job.ratio.xyz - 1e-3)), job.fine.xyz);
     var open = true;
     for (var z = low.z; z < high.z && open; z++) {
         for (var y = low.y; y < high.y && open; y++) {
@@ -162,25 +173,25 @@ fn along_x(@builtin(global_invocation_id) id: vec3u) {
     var last = vec2f(-FAR);
     var x = 0;
     for (var c = 0u; c < job.coarse.x; c++) {
-        let at = fine_position(c);
+        let at = fine_position(c, 0u);
         while x < count && f32(x) <= at {
             let member = is_member(vec3i(x, i32(id.x), i32(z)));
             last = select(last, vec2f(f32(x)), vec2<bool>(member, !member));
             x++;
         }
-        line_ways[row + c] = vec2f(at) - last;
+        line_ways[row + c] = to_face(vec2f(at) - last);
     }
     last = vec2f(FAR + f32(count));
     x = count - 1;
     for (var k = 0u; k < job.coarse.x; k++) {
         let c = job.coarse.x - 1u - k;
-        let at = fine_position(c);
+        let at = fine_position(c, 0u);
         while x >= 0 && f32(x) >= at {
             let member = is_member(vec3i(x, i32(id.x), i32(z)));
             last = select(last, vec2f(f32(x)), vec2<bool>(member, !member));
             x--;
         }
-        line_ways[row + c] = min(min(line_ways[row + c], last - vec2f(at)), vec2f(FAR)) * job.spacing.x;
+        line_ways[row + c] = min(min(line_ways[row + c], to_face(last - vec2f(at))), vec2f(FAR)) * job.spacing.x;
     }
 }
 
@@ -190,7 +201,7 @@ fn along_y(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= job.coarse.xy) || id.z >= job.slice_count {
         return;
     }
-    let at = fine_position(id.y);
+    let at = fine_position(id.y, 1u);
     let count = i32(job.fine.y);
     var best = vec2f(FAR * FAR);
     // Outwards in both directions at once; `below` is the nearest voxel not above the sample.
@@ -199,18 +210,18 @@ fn along_y(@builtin(global_invocation_id) id: vec3u) {
         let low = below - step;
         let high = below + 1 + step;
         // The nearer of the two may still win against the worse of the two ways.
-        let least = max(min(at - f32(low), f32(high) - at), 0.0) * job.spacing.y;
+        let least = max(min(at - f32(low), f32(high) - at) - job.half_box, 0.0) * job.spacing.y;
         if least * least >= max(best.x, best.y) || (low < 0 && high >= count) {
             break;
         }
         if low >= 0 {
             let way = line_ways[id.x + job.coarse.x * (u32(low) + job.fine.y * id.z)];
-            let off = (at - f32(low)) * job.spacing.y;
+            let off = max(at - f32(low) - job.half_box, 0.0) * job.spacing.y;
             best = min(best, way * way + vec2f(off * off));
         }
         if high < count {
             let way = line_ways[id.x + job.coarse.x * (u32(high) + job.fine.y * id.z)];
-            let off = (f32(high) - at) * job.spacing.y;
+            let off = max(f32(high) - at - job.half_box, 0.0) * job.spacing.y;
             best = min(best, way * way + vec2f(off * off));
         }
     }
@@ -223,30 +234,29 @@ fn along_z(@builtin(global_invocation_id) id: vec3u) {
     if any(id >= job.coarse.xyz) {
         return;
     }
-    let at = fine_position(id.z);
+    let at = fine_position(id.z, 2u);
     let count = i32(job.fine.z);
     var best = vec2f(FAR * FAR);
     let below = i32(floor(at));
     for (var step = 0; step < count; step++) {
         let low = below - step;
         let high = below + 1 + step;
-        let least = max(min(at - f32(low), f32(high) - at), 0.0) * job.spacing.z;
+        let least = max(min(at - f32(low), f32(high) - at) - job.half_box, 0.0) * job.spacing.z;
         if least * least >= max(best.x, best.y) || (low < 0 && high >= count) {
             break;
         }
         if low >= 0 {
             let square = plane_squares[id.x + job.coarse.x * (id.y + job.coarse.y * u32(low))];
-            let off = (at - f32(low)) * job.spacing.z;
+            let off = max(at - f32(low) - job.half_box, 0.0) * job.spacing.z;
             best = min(best, square + vec2f(off * off));
         }
         if high < count {
             let square = plane_squares[id.x + job.coarse.x * (id.y + job.coarse.y * u32(high))];
-            let off = (f32(high) - at) * job.spacing.z;
+            let off = max(f32(high) - at - job.half_box, 0.0) * job.spacing.z;
             best = min(best, square + vec2f(off * off));
         }
     }
-    let half_voxel = 0.5 * min(job.spacing.x, min(job.spacing.y, job.spacing.z));
-    let ways = max(sqrt(best) - half_voxel, vec2f(0.0));
+    let ways = max(sqrt(best) - job.half_ball, vec2f(0.0));
     let volume_size = job.coarse.x * job.coarse.y * job.coarse.z;
     // Where there is nothing of the set at all, or nothing else, a distance that no subject has.
     let signed = clamp(ways.x - ways.y, -8.0, 8.0);

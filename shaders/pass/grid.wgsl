@@ -234,9 +234,9 @@ fn may_stay(i: u32, center: vec3f, half: vec3f) -> bool {
     return least <= reach;
 }
 
-/// Where the motion of a group's segment takes a box from, as centre and half extent.
-fn moved_whole(head: u32, center: vec3f, half: vec3f) -> array<vec3f, 2> {
-    let motion = kept.motions[head];
+/// Where the motion of one of a group's segments takes a box from, as centre and half extent.
+fn moved_whole(head: u32, channel: u32, center: vec3f, half: vec3f) -> array<vec3f, 2> {
+    let motion = kept.motions[4u * head + channel];
     return array<vec3f, 2>(apply_affine(motion, center), apply_to_extent(motion, half));
 }
 
@@ -245,9 +245,21 @@ fn is_reached_by_rigid(head: u32, center: vec3f, half: vec3f) -> bool {
     if has_kept == 0u || kept.items[head].constraint != CONSTRAIN_RIGID {
         return false;
     }
-    let box = moved_whole(head, center, half);
-    let least = distance_to_sets(distance_voxel(box[0]), kept.items[head].gives_way_to);
-    return least <= length(half) + kept.items[head].fade + 3.0 * kept.spacing;
+    var is_reached = false;
+    for (var channel = 0u; channel < 4u; channel++) {
+        let own = kept.items[head].gives_way_to & (1u << channel);
+        if own != 0u {
+            let box = moved_whole(head, channel, center, half);
+            // What stands there was brought by the templates before, from where is not known here.
+            if kept.items[head].before != 0u {
+                return true;
+            }
+            let least = distance_to_sets(distance_voxel(box[0]), own);
+            let reach = length(half) + kept.seams[head][channel] + max(3.0 * kept.spacing, 1.5 * voxel_diagonal());
+            is_reached = is_reached || least <= reach;
+        }
+    }
+    return is_reached;
 }
 
 /// The box after the group that was being summed.
@@ -256,10 +268,16 @@ fn group_done(walk: Walk) -> Walk {
     next.at = walk.at + walk.sum;
     next.half = abs(walk.side0) + abs(walk.side1) + abs(walk.side2) + walk.spread;
     if has_kept != 0u && walk.is_rigid {
-        // From anywhere between where the templates and where the motion take it from, and pushed out of the segment.
-        let box = moved_whole(walk.group, walk.at, walk.half);
-        let low = min(next.at - next.half, box[0] - box[1]);
-        let high = max(next.at + next.half, box[0] + box[1]);
+        // From anywhere between where the templates and where the motions take it from, and pushed out of the segment.
+        var low = next.at - next.half;
+        var high = next.at + next.half;
+        for (var channel = 0u; channel < 4u; channel++) {
+            if (kept.items[walk.group].gives_way_to & (1u << channel)) != 0u {
+                let box = moved_whole(walk.group, channel, walk.at, walk.half);
+                low = min(low, box[0] - box[1]);
+                high = max(high, box[0] + box[1]);
+            }
+        }
         next.at = 0.5 * (low + high);
         next.half = 0.5 * (high - low) + 2.0 * kept.spacing;
     }

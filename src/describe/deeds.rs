@@ -475,6 +475,12 @@ fn kept(template: &PlacedTemplate, ruler: Ruler) -> Vec<String> {
                 "Tejido protegido: {0}",
                 "受保护组织：{0}",
             ],
+            ConstrainBy::Bodies => [
+                "Tissue of which each part moves in one piece: {0}",
+                "Gewebe, von dem sich jedes als ein Stück bewegt: {0}",
+                "Tejido del que cada parte se mueve en una pieza: {0}",
+                "各自整体移动的组织：{0}",
+            ],
             ConstrainBy::Rigid => [
                 "Tissue that moves in one piece: {0}",
                 "Gewebe, das sich als ein Stück bewegt: {0}",

@@ -53,6 +53,7 @@ mod facts;
 mod field;
 mod flap;
 mod hole;
+mod interpolant;
 mod kind;
 mod lens;
 mod r#move;
@@ -76,8 +77,9 @@ pub use facts::{
     Amount, Arc, Facts, Given, Grip, Group, Holds, Icon, Material, Mirror, Reach, Samples, Shape,
     Shrinking,
 };
+pub(crate) use interpolant::Interpolant;
+pub use interpolant::Missed;
 pub use kind::TemplateKind;
 pub use noise::noise;
 pub use points::{ControlPoint, ControlPoints};
-pub(crate) use rbf::Interpolant;
 pub use spec::{MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateSpec};

@@ -422,7 +422,7 @@ pub(crate) const TEMPLATE: &[Key] = &[
 #[rustfmt::skip]
 pub(crate) const CURVE: &[Key] = &[
     key(BY_NAME, "points", Kind::Pairs { most: MAX_CURVE }, "x and z of the points in template space, at least two; `[[0, 1], [1, 1]]` is the straight box").unmade(),
-    key(BY_NAME, "spline", Kind::Flag { default: true }, "true: a smooth curve through the points (Catmull-Rom, drawn as 16 pieces); false: straight from point to point"),
+    key(BY_NAME, "spline", Kind::Flag { default: true }, "true: a smooth curve through the points (Catmull-Rom, drawn as 16 to 21 straight pieces, the same number to each span); false: straight from point to point"),
 ];
 
 /// Keys of a template's `align`.
@@ -437,7 +437,7 @@ pub(crate) const ALIGN: &[Key] = &[
 /// Keys of a template's `constrain`.
 #[rustfmt::skip]
 pub(crate) const CONSTRAIN: &[Key] = &[
-    key(470, "by", Kind::Name(&ConstrainBy::NAMES), "`displacement`: its length fades (section 5.7.1); `coordinate`: the main parameter fades (section 5.7.2); `rigid`: the segments in `keep` move rigidly, by the least-squares fit to the displacement, and nearby tissue blends into that motion (section 5.7.2)").stays(),
+    key(470, "by", Kind::Name(&ConstrainBy::NAMES), "`displacement`: its length fades (section 5.7.1); `coordinate`: the main parameter fades (section 5.7.2); `rigid`: the segments in `keep` move rigidly, by the least-squares fit to the displacement, and nearby tissue blends into that motion (section 5.7.2); `bodies`: as `rigid`, but each of these segments by a motion of its own, as the bones of a joint (each counts as a set of its own)").stays(),
     key(480, "keep", Kind::Segments, "segments that are not deformed").stays().unmade(),
 ];
 

@@ -1,7 +1,8 @@
 use super::Aabb;
 use glam::{DVec2, Vec2, Vec3};
 
-/// Most straight segments that a spline is drawn with.
+/// Straight segments that a spline is drawn with: as many to each of its spans as make up this number, so that its
+/// corners are as blunt as possible and its own points are among them.
 const SPLINE_SEGMENTS: usize = 16;
 /// Points nearer to each other than this count as one point, template units.
 const SAME_PLACE: f64 = 1e-3;
@@ -54,6 +55,8 @@ pub struct Bent {
     size: Vec3,
     /// Position along the box at which the line begins, and its height over the bottom, subject units.
     origin: Vec2,
+    /// The line stands for a smooth one: its corners are no edges.
+    is_smooth: bool,
 }
 
 /// The part of a box that lies on a line.
@@ -86,7 +89,7 @@ impl Bent {
         on_line: OnLine,
     ) -> Result<Self, NotBent> {
         // Mitres are differences of nearly equal directions: 64 bits keep their digits.
-        let mut line: Vec<DVec2> = Vec::with_capacity(SPLINE_SEGMENTS + 1);
+        let mut line: Vec<DVec2> = Vec::with_capacity(2 * SPLINE_SEGMENTS);
         let mut add = |place: DVec2| {
             let is_new = line
                 .last()
@@ -99,15 +102,13 @@ impl Bent {
         let places: Vec<DVec2> = known.map(|place| place.as_dvec2()).collect();
         let place = |i: usize| places.get(i).copied();
         let spans = places.len().saturating_sub(1);
-        // A spline is cut evenly into as many pieces as allowed, so that its corners are as blunt as possible.
-        let pieces = if is_spline && spans > 1 {
-            SPLINE_SEGMENTS
+        let per_span = if is_spline && spans > 1 {
+            SPLINE_SEGMENTS.div_ceil(spans)
         } else {
-            spans
+            1
         };
-        for piece in 0..=pieces {
-            let along = piece * spans;
-            let (i, part) = (along / pieces.max(1), along % pieces.max(1));
+        for piece in 0..=spans * per_span {
+            let (i, part) = (piece / per_span, piece % per_span);
             let (Some(from), Some(to)) = (place(i), place(i + 1)) else {
                 place(i).into_iter().for_each(&mut add);
                 break;
@@ -116,7 +117,7 @@ impl Bent {
             let before = i.checked_sub(1).and_then(place);
             let before = before.unwrap_or(2.0 * from - to);
             let after = place(i + 2).unwrap_or(2.0 * to - from);
-            let u = part as f64 / pieces as f64;
+            let u = part as f64 / per_span as f64;
             let (u2, u3) = (u * u, u * u * u);
             let sum = 2.0 * from
                 + (to - before) * u
@@ -156,6 +157,7 @@ impl Bent {
             straight,
             size: Vec3::new(per_unit, straight.y, straight.z),
             origin: Vec2::new(from * per_unit, on_line.height * straight.z),
+            is_smooth: is_spline,
         })
     }
 
@@ -165,13 +167,18 @@ impl Bent {
     }
 
     /// As the shader takes it: x where the line begins along the box, y its height over the bottom, z the number of
-    /// segments, w the straight box's side along x; then place and mitre of every corner.
+    /// segments (below 0: lit as a smooth line), w the straight box's side along x; then place and mitre of every
+    /// corner.
     pub fn rows(&self) -> Vec<[f32; 4]> {
         let segments = self.joints.len() - 1;
         let head = [
             self.origin.x,
             self.origin.y,
-            segments as f32,
+            if self.is_smooth {
+                -(segments as f32)
+            } else {
+                segments as f32
+            },
             self.straight.x,
         ];
         let corners = self.joints.iter();
@@ -419,6 +426,35 @@ mod tests {
                 let back = bent.unbend(bent.bend(own)).expect("it is laid there");
                 assert!((back - own).length() < 2e-5, "{own} came back as {back}");
             }
+        }
+    }
+
+    /// A spline of any number of points goes through each of them, and turns no more at a corner than the sixteen
+    /// pieces did that left its points aside.
+    #[test]
+    fn a_spline_meets_its_own_points() {
+        for count in 3..=9_usize {
+            let places: Vec<Vec2> = (0..count)
+                .map(|i| {
+                    let x = i as f32 / (count - 1) as f32;
+                    Vec2::new(x, if i % 2 == 0 { 0.8 } else { 1.0 })
+                })
+                .collect();
+            let bent = Bent::new(&places, true, SIZE, OnLine::TOP).expect("it is bent");
+            let corners = bent.beside(0.0);
+            assert!(corners.len() > 16, "{count} points: {}", corners.len());
+            for place in &places {
+                let ways = corners.iter().map(|corner| corner.distance(*place));
+                let nearest = ways.fold(f32::INFINITY, f32::min);
+                assert!(
+                    nearest < 1e-6,
+                    "{count} points: {place} missed by {nearest}"
+                );
+            }
+            // Negative control: the places between are no corners.
+            let between = places[0].lerp(places[1], 0.5);
+            let ways = corners.iter().map(|corner| corner.distance(between));
+            assert!(ways.fold(f32::INFINITY, f32::min) > 1e-3);
         }
     }
 

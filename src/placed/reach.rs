@@ -1,5 +1,5 @@
 use crate::data::{FieldSamples, Resources};
-use crate::displace::{Given, Interpolant, MAX_PARAM_FLOATS, Reach, Samples};
+use crate::displace::{Given, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples};
 use crate::document::{PlacedTemplate, TemplateData};
 use glam::Vec3;
 
@@ -36,6 +36,15 @@ pub fn reach(template: &PlacedTemplate, resources: &Resources) -> Reach {
 /// (shaders/displace/rbf.wgsl).
 pub fn solved_points(template: &PlacedTemplate) -> Vec<[f32; 4]> {
     Interpolant::of(&given(template, None)).pack()
+}
+
+/// The control points of an `rbf` that its map misses, because another point with another displacement stands at the
+/// same place; none for other kinds.
+pub fn missed_points(template: &PlacedTemplate) -> Vec<Missed> {
+    match &template.data {
+        TemplateData::Points(points) => Interpolant::of(&given(template, None)).missed(points),
+        TemplateData::None | TemplateData::Field(_) => Vec::new(),
+    }
 }
 
 /// Lines of a lattice on the tissue of an `rbf`'s middle plane (z = ½), as they lie when it is bent, subject space.

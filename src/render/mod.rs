@@ -47,7 +47,7 @@ pub use pack::look::{
 };
 pub use pack::marks::{Marks, ScaleBar};
 pub use pack::mesh_look::lidded;
-pub use pack::notice::RenderNotice;
+pub use pack::notice::{RenderNotice, missed_notices};
 pub use pack::values::SubjectInfo;
 pub use pack::view::View;
 pub use stage::baked::BakedMap;

@@ -69,10 +69,17 @@ fn rbf(random: &mut Random, with_cut: bool) -> (PlacedTemplate, Rbf) {
         ],
         false => Vec::new(),
     };
+    let softness = random.number(0.1, 0.3, 0.2);
+    let exponent = [-0.5, -1.0, 0.5][random.index(3)];
     let numbers = [
         random.number(0.5, 1.0, 1.0),
-        random.number(0.1, 0.3, 0.2),
-        [-0.5, -1.0, 0.5][random.index(3)],
+        // Where the basis grows, so many points as soft as this have no sum that 32 bits hold without noise.
+        if exponent > 0.0 {
+            0.5 * softness
+        } else {
+            softness
+        },
+        exponent,
         0.0,
         random.number(0.0, 1.0, 0.3),
         [0.0, 0.2][random.index(2)],
@@ -207,6 +214,155 @@ fn control_points_act_within_what_is_said_of_them() {
                 forward.cmpge(shift.min - 1e-4).all() && forward.cmple(shift.max + 1e-4).all();
             assert!(is_held, "{forward} is not in {shift:?}");
         }
+    }
+}
+
+/// A template of these points in a box of one unit.
+fn rbf_of(
+    points: Vec<ControlPoint>,
+    cut: Vec<Vec2>,
+    softness: f32,
+    exponent: f32,
+) -> PlacedTemplate {
+    let placement = Placement {
+        at: Vec3::ZERO,
+        rotate: Quat::IDENTITY,
+        size: Vec3::ONE,
+    };
+    let numbers = [1.0, softness, exponent, 0.0, 0.3, 0.0];
+    let mut params: Vec<ParamValue> = numbers.map(ParamValue::Number).to_vec();
+    params[3] = ParamValue::Flag(false);
+    let mut template = placed(TemplateKind::Rbf, placement, params);
+    template.data = TemplateData::Points(ControlPoints { points, cut });
+    template
+}
+
+/// Points of every number, rough, close, over all softnesses and exponents, with and without a cut: met, or named with
+/// the miss; and the map has no noise between places that lie close.
+#[test]
+fn control_points_are_met_or_named() {
+    let probe = probe();
+    let mut random = Random(0x0b01_71c6);
+    let rounds = if std::env::var_os("FABRICA_LONG").is_some() {
+        300
+    } else {
+        60
+    };
+    let (mut met, mut named, mut worst, mut noise) = (0, 0, 0.0_f64, 0.0_f64);
+    for round in 0..rounds {
+        let count = 2 + random.index(63);
+        let softness = [0.01, 0.02, 0.3, 1.0, 2.0][random.index(5)];
+        let exponent = [-2.0, -0.5, -0.2, 0.0, 0.5, 0.9][random.index(6)];
+        let mut points: Vec<ControlPoint> = (0..count)
+            .map(|_| ControlPoint {
+                at: random.vector(0.05, 0.95),
+                shift: random.vector(-0.1, 0.1),
+            })
+            .collect();
+        // Two close, and every third time two at one place.
+        let beside = random.vector(-1.0, 1.0).normalize_or_zero() * 0.005;
+        points[1].at = points[0].at + beside;
+        if round % 3 == 0 && count > 3 {
+            points[3].at = points[2].at + beside * 0.1;
+        }
+        let middle = random.between(0.4, 0.6);
+        let cut = match round % 2 {
+            0 => Vec::new(),
+            _ => vec![Vec2::new(middle, 0.0), Vec2::new(middle, 1.0)],
+        };
+        let template = rbf_of(points.clone(), cut.clone(), softness, exponent);
+        let missed = fabrica::placed::missed_points(&template);
+        let at: Vec<Vec3> = points.iter().map(|p| p.at - 0.5).collect();
+        let got = ask(&probe, std::slice::from_ref(&template), &at);
+        for (i, (point, sample)) in points.iter().zip(&got).enumerate() {
+            // On the cut itself either side may answer.
+            if !cut.is_empty() && (point.at.x - middle).abs() < 1e-5 {
+                continue;
+            }
+            let miss = (sample.pos_in_rest - at[i] - point.shift)
+                .as_dvec3()
+                .length();
+            match missed.iter().find(|missed| missed.point == i) {
+                Some(told) => {
+                    named += 1;
+                    assert!(
+                        (miss - f64::from(told.by)).abs() < 0.1 * miss,
+                        "{miss} is told as {}",
+                        told.by
+                    );
+                }
+                None => {
+                    met += 1;
+                    worst = worst.max(miss);
+                    assert!(
+                        miss < 1.1e-3,
+                        "{round}: {softness} {exponent} {count}: missed by {miss} without a word"
+                    );
+                }
+            }
+        }
+        if exponent <= 0.0 {
+            // The sum of a basis that falls is as it was.
+            continue;
+        }
+        // Three places in a row: what a straight line does not explain.
+        let steps = [-1.0, 0.0, 1.0].map(|k| Vec3::new(1e-5 * k, 0.0, 0.0));
+        let centers: Vec<Vec3> = (0..60).map(|_| random.vector(-0.45, 0.45)).collect();
+        let rows: Vec<Vec3> = centers
+            .iter()
+            .flat_map(|c| steps.map(|step| *c + step))
+            .collect();
+        let got = ask(&probe, &[template], &rows);
+        for (row, at) in got.chunks_exact(3).zip(rows.chunks_exact(3)) {
+            let [a, b, c] = [0, 1, 2].map(|k| (row[k].pos_in_rest - at[k]).as_dvec3());
+            if !cut.is_empty() && (at[1].x + 0.5 - middle).abs() < 1e-4 {
+                continue;
+            }
+            noise = noise.max((0.5 * (a + c) - b).length());
+        }
+    }
+    println!("{met} met, off by {worst:.1e} at most, {named} named; noise {noise:.1e}");
+    assert!(named > 5 && met > 20 * named);
+    assert!(noise < 1e-5, "places beside each other differ by {noise:e}");
+}
+
+/// What stands on one side of a cut changes nothing on the other, to the bit.
+#[test]
+fn the_sides_of_a_cut_are_independent() {
+    let probe = probe();
+    let mut random = Random(0x0b01_71c7);
+    let cut = vec![Vec2::new(0.5, 0.0), Vec2::new(0.5, 1.0)];
+    for softness in [0.05, 1.0] {
+        let side = |random: &mut Random, low: f32| -> Vec<ControlPoint> {
+            (0..12)
+                .map(|_| ControlPoint {
+                    at: random.vector(0.0, 1.0) * Vec3::new(0.4, 1.0, 1.0) + Vec3::X * low,
+                    shift: random.vector(-0.1, 0.1),
+                })
+                .collect()
+        };
+        let (left, right, other) = (
+            side(&mut random, 0.05),
+            side(&mut random, 0.55),
+            side(&mut random, 0.55),
+        );
+        let with =
+            |right: &[ControlPoint]| rbf_of([&left, right].concat(), cut.clone(), softness, -0.5);
+        let at: Vec<Vec3> = (0..400).map(|_| random.vector(-0.5, 0.5)).collect();
+        let (one, two) = (
+            ask(&probe, &[with(&right)], &at),
+            ask(&probe, &[with(&other)], &at),
+        );
+        let (mut same, mut differing) = (0, 0);
+        for (pos, (one, two)) in at.iter().zip(one.iter().zip(&two)) {
+            if pos.x < 0.0 {
+                assert_eq!(one, two, "{pos} is left of the cut");
+                same += 1;
+            } else {
+                differing += usize::from(one != two);
+            }
+        }
+        assert!(same > 100 && differing > 100, "{same}, {differing}");
     }
 }
 
@@ -628,4 +784,96 @@ fn an_exported_map_is_the_same_map_when_it_comes_back() {
     assert!(smooth < 6e-3, "{smooth}");
     assert!(other_side * 5 < gaps, "{other_side} of {gaps}");
     let _left = std::fs::remove_dir_all(&folder);
+}
+
+/// `probe` and `export-field` tell the map with its constraints: in tissue as `--object` has it.
+#[test]
+fn the_map_is_told_with_its_constraints() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let run = |args: &[&str], input: &str| {
+        use std::io::Write as _;
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_fabrica"))
+            .args(args)
+            .current_dir(folder)
+            .stdin(std::process::Stdio::piped())
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        let mut pipe = child.stdin.take().expect("a pipe");
+        pipe.write_all(input.as_bytes()).expect("it reads");
+        drop(pipe);
+        let out = child.wait_with_output().expect("it ends");
+        let err = String::from_utf8(out.stderr).expect("text");
+        assert!(out.status.success(), "{args:?}: {err}");
+        (String::from_utf8(out.stdout).expect("text"), err)
+    };
+    let sources = |text: &str| -> Vec<([f64; 3], f64)> {
+        let lines = text.lines().map(|line| {
+            let numbers = line.split(',').skip(3).take(4);
+            let numbers: Vec<f64> = numbers.map(|x| x.parse().expect("a number")).collect();
+            ([numbers[0], numbers[1], numbers[2]], numbers[3])
+        });
+        lines.collect()
+    };
+    let document = |constrain: &str, align: &str| {
+        format!(
+            r#"{{"fabrica":1,"subject":{{"builtin":"bar"}},"templates":[{{"kind":"twist","rotate":[0.7071,0,0,0.7071],"size":[0.6,0.6,1],"params":{{"angle":0.8}}{constrain}{align}}}]}}"#
+        )
+    };
+    let constrain = r#","constrain":{"by":"displacement","keep":["core"]}"#;
+    let align = r#","align":{"to":"segment","keep":["core"]}"#;
+    for (name, text) in [
+        ("free", document("", "")),
+        ("kept", document(constrain, "")),
+        ("both", document(constrain, align)),
+    ] {
+        std::fs::write(folder.join(format!("{name}.json")), text).expect("written");
+    }
+    let mut random = Random(0x0b01_71ca);
+    let points: String = (0..2000)
+        .map(|_| random.vector(-0.2, 0.2) * Vec3::new(1.0, 2.2, 1.0))
+        .map(|p| format!("{},{},{}\n", p.x, p.y, p.z))
+        .collect();
+    let free = sources(&run(&["probe", "free.json"], &points).0);
+    let kept = sources(&run(&["probe", "kept.json"], &points).0);
+    let object = sources(&run(&["probe", "kept.json", "--object"], &points).0);
+    let both = sources(&run(&["probe", "both.json"], &points).0);
+    let off =
+        |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+    assert_eq!(kept, object, "the map is what the object shows");
+    assert_eq!(kept, both, "alignment is no map");
+    let changed = free
+        .iter()
+        .zip(&kept)
+        .filter(|(a, b)| off(&a.0, &b.0) > 1e-3)
+        .count();
+    assert!(changed > 100, "the constraint changes {changed} of them");
+    // And the file is that map, to its samples.
+    let (_, err) = run(
+        &[
+            "export-field",
+            "both.json",
+            "-o",
+            "map.nrrd",
+            "--size",
+            "64",
+        ],
+        "",
+    );
+    assert!(
+        err.contains("/templates/0/align"),
+        "the alignment is named: {err}"
+    );
+    let back = r#"{"fabrica":1,"subject":{"builtin":"bar"},"templates":[{"kind":"field","params":{"src":"map.nrrd"}}]}"#;
+    std::fs::write(folder.join("back.json"), back).expect("written");
+    let back = sources(&run(&["probe", "back.json"], &points).0);
+    let worst = |of: &[([f64; 3], f64)]| {
+        let ways = back.iter().zip(of).map(|(a, b)| off(&a.0, &b.0));
+        ways.fold(0.0, f64::max)
+    };
+    let (right, wrong) = (worst(&kept), worst(&free));
+    println!("the file is off by {right:.1e}, from the map without constraints by {wrong:.1e}");
+    assert!(right < 0.012 && wrong > 4.0 * right, "{right}, {wrong}");
 }

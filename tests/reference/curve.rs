@@ -27,8 +27,15 @@ fn between(a: DVec2, b: DVec2, c: DVec2, d: DVec2, part: f64) -> DVec2 {
 impl Line {
     pub(super) fn along(points: &[DVec2], is_spline: bool, size: DVec3) -> Self {
         let spans = points.len() - 1;
-        // A spline of sixteen pieces, each as long a part of it in its own parameter.
-        let pieces = if is_spline && spans > 1 { 16 } else { spans };
+        // Each span of a spline in equal pieces of its own parameter, the fewest that make sixteen in all.
+        let pieces = match spans {
+            3 if is_spline => 18,
+            5 if is_spline => 20,
+            6 if is_spline => 18,
+            7 if is_spline => 21,
+            2 | 4 | 8 if is_spline => 16,
+            spans => spans,
+        };
         let mut places = Vec::new();
         for piece in 0..=pieces {
             let along = piece as f64 * spans as f64 / pieces as f64;

@@ -3,7 +3,7 @@
 use egui::{Shape, Stroke, Ui};
 use glam::{Vec2 as Flat, Vec3};
 
-use super::points::{Moved, handle};
+use super::points::{Dot, Moved, handle};
 use super::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;
 use crate::app::session::Command;
@@ -60,7 +60,7 @@ pub(crate) fn ui(
             continue;
         };
         let name = fill(w().point, &[&(i + 1)]);
-        let (hot, moved) = handle(ui, view, spot, (pos, plane), &name, ink::HANDLE);
+        let (hot, moved) = handle(ui, view, spot, (pos, plane), &Dot::full(&name, ink::HANDLE));
         is_hot |= hot;
         let mut new = curve.clone();
         match moved {

@@ -2,7 +2,7 @@
 //! lines that bend along.
 //!
 //! A point is a ring where the tissue was and a dot where it goes. Dragging the dot takes the tissue along, the ring
-//! stays.
+//! stays. The dot of a point that the map misses is hollow.
 
 use egui::{Key, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo};
 use glam::{Vec2 as Flat, Vec3};
@@ -87,8 +87,7 @@ pub(crate) fn ui(
             view,
             spot,
             (template.subject_from_template(q), view.back()),
-            &name,
-            ink::HANDLE,
+            &Dot::full(&name, ink::HANDLE),
         );
         is_hot |= hot;
         if let Some(Moved::To(pos)) = moved {
@@ -102,6 +101,7 @@ pub(crate) fn ui(
             changed = Some(new);
         }
     }
+    let missed = placed::missed_points(template);
     for (i, point) in points.points.iter().enumerate() {
         let source = point.at + point.shift;
         let (Some(to), Some(from)) = (to_ui(point.at), to_ui(source)) else {
@@ -114,14 +114,15 @@ pub(crate) fn ui(
             painter.circle_stroke(from, 4.5, Stroke::new(1.6, ink::HALO_LIGHT));
         }
         let name = fill(w().point, &[&(i + 1)]);
-        let (hot, moved) = handle(
-            ui,
-            view,
-            to,
-            (template.subject_from_template(point.at), view.back()),
-            &name,
-            ink::X,
-        );
+        let lack = missed.iter().find(|missed| missed.point == i);
+        let told = lack.map(|lack| fill(w().missed, &[&(i + 1), &format!("{:.3}", lack.by)]));
+        let dot = Dot {
+            told: told.as_deref().unwrap_or(&name),
+            is_hollow: lack.is_some(),
+            ..Dot::full(&name, ink::X)
+        };
+        let plane = (template.subject_from_template(point.at), view.back());
+        let (hot, moved) = handle(ui, view, to, plane, &dot);
         is_hot |= hot;
         let mut new = points.clone();
         match moved {
@@ -164,33 +165,62 @@ pub(crate) enum Moved {
     Removed,
 }
 
+/// How a dot looks and what it is called.
+pub(crate) struct Dot<'a> {
+    /// Its own among the dots of a template.
+    name: &'a str,
+    /// What is said of it where it is pointed at or read aloud.
+    told: &'a str,
+    color: egui::Color32,
+    is_hollow: bool,
+}
+
+impl<'a> Dot<'a> {
+    /// A full dot that is told by its name.
+    pub(crate) fn full(name: &'a str, color: egui::Color32) -> Self {
+        Self {
+            name,
+            told: name,
+            color,
+            is_hollow: false,
+        }
+    }
+}
+
 /// One dot: dragged in a plane (a point of it and its normal), moved by the arrow keys, taken away by Delete.
 pub(crate) fn handle(
     ui: &Ui,
     view: &Projection,
     spot: egui::Pos2,
     (pos, normal): (Vec3, Vec3),
-    name: &str,
-    color: egui::Color32,
+    dot: &Dot<'_>,
 ) -> (bool, Option<Moved>) {
-    let id = ui.scope_id().with(("rbf", name));
+    let id = ui.scope_id().with(("rbf", dot.name));
     let response = ui.interact(
         Rect::from_center_size(spot, Vec2::splat(2.0 * REACH)),
         id,
         Sense::click_and_drag(),
     );
-    response.widget_info(|| WidgetInfo::labeled(Role::GraphicsObject, true, name));
+    response.widget_info(|| WidgetInfo::labeled(Role::GraphicsObject, true, dot.told));
+    if dot.is_hollow {
+        response.clone().on_hover_text(dot.told);
+    }
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
     let is_hot = response.hovered() || response.dragged();
     let painter = ui.painter_at(view.rect);
-    let fill = if is_hot || response.has_focus() {
+    let color = if is_hot || response.has_focus() {
         ink::HOT
     } else {
-        color
+        dot.color
     };
-    painter.circle(spot, 6.0, fill, Stroke::new(2.0, ink::HALO_LIGHT));
+    if dot.is_hollow {
+        painter.circle_stroke(spot, 5.0, Stroke::new(5.0, ink::HALO_LIGHT));
+        painter.circle_stroke(spot, 5.0, Stroke::new(2.6, color));
+    } else {
+        painter.circle(spot, 6.0, color, Stroke::new(2.0, ink::HALO_LIGHT));
+    }
     painter.circle_stroke(spot, 7.2, Stroke::new(1.0, ink::HALO_DARK));
     let mut by = response.drag_delta();
     if response.has_focus() {

@@ -40,6 +40,7 @@ enum Yields {
     Shorter,
     Weaker,
     Whole,
+    Each,
 }
 
 /// What lies inside of the tissue that a template leaves alone. Found when the template or the segments change.
@@ -256,6 +257,7 @@ fn constrain_ui(
         Some(ConstrainBy::Displacement) => Yields::Shorter,
         Some(ConstrainBy::Coordinate) => Yields::Weaker,
         Some(ConstrainBy::Rigid) => Yields::Whole,
+        Some(ConstrainBy::Bodies) => Yields::Each,
     };
     ui.add_space(4.0);
     ui.label(w().yields).on_hover_text(w().yields_hint);
@@ -264,6 +266,7 @@ fn constrain_ui(
         (Yields::Shorter, w().shorter, w().shorter_hint),
         (Yields::Weaker, w().weaker, w().weaker_hint),
         (Yields::Whole, w().whole, w().whole_hint),
+        (Yields::Each, w().bodies, w().bodies_hint),
     ];
     if let Some(yields) = widget::explained(ui, w().yields, &options, current) {
         let keep = match &template.constrain {
@@ -275,6 +278,7 @@ fn constrain_ui(
             Yields::Shorter => Some(ConstrainBy::Displacement),
             Yields::Weaker => Some(ConstrainBy::Coordinate),
             Yields::Whole => Some(ConstrainBy::Rigid),
+            Yields::Each => Some(ConstrainBy::Bodies),
         };
         commands.push(set(by.map(|by| Constrain { by, keep })));
     }

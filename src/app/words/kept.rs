@@ -31,6 +31,8 @@ words! {
         keep_inside_hint: "Keeps the tissue inside in place too", "Lässt auch das Gewebe im Inneren an seinem Platz", "Deja también en su sitio el tejido del interior", "使内部的组织也留在原位";
         whole: "Rigid", "Starr", "Rígido", "刚性";
         whole_hint: "The protected tissue moves along in one piece and keeps its shape", "Das geschützte Gewebe bewegt sich als ein Stück mit und behält seine Form", "El tejido protegido se mueve en una pieza y conserva su forma", "受保护组织作为整体移动，形状不变";
+        bodies: "Rigid, each by itself", "Starr, jedes für sich", "Rígido, cada uno por sí", "各自刚性";
+        bodies_hint: "Each of the protected tissues moves along in one piece of its own, as bones do at a joint", "Jedes der geschützten Gewebe bewegt sich als eigenes Stück mit, wie Knochen an einem Gelenk", "Cada tejido protegido se mueve en una pieza propia, como los huesos de una articulación", "每个受保护组织各自作为整体移动，如关节处的骨";
         constraint: "constraint", "Rücksicht", "la restricción", "约束";
     }
 }

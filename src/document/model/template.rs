@@ -146,6 +146,19 @@ pub struct Constrain {
     pub keep: Vec<String>,
 }
 
+impl Constrain {
+    /// The sets of segments that count as one each: all of them together, or of bodies each for itself.
+    pub fn sets(&self) -> Vec<Vec<String>> {
+        match self.by {
+            ConstrainBy::Bodies => keep_set(&self.keep)
+                .into_iter()
+                .map(|name| vec![name])
+                .collect(),
+            _ => vec![keep_set(&self.keep)],
+        }
+    }
+}
+
 /// The quantity of a template that fades towards kept tissue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConstrainBy {
@@ -156,13 +169,20 @@ pub enum ConstrainBy {
     /// The kept segments move rigidly (least-squares fit to the displacement); nearby tissue blends into that motion
     /// (section 5.7.2, second part).
     Rigid,
+    /// As [`ConstrainBy::Rigid`], but each of the kept segments moves by its own motion, as bones do at a joint.
+    Bodies,
 }
 
 impl ConstrainBy {
     /// All ways; the first is the default.
-    pub(crate) const ALL: [Self; 3] = [Self::Displacement, Self::Coordinate, Self::Rigid];
+    pub(crate) const ALL: [Self; 4] = [
+        Self::Displacement,
+        Self::Coordinate,
+        Self::Rigid,
+        Self::Bodies,
+    ];
     /// Names in documents, in the order of [`Self::ALL`].
-    pub(crate) const NAMES: [&'static str; 3] = ["displacement", "coordinate", "rigid"];
+    pub(crate) const NAMES: [&'static str; 4] = ["displacement", "coordinate", "rigid", "bodies"];
 }
 
 /// The tissue that a template leaves where it is (dissertation, section 5.4).
@@ -257,9 +277,12 @@ pub fn keep_sets(templates: &[PlacedTemplate]) -> Vec<Vec<String>> {
             Align::Segment { keep, .. } => Some(keep),
             Align::Axis | Align::Surface { .. } => None,
         };
-        let constrained = template.constrain.as_ref().map(|c| &c.keep);
-        for keep in aligned.into_iter().chain(constrained) {
-            let set = keep_set(keep);
+        let constrained = template.constrain.iter().flat_map(Constrain::sets);
+        for set in aligned
+            .map(|keep| keep_set(keep))
+            .into_iter()
+            .chain(constrained)
+        {
             if !set.is_empty() && !sets.contains(&set) {
                 sets.push(set);
             }

@@ -13,7 +13,7 @@ pub const TABLE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Templates of one document at most (spec/contract.md, "Limits").
 pub const MAX_TEMPLATES: usize = 32;
 /// Entries of [`Templates::pool`], for the control points and curves of all templates together.
-pub const POOL: usize = 640;
+pub const POOL: usize = 1536;
 
 /// An affine map, by the rows of its matrix: three factors and the offset of each coordinate of the result.
 #[repr(C)]
@@ -244,17 +244,20 @@ pub struct KeptGroup {
     pub blend: f32,
     /// Longest displacement of the group, subject units.
     pub longest: f32,
-    /// How far around a segment that moves as a whole other tissue goes with it, subject units.
-    pub fade: f32,
+    /// Tissue that gives way is where the templates before this index have brought it; 0: it is at rest.
+    pub before: u32,
 }
+
+/// Motions of the segments that move as a whole: four sets for each template.
+pub const MAX_MOTIONS: usize = 4 * MAX_TEMPLATES;
 
 /// Kept tissue of a document.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Kept {
     /// Rest space to texture space of the distances.
     pub distance_from_rest: Affine,
-    /// xyz: voxels of the distances.
+    /// xyz: voxels of the distances. w: by how much one between them may be too long, subject units.
     pub distance_dims: [f32; 4],
     /// Their smallest spacing, subject units.
     pub spacing: f32,
@@ -268,9 +271,38 @@ pub struct Kept {
     pub label_sets: [[u32; 4]; 8],
     /// What each template keeps, in the order of [`Templates::items`].
     pub items: [KeptGroup; MAX_TEMPLATES],
-    /// Rigid motions (subject space to rest space) of segments that move as a whole; only heads of groups count.
+    /// Rigid motions (subject space to rest space) of segments that move as a whole, four for each template: those of
+    /// the four sets. Of a group that gives way by its coordinate, the longest displacement in the first number of its
+    /// first. Only heads of groups count. Written on the GPU.
+    pub motions: [Affine; MAX_MOTIONS],
+    /// How far around each segment that moves as a whole other tissue goes with it, subject units, per head and set.
     /// Written on the GPU.
-    pub motions: [Affine; MAX_TEMPLATES],
+    pub seams: [[f32; 4]; MAX_TEMPLATES],
+}
+
+impl Kept {
+    /// Nothing is kept.
+    pub const NONE: Self = Self {
+        distance_from_rest: Affine::ZERO,
+        distance_dims: [0.0; 4],
+        spacing: 0.0,
+        slab_count: 0,
+        exact_slab: 0,
+        depth_slab: 0,
+        label_sets: [[0; 4]; 8],
+        items: [KeptGroup {
+            keeps: 0,
+            run: 0,
+            gives_way_to: 0,
+            constraint: CONSTRAIN_NOTHING,
+            depth: 0.0,
+            blend: 0.0,
+            longest: 0.0,
+            before: 0,
+        }; MAX_TEMPLATES],
+        motions: [Affine::ZERO; MAX_MOTIONS],
+        seams: [[0.0; 4]; MAX_TEMPLATES],
+    };
 }
 
 /// One pass of the making of distances.
@@ -285,8 +317,14 @@ pub struct DistanceJob {
     pub coarse: [u32; 4],
     /// xyz: spacing of fine voxels, subject units.
     pub spacing: [f32; 4],
-    /// Fine voxels along a side of a coarse one.
-    pub factor: u32,
+    /// xyz: fine voxels from one coarse sample to the next.
+    pub ratio: [f32; 4],
+    /// Fine voxels to voxels of the segmentation.
+    pub label_from_voxel: Affine,
+    /// Half a voxel where voxels count as boxes, fine voxels; else 0.
+    pub half_box: f32,
+    /// Half a voxel where voxels count as balls, subject units; else 0.
+    pub half_ball: f32,
     /// Channel that is worked on.
     pub channel: u32,
     /// Normalised value from which on a voxel is something.
@@ -304,7 +342,7 @@ pub struct DistanceJob {
     /// Sets in that slab, 0 for the depth.
     pub set_count: u32,
     /// To the next row of four.
-    pub padding: [u32; 3],
+    pub padding: [u32; 2],
     /// Sets of kept tissue that each label belongs to, packed as in [`Kept`].
     pub label_sets: [[u32; 4]; 8],
 }

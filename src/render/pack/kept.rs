@@ -1,20 +1,16 @@
 //! Kept tissue: which labels a document's templates leave alone.
 
 use super::gpu_types::{
-    CONSTRAIN_COORDINATE, CONSTRAIN_DISPLACEMENT, CONSTRAIN_RIGID, KEEPS_DEEP, KeptGroup,
-    MAX_TEMPLATES,
+    CONSTRAIN_COORDINATE, CONSTRAIN_DISPLACEMENT, CONSTRAIN_NOTHING, CONSTRAIN_RIGID, KEEPS_DEEP,
+    KeptGroup, MAX_TEMPLATES,
 };
 use super::notice::RenderNotice;
 use crate::data::{Resources, Segment};
 use crate::document::{
-    Align, ConstrainBy, MAX_KEEP_SETS, PlacedTemplate, TemplateMode, keep_set, keep_sets,
+    Align, Constrain, ConstrainBy, MAX_KEEP_SETS, PlacedTemplate, TemplateMode, keep_set, keep_sets,
 };
 use crate::math::Aabb;
 use crate::placed::max_displacement;
-
-/// How far around a segment that moves as a whole other tissue goes with it, as a share of the longest displacement:
-/// less folds it.
-const RIGID_REACH: f32 = 0.3;
 
 /// What of the labels a document's templates keep.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,14 +137,14 @@ impl KeptTissue {
                     item.keeps |= bit(keep);
                 }
             }
-            if let Some(constrain) = &template.constrain
-                && bit(&constrain.keep) != 0
-            {
-                item.gives_way_to |= bit(&constrain.keep);
+            let given = template.constrain.iter().flat_map(Constrain::sets);
+            let given = given.fold(0, |bits, set| bits | bit(&set));
+            if let Some(constrain) = template.constrain.as_ref().filter(|_| given != 0) {
+                item.gives_way_to |= given;
                 item.constraint = match constrain.by {
                     ConstrainBy::Displacement => CONSTRAIN_DISPLACEMENT,
                     ConstrainBy::Coordinate => CONSTRAIN_COORDINATE,
-                    ConstrainBy::Rigid => CONSTRAIN_RIGID,
+                    ConstrainBy::Rigid | ConstrainBy::Bodies => CONSTRAIN_RIGID,
                 };
                 kept.constraints |= 1 << item.constraint;
             }
@@ -158,12 +154,37 @@ impl KeptTissue {
             .iter_mut()
             .filter(|i| i.constraint == CONSTRAIN_RIGID)
         {
-            item.fade = (RIGID_REACH * item.longest).clamp(0.02, 0.06);
             // The motion nearest to a displacement goes farther than it in places.
             item.longest = 1.5 * item.longest + 0.02;
         }
+        kept.guard_late(&enabled);
         kept.find_runs(&enabled);
+        for (head, item) in kept.items.iter_mut().enumerate() {
+            item.before = match item.constraint {
+                CONSTRAIN_NOTHING => 0,
+                CONSTRAIN_RIGID => head as u32,
+                _ => item.run,
+            };
+        }
         kept
+    }
+
+    /// A displacement that gives way to tissue which templates before it have moved guards it as an alignment does, by
+    /// asking what the object has where the template acts: it stays there, and nothing comes from it. Where nothing
+    /// acts before, the way to the tissue at rest says all.
+    fn guard_late(&mut self, enabled: &[&PlacedTemplate]) {
+        let yields = |item: &KeptGroup| {
+            [CONSTRAIN_DISPLACEMENT, CONSTRAIN_COORDINATE].contains(&item.constraint)
+        };
+        let is_late = |i: usize| {
+            let is_head = enabled[i].mode == TemplateMode::Compose;
+            i > 0 && is_head && yields(&self.items[i])
+        };
+        if (0..enabled.len()).any(is_late) {
+            for item in self.items.iter_mut().filter(|item| yields(item)) {
+                item.keeps |= item.gives_way_to;
+            }
+        }
     }
 
     fn find_runs(&mut self, enabled: &[&PlacedTemplate]) {
@@ -209,6 +230,11 @@ impl KeptTissue {
     /// True if nothing is kept and nothing gives way.
     pub fn is_nothing(&self) -> bool {
         self.align_mode == 0
+    }
+
+    /// True if something about the whole map has to be found: motions, or longest displacements.
+    pub fn needs_fit(&self) -> bool {
+        self.constraints & (1 << CONSTRAIN_COORDINATE) != 0 || self.has_rigid()
     }
 
     /// True if some segment moves as a whole.

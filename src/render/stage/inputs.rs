@@ -2,7 +2,7 @@
 
 use super::fields::acting_fields;
 use crate::data::{FieldSamples, Resources};
-use crate::document::{Illustration, OpacityMode};
+use crate::document::{Illustration, OpacityMode, PlacedTemplate};
 use crate::math::Aabb;
 use crate::placed::deformed_bounds;
 use crate::render::pack::bodies::bodies_of;
@@ -10,7 +10,7 @@ use crate::render::pack::gpu_types::{Bodies, MeshLook, Templates};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::look::{TransferTable, background_uniform};
 use crate::render::pack::mesh_look::{lidded, mesh_look_of};
-use crate::render::pack::notice::RenderNotice;
+use crate::render::pack::notice::{RenderNotice, missed_notices};
 use crate::render::pack::objects::DrawnObjects;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::textures::SubjectTextures;
@@ -85,6 +85,7 @@ impl Inputs {
             self.kept.stamp(),
         ];
         if self.bounds_from.is_stale(bounds_from) {
+            self.notify_missed(placed);
             let bounds = deformed_bounds(placed, resources, subject.frame.bounds);
             let around = self
                 .rigid_reach()
@@ -144,6 +145,23 @@ impl Inputs {
         let kept = self.kept().filter(|kept| kept.has_rigid())?;
         let longest = kept.items.iter().map(|item| item.longest);
         Some(longest.fold(0.0, f32::max))
+    }
+
+    /// Adds a notice for each control point that is missed, once per point.
+    fn notify_missed(&mut self, placed: &[PlacedTemplate]) {
+        for notice in missed_notices(placed) {
+            let RenderNotice::MissedPoint {
+                template, point, ..
+            } = &notice
+            else {
+                continue;
+            };
+            let name = format!("{template}, control point {point}");
+            if !self.noticed.contains(&name) {
+                self.noticed.push(name);
+                self.notices.push(notice);
+            }
+        }
     }
 
     /// Adds a notice for each name of no segment, once per name.

@@ -11,12 +11,15 @@ use crate::render::pack::gpu_types::{DistanceJob, Kept};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::textures::{SubjectTextures, VoxelFrame};
-use glam::{DAffine3, UVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, UVec3, Vec3};
 use std::sync::Arc;
 
 /// Voxels of the distances at most: 128³, 16 MiB of texture. Distances are measured to the fine voxels, so
 /// that surfaces stay exact; only the points at which they are stored are coarser, with interpolation in between.
 const MOST_VOXELS: u64 = 1 << 21;
+
+/// Voxels at most of the perpendicular grid in place of a sheared one.
+const MOST_SHEARED: f64 = 32e6;
 
 /// Bytes of the lines that are worked on at a time.
 const PART_BYTES: u64 = 32 << 20;
@@ -85,8 +88,13 @@ type MadeFor = (Stamp, [[u32; 4]; 8], u32, bool, bool);
 struct Plan {
     fine: UVec3,
     coarse: UVec3,
-    factor: u32,
+    /// Fine voxels from one coarse sample to the next.
+    ratio: Vec3,
     spacing: Vec3,
+    /// By how much a distance between samples may be too long, subject units.
+    slack: f32,
+    /// The voxels are cubes.
+    is_cubic: bool,
     reads_labels: bool,
     /// Slabs in the texture of distances, one behind the other along z.
     slab_count: u32,
@@ -95,21 +103,36 @@ struct Plan {
 }
 
 impl Plan {
-    fn new(frame: &VoxelFrame, reads_labels: bool, kept: &KeptTissue) -> Self {
+    fn new(frame: &MeasuredFrame, reads_labels: bool, kept: &KeptTissue) -> Self {
         let exact_slab = u32::from(kept.constraints != 0);
         let depth_slab = if kept.keeps_deep { 1 + exact_slab } else { 0 };
+        let finest = frame.spacing.min_element();
+        // A voxel that is several times as high as others are wide is sampled that often: between samples far apart a
+        // distance is nothing to rely on.
+        let parts = (frame.spacing / finest).round().max(Vec3::ONE);
         let mut factor = 1;
-        let coarse = loop {
-            let coarse = frame.dims.map(|n| n.div_ceil(factor));
+        let (coarse, ratio) = loop {
+            let ratio = Vec3::splat(factor as f32) / parts;
+            let count = frame.dims.as_vec3() / ratio;
+            let coarse = (count - 1e-3).ceil().max(Vec3::ONE).as_uvec3();
             if coarse.as_u64vec3().element_product() <= MOST_VOXELS {
-                break coarse;
+                break (coarse, ratio);
             }
             factor += 1;
+        };
+        // Linear between its corners, a distance is too long by half the diagonal of a cell at most, as beside a
+        // single point. A voxel is no point: as large as a cell, it takes half a side of it.
+        let cell = frame.spacing * ratio;
+        let slack = match factor {
+            1 => 0.5 * cell.max_element(),
+            _ => 0.5 * cell.length(),
         };
         Self {
             fine: frame.dims,
             coarse,
-            factor,
+            ratio,
+            slack: slack + frame.slack,
+            is_cubic: frame.spacing.max_element() < 1.01 * finest,
             spacing: frame.spacing,
             reads_labels,
             slab_count: 1 + exact_slab + u32::from(kept.keeps_deep),
@@ -128,7 +151,7 @@ impl KeptTextures {
     pub(crate) fn new(gpu: &Gpu) -> Self {
         let texture = texture_of(gpu, UVec3::ONE);
         Self {
-            uniform: uniform_buffer(gpu, "kept", &Kept::default()),
+            uniform: uniform_buffer(gpu, "kept", &Kept::NONE),
             view: texture.create_view(&Default::default()),
             texture,
             plan: None,
@@ -163,28 +186,29 @@ impl KeptTextures {
                 self.made_for = Some(made_for);
             }
         }
-        let frame = frame_for(subject, kept);
+        let frame = MeasuredFrame::of(&frame_for(subject, kept));
         let coarse = self
             .plan
-            .map_or(Vec3::ONE, |plan| plan.coarse.as_vec3() * plan.factor as f32);
+            .map_or(Vec3::ONE, |plan| plan.coarse.as_vec3() * plan.ratio);
         // The coarse grid may reach over the fine one's end by part of a voxel.
         let texture_from_rest = DAffine3::from_scale(coarse.as_dvec3().recip())
-            * DAffine3::from_translation(glam::DVec3::splat(0.5))
+            * DAffine3::from_translation(DVec3::splat(0.5))
             * frame.rest_from_voxel.inverse();
         let spacing = self
             .plan
-            .map_or(1.0, |plan| plan.spacing.min_element() * plan.factor as f32);
+            .map_or(1.0, |plan| (plan.spacing * plan.ratio).min_element());
+        let slack = self.plan.map_or(0.0, |plan| plan.slack);
         let dims = self.plan.map_or(UVec3::ONE, |plan| plan.coarse).as_vec3();
         let uniform = Kept {
             distance_from_rest: texture_from_rest.as_affine3a().into(),
-            distance_dims: dims.extend(0.0).to_array(),
+            distance_dims: dims.extend(slack).to_array(),
             spacing,
             slab_count: self.plan.map_or(1, |plan| plan.slab_count),
             exact_slab: self.plan.map_or(0, |plan| plan.exact_slab),
             depth_slab: self.plan.map_or(0, |plan| plan.depth_slab),
             label_sets: kept.label_sets,
             items: kept.items,
-            motions: Default::default(),
+            ..Kept::NONE
         };
         gpu.queue
             .write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
@@ -211,6 +235,7 @@ impl KeptTextures {
         let frame = frame_for(subject, kept);
         let reads_labels = frame == *subject.label_voxels.as_ref().unwrap_or(&subject.voxels)
             && subject.label_voxels.is_some();
+        let frame = MeasuredFrame::of(&frame);
         let plan = Plan::new(&frame, reads_labels, kept);
         if self.plan != Some(plan) {
             let size = plan.coarse * UVec3::new(1, 1, plan.slab_count);
@@ -244,6 +269,69 @@ fn frame_for(subject: &SubjectTextures, kept: &KeptTissue) -> VoxelFrame {
     match &subject.label_voxels {
         Some(labels) if kept.set_count > 0 || labels.dims == subject.voxels.dims => *labels,
         _ => subject.voxels,
+    }
+}
+
+/// A grid of perpendicular axes on which distances are measured.
+#[derive(Clone, Copy, Debug)]
+struct MeasuredFrame {
+    dims: UVec3,
+    /// Between voxels along each axis, subject units.
+    spacing: Vec3,
+    /// Rest space from voxel indices.
+    rest_from_voxel: DAffine3,
+    /// Voxel indices of the grid that it stands for, from its own.
+    source_from_voxel: DAffine3,
+    /// By how much a distance may be too long because a voxel of the other grid is not met, subject units.
+    slack: f32,
+}
+
+impl MeasuredFrame {
+    /// The grid itself; of a sheared one the perpendicular grid of the same first axis that holds it, with voxels as
+    /// small as its smallest spacing where that makes no more than [`MOST_SHEARED`].
+    fn of(frame: &VoxelFrame) -> Self {
+        let m = frame.rest_from_voxel.matrix3;
+        let lean = [
+            (m.x_axis, m.y_axis),
+            (m.y_axis, m.z_axis),
+            (m.z_axis, m.x_axis),
+        ]
+        .map(|(a, b)| (a.dot(b) / (a.length() * b.length())).abs());
+        if lean.iter().all(|lean| *lean < 1e-3) {
+            return Self {
+                dims: frame.dims,
+                spacing: frame.spacing,
+                rest_from_voxel: frame.rest_from_voxel,
+                source_from_voxel: DAffine3::IDENTITY,
+                slack: 0.0,
+            };
+        }
+        let x = m.x_axis.normalize_or(DVec3::X);
+        let y = m.y_axis.reject_from_normalized(x).normalize_or(DVec3::Y);
+        let turn = DMat3::from_cols(x, y, x.cross(y));
+        let ends = [DVec3::splat(-0.5), frame.dims.as_dvec3() - 0.5];
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for i in 0..8 {
+            let end = |axis: usize| ends[i >> axis & 1][axis];
+            let corner = DVec3::new(end(0), end(1), end(2));
+            let at = turn.transpose() * frame.rest_from_voxel.transform_point3(corner);
+            low = low.min(at);
+            high = high.max(at);
+        }
+        let size = high - low;
+        let least = (size.element_product() / MOST_SHEARED).cbrt();
+        let spacing = f64::from(frame.spacing.min_element()).max(least);
+        let dims = (size / spacing - 1e-3).ceil().max(DVec3::ONE);
+        let first = turn * (low + 0.5 * spacing);
+        let rest_from_voxel = DAffine3::from_mat3_translation(turn * spacing, first);
+        Self {
+            dims: dims.as_uvec3(),
+            spacing: Vec3::splat(spacing as f32),
+            rest_from_voxel,
+            source_from_voxel: frame.rest_from_voxel.inverse() * rest_from_voxel,
+            // Tissue may reach into a voxel up to its centre without being met there.
+            slack: (0.5 * 3.0_f64.sqrt() * spacing) as f32,
+        }
     }
 }
 
@@ -287,7 +375,7 @@ impl<'a> Work<'a> {
         pipelines: &'a DistancePipelines,
         subject: &'a SubjectTextures,
         plan: &'a Plan,
-        frame: &VoxelFrame,
+        frame: &MeasuredFrame,
         kept: &KeptTissue,
         view: &'a wgpu::TextureView,
     ) -> Self {
@@ -321,7 +409,8 @@ impl<'a> Work<'a> {
                 fine: plan.fine.extend(0).to_array(),
                 coarse: plan.coarse.extend(0).to_array(),
                 spacing: plan.spacing.extend(0.0).to_array(),
-                factor: plan.factor,
+                ratio: plan.ratio.extend(0.0).to_array(),
+                label_from_voxel: frame.source_from_voxel.as_affine3a().into(),
                 threshold: threshold(subject),
                 reads_labels: u32::from(plan.reads_labels),
                 axis: 3,
@@ -453,6 +542,11 @@ impl<'a> Work<'a> {
         let plan = self.plan;
         let mut job = self.job;
         job.channel = channel;
+        // Only where something gives way to a set has a cube to be a box.
+        let is_box = !plan.is_cubic || (plan.exact_slab != 0 && channel != CHANNEL_OUTSIDE);
+        job.half_box = if is_box { 0.5 } else { 0.0 };
+        job.half_ball =
+            0.5 * plan.spacing.min_element() - job.half_box * plan.spacing.min_element();
         let mut first = 0;
         while first < plan.fine.z {
             let slices = self.slices.min(plan.fine.z - first);

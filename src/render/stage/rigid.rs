@@ -3,18 +3,22 @@
 use super::inputs::Inputs;
 use super::kept::KeptTextures;
 use crate::render::device::bindings::{encoder, entry};
-use crate::render::device::buffers::result_buffer;
+use crate::render::device::buffers::{result_buffer, uniform_buffer};
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
 use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
-use crate::render::pack::gpu_types::{Kept, MAX_TEMPLATES};
+use crate::render::pack::gpu_types::{Kept, Lattice, MAX_MOTIONS};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::stamps::MadeFrom;
 use crate::render::subject::textures::SubjectTextures;
+use glam::Vec3;
 use std::mem::offset_of;
 
-/// Bytes of the motions: an affine map of 48 bytes for each template.
-const BYTES: u64 = 48 * MAX_TEMPLATES as u64;
+/// Bytes of what is found: the motions and the seams, to the end of the uniform.
+const BYTES: u64 = (size_of::<Kept>() - offset_of!(Kept, motions)) as u64;
+
+/// Cells along the longest side of the box that the deformed object lies in.
+const CELLS: f32 = 48.0;
 
 /// The program, compiled when the first document with such a segment is drawn; one pipeline per set of template kinds.
 #[derive(Debug, Default)]
@@ -37,7 +41,7 @@ impl RigidPrograms {
 /// Stamps of the inputs from which the motions of a document were found last. The motions themselves lie on the GPU, in
 /// [`Kept::motions`].
 #[derive(Debug, Default)]
-pub(crate) struct RigidMotions(MadeFrom<4>);
+pub(crate) struct RigidMotions(MadeFrom<5>);
 
 impl RigidMotions {
     /// Finds the motions anew if an input has changed. The work is submitted when this returns; nothing is read back.
@@ -55,22 +59,44 @@ impl RigidMotions {
             inputs.templates.stamp(),
             inputs.fields.stamp(),
             inputs.kept.stamp(),
+            inputs.bounds.stamp(),
         ]);
-        if !is_stale || !inputs.kept().is_some_and(KeptTissue::has_rigid) {
+        if !is_stale || !inputs.kept().is_some_and(KeptTissue::needs_fit) {
             return;
         }
         let pipeline = programs.pipeline(gpu, inputs.templates.get().drawn_kinds(), subject.shader);
         let motions = result_buffer(gpu, "rigid motions", BYTES);
         let view = wgpu::BindingResource::TextureView;
+        let bounds = *inputs.bounds.get();
+        let side = bounds.size().max_element() / CELLS;
+        let lattice = Lattice {
+            corner: bounds.min.extend(0.0).to_array(),
+            cells: (bounds.size() / side)
+                .ceil()
+                .max(Vec3::ONE)
+                .as_uvec3()
+                .extend(0)
+                .to_array(),
+            side,
+            count: 0,
+            padding: [0; 2],
+        };
+        let lattice = uniform_buffer(gpu, "deformed box", &lattice);
         let groups = [
-            subject.kept_entries(),
+            vec![
+                entry(0, subject.buffer.as_entire_binding()),
+                entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
+            ],
             vec![
                 entry(0, templates.as_entire_binding()),
                 entry(5, kept_textures.uniform.as_entire_binding()),
                 entry(6, view(&kept_textures.view)),
                 entry(7, view(fields)),
             ],
-            vec![entry(0, motions.as_entire_binding())],
+            vec![
+                entry(0, motions.as_entire_binding()),
+                entry(1, lattice.as_entire_binding()),
+            ],
         ];
         let mut encoder = encoder(gpu);
         {
@@ -85,7 +111,7 @@ impl RigidMotions {
                 });
                 pass.set_bind_group(index, &group, &[]);
             }
-            pass.dispatch_workgroups(MAX_TEMPLATES as u32, 1, 1);
+            pass.dispatch_workgroups(MAX_MOTIONS as u32, 1, 1);
         }
         let offset = offset_of!(Kept, motions) as u64;
         encoder.copy_buffer_to_buffer(&motions, 0, &kept_textures.uniform, offset, BYTES);

@@ -11,8 +11,10 @@ use super::device::open_gpu;
 use super::error::CliError;
 use super::fields::subject_grid;
 use super::opening::Opened;
+use super::output::notice;
+use super::probe::map_samples;
+use crate::document::Align;
 use crate::placed::deformed_bounds;
-use crate::render::Probe;
 
 /// The composed map of a document with its continuity, as an NRRD file: per sample the way to the source in millimetres
 /// (left, posterior, superior, from output to input) and A. The samples fill the box in which the deformed object lies.
@@ -41,12 +43,16 @@ pub(super) fn export_field(
         }
     }
     let gpu = open_gpu(common)?;
-    let samples = pollster::block_on(async {
-        Probe::new(&gpu)
-            .await?
-            .samples(&illustration, &resources, &points)
-            .await
-    })?;
+    for template in templates
+        .iter()
+        .filter(|t| t.enabled && t.align != Align::Axis)
+    {
+        notice(format!(
+            "/templates/{}/align: an alignment is no map, and the field has none of it",
+            template.index
+        ));
+    }
+    let samples = map_samples(&gpu, common, opened, (&illustration, resources), &points)?;
     let mm = grid.mm_per_unit();
     let world_from_subject = grid.world_from_voxel * grid.subject_from_voxel().inverse();
     let lps = DVec3::new(-1.0, -1.0, 1.0);

@@ -10,6 +10,7 @@ use super::output::{notice, shortened};
 use crate::data::Resources;
 use crate::document::{Document, Illustration, MAX_BYTES};
 use crate::link::{self, LinkError};
+use crate::render::missed_notices;
 
 /// A document, where its relative addresses start, and the step that its link names.
 pub(super) struct Opened {
@@ -32,6 +33,9 @@ impl Opened {
         common: &Common,
     ) -> Result<(Illustration, Resources), CliError> {
         let illustration = self.at_moment(moment)?;
+        missed_notices(&illustration.templates)
+            .iter()
+            .for_each(notice);
         let resources = fields_of(&illustration, common, &self.folder)?;
         Ok((illustration, resources))
     }

@@ -11,9 +11,9 @@ use super::error::CliError;
 use super::numbers::read_numbers;
 use super::opening::Opened;
 use super::subject::{report_drawing, subject_of};
-use crate::data::{Subject, VolumeLimits};
-use crate::document::Illustration;
-use crate::render::{Fillings, Probe, Sample, Studio};
+use crate::data::{Resources, Subject, VolumeLimits};
+use crate::document::{Align, Illustration, PlacedTemplate};
+use crate::render::{Fillings, Gpu, Probe, Sample, Studio};
 
 /// A scan is asked as it is, however large.
 pub(super) const WHOLE: VolumeLimits = VolumeLimits {
@@ -60,12 +60,7 @@ pub(super) fn probe(
             let studio = Studio::new(&gpu, subject, false)?.with_resources(resources);
             pollster::block_on(studio.probe_object(&illustration, &positions))?
         }
-        _ => pollster::block_on(async {
-            Probe::new(&gpu)
-                .await?
-                .samples(&illustration, &resources, &positions)
-                .await
-        })?,
+        _ => map_samples(&gpu, common, opened, (&illustration, resources), &positions)?,
     };
     let materials = subject.as_ref().map(|s| Materials::of(s, &illustration));
     let mut out = io::BufWriter::new(io::stdout().lock());
@@ -90,6 +85,37 @@ pub(super) fn probe(
         writeln!(out).map_err(CliError::Output)?;
     }
     out.flush().map_err(CliError::Output)
+}
+
+/// The composed map of a document at places of the deformed object, with its constraints: for those the subject is
+/// opened too. Alignment is no map and is left out.
+pub(super) fn map_samples(
+    gpu: &Gpu,
+    common: &Common,
+    opened: &Opened,
+    (illustration, resources): (&Illustration, Resources),
+    points: &[Vec3],
+) -> Result<Vec<Sample>, CliError> {
+    let gives_way = |template: &PlacedTemplate| {
+        let constrain = template.constrain.as_ref();
+        template.enabled && constrain.is_some_and(|constrain| !constrain.keep.is_empty())
+    };
+    if !illustration.templates.iter().any(gives_way) {
+        return Ok(pollster::block_on(async {
+            Probe::new(gpu)
+                .await?
+                .samples(illustration, &resources, points)
+                .await
+        })?);
+    }
+    let subject = subject_of(illustration, common, &opened.folder, WHOLE)?;
+    report_drawing(illustration, &resources, &subject);
+    let mut unaligned = illustration.clone();
+    for template in &mut unaligned.templates {
+        template.align = Align::Axis;
+    }
+    let studio = Studio::new(gpu, &subject, false)?.with_resources(resources);
+    Ok(pollster::block_on(studio.probe_object(&unaligned, points))?)
 }
 
 /// What a subject has at places of rest space, as a document draws it.
