@@ -84,6 +84,8 @@ pub mod reader;
     feature = "app",
     feature = "reader",
     feature = "part-subjects",
-    feature = "part-scans"
+    feature = "part-scans",
+    feature = "part-meshes",
+    feature = "part-pictures"
 ))]
 pub mod shell;
