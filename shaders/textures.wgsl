@@ -40,8 +40,8 @@ fn weights_along(a: vec3f, b: vec3f, c: vec3f, way: vec3f) -> vec3f {
     return vec3f(-v - w, v, w);
 }
 
-/// From a place in a plane to the plane's place on the ray of another pixel. `along` is the direction of the ray, `aside`
-/// the way to the other ray.
+/// From a place in a plane to the plane's place on the ray of another pixel. `along` is the direction of the ray,
+/// `aside` the way to the other ray.
 fn aside_on_plane(normal: vec3f, along: vec3f, aside: vec3f) -> vec3f {
     let steep = dot(normal, along);
     let least = 1e-3 * length(normal) * length(along);

@@ -11,8 +11,9 @@
 // Differs from the source: one rule for the deformed part and the rest, exact edges, no blending at borders.
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/compose.wgsl
 //   march/overrides.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl march/jacobian.wgsl march/surface.wgsl
-//   march/surroundings.wgsl march/marched.wgsl march/gathered.wgsl march/objects.wgsl march/textures.wgsl subject/place.wgsl
-//   subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
+//   march/surroundings.wgsl march/marched.wgsl march/gathered.wgsl march/objects.wgsl march/textures.wgsl
+//   subject/place.wgsl subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl
+//   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
 /// Surfaces that count on one ray (spec/surfaces.md, "What the object has at a point").
 const MAX_CROSSINGS: u32 = 16u;

@@ -1,7 +1,7 @@
 // A slice through a mesh: what is filled in the colours of its segments, and surfaces as lines.
-// needs: types.wgsl textures.wgsl bind/subject.wgsl bind/mesh_look.wgsl bind/slice.wgsl affine.wgsl displace/compose.wgsl
-//   subject/place.wgsl subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl slice/plane.wgsl
-//   march/plain.wgsl|march/align.wgsl
+// needs: types.wgsl textures.wgsl bind/subject.wgsl bind/mesh_look.wgsl bind/slice.wgsl affine.wgsl
+// displace/compose.wgsl subject/place.wgsl subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl slice/plane.wgsl
+// march/plain.wgsl|march/align.wgsl
 
 /// Between two pixels the map goes no farther than this many times their distance; farther is a jump.
 const SLICE_STRETCH: f32 = 12.0;

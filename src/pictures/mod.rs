@@ -1,8 +1,9 @@
 //! Layer 1: the pixels of PNG and JPEG files, and smaller copies of pictures.
 //!
 //! The decoders are Rust on every machine, without vector code that rounds in another way, so that the page and the
-//! program get the same pixels from one file. Colours are taken as sRGB; embedded profiles and gamma are left aside, and
-//! so is all else that a file says of itself. Sizes are checked by [`PictureHeader::of`] before pixels are allocated.
+//! program get the same pixels from one file. Colours are taken as sRGB; embedded profiles and gamma are left aside,
+//! and so is all else that a file says of itself. Sizes are checked by [`PictureHeader::of`] before pixels are
+//! allocated.
 //!
 //! ```
 //! use fabrica::pictures::{PictureError, PictureHeader, decode};

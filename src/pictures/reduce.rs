@@ -47,8 +47,8 @@ fn covers(from: u32, to: u32) -> Vec<(usize, Vec<f32>)> {
     (0..to).map(one).collect()
 }
 
-/// The picture in a smaller size: each pixel is the mean of the area that it covers, by area and alpha, in linear light.
-/// No side of the new size is 0 or above the picture's.
+/// The picture in a smaller size: each pixel is the mean of the area that it covers, by area and alpha, in linear
+/// light. No side of the new size is 0 or above the picture's.
 pub fn reduced(picture: &Picture, size: [u32; 2]) -> Picture {
     let curve = &*CURVE;
     let [columns, rows] = [0, 1].map(|axis| {

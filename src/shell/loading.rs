@@ -257,7 +257,8 @@ pub fn read_scan(
     }
 }
 
-/// True if a file is to be read as a mesh. One that cannot be opened twice is read as a scan, whose reader names a mesh.
+/// True if a file is to be read as a mesh. One that cannot be opened twice is read as a scan, whose reader names a
+/// mesh.
 ///
 /// # Errors
 /// [`LoadError`] if the file cannot be read.

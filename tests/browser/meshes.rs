@@ -51,8 +51,8 @@ fn pictures_have_the_same_pixels_in_the_page() {
     });
 }
 
-/// A mesh with a texture fetches the part for meshes and the decoders, each once, and no reader of scans; a file that is
-/// called like a scan and is a mesh is read all the same.
+/// A mesh with a texture fetches the part for meshes and the decoders, each once, and no reader of scans; a file that
+/// is called like a scan and is a mesh is read all the same.
 #[test]
 fn a_mesh_fetches_the_programs_that_it_needs() {
     let picture = rgb_png(

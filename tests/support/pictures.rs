@@ -50,9 +50,9 @@ pub(crate) fn rgb_png(size: [u32; 2], color: impl Fn(u32, u32) -> [u8; 3]) -> Ve
     png(size, [8, 2, 0], &[], &rows)
 }
 
-/// A JPEG of flat blocks of 8 × 8 pixels: `value` has the sample of a component, by its index, in a block. `ids` are the
-/// numbers of the components, and `segments` stand behind the first marker. `frame` is the marker of the frame (0xc0 is
-/// baseline) and the bits of a sample.
+/// A JPEG of flat blocks of 8 × 8 pixels: `value` has the sample of a component, by its index, in a block. `ids` are
+/// the numbers of the components, and `segments` stand behind the first marker. `frame` is the marker of the frame
+/// (0xc0 is baseline) and the bits of a sample.
 pub(crate) fn jpeg(
     size: [u16; 2],
     ids: &[u8],
@@ -124,8 +124,8 @@ pub(crate) fn jpeg(
     file
 }
 
-/// A GLB of a square plate of 1 m in the plane of x and y, seen from +z: u to the right, v down, `repeats` pictures along
-/// each. `changes` are put into its description, by pointer.
+/// A GLB of a square plate of 1 m in the plane of x and y, seen from +z: u to the right, v down, `repeats` pictures
+/// along each. `changes` are put into its description, by pointer.
 pub(crate) fn plate(
     picture: &[u8],
     mime: &str,

@@ -1,5 +1,5 @@
-//! A surface as a few flat arrays, which travel between threads that share no memory. Those of triangles and voxels become
-//! the surface's own without a copy, so that the thread that draws does not wait for them.
+//! A surface as a few flat arrays, which travel between threads that share no memory. Those of triangles and voxels
+//! become the surface's own without a copy, so that the thread that draws does not wait for them.
 
 use bytemuck::allocation::try_cast_vec;
 use glam::{DAffine3, UVec3, Vec2, Vec3};

@@ -142,8 +142,8 @@ impl SurfaceTextures {
     }
 }
 
-/// The texture of a triangle that has been unpacked, its picture, and the places of the corners in it. Those of repeated
-/// pictures are taken near to the picture, where floats are fine.
+/// The texture of a triangle that has been unpacked, its picture, and the places of the corners in it. Those of
+/// repeated pictures are taken near to the picture, where floats are fine.
 pub(super) fn placed(mesh: &Mesh, triangle: usize) -> Option<(usize, &Picture, [Vec2; 3])> {
     let index = mesh.texture_of(triangle)?;
     let texture = mesh.textures.get(index)?;

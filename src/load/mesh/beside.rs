@@ -48,8 +48,8 @@ pub fn mesh_among(files: &mut dyn FileSet, names: &[String]) -> Option<String> {
     found
 }
 
-/// Names of the files beside it that an OBJ or a material library asks for: the last parts of their paths. None of other
-/// files, and of one that cannot be read.
+/// Names of the files beside it that an OBJ or a material library asks for: the last parts of their paths. None of
+/// other files, and of one that cannot be read.
 pub fn names_beside(files: &mut dyn FileSet, name: &str) -> Vec<String> {
     let lower = name.to_lowercase();
     let is_text = [".obj", ".obj.gz", ".mtl"]

@@ -174,10 +174,10 @@ pub(super) fn picture_name<'a>(words: impl Iterator<Item = &'a str>) -> String {
 
 /// The bytes of a picture beside the file.
 fn read_picture(files: &mut dyn FileSet, name: &str, draft: &Draft) -> Result<Vec<u8>, Aside> {
-    let handle = files.open(name).map_err(|_| Aside::NoPicture)?;
+    let handle = files.open(name).map_err(|_unreadable| Aside::NoPicture)?;
     let mut bytes = Vec::new();
     let mut read = std::io::Read::take(handle.read, MAX_FILE_BYTES + 1);
-    std::io::Read::read_to_end(&mut read, &mut bytes).map_err(|_| Aside::NoPicture)?;
+    std::io::Read::read_to_end(&mut read, &mut bytes).map_err(|_unreadable| Aside::NoPicture)?;
     draft.has_room_for_picture(bytes.len() as u64)?;
     Ok(bytes)
 }

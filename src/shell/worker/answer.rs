@@ -41,8 +41,8 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// The answer in a message; none if it is no message of a part, holds something else than its word promises, or is a
-    /// piece of a surface. A word that is not known fails the load.
+    /// The answer in a message; none if it is no message of a part, holds something else than its word promises, or is
+    /// a piece of a surface. A word that is not known fails the load.
     pub fn take(&mut self, message: &JsValue) -> Option<Answer> {
         let message: &Array = message.dyn_ref()?;
         match message.get(0).as_string()?.as_str() {

@@ -1,5 +1,5 @@
-//! The files of a task: blobs that were given or fetched, read in pieces, so that a file of gigabytes takes a few megabytes of this program's
-//! memory.
+//! The files of a task: blobs that were given or fetched, read in pieces, so that a file of gigabytes takes a few
+//! megabytes of this program's memory.
 
 use std::collections::BTreeSet;
 use std::io::{self, Read};

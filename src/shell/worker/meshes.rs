@@ -59,8 +59,8 @@ pub async fn run(message: JsValue, load: Function) -> Result<Option<String>, JsV
     }
 }
 
-/// What lies at an address, with the other meshes of its document and what an OBJ asks for beside it. What cannot be had
-/// is named by the reader.
+/// What lies at an address, with the other meshes of its document and what an OBJ asks for beside it. What cannot be
+/// had is named by the reader.
 async fn with_beside(
     mut files: Vec<(String, web_sys::Blob)>,
     address: &str,

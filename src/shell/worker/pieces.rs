@@ -34,8 +34,8 @@ pub fn unpacked(word: &str, held: &JsValue) -> Option<SubjectPart> {
 /// How many arrays a surface has.
 pub const SURFACE_ARRAYS: usize = 14;
 
-/// Puts an array of a surface, by its index in [`packed`], to those that have come. Each comes in a message of its own, so
-/// that no frame waits for all of them. `None` if it is none.
+/// Puts an array of a surface, by its index in [`packed_surface`], to those that have come. Each comes in a message of
+/// its own, so that no frame waits for all of them. `None` if it is none.
 pub fn put_array(arrays: &mut SurfaceArrays, index: u32, held: &JsValue) -> Option<()> {
     let bytes = || Some(held.dyn_ref::<Uint8Array>()?.to_vec());
     let floats = || Some(held.dyn_ref::<Float32Array>()?.to_vec());
