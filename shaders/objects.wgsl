@@ -1,5 +1,5 @@
 // Objects of the scene on a line: triangles that no template moves, found by the trees of their meshes.
-// needs: types.wgsl affine.wgsl triangles.wgsl bind/objects.wgsl
+// needs: types.wgsl affine.wgsl triangles.wgsl textures.wgsl bind/objects.wgsl march/overrides.wgsl
 
 /// Stands for no object.
 const NO_OBJECT: u32 = 0xffffffffu;
@@ -71,10 +71,14 @@ fn object_on(origin: vec3f, way: vec3f, after: f32, until: f32) -> ObjectCrossin
 }
 
 /// Linear RGB of an object from outside, where a line meets it.
-fn object_color(met: ObjectCrossing) -> vec3f {
+fn object_color(met: ObjectCrossing, footprint: Footprint) -> vec3f {
     let at = objects.items[met.object].triangles_at + 4u * met.triangle + 3u;
     let color = objects.items[met.object].color;
-    return select(color_between(object_texel(at).xyz, met.weights), color.rgb, color.a >= 0.0);
+    var own = color_between(object_texel(at).xyz, met.weights);
+    if has_textures != 0u {
+        own *= picture_on(object_texels, objects.items[met.object].textures_at, met.triangle, footprint);
+    }
+    return select(own, color.rgb, color.a >= 0.0);
 }
 
 /// How much of the light along a way objects take.

@@ -92,6 +92,8 @@ struct Subject {
     /// Texels of `mesh_texels` at which the triangles and the sets of segments begin; the nodes begin at 0.
     triangles_at: u32,
     sets_at: u32,
+    /// Texel at which the pictures on triangles begin; 0 if there are none.
+    textures_at: u32,
 }
 
 /// Transfer function, light and opacity.
@@ -163,6 +165,8 @@ struct SceneObject {
     nodes_at: u32,
     triangles_at: u32,
     node_count: u32,
+    /// Texel of `object_texels` at which the pictures on its triangles begin; 0 if there are none.
+    textures_at: u32,
 }
 
 /// The objects that are drawn.

@@ -5,6 +5,7 @@
 //! | room | layer | holds |
 //! |---|---|---|
 //! | [`math`] | 0 | spaces, placements, boxes, deterministic float functions |
+//! | [`pictures`] | 1 | the pixels of PNG and JPEG files, and smaller copies of them |
 //! | [`displace`] | 1 | the kinds of templates and all that is known of each; the formulas are WGSL |
 //! | [`document`] | 2 | the illustration: plain data, edits, validity, undo |
 //! | [`link`] | 3 | document to URL fragment and back |
@@ -56,6 +57,7 @@
 pub mod math;
 
 pub mod displace;
+pub mod pictures;
 
 pub mod document;
 
@@ -82,6 +84,8 @@ pub mod reader;
     feature = "app",
     feature = "reader",
     feature = "part-subjects",
-    feature = "part-scans"
+    feature = "part-scans",
+    feature = "part-meshes",
+    feature = "part-pictures"
 ))]
 pub mod shell;

@@ -1,14 +1,18 @@
-// A part of the viewer in a background thread: it makes subjects or reads scans off the frame loop. The first message names
+// A part of the viewer in a background thread: it makes subjects or reads files off the frame loop. The first message names
 // the part, which is loaded then; tasks and answers are described in src/shell/worker.
 
-let program;
+const programs = new Map();
 
-function load({ part, module }) {
-  program ??= import(`./fabrica_${part}.js`).then(async (bindings) => {
-    await bindings.default({ module_or_path: module ?? new URL(`./fabrica_${part}_bg.wasm`, import.meta.url) });
-    return bindings;
-  });
-  return program;
+/** The functions of a part. `module` is its compiled module, if the page has it. */
+function load(part, module) {
+  if (!programs.has(part)) {
+    const program = import(`./fabrica_${part}.js`).then(async (bindings) => {
+      await bindings.default({ module_or_path: module ?? new URL(`./fabrica_${part}_bg.wasm`, import.meta.url) });
+      return bindings;
+    });
+    programs.set(part, program);
+  }
+  return programs.get(part);
 }
 
 /** Tells the page that there will be no answer. The page ends this worker and goes on. */
@@ -18,8 +22,11 @@ function fail(error) {
 
 self.onmessage = async ({ data }) => {
   try {
-    const bindings = await load(data);
-    if (data.task) await bindings.run(data);
+    const bindings = await load(data.part, data.module);
+    if (!data.task) return;
+    // A part that finds that a file is for another one names it.
+    const other = await bindings.run(data, load);
+    if (other) await (await load(other)).run({ ...data, part: other, module: undefined }, load);
   } catch (error) {
     // A part that was asked for early and could not be loaded fails its task, which is still to come.
     if (data.task) fail(error);

@@ -1,6 +1,7 @@
 // What fills the bodies of a mesh, and the colours of their surfaces, cut faces and layers (spec/surfaces.md, "What
 // a body is").
-// needs: types.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/noise.wgsl subject/mesh.wgsl
+// needs: types.wgsl textures.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/noise.wgsl march/overrides.wgsl
+//   subject/mesh.wgsl
 
 /// Length of the grain of layers, subject units.
 const GRAIN_LENGTH: f32 = 0.02;
@@ -41,12 +42,15 @@ fn filled_at(rest: vec3f) -> u32 {
     return 0u;
 }
 
-/// Linear RGB of a triangle at a point of these weights, from its front or its back.
-fn surface_color(triangle: u32, weights: vec3f, is_front: bool) -> vec3f {
+/// Linear RGB of a triangle at a point, from its front or its back.
+fn surface_color(triangle: u32, footprint: Footprint, is_front: bool) -> vec3f {
     let body = mesh_look.segments[segment_of(triangle)];
     var own = body.color.rgb;
     if body.color.a < 0.0 {
-        own = color_of_triangle(triangle, weights);
+        own = color_of_triangle(triangle, footprint.weights);
+        if has_textures != 0u {
+            own *= picture_on(mesh_texels, subject.textures_at, triangle, footprint);
+        }
     }
     let back = select(own * INSIDE_SHARE, body.inside.rgb, body.inside.a >= 0.0);
     return select(back, own, is_front);

@@ -11,8 +11,9 @@
 // Differs from the source: one rule for the deformed part and the rest, exact edges, no blending at borders.
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/compose.wgsl
 //   march/overrides.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl march/jacobian.wgsl march/surface.wgsl
-//   march/surroundings.wgsl march/marched.wgsl march/gathered.wgsl march/objects.wgsl subject/place.wgsl
-//   subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
+//   march/surroundings.wgsl march/marched.wgsl march/gathered.wgsl march/objects.wgsl march/textures.wgsl
+//   subject/place.wgsl subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl
+//   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
 /// Surfaces that count on one ray (spec/surfaces.md, "What the object has at a point").
 const MAX_CROSSINGS: u32 = 16u;
@@ -334,6 +335,21 @@ struct MetLook {
     gloss: f32,
 }
 
+/// Where the pixel lies on the triangle that is met. On a texture the place at rest says it, for `met.weights` are of a
+/// chord.
+fn footprint_of(ray: Ray, met: Met, jacobian: mat3x3f) -> Footprint {
+    if has_textures == 0u {
+        return place_alone(met.weights);
+    }
+    let a = corner_of(met.triangle, 0u);
+    let b = corner_of(met.triangle, 1u);
+    let c = corner_of(met.triangle, 2u);
+    let weights = vec3f(1.0, 0.0, 0.0) + weights_along(a, b, c, met.at.pos - a);
+    let next = next_pixels(ray, met.at.t);
+    let next_at_rest = NextPixels(jacobian * next.right, jacobian * next.down);
+    return footprint_on(a, b, c, weights, jacobian * ray.dir, next_at_rest);
+}
+
 fn look_of(ray: Ray, met: Met) -> MetLook {
     let edge = Sample(met.at.pos, 0.0, 1.0, met.at.continuity, met.at.path);
     let map = differential_at(ray.origin + ray.dir * met.at.t, ray.forward, edge, met.mask);
@@ -347,7 +363,7 @@ fn look_of(ray: Ray, met: Met) -> MetLook {
         if owner_of(met.triangle) >= LID {
             look_here.albedo = filling_color(met.segment, met.at.pos);
         } else {
-            look_here.albedo = surface_color(met.triangle, met.weights, met.is_front);
+            look_here.albedo = surface_color(met.triangle, footprint_of(ray, met, map.jacobian), met.is_front);
             look_here.opacity = opacity_of_triangle(met.triangle);
         }
     } else {

@@ -1,6 +1,6 @@
 // Objects of the scene on a ray: straight lines through triangles that no template moves, the nearest first.
 // needs: types.wgsl affine.wgsl triangles.wgsl objects.wgsl bind/frame.wgsl bind/objects.wgsl march/seek.wgsl
-//   march/shade.wgsl march/marched.wgsl march/gathered.wgsl
+//   march/shade.wgsl march/marched.wgsl march/gathered.wgsl march/textures.wgsl textures.wgsl
 
 /// Crossings of objects that count on one ray.
 const MAX_OBJECT_CROSSINGS: u32 = 16u;
@@ -56,6 +56,20 @@ fn is_object_before(met: ptr<function, ObjectsMet>, t: f32) -> bool {
     return (*met).next < (*met).count && (*met).items[min((*met).next, MAX_OBJECT_CROSSINGS - 1u)].part < t;
 }
 
+/// Where the pixel lies on the triangle of an object.
+fn footprint_of_object(ray: Ray, met: ObjectCrossing) -> Footprint {
+    let map = objects.items[met.object].object_from_subject;
+    let next = next_pixels(ray, met.part);
+    return footprint_on(
+        object_corner(met.object, met.triangle, 0u),
+        object_corner(met.object, met.triangle, 1u),
+        object_corner(met.object, met.triangle, 2u),
+        met.weights,
+        apply_linear(map, ray.dir),
+        NextPixels(apply_linear(map, next.right), apply_linear(map, next.down)),
+    );
+}
+
 /// How an object looks where a ray meets it.
 fn seen_object(ray: Ray, met: ObjectCrossing) -> Seen {
     let at = objects.items[met.object].triangles_at + 4u * met.triangle;
@@ -69,7 +83,7 @@ fn seen_object(ray: Ray, met: ObjectCrossing) -> Seen {
     let face = normalize(apply_transposed(map, plane));
     let normal = normal_to_eye(apply_transposed(map, smooth_normal), face, ray.dir);
     let inside = objects.items[met.object].inside;
-    let outside = object_color(met);
+    let outside = object_color(met, footprint_of_object(ray, met));
     let back = select(INSIDE_SHARE * outside, inside.rgb, inside.a >= 0.0);
     let albedo = select(back, outside, met.is_front);
     let normal_in_view = apply_transposed(frame.subject_from_view, normal);

@@ -11,6 +11,12 @@ override has_edges: u32 = 0u;
 override has_bodies: u32 = 0u;
 /// 1 if objects stand in the scene.
 override has_objects: u32 = 0u;
+/// TEXTURES_ALONE or TEXTURES_REDUCED if meshes have pictures on their triangles.
+override has_textures: u32 = 0u;
+/// Pictures are taken as they are.
+const TEXTURES_ALONE: u32 = 1u;
+/// Where a pixel covers much of a picture, a smaller copy is taken.
+const TEXTURES_REDUCED: u32 = 2u;
 /// Taps of ambient occlusion, once per ray. More are smoother and cost a map and two texture reads each.
 override occlusion_taps: u32 = 8u;
 /// Taps towards the key light, once per ray.

@@ -1,7 +1,7 @@
 // A slice through a mesh: what is filled in the colours of its segments, and surfaces as lines.
-// needs: types.wgsl bind/subject.wgsl bind/mesh_look.wgsl bind/slice.wgsl affine.wgsl displace/compose.wgsl
-//   subject/place.wgsl subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl slice/plane.wgsl
-//   march/plain.wgsl|march/align.wgsl
+// needs: types.wgsl textures.wgsl bind/subject.wgsl bind/mesh_look.wgsl bind/slice.wgsl affine.wgsl
+// displace/compose.wgsl subject/place.wgsl subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl slice/plane.wgsl
+// march/plain.wgsl|march/align.wgsl
 
 /// Between two pixels the map goes no farther than this many times their distance; farther is a jump.
 const SLICE_STRETCH: f32 = 12.0;
@@ -37,7 +37,7 @@ fn color_at(pixel: vec2f) -> vec3f {
     let along = surface_between(pixel - vec2f(0.0, SLICE_LINE), pixel + vec2f(0.0, SLICE_LINE));
     let line = min(across, along);
     if line != NO_TRIANGLE {
-        return surface_color(line, vec3f(1.0 / 3.0), true) * SLICE_SURFACE;
+        return surface_color(line, place_alone(vec3f(1.0 / 3.0)), true) * SLICE_SURFACE;
     }
     let here = object_at(subject_from_pixel(pixel));
     if !here.is_there {

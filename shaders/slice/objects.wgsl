@@ -1,5 +1,5 @@
 // Objects in a slice: their surfaces as lines. No template moves them.
-// needs: types.wgsl bind/slice.wgsl affine.wgsl objects.wgsl march/overrides.wgsl slice/plane.wgsl
+// needs: types.wgsl bind/slice.wgsl affine.wgsl objects.wgsl textures.wgsl march/overrides.wgsl slice/plane.wgsl
 
 /// The object that lies between two places of the slice.
 fn object_between(first: vec2f, second: vec2f) -> ObjectCrossing {
@@ -19,5 +19,5 @@ fn with_objects(pixel: vec2f, color: vec3f) -> vec3f {
     if met.object == NO_OBJECT {
         return color;
     }
-    return object_color(met) * SLICE_SURFACE;
+    return object_color(met, place_alone(met.weights)) * SLICE_SURFACE;
 }

@@ -65,8 +65,9 @@ pub use geometry::orientation_code;
 pub use labels::{LabelFile, read_header, read_label_file, read_labels};
 pub use mesh::{
     Aside, Axes, MAX_TRIANGLES, MeshDescription, MeshError, MeshFile, MeshFormat, MeshOptions,
-    MeshOrNot, MeshReport, Origin, PartsMode, Progress, Repair, Units, describe_mesh, mesh_or_not,
-    read_mesh, read_mesh_subject,
+    MeshOrNot, MeshReport, Origin, PartsMode, Progress, ReadMeshes, Repair, Units, are_mesh_names,
+    describe_mesh, is_mesh_name, mesh_among, mesh_or_not, names_beside, read_mesh,
+    read_mesh_subject, read_meshes,
 };
 
 pub use options::ReadOptions;

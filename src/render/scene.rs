@@ -43,6 +43,8 @@ pub(crate) struct Scene {
     inputs: Inputs,
     subject: SubjectShader,
     has_segments: bool,
+    /// Pictures lie on the subject's triangles.
+    has_textures: bool,
     templates: TemplateBuffer,
     fields: FieldTexture,
     kept_textures: KeptTextures,
@@ -123,6 +125,7 @@ impl Scene {
             inputs: Inputs::new(),
             subject: SubjectShader::Volume,
             has_segments: false,
+            has_textures: false,
             templates,
             fields,
             kept_textures,
@@ -154,6 +157,7 @@ impl Scene {
     ) -> bool {
         self.inputs.update(illustration, resources, subject);
         self.has_segments = subject.info.has_segments;
+        self.has_textures = subject.texture_bytes > 0;
         self.subject = subject.shader;
         let inputs = &self.inputs;
         self.templates.update(gpu, &inputs.templates);
@@ -235,6 +239,7 @@ impl Scene {
             kept_by: kept.map_or(0, KeptTissue::kept_by),
             has_bodies: self.inputs.bodies.get().is_any(),
             has_objects: self.inputs.objects.get().items.count > 0,
+            has_textures: self.has_textures || self.inputs.objects.get().has_textures(),
             has_edges: table.is_some_and(|table| table.gradient > 0.0),
             finds: Finds::Picture,
         }

@@ -16,14 +16,16 @@ pub(super) fn foreign_host(address: &str) -> Option<String> {
     (!is_own).then(|| url.host())
 }
 
-/// The part that makes or reads a document's subject: the makers for a built-in one, the readers of scans for one at
-/// the page's own host; `base` is what relative addresses start from. None if the reader is to be asked first.
+/// The part that makes or reads a document's subject: the makers for a built-in one, readers for one at the
+/// page's own host; `base` is what relative addresses start from. None if the reader is to be asked first.
 pub(super) fn part_of(document: &Document, base: &str) -> Option<Part> {
     match &document.illustration().subject {
         SubjectRef::Builtin { name } => Some(Task::Subject(name.clone(), None).part()),
         subject => {
             let address = absolute(subject.src()?, base).ok()?;
-            foreign_host(&address).is_none().then_some(Part::Scans)
+            foreign_host(&address)
+                .is_none()
+                .then(|| Part::of_address(&address))
         }
     }
 }

@@ -1,22 +1,19 @@
 //! One load, from its description to the events that the app waits for. The same natively (in a thread) and on the page
-//! (in a worker); where it runs and how events travel is the caller's affair.
+//! (in a worker); where it runs and how events travel is the caller's affair. Meshes have a file of their own, as their
+//! readers are a program of their own in the page.
 
 use std::io::Read as _;
-use std::sync::Arc;
 
 use sha2::{Digest as _, Sha256};
 
 use crate::assets::{LoadEvent, RawQuestion, SegmentationsExpected};
-use crate::data::{Reducer, SubjectPart, SubjectSink, Surface, VolumeLimits};
-use crate::document::{MeshReading, MeshRef, Reading};
+use crate::data::{Reducer, Reduction, SubjectPart, SubjectSink, VolumeLimits};
+use crate::document::Reading;
 use crate::load::{
-    FileSet, LabelSource, LoadError, LoadReport, MeshFile, MeshOptions, MeshOrNot, RawLayout,
-    ReadOptions, Warning, is_segmentation, mesh_or_not, read_header, read_label_file,
-    read_mesh_subject, read_raw, read_subject,
+    FileSet, LabelSource, LoadError, LoadReport, MeshOrNot, RawLayout, ReadOptions, Warning,
+    is_segmentation, mesh_or_not, read_header, read_label_file, read_raw, read_subject,
 };
-use crate::subjects::{
-    COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab, SubjectError, mesh, tool,
-};
+use crate::subjects::{COARSE_RESOLUTION, FINE_RESOLUTION, Generator, Slab};
 
 /// Slabs are made of about this many voxels: large enough to travel well, small enough to stop soon.
 const SLAB_VOXELS: usize = 1 << 20;
@@ -93,31 +90,6 @@ pub fn make_subject(
             return;
         }
     }
-}
-
-/// Makes a built-in subject that is a mesh, or a tool.
-pub fn make_mesh(name: &str, post: &mut dyn Post) {
-    let Some(mesh) = mesh(name).or_else(|| tool(name)) else {
-        post.post(LoadEvent::Failed {
-            message: SubjectError::UnknownName(name.chars().take(40).collect()).to_string(),
-            details: String::new(),
-            fault: None,
-        });
-        return;
-    };
-    let mut sink = PostingSink {
-        post,
-        last_fraction: 0.0,
-        is_stopped: false,
-    };
-    let surface = Surface::new(&mesh, None, &mut |part| sink.progress(part));
-    let part = surface.map(|surface| SubjectPart::Surface(Arc::new(surface)));
-    let is_whole = part.is_ok_and(|part| sink.take(part).is_ok());
-    post.post(match is_whole {
-        true => LoadEvent::Done { sha256: None },
-        // A mesh of the program's own has a size.
-        false => LoadEvent::Cancelled,
-    });
 }
 
 /// Makes the slabs of a generator one after the other.
@@ -240,63 +212,28 @@ pub fn read_segments(files: &mut dyn FileSet, name: &str, post: &mut dyn Post) {
     post.post(event);
 }
 
-/// Reads a subject from a file and posts its pieces and how the load ended.
-pub fn read_file(
+/// Reads a scan from a file and posts its pieces and how the load ended.
+pub fn read_scan_file(
     files: &mut dyn FileSet,
     name: &str,
     limits: VolumeLimits,
     reading: &Reading,
     post: &mut dyn Post,
 ) {
-    let mut sink = PostingSink {
-        post,
-        last_fraction: -1.0,
-        is_stopped: false,
-    };
+    let mut sink = PostingSink::new(post);
     let mut report = LoadReport::default();
     let mut reducer = Reducer::new(&mut sink, limits);
     let outcome = read_scan(files, name, reading, &mut reducer, &mut report);
     let reduction = reducer.reduction();
-    let is_stopped = sink.is_stopped;
     match outcome {
-        Ok(()) => {
-            let hash = report.sha256_hex();
-            if report.frame_count > 1 {
-                post.post(LoadEvent::Frames {
-                    count: report.frame_count,
-                });
-            }
-            if let Some(code) = &report.modality {
-                post.post(LoadEvent::Modality(code.clone()));
-            }
-            for warning in &report.warnings {
-                // Which of several volumes is shown stands in a dialog of its own.
-                if !matches!(warning, Warning::Frames { .. }) {
-                    post.post(LoadEvent::Notice(warning.to_string()));
-                }
-            }
-            if let Some(reduction) = reduction {
-                post.post(LoadEvent::Notice(reduction.to_string()));
-            }
-            post.post(LoadEvent::Done { sha256: hash });
-        }
-        Err(_) if is_stopped => {
-            post.post(LoadEvent::Cancelled);
-        }
-        Err(LoadError::UnknownFormat { .. }) if may_be_raw(name) => {
+        Err(LoadError::UnknownFormat { .. }) if !sink.is_stopped() && may_be_raw(name) => {
             post.post(LoadEvent::AskRaw(question(files, name)));
         }
-        Err(error) => {
-            post.post(LoadEvent::Failed {
-                message: error.to_string(),
-                details: report.notices().join("\n"),
-                fault: error.fault(),
-            });
-        }
+        outcome => sink.end(outcome, &report, reduction),
     }
 }
 
-/// Reads a subject as its document says. A file that says that it holds labels brings its segments.
+/// Reads a scan as its document says. A file that says that it holds labels brings its segments.
 ///
 /// # Errors
 /// As [`read_subject`] and [`read_raw`].
@@ -311,13 +248,6 @@ pub fn read_scan(
         frame: reading.frame,
         ..ReadOptions::default()
     };
-    // A file that cannot be opened twice is read as a scan, whose reader names a mesh.
-    let may_be_mesh = reading.raw.is_none() && files.can_reopen();
-    if may_be_mesh && matches!(mesh_or_not(files, name)?, MeshOrNot::Mesh(_)) {
-        let meshes = mesh_files(files, name, reading, report)?;
-        let within = reading.bounds.map(|bounds| [bounds.min_mm, bounds.max_mm]);
-        return read_mesh_subject(files, &meshes, within, sink, report);
-    }
     match &reading.raw {
         Some(raw) => read_raw(files, name, &RawLayout::from(raw), &options, sink, report),
         None => {
@@ -327,61 +257,18 @@ pub fn read_scan(
     }
 }
 
-/// The files of a subject of meshes, `name` that of the first: by their addresses, by the last parts of those, or by
-/// their hashes among all files. One that is not there is left out where the document says how large the subject is,
-/// and missed where it does not.
-fn mesh_files(
+/// True if a file is to be read as a mesh. One that cannot be opened twice is read as a scan, whose reader names a
+/// mesh.
+///
+/// # Errors
+/// [`LoadError`] if the file cannot be read.
+pub fn is_mesh_file(
     files: &mut dyn FileSet,
     name: &str,
     reading: &Reading,
-    report: &mut LoadReport,
-) -> Result<Vec<MeshFile>, LoadError> {
-    let file_of = |file: String, name: &str, mesh: &MeshReading| MeshFile {
-        file,
-        name: name.to_owned(),
-        options: MeshOptions::from(mesh),
-        smooth_degrees: mesh.smooth_deg,
-    };
-    let called = reading.meshes.first().map_or("", |mesh| mesh.name.as_str());
-    let mut found = vec![file_of(name.to_owned(), called, &reading.mesh)];
-    let mut missing = Vec::new();
-    for mesh in reading.meshes.iter().skip(1) {
-        match find_mesh(files, mesh) {
-            Some(file) => found.push(file_of(file, &mesh.name, &mesh.reading)),
-            None => missing.push(match (mesh.name.as_str(), &mesh.src, &mesh.sha256) {
-                ("", Some(src), _) => src.clone(),
-                ("", None, hash) => format!("SHA-256 {}", hash.as_deref().unwrap_or_default()),
-                (name, ..) => name.to_owned(),
-            }),
-        }
-    }
-    let list = missing.join(", ");
-    match (missing.is_empty(), reading.bounds) {
-        (true, _) => {}
-        (false, Some(_)) => report.warn(Warning::Mesh {
-            what: format!("meshes of the subject that are not there are left out: {list}"),
-        }),
-        (false, None) => {
-            return Err(LoadError::Mesh {
-                message: format!(
-                    "meshes of the subject are not there, and without `subject.box` nothing is drawn: {list}"
-                ),
-            });
-        }
-    }
-    Ok(found)
-}
-
-fn find_mesh(files: &mut dyn FileSet, mesh: &MeshRef) -> Option<String> {
-    if let Some(src) = &mesh.src {
-        let last = src.rsplit('/').next().unwrap_or_default();
-        let names = [src.as_str(), last];
-        let found = names.into_iter().find(|name| files.open(name).is_ok());
-        return found.map(str::to_owned);
-    }
-    let wanted = mesh.sha256.as_ref()?;
-    let mut names = files.names().into_iter();
-    names.find(|name| hash_of(files, name).is_some_and(|hash| hash.eq_ignore_ascii_case(wanted)))
+) -> Result<bool, LoadError> {
+    let may_be = reading.raw.is_none() && files.can_reopen();
+    Ok(may_be && matches!(mesh_or_not(files, name)?, MeshOrNot::Mesh(_)))
 }
 
 /// The message for a document that asks for a file of the reader's own. `name` is the author's name for the file.
@@ -421,16 +308,72 @@ fn question(files: &mut dyn FileSet, name: &str) -> RawQuestion {
 }
 
 /// Turns what a reader hands over into events.
-struct PostingSink<'a> {
+pub(super) struct PostingSink<'a> {
     post: &'a mut dyn Post,
     last_fraction: f32,
     is_stopped: bool,
 }
 
-impl PostingSink<'_> {
+impl<'a> PostingSink<'a> {
+    pub(super) fn new(post: &'a mut dyn Post) -> Self {
+        Self {
+            post,
+            last_fraction: -1.0,
+            is_stopped: false,
+        }
+    }
+
+    /// True if nobody wants more.
+    pub(super) fn is_stopped(&self) -> bool {
+        self.is_stopped
+    }
+
     fn pass(&mut self, event: LoadEvent) -> bool {
         self.is_stopped = self.is_stopped || !self.post.post(event);
         !self.is_stopped
+    }
+
+    /// Tells how a load ended.
+    pub(super) fn end(
+        self,
+        outcome: Result<(), LoadError>,
+        report: &LoadReport,
+        reduction: Option<Reduction>,
+    ) {
+        let post = self.post;
+        match outcome {
+            Ok(()) => {
+                let hash = report.sha256_hex();
+                if report.frame_count > 1 {
+                    post.post(LoadEvent::Frames {
+                        count: report.frame_count,
+                    });
+                }
+                if let Some(code) = &report.modality {
+                    post.post(LoadEvent::Modality(code.clone()));
+                }
+                for warning in &report.warnings {
+                    // Which of several volumes is shown stands in a dialog of its own.
+                    if !matches!(warning, Warning::Frames { .. }) {
+                        post.post(LoadEvent::Notice(warning.to_string()));
+                    }
+                }
+                if let Some(reduction) = reduction {
+                    post.post(LoadEvent::Notice(reduction.to_string()));
+                }
+                post.post(LoadEvent::Done { sha256: hash });
+            }
+            Err(_) if self.is_stopped => {
+                post.post(LoadEvent::Cancelled);
+            }
+            Err(error) => {
+                post.post(LoadEvent::Failed {
+                    message: error.to_string(),
+                    details: report.notices().join("\n"),
+                    fault: error.fault(),
+                });
+            }
+        }
     }
 }
 
@@ -517,7 +460,7 @@ mod tests {
     fn a_file_that_is_no_scan_fails_in_words() {
         let mut files = MemoryFiles::new([("x.nii", b"hello".to_vec())]);
         let mut last = None;
-        read_file(
+        read_scan_file(
             &mut files,
             "x.nii",
             LIMITS,
@@ -647,7 +590,7 @@ mod tests {
                 true
             };
             let name = "scan_4x3x2_uint8.raw";
-            read_file(&mut files, name, LIMITS, reading, &mut post);
+            read_scan_file(&mut files, name, LIMITS, reading, &mut post);
             last
         };
         let Some(LoadEvent::AskRaw(question)) = read(&Reading::default()) else {

@@ -16,6 +16,7 @@ pub mod web;
 pub mod worker;
 
 pub mod loading;
+pub mod meshes;
 
 #[cfg(not(target_arch = "wasm32"))]
 pub mod native;

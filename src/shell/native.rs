@@ -10,14 +10,13 @@ use std::time::Instant;
 
 use super::command_line::ReadingFlags;
 use super::files::{Folder, Picked, local, mesh_set};
-use super::loading::{
-    make_mesh, make_subject, read_file, read_segments, resolutions, take_segmentations, wanted_file,
-};
+use super::loading::{make_subject, read_segments, resolutions, take_segmentations, wanted_file};
+use super::meshes::{make_mesh, read_file};
 use crate::app::{App, LinkChange, Message, SaveFile, SavedTo, Services, Shipped, Start, Ticket};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
 use crate::document::{Document, RawVoxels, Reading};
-use crate::load::{is_field, read_field};
+use crate::load::{is_field, mesh_among, read_field};
 use crate::render::Gpu;
 use crate::subjects::mesh_names;
 use crate::subjects::{Generator, Slab};
@@ -368,8 +367,10 @@ impl NativeServices {
             let mut picked = Picked(named.collect());
             let names = picked.0.iter().map(|(name, _)| name.clone()).collect();
             let rest = take_segmentations(&mut picked, names, &labels, &mut post);
-            if let Some(first) = rest.first() {
-                scan = picked.0.into_iter().find(|(name, _)| name == first);
+            // Material libraries and pictures that were given with a mesh may lie in other folders.
+            let mesh = mesh_among(&mut picked, &rest);
+            if let Some(first) = mesh.as_ref().or(rest.first()) {
+                scan = picked.0.iter().find(|(name, _)| name == first).cloned();
             }
             let Some((_, path)) = scan else {
                 post(LoadEvent::Done { sha256: None });
@@ -382,6 +383,9 @@ impl NativeServices {
                 }
                 post_while_wanted(&sender, &ctx, ticket, &is_wanted, event)
             };
+            if let Some(name) = mesh {
+                return read_file(&mut picked, &name, limits, &reading, &mut post);
+            }
             let (mut folder, name) = Folder::of(&path);
             read_file(&mut folder, &name, limits, &reading, &mut post);
         });

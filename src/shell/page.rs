@@ -137,7 +137,7 @@ impl PageServices {
         let started = self.answered(task, move |services, answer| match answer {
             Answer::Event(event) => services.pass(ticket, event),
             Answer::Field(outcome) => services.take_field(None, Vec::new(), *outcome),
-            Answer::Module(_) => {}
+            Answer::Module(..) => {}
         });
         match started {
             Ok(load) => self.0.borrow_mut().load = Some((ticket, load)),

@@ -17,11 +17,14 @@ mod harness;
 mod library;
 mod making;
 mod marks;
+mod meshes;
 mod native;
 mod page;
 mod parts;
 mod passage;
 mod path;
+#[path = "../support/pictures.rs"]
+mod picture_files;
 mod presenting;
 mod rounds;
 mod running;

@@ -13,7 +13,7 @@ fn programs(server: &Server) -> Vec<String> {
 }
 
 /// How often a file of a part was asked for.
-fn count(server: &Server, name: &str) -> usize {
+pub(crate) fn count(server: &Server, name: &str) -> usize {
     let asked = programs(server);
     asked
         .iter()
@@ -67,7 +67,10 @@ fn each_part_is_fetched_when_it_is_needed() {
         let server = &session.server;
         let asked = programs(server);
         println!("for the head: {asked:?}");
-        assert_eq!(count(server, "fabrica_scans"), 0, "no reader: {asked:?}");
+        for part in ["scans", "meshes", "pictures"] {
+            let name = format!("fabrica_{part}");
+            assert_eq!(count(server, &name), 0, "no reader: {asked:?}");
+        }
         assert_eq!(count(server, "fabrica_subjects.js"), 1, "{asked:?}");
         assert_eq!(count(server, "fabrica_subjects_bg.wasm"), 1, "{asked:?}");
         assert_eq!(count(server, "fabrica_bg.wasm"), 1, "{asked:?}");
@@ -87,6 +90,9 @@ fn each_part_is_fetched_when_it_is_needed() {
         let asked = programs(server);
         println!("with the scan: {asked:?}");
         assert_eq!(count(server, "fabrica_scans_bg.wasm"), 1, "{asked:?}");
+        for part in ["fabrica_meshes", "fabrica_pictures"] {
+            assert_eq!(count(server, part), 0, "no {part} for a scan: {asked:?}");
+        }
         // The compiled module serves the next load: nothing is fetched again.
         drop_files(&tab, &["ball.nrrd"]).await;
         tab.settled().await;
@@ -113,6 +119,9 @@ fn a_link_to_a_scan_fetches_no_maker_of_subjects() {
             programs(server)
         );
         assert_eq!(count(server, "fabrica_scans_bg.wasm"), 1);
+        for part in ["fabrica_meshes", "fabrica_pictures"] {
+            assert_eq!(count(server, part), 0, "no {part} for a scan");
+        }
         tab.assert_no_complaints().await;
     });
 }

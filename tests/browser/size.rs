@@ -14,7 +14,7 @@ struct Program {
 }
 
 /// The page itself, and the parts that it fetches when it first needs them.
-const PROGRAMS: [Program; 4] = [
+const PROGRAMS: [Program; 6] = [
     Program {
         name: "fabrica",
         sent: 1_650_000,
@@ -32,6 +32,16 @@ const PROGRAMS: [Program; 4] = [
     },
     Program {
         name: "fabrica_scans",
+        sent: 572_000,
+        packed: 520_000,
+    },
+    Program {
+        name: "fabrica_meshes",
+        sent: 572_000,
+        packed: 520_000,
+    },
+    Program {
+        name: "fabrica_pictures",
         sent: 572_000,
         packed: 520_000,
     },

@@ -42,12 +42,12 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Subject {
             texture_from_rest, label_from_rest, dims, label_dims, texture_end,
             value_low, value_range, detail, has_labels,
-            mesh_min, mesh_max, node_count, triangles_at, sets_at,
+            mesh_min, mesh_max, node_count, triangles_at, sets_at, textures_at,
         }
         MeshSegment { color, inside, kind, thickness, gloss, opacity, first_layer, layer_count }
         MeshLayer { color, depth, grain }
         MeshLook { segments, layers, has_shells }
-        SceneObject { object_from_subject, color, inside, opacity, gloss, nodes_at, triangles_at, node_count }
+        SceneObject { object_from_subject, color, inside, opacity, gloss, nodes_at, triangles_at, node_count, textures_at }
         SceneObjects { items, count }
         Look { table_scale, table_offset, tint, specular, opacity_mode, edges }
         Grid { origin_min, cell_size, cells, is_used }

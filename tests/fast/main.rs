@@ -22,6 +22,9 @@ mod load_hostile;
 mod meshes;
 #[path = "../../src/bin/xtask/palette.rs"]
 mod palette;
+#[path = "../support/pictures.rs"]
+mod picture_files;
+mod pictures;
 mod prose;
 mod recipes;
 #[path = "../support/scans.rs"]

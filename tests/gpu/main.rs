@@ -18,6 +18,7 @@ mod meshes;
 mod objects;
 mod probes;
 mod slices;
+mod textures;
 
 #[path = "../support/data.rs"]
 mod data;
@@ -25,6 +26,8 @@ mod data;
 mod firm;
 #[path = "../support/gpu.rs"]
 mod gpu;
+#[path = "../support/pictures.rs"]
+mod picture_files;
 #[path = "../reference/rbf.rs"]
 mod rbf;
 #[path = "../reference/mod.rs"]

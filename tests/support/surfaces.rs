@@ -24,7 +24,13 @@ impl SubjectSink for Taken {
 
 /// The surface of a mesh file; its name tells the format where the bytes do not.
 pub(crate) fn surface_of(name: &str, bytes: Vec<u8>) -> Arc<Surface> {
-    let (mut files, mut taken) = (MemoryFiles::new([(name, bytes)]), Taken(None));
+    surface_of_files(&[(name, bytes)])
+}
+
+/// The surface of the first of these files, beside the others.
+pub(crate) fn surface_of_files(files: &[(&str, Vec<u8>)]) -> Arc<Surface> {
+    let name = files[0].0;
+    let (mut files, mut taken) = (MemoryFiles::new(files.to_vec()), Taken(None));
     let mesh = MeshFile {
         file: name.to_owned(),
         ..MeshFile::default()

@@ -23,7 +23,9 @@ export function run(message, port) {
   before = before.then(async () => {
     try {
       const program = await load(message.part);
-      if (message.task) await program.run({ ...message, scope });
+      if (!message.task) return;
+      const other = await program.run({ ...message, scope }, load);
+      if (other) await (await load(other)).run({ ...message, part: other, module: undefined, scope }, load);
     } catch (error) {
       if (message.task) port.postMessage(["failed", "The part of the viewer that loads scans stopped because of a fault", String(error)]);
     }

@@ -42,7 +42,7 @@ const NATIVE: [Check; 6] = [
 ];
 
 /// The page's programs, each by its features; `None` for the default ones.
-const PAGE: [(&str, Option<&str>, &str); 4] = [
+const PAGE: [(&str, Option<&str>, &str); 6] = [
     ("lint, page", None, "fabrica"),
     (
         "lint, the part that makes subjects",
@@ -54,6 +54,16 @@ const PAGE: [(&str, Option<&str>, &str); 4] = [
         "lint, the part that reads scans",
         Some("part-scans"),
         "fabrica_scans",
+    ),
+    (
+        "lint, the part that reads meshes",
+        Some("part-meshes"),
+        "fabrica_meshes",
+    ),
+    (
+        "lint, the part that unpacks pictures",
+        Some("part-pictures"),
+        "fabrica_pictures",
     ),
 ];
 

@@ -11,8 +11,9 @@ use std::path::Path;
 use super::imports::{self, Graph, Import, Source};
 
 /// Rooms with their layers: a room imports only rooms of lower layers.
-pub(crate) const ROOMS: [(&str, u32); 14] = [
+pub(crate) const ROOMS: [(&str, u32); 15] = [
     ("math", 0),
+    ("pictures", 1),
     ("displace", 1),
     ("document", 2),
     ("link", 3),

@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 
+use crate::pictures::Picture;
+
 /// Stands for an index where there is none.
 pub const NO_INDEX: u32 = u32::MAX;
 
@@ -88,11 +90,13 @@ pub struct MeshMaterial {
     pub texture: Option<u32>,
 }
 
-/// A picture, still packed.
+/// A picture on triangles.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MeshTexture {
-    /// The file of the picture: PNG or JPEG.
-    pub bytes: Vec<u8>,
+    /// The file of the picture: PNG or JPEG. Empty when it has been unpacked.
+    pub packed: Vec<u8>,
+    /// Its pixels, opaque; `None` before it is unpacked, and if that is not possible.
+    pub picture: Option<Picture>,
     /// Width and height by the picture's header, pixels.
     pub size: [u32; 2],
     /// What is there outside 0 to 1, along u and v.
@@ -116,6 +120,15 @@ impl Mesh {
     pub fn corners_of(&self, triangle: [u32; 3]) -> [Vec3; 3] {
         // Every index of a repaired mesh is there.
         triangle.map(|index| self.positions[index as usize])
+    }
+
+    /// Index of the texture of a triangle that has places in it at all corners.
+    pub fn texture_of(&self, triangle: usize) -> Option<usize> {
+        let uvs = self.uvs.as_ref()?;
+        let material = *self.material_of.get(triangle)?;
+        let texture = self.materials.get(material as usize)?.texture?;
+        let has_places = (0..3).all(|corner| uvs.get(triangle, corner).is_some());
+        has_places.then_some(texture as usize)
     }
 
     /// Orders the triangles by parts: `part_of` has an index into `names` for each triangle. Parts without triangles

@@ -1,87 +1,115 @@
-//! A surface as a few flat arrays, which travel between threads that share no memory.
+//! A surface as a few flat arrays, which travel between threads that share no memory. Those of triangles and voxels
+//! become the surface's own without a copy, so that the thread that draws does not wait for them.
 
-use glam::{DAffine3, UVec3, Vec3};
+use bytemuck::allocation::try_cast_vec;
+use glam::{DAffine3, UVec3, Vec2, Vec3};
 
 use super::field::{FIELD_MARGIN, SurfaceField};
+use super::textures::{SurfacePicture, SurfaceTextures};
 use super::tree::{Tree, TreeNode};
 use super::triangle::Triangle;
 use super::whole::{LID, MAX_SURFACE_SEGMENTS, Surface, SurfaceSegment, frame_of, segmentation_of};
-use crate::data::Grid;
+use crate::data::{Grid, Wrap};
 use crate::math::Aabb;
+use crate::pictures::Picture;
 
 /// A surface in flat arrays.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceArrays {
     /// Names of the segments.
     pub names: Vec<String>,
-    /// Where the grids lie: twice twelve numbers, columns of an affine map.
+    /// Where the grids lie: twice twelve numbers, columns of an affine map; then the opacities of the segments.
     pub places: Vec<f64>,
-    /// Corners and normals of triangles, boxes of nodes, depths, opacities of segments.
-    pub numbers: Vec<f32>,
-    /// Counts, voxels along the axes, nodes, sets, order of the triangles.
+    /// Voxels along the axes of both grids, the number of sets, the sets, the number of pictures, and for each picture
+    /// its size and how it goes on outside; then the colour of each segment and whether it is closed.
     pub indices: Vec<u32>,
-    /// Colours and segments of triangles, fills of voxels, colours of segments and whether they are closed.
-    pub bytes: Vec<u8>,
+    /// Nodes of the tree: least and greatest place as bits, skip, first and count.
+    pub nodes: Vec<u32>,
+    /// Order of the triangles.
+    pub order: Vec<u32>,
+    /// Corners of the triangles.
+    pub corners: Vec<f32>,
+    /// Normals at the corners.
+    pub normals: Vec<f32>,
+    /// Colours at the corners.
+    pub colors: Vec<u8>,
+    /// Segments of the triangles.
+    pub owners: Vec<u8>,
+    /// Depths of the field's voxels.
+    pub depths: Vec<f32>,
+    /// Fills of the field's voxels.
+    pub fills: Vec<u8>,
+    /// Places of the corners in pictures; empty if there are no pictures.
+    pub uvs: Vec<f32>,
+    /// The picture of each triangle; empty if there are no pictures.
+    pub picture_of: Vec<u16>,
+    /// Pixels of pictures and their copies.
+    pub pixels: Vec<u8>,
 }
 
 impl SurfaceArrays {
     /// The arrays of a surface.
     pub fn of(surface: &Surface) -> Self {
         let (field, grid) = (&surface.field, &surface.segmentation.grid);
+        let floats = |corners: &[[Vec3; 3]]| bytemuck::cast_slice(corners).to_vec();
         let mut arrays = Self {
             places: [grid.world_from_voxel, field.rest_from_voxel]
                 .iter()
                 .flat_map(DAffine3::to_cols_array)
                 .collect(),
+            order: surface.tree.order.clone(),
+            corners: bytemuck::cast_slice(&surface.triangles).to_vec(),
+            normals: floats(&surface.normals),
+            colors: surface.colors.as_flattened().as_flattened().to_vec(),
+            owners: surface.owners.clone(),
+            depths: field.depths.clone(),
+            fills: field.fills.clone(),
             ..Self::default()
         };
-        let counts = [
-            surface.triangles.len(),
-            surface.tree.nodes.len(),
-            field.sets.len(),
-        ];
-        arrays.indices.extend(counts.map(|count| count as u32));
-        arrays.indices.extend(grid.dims.to_array());
-        arrays.indices.extend(field.dims.to_array());
         for node in &surface.tree.nodes {
-            arrays.numbers.extend(node.bounds.min.to_array());
-            arrays.numbers.extend(node.bounds.max.to_array());
-            arrays.indices.extend([node.skip, node.first, node.count]);
+            let places = [node.bounds.min, node.bounds.max];
+            let bits = places.iter().flat_map(|place| place.to_array());
+            arrays.nodes.extend(bits.map(f32::to_bits));
+            arrays.nodes.extend([node.skip, node.first, node.count]);
         }
+        let indices = &mut arrays.indices;
+        indices.extend(grid.dims.to_array());
+        indices.extend(field.dims.to_array());
+        indices.push(field.sets.len() as u32);
         for &set in &field.sets {
-            let words = (0..4).map(|word| (set >> (32 * word)) as u32);
-            arrays.indices.extend(words);
+            indices.extend((0..4).map(|word| (set >> (32 * word)) as u32));
         }
-        arrays.indices.extend(&surface.tree.order);
-        for (triangle, normals) in surface.triangles.iter().zip(&surface.normals) {
-            let all = triangle.0.iter().chain(normals);
-            arrays
-                .numbers
-                .extend(all.flat_map(|place| place.to_array()));
+        let textures = surface.textures.as_ref();
+        indices.push(textures.map_or(0, |textures| textures.pictures.len() as u32));
+        if let Some(textures) = textures {
+            for picture in &textures.pictures {
+                indices.extend(picture.copies.first().map_or([0; 2], |copy| copy.size));
+                indices.extend(picture.wrap.map(|wrap| wrap as u32));
+                for copy in &picture.copies {
+                    arrays.pixels.extend(copy.pixels.as_flattened());
+                }
+            }
+            arrays.uvs = bytemuck::cast_slice(&textures.uvs).to_vec();
+            arrays.picture_of.clone_from(&textures.picture_of);
         }
-        arrays.numbers.extend(&field.depths);
-        arrays
-            .bytes
-            .extend(surface.colors.as_flattened().as_flattened());
-        arrays.bytes.extend(&surface.owners);
-        arrays.bytes.extend(&field.fills);
         for segment in &surface.segments {
             arrays.names.push(segment.name.clone());
-            arrays.numbers.push(segment.opacity);
-            arrays.bytes.push(u8::from(segment.is_closed));
-            arrays.bytes.extend(segment.mean_srgb);
+            arrays.places.push(segment.opacity.into());
+            let [r, g, b] = segment.mean_srgb;
+            let closed = u8::from(segment.is_closed);
+            indices.push(u32::from_le_bytes([r, g, b, closed]));
         }
         arrays
     }
 
     /// The surface of the arrays; `None` if they are not those of a surface.
-    pub fn surface(&self) -> Option<Surface> {
-        let places = self.places.as_chunks::<12>().0;
+    pub fn into_surface(self) -> Option<Surface> {
+        let (places, opacities) = self.places.split_at_checked(24)?;
+        let places = places.as_chunks::<12>().0;
         let [world_from_voxel, rest_from_voxel] =
             [places.first()?, places.get(1)?].map(DAffine3::from_cols_array);
         let mut indices = self.indices.iter().copied();
         let mut index = || indices.next();
-        let [triangle_count, node_count, set_count] = [index()?, index()?, index()?];
         let mut dims = || Some(UVec3::new(index()?, index()?, index()?));
         let grid = Grid {
             dims: dims()?,
@@ -89,71 +117,84 @@ impl SurfaceArrays {
         };
         let field_dims = dims()?;
         let voxels = field_dims.as_u64vec3().element_product() as usize;
-        if field_dims.max_element() > 1024 || self.bytes.len() < voxels {
+        if field_dims.max_element() > 1024 {
             return None;
         }
-
-        let mut numbers = self.numbers.iter().copied();
-        let mut place = || Some(Vec3::new(numbers.next()?, numbers.next()?, numbers.next()?));
-        let mut nodes = Vec::new();
-        for _ in 0..node_count {
-            let bounds = Aabb {
-                min: place()?,
-                max: place()?,
-            };
-            nodes.push(TreeNode {
-                bounds,
-                skip: indices.next()?,
-                first: indices.next()?,
-                count: indices.next()?,
-            });
-        }
         let mut sets = Vec::new();
-        for _ in 0..set_count {
+        for _ in 0..index()? {
             let mut set = 0_u128;
             for word in 0..4 {
-                set |= u128::from(indices.next()?) << (32 * word);
+                set |= u128::from(index()?) << (32 * word);
             }
             sets.push(set);
         }
-        let order: Vec<u32> = indices.by_ref().take(triangle_count as usize).collect();
-        let (mut triangles, mut normals) = (Vec::new(), Vec::new());
-        for _ in 0..triangle_count {
-            triangles.push(Triangle([place()?, place()?, place()?]));
-            normals.push([place()?, place()?, place()?]);
+        let mut sizes = Vec::new();
+        for _ in 0..index()? {
+            let size = [index()?, index()?];
+            sizes.push((size, [wrap_of(index()?)?, wrap_of(index()?)?]));
         }
-        let depths: Vec<f32> = numbers.by_ref().take(voxels).collect();
-
-        let mut bytes = self.bytes.iter().copied();
-        let mut color = || Some([bytes.next()?, bytes.next()?, bytes.next()?]);
-        let mut colors = Vec::new();
-        for _ in 0..triangle_count {
-            colors.push([color()?, color()?, color()?]);
-        }
-        let owners: Vec<u8> = bytes.by_ref().take(triangle_count as usize).collect();
-        let fills: Vec<u8> = bytes.by_ref().take(voxels).collect();
         let mut segments = Vec::new();
-        for name in &self.names {
+        for (name, opacity) in self.names.iter().zip(opacities) {
+            let [r, g, b, closed] = index()?.to_le_bytes();
             segments.push(SurfaceSegment {
                 name: name.clone(),
-                opacity: numbers.next()?,
-                is_closed: bytes.next()? != 0,
-                mean_srgb: [bytes.next()?, bytes.next()?, bytes.next()?],
+                opacity: *opacity as f32,
+                is_closed: closed != 0,
+                mean_srgb: [r, g, b],
             });
         }
+        let nodes = self.nodes.as_chunks::<9>().0.iter().map(|node| {
+            let [a, b, c, d, e, f, skip, first, count] = *node;
+            let place = |bits: [u32; 3]| Vec3::from(bits.map(f32::from_bits));
+            TreeNode {
+                bounds: Aabb {
+                    min: place([a, b, c]),
+                    max: place([d, e, f]),
+                },
+                skip,
+                first,
+                count,
+            }
+        });
+        let nodes = nodes.collect();
+        let triangles: Vec<Triangle> = try_cast_vec(self.corners).ok()?;
+        let normals: Vec<[Vec3; 3]> = try_cast_vec(self.normals).ok()?;
+        let colors: Vec<[[u8; 3]; 3]> = try_cast_vec(self.colors).ok()?;
+        let count = triangles.len();
+        let textures = match sizes.is_empty() {
+            true => None,
+            false => Some(SurfaceTextures {
+                pictures: pictures_of(&sizes, &self.pixels)?,
+                picture_of: self.picture_of,
+                uvs: try_cast_vec::<f32, [Vec2; 3]>(self.uvs).ok()?,
+            }),
+        };
+        let has_pictures = |textures: &SurfaceTextures| {
+            let known = |of: &u16| usize::from(*of) <= textures.pictures.len();
+            let counts = [textures.picture_of.len(), textures.uvs.len()];
+            counts == [count; 2] && textures.picture_of.iter().all(known)
+        };
         let field = SurfaceField {
             dims: field_dims,
             rest_from_voxel,
-            depths,
-            fills,
+            depths: self.depths,
+            fills: self.fills,
             sets,
         };
-        let is_whole = order.len() == triangles.len()
-            && owners.len() == triangles.len()
+        let counts = [
+            self.order.len(),
+            self.owners.len(),
+            normals.len(),
+            colors.len(),
+        ];
+        let is_whole = counts == [count; 4]
+            && textures.as_ref().is_none_or(has_pictures)
             && field.depths.len() == voxels
             && field.fills.len() == voxels
+            && segments.len() == self.names.len()
             && segments.len() <= MAX_SURFACE_SEGMENTS
-            && owners
+            && self
+                .owners
                 .iter()
                 .all(|&owner| usize::from(owner & !LID) < segments.len())
             && field
@@ -167,8 +208,12 @@ impl SurfaceArrays {
             triangles,
             normals,
             colors,
-            owners,
-            tree: Tree { nodes, order },
+            textures,
+            owners: self.owners,
+            tree: Tree {
+                nodes,
+                order: self.order,
+            },
             field,
             segments,
             segmentation,
@@ -176,17 +221,71 @@ impl SurfaceArrays {
     }
 }
 
+/// Pictures of these sizes, with their copies; `None` if there are not enough pixels.
+fn pictures_of(sizes: &[([u32; 2], [Wrap; 2])], mut pixels: &[u8]) -> Option<Vec<SurfacePicture>> {
+    let mut pictures = Vec::new();
+    for &(mut size, wrap) in sizes {
+        let mut copies = Vec::new();
+        loop {
+            let bytes = u64::from(size[0]) * u64::from(size[1]);
+            let bytes = usize::try_from(bytes.checked_mul(4)?).ok()?;
+            let (own, rest) = pixels.split_at_checked(bytes)?;
+            pixels = rest;
+            copies.push(Picture {
+                size,
+                pixels: own.as_chunks().0.to_vec(),
+                is_of_inks: false,
+            });
+            if size.iter().all(|side| *side <= 1) {
+                break;
+            }
+            size = size.map(|side| (side / 2).max(1));
+        }
+        pictures.push(SurfacePicture { wrap, copies });
+    }
+    Some(pictures)
+}
+
+/// What is there outside of a picture, from its number.
+fn wrap_of(number: u32) -> Option<Wrap> {
+    let all = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp];
+    all.into_iter().find(|wrap| *wrap as u32 == number)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::data::mesh::testing::cube;
-    use crate::data::{Mesh, MeshPart};
+    use crate::data::{Corners, Mesh, MeshMaterial, MeshPart, MeshTexture};
 
-    #[test]
-    fn a_surface_survives_its_arrays() {
+    /// A cube, two sides of which have a picture.
+    fn painted() -> Surface {
         let (positions, triangles) = cube();
+        let picture = Picture {
+            size: [3, 2],
+            pixels: (0..6).map(|k| [40 * k, 7, 9, 255]).collect(),
+            is_of_inks: false,
+        };
+        let material = |texture| MeshMaterial {
+            color: Vec3::ONE,
+            has_color: false,
+            opacity: 0.5,
+            texture,
+        };
         let mesh = Mesh {
             positions,
+            uvs: Some(Corners {
+                values: vec![Vec2::ZERO, Vec2::X, Vec2::new(2.25, -0.5)],
+                at: vec![[0, 1, 2]; triangles.len()],
+            }),
+            material_of: (0..12).map(|k| u32::from(k < 4)).collect(),
+            materials: vec![material(None), material(Some(0))],
+            textures: vec![MeshTexture {
+                packed: Vec::new(),
+                size: picture.size,
+                wrap: [Wrap::Mirror, Wrap::Clamp],
+                picture: Some(picture),
+            }],
             triangles,
             parts: vec![MeshPart {
                 name: "cube".to_owned(),
@@ -194,21 +293,59 @@ mod tests {
             }],
             ..Mesh::default()
         };
-        let surface = Surface::new(&mesh, None, &mut |_| true).expect("it has a size");
-        let arrays = SurfaceArrays::of(&surface);
-        assert_eq!(arrays.surface().as_ref(), Some(&surface));
-        // What is cut short anywhere is no surface, and nothing else happens.
-        let mut short = arrays.clone();
-        short.bytes.truncate(1000);
-        assert_eq!(short.surface(), None);
-        let mut short = arrays.clone();
-        short.numbers.truncate(1000);
-        assert_eq!(short.surface(), None);
-        for len in [0, 2, 8, 20] {
-            let mut short = arrays.clone();
-            short.indices.truncate(len);
-            assert_eq!(short.surface(), None);
+        Surface::new(&mesh, None, &mut |_| true).expect("it has a size")
+    }
+
+    #[test]
+    fn a_surface_survives_its_arrays() {
+        let surface = painted();
+        let textures = surface.textures.as_ref().expect("pictures");
+        let painted = textures.picture_of.iter().filter(|of| **of == 1).count();
+        assert_eq!((painted, textures.pictures[0].copies.len()), (4, 2));
+        let plain = Surface {
+            textures: None,
+            ..surface.clone()
+        };
+        for surface in [&surface, &plain] {
+            let arrays = SurfaceArrays::of(surface);
+            assert_eq!(arrays.into_surface().as_ref(), Some(surface));
         }
-        assert_eq!(SurfaceArrays::default().surface(), None);
+        // What is cut short anywhere is no surface, and nothing else happens.
+        let arrays = SurfaceArrays::of(&surface);
+        let cuts: [&dyn Fn(&mut SurfaceArrays); 15] = [
+            &|arrays| arrays.places.truncate(20),
+            &|arrays| arrays.places.truncate(24),
+            &|arrays| arrays.names.clear(),
+            &|arrays| arrays.indices.truncate(5),
+            &|arrays| arrays.indices.truncate(13),
+            &|arrays| arrays.order.truncate(3),
+            &|arrays| arrays.corners.truncate(9),
+            &|arrays| arrays.corners.truncate(8),
+            &|arrays| arrays.normals.truncate(9),
+            &|arrays| arrays.colors.truncate(9),
+            &|arrays| arrays.owners.truncate(3),
+            &|arrays| arrays.depths.truncate(100),
+            &|arrays| arrays.fills.truncate(100),
+            &|arrays| arrays.uvs.truncate(6),
+            &|arrays| arrays.pixels.truncate(20),
+        ];
+        for (number, cut) in cuts.iter().enumerate() {
+            let mut short = arrays.clone();
+            cut(&mut short);
+            // A surface of another number of segments is told by the owners of its triangles.
+            assert_eq!(short.into_surface(), None, "cut {number}");
+        }
+        assert_eq!(SurfaceArrays::default().into_surface(), None);
+    }
+
+    #[test]
+    fn pictures_are_on_the_triangles_that_they_came_with() {
+        let textures = painted().textures.expect("pictures");
+        let first = textures.picture_of.iter().position(|of| *of == 1);
+        let [a, ..] = textures.uvs[first.expect("a painted one")];
+        // Mirrored along u: two pictures further is the same place.
+        assert!(a.x >= 0.0 && a.x < 2.0, "{a}");
+        let mean = textures.mean_over(first.expect("a painted one"));
+        assert!(mean.x > 0.0 && mean.x < 1.0 && mean.y < 0.01, "{mean}");
     }
 }

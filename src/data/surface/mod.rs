@@ -8,6 +8,7 @@ mod normals;
 mod parted;
 #[cfg(test)]
 pub(crate) mod testing;
+mod textures;
 mod tree;
 mod triangle;
 mod whole;
@@ -15,6 +16,7 @@ mod winding;
 
 pub use arrays::SurfaceArrays;
 pub use field::{FIELD_MARGIN, FIELD_VOXELS, SurfaceField, times_inside};
+pub use textures::{SurfacePicture, SurfaceTextures};
 pub use tree::{Tree, TreeNode};
 pub use triangle::{Nearest, Triangle};
 pub use whole::{MAX_SURFACE_SEGMENTS, PLAIN_SRGB, Surface, SurfaceError, SurfaceSegment};

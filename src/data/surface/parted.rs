@@ -1,8 +1,8 @@
 //! A surface with more triangles, for measurements.
 
-use super::tree::Tree;
+use super::tree::{Tree, in_order};
 use super::triangle::Triangle;
-use super::whole::{Surface, in_order};
+use super::whole::Surface;
 
 impl Surface {
     /// The same surface with each triangle parted in four at the middles of its sides. Field and segments stay.
@@ -20,8 +20,12 @@ impl Surface {
             colors.extend(quarters(self.colors[i], mean));
             owners.extend([self.owners[i]; 4]);
         }
+        let textures = self.textures.as_ref();
+        let textures =
+            textures.map(|of| of.parted(|places| quarters(places, |a, b| (a + b) * 0.5)));
         let tree = Tree::new(&triangles);
         Self {
+            textures: textures.map(|textures| textures.in_order(&tree.order)),
             triangles: in_order(&tree.order, &triangles),
             normals: in_order(&tree.order, &normals),
             colors: in_order(&tree.order, &colors),

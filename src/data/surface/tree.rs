@@ -257,6 +257,11 @@ fn cut(items: &mut [Item]) -> usize {
     items.partition_point(|item| bin(item) <= best.1)
 }
 
+/// The values of triangles in the order of a tree's leaves.
+pub(super) fn in_order<T: Copy>(order: &[u32], values: &[T]) -> Vec<T> {
+    order.iter().map(|&i| values[i as usize]).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,8 @@
 use glam::{DVec3, Vec3};
 
 /// The corners of a triangle, rest space, counter-clockwise seen from its front.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Triangle(pub [Vec3; 3]);
 
 /// The point of triangles that is nearest to a place.

@@ -5,7 +5,8 @@ use glam::{DAffine3, DVec3, Vec3};
 use super::field::{FIELD_MARGIN, FieldMaker, SurfaceField, times_inside, voxels_of};
 use super::lids::{MAX_TRIANGLES, lids_of};
 use super::normals::corner_normals;
-use super::tree::Tree;
+use super::textures::{SurfaceTextures, placed};
+use super::tree::{Tree, in_order};
 use super::triangle::Triangle;
 use super::winding::Winding;
 use crate::data::frame::SubjectFrame;
@@ -41,6 +42,8 @@ pub struct Surface {
     pub normals: Vec<[Vec3; 3]>,
     /// Colours at the corners of each triangle, sRGB.
     pub colors: Vec<[[u8; 3]; 3]>,
+    /// Pictures on the triangles, which `colors` are multiplied by; `None` if there are none.
+    pub textures: Option<SurfaceTextures>,
     /// The segment of each triangle, an index into `segments`; with 128 added if the triangle is part of a lid.
     pub owners: Vec<u8>,
     /// The tree over the triangles.
@@ -128,7 +131,8 @@ impl Surface {
         let each = |&(mesh, smooth): &(&Mesh, Option<f32>)| corner_normals(mesh, smooth);
         let mut normals: Vec<_> = meshes.iter().flat_map(each).collect();
         let mut colors: Vec<_> = meshes.iter().flat_map(|(m, _)| corner_colors(m)).collect();
-        let (segments, mut owners) = segments_of(mesh, &colors, &triangles);
+        let mut textures = SurfaceTextures::of(meshes);
+        let (segments, mut owners) = segments_of(mesh, &colors, textures.as_ref(), &triangles);
         let mut stop_at = |part: f32| {
             if go_on(part) {
                 Ok(())
@@ -138,7 +142,7 @@ impl Surface {
         };
         stop_at(0.1)?;
         let mut windings = windings_of(&triangles, &owners, segments.len());
-        turn_outwards(
+        let turned = turn_outwards(
             mesh,
             &mut triangles,
             &mut normals,
@@ -146,6 +150,11 @@ impl Surface {
             &owners,
             &windings,
         );
+        for triangle in turned {
+            textures
+                .iter_mut()
+                .for_each(|textures| textures.swap(triangle));
+        }
         stop_at(0.2)?;
         let voxel = frame.detail;
         let (mut are_closed, mut left) = (true, MAX_TRIANGLES);
@@ -157,6 +166,9 @@ impl Surface {
             windings[k] = Winding::new(&own);
             owners.extend(lids.triangles.iter().map(|_| LID | k as u8));
             colors.extend(lids.triangles.iter().map(|_| [segment.mean_srgb; 3]));
+            for _ in &lids.triangles {
+                textures.iter_mut().for_each(SurfaceTextures::push_plain);
+            }
             triangles.extend(lids.triangles);
             normals.extend(lids.normals);
             stop_at(0.25)?;
@@ -167,6 +179,7 @@ impl Surface {
         normals = in_order(&tree.order, &normals);
         colors = in_order(&tree.order, &colors);
         owners = in_order(&tree.order, &owners);
+        textures = textures.map(|textures| textures.in_order(&tree.order));
         stop_at(0.3)?;
 
         let mut maker = FieldMaker::new(&frame.bounds, &triangles);
@@ -189,6 +202,7 @@ impl Surface {
             triangles,
             normals,
             colors,
+            textures,
             owners,
             tree,
             field,
@@ -277,11 +291,7 @@ impl Surface {
     }
 }
 
-pub(super) fn in_order<T: Copy>(order: &[u32], values: &[T]) -> Vec<T> {
-    order.iter().map(|&i| values[i as usize]).collect()
-}
-
-/// All triangles, parts and materials of several meshes. Normals and colours at corners are left out.
+/// All triangles, parts and materials of several meshes. Normals, colours and textures at corners are left out.
 fn joined(meshes: &[(&Mesh, Option<f32>)]) -> Mesh {
     let mut all = Mesh::default();
     for (mesh, _) in meshes {
@@ -384,7 +394,10 @@ fn corner_colors(mesh: &Mesh) -> Vec<[[u8; 3]; 3]> {
         let material = material_of(triangle)
             .filter(|m| m.has_color)
             .map(|m| m.color);
+        let has_picture = placed(mesh, triangle).is_some();
         match (mesh.coloring, vertex, material) {
+            // The colour that the picture is multiplied by.
+            (Coloring::First, ..) | (_, None, None) if has_picture => [255; 3],
             (Coloring::Product, Some(vertex), Some(material)) => srgb(vertex * material),
             (_, Some(color), _) | (_, None, Some(color)) => srgb(color),
             (_, None, None) => PLAIN_SRGB,
@@ -399,6 +412,7 @@ fn corner_colors(mesh: &Mesh) -> Vec<[[u8; 3]; 3]> {
 fn segments_of(
     mesh: &Mesh,
     colors: &[[[u8; 3]; 3]],
+    textures: Option<&SurfaceTextures>,
     triangles: &[Triangle],
 ) -> (Vec<SurfaceSegment>, Vec<u8>) {
     let mut segments = Vec::new();
@@ -428,7 +442,11 @@ fn segments_of(
                 .materials
                 .get(index as usize)
                 .map_or(1.0, |m| m.opacity);
-            color += (a + b + c) / 3.0 * share;
+            let mut mean = (a + b + c) / 3.0;
+            if let Some(textures) = textures {
+                mean *= textures.mean_over(triangle);
+            }
+            color += mean * share;
             opacity += own * share;
             area += share;
         }
@@ -461,7 +479,7 @@ fn windings_of(triangles: &[Triangle], owners: &[u8], count: usize) -> Vec<Windi
 }
 
 /// Turns pieces over that are inside out: those around which the winding number, mean of both sides and by area, is
-/// below -¼.
+/// below -¼. Returns their triangles.
 fn turn_outwards(
     mesh: &Mesh,
     triangles: &mut [Triangle],
@@ -469,7 +487,8 @@ fn turn_outwards(
     colors: &mut [[[u8; 3]; 3]],
     owners: &[u8],
     windings: &[Winding],
-) {
+) -> Vec<usize> {
+    let mut turned = Vec::new();
     let (piece_of, count) = pieces(mesh.positions.len(), &mesh.triangles);
     let mut of_piece = vec![Vec::new(); count];
     for (triangle, &piece) in piece_of.iter().enumerate() {
@@ -486,14 +505,16 @@ fn turn_outwards(
             area += share;
         }
         if sum < -0.25 * area {
-            for triangle in piece {
+            for &triangle in &piece {
                 triangles[triangle].0.swap(1, 2);
                 normals[triangle].swap(1, 2);
                 normals[triangle] = normals[triangle].map(|normal| -normal);
                 colors[triangle].swap(1, 2);
             }
+            turned.extend(piece);
         }
     }
+    turned
 }
 
 /// The segments on the field's voxels, without its margin.

@@ -4,7 +4,8 @@ use super::error::MeshError;
 use super::input::Progress;
 use super::options::MeshOptions;
 use super::read::read_mesh;
-use super::report::{MeshReport, Origin};
+use super::report::{Aside, MeshReport, Origin};
+use super::textures::take_packed;
 use crate::data::Mesh;
 use crate::data::mesh::{Measure, measure};
 use crate::load::FileSet;
@@ -38,7 +39,11 @@ pub fn describe_mesh(
     options: &MeshOptions,
     progress: &mut Progress<'_>,
 ) -> Result<MeshDescription, MeshError> {
-    let (mesh, report) = read_mesh(files, name, options, progress)?;
+    let (mut mesh, mut report) = read_mesh(files, name, options, progress)?;
+    for (_, packed) in take_packed(&mut mesh) {
+        let why = crate::pictures::decode(&packed).err().map(Aside::Picture);
+        report.aside.extend(why);
+    }
     let parts = mesh.parts.iter().map(|part| {
         let triangles = mesh
             .triangles

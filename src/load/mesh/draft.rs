@@ -5,7 +5,12 @@ use glam::{Vec2, Vec3};
 use super::error::MeshError;
 use super::options::Axes;
 use super::report::Aside;
-use crate::data::{Coloring, MeshMaterial, MeshTexture, NO_INDEX};
+use super::textures::texture;
+use crate::data::{Coloring, MeshMaterial, MeshTexture, NO_INDEX, Wrap};
+use crate::pictures::{MAX_FILE_BYTES, PictureError};
+
+/// Textures of a file at most: each may take a second to unpack.
+const MAX_TEXTURES: usize = 256;
 
 /// A corner of a face: indices into the lists of the draft, or [`NO_INDEX`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,6 +132,40 @@ impl Draft {
         self.has_room("texture coordinates", self.uvs.len())?;
         self.uvs.push(uv);
         Ok(self.uvs.len() as u32 - 1)
+    }
+
+    /// That packed pictures may grow by so many bytes: of all of them together as many may come as of one.
+    ///
+    /// # Errors
+    /// That the picture is left aside.
+    pub(super) fn has_room_for_picture(&self, bytes: u64) -> Result<(), Aside> {
+        let held = self
+            .textures
+            .iter()
+            .map(|texture| texture.packed.len() as u64);
+        let bytes = held.sum::<u64>().saturating_add(bytes);
+        match bytes <= MAX_FILE_BYTES {
+            true => Ok(()),
+            false => Err(Aside::Picture(PictureError::LargeFile { bytes })),
+        }
+    }
+
+    /// Adds a texture from the bytes of a picture; its index. One that is none, or one too many, is left aside.
+    pub(super) fn add_texture(&mut self, packed: Vec<u8>, wrap: [Wrap; 2]) -> Option<u32> {
+        if self.textures.len() == MAX_TEXTURES {
+            self.leave(Aside::ManyTextures);
+            return None;
+        }
+        match texture(packed, wrap) {
+            Ok(texture) => {
+                self.textures.push(texture);
+                Some(self.textures.len() as u32 - 1)
+            }
+            Err(error) => {
+                self.leave(Aside::Picture(error));
+                None
+            }
+        }
     }
 
     /// Adds a part; its index.

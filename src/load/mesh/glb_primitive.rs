@@ -9,7 +9,6 @@ use super::draft::Draft;
 use super::error::MeshError;
 use super::glb_accessor::{component_count, read, view};
 use super::glb_json::{Gltf, index, numbers};
-use super::picture::texture;
 use super::report::Aside;
 use crate::data::{Coloring, MeshMaterial, NO_INDEX, Wrap};
 
@@ -92,9 +91,6 @@ fn read_material(
             picture = *textures
                 .entry(number)
                 .or_insert_with(|| read_texture(gltf, number, draft));
-            if picture.is_none() {
-                draft.leave(Aside::NoPicture);
-            }
         }
         if let Some(extension) = extension {
             transform = UvTransform {
@@ -118,9 +114,15 @@ fn read_material(
 
 /// A texture whose picture is in the file.
 fn read_texture(gltf: &Gltf, number: usize, draft: &mut Draft) -> Option<u32> {
-    let described = gltf.list("textures").get(number)?;
-    let image = gltf.list("images").get(index(described, "source")?)?;
-    let bytes = view(gltf, index(image, "bufferView")?).ok()?;
+    let described = gltf.list("textures").get(number);
+    let image = described
+        .and_then(|described| gltf.list("images").get(index(described, "source")?))
+        .and_then(|image| index(image, "bufferView"))
+        .and_then(|bytes| view(gltf, bytes).ok());
+    let (Some(described), Some(bytes)) = (described, image) else {
+        draft.leave(Aside::NoPicture);
+        return None;
+    };
     let sampler =
         index(described, "sampler").and_then(|sampler| gltf.list("samplers").get(sampler));
     let wrap = |key| match sampler.and_then(|sampler| index(sampler, key)) {
@@ -128,9 +130,11 @@ fn read_texture(gltf: &Gltf, number: usize, draft: &mut Draft) -> Option<u32> {
         Some(33_648) => Wrap::Mirror,
         _ => Wrap::Repeat,
     };
-    let read = texture(gltf.bytes[bytes].to_vec(), [wrap("wrapS"), wrap("wrapT")])?;
-    draft.textures.push(read);
-    Some(draft.textures.len() as u32 - 1)
+    if let Err(why) = draft.has_room_for_picture(bytes.len() as u64) {
+        draft.leave(why);
+        return None;
+    }
+    draft.add_texture(gltf.bytes[bytes].to_vec(), [wrap("wrapS"), wrap("wrapT")])
 }
 
 /// Adds the triangles of a mesh, placed by a node. Returns how many primitives it has.

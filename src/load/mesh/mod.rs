@@ -16,6 +16,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod beside;
 mod describe;
 mod draft;
 mod error;
@@ -29,7 +30,6 @@ mod mtl;
 mod obj;
 mod options;
 mod parts;
-mod picture;
 mod ply;
 mod ply_header;
 mod read;
@@ -39,9 +39,11 @@ mod stl;
 mod subject;
 #[cfg(test)]
 mod tests;
+mod textures;
 mod turn;
 mod weld;
 
+pub use beside::{are_mesh_names, is_mesh_name, mesh_among, names_beside};
 pub use describe::{MeshDescription, describe_mesh};
 pub use error::MeshError;
 pub use format::MeshFormat;
@@ -49,4 +51,4 @@ pub use input::Progress;
 pub use options::{Axes, MAX_TRIANGLES, MeshOptions, PartsMode, Units};
 pub use read::{MeshOrNot, mesh_or_not, read_mesh};
 pub use report::{Aside, MeshReport, Origin, Repair};
-pub use subject::{MeshFile, read_mesh_subject};
+pub use subject::{MeshFile, ReadMeshes, read_mesh_subject, read_meshes};

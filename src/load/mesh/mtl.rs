@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use glam::Vec3;
 
 use super::input::{Input, Lines, Progress};
-use super::picture::{MAX_PICTURE_BYTES, texture};
 use super::report::Aside;
 use crate::data::{MeshMaterial, Wrap};
 use crate::load::FileSet;
 use crate::load::files::open;
 use crate::math::linear_from_srgb;
+use crate::pictures::MAX_FILE_BYTES;
 
 use super::draft::Draft;
 use super::error::MeshError;
@@ -28,7 +28,7 @@ struct Entry {
 }
 
 /// The last part of a path as a header writes it, for either kind of slash: nothing else is ever opened.
-fn last_part(path: &str) -> &str {
+pub(super) fn last_part(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path).trim()
 }
 
@@ -65,7 +65,6 @@ pub(super) fn read(
         }
     }
     let mut pictures: BTreeMap<String, Option<u32>> = BTreeMap::new();
-    let mut total = 0;
     for (name, &index) in names {
         let Some(entry) = entries.get(name) else {
             continue;
@@ -77,15 +76,15 @@ pub(super) fn read(
             .filter(|name| !name.is_empty());
         let texture = picture.and_then(|name| {
             *pictures.entry(name.to_owned()).or_insert_with(|| {
-                let bytes = read_picture(files, name, MAX_PICTURE_BYTES.saturating_sub(total))?;
-                total += bytes.len() as u64;
-                draft.textures.push(texture(bytes, [Wrap::Repeat; 2])?);
-                Some(draft.textures.len() as u32 - 1)
+                match read_picture(files, name, draft) {
+                    Ok(packed) => draft.add_texture(packed, [Wrap::Repeat; 2]),
+                    Err(why) => {
+                        draft.leave(why);
+                        None
+                    }
+                }
             })
         });
-        if picture.is_some() && texture.is_none() {
-            draft.leave(Aside::NoPicture);
-        }
         let Some(material) = draft.materials.get_mut(index as usize) else {
             continue;
         };
@@ -153,7 +152,7 @@ fn read_library(
 
 /// The file's name after the options of a `map_Kd`, which begin with a dash and take numbers or words. Names with
 /// spaces are kept whole.
-fn picture_name<'a>(words: impl Iterator<Item = &'a str>) -> String {
+pub(super) fn picture_name<'a>(words: impl Iterator<Item = &'a str>) -> String {
     let words: Vec<&str> = words.collect();
     let mut rest = &words[..];
     while let [option, after @ ..] = rest {
@@ -173,12 +172,14 @@ fn picture_name<'a>(words: impl Iterator<Item = &'a str>) -> String {
     rest.join(" ")
 }
 
-fn read_picture(files: &mut dyn FileSet, name: &str, most: u64) -> Option<Vec<u8>> {
-    let handle = files.open(name).ok()?;
+/// The bytes of a picture beside the file.
+fn read_picture(files: &mut dyn FileSet, name: &str, draft: &Draft) -> Result<Vec<u8>, Aside> {
+    let handle = files.open(name).map_err(|_unreadable| Aside::NoPicture)?;
     let mut bytes = Vec::new();
-    let mut read = std::io::Read::take(handle.read, most + 1);
-    std::io::Read::read_to_end(&mut read, &mut bytes).ok()?;
-    (bytes.len() as u64 <= most).then_some(bytes)
+    let mut read = std::io::Read::take(handle.read, MAX_FILE_BYTES + 1);
+    std::io::Read::read_to_end(&mut read, &mut bytes).map_err(|_unreadable| Aside::NoPicture)?;
+    draft.has_room_for_picture(bytes.len() as u64)?;
+    Ok(bytes)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::fmt;
 use super::format::MeshFormat;
 use super::options::{Axes, Units};
 use crate::math::hex;
+use crate::pictures::PictureError;
 
 /// What a file holds that is not drawn. Named once each, never with words of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,8 +19,21 @@ pub enum Aside {
     Curves,
     /// A material library that is not there or cannot be read.
     NoLibrary,
-    /// A picture that is not there, or no PNG or JPEG, or too large.
+    /// A picture that is not there.
     NoPicture,
+    /// A picture that cannot be read.
+    Picture(PictureError),
+    /// More textures than are kept.
+    ManyTextures,
+    /// A picture of inks, whose colours were taken by inversion.
+    Inks,
+    /// A picture that was made smaller, so that all of them fit.
+    Reduced {
+        /// Width and height in the file, pixels.
+        from: [u32; 2],
+        /// Width and height that are drawn.
+        to: [u32; 2],
+    },
     /// Colours in the attribute of an STL's triangles.
     Attributes,
     /// The count of triangles in an STL's header is wrong.
@@ -46,19 +60,35 @@ impl fmt::Display for Aside {
             Self::Points => "points are left aside",
             Self::Lines => "lines are left aside",
             Self::Curves => "curves and free-form surfaces are left aside",
-            Self::NoLibrary => "a material library is not there or cannot be read; it is left aside",
-            Self::NoPicture => {
-                "a texture's picture is not there, too large, or neither PNG nor JPEG; it is left aside"
+            Self::NoLibrary => {
+                "a material library is not there or cannot be read; it is left aside"
+            }
+            Self::NoPicture => "a texture's picture is not there; it is left aside",
+            Self::Picture(error) => return write!(f, "a texture is left aside: {error}"),
+            Self::ManyTextures => {
+                "there are more textures than are kept; the others are left aside"
+            }
+            Self::Inks => "a texture mixes inks (CMYK); its colours were taken by inversion",
+            Self::Reduced { from, to } => {
+                let ([w, h], [to_w, to_h]) = (from, to);
+                return write!(
+                    f,
+                    "a texture of {w} × {h} pixels was reduced to {to_w} × {to_h}"
+                );
             }
             Self::Attributes => "colours in the attributes of triangles are left aside",
-            Self::WrongCount => "the header's count of triangles is wrong; those that are there were taken",
+            Self::WrongCount => {
+                "the header's count of triangles is wrong; those that are there were taken"
+            }
             Self::FaceProperties => "properties of faces are left aside",
             Self::NamedTexture => "a texture that is only named is left aside",
             Self::Skins => "skins and morph targets are left aside: the stored shape is shown",
             Self::Animations => "animations are left aside",
             Self::OtherTextures => "other textures than the base colour's are left aside",
             Self::TrailingBytes => "there are bytes after the end; they were left out",
-            Self::ManyMaterials => "there are more materials than are kept; the others are left aside",
+            Self::ManyMaterials => {
+                "there are more materials than are kept; the others are left aside"
+            }
         })
     }
 }

@@ -6,10 +6,12 @@ use glam::DVec3;
 use super::error::MeshError;
 use super::options::MeshOptions;
 use super::read::read_mesh;
+use super::textures::{fit, notices, take_packed};
 use crate::data::{Mesh, SubjectPart, SubjectSink, Surface, SurfaceError};
 use crate::load::files::FileSet;
 use crate::load::report::Warning;
 use crate::load::{LoadError, LoadReport};
+use crate::pictures::{Picture, decode};
 
 /// Part of the time that reading takes; preparing takes the rest.
 const READING: f32 = 0.2;
@@ -30,26 +32,44 @@ pub struct MeshFile {
     pub smooth_degrees: Option<f32>,
 }
 
-/// Reads the meshes of a subject, prepares them to be drawn as one and hands them over. The report's hash is that of
-/// the first file. `within` as for [`Surface::of`].
+/// Meshes of a subject that have been read. Their pictures are still packed: what unpacks them is a program of its own
+/// in the page.
+#[derive(Debug)]
+pub struct ReadMeshes {
+    meshes: Vec<(Mesh, Option<f32>)>,
+    /// How notices of each mesh begin.
+    callings: Vec<String>,
+    /// The name of the first file.
+    first: String,
+    /// Pictures that are to be unpacked: the index of the mesh, that of its texture, and the file of the picture.
+    packed: Vec<(usize, usize, Vec<u8>)>,
+}
+
+/// Reads the meshes of a subject. The report's hash is that of the first file.
 ///
 /// # Errors
 /// [`LoadError`], with name and place; also where the sink stops it.
-pub fn read_mesh_subject(
+pub fn read_meshes(
     files: &mut dyn FileSet,
     meshes: &[MeshFile],
-    within: Option<[DVec3; 2]>,
     sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
-) -> Result<(), LoadError> {
-    let mut read: Vec<(Mesh, Option<f32>)> = Vec::new();
+) -> Result<ReadMeshes, LoadError> {
+    let mut read = ReadMeshes {
+        meshes: Vec::new(),
+        callings: Vec::new(),
+        first: meshes
+            .first()
+            .map_or_else(String::new, |mesh| mesh.file.clone()),
+        packed: Vec::new(),
+    };
     let mut triangles = 0;
     for (k, entry) in meshes.iter().enumerate() {
         let options = MeshOptions {
             max_triangles: entry.options.max_triangles.saturating_sub(triangles),
             ..entry.options
         };
-        let (mesh, found) = read_mesh(files, &entry.file, &options, &mut |part| {
+        let (mut mesh, found) = read_mesh(files, &entry.file, &options, &mut |part| {
             sink.progress(READING * (k as f32 + part) / meshes.len() as f32)
         })
         .map_err(|error| match error {
@@ -77,22 +97,102 @@ pub fn read_mesh_subject(
             let what = format!("{of}{aside}");
             report.warn(Warning::Mesh { what });
         }
-        read.push((mesh, entry.smooth_degrees));
+        let pictures = take_packed(&mut mesh).into_iter();
+        read.packed
+            .extend(pictures.map(|(texture, packed)| (k, texture, packed)));
+        read.meshes.push((mesh, entry.smooth_degrees));
+        read.callings.push(of);
     }
-    name_parts(&mut read, meshes);
-    let read: Vec<(&Mesh, Option<f32>)> = read.iter().map(|(mesh, s)| (mesh, *s)).collect();
-    let surface = Surface::of(&read, within, &mut |part| {
-        sink.progress(READING + (1.0 - READING) * part)
-    });
-    let first = meshes.first().map_or("", |mesh| mesh.file.as_str());
-    let surface = surface.map_err(|error| match error {
-        SurfaceError::NoSize | SurfaceError::FarFromBox => LoadError::Mesh {
-            message: format!("{error} ({first})"),
-        },
-        SurfaceError::Stopped => LoadError::Cancelled,
-    })?;
-    let taken = sink.take(SubjectPart::Surface(Arc::new(surface)));
-    taken.map_err(LoadError::refused(first))
+    name_parts(&mut read.meshes, meshes);
+    Ok(read)
+}
+
+impl ReadMeshes {
+    /// The file of a picture that is still packed, if there is one. What it holds goes to [`ReadMeshes::unpacked`].
+    pub fn next_packed(&self) -> Option<&[u8]> {
+        self.packed.last().map(|(_, _, packed)| packed.as_slice())
+    }
+
+    /// Takes what the file of [`ReadMeshes::next_packed`] holds, or, in words, why it could not be read: it is left
+    /// aside then.
+    pub fn unpacked(&mut self, outcome: Result<Picture, String>, report: &mut LoadReport) {
+        let Some((mesh, texture, _)) = self.packed.pop() else {
+            return;
+        };
+        match outcome {
+            Ok(mut picture) => {
+                picture.make_opaque();
+                self.meshes[mesh].0.textures[texture].picture = Some(picture);
+                let textures = self
+                    .meshes
+                    .iter_mut()
+                    .flat_map(|(mesh, _)| &mut mesh.textures);
+                let mut pictures: Vec<&mut Picture> = textures
+                    .filter_map(|texture| texture.picture.as_mut())
+                    .collect();
+                fit(&mut pictures);
+            }
+            Err(why) => {
+                let what = format!("{}a texture is left aside: {why}", self.callings[mesh]);
+                report.warn(Warning::Mesh { what });
+            }
+        }
+    }
+
+    /// Prepares the meshes to be drawn as one and hands them over. `within` as for [`Surface::of`].
+    ///
+    /// # Errors
+    /// [`LoadError`]; also where the sink stops it.
+    pub fn prepare(
+        self,
+        within: Option<[DVec3; 2]>,
+        sink: &mut dyn SubjectSink,
+        report: &mut LoadReport,
+    ) -> Result<(), LoadError> {
+        for ((mesh, _), of) in self.meshes.iter().zip(&self.callings) {
+            for aside in mesh.textures.iter().flat_map(notices) {
+                let what = format!("{of}{aside}");
+                report.warn(Warning::Mesh { what });
+            }
+        }
+        let meshes: Vec<(&Mesh, Option<f32>)> =
+            self.meshes.iter().map(|(mesh, s)| (mesh, *s)).collect();
+        let surface = Surface::of(&meshes, within, &mut |part| {
+            sink.progress(READING + (1.0 - READING) * part)
+        });
+        let first = self.first.as_str();
+        let surface = surface.map_err(|error| match error {
+            SurfaceError::NoSize | SurfaceError::FarFromBox => LoadError::Mesh {
+                message: format!("{error} ({first})"),
+            },
+            SurfaceError::Stopped => LoadError::Cancelled,
+        })?;
+        let taken = sink.take(SubjectPart::Surface(Arc::new(surface)));
+        taken.map_err(LoadError::refused(first))
+    }
+}
+
+/// Reads the meshes of a subject, prepares them to be drawn as one and hands them over. The report's hash is that of
+/// the first file. `within` as for [`Surface::of`].
+///
+/// # Errors
+/// [`LoadError`], with name and place; also where the sink stops it.
+pub fn read_mesh_subject(
+    files: &mut dyn FileSet,
+    meshes: &[MeshFile],
+    within: Option<[DVec3; 2]>,
+    sink: &mut dyn SubjectSink,
+    report: &mut LoadReport,
+) -> Result<(), LoadError> {
+    let mut read = read_meshes(files, meshes, sink, report)?;
+    while let Some(packed) = read.next_packed() {
+        let outcome = decode(packed).map_err(|error| error.to_string());
+        read.unpacked(outcome, report);
+        if !sink.progress(READING) {
+            return Err(LoadError::Cancelled);
+        }
+    }
+    read.prepare(within, sink, report)
 }
 
 /// Names the parts of all files (spec/surfaces.md, `subject.meshes`): of a file with one part by the author's name for

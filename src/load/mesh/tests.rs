@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::*;
 use crate::data::{Mesh, Wrap};
 use crate::load::{LoadError, MemoryFiles};
+use crate::pictures::PictureError;
 
 fn read_as(
     files: &[(&str, &[u8])],
@@ -254,7 +255,7 @@ mod objs {
         assert_eq!(mesh.materials.len(), 3);
         let (_, report) =
             read_as(&[files[0], files[1], ("skin.png", b"GIF89a")], &options).expect("a mesh");
-        assert_eq!(report.aside, [Aside::NoPicture]);
+        assert_eq!(report.aside, [Aside::Picture(PictureError::Unknown)]);
     }
 
     #[test]

@@ -6,6 +6,7 @@ use super::gpu::Gpu;
 use super::readback::Readback;
 use glam::UVec3;
 use half::f16;
+use std::ops::Range;
 
 /// Format of the accumulated picture: linear light, premultiplied, blendable everywhere.
 pub(crate) const LINEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -73,6 +74,36 @@ pub(crate) fn write_slices(
             height,
             depth_or_array_layers: slices,
         },
+    );
+}
+
+/// Writes some rows of a texture of two dimensions.
+pub(crate) fn write_rows(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    rows: Range<u32>,
+    texel_bytes: u32,
+    bytes: &[u8],
+) {
+    let width = texture.width();
+    gpu.queue.write_texture(
+        wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level: 0,
+            origin: wgpu::Origin3d {
+                x: 0,
+                y: rows.start,
+                z: 0,
+            },
+            aspect: wgpu::TextureAspect::All,
+        },
+        bytes,
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(width * texel_bytes),
+            rows_per_image: None,
+        },
+        extent(UVec3::new(width, rows.len() as u32, 1)),
     );
 }
 

@@ -62,6 +62,8 @@ pub struct BenchReport {
     pub voxels: [u32; 3],
     /// Bytes that the measured mesh takes on the GPU, if one was measured.
     pub mesh_bytes: Option<u64>,
+    /// Bytes of the pictures on its triangles, which are not among `mesh_bytes`.
+    pub texture_bytes: u64,
     /// Width and height of the measured picture, pixels.
     pub size_px: [u32; 2],
     /// One row per scene, with and without the skip grid.
@@ -69,7 +71,8 @@ pub struct BenchReport {
 }
 
 impl BenchReport {
-    /// The report as JSON: `adapter`, `voxels`, `bytes` of the mesh, `size`, and `frames` with times in milliseconds.
+    /// The report as JSON: `adapter`, `voxels`, `bytes` of the mesh and its
+    /// `texture_bytes`, `size`, and `frames` with times in milliseconds.
     pub fn to_json(&self) -> Value {
         let row = |row: &BenchRow| {
             json!({
@@ -78,7 +81,8 @@ impl BenchReport {
             })
         };
         let frames: Vec<Value> = self.rows.iter().map(row).collect();
-        json!({ "adapter": self.adapter, "voxels": self.voxels, "bytes": self.mesh_bytes, "size": self.size_px, "frames": frames })
+        json!({ "adapter": self.adapter, "voxels": self.voxels, "bytes": self.mesh_bytes,
+            "texture_bytes": self.texture_bytes, "size": self.size_px, "frames": frames })
     }
 }
 
@@ -154,10 +158,11 @@ pub async fn bench(
             illustration: aligned_case(named, name, template_count),
         }));
     }
-    let mut bytes = None;
+    let (mut bytes, mut texture_bytes) = (None, 0);
     if let Some(meshes) = meshes {
         let drawn = Studio::new(gpu, &Subject::from(Arc::clone(&meshes.surface)), true)?;
         bytes = Some(drawn.subject.bytes());
+        texture_bytes = drawn.subject.texture_bytes;
         cases.extend(mesh_cases(gpu, &drawn, meshes)?);
         cases.push(tool_case(&studio, named, &meshes.tool));
     }
@@ -224,6 +229,7 @@ pub async fn bench(
         adapter: gpu.info.name.clone(),
         voxels: subject.values().map_or([0; 3], |v| v.grid.dims.to_array()),
         mesh_bytes: bytes,
+        texture_bytes,
         size_px,
         rows: cases.iter().enumerate().map(row).collect(),
     })

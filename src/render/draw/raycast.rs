@@ -49,6 +49,7 @@ impl RaycastPasses {
             ("has_grid", number(key.has_grid)),
             ("has_edges", number(key.has_edges)),
             ("has_bodies", number(key.has_bodies)),
+            key.textures_constant(false),
             (
                 "has_objects",
                 number(key.has_objects && !is_endless_to_compile(gpu, key)),

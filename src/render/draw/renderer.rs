@@ -617,7 +617,9 @@ impl Renderer {
 
     /// Bytes that the values and labels of the subject take on the device.
     pub fn subject_bytes(&self) -> u64 {
-        self.studio.as_ref().map_or(0, |s| s.subject.bytes())
+        self.studio
+            .as_ref()
+            .map_or(0, |s| s.subject.bytes() + s.subject.texture_bytes)
     }
 
     /// Brings the next pieces of a subject to the GPU.

@@ -163,6 +163,7 @@ impl SlicePasses {
         let mut constants = vec![
             ("drawn_kinds", f64::from(key.drawn.drawn_kinds)),
             ("has_objects", f64::from(u8::from(key.drawn.has_objects))),
+            key.drawn.textures_constant(true),
         ];
         let mut program = ProgramId::Slice;
         if key.drawn.keeps_tissue() {

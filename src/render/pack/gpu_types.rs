@@ -416,8 +416,8 @@ pub struct Subject {
     pub triangles_at: u32,
     /// Texel at which the sets of segments begin.
     pub sets_at: u32,
-    /// To the next row of four.
-    pub padding: u32,
+    /// Texel at which the pictures on triangles begin; 0 if there are none.
+    pub textures_at: u32,
 }
 
 /// Segments of a mesh at most, and layers of all of them together.
@@ -503,8 +503,10 @@ pub struct SceneObject {
     pub triangles_at: u32,
     /// How many nodes it has.
     pub node_count: u32,
+    /// Texel at which the pictures on its triangles begin; 0 if there are none.
+    pub textures_at: u32,
     /// To the next row of four.
-    pub padding: [u32; 3],
+    pub padding: [u32; 2],
 }
 
 /// The objects that are drawn.

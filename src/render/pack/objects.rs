@@ -6,9 +6,13 @@ use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3A};
 
 use super::gpu_types::{SceneObject, SceneObjects};
 use super::look::linear_color;
-use super::triangles::texels_of;
+use super::triangles::{texels_of, texels_of_textures};
 use crate::data::{Resources, SubjectFrame, Surface};
 use crate::document::{self, ObjectPlacement};
+
+/// Texels that the pictures of all objects take at most: twice what one file may have, with its smaller copies. Those
+/// of the objects behind are not drawn.
+const MOST_TEXTURE_TEXELS: u32 = 12_000_000;
 
 /// The objects that are drawn, and the meshes that their texels are made of.
 #[derive(Clone, Debug, Default)]
@@ -17,8 +21,8 @@ pub(crate) struct DrawnObjects {
     pub items: SceneObjects,
     /// Index in the document's list of each of `items`.
     pub indices: Vec<usize>,
-    /// Each mesh once, in the order of their texels.
-    pub meshes: Vec<Arc<Surface>>,
+    /// Each mesh once, in the order of their texels, and whether its pictures are drawn.
+    pub meshes: Vec<(Arc<Surface>, bool)>,
 }
 
 /// Two are equal if they share their meshes in memory.
@@ -38,6 +42,7 @@ impl DrawnObjects {
         let mut drawn = Self::default();
         let mut begin = Vec::new();
         let mut texels = 0;
+        let mut room = MOST_TEXTURE_TEXELS;
         let color_of = |srgb: Option<[u8; 3]>| match srgb {
             Some(srgb) => linear_color(srgb).extend(1.0).to_array(),
             None => [0.0, 0.0, 0.0, -1.0],
@@ -55,11 +60,16 @@ impl DrawnObjects {
             let known = drawn
                 .meshes
                 .iter()
-                .position(|known| Arc::ptr_eq(known, mesh));
+                .position(|(known, _)| Arc::ptr_eq(known, mesh));
             let at = known.unwrap_or_else(|| {
                 begin.push(texels);
                 texels += texels_of(mesh);
-                drawn.meshes.push(Arc::clone(mesh));
+                let pictures = texels_of_textures(mesh);
+                let has_pictures = pictures > 0 && pictures <= room;
+                if has_pictures {
+                    (texels, room) = (texels + pictures, room - pictures);
+                }
+                drawn.meshes.push((Arc::clone(mesh), has_pictures));
                 drawn.meshes.len() - 1
             });
             let node_count = mesh.tree.nodes.len() as u32;
@@ -72,7 +82,11 @@ impl DrawnObjects {
                 nodes_at: begin[at],
                 triangles_at: begin[at] + 2 * node_count,
                 node_count,
-                padding: [0; 3],
+                textures_at: match drawn.meshes[at].1 {
+                    true => begin[at] + texels_of(mesh),
+                    false => 0,
+                },
+                padding: [0; 2],
             };
             drawn.indices.push(object.index);
         }
@@ -80,10 +94,15 @@ impl DrawnObjects {
         drawn
     }
 
+    /// True if pictures lie on the triangles of one that is drawn.
+    pub(crate) fn has_textures(&self) -> bool {
+        self.meshes.iter().any(|(_, has_pictures)| *has_pictures)
+    }
+
     /// True if the texels of both are the same.
     pub(crate) fn has_meshes_of(&self, other: &Self) -> bool {
-        let pairs = self.meshes.iter().zip(&other.meshes);
-        self.meshes.len() == other.meshes.len() && pairs.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))
+        let mut pairs = self.meshes.iter().zip(&other.meshes);
+        self.meshes.len() == other.meshes.len() && pairs.all(|(a, b)| Arc::ptr_eq(&a.0, &b.0))
     }
 }
 

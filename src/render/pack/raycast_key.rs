@@ -24,6 +24,8 @@ pub(crate) struct RaycastKey {
     pub has_bodies: bool,
     /// Objects stand in the scene.
     pub has_objects: bool,
+    /// Pictures lie on the triangles of the subject or of objects.
+    pub has_textures: bool,
     /// The map is read from its baked texture.
     pub is_baked: bool,
     /// What is wanted of each ray.
@@ -47,6 +49,18 @@ impl RaycastKey {
     /// True if templates leave tissue alone or give way to it: a longer program.
     pub(crate) fn keeps_tissue(&self) -> bool {
         self.align_mode != 0
+    }
+
+    /// The pipeline constant `has_textures` of march/overrides.wgsl: rays that are asked one by one take pictures as
+    /// they are, and so does a slice, whose lines have one colour for each triangle.
+    pub(crate) fn textures_constant(&self, is_slice: bool) -> (&'static str, f64) {
+        let is_picture = matches!(self.finds, Finds::Picture | Finds::Segments) && !is_slice;
+        let value = match (self.has_textures, is_picture) {
+            (false, _) => 0.0,
+            (true, false) => 1.0,
+            (true, true) => 2.0,
+        };
+        ("has_textures", value)
     }
 
     /// The pipeline constants of march/align.wgsl.

@@ -1,8 +1,12 @@
-//! Trees and triangles of meshes as texels, as shaders/subject/mesh.wgsl and shaders/march/objects.wgsl read them.
+//! Trees, triangles and pictures of meshes as texels, as shaders/subject/mesh.wgsl, shaders/objects.wgsl and
+//! shaders/textures.wgsl read them.
+
+use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 
-use crate::data::Surface;
+use crate::data::{Surface, Wrap};
+use crate::pictures::Picture;
 
 /// Bits of a node that hold the number of triangles in it.
 const COUNT_BITS: u32 = 4;
@@ -12,26 +16,159 @@ pub(crate) fn texels_of(surface: &Surface) -> u32 {
     (2 * surface.tree.nodes.len() + 4 * surface.triangles.len()) as u32
 }
 
-/// Adds the texels of a mesh's tree and triangles.
-pub(crate) fn pack_triangles(surface: &Surface, texels: &mut Vec<[u32; 4]>) {
-    let with = |place: Vec3, last: u32| {
-        let [x, y, z] = place.to_array().map(f32::to_bits);
-        [x, y, z, last]
-    };
-    for node in &surface.tree.nodes {
-        texels.push(with(node.bounds.min, node.skip));
-        texels.push(with(node.bounds.max, node.first << COUNT_BITS | node.count));
-    }
-    for (i, triangle) in surface.triangles.iter().enumerate() {
-        for (corner, normal) in triangle.0.iter().zip(surface.normals[i]) {
-            texels.push(with(*corner, octahedral(normal)));
+/// Items of a piece at most: as many as are packed within a few milliseconds.
+const ITEMS_OF_PIECE: usize = 1 << 14;
+
+/// What a mesh's texels are made of: nodes, triangles, sets of segments, and of its pictures the places of triangles in
+/// them, and for each its header and the pixels of its copies.
+#[derive(Clone, Debug)]
+enum Piece {
+    Nodes(Range<usize>),
+    Triangles(Range<usize>),
+    Sets,
+    Places(Range<usize>),
+    Header(usize),
+    Pixels(usize, usize, Range<usize>),
+}
+
+/// The texels of a mesh, piece by piece, so that no frame waits for all of them.
+#[derive(Debug)]
+pub(crate) struct MeshTexels {
+    pieces: std::vec::IntoIter<Piece>,
+    count: usize,
+    /// Places of the pictures' headers, counted from the first texel of the pictures.
+    headers: Vec<u32>,
+}
+
+impl MeshTexels {
+    /// Of a mesh's tree and triangles, `with_sets` its sets of segments behind them, and `with_pictures` its pictures.
+    pub(crate) fn of(surface: &Surface, with_sets: bool, with_pictures: bool) -> Self {
+        let mut pieces = Vec::new();
+        let ranges = |count: usize| {
+            let starts = (0..count).step_by(ITEMS_OF_PIECE);
+            starts.map(move |start| start..(start + ITEMS_OF_PIECE).min(count))
+        };
+        pieces.extend(ranges(surface.tree.nodes.len()).map(Piece::Nodes));
+        pieces.extend(ranges(surface.triangles.len()).map(Piece::Triangles));
+        if with_sets {
+            pieces.push(Piece::Sets);
         }
-        let [a, b, c] = surface.colors[i].map(|[r, g, b]| u32::from_le_bytes([r, g, b, 255]));
-        let opacity = surface.segments[surface.segment_of(i)].opacity;
-        let opacity = (opacity.clamp(0.0, 1.0) * 255.0).round() as u8;
-        let last = u32::from_le_bytes([surface.owners[i], opacity, 0, 0]);
-        texels.push([a, b, c, last]);
+        let mut headers = Vec::new();
+        if let Some(textures) = surface.textures.as_ref().filter(|_| with_pictures) {
+            pieces.extend(ranges(textures.uvs.len()).map(Piece::Places));
+            let mut next = 2 * textures.uvs.len() as u32;
+            for (index, picture) in textures.pictures.iter().enumerate() {
+                headers.push(next);
+                next += 1 + picture.copies.iter().map(texels_of_copy).sum::<u32>();
+                pieces.push(Piece::Header(index));
+                for (number, copy) in picture.copies.iter().enumerate() {
+                    let ranges = ranges(copy.pixels.len());
+                    pieces.extend(ranges.map(|range| Piece::Pixels(index, number, range)));
+                }
+            }
+        }
+        Self {
+            count: pieces.len(),
+            pieces: pieces.into_iter(),
+            headers,
+        }
     }
+
+    /// Fraction done, 0 to 1.
+    pub(crate) fn progress(&self) -> f32 {
+        1.0 - self.pieces.len() as f32 / self.count.max(1) as f32
+    }
+
+    /// Adds the texels of the next piece of the mesh that this was made of. False if there is none.
+    pub(crate) fn pack_next(&mut self, surface: &Surface, texels: &mut Vec<[u32; 4]>) -> bool {
+        let Some(piece) = self.pieces.next() else {
+            return false;
+        };
+        self.pack(surface, piece, texels);
+        true
+    }
+
+    /// Adds all texels that are left.
+    pub(crate) fn pack_all(mut self, surface: &Surface, texels: &mut Vec<[u32; 4]>) {
+        while self.pack_next(surface, texels) {}
+    }
+
+    fn pack(&self, surface: &Surface, piece: Piece, texels: &mut Vec<[u32; 4]>) {
+        match (piece, &surface.textures) {
+            (Piece::Nodes(range), _) => {
+                for node in &surface.tree.nodes[range] {
+                    texels.push(with(node.bounds.min, node.skip));
+                    texels.push(with(node.bounds.max, node.first << COUNT_BITS | node.count));
+                }
+            }
+            (Piece::Triangles(range), _) => range.for_each(|i| pack_triangle(surface, i, texels)),
+            (Piece::Sets, _) => texels.extend(
+                (surface.field.sets.iter())
+                    .map(|set| std::array::from_fn(|word| (set >> (32 * word)) as u32)),
+            ),
+            (Piece::Places(range), Some(textures)) => {
+                let all = textures.uvs.iter().zip(&textures.picture_of);
+                for ([a, b, c], &picture) in all.skip(range.start).take(range.len()) {
+                    let index = usize::from(picture).checked_sub(1);
+                    let header = index.map_or(0, |index| self.headers[index]);
+                    texels.push([a.x, a.y, b.x, b.y].map(f32::to_bits));
+                    texels.push([c.x.to_bits(), c.y.to_bits(), header, 0]);
+                }
+            }
+            (Piece::Header(index), Some(textures)) => {
+                let picture = &textures.pictures[index];
+                let [width, height] = picture.copies.first().map_or([0; 2], |copy| copy.size);
+                let [u, v] = picture.wrap.map(|wrap| match wrap {
+                    Wrap::Repeat => 0,
+                    Wrap::Mirror => 1,
+                    Wrap::Clamp => 2,
+                });
+                let rest = u32::from_le_bytes([u, v, picture.copies.len() as u8, 0]);
+                texels.push([width, height, rest, self.headers[index] + 1]);
+            }
+            (Piece::Pixels(index, copy, range), Some(textures)) => {
+                let copy = &textures.pictures[index].copies[copy];
+                texels.extend(copy.pixels[range].chunks(4).map(|four| {
+                    let word = |rgba: &[u8; 4]| u32::from_le_bytes(*rgba);
+                    std::array::from_fn(|k| four.get(k).map_or(0, word))
+                }));
+            }
+            // Pieces of pictures are made of those that are there.
+            (_, None) => {}
+        }
+    }
+}
+
+fn with(place: Vec3, last: u32) -> [u32; 4] {
+    let [x, y, z] = place.to_array().map(f32::to_bits);
+    [x, y, z, last]
+}
+
+fn pack_triangle(surface: &Surface, i: usize, texels: &mut Vec<[u32; 4]>) {
+    let corners = surface.triangles[i].0.iter();
+    for (corner, normal) in corners.zip(surface.normals[i]) {
+        texels.push(with(*corner, octahedral(normal)));
+    }
+    let [a, b, c] = surface.colors[i].map(|[r, g, b]| u32::from_le_bytes([r, g, b, 255]));
+    let opacity = surface.segments[surface.segment_of(i)].opacity;
+    let opacity = (opacity.clamp(0.0, 1.0) * 255.0).round() as u8;
+    let last = u32::from_le_bytes([surface.owners[i], opacity, 0, 0]);
+    texels.push([a, b, c, last]);
+}
+
+/// How many texels the pictures on a mesh's triangles take; 0 if there are none.
+pub(crate) fn texels_of_textures(surface: &Surface) -> u32 {
+    surface.textures.as_ref().map_or(0, |textures| {
+        let pictures = textures.pictures.iter();
+        let texels =
+            pictures.map(|picture| 1 + picture.copies.iter().map(texels_of_copy).sum::<u32>());
+        2 * surface.triangles.len() as u32 + texels.sum::<u32>()
+    })
+}
+
+/// Texels of a picture or a copy: four pixels each.
+fn texels_of_copy(copy: &Picture) -> u32 {
+    copy.pixels.len().div_ceil(4) as u32
 }
 
 /// A unit vector as its place on the unfolded octahedron, two numbers of 16 bits (Cigolle et al. 2014).

@@ -6,7 +6,7 @@ use crate::render::device::textures::write_slices;
 use crate::render::pack::gpu_types::SceneObjects;
 use crate::render::pack::objects::DrawnObjects;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
-use crate::render::pack::triangles::pack_triangles;
+use crate::render::pack::triangles::MeshTexels;
 use crate::render::subject::textures::{MESH_ROW, mesh_texture};
 
 /// Uniform of the objects, and the texture of their meshes.
@@ -54,8 +54,8 @@ impl ObjectTextures {
 
 fn texture_of(gpu: &Gpu, objects: &DrawnObjects) -> wgpu::TextureView {
     let mut texels = Vec::new();
-    for mesh in &objects.meshes {
-        pack_triangles(mesh, &mut texels);
+    for (mesh, has_pictures) in &objects.meshes {
+        MeshTexels::of(mesh, false, *has_pictures).pack_all(mesh, &mut texels);
     }
     let row = MESH_ROW as usize;
     texels.resize(texels.len().next_multiple_of(row).max(row), [0; 4]);

@@ -1,6 +1,6 @@
 //! A mesh on the GPU: its field, its segments on the field's voxels, and its tree and triangles in one texture.
 
-use super::bricks::{BRICK, Bricks, labels_in_bricks};
+use super::bricks::{BRICK, Bricks, LabelSet, labels_in_bricks};
 use super::textures::{
     Bound, HeldView, MESH_ROW, SubjectTextures, VoxelFrame, mesh_texture, next_stamp,
 };
@@ -10,20 +10,36 @@ use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
 use crate::render::device::programs::SubjectShader;
-use crate::render::device::textures::{volume_texture, write_slices};
+use crate::render::device::textures::{volume_texture, write_rows, write_slices};
 use crate::render::pack::gpu_types::Subject;
-use crate::render::pack::triangles::{pack_triangles, texels_of};
+use crate::render::pack::triangles::{MeshTexels, texels_of, texels_of_textures};
 use crate::render::pack::values::SubjectInfo;
 use glam::{DAffine3, UVec3};
 use half::f16;
+use std::ops::Range;
 use std::sync::Arc;
 
-/// A mesh on its way to the GPU. It is handed over in one piece: its texels are a copy of what is there.
+/// Slices of the field that are handed over at once: a few milliseconds' work.
+const SLICES_AT_ONCE: u32 = 8;
+
+/// A mesh on its way to the GPU, piece by piece.
 #[derive(Debug)]
-pub(crate) struct MeshUpload(Arc<Surface>);
+pub(crate) struct MeshUpload {
+    surface: Arc<Surface>,
+    depth_texture: wgpu::Texture,
+    label_texture: wgpu::Texture,
+    mesh_texture: wgpu::Texture,
+    next_slice: u32,
+    seen_bricks: Vec<bool>,
+    label_bricks: Option<Vec<LabelSet>>,
+    texels: MeshTexels,
+    /// Texels that make no whole row yet.
+    row: Vec<[u32; 4]>,
+    next_row: u32,
+}
 
 impl MeshUpload {
-    /// Checks that the device takes the mesh.
+    /// Makes the textures.
     ///
     /// # Errors
     /// [`RenderError::TooLarge`] with the number of triangles.
@@ -38,36 +54,92 @@ impl MeshUpload {
                 surface.triangles.len()
             )));
         }
-        Ok(Self(Arc::clone(surface)))
-    }
-
-    /// Makes the textures.
-    pub(crate) fn finish(self, gpu: &Gpu, layouts: &Layouts) -> SubjectTextures {
-        let surface = &*self.0;
-        let field = &surface.field;
         let depth_texture = volume_texture(
             gpu,
             "depths",
-            field.dims,
+            surface.field.dims,
             wgpu::TextureFormat::R16Float,
             wgpu::TextureUsages::COPY_DST,
         );
-        let depths: Vec<u16> = (field.depths.iter())
-            .map(|&depth| f16::from_f32(depth).to_bits())
-            .collect();
-        let bytes = bytemuck::cast_slice(&depths);
-        write_slices(gpu, &depth_texture, 0, field.dims.z, 2, bytes);
-        let segmentation = &surface.segmentation;
-        let label_texture = label_texture(gpu, segmentation.grid.dims);
-        let slices = segmentation.grid.dims.z;
-        write_slices(gpu, &label_texture, 0, slices, 1, &segmentation.labels);
-        let texels = packed(surface);
-        let rows = (texels.len() / MESH_ROW as usize) as u32;
-        let mesh = mesh_texture(gpu, [MESH_ROW, rows]);
-        write_slices(gpu, &mesh, 0, 1, 16, bytemuck::cast_slice(&texels));
+        let bricks = bricks_of(&surface.field).element_product() as usize;
+        Ok(Self {
+            surface: Arc::clone(surface),
+            depth_texture,
+            label_texture: label_texture(gpu, surface.segmentation.grid.dims),
+            mesh_texture: mesh_texture(gpu, [MESH_ROW, rows as u32]),
+            next_slice: 0,
+            seen_bricks: vec![false; bricks],
+            label_bricks: None,
+            texels: MeshTexels::of(surface, true, true),
+            row: Vec::new(),
+            next_row: 0,
+        })
+    }
 
-        let views = [&depth_texture, &label_texture, &mesh].map(HeldView::new);
-        let [volume_view, label_view, mesh_view] = views;
+    /// Fraction done, 0 to 1.
+    pub(crate) fn progress(&self) -> f32 {
+        let slices = self.next_slice as f32 / self.surface.field.dims.z.max(1) as f32;
+        0.3 * slices + 0.7 * self.texels.progress()
+    }
+
+    /// Converts and hands over the next piece. True when all is handed over.
+    pub(crate) fn advance(&mut self, gpu: &Gpu) -> bool {
+        let surface = &*self.surface;
+        let field = &surface.field;
+        if self.next_slice < field.dims.z {
+            let slices = SLICES_AT_ONCE.min(field.dims.z - self.next_slice);
+            let slice = (field.dims.x * field.dims.y) as usize;
+            let start = self.next_slice as usize * slice;
+            let depths: Vec<u16> = field.depths[start..start + slices as usize * slice]
+                .iter()
+                .map(|&depth| f16::from_f32(depth).to_bits())
+                .collect();
+            let bytes = bytemuck::cast_slice(&depths);
+            write_slices(gpu, &self.depth_texture, self.next_slice, slices, 2, bytes);
+            see_bricks(
+                field,
+                self.next_slice..self.next_slice + slices,
+                &mut self.seen_bricks,
+            );
+            self.next_slice += slices;
+            return false;
+        }
+        let segmentation = &surface.segmentation;
+        if self.label_bricks.is_none() {
+            let slices = segmentation.grid.dims.z;
+            write_slices(gpu, &self.label_texture, 0, slices, 1, &segmentation.labels);
+            self.label_bricks = Some(labels_in_bricks(segmentation, BRICK));
+            return false;
+        }
+        let is_more = self.texels.pack_next(surface, &mut self.row);
+        let row = MESH_ROW as usize;
+        if !is_more {
+            self.row
+                .resize(self.row.len().next_multiple_of(row), [0; 4]);
+        }
+        let whole = self.row.len() / row;
+        if whole > 0 {
+            let rows = self.next_row..self.next_row + whole as u32;
+            self.next_row = rows.end;
+            let texels = &self.row[..whole * row];
+            write_rows(
+                gpu,
+                &self.mesh_texture,
+                rows,
+                16,
+                bytemuck::cast_slice(texels),
+            );
+            self.row.drain(..whole * row);
+        }
+        !is_more
+    }
+
+    /// The subject, once [`MeshUpload::advance`] said that all is handed over.
+    pub(crate) fn finish(self, gpu: &Gpu, layouts: &Layouts) -> SubjectTextures {
+        let surface = &*self.surface;
+        let (field, segmentation) = (&surface.field, &surface.segmentation);
+        let views = [&self.depth_texture, &self.label_texture, &self.mesh_texture];
+        let [volume_view, label_view, mesh_view] = views.map(HeldView::new);
         let uniform = uniform_of(surface);
         let segments = segmentation.segments.clone();
         let bound = Bound::new(
@@ -85,13 +157,13 @@ impl MeshUpload {
             shader: SubjectShader::Mesh,
             bind_group: bound.bind_group,
             buffer: bound.buffer,
-            seen_bricks: Some(seen_bricks(field)),
+            seen_bricks: Some(self.seen_bricks),
             bricks: Bricks {
                 dims: bricks_of(field),
                 ranges: Vec::new(),
             },
             info: SubjectInfo::of_no_values(bound.has_colors),
-            label_bricks: Some(labels_in_bricks(segmentation, BRICK)),
+            label_bricks: self.label_bricks,
             frame: surface.frame,
             uniform,
             volume_view,
@@ -102,26 +174,20 @@ impl MeshUpload {
             label_voxels: Some(VoxelFrame::new(own.dims, field.rest_from_inner_voxel())),
             foot_axis: 2,
             mesh_segments: surface.segments.clone(),
+            texture_bytes: 16 * u64::from(texels_of_textures(surface)),
             segments,
         }
     }
 }
 
-/// Texels of a mesh's texture: those of its triangles, and behind them its sets of segments.
+/// Texels of a mesh's texture: those of its triangles, behind them its sets of segments, then its pictures.
 fn texel_count(surface: &Surface) -> usize {
-    texels_of(surface) as usize + surface.field.sets.len()
+    textures_at(surface) as usize + texels_of_textures(surface) as usize
 }
 
-/// The texels of the mesh, whole rows of them, as shaders/subject/mesh.wgsl reads them.
-fn packed(surface: &Surface) -> Vec<[u32; 4]> {
-    let count = texel_count(surface).next_multiple_of(MESH_ROW as usize);
-    let mut texels = Vec::with_capacity(count);
-    pack_triangles(surface, &mut texels);
-    for &set in &surface.field.sets {
-        texels.push(std::array::from_fn(|word| (set >> (32 * word)) as u32));
-    }
-    texels.resize(count, [0; 4]);
-    texels
+/// The texel at which the pictures begin, if there are any.
+fn textures_at(surface: &Surface) -> u32 {
+    texels_of(surface) + surface.field.sets.len() as u32
 }
 
 fn uniform_of(surface: &Surface) -> Subject {
@@ -144,7 +210,10 @@ fn uniform_of(surface: &Surface) -> Subject {
         node_count: surface.tree.nodes.len() as u32,
         triangles_at: 2 * surface.tree.nodes.len() as u32,
         sets_at: texels_of(surface),
-        padding: 0,
+        textures_at: match surface.textures {
+            Some(_) => textures_at(surface),
+            None => 0,
+        },
     }
 }
 
@@ -152,15 +221,14 @@ fn bricks_of(field: &SurfaceField) -> UVec3 {
     (field.dims + BRICK - 1) / BRICK
 }
 
-/// Bricks that hold triangles or the inside of a segment.
-fn seen_bricks(field: &SurfaceField) -> Vec<bool> {
+/// Marks the bricks that hold triangles or the inside of a segment, by some slices of the field.
+fn see_bricks(field: &SurfaceField, slices: Range<u32>, seen: &mut [bool]) {
     let count = bricks_of(field);
-    let mut seen = vec![false; count.element_product() as usize];
     let spacing = field.rest_from_voxel.matrix3;
     // A triangle nearer to a voxel's middle than this may lie in the voxel.
     let near = (spacing.x_axis + spacing.y_axis + spacing.z_axis).length() as f32;
-    let mut index = 0;
-    for z in 0..field.dims.z {
+    let mut index = (slices.start * field.dims.x * field.dims.y) as usize;
+    for z in slices {
         for y in 0..field.dims.y {
             for x in 0..field.dims.x {
                 if field.depths[index] >= -near {
@@ -172,5 +240,4 @@ fn seen_bricks(field: &SurfaceField) -> Vec<bool> {
             }
         }
     }
-    seen
 }

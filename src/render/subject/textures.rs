@@ -53,6 +53,8 @@ pub(crate) struct SubjectTextures {
     pub foot_axis: u32,
     /// Named segments of the subject.
     pub segments: Vec<Segment>,
+    /// Bytes of the pictures on a mesh's triangles, which lie in `mesh_view`; 0 if there are none.
+    pub texture_bytes: u64,
     /// What the segments of a mesh are; none of a volume.
     pub mesh_segments: Vec<SurfaceSegment>,
 }
@@ -101,9 +103,10 @@ impl std::ops::Deref for HeldView {
 }
 
 impl SubjectTextures {
-    /// Bytes of the values and the labels.
+    /// Bytes of the values and the labels, and of a mesh's tree and triangles; its pictures are counted apart.
     pub(crate) fn bytes(&self) -> u64 {
-        self.volume_view.bytes() + self.label_view.bytes()
+        let mesh = self.mesh_view.as_ref().map_or(0, |view| view.bytes());
+        self.volume_view.bytes() + self.label_view.bytes() + mesh - self.texture_bytes
     }
 }
 

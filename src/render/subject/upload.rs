@@ -15,7 +15,7 @@ use crate::render::device::layouts::Layouts;
 #[derive(Debug)]
 pub(crate) enum Upload {
     Volume(Box<VolumeUpload>),
-    Mesh(MeshUpload),
+    Mesh(Box<MeshUpload>),
 }
 
 /// The subject as the device takes it: made coarser where it is too large, with the notice that says so.
@@ -51,7 +51,11 @@ pub(crate) fn with_segmentation(
             volume::with_labels(textures, gpu, layouts, &space.volume, segmentation)
         }
         // The segments of a mesh are its parts.
-        Subject::Mesh(surface) => Ok(MeshUpload::new(gpu, surface)?.finish(gpu, layouts)),
+        Subject::Mesh(surface) => {
+            let mut upload = MeshUpload::new(gpu, surface)?;
+            while !upload.advance(gpu) {}
+            Ok(upload.finish(gpu, layouts))
+        }
     }
 }
 
@@ -66,7 +70,7 @@ impl Upload {
                 gpu,
                 &space.volume,
             )?))),
-            Subject::Mesh(surface) => Ok(Self::Mesh(MeshUpload::new(gpu, surface)?)),
+            Subject::Mesh(surface) => Ok(Self::Mesh(Box::new(MeshUpload::new(gpu, surface)?))),
         }
     }
 
@@ -74,7 +78,7 @@ impl Upload {
     pub(crate) fn progress(&self) -> f32 {
         match self {
             Self::Volume(upload) => upload.progress(),
-            Self::Mesh(_) => 1.0,
+            Self::Mesh(upload) => upload.progress(),
         }
     }
 
@@ -82,7 +86,7 @@ impl Upload {
     pub(crate) fn advance(&mut self, gpu: &Gpu) -> bool {
         match self {
             Self::Volume(upload) => upload.advance(gpu),
-            Self::Mesh(_) => true,
+            Self::Mesh(upload) => upload.advance(gpu),
         }
     }
 

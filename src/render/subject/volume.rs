@@ -113,6 +113,7 @@ pub(crate) fn assemble(
             .map(|l| VoxelFrame::new(l.grid.dims, subject_from_world * l.grid.world_from_voxel)),
         foot_axis: foot_axis as u32,
         mesh_segments: Vec::new(),
+        texture_bytes: 0,
         segments,
         bind_group: bound.bind_group,
         bricks,

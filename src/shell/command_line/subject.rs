@@ -17,7 +17,8 @@ use crate::document::{Illustration, Reading};
 use crate::load::{LabelFile, LoadReport, ReadOptions, read_label_file};
 use crate::render::{KeptTissue, RenderNotice, lidded};
 use crate::shell::files::{Folder, local, mesh_set};
-use crate::shell::loading::{hash_of, read_scan};
+use crate::shell::loading::hash_of;
+use crate::shell::meshes::read_any;
 use crate::subjects::{FINE_RESOLUTION, Generator, SubjectError, mesh};
 
 /// The subject of a document with its segments: those of its own file, those of label volumes that the document names
@@ -272,11 +273,11 @@ pub(super) fn read(
     let name = Folder::of(path).1;
     let result = if reading.meshes.is_empty() {
         let mut files = Folder::of(path).0;
-        read_scan(&mut files, &name, reading, &mut reducer, &mut report)
+        read_any(&mut files, &name, reading, &mut reducer, &mut report)
     } else {
         let given = given.iter().cloned();
         let (mut files, name) = mesh_set(folder, path, &reading.meshes, given);
-        read_scan(&mut files, &name, reading, &mut reducer, &mut report)
+        read_any(&mut files, &name, reading, &mut reducer, &mut report)
     };
     if let Some(reduction) = reducer.reduction() {
         notice(reduction);

@@ -1,11 +1,14 @@
 //! What a part posts to the page: an array that begins with a word. `["module", WebAssembly.Module]` comes first, if
 //! the page did not send the module; `["field", header as JSON, Float32Array]` or `["field", undefined, why not]` is
 //! the answer to a displacement field. The others are the events of a load: [`pieces`] of the subject, such as
-//! `["begin", header as JSON]` and `["scalars", typed array]`, `["progress", fraction, what]`, `["coarse"]`,
+//! `["begin", header as JSON]` and `["scalars", typed array]`, `["surface-array", index, array]` for each array of a
+//! surface and then `["surface"]`, `["progress", fraction, what]`, `["coarse"]`,
 //! `["done", sha256 or null]`, `["notice", text]`, `["label-file", sha256, header as JSON, Uint8Array]`,
 //! `["frames", count]`, `["raw", bytes or undefined, is packed, guess or undefined]`,
 //! `["failed", message, details]`, where the owner of the file can mend it followed by the kind of fault, the name of
 //! the file, bytes found, bytes expected and the file that is missing; `["cancelled"]`.
+
+use std::sync::Arc;
 
 use js_sys::{Array, ArrayBuffer, Float32Array, Reflect, Uint8Array};
 use serde_json::Value;
@@ -13,48 +16,71 @@ use wasm_bindgen::prelude::*;
 
 use super::header::{field_of, json_of_field, json_of_labels, labels_of};
 use super::pieces;
-use super::task::{reading_of, text_of_reading};
+use super::task::{Part, reading_of, text_of_reading};
 use crate::assets::{LoadEvent, RawQuestion};
+use crate::data::{SubjectPart, SurfaceArrays};
 use crate::document::Reading;
 use crate::load::{FaultKind, FieldFile, FileFault, LabelFile};
 
 /// What the page gets from a part.
 #[derive(Debug)]
 pub enum Answer {
-    /// The part's compiled module, for the next worker.
-    Module(JsValue),
+    /// The compiled module of a part, for the next worker.
+    Module(Part, JsValue),
     /// Something happened to a load.
     Event(LoadEvent),
     /// The file is a displacement field, or should have been one and why it is not.
     Field(Box<Result<FieldFile, String>>),
 }
 
-impl Answer {
-    /// The answer in a message; none if it is no message of a part, or holds something else than its word promises. A
-    /// word that is not known fails the load.
-    pub fn of(message: &JsValue) -> Option<Self> {
+/// The answers of one worker.
+#[derive(Debug, Default)]
+pub struct Answers {
+    /// The arrays of a surface that have come.
+    arrays: SurfaceArrays,
+}
+
+impl Answers {
+    /// The answer in a message; none if it is no message of a part, holds something else than its word promises, or is
+    /// a piece of a surface. A word that is not known fails the load.
+    pub fn take(&mut self, message: &JsValue) -> Option<Answer> {
         let message: &Array = message.dyn_ref()?;
         match message.get(0).as_string()?.as_str() {
-            "module" => Some(Self::Module(message.get(1))),
+            "module" => {
+                let part = Part::of_name(&message.get(2).as_string()?)?;
+                Some(Answer::Module(part, message.get(1)))
+            }
             "field" => {
                 let Some(header) = message.get(1).as_string() else {
                     let why = message.get(2).as_string().unwrap_or_default();
-                    return Some(Self::Field(Box::new(Err(why))));
+                    return Some(Answer::Field(Box::new(Err(why))));
                 };
                 let header: Value = serde_json::from_str(&header).ok()?;
                 let mut field = field_of(&header)?;
                 let samples = message.get(2).dyn_ref::<Float32Array>()?.to_vec();
                 field.samples = samples.as_chunks::<4>().0.to_vec();
-                Some(Self::Field(Box::new(Ok(field))))
+                Some(Answer::Field(Box::new(Ok(field))))
             }
-            _ => event_of(message).map(Self::Event),
+            "surface-array" => {
+                let index = message.get(1).as_f64()? as u32;
+                pieces::put_array(&mut self.arrays, index, &message.get(2))?;
+                None
+            }
+            "surface" => {
+                let surface = std::mem::take(&mut self.arrays).into_surface()?;
+                let part = SubjectPart::Surface(Arc::new(surface));
+                Some(Answer::Event(LoadEvent::Part(part)))
+            }
+            _ => event_of(message).map(Answer::Event),
         }
     }
+}
 
+impl Answer {
     /// True for the last answer of the worker.
     pub fn is_last(&self) -> bool {
         match self {
-            Self::Module(_) => false,
+            Self::Module(..) => false,
             Self::Field(_) => true,
             Self::Event(event) => matches!(
                 event,
@@ -83,11 +109,15 @@ pub mod post {
     ///
     /// # Errors
     /// If the page cannot take the message.
-    pub fn module_unless_known(task: &JsValue) -> Result<(), JsValue> {
+    pub fn module_unless_known(task: &JsValue, part: Part) -> Result<(), JsValue> {
         if Reflect::get(task, &"module".into())?.is_truthy() {
             return Ok(());
         }
-        send(&Array::of2(&"module".into(), &wasm_bindgen::module()), None)
+        let module = wasm_bindgen::module();
+        send(
+            &Array::of3(&"module".into(), &module, &part.name().into()),
+            None,
+        )
     }
 
     /// Posts a displacement field, or why there is none.
@@ -120,8 +150,21 @@ pub mod post {
         };
         let mut moved: Option<ArrayBuffer> = None;
         match event {
+            LoadEvent::Part(SubjectPart::Surface(surface)) => {
+                let arrays = pieces::packed_surface(&surface);
+                drop(surface);
+                for (index, array) in arrays.into_iter().enumerate() {
+                    let buffer = match ArrayBuffer::is_view(&array) {
+                        true => Some(Reflect::get(&array, &"buffer".into())?.unchecked_into()),
+                        false => None,
+                    };
+                    let index = (index as u32).into();
+                    send(&Array::of3(&"surface-array".into(), &index, &array), buffer)?;
+                }
+                push(&"surface".into());
+            }
             LoadEvent::Part(part) => {
-                let (word, held) = pieces::packed(part);
+                let (word, held) = pieces::packed(part)?;
                 push(&word.into());
                 if ArrayBuffer::is_view(&held) {
                     moved = Some(Reflect::get(&held, &"buffer".into())?.unchecked_into());

@@ -1,14 +1,17 @@
-//! The files of a task: blobs, read in pieces, so that a file of gigabytes takes a few megabytes of this program's
-//! memory.
+//! The files of a task: blobs that were given or fetched, read in pieces, so that a file of gigabytes takes a few
+//! megabytes of this program's memory.
 
+use std::collections::BTreeSet;
 use std::io::{self, Read};
 
-use js_sys::{Reflect, Uint8Array};
+use js_sys::{Array, Reflect, Uint8Array};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{Blob, FileReaderSync};
 
-use super::fault::text_of;
+use super::answer::post;
+use super::fault::{scope, text_of};
+use crate::assets::LoadEvent;
 use crate::load::{FileHandle, FileSet};
 
 /// Bytes of a file that are in memory at a time.
@@ -69,7 +72,26 @@ impl BlobFiles {
         Ok(Self(held))
     }
 
+    /// Files that were opened together, and their names. Files from several folders may be called alike: those behind
+    /// the first get other names.
+    ///
+    /// # Errors
+    /// As [`BlobFiles::new`].
+    pub(super) async fn of_all(
+        mut files: Vec<(String, Blob)>,
+    ) -> Result<(Self, Vec<String>), JsValue> {
+        let mut names = BTreeSet::new();
+        for (index, (name, _)) in files.iter_mut().enumerate() {
+            if !names.insert(name.clone()) {
+                *name = format!("{index}/{name}");
+            }
+        }
+        let names = files.iter().map(|(name, _)| name.clone()).collect();
+        Ok((Self::new(files).await?, names))
+    }
+
     /// Keeps the files whose names are wanted.
+    #[cfg(feature = "part-scans")]
     pub(super) fn retain(&mut self, is_wanted: impl Fn(&str) -> bool) {
         self.0.retain(|(name, _)| is_wanted(name));
     }
@@ -121,4 +143,62 @@ impl Read for HeldReader {
         self.at += n;
         Ok(n)
     }
+}
+
+/// The name of what lies at an address.
+pub(super) fn name_of(address: &str) -> String {
+    let name = address.rsplit('/').next().unwrap_or_default();
+    let name = name.split(['?', '#']).next().unwrap_or_default();
+    name.to_owned()
+}
+
+/// That an address gave nothing.
+pub(super) fn not_fetched(what: &str, address: &str, error: &JsValue) -> LoadEvent {
+    LoadEvent::Failed {
+        message: format!("The {what} could not be fetched from {address}"),
+        details: format!(
+            "{} The server may be down, or may not let other pages read its files (CORS).",
+            text_of(error)
+        ),
+        fault: None,
+    }
+}
+
+/// Fetches an address into the browser's own store of bytes, which is not this program's memory.
+pub(super) async fn fetch(address: &str) -> Result<Blob, JsValue> {
+    let response = JsFuture::from(scope().fetch_with_str(address)).await?;
+    let response: web_sys::Response = response.unchecked_into();
+    if !response.ok() {
+        let text = format!("The server answered {}.", response.status());
+        return Err(text.into());
+    }
+    let total = response
+        .headers()
+        .get("content-length")?
+        .and_then(|n| n.parse::<f64>().ok());
+    let parts = Array::new();
+    let Some(body) = response.body() else {
+        return Ok(JsFuture::from(response.blob()?).await?.unchecked_into());
+    };
+    let reader: web_sys::ReadableStreamDefaultReader = body.get_reader().unchecked_into();
+    let (mut come, mut told) = (0.0, 0.0);
+    loop {
+        let chunk = JsFuture::from(reader.read()).await?;
+        if Reflect::get(&chunk, &"done".into())?.is_truthy() {
+            break;
+        }
+        let bytes: Uint8Array = Reflect::get(&chunk, &"value".into())?.unchecked_into();
+        come += f64::from(bytes.length());
+        parts.push(&bytes);
+        let fraction = total.map_or(0.0, |total| (come / total.max(1.0)).min(1.0));
+        if come - told > 1e6 {
+            told = come;
+            let event = LoadEvent::Progress {
+                fraction: fraction as f32 * 0.5,
+                what: "Fetching".to_owned(),
+            };
+            post::event(event)?;
+        }
+    }
+    Blob::new_with_u8_array_sequence(&parts)
 }

@@ -1,8 +1,10 @@
 //! What the page leaves to Web Workers. Each part is a program of its own, with its own module, which is fetched when
-//! the page first needs it: one makes the built-in subjects, one reads scans and holds their decoders.
+//! the page first needs it: one makes the built-in subjects, one reads scans and holds their decoders, one reads meshes
+//! and prepares them, and one holds the decoders of pictures.
 //!
 //! `web/worker.js` loads the part that the first message names, and hands it a [`task`]. What the part posts back is an
-//! [`answer`]. One worker does one task; to cancel it is to end it. A part that panics ends its worker, and the page
+//! [`answer`]. A part that finds that a file is for another one names that, and the worker goes on with it. One worker
+//! does one task; to cancel it is to end it. A part that panics ends its worker, and the page
 //! goes on with a message.
 
 pub mod answer;
@@ -14,8 +16,12 @@ pub mod task;
 #[cfg(feature = "reader")]
 pub mod run;
 
-#[cfg(feature = "part-scans")]
+#[cfg(any(feature = "part-scans", feature = "part-meshes"))]
 mod blobs;
+#[cfg(feature = "part-meshes")]
+pub mod meshes;
+#[cfg(feature = "part-pictures")]
+pub mod pictures;
 #[cfg(feature = "part-scans")]
 pub mod scans;
 #[cfg(feature = "part-subjects")]

@@ -1,9 +1,7 @@
 //! Pieces of a subject in messages: a word for the kind of the piece, and what it holds. A new piece is one more arm in
 //! each of the two functions here; what is heavy in it travels as a typed array, which is moved and not copied.
 
-use std::sync::Arc;
-
-use js_sys::{Array, Float32Array, Float64Array, Int16Array, Uint8Array, Uint16Array, Uint32Array};
+use js_sys::{Float32Array, Float64Array, Int16Array, Uint8Array, Uint16Array, Uint32Array};
 use serde_json::Value;
 use wasm_bindgen::prelude::*;
 
@@ -11,13 +9,16 @@ use super::header::{json_of, volume_of};
 use crate::data::{SubjectPart, Surface, SurfaceArrays, Voxels};
 
 /// The word of a piece, and what it holds.
-pub fn packed(part: SubjectPart) -> (&'static str, JsValue) {
-    match part {
+///
+/// # Errors
+/// For a surface, whose arrays travel one by one: see [`packed_surface`].
+pub fn packed(part: SubjectPart) -> Result<(&'static str, JsValue), JsValue> {
+    Ok(match part {
         SubjectPart::Volume(header) => ("begin", json_of(&header).to_string().into()),
         SubjectPart::Scalars(voxels) => ("scalars", array_of(&voxels)),
         SubjectPart::Labels(labels) => ("labels", Uint8Array::from(labels.as_slice()).into()),
-        SubjectPart::Surface(surface) => ("surface", packed_surface(&surface)),
-    }
+        SubjectPart::Surface(_) => return Err("a surface travels in arrays".into()),
+    })
 }
 
 /// A piece from [`packed`]; none if there is no such word, or if it goes with other contents.
@@ -26,37 +27,66 @@ pub fn unpacked(word: &str, held: &JsValue) -> Option<SubjectPart> {
         "begin" => SubjectPart::header(volume_of(&json(held)?)?),
         "scalars" => SubjectPart::Scalars(voxels_of(held)?),
         "labels" => SubjectPart::Labels(held.dyn_ref::<Uint8Array>()?.to_vec()),
-        "surface" => SubjectPart::Surface(Arc::new(unpacked_surface(held)?)),
         _ => return None,
     })
 }
 
-/// The arrays of a surface, in their order.
-fn packed_surface(surface: &Surface) -> JsValue {
-    let arrays = SurfaceArrays::of(surface);
-    let packed: [JsValue; 5] = [
-        serde_json::json!(arrays.names).to_string().into(),
-        Float64Array::from(arrays.places.as_slice()).into(),
-        Float32Array::from(arrays.numbers.as_slice()).into(),
-        Uint32Array::from(arrays.indices.as_slice()).into(),
-        Uint8Array::from(arrays.bytes.as_slice()).into(),
-    ];
-    packed.iter().collect::<Array>().into()
+/// How many arrays a surface has.
+pub const SURFACE_ARRAYS: usize = 14;
+
+/// Puts an array of a surface, by its index in [`packed_surface`], to those that have come. Each comes in a message of
+/// its own, so that no frame waits for all of them. `None` if it is none.
+pub fn put_array(arrays: &mut SurfaceArrays, index: u32, held: &JsValue) -> Option<()> {
+    let bytes = || Some(held.dyn_ref::<Uint8Array>()?.to_vec());
+    let floats = || Some(held.dyn_ref::<Float32Array>()?.to_vec());
+    let indices = || Some(held.dyn_ref::<Uint32Array>()?.to_vec());
+    match index {
+        0 => {
+            let names = json(held)?;
+            let names = names.as_array()?.iter();
+            let names = names.map(|name| name.as_str().map(str::to_owned));
+            arrays.names = names.collect::<Option<_>>()?;
+        }
+        1 => arrays.places = held.dyn_ref::<Float64Array>()?.to_vec(),
+        2 => arrays.indices = indices()?,
+        3 => arrays.nodes = indices()?,
+        4 => arrays.order = indices()?,
+        5 => arrays.corners = floats()?,
+        6 => arrays.normals = floats()?,
+        7 => arrays.colors = bytes()?,
+        8 => arrays.owners = bytes()?,
+        9 => arrays.depths = floats()?,
+        10 => arrays.fills = bytes()?,
+        11 => arrays.uvs = floats()?,
+        12 => arrays.picture_of = held.dyn_ref::<Uint16Array>()?.to_vec(),
+        13 => arrays.pixels = bytes()?,
+        _ => return None,
+    }
+    Some(())
 }
 
-fn unpacked_surface(held: &JsValue) -> Option<Surface> {
-    let held = held.dyn_ref::<Array>()?;
-    let names = json(&held.get(0))?;
-    let arrays = SurfaceArrays {
-        names: (names.as_array()?.iter())
-            .map(|name| name.as_str().map(str::to_owned))
-            .collect::<Option<_>>()?,
-        places: held.get(1).dyn_into::<Float64Array>().ok()?.to_vec(),
-        numbers: held.get(2).dyn_into::<Float32Array>().ok()?.to_vec(),
-        indices: held.get(3).dyn_into::<Uint32Array>().ok()?.to_vec(),
-        bytes: held.get(4).dyn_into::<Uint8Array>().ok()?.to_vec(),
-    };
-    arrays.surface()
+/// The arrays of a surface: a typed array of each.
+pub fn packed_surface(surface: &Surface) -> [JsValue; SURFACE_ARRAYS] {
+    let arrays = SurfaceArrays::of(surface);
+    let bytes = |list: &[u8]| JsValue::from(Uint8Array::from(list));
+    let floats = |list: &[f32]| JsValue::from(Float32Array::from(list));
+    let indices = |list: &[u32]| JsValue::from(Uint32Array::from(list));
+    [
+        serde_json::json!(arrays.names).to_string().into(),
+        Float64Array::from(arrays.places.as_slice()).into(),
+        indices(&arrays.indices),
+        indices(&arrays.nodes),
+        indices(&arrays.order),
+        floats(&arrays.corners),
+        floats(&arrays.normals),
+        bytes(&arrays.colors),
+        bytes(&arrays.owners),
+        floats(&arrays.depths),
+        bytes(&arrays.fills),
+        floats(&arrays.uvs),
+        Uint16Array::from(arrays.picture_of.as_slice()).into(),
+        bytes(&arrays.pixels),
+    ]
 }
 
 fn json(text: &JsValue) -> Option<Value> {

@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{MessageEvent, Worker, WorkerOptions, WorkerType};
 
-use super::answer::Answer;
+use super::answer::{Answer, Answers};
 use super::task::{Part, ScanTask, Task};
 use crate::assets::LoadEvent;
 use crate::data::{BuildError, Subject, SubjectBuilder, SubjectSink as _, VolumeLimits};
@@ -112,18 +112,21 @@ pub fn start(
     let worker = worker_for(part, maker)?;
     let on_answer = Rc::new(RefCell::new(on_answer));
     let (for_error, for_end) = (Rc::clone(&on_answer), worker.clone());
-    let on_message = Closure::new(move |event: MessageEvent| match Answer::of(&event.data()) {
-        Some(Answer::Module(module)) => {
-            MODULES.with_borrow_mut(|modules| modules.insert(part, module));
-        }
-        Some(answer) => {
-            if answer.is_last() {
-                end(&for_end);
+    let mut answers = Answers::default();
+    let on_message = Closure::new(
+        move |event: MessageEvent| match answers.take(&event.data()) {
+            Some(Answer::Module(part, module)) => {
+                MODULES.with_borrow_mut(|modules| modules.insert(part, module));
             }
-            (on_answer.borrow_mut())(answer);
-        }
-        None => {}
-    });
+            Some(answer) => {
+                if answer.is_last() {
+                    end(&for_end);
+                }
+                (on_answer.borrow_mut())(answer);
+            }
+            None => {}
+        },
+    );
     let on_error = Closure::new(move |_: web_sys::Event| {
         (for_error.borrow_mut())(Answer::Event(LoadEvent::Failed {
             message: "This browser did not start the background thread that loads scans".to_owned(),

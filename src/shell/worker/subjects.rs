@@ -5,7 +5,7 @@ use wasm_bindgen::prelude::*;
 
 use super::answer::post;
 use super::fault;
-use super::task::limits_of;
+use super::task::{Part, limits_of};
 use crate::assets::LoadEvent;
 use crate::shell::loading::{make_subject, resolutions, slabs_in_turn};
 
@@ -21,7 +21,7 @@ pub fn loaded() {
 #[wasm_bindgen]
 pub fn run(message: JsValue) -> Result<(), JsValue> {
     fault::heed_scope(&message);
-    post::module_unless_known(&message)?;
+    post::module_unless_known(&message, Part::Subjects)?;
     let get = |key: &str| Reflect::get(&message, &key.into());
     let name = get("builtin")?.as_string().unwrap_or_default();
     let mut post = |event: LoadEvent| post::event(event).is_ok();

@@ -2,9 +2,9 @@
 //! compiled module, if the page has it), `max_dim` and `max_voxels` (the limits of the device), `task` (`true`), and
 //! - for the makers of subjects `builtin` (a name) and `resolution` (voxels along the longest side; without it the
 //!   coarse volume comes first, then the fine one),
-//! - for the readers of scans `builtin` (of a mesh), `files` (pairs of name and `Blob`), `address`, or `field` (a
-//!   pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label volumes), `has_scan` and
-//!   `may_be_field`.
+//! - for the readers of scans and of meshes `builtin` (of a mesh), `files` (pairs of name and `Blob`), `address`, or
+//!   `field` (a pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label volumes),
+//!   `has_scan` and `may_be_field`.
 
 use glam::DVec3;
 use js_sys::{Array, Object, Reflect};
@@ -17,6 +17,7 @@ use crate::data::VolumeLimits;
 use crate::document::{
     MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, RawVoxels, Reading, SubjectBox,
 };
+use crate::load::{are_mesh_names, is_mesh_name};
 use crate::subjects::mesh_names;
 
 /// A program that runs in a worker.
@@ -26,6 +27,10 @@ pub enum Part {
     Subjects,
     /// Reads scans, label volumes and displacement fields.
     Scans,
+    /// Reads meshes and prepares them.
+    Meshes,
+    /// Unpacks pictures, for other parts.
+    Pictures,
 }
 
 impl Part {
@@ -34,12 +39,23 @@ impl Part {
         match self {
             Self::Subjects => "subjects",
             Self::Scans => "scans",
+            Self::Meshes => "meshes",
+            Self::Pictures => "pictures",
+        }
+    }
+
+    /// The part that reads what lies at an address, by its name. If it is something else, the part says so.
+    pub fn of_address(address: &str) -> Self {
+        let path = address.split(['?', '#']).next().unwrap_or_default();
+        match is_mesh_name(path) {
+            true => Self::Meshes,
+            false => Self::Scans,
         }
     }
 
     /// The part of this name.
     pub fn of_name(name: &str) -> Option<Self> {
-        [Self::Subjects, Self::Scans]
+        [Self::Subjects, Self::Scans, Self::Meshes, Self::Pictures]
             .into_iter()
             .find(|part| part.name() == name)
     }
@@ -50,11 +66,11 @@ impl Part {
 pub enum Task {
     /// Make a built-in subject: coarse and then fine, or once with this many voxels along its longest side.
     Subject(String, Option<u32>),
-    /// Read files: a scan, labels or a displacement field.
+    /// Read files: a scan, meshes, labels or a displacement field.
     Scan(ScanTask),
 }
 
-/// What the part that reads scans is to do.
+/// What the parts that read files are to do.
 #[derive(Clone, Debug)]
 pub enum ScanTask {
     /// Read files that the reader gave.
@@ -89,12 +105,23 @@ pub enum ScanTask {
 }
 
 impl Task {
-    /// The program that does it.
+    /// The program that does it, as far as names tell; a part that finds otherwise hands the task on.
     pub fn part(&self) -> Part {
         match self {
-            // The readers of scans hold what prepares meshes.
-            Self::Subject(name, _) if mesh_names().contains(&name.as_str()) => Part::Scans,
+            Self::Subject(name, _) if mesh_names().contains(&name.as_str()) => Part::Meshes,
             Self::Subject(..) => Part::Subjects,
+            Self::Scan(ScanTask::Mesh(_)) => Part::Meshes,
+            Self::Scan(ScanTask::Files { files, .. }) => {
+                match are_mesh_names(files.iter().map(|(name, _)| name.as_str())) {
+                    true => Part::Meshes,
+                    false => Part::Scans,
+                }
+            }
+            Self::Scan(ScanTask::Address {
+                address,
+                are_segments: false,
+                ..
+            }) => Part::of_address(address),
             Self::Scan(_) => Part::Scans,
         }
     }
