@@ -84,14 +84,24 @@ struct Subject {
     detail: f32,
     /// 1 if there is a segmentation, else 0.
     has_labels: u32,
-    /// xyz: box of a mesh, rest space.
+    /// Rest space to texture space of the field of the meshes, and to that of the sets that fill its voxels.
+    field_from_rest: Affine,
+    fill_from_rest: Affine,
+    /// xyz: voxels of either along each axis.
+    field_dims: vec4f,
+    fill_dims: vec4f,
+    /// xyz: box of the meshes, rest space.
     mesh_min: vec4f,
     mesh_max: vec4f,
-    /// Number of nodes in the tree of a mesh; 0 for volumes.
+    /// Number of nodes in the tree of the meshes; 0 where there are none.
     node_count: u32,
     /// Texels of `mesh_texels` at which the triangles and the sets of segments begin; the nodes begin at 0.
     triangles_at: u32,
     sets_at: u32,
+    /// Smallest spacing of the field, subject units.
+    field_detail: f32,
+    /// Labels before that of the first segment of the meshes: 0 where they are alone, 255 beside a volume.
+    labels_before: u32,
 }
 
 /// Transfer function, light and opacity.
@@ -145,6 +155,8 @@ struct MeshLook {
     layers: array<MeshLayer, 64>,
     /// 1 if a segment is a shell.
     has_shells: u32,
+    /// 1 if a segment fills any place.
+    has_filled: u32,
 }
 
 /// An object that stands in the scene and that no template moves (spec/surfaces.md, "objects").
@@ -369,7 +381,7 @@ struct Kept {
     /// Which slab has the depth under the outer surface in its x, 0 for none.
     depth_slab: u32,
     /// Sets of each label, four bits each, eight labels in a word.
-    label_sets: array<vec4u, 8>,
+    label_sets: array<vec4u, 10>,
     /// As in `Templates`, in the same order; only heads of groups count.
     items: array<KeptGroup, 32>,
     /// Rigid motions (subject space to rest space) of segments that move as a whole; only heads of groups count.
@@ -386,6 +398,8 @@ struct DistanceJob {
     coarse: vec4u,
     /// xyz: spacing of fine voxels, subject units.
     spacing: vec4f,
+    /// Fine voxels to rest space.
+    rest_from_voxel: Affine,
     /// Fine voxels along each side of a coarse one.
     factor: u32,
     /// Channel that is worked on: 0 to 3 for a set, 4 for the outside.
@@ -403,5 +417,5 @@ struct DistanceJob {
     slab: u32,
     set_count: u32,
     /// Sets of kept tissue that each label belongs to, four bits each; packed as in `Kept`.
-    label_sets: array<vec4u, 8>,
+    label_sets: array<vec4u, 10>,
 }

@@ -155,6 +155,9 @@ impl Scene {
         self.inputs.update(illustration, resources, subject);
         self.has_segments = subject.info.has_segments;
         self.subject = subject.shader;
+        if self.key().leaves_meshes_out(gpu) {
+            self.inputs.tell_meshes_left_out();
+        }
         let inputs = &self.inputs;
         self.templates.update(gpu, &inputs.templates);
         self.fields.update(gpu, &inputs.fields);

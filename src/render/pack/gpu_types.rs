@@ -265,13 +265,17 @@ pub struct Kept {
     /// Slab of the depth, or 0.
     pub depth_slab: u32,
     /// Sets of each label, four bits each.
-    pub label_sets: [[u32; 4]; 8],
+    pub label_sets: LabelSets,
     /// What each template keeps, in the order of [`Templates::items`].
     pub items: [KeptGroup; MAX_TEMPLATES],
     /// Rigid motions (subject space to rest space) of segments that move as a whole; only heads of groups count.
     /// Written on the GPU.
     pub motions: [Affine; MAX_TEMPLATES],
 }
+
+/// Sets of kept tissue that each label belongs to, four bits each, eight labels in a word: of the labels of a volume,
+/// and behind them of the segments of meshes beside it.
+pub type LabelSets = [[u32; 4]; 10];
 
 /// One pass of the making of distances.
 #[repr(C)]
@@ -285,6 +289,8 @@ pub struct DistanceJob {
     pub coarse: [u32; 4],
     /// xyz: spacing of fine voxels, subject units.
     pub spacing: [f32; 4],
+    /// Fine voxels to rest space.
+    pub rest_from_voxel: Affine,
     /// Fine voxels along a side of a coarse one.
     pub factor: u32,
     /// Channel that is worked on.
@@ -306,7 +312,7 @@ pub struct DistanceJob {
     /// To the next row of four.
     pub padding: [u32; 3],
     /// Sets of kept tissue that each label belongs to, packed as in [`Kept`].
-    pub label_sets: [[u32; 4]; 8],
+    pub label_sets: LabelSets,
 }
 
 /// One picture's camera and sampling.
@@ -368,18 +374,30 @@ pub struct Subject {
     pub detail: f32,
     /// 1 if there is a segmentation.
     pub has_labels: u32,
-    /// xyz: lowest corner of a mesh's box, rest space.
+    /// Rest space to texture space of the field of the meshes.
+    pub field_from_rest: Affine,
+    /// Rest space to texture space of the sets that fill the voxels of that field.
+    pub fill_from_rest: Affine,
+    /// xyz: voxels of the field.
+    pub field_dims: [f32; 4],
+    /// xyz: voxels that have sets.
+    pub fill_dims: [f32; 4],
+    /// xyz: lowest corner of the box of the meshes, rest space.
     pub mesh_min: [f32; 4],
-    /// xyz: highest corner of a mesh's box, rest space.
+    /// xyz: highest corner of the box of the meshes, rest space.
     pub mesh_max: [f32; 4],
-    /// Number of nodes in the tree of a mesh; 0 for volumes.
+    /// Number of nodes in the tree of the meshes; 0 where there are none.
     pub node_count: u32,
-    /// Texel at which the triangles of a mesh begin.
+    /// Texel at which their triangles begin.
     pub triangles_at: u32,
     /// Texel at which the sets of segments begin.
     pub sets_at: u32,
+    /// Smallest spacing of the field, subject units.
+    pub field_detail: f32,
+    /// Labels before that of their first segment.
+    pub labels_before: u32,
     /// To the next row of four.
-    pub padding: u32,
+    pub padding: [u32; 3],
 }
 
 /// Segments of a mesh at most, and layers of all of them together.
@@ -435,8 +453,10 @@ pub struct MeshLook {
     pub layers: [MeshLayer; MESH_LAYERS],
     /// 1 if a segment is a shell.
     pub has_shells: u32,
+    /// 1 if a segment fills any place.
+    pub has_filled: u32,
     /// To the next row of four.
-    pub padding: [u32; 3],
+    pub padding: [u32; 2],
 }
 
 impl Default for MeshLook {

@@ -13,6 +13,10 @@ pub enum RenderNotice {
     UnknownBody(String),
     /// A segment of a mesh that is to be solid is open; a lid closes it.
     Lid(String),
+    /// This GPU draws the volume without the meshes beside it.
+    MeshesLeftOut,
+    /// The meshes beside a volume do not fit on the device, and why.
+    MeshesTooLarge(String),
     /// The volume is larger than the device takes, and is drawn coarser.
     Reduced(Reduction),
 }
@@ -26,6 +30,10 @@ impl fmt::Display for RenderNotice {
             ),
             Self::UnknownBody(name) => write!(f, "look: the subject has no segment “{name}”"),
             Self::Lid(name) => write!(f, "look: “{name}” is open; a lid closes its solid body"),
+            Self::MeshesLeftOut => f.write_str(
+                "this browser draws without a graphics card: where templates act, the meshes beside the scan are left out",
+            ),
+            Self::MeshesTooLarge(why) => write!(f, "the meshes beside the scan are not drawn: {why}"),
             Self::Reduced(reduction) => reduction.fmt(f),
         }
     }
