@@ -201,7 +201,7 @@ const PALETTE: u32 = FIRST_MESH_LABEL as u32 + 64;
 /// Texels in a row of the texture of a mesh, as in shaders/subject/mesh.wgsl.
 pub(crate) const MESH_ROW: u32 = 4096;
 
-/// The texture of labels.
+/// A byte per voxel: the number of its segment, or of what fills it.
 pub(crate) fn label_texture(gpu: &Gpu, dims: UVec3) -> wgpu::Texture {
     let format = wgpu::TextureFormat::R8Uint;
     volume_texture(gpu, "labels", dims, format, wgpu::TextureUsages::COPY_DST)
