@@ -84,16 +84,26 @@ struct Subject {
     detail: f32,
     /// 1 if there is a segmentation, else 0.
     has_labels: u32,
-    /// xyz: box of a mesh, rest space.
+    /// Rest space to texture space of the field of the meshes, and to that of the sets that fill its voxels.
+    field_from_rest: Affine,
+    fill_from_rest: Affine,
+    /// xyz: voxels of either along each axis.
+    field_dims: vec4f,
+    fill_dims: vec4f,
+    /// xyz: box of the meshes, rest space.
     mesh_min: vec4f,
     mesh_max: vec4f,
-    /// Number of nodes in the tree of a mesh; 0 for volumes.
+    /// Number of nodes in the tree of the meshes; 0 where there are none.
     node_count: u32,
     /// Texels of `mesh_texels` at which the triangles and the sets of segments begin; the nodes begin at 0.
     triangles_at: u32,
     sets_at: u32,
     /// Texel at which the pictures on triangles begin; 0 if there are none.
     textures_at: u32,
+    /// Smallest spacing of the field, subject units.
+    field_detail: f32,
+    /// Labels before that of the first segment of the meshes: 0 where they are alone, 255 beside a volume.
+    labels_before: u32,
 }
 
 /// Transfer function, light and opacity.
@@ -147,6 +157,8 @@ struct MeshLook {
     layers: array<MeshLayer, 64>,
     /// 1 if a segment is a shell.
     has_shells: u32,
+    /// 1 if a segment fills any place.
+    has_filled: u32,
 }
 
 /// An object that stands in the scene and that no template moves (spec/surfaces.md, "objects").
@@ -374,7 +386,7 @@ struct Kept {
     /// Which slab has the depth under the outer surface in its x, 0 for none.
     depth_slab: u32,
     /// Sets of each label, four bits each, eight labels in a word.
-    label_sets: array<vec4u, 8>,
+    label_sets: array<vec4u, 10>,
     /// As in `Templates`, in the same order; only heads of groups count.
     items: array<KeptGroup, 32>,
     /// Rigid motions (subject space to rest space) of segments that move as a whole, four for each template: those of
@@ -399,6 +411,8 @@ struct DistanceJob {
     ratio: vec4f,
     /// Fine voxels to voxels of the segmentation.
     label_from_voxel: Affine,
+    /// Fine voxels to rest space.
+    rest_from_voxel: Affine,
     /// How much of a voxel is taken off a way along each axis, fine voxels: half for boxes, else 0.
     half_box: f32,
     /// How much is taken off a distance, subject units: half a voxel for balls, else 0.
@@ -418,5 +432,5 @@ struct DistanceJob {
     slab: u32,
     set_count: u32,
     /// Sets of kept tissue that each label belongs to, four bits each; packed as in `Kept`.
-    label_sets: array<vec4u, 8>,
+    label_sets: array<vec4u, 10>,
 }

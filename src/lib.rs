@@ -27,7 +27,7 @@
 //!
 //! | word | means |
 //! |---|---|
-//! | subject | what is illustrated: today a volume; a mesh, a clay or a figure when those come |
+//! | subject | what is illustrated: a volume, with meshes beside it or not, or meshes alone |
 //! | volume | scalars on an oriented grid of voxels; never a subject in general |
 //! | segmentation | a volume of label numbers, with the segments that they stand for |
 //! | label | a number in a segmentation |

@@ -11,7 +11,7 @@ const FAR_INSIDE: f32 = 2.0;
 /// From a place inside of a segment (from 0) to the nearest point of its triangles; w is the distance. The field says
 /// how far a search has to go where no other segment is nearer.
 fn nearest_inside(rest: vec3f, segment: u32) -> vec4f {
-    var within = max(texel_at(texture_from_rest(rest)), 0.0) * 1.12 + 1.5 * subject.detail;
+    var within = max(field_at(rest), 0.0) * 1.12 + 1.5 * subject.field_detail;
     var nearest = to_nearest(rest, within, segment);
     while nearest.w >= within && within < FAR_INSIDE {
         within *= 4.0;
@@ -22,17 +22,17 @@ fn nearest_inside(rest: vec3f, segment: u32) -> vec4f {
 
 /// The segment that fills a place, from 1; 0 where there is none. Of several the first one.
 fn filled_at(rest: vec3f) -> u32 {
-    var left = labels_at(rest);
+    var left = set_at(rest);
     // Where the field says that all triangles are farther, they are not searched.
-    let depth = texel_at(texture_from_rest(rest));
+    let depth = field_at(rest);
     loop {
-        let label = take_label(&left);
+        let label = take_segment(&left);
         if label == NO_LABEL {
             break;
         }
         let body = mesh_look.segments[label - 1u];
         var is_filled = body.kind == BODY_FULL;
-        if body.kind == BODY_THICK && depth < body.thickness + 0.25 * subject.detail {
+        if body.kind == BODY_THICK && depth < body.thickness + 0.25 * subject.field_detail {
             is_filled = to_nearest(rest, body.thickness, label - 1u).w < body.thickness;
         }
         if is_filled {
@@ -59,7 +59,7 @@ fn surface_color(triangle: u32, footprint: Footprint, is_front: bool) -> vec3f {
 /// Linear RGB of what fills a segment, from 1, at a place: its layer's, else that of its inside.
 fn filling_color(segment: u32, rest: vec3f) -> vec3f {
     let body = mesh_look.segments[segment - 1u];
-    let mean = textureLoad(palette, vec2i(i32(segment), 0), 0).rgb;
+    let mean = textureLoad(palette, vec2i(i32(subject.labels_before + segment), 0), 0).rgb;
     let own = select(mean, body.color.rgb, body.color.a >= 0.0);
     var color = select(own * INSIDE_SHARE, body.inside.rgb, body.inside.a >= 0.0);
     if body.layer_count > 0u {

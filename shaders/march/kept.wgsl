@@ -2,7 +2,7 @@
 // Differs from the source (Correa, section 5.4): membership is read from the nearest label voxel and not interpolated,
 // so that a boundary lies where the labels have it; only normals use a smoothed mask.
 // needs: types.wgsl affine.wgsl bind/subject.wgsl subject/place.wgsl bind/kept.wgsl displace/frame.wgsl
-//   subject/volume.wgsl|subject/mesh.wgsl
+//   subject/volume.wgsl|subject/surfaces.wgsl|subject/both.wgsl
 
 /// How a document keeps tissue. 0: it keeps none. 1: the list is one group. 2: the first templates of the list keep the
 /// same set or depth, the others keep nothing. 3: any other case. A pipeline constant.
@@ -37,7 +37,7 @@ fn is_kept(rest: vec3f, keeps: u32, depth: f32) -> bool {
     if (kept_by & 1u) == 0u {
         return false;
     }
-    if (keeps & 15u) == 0u || subject.has_labels == 0u {
+    if (keeps & 15u) == 0u {
         return false;
     }
     var left = labels_at(rest);

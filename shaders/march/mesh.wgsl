@@ -1,4 +1,4 @@
-// The march of a ray through a mesh: the untouched triangles say what is met, wherever the map leads.
+// The way of a ray through meshes: the untouched triangles say what is met, wherever the map leads.
 //
 //   eye --o--------o-----o--o-o×-o        o a place on the ray and where it was at rest; × a triangle
 //            long steps while no triangle is near
@@ -11,8 +11,7 @@
 // Differs from the source: one rule for the deformed part and the rest, exact edges, no blending at borders.
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/compose.wgsl
 //   march/overrides.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl march/jacobian.wgsl march/surface.wgsl
-//   march/surroundings.wgsl march/marched.wgsl march/gathered.wgsl march/objects.wgsl march/textures.wgsl
-//   subject/place.wgsl subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl
+//   march/marched.wgsl march/gathered.wgsl march/textures.wgsl subject/mesh.wgsl subject/crossing.wgsl march/filling.wgsl
 //   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
 /// Surfaces that count on one ray (spec/surfaces.md, "What the object has at a point").
@@ -160,21 +159,28 @@ fn met_triangle(at: Spot, crossing: TriangleCrossing, mask: u32) -> Met {
 /// What lies behind an edge: a cut face where the place behind is filled with a segment that did not fill the one
 /// before; the surface of kept tissue, where the edge lies on a triangle.
 fn met_at_edge(ray: Ray, edge: Edge, mask: u32) -> Met {
-    var met = Met(false, edge.behind, NO_TRIANGLE, vec3f(0.0), true, 0u, mask);
-    if edge.behind.continuity < 0.0 {
+    let is_into_gap = edge.behind.continuity < 0.0;
+    var at = edge.behind;
+    if is_into_gap && KEEPS_TISSUE {
+        at = edge.before;
+    }
+    var met = Met(false, at, NO_TRIANGLE, vec3f(0.0), true, 0u, mask);
+    if at.continuity < 0.0 {
         return met;
     }
-    let segment = filled_at(edge.behind.pos);
+    let segment = filled_at(at.pos);
+    let is_in_gap = min(edge.before.continuity, edge.behind.continuity) < 0.0;
     var before = 0u;
-    if edge.before.continuity >= 0.0 {
-        before = filled_at(edge.before.pos);
+    // A gap around a hollow body that is kept ends at its triangles.
+    if !is_in_gap || (KEEPS_TISSUE && segment == 0u) {
+        before = select(filled_at(edge.before.pos), 0u, is_in_gap);
         let reach = ray.dir * LEAST_JUMP;
-        let crossing = first_crossing(edge.behind.pos - reach, edge.behind.pos + reach, NO_TRIANGLE);
+        let crossing = first_crossing(at.pos - reach, at.pos + reach, NO_TRIANGLE);
         if crossing.triangle != NO_TRIANGLE {
-            return met_triangle(edge.behind, crossing, mask);
+            return met_triangle(at, crossing, mask);
         }
     }
-    met.is_met = segment != 0u && segment != before;
+    met.is_met = !is_into_gap && segment != 0u && segment != before;
     met.segment = segment;
     return met;
 }
@@ -207,7 +213,7 @@ fn step_moved(ray: Ray, walk: ptr<function, MeshWalk>, mask: u32, t_out: f32) ->
     let here = (*walk).here;
     let nothing = Met(false, here, NO_TRIANGLE, vec3f(0.0), true, 0u, mask);
     let is_gap = here.continuity < 0.0;
-    let is_in_shell = mesh_look.has_shells != 0u && texel_at(texture_from_rest(here.pos)) > 0.0;
+    let is_in_shell = mesh_look.has_shells != 0u && field_at(here.pos) > 0.0;
     let free = max(here.clearance, LONGEST_CHORD) / (1.25 * max((*walk).stretch, 0.25));
     let longest = select(LONGEST_STEP, SHELL_STEP, is_in_shell);
     let wanted = min((*walk).step, select(min(free, longest), GAP_STEP, is_gap));
@@ -384,51 +390,6 @@ fn look_of(ray: Ray, met: Met) -> MetLook {
     return look_here;
 }
 
-/// 1 if the body around a place is filled at this depth, by the nearest voxel; else 0.
-fn is_filled_near(rest: vec3f, depth: f32) -> u32 {
-    let voxel = floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz);
-    let label = textureLoad(labels, vec3i(clamp(voxel, vec3f(0.0), subject.label_dims.xyz - 1.0)), 0).x;
-    let first = first_of(mesh_texel(subject.sets_at + label));
-    if label == 0u || first == NO_LABEL {
-        // Between the surface and the first voxels inside.
-        return select(0u, 1u, depth < subject.detail);
-    }
-    let body = mesh_look.segments[first];
-    return select(0u, 1u, body.kind == BODY_FULL || (body.kind == BODY_THICK && depth < body.thickness));
-}
-
-/// How much of the light at a tap is taken: by what is inside of closed segments, and by what is near a triangle.
-fn cover_at(pos: vec3f, mask: u32) -> f32 {
-    var at = Material(pos, 1.0, 0u);
-    if mask != 0u && drawn_kinds != 0u {
-        at = map_point(pos, mask);
-    }
-    let uvw = texture_from_rest(at.pos);
-    let depth = texel_at(uvw);
-    let is_there = at.continuity >= 0.0 && is_in_subject(uvw);
-    let thin = 1.0 - smoothstep(0.4 * subject.detail, 1.2 * subject.detail, abs(depth));
-    let full = smoothstep(-0.3 * subject.detail, 0.7 * subject.detail, depth);
-    return select(0.0, max(thin * 0.5, full * f32(is_filled_near(at.pos, depth))), is_there);
-}
-
-/// What shadow and occlusion take from the light of the ray's surface.
-fn taken_by_bodies(pixel: vec2f, pos: vec3f, normal: vec3f, light: Lit) -> vec3f {
-    let noise = pixel_noise(floor(pixel));
-    let key_dir = apply_linear(frame.subject_from_view, KEY_DIR);
-    var closed = 0.0;
-    var weights = 0.0001;
-    var lit = 1.0;
-    for (var k = 0u; k < occlusion_taps + shadow_taps; k++) {
-        let tap = tap_at(k, pos, normal, key_dir, noise);
-        let cover = cover_at(tap.pos, cell_at(tap.pos).x);
-        weights += tap.weight;
-        closed += tap.weight * cover;
-        lit *= 1.0 - tap.shade * cover;
-    }
-    let around = past_objects(Surroundings(1.0 - closed / weights, lit), pos, normal, key_dir, noise);
-    return taken_from(light, around);
-}
-
 /// The cut face that a ray begins with: what fills the place of the eye.
 fn met_at_start(ray: Ray) -> Met {
     var met = Met(false, unmoved_spot(ray, 0.0), NO_TRIANGLE, vec3f(0.0), true, 0u, 0xffffffffu);
@@ -458,110 +419,4 @@ fn seen_of(ray: Ray, met: Met) -> Seen {
     let normal_in_view = apply_transposed(frame.subject_from_view, look_here.normal);
     let light = shade_surface(look_here.albedo, normal_in_view, -ray.dir_in_view, look_here.gloss);
     return Seen(event_of(met, look_here), look_here.normal, light, look_here.opacity, 0.0);
-}
-
-/// Marches a ray in a scene with objects.
-fn march_with_objects(asked: Ray, pixel: vec2f) -> Marched {
-    var gathered = nothing_gathered();
-    var ray = asked;
-    var on_ray: ObjectsMet;
-    objects_on(ray, &on_ray);
-    ray.t_end = end_at_object(ray, &on_ray);
-    var walk = MeshWalk(unmoved_spot(ray, ray.t_start), 0u, LONGEST_STEP, 1.0, NO_TRIANGLE);
-    var steps = 0u;
-    var met = met_at_start(ray);
-    var crossings = 0u;
-    // What comes next, a part of the subject or an object, is gathered in one place of the program.
-    while gathered.clear > 0.0 && crossings <= MAX_CROSSINGS {
-        if !met.is_met && crossings < MAX_CROSSINGS {
-            met = next_met(ray, &walk, &steps);
-        }
-        var seen: Seen;
-        if is_object_before(&on_ray, select(FAR_ON_RAY, met.at.t + OBJECT_FIRST, met.is_met)) {
-            seen = seen_object(ray, on_ray.items[on_ray.next]);
-            on_ray.next++;
-        } else {
-            if !met.is_met {
-                break;
-            }
-            seen = seen_of(ray, met);
-            met.is_met = false;
-            crossings++;
-        }
-        gather(&gathered, seen);
-    }
-    var color = gathered.color;
-    if gathered.found.surface_t >= 0.0 {
-        color -= taken_by_bodies(pixel, ray.origin + ray.dir * gathered.found.surface_t, gathered.found.surface_normal, gathered.light);
-    }
-    gathered.found.color = vec4f(max(color, vec3f(0.0)), 1.0 - gathered.clear);
-    return gathered.found;
-}
-
-/// Marches a ray in a scene without objects. This stands by itself: the software GPU of browsers does not end compiling
-/// the march with objects where templates act.
-fn march_alone(ray: Ray, pixel: vec2f) -> Marched {
-    var result: Marched;
-    result.surface_t = -1.0;
-    var walk = MeshWalk(unmoved_spot(ray, ray.t_start), 0u, LONGEST_STEP, 1.0, NO_TRIANGLE);
-    var steps = 0u;
-    var clear = 1.0;
-    var color = vec3f(0.0);
-    var surface_light = Lit(vec3f(0.0), vec3f(0.0));
-    var met = met_at_start(ray);
-    for (var crossing = 0u; crossing < MAX_CROSSINGS; crossing++) {
-        if !met.is_met {
-            met = next_met(ray, &walk, &steps);
-        }
-        if !met.is_met {
-            break;
-        }
-        let look_here = look_of(ray, met);
-        let weight = clear * look_here.opacity;
-        let normal_in_view = apply_transposed(frame.subject_from_view, look_here.normal);
-        let light = shade_surface(look_here.albedo, normal_in_view, -ray.dir_in_view, look_here.gloss);
-        color += weight * (light.key + light.ambient);
-        if result.surface_t < 0.0 && weight > SURFACE_SHARE * (0.25 + 0.75 * clear) {
-            result.surface_t = met.at.t;
-            result.surface_normal = look_here.normal;
-            result.surface_rest = met.at.pos;
-            result.segment = met.segment;
-            result.surface_what = MET_SURFACE;
-            surface_light = Lit(light.key * weight, light.ambient * weight);
-        }
-        clear *= 1.0 - look_here.opacity;
-        if clear < 0.5 && result.event.what == MET_NOTHING {
-            result.event = event_of(met, look_here);
-        }
-        if clear < OPAQUE {
-            clear = 0.0;
-            break;
-        }
-        met.is_met = false;
-    }
-    if result.surface_t >= 0.0 {
-        let pos = ray.origin + ray.dir * result.surface_t;
-        color -= taken_by_bodies(pixel, pos, result.surface_normal, surface_light);
-    }
-    result.color = vec4f(max(color, vec3f(0.0)), 1.0 - clear);
-    return result;
-}
-
-/// Marches a ray. `pixel` tells its noise from that of its neighbours.
-fn march(ray: Ray, pixel: vec2f) -> Marched {
-    var found: Marched;
-    if has_objects != 0u {
-        found = march_with_objects(ray, pixel);
-    } else {
-        found = march_alone(ray, pixel);
-    }
-    return found;
-}
-
-/// Segment (0: none) of what a ray found, and its depth under the surface.
-fn tissue_of(found: Marched, _pos: vec3f, _dir: vec3f) -> vec2f {
-    if found.surface_what == MET_OBJECT {
-        return vec2f(0.0);
-    }
-    return vec2f(f32(found.segment), texel_at(texture_from_rest(found.surface_rest)));
 }

@@ -1,6 +1,7 @@
 // The object at one point of the deformed space: where it came from, its value and its opacity.
 // needs: types.wgsl bind/subject.wgsl bind/look.wgsl displace/compose.wgsl march/overrides.wgsl march/value.wgsl
-//   march/opacity.wgsl march/bodies.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
+//   march/opacity.wgsl march/bodies.wgsl march/whole.wgsl|march/replaced.wgsl
+//   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
 /// The object at one point of the deformed space.
 struct Sample {
@@ -41,7 +42,7 @@ fn sample_mapped(mapped: Material) -> Sample {
     return Sample(
         mapped.pos,
         texel,
-        select(0.0, opacity, is_inside && mapped.continuity >= 0.0),
+        select(0.0, opacity, is_inside && mapped.continuity >= 0.0 && !is_replaced(mapped.pos)),
         mapped.continuity,
         mapped.path,
     );

@@ -1,7 +1,7 @@
 // Obstacles in the light of a surface: ambient occlusion and the shadow of the key light, by taps of the opacity.
 // needs: types.wgsl bind/frame.wgsl bind/subject.wgsl bind/look.wgsl displace/compose.wgsl march/overrides.wgsl
 //   march/opacity.wgsl march/bodies.wgsl march/value.wgsl march/sample.wgsl march/seek.wgsl march/gathered.wgsl
-//   objects.wgsl
+//   objects.wgsl march/whole.wgsl|march/replaced.wgsl
 
 /// How far shadows of objects reach, subject units, and how far above a surface they are looked for.
 const SHADOW_REACH: f32 = 0.6;
@@ -81,17 +81,20 @@ fn surroundings_of(pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Sur
         let is_mapped = cell_at(tap.pos).x != 0u && drawn_kinds != 0u;
         mapped |= select(0u, 1u << k, is_mapped);
         let opacity = select(shading_opacity(sample_unmoved(tap.pos)), 0.0, is_mapped);
+        let cover = select(cover_beside(Material(tap.pos, 1.0, 0u)), 0.0, is_mapped);
         weights += tap.weight;
-        closed += tap.weight * smoothstep(0.02, 0.5, opacity);
-        open *= 1.0 - tap.shade * smoothstep(0.02, 0.6, opacity);
+        closed += tap.weight * max(smoothstep(0.02, 0.5, opacity), cover);
+        open *= 1.0 - tap.shade * max(smoothstep(0.02, 0.6, opacity), cover);
     }
     if drawn_kinds != 0u {
         while mapped != 0u {
             let tap = tap_at(firstTrailingBit(mapped), pos, normal, key_dir, noise);
             mapped &= mapped - 1u;
-            let opacity = shading_opacity(sample_mapped(map_point(tap.pos, cell_at(tap.pos).x)));
-            closed += tap.weight * smoothstep(0.02, 0.5, opacity);
-            open *= 1.0 - tap.shade * smoothstep(0.02, 0.6, opacity);
+            let at = map_point(tap.pos, cell_at(tap.pos).x);
+            let opacity = shading_opacity(sample_mapped(at));
+            let cover = cover_beside(at);
+            closed += tap.weight * max(smoothstep(0.02, 0.5, opacity), cover);
+            open *= 1.0 - tap.shade * max(smoothstep(0.02, 0.6, opacity), cover);
         }
     }
     return past_objects(Surroundings(1.0 - closed / weights, open), pos, normal, key_dir, noise);

@@ -1,5 +1,5 @@
 // The gradient of the subject's value at a point of rest space.
-// needs: types.wgsl bind/subject.wgsl affine.wgsl subject/place.wgsl subject/volume.wgsl|subject/mesh.wgsl
+// needs: types.wgsl bind/subject.wgsl affine.wgsl subject/place.wgsl
 
 /// Reaches of the two central differences that a gradient is the mean of, voxels. One of 1 alone shows the voxels as
 /// terraces.

@@ -11,7 +11,8 @@
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/look.wgsl displace/compose.wgsl
 //   march/overrides.wgsl march/value.wgsl march/opacity.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl
 //   march/refine.wgsl march/jacobian.wgsl march/surface.wgsl march/edges.wgsl march/color.wgsl march/surroundings.wgsl
-//   march/marched.wgsl march/gathered.wgsl march/objects.wgsl march/plain.wgsl|march/align.wgsl|march/baked.wgsl
+//   march/marched.wgsl march/gathered.wgsl march/objects.wgsl march/straight.wgsl|march/layers.wgsl
+//   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
 /// Events on one ray at most; a guard, a ray of 1.8 units at the finest step has fewer samples.
 const MAX_EVENTS: u32 = 4096u;
@@ -60,9 +61,9 @@ fn march(asked: Ray, pixel: vec2f) -> Marched {
     var gathered = nothing_gathered();
     var ray = asked;
     var on_ray: ObjectsMet;
-    if has_objects != 0u {
-        objects_on(ray, &on_ray);
-        ray.t_end = end_at_object(ray, &on_ray);
+    var layers: Layers;
+    if has_others() {
+        ray.t_end = others_on(ray, &on_ray, &layers);
     }
     var walk = walk_along(ray);
     // Share of its opacity that the sample before keeps.
@@ -95,17 +96,16 @@ fn march(asked: Ray, pixel: vec2f) -> Marched {
         seen.light = light_of(ray, albedo, surface);
         seen.lift = surface.lift;
         var t_from = walk.t_before;
-        if has_objects != 0u {
-            // Objects part the stretch in which they stand.
-            while is_object_before(&on_ray, walk.t) {
-                let object = on_ray.items[on_ray.next];
-                let is_at_edge = abs(object.part - crossing.t_edge) < OBJECT_FIRST;
-                let t_object = max(select(object.part, crossing.t_edge, is_at_edge), t_from);
-                seen.opacity = 1.0 - passed_between(stretch, t_from, t_object);
+        if has_others() {
+            // Objects and meshes part the stretch in which they stand.
+            while is_other_before(&on_ray, &layers, walk.t) {
+                let other = take_other(ray, &on_ray, &layers);
+                let is_at_edge = abs(other.event.t - crossing.t_edge) < OBJECT_FIRST;
+                let t_other = max(select(other.event.t, crossing.t_edge, is_at_edge), t_from);
+                seen.opacity = 1.0 - passed_between(stretch, t_from, t_other);
                 gather(&gathered, seen);
-                gather(&gathered, seen_object(ray, object));
-                t_from = t_object;
-                on_ray.next++;
+                gather(&gathered, other);
+                t_from = t_other;
             }
         }
         seen.opacity = 1.0 - passed_between(stretch, t_from, walk.t);
@@ -118,10 +118,9 @@ fn march(asked: Ray, pixel: vec2f) -> Marched {
         walk.mask_before = walk.mask;
         walk.t += frame.step / clamp(stretch_along(map.jacobian, ray.dir), 0.6, 3.0);
     }
-    if has_objects != 0u {
-        while gathered.clear > 0.0 && is_object_before(&on_ray, FAR_ON_RAY) {
-            gather(&gathered, seen_object(ray, on_ray.items[on_ray.next]));
-            on_ray.next++;
+    if has_others() {
+        while gathered.clear > 0.0 && is_other_before(&on_ray, &layers, FAR_ON_RAY) {
+            gather(&gathered, take_other(ray, &on_ray, &layers));
         }
     }
     // Once per ray: what stands in the light of its surface.
@@ -131,29 +130,4 @@ fn march(asked: Ray, pixel: vec2f) -> Marched {
     }
     gathered.found.color = vec4f(max(color, vec3f(0.0)), 1.0 - gathered.clear);
     return gathered.found;
-}
-
-/// Segment (0: none) and value a little deeper along a ray than its surface, on which half of the voxels are air.
-fn tissue_under(pos: vec3f, dir: vec3f) -> vec2f {
-    var segment = 0.0;
-    var value = 0.0;
-    for (var k = 1; k <= 4; k++) {
-        let inside = map_point(pos + dir * (f32(k) * 0.5 * subject.detail), 0xffffffffu).pos;
-        let uvw = apply_affine(subject.label_from_rest, inside);
-        let voxel = clamp(vec3i(floor(uvw * subject.label_dims.xyz)), vec3i(0), vec3i(subject.label_dims.xyz) - 1);
-        segment = f32(textureLoad(labels, voxel, 0).x);
-        value = subject.value_low + subject.value_range * texel_at(texture_from_rest(inside));
-        if segment > 0.0 || (k >= 2 && subject.has_labels == 0u) {
-            break;
-        }
-    }
-    return vec2f(segment, value);
-}
-
-/// Segment (0: none) and value of what a ray found.
-fn tissue_of(found: Marched, pos: vec3f, dir: vec3f) -> vec2f {
-    if found.surface_what == MET_OBJECT {
-        return vec2f(0.0);
-    }
-    return tissue_under(pos, dir);
 }

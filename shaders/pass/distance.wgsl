@@ -22,7 +22,7 @@
 // The outside of the object: voxels below a threshold that belong to no segment and are connected with a side face of
 // the grid. Connections with the faces at the head and foot ends of a scan do not count: a windpipe that ends there
 // would let the outside into the lungs.
-// needs: types.wgsl affine.wgsl bind/subject.wgsl subject/volume.wgsl|subject/mesh.wgsl
+// needs: types.wgsl affine.wgsl bind/subject.wgsl subject/volume.wgsl|subject/surfaces.wgsl|subject/both.wgsl
 
 /// The job: sizes, sets and axis (see types.wgsl).
 @group(3) @binding(0) var<uniform> job: DistanceJob;
@@ -74,12 +74,25 @@ fn coarse_index(at: vec3u) -> u32 {
     return at.x + job.coarse.x * (at.y + job.coarse.y * at.z);
 }
 
+/// True if a label belongs to the set that is worked on.
+fn is_in_channel(label: u32) -> bool {
+    let word = job.label_sets[label >> 5u][(label >> 3u) & 3u];
+    return ((word >> (4u * (label & 7u))) & (1u << job.channel)) != 0u;
+}
+
 /// True if a fine voxel belongs to what distances are taken to.
 fn is_member(voxel: vec3i) -> bool {
     if job.channel < CHANNEL_OUTSIDE {
-        let label = label_of(voxel);
-        let word = job.label_sets[label >> 5u][(label >> 3u) & 3u];
-        return ((word >> (4u * (label & 7u))) & (1u << job.channel)) != 0u;
+        var is_it = is_in_channel(label_of(voxel));
+        var left = labels_beside(apply_affine(job.rest_from_voxel, vec3f(voxel)));
+        loop {
+            let label = take_label(&left);
+            if label == NO_LABEL || is_it {
+                break;
+            }
+            is_it = is_in_channel(label);
+        }
+        return is_it;
     }
     if !is_open(voxel) {
         return false;

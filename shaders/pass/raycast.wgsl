@@ -1,6 +1,6 @@
 // The picture: marches the deformed space along each pixel's ray (march/volume.wgsl, march/mesh.wgsl). Fragment
 // shaders, uniform buffers and sampled textures only, so that WebGL2 could follow.
-// needs: types.wgsl affine.wgsl bind/frame.wgsl bind/rays.wgsl march/seek.wgsl march/volume.wgsl|march/mesh.wgsl
+// needs: types.wgsl affine.wgsl bind/frame.wgsl bind/rays.wgsl march/seek.wgsl march/volume.wgsl|march/surfaces.wgsl
 
 /// One triangle that covers everything.
 @vertex

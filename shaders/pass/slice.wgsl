@@ -4,7 +4,7 @@
 //   pixel --> subject space --> object_from_subject --> value, label --> grey by the window, or colours of the look
 //
 // needs: types.wgsl bind/subject.wgsl bind/slice.wgsl srgb.wgsl slice/plane.wgsl slice/objects.wgsl
-//   slice/volume.wgsl|slice/mesh.wgsl
+//   slice/volume.wgsl|slice/surfaces.wgsl|slice/both.wgsl
 
 /// One triangle that covers everything.
 @vertex

@@ -1,4 +1,4 @@
-// What a subject that is a mesh has at a place: its triangles, found by a tree of boxes, and what is inside of them.
+// What the meshes of a subject have at a place: its triangles, found by a tree of boxes, and what is inside of them.
 // The field of depths is a map to the triangles, never the truth (spec/surfaces.md).
 //
 // Texels of `mesh_texels`:
@@ -7,11 +7,14 @@
 //   set         two bits for each of 64 segments: how often a place is inside of it
 // needs: types.wgsl affine.wgsl triangles.wgsl bind/subject.wgsl subject/place.wgsl
 
-/// Stands for no label.
-const NO_LABEL: u32 = 0xffffffffu;
-/// Depth under the surface, subject units, by the field alone; below 0 outside.
-fn texel_at(uvw: vec3f) -> f32 {
-    return textureSampleLevel(volume, linear_sampler, uvw, 0.0).x;
+/// Texture space of the field of depths from a point of rest space.
+fn field_from_rest(rest: vec3f) -> vec3f {
+    return apply_affine(subject.field_from_rest, rest);
+}
+
+/// Depth under the surface of the meshes at a point of rest space, subject units, by the field alone; below 0 outside.
+fn field_at(rest: vec3f) -> f32 {
+    return textureSampleLevel(mesh_depths, linear_sampler, field_from_rest(rest), 0.0).x;
 }
 
 fn mesh_texel(index: u32) -> vec4u {
@@ -119,35 +122,27 @@ fn set_beside(times: vec4u, place: vec3f, middle: vec3f) -> vec4u {
 /// How often a point of rest space is inside of each segment: a set, with the texels' two bits for each. Exact near
 /// triangles, where the way to the middle of the nearest voxel is asked.
 fn set_at(rest: vec3f) -> vec4u {
-    let at = texture_from_rest(rest);
+    let at = field_from_rest(rest);
     if any(at < vec3f(0.0)) || any(at > vec3f(1.0)) {
         return vec4u(0u);
     }
-    let voxel = min(floor(at * subject.dims.xyz), subject.dims.xyz - 1.0);
-    let inner = clamp(floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz), vec3f(0.0), subject.label_dims.xyz - 1.0);
-    let label = textureLoad(labels, vec3i(inner), 0).x;
-    let depth = textureLoad(volume, vec3i(voxel), 0).x;
+    let voxel = min(floor(at * subject.field_dims.xyz), subject.field_dims.xyz - 1.0);
+    let inner = clamp(floor(apply_affine(subject.fill_from_rest, rest) * subject.fill_dims.xyz), vec3f(0.0), subject.fill_dims.xyz - 1.0);
+    let label = textureLoad(mesh_fills, vec3i(inner), 0).x;
+    let depth = textureLoad(mesh_depths, vec3i(voxel), 0).x;
     // A voxel's corner is so far from its middle at most: 0.87 of its side.
-    if abs(depth) > subject.detail {
+    if abs(depth) > subject.field_detail {
         return select(mesh_texel(subject.sets_at + label), vec4u(0u), depth < 0.0);
     }
     // Voxels beside the segmentation's are empty.
-    let is_beside = any(floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz) != inner);
+    let is_beside = any(floor(apply_affine(subject.fill_from_rest, rest) * subject.fill_dims.xyz) != inner);
     let times_there = select(mesh_texel(subject.sets_at + label), vec4u(0u), is_beside);
-    let step = (voxel + 0.5) / subject.dims.xyz - at;
-    return set_beside(times_there, rest, rest + step * rest_from_texture());
-}
-
-/// The segments at a point of rest space that are still to be taken: a set.
-alias Labels = vec4u;
-
-/// The segments that a point of rest space is inside of.
-fn labels_at(rest: vec3f) -> Labels {
-    return set_at(rest);
+    let step = (voxel + 0.5) / subject.field_dims.xyz - at;
+    return set_beside(times_there, rest, rest + step * rest_from_field());
 }
 
 /// Takes the first segment of a set, from 1; NO_LABEL if the set is empty.
-fn take_label(left: ptr<function, Labels>) -> u32 {
+fn take_segment(left: ptr<function, vec4u>) -> u32 {
     let first = first_of(*left);
     if first == NO_LABEL {
         return NO_LABEL;
@@ -157,8 +152,8 @@ fn take_label(left: ptr<function, Labels>) -> u32 {
 }
 
 /// Sides of the field's box, rest space: its grid is not turned.
-fn rest_from_texture() -> vec3f {
-    return 1.0 / vec3f(subject.texture_from_rest.row0.x, subject.texture_from_rest.row1.y, subject.texture_from_rest.row2.z);
+fn rest_from_field() -> vec3f {
+    return 1.0 / vec3f(subject.field_from_rest.row0.x, subject.field_from_rest.row1.y, subject.field_from_rest.row2.z);
 }
 
 /// The point of a triangle that is nearest to a place (Ericson, Real-Time Collision Detection, section 5.1.5).
@@ -240,6 +235,6 @@ fn clearance_at(rest: vec3f) -> f32 {
     let outside = max(subject.mesh_min.xyz - rest, rest - subject.mesh_max.xyz);
     let beside = length(max(outside, vec3f(0.0)));
     // Between voxels the field is off by a part of a voxel.
-    let within = abs(texel_at(texture_from_rest(rest))) - 0.6 * subject.detail;
+    let within = abs(field_at(rest)) - 0.6 * subject.field_detail;
     return max(max(beside, within), 0.0);
 }

@@ -1,13 +1,5 @@
 // What a subject that is a volume has at a place. Each kind of subject answers this in a file of its own.
-// needs: affine.wgsl bind/subject.wgsl
-
-/// Normalised value, 0 to 1, at a point of the subject's texture space (subject/place.wgsl).
-fn texel_at(uvw: vec3f) -> f32 {
-    return textureSampleLevel(volume, linear_sampler, uvw, 0.0).x;
-}
-
-/// Stands for no label.
-const NO_LABEL: u32 = 0xffffffffu;
+// needs: affine.wgsl bind/subject.wgsl subject/place.wgsl
 
 /// The labels at a point of rest space that are still to be taken: of a volume one at most.
 alias Labels = u32;
@@ -15,7 +7,7 @@ alias Labels = u32;
 /// Label at a point of rest space: that of the nearest voxel of the segmentation.
 fn labels_at(rest: vec3f) -> Labels {
     let voxel = floor(apply_affine(subject.label_from_rest, rest) * subject.label_dims.xyz);
-    if any(voxel < vec3f(0.0)) || any(voxel >= subject.label_dims.xyz) {
+    if subject.has_labels == 0u || any(voxel < vec3f(0.0)) || any(voxel >= subject.label_dims.xyz) {
         return NO_LABEL;
     }
     return textureLoad(labels, vec3i(voxel), 0).x;
@@ -26,4 +18,9 @@ fn take_label(left: ptr<function, Labels>) -> u32 {
     let label = *left;
     *left = NO_LABEL;
     return label;
+}
+
+/// Labels besides those of the voxels; a volume alone has none.
+fn labels_beside(_rest: vec3f) -> Labels {
+    return NO_LABEL;
 }

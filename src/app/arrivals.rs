@@ -135,7 +135,7 @@ impl App {
                     let details = fill(text.other_file_details, &[hashes[0], hashes[1]]);
                     return self.refuse(text.wrong_file, details);
                 }
-                if self.takes_object(sha256.as_deref()) {
+                if self.takes_mesh(sha256.as_deref()) {
                     return self.session.load_ended();
                 }
                 if sha256
@@ -208,9 +208,7 @@ impl App {
         for notice in made.notices {
             self.session.notify(Gravity::Warning, notice, "");
         }
-        let segments = made.segmentation.as_ref().map_or(&[][..], |l| &l.segments);
-        self.session.view.set_segments(segments);
-        self.session.revision += 1;
+        self.tell_segments();
         self.inside.set_labels(made.segmentation.as_deref());
         let shown = self
             .picture
@@ -222,8 +220,8 @@ impl App {
         }
     }
 
-    /// Asks for label volumes and objects that the document names by an address, tells the shell which label volumes it
-    /// names by a hash, and the reader which of those nobody has opened.
+    /// Asks for label volumes, meshes and objects that the document names by an address, tells the shell which label
+    /// volumes it names by a hash, and the reader which of those nobody has opened.
     fn look_after_files_beside(&mut self) {
         let illustration = self.session.illustration();
         let named = illustration.segments.clone();
@@ -262,13 +260,13 @@ impl App {
         let is_known = match want.role {
             Role::Segments => want.src().is_some(),
             // One that only the reader has is asked for once, so that the reader is told.
-            Role::Object => true,
-            Role::Subject | Role::Field | Role::Mesh => false,
+            Role::Object | Role::Mesh => true,
+            Role::Subject | Role::Field => false,
         };
         is_known && !self.assets.is_refused(want)
     }
 
-    /// True while a label volume or an object is still to be asked for.
+    /// True while a label volume, a mesh or an object is still to be asked for.
     pub(crate) fn wants_beside(&self) -> bool {
         let missing = self.assets.missing(self.session.shown());
         self.session.view.subject.is_some() && missing.iter().any(|want| self.can_be_fetched(want))
@@ -299,18 +297,21 @@ impl App {
         self.reported_segments.clear();
     }
 
-    /// Takes the mesh of an object that a load has brought, and lets go of a file that the user opened if it turns out
-    /// to be one that an object waits for. False if the load is about something else.
-    fn takes_object(&mut self, sha256: Option<&str>) -> bool {
+    /// Takes the mesh of an object or those beside the subject that a load has brought, and lets go of a file that the
+    /// user opened if it turns out to be one that they wait for. False if the load is about something else.
+    fn takes_mesh(&mut self, sha256: Option<&str>) -> bool {
         let Some(load) = &self.session.load else {
             return false;
         };
         match &load.of {
-            LoadOf::Beside(want) if want.role == Role::Object => {
+            LoadOf::Beside(want) if matches!(want.role, Role::Object | Role::Mesh) => {
                 let whole = std::mem::take(&mut self.incoming).finish();
                 let Some(Ok((Subject::Mesh(mesh), _))) = whole else {
                     self.assets.refuse(want);
-                    let text = words::messages::w().no_object;
+                    let text = match want.role {
+                        Role::Mesh => words::messages::w().no_mesh,
+                        _ => words::messages::w().no_object,
+                    };
                     self.session.notify(Gravity::Error, text, "");
                     return true;
                 };
@@ -321,15 +322,20 @@ impl App {
                 true
             }
             LoadOf::File => {
-                let missing = self.assets.missing(self.session.shown());
+                let shown = self.session.shown();
+                let missing = self.assets.missing(shown);
                 let waits = |want: &&Want| {
                     want.role == Role::Object && want.sha256().is_some() && want.sha256() == sha256
                 };
-                let Some(want) = missing.iter().find(waits) else {
-                    return false;
-                };
-                // The shell knows the file from now on; the object says how it is to be read.
-                self.assets.ask_again(want);
+                let mut beside = shown.meshes_beside.iter();
+                let is_beside =
+                    beside.any(|mesh| mesh.sha256.is_some() && mesh.sha256.as_deref() == sha256);
+                // The shell knows the file from now on; the document says how it is to be read.
+                match missing.iter().find(waits) {
+                    Some(want) => self.assets.ask_again(want),
+                    None if is_beside => self.assets.ask_for_meshes_again(),
+                    None => return false,
+                }
                 self.incoming = SubjectBuilder::default();
                 true
             }

@@ -6,6 +6,7 @@ use crate::app::session::{Gravity, Selection};
 use crate::app::window::App;
 use crate::app::words::{fill, messages};
 use crate::assets::{Data, ResourceNews, Role, Want};
+use crate::data::{Resources, Subject, with_mesh_segments};
 use crate::document::{Edit, TemplateData};
 use crate::load::{FieldFile, FieldUse};
 use crate::math::round_to;
@@ -26,6 +27,11 @@ impl App {
                 ResourceNews::NoSegment { .. } => {
                     self.session.notify(Gravity::Warning, news.to_string(), "");
                 }
+                ResourceNews::MeshesKept => {
+                    let text = messages::w();
+                    let line = fill(text.not_drawn_yet, &[&text.meshes_beside]);
+                    self.session.notify(Gravity::Warning, line, "");
+                }
                 ResourceNews::FieldNotice { line, .. } => {
                     self.session.notify(Gravity::Warning, line, "");
                 }
@@ -35,9 +41,18 @@ impl App {
                 }
             }
         }
+        let beside = |resources: &Resources| match &resources.subject {
+            Some(Subject::Space(space)) => space.meshes.clone(),
+            _ => None,
+        };
+        if let Some(picture) = &mut self.picture {
+            picture.set_meshes(beside(&resources).as_ref());
+        }
         if resources == self.resources {
             return;
         }
+        // A subject that comes anew knows of its own segments only.
+        let has_meshes = beside(&resources).is_some() || beside(&self.resources).is_some();
         if resources.fields != self.resources.fields || !resources.has_objects_of(&self.resources) {
             let frames = resources.objects.iter();
             let frames = frames.map(|(source, mesh)| (source.clone(), mesh.frame));
@@ -48,6 +63,24 @@ impl App {
             picture.set_resources(resources.clone());
         }
         self.resources = resources;
+        if has_meshes {
+            self.tell_segments();
+        }
+    }
+
+    /// Tells the session which segments are shown: those of the scan, and those of the meshes beside it.
+    pub(crate) fn tell_segments(&mut self) {
+        let own = self.tissue.segmentation(&self.assets);
+        let own = own.map_or(&[][..], |labels| &labels.segments);
+        let segments = match &self.resources.subject {
+            Some(Subject::Space(space)) => match &space.meshes {
+                Some(meshes) => with_mesh_segments(own, meshes),
+                None => own.to_vec(),
+            },
+            _ => return,
+        };
+        self.session.view.set_segments(&segments);
+        self.session.revision += 1;
     }
 
     /// A field has come: one that was wanted, or one that the reader opened.

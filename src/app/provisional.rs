@@ -45,6 +45,7 @@ impl App {
         if let Some(LoadOf::Beside(want)) = load.map(|load| &load.of) {
             return Some(match want.role {
                 Role::Object => w.object_coming,
+                Role::Mesh => w.mesh_coming,
                 _ => w.segments_coming,
             });
         }

@@ -248,6 +248,12 @@ impl App {
         self.session.selection.object()
     }
 
+    /// Names of the segments of the subject that the picture shows, those of meshes beside it too.
+    pub fn segment_names(&self) -> Vec<String> {
+        let shown = self.picture.as_ref().map_or(&[][..], |p| p.segments());
+        shown.iter().map(|segment| segment.name.clone()).collect()
+    }
+
     /// True when the picture is complete, nothing is being loaded and no question to the picture is open.
     pub fn is_at_rest(&self) -> bool {
         let is_picture_done = |picture: &Picture| picture.state.is_done && !picture.is_waiting();

@@ -13,6 +13,8 @@ pub enum ResourceNews {
         /// What the author calls it.
         name: String,
     },
+    /// The subject is a mesh, and further meshes beside it are kept and not drawn.
+    MeshesKept,
     /// A field is drawn, but not quite as its file has it.
     FieldNotice {
         /// Index of the template in the document.
@@ -39,6 +41,9 @@ impl fmt::Display for ResourceNews {
             } => write!(
                 f,
                 "{pointer}/names/{number}: the file has no segment of this number; “{name}” names nothing"
+            ),
+            Self::MeshesKept => f.write_str(
+                "/subject/meshes: meshes beside a subject that is a mesh itself are kept, but not drawn yet",
             ),
             Self::FieldNotice { template, line } => write!(f, "/templates/{template}: {line}"),
             Self::FieldRefused { template, why } => write!(f, "/templates/{template}: {why}"),

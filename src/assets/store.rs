@@ -1,12 +1,14 @@
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use super::naming::rename;
 use super::news::ResourceNews;
 use super::want::{OtherFile, Role, Source, Want, Wanted};
 use crate::data::{
     FieldKey, FieldSamples, Grid, ObjectMeshes, Resources, Segment, Segmentation, Subject, Surface,
 };
-use crate::document::{Illustration, SegmentsRef, TemplateData};
+use crate::document::{Illustration, SegmentsRef, SubjectBox, SubjectRef, TemplateData};
 use crate::load::{FieldFile, FieldUse, LabelFile};
 
 /// What a file turned out to hold.
@@ -23,9 +25,10 @@ pub enum Data {
     Segments(LabelFile),
     /// The samples of a displacement field.
     Field(FieldFile),
-    /// The mesh of an object. `sha256` is that of its file; a built-in one has none.
+    /// The mesh of an object, or the meshes beside a volume. `sha256` is that of the file, or of the first; a built-in
+    /// one has none.
     Object {
-        /// The mesh in its own space.
+        /// The mesh in its own space; beside a volume in that of the volume.
         mesh: Arc<Surface>,
         /// SHA-256 of the file, lower-case hex.
         sha256: Option<String>,
@@ -67,8 +70,10 @@ pub struct Assets {
     grid: Option<Grid>,
     segments: Vec<Held<LabelFile>>,
     fields: Vec<Held<FieldFile>>,
-    /// Meshes of objects, each with the want that it met.
-    objects: Vec<(Want, Arc<Surface>)>,
+    /// Meshes of objects and those beside the subject, each with the want that it met.
+    meshes: Vec<(Want, Arc<Surface>)>,
+    /// It was told that the meshes beside the present subject are not drawn.
+    has_told_kept: bool,
     /// Label volumes that no document names; they come after those that the document names.
     added: Vec<Arc<Segmentation>>,
     /// Wants that cannot be met.
@@ -104,8 +109,17 @@ impl Assets {
         };
         match data {
             Data::Object { mesh, .. } => {
-                self.objects.retain(|(met, _)| !met.is_same_mesh(want));
-                self.objects.push((want.clone(), mesh));
+                self.meshes.retain(|(met, _)| !met.is_same_mesh(want));
+                let named = match &want.source {
+                    // The only segment of a mesh of the subject takes the author's name for it.
+                    Source::File { name, .. } if want.role == Role::Mesh => {
+                        Subject::Mesh(mesh).called(name)
+                    }
+                    _ => Subject::Mesh(mesh),
+                };
+                if let Subject::Mesh(mesh) = named {
+                    self.meshes.push((want.clone(), mesh));
+                }
             }
             data => self.hold(want.src().map(str::to_owned), data),
         }
@@ -135,6 +149,7 @@ impl Assets {
                 let own = || subject.segmentation().map(|segmentation| segmentation.grid);
                 self.place(grid.or_else(own));
                 self.own_named = None;
+                self.has_told_kept = false;
                 self.subject = Some(subject);
             }
             Data::Segments(file) => {
@@ -187,8 +202,12 @@ impl Assets {
         self.fitted.clear();
         self.segments.iter_mut().for_each(|one| one.src = None);
         self.fields.iter_mut().for_each(|one| one.src = None);
-        self.objects
-            .retain(|(met, _)| met.src().is_none() || met.sha256().is_some());
+        let is_by_hash = |met: &Want| {
+            let further = &met.reading.meshes;
+            (met.src().is_none() || met.sha256().is_some())
+                && further.iter().all(|mesh| mesh.sha256.is_some())
+        };
+        self.meshes.retain(|(met, _)| is_by_hash(met));
     }
 
     /// True if the file of this want has arrived. Only one subject is held at a time.
@@ -197,22 +216,49 @@ impl Assets {
             Role::Subject => self.subject.is_some(),
             Role::Segments => find(&self.segments, want).is_some(),
             Role::Field => find(&self.fields, want).is_some(),
-            Role::Object => self.object(want).is_some(),
-            // Nothing reads these yet.
-            Role::Mesh => false,
+            Role::Object | Role::Mesh => self.mesh(want).is_some(),
         }
     }
 
-    fn object(&self, want: &Want) -> Option<&Arc<Surface>> {
-        let found = self.objects.iter().find(|(met, _)| met.is_same_mesh(want));
+    fn mesh(&self, want: &Want) -> Option<&Arc<Surface>> {
+        let found = self.meshes.iter().find(|(met, _)| met.is_same_mesh(want));
         found.map(|(_, mesh)| mesh)
     }
 
     /// What has not come, in the order in which it is wanted.
     pub fn missing(&self, illustration: &Illustration) -> Vec<Want> {
         let mut wants = Wanted::of(illustration).0;
-        wants.retain(|want| !self.has(want));
+        // Those beside the subject are read in one, once it is known where they lie.
+        wants.retain(|want| want.role != Role::Mesh && !self.has(want));
+        let beside = self.meshes_wanted(illustration);
+        wants.extend(beside.filter(|want| !self.has(want)));
         wants
+    }
+
+    /// What the meshes beside a volume are read by, those left out whose file nobody has. `None` without such meshes,
+    /// and before it is known where the volume lies.
+    pub fn meshes_wanted(&self, illustration: &Illustration) -> Option<Want> {
+        self.subject.as_ref()?.values()?;
+        let frame = self.grid?.frame();
+        let middle = match illustration.subject {
+            // Of a built-in subject they lie from its centre.
+            SubjectRef::Builtin { .. } => DVec3::ZERO,
+            _ => frame.middle_mm,
+        };
+        let half = DVec3::splat(0.5 * frame.mm_per_unit);
+        let bounds = SubjectBox {
+            min_mm: middle - half,
+            max_mm: middle + half,
+        };
+        let meshes = &illustration.meshes_beside;
+        let starts = (0..meshes.len()).filter_map(|k| Want::meshes(meshes.get(k..)?, bounds));
+        starts.into_iter().find(|want| !self.is_refused(want))
+    }
+
+    /// A file has come that meshes beside the subject may have waited for: they are read again.
+    pub fn ask_for_meshes_again(&mut self) {
+        self.refused.retain(|refused| refused.role != Role::Mesh);
+        self.meshes.retain(|(met, _)| met.role != Role::Mesh);
     }
 
     /// The subject that is held.
@@ -236,7 +282,8 @@ impl Assets {
         named.cloned().collect()
     }
 
-    /// The data of the files that a document names: its subject, its label volumes under the author's names, and the
+    /// The data of the files that a document names: its subject with the meshes beside it, its label volumes under the
+    /// author's names, and the
     /// fields of templates that act, laid over the subject. Files that have not arrived are left out. There are no
     /// fields before the grid of the subject is known.
     ///
@@ -245,8 +292,15 @@ impl Assets {
     pub fn resources(&mut self, illustration: &Illustration) -> (Resources, Vec<ResourceNews>) {
         let mut news = Vec::new();
         let (own_segments, segmentations) = self.named_segments(illustration, &mut news);
+        let wanted = self.meshes_wanted(illustration);
+        let meshes = wanted.and_then(|want| self.mesh(&want)).cloned();
+        let is_mesh = self.subject.as_ref().is_some_and(|s| s.values().is_none());
+        if is_mesh && !illustration.meshes_beside.is_empty() && !self.has_told_kept {
+            self.has_told_kept = true;
+            news.push(ResourceNews::MeshesKept);
+        }
         let resources = Resources {
-            subject: self.subject.clone(),
+            subject: (self.subject.clone()).map(|subject| subject.with_meshes(meshes)),
             own_segments,
             segmentations,
             fields: self.field_samples(illustration, &mut news),
@@ -260,7 +314,7 @@ impl Assets {
         let mut meshes = ObjectMeshes::new();
         for object in &illustration.objects {
             if meshes.iter().all(|(known, _)| *known != object.source)
-                && let Some(mesh) = Want::object(object).and_then(|want| self.object(&want))
+                && let Some(mesh) = Want::object(object).and_then(|want| self.mesh(&want))
             {
                 meshes.push((object.source.clone(), Arc::clone(mesh)));
             }

@@ -1,6 +1,6 @@
 use crate::document::{
     FieldRef, Illustration, MeshReading, MeshRef, ObjectSource, Reading, SceneObject, SegmentsRef,
-    SubjectRef, TemplateData,
+    SubjectBox, SubjectRef, TemplateData,
 };
 use crate::load::MeshOptions;
 
@@ -116,6 +116,26 @@ impl Want {
             src, sha256, name, ..
         } = mesh;
         Self::file(Role::Mesh, src, sha256, name, mesh.reading)
+    }
+
+    /// All meshes beside a volume, in one: they are read together, off the picture's thread. The first of them is the
+    /// one that has to be there; `bounds` is the volume's box. `None` where no mesh names a file.
+    pub fn meshes(meshes: &[MeshRef], bounds: SubjectBox) -> Option<Self> {
+        let mut want = Self::mesh(meshes.first()?)?;
+        want.reading.bounds = Some(bounds);
+        if meshes.len() > 1 {
+            want.reading.meshes = meshes.to_vec();
+        }
+        Some(want)
+    }
+
+    /// True if a mesh that is read for this want is the file of this hash, lower-case hex.
+    pub fn reads(&self, sha256: &str) -> bool {
+        let all = self.reading.meshes.iter();
+        let mut hashes = all
+            .filter_map(|mesh| mesh.sha256.as_deref())
+            .chain(self.sha256());
+        hashes.any(|own| own.eq_ignore_ascii_case(sha256))
     }
 
     /// The mesh of an object; `None` where the document names no file.

@@ -50,7 +50,7 @@ pub use resources::{FieldKey, ObjectMeshes, Resources};
 pub use segmented::{RECIPE_COLORS_SRGB, Segmented, segment, segment_with};
 pub use site::Site;
 pub use statistics::{Histogram, Statistics};
-pub use subject::{Space, Subject};
+pub use subject::{FIRST_MESH_LABEL, Space, Subject, called_as_in, with_mesh_segments};
 pub use subject_builder::SubjectBuilder;
 pub use surface::{
     FIELD_MARGIN, FIELD_VOXELS, MAX_SURFACE_SEGMENTS, Nearest, PLAIN_SRGB, Surface, SurfaceArrays,

@@ -2,7 +2,11 @@ use std::sync::Arc;
 
 use super::frame::SubjectFrame;
 use super::surface::Surface;
+use super::surface::SurfaceSegment;
 use super::volume::{Segment, Segmentation, Volume};
+
+/// Label of the first segment of meshes beside a volume, whose own labels are below.
+pub const FIRST_MESH_LABEL: u16 = 256;
 
 /// What is illustrated. Cheap to clone.
 ///
@@ -22,6 +26,56 @@ pub enum Subject {
 pub struct Space {
     /// The scalars and segments of a scan or of a built-in subject.
     pub volume: Arc<Volume>,
+    /// Meshes beside it: they move with the volume, and lie in its subject space.
+    pub meshes: Option<Arc<Surface>>,
+    /// Segments of the volume, and behind them those of the meshes.
+    segments: Arc<Vec<Segment>>,
+}
+
+impl Space {
+    fn new(volume: Arc<Volume>, meshes: Option<Arc<Surface>>) -> Self {
+        let own = volume.segmentation.as_ref();
+        let own = own.map_or(&[][..], |segmentation| &segmentation.segments);
+        let segments = Arc::new(match &meshes {
+            Some(surface) => with_mesh_segments(own, surface),
+            None => own.to_vec(),
+        });
+        Self {
+            volume,
+            meshes,
+            segments,
+        }
+    }
+}
+
+/// The segments of a volume, and behind them those of the meshes beside it, from [`FIRST_MESH_LABEL`] on. A name that
+/// is taken gets a number.
+pub fn with_mesh_segments(own: &[Segment], meshes: &Surface) -> Vec<Segment> {
+    let mut all = own.to_vec();
+    for (segment, label) in meshes.segments.iter().zip(FIRST_MESH_LABEL..) {
+        let numbered = (2..).map(|number| format!("{} {number}", segment.name));
+        let mut names = std::iter::once(segment.name.clone()).chain(numbered);
+        let is_free = |name: &String| all.iter().all(|other| other.name != *name);
+        // There is always another number.
+        let name = names.find(is_free).unwrap_or_default();
+        all.push(Segment {
+            label,
+            name,
+            color_srgb: Some(segment.mean_srgb),
+        });
+    }
+    all
+}
+
+/// What the segments of meshes beside a volume are, by their names in a list of [`with_mesh_segments`].
+pub fn called_as_in(all: &[Segment], meshes: &Surface) -> Vec<SurfaceSegment> {
+    let names = all.iter().filter(|s| s.label >= FIRST_MESH_LABEL);
+    let pairs = meshes.segments.iter().zip(names);
+    let named = pairs.map(|(segment, called)| SurfaceSegment {
+        name: called.name.clone(),
+        ..segment.clone()
+    });
+    named.collect()
 }
 
 impl Subject {
@@ -46,11 +100,38 @@ impl Subject {
 
     /// Named parts that the subject came with, in the order of its file; none if it has no parts.
     pub fn segments(&self) -> &[Segment] {
-        self.segmentation()
-            .map_or(&[], |segmentation| &segmentation.segments)
+        match self {
+            Self::Space(space) => &space.segments,
+            Self::Mesh(surface) => &surface.segmentation.segments,
+        }
     }
 
-    /// Which of its parts are where; `None` if it has no parts.
+    /// The meshes of the subject, alone or beside its volume.
+    pub fn surface(&self) -> Option<&Arc<Surface>> {
+        match self {
+            Self::Space(space) => space.meshes.as_ref(),
+            Self::Mesh(surface) => Some(surface),
+        }
+    }
+
+    /// What the segments of its meshes are, by the names that they have in this subject.
+    pub fn mesh_segments(&self) -> Vec<SurfaceSegment> {
+        match self {
+            Self::Space(space) => (space.meshes.as_ref())
+                .map_or_else(Vec::new, |surface| called_as_in(&space.segments, surface)),
+            Self::Mesh(surface) => surface.segments.clone(),
+        }
+    }
+
+    /// The same subject with these meshes beside its volume; a subject of meshes alone stays as it is.
+    pub fn with_meshes(self, meshes: Option<Arc<Surface>>) -> Self {
+        match self {
+            Self::Space(space) => Self::Space(Space::new(space.volume, meshes)),
+            mesh @ Self::Mesh(_) => mesh,
+        }
+    }
+
+    /// Which of its parts are where, those of meshes beside a volume left out; `None` if it has no parts.
     pub fn segmentation(&self) -> Option<&Segmentation> {
         match self {
             Self::Space(space) => space.volume.segmentation.as_ref(),
@@ -73,7 +154,7 @@ impl Subject {
         match self {
             Self::Space(mut space) => {
                 Arc::make_mut(&mut space.volume).segmentation = segmentation;
-                Self::Space(space)
+                Self::Space(Space::new(space.volume, space.meshes))
             }
             mesh @ Self::Mesh(_) => mesh,
         }
@@ -94,7 +175,13 @@ impl Subject {
     /// True if both are one thing in memory, and not merely alike: nothing is compared voxel by voxel.
     pub fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::Space(a), Self::Space(b)) => Arc::ptr_eq(&a.volume, &b.volume),
+            (Self::Space(a), Self::Space(b)) => {
+                let meshes = match (&a.meshes, &b.meshes) {
+                    (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+                    (a, b) => a.is_none() && b.is_none(),
+                };
+                Arc::ptr_eq(&a.volume, &b.volume) && meshes
+            }
             (Self::Mesh(a), Self::Mesh(b)) => Arc::ptr_eq(a, b),
             (Self::Space(_), Self::Mesh(_)) | (Self::Mesh(_), Self::Space(_)) => false,
         }
@@ -103,7 +190,7 @@ impl Subject {
 
 impl From<Arc<Volume>> for Subject {
     fn from(volume: Arc<Volume>) -> Self {
-        Self::Space(Space { volume })
+        Self::Space(Space::new(volume, None))
     }
 }
 

@@ -119,14 +119,16 @@ impl Stock {
         self.loading.clone()
     }
 
-    /// Takes an object that an illustration shows and that has not come as what should be fetched next, and counts it
+    /// Takes an object or meshes that an illustration shows and that have not come as what should be fetched next, and
+    /// counts it
     /// as under way.
     pub fn next_object(&mut self, shown: &Illustration) -> Option<Want> {
         if self.loading.is_some() || !self.is_whole {
             return None;
         }
         let mut missing = self.assets.missing(shown);
-        missing.retain(|want| want.role == Role::Object && !self.assets.is_refused(want));
+        let is_one = |want: &Want| matches!(want.role, Role::Object | Role::Mesh);
+        missing.retain(|want| is_one(want) && !self.assets.is_refused(want));
         self.loading = missing.into_iter().next();
         self.fraction = 0.0;
         self.loading.clone()
@@ -254,8 +256,8 @@ impl Stock {
             self.is_whole = !self.has_failed();
         }
         self.loading = None;
-        if want.role == Role::Object {
-            self.take_object(&want, sha256);
+        if matches!(want.role, Role::Object | Role::Mesh) {
+            self.take_mesh(&want, sha256);
         }
         for file in std::mem::take(&mut self.incoming_labels) {
             let data = Data::Segments(file);
@@ -274,8 +276,8 @@ impl Stock {
         self.revision += 1;
     }
 
-    /// The mesh of an object has come.
-    fn take_object(&mut self, want: &Want, sha256: Option<String>) {
+    /// The mesh of an object or those beside the subject have come.
+    fn take_mesh(&mut self, want: &Want, sha256: Option<String>) {
         let message = match std::mem::take(&mut self.incoming).finish() {
             Some(Ok((Subject::Mesh(mesh), _))) => {
                 let taken = self.assets.take(want, Data::Object { mesh, sha256 });
@@ -283,7 +285,13 @@ impl Stock {
             }
             _ => {
                 self.assets.refuse(want);
-                Some("An object has to be a surface mesh: OBJ, STL, PLY or GLB".to_owned())
+                let what = match want.role {
+                    Role::Mesh => "A mesh of the subject",
+                    _ => "An object",
+                };
+                Some(format!(
+                    "{what} has to be a surface mesh: OBJ, STL, PLY or GLB"
+                ))
             }
         };
         self.troubles.extend(message.map(|message| Trouble {
@@ -328,6 +336,9 @@ impl Stock {
         let mut is_busy = state.uploading.is_some();
         if self.assets.subject().is_some() {
             let (resources, news) = self.assets.resources(&self.illustration);
+            if let Some(Subject::Space(space)) = &resources.subject {
+                self.host.set_meshes(space.meshes.as_ref());
+            }
             self.resources = resources;
             self.troubles.extend(news.into_iter().map(|news| Trouble {
                 message: news.to_string(),

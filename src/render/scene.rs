@@ -157,8 +157,11 @@ impl Scene {
     ) -> bool {
         self.inputs.update(illustration, resources, subject);
         self.has_segments = subject.info.has_segments;
-        self.has_textures = subject.texture_bytes > 0;
+        self.has_textures = subject.texture_bytes() > 0;
         self.subject = subject.shader;
+        if self.key().leaves_meshes_out(gpu) {
+            self.inputs.tell_meshes_left_out();
+        }
         let inputs = &self.inputs;
         self.templates.update(gpu, &inputs.templates);
         self.fields.update(gpu, &inputs.fields);

@@ -800,7 +800,7 @@ impl Inner {
         };
         let Some(src) = src else {
             return match want.role {
-                Role::Object => Way::Fail(wanted_file(name)),
+                Role::Object | Role::Mesh => Way::Fail(wanted_file(name)),
                 _ => Way::File(wanted_file(name)),
             };
         };

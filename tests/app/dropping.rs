@@ -51,10 +51,6 @@ fn a_mesh_becomes_the_subject_by_a_click() {
     arrives(&mut window, &hash("0a"));
     assert!(is_asked(&window));
     window.look("dropped_mesh");
-    let part = window
-        .harness
-        .get_by_role_and_label(Role::Button, "A part of the subject");
-    assert!(part.accesskit_node().is_disabled(), "a cube is no mesh");
     assert_eq!(
         window.document().get("/subject/builtin"),
         Some(&"cube".into())
@@ -75,7 +71,8 @@ fn a_mesh_becomes_the_subject_by_a_click() {
 fn a_mesh_becomes_an_object_by_the_keyboard() {
     let mut window = open();
     arrives(&mut window, &hash("0b"));
-    // The keyboard begins at the first answer; the second cannot be given.
+    // The keyboard begins at the first answer.
+    window.press(Key::Tab);
     window.press(Key::Tab);
     window.press(Key::Space);
     assert!(!is_asked(&window));
@@ -133,6 +130,52 @@ fn a_second_mesh_becomes_a_part_of_the_subject() {
     window.undo();
     assert_eq!(window.document().get("/subject/meshes"), None);
     assert_eq!(window.document().get("/subject/box"), None);
+}
+
+/// Beside a scan a mesh is drawn with it, and its segments are tissues.
+#[test]
+fn a_mesh_lies_beside_a_scan() {
+    let mut window = open();
+    arrives(&mut window, &hash("0b"));
+    window.click("A part of the subject");
+    window.steps(3);
+    let document = window.document();
+    let wanted = serde_json::json!([{ "sha256": hash("0b") }]);
+    assert_eq!(document.get("/subject/meshes"), Some(&wanted));
+    assert_eq!(document.get("/subject/box"), None, "the cube's box decides");
+    assert_eq!(document.get("/subject/builtin"), Some(&"cube".into()));
+    let (want, ticket) = {
+        let log = window.log.0.borrow();
+        let want = log.loads.last().expect("it is asked for").clone();
+        (want, Ticket(log.next_ticket))
+    };
+    assert_eq!(want.role, fabrica::assets::Role::Mesh);
+    let bounds = want.reading.bounds.expect("the cube's box");
+    assert!(bounds.middle_mm().length() < 1e-9, "from its centre");
+    let mesh = fabrica::subjects::mesh("apple").expect("a built-in mesh");
+    let within = Some([bounds.min_mm, bounds.max_mm]);
+    let surface = Surface::of(&[(&mesh, None)], within, &mut |_| true).expect("it has a size");
+    let names: Vec<String> = surface.segments.iter().map(|s| s.name.clone()).collect();
+    let events = [
+        LoadEvent::Part(SubjectPart::Surface(Arc::new(surface))),
+        LoadEvent::Done {
+            sha256: Some(hash("0b")),
+        },
+    ];
+    let events = events.map(|event| Message::Load { ticket, event });
+    window.log.0.borrow_mut().queue.extend(events);
+    window.steps(6);
+    let drawn = window.harness.state().segment_names();
+    for name in &names {
+        assert!(drawn.contains(name), "{name} is none of {drawn:?}");
+    }
+    window.click("Panel: Tissues");
+    window.harness.get_by_label("body");
+    window.look("mesh_beside");
+    window.undo();
+    window.steps(3);
+    let drawn = window.harness.state().segment_names();
+    assert!(!drawn.contains(&names[0]), "{drawn:?}");
 }
 
 #[test]

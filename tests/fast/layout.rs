@@ -42,11 +42,12 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Subject {
             texture_from_rest, label_from_rest, dims, label_dims, texture_end,
             value_low, value_range, detail, has_labels,
-            mesh_min, mesh_max, node_count, triangles_at, sets_at, textures_at,
+            field_from_rest, fill_from_rest, field_dims, fill_dims,
+            mesh_min, mesh_max, node_count, triangles_at, sets_at, textures_at, field_detail, labels_before,
         }
         MeshSegment { color, inside, kind, thickness, gloss, opacity, first_layer, layer_count }
         MeshLayer { color, depth, grain }
-        MeshLook { segments, layers, has_shells }
+        MeshLook { segments, layers, has_shells, has_filled }
         SceneObject { object_from_subject, color, inside, opacity, gloss, nodes_at, triangles_at, node_count, textures_at }
         SceneObjects { items, count }
         Look { table_scale, table_offset, tint, specular, opacity_mode, edges }
@@ -62,7 +63,8 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
             distance_from_rest, distance_dims, spacing, slab_count, exact_slab, depth_slab, label_sets, items, motions, seams,
         }
         DistanceJob {
-            volume_from_voxel, fine, coarse, spacing, ratio, label_from_voxel, half_box, half_ball, channel, threshold, reads_labels,
+            volume_from_voxel, fine, coarse, spacing, ratio, label_from_voxel, rest_from_voxel, half_box, half_ball,
+            channel, threshold, reads_labels,
             first_slice, slice_count, axis, slab, set_count, label_sets,
         }
         Bodies { items }

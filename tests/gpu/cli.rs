@@ -920,6 +920,287 @@ fn several_meshes_are_one_subject() {
     probe(&[], "0,0,0\n").failed(&["heart"]);
 }
 
+/// The outer faces of voxels with a label as a binary STL, mm, for voxels of 1 mm about the origin.
+fn faces_of(dims: [i16; 3], is_in: impl Fn([i16; 3]) -> bool, shift: f32) -> Vec<u8> {
+    let mut triangles = Vec::new();
+    for z in 0..dims[2] {
+        for y in 0..dims[1] {
+            for x in 0..dims[0] {
+                for side in (0..6_usize).filter(|_| is_in([x, y, z])) {
+                    let (axis, step) = (side / 2, if side % 2 == 0 { -1 } else { 1 });
+                    let mut beside = [x, y, z];
+                    beside[axis] += step;
+                    if is_in(beside) {
+                        continue;
+                    }
+                    let corner = |u: f32, v: f32| {
+                        let mut at = [0.0; 3];
+                        at[axis] = 0.5 * f32::from(step);
+                        at[(axis + 1) % 3] = u;
+                        at[(axis + 2) % 3] = v;
+                        let place = |k: usize| {
+                            let middle = 0.5 * (f32::from(dims[k]) - 1.0);
+                            f32::from([x, y, z][k]) - middle + at[k] + shift
+                        };
+                        [0, 1, 2].map(place)
+                    };
+                    let mut quad = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
+                    if step < 0 {
+                        quad.reverse();
+                    }
+                    let [a, b, c, d] = quad.map(|(u, v)| corner(u, v));
+                    triangles.extend([[a, b, c], [a, c, d]]);
+                }
+            }
+        }
+    }
+    let mut stl = vec![0; 80];
+    stl.extend((triangles.len() as u32).to_le_bytes());
+    for triangle in triangles {
+        stl.extend([0; 12]);
+        let numbers = triangle.iter().flatten();
+        stl.extend(numbers.flat_map(|number: &f32| number.to_le_bytes()));
+        stl.extend([0; 2]);
+    }
+    stl
+}
+
+/// The faces of a label's voxels, laid beside its scan as a solid, are where the label is, peeled or not.
+#[test]
+fn a_mesh_of_a_label_lies_where_the_label_lies() {
+    let dims = [24, 20, 16];
+    // Two balls that overlap, so that the border is no box.
+    let is_in = |[x, y, z]: [i16; 3]| {
+        let square = |x: i16, y: i16, z: i16| i32::from(x * x + y * y + z * z);
+        square(x - 10, y - 9, z - 8) < 30 || square(x - 15, y - 11, z - 7) < 20
+    };
+    let folder = folder();
+    write(&folder, "scan.nii", nifti(dims, |x, y, z| 50 + x + y + z));
+    write(
+        &folder,
+        "label.nii",
+        nifti(dims, |x, y, z| i16::from(is_in([x, y, z]))),
+    );
+    write(&folder, "label.stl", faces_of(dims, is_in, 0.0));
+    write(&folder, "aside.stl", faces_of(dims, is_in, 1.0));
+    let mut points = Vec::new();
+    for i in 0..14 * 14 * 14 {
+        let at = [i % 14, i / 14 % 14, i / 196].map(|n| (f64::from(n) + 0.37) / 14.0 * 0.9 - 0.45);
+        points.push(at);
+    }
+    let lines: String = points
+        .iter()
+        .map(|[x, y, z]| format!("{x},{y},{z}\n"))
+        .collect();
+    let segments = |mesh: &str, templates: &str| -> Vec<([f64; 3], String)> {
+        let meshes = match mesh {
+            "" => String::new(),
+            src => format!(r#","meshes":[{{"src":"{src}","name":"copy"}}]"#),
+        };
+        let json = format!(
+            r#"{{"fabrica":1,"subject":{{"src":"scan.nii","segments":{{"src":"label.nii","names":{{"1":"lump"}}}}{meshes}}},
+                "look":{{"segments":{{"copy":{{"body":"solid"}}}}}},"templates":[{templates}]}}"#
+        );
+        write(&folder, "d.json", json);
+        let args = ["probe", "d.json", "--object"];
+        let out = fabrica_with(folder.path(), &args, lines.as_bytes())
+            .ok()
+            .out;
+        let rows = out.lines().map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            let source = [3, 4, 5].map(|i| cells[i].parse().expect("a number"));
+            (source, cells[8].to_owned())
+        });
+        rows.collect()
+    };
+    // 24 voxels are one unit.
+    let to_border = |source: [f64; 3]| {
+        let at: [f64; 3] =
+            std::array::from_fn(|k| source[k] * 24.0 + 0.5 * (f64::from(dims[k]) - 1.0));
+        let [x, y, z] = at.map(|place| place.round() as i16);
+        let here = is_in([x, y, z]);
+        let mut least = f64::INFINITY;
+        for i in 0..125_i16 {
+            let voxel = [x + i % 5 - 2, y + i / 5 % 5 - 2, z + i / 25 - 2];
+            if is_in(voxel) != here {
+                let away = |k: usize| ((at[k] - f64::from(voxel[k])).abs() - 0.5).max(0.0);
+                let far = [0, 1, 2]
+                    .map(away)
+                    .iter()
+                    .map(|d| d * d)
+                    .sum::<f64>()
+                    .sqrt();
+                least = least.min(far);
+            }
+        }
+        least
+    };
+    let peel = r#"{"kind":"peel","at":[0,0.1,0.1],"size":[0.7,0.6,0.5],"params":{"progress":0.6}}"#;
+    let mut agree = 0;
+    for templates in ["", peel] {
+        let label = segments("", templates);
+        let wrong = |mesh: &str| {
+            let found = segments(mesh, templates);
+            let pairs = label.iter().zip(&found);
+            let firm = pairs.filter(|((source, _), _)| to_border(*source) > 0.5);
+            let counts = firm.map(|((_, label), (_, found))| {
+                let is_label = label == "lump";
+                (
+                    usize::from(is_label),
+                    usize::from(is_label != (found == "copy")),
+                )
+            });
+            counts.fold((0, 0), |(all, wrong), (a, w)| (all + a, wrong + w))
+        };
+        let (inside, off) = wrong("label.stl");
+        assert!(inside > 20, "{inside} points lie deep in the label");
+        assert_eq!(off, 0, "{templates}: the mesh is where the label is");
+        agree += inside;
+        let (_, off) = wrong("aside.stl");
+        assert!(
+            off > 3,
+            "a mesh that is aside is told from one that is not: {off}"
+        );
+    }
+    println!("{agree} points in the label and in the mesh");
+}
+
+#[test]
+fn meshes_lie_beside_a_scan() {
+    let folder = folder();
+    write(
+        &folder,
+        "scan.nii",
+        nifti([20, 20, 20], |x, _, _| if x == 0 { 50 } else { 100 }),
+    );
+    write(
+        &folder,
+        "parts.nii",
+        nifti([20, 20, 20], |x, _, _| i16::from(x >= 10)),
+    );
+    // 20 mm are one unit.
+    let inner = box_obj("inner", [0.0; 3], 3.0);
+    write(&folder, "inner.obj", &inner);
+    write(&folder, "outer.obj", box_obj("outer", [0.0; 3], 6.0));
+    let point = "v 1 1 1\n".repeat(3) + "f 1 2 3\n";
+    write(&folder, "point.obj", point);
+    let document = |meshes: &str, look: &str| {
+        let json = format!(
+            r#"{{"fabrica":1,"subject":{{"src":"scan.nii","segments":{{"src":"parts.nii","names":{{"1":"right"}}}},
+                "meshes":[{meshes}]}},"look":{{{look}}}}}"#
+        );
+        write(&folder, "d.json", json);
+    };
+    let probe = |args: &[&str], points: &str| {
+        let args = [&["probe", "d.json"], args].concat();
+        fabrica_with(folder.path(), &args, points.as_bytes())
+    };
+    let named =
+        |src: &str, name: &str| format!(r#"{{"src":"{src}","name":"{name}","axes":"ras"}}"#);
+    let solid = r#""body":"solid""#;
+    // Hollow beside a scan, unless the document says otherwise; the one listed first decides.
+    let both = [named("inner.obj", "heart"), named("outer.obj", "right")].join(",");
+    document(&both, "");
+    let scan = probe(&["--object"], "0.1,0,0\n").ok().out;
+    assert!(scan.ends_with(",100,right\n"), "{scan}");
+    document(&both, solid);
+    let out = probe(&["--object", "--depth"], "0.1,0,0\n0.2,0,0\n0.4,0,0\n")
+        .ok()
+        .out;
+    let ends: Vec<Vec<&str>> = out
+        .lines()
+        .map(|l| l.split(',').skip(7).collect())
+        .collect();
+    assert_eq!(
+        [ends[0][1], ends[1][1], ends[2][1]],
+        ["heart", "right 2", "right"],
+        "{out}"
+    );
+    assert_eq!(ends[2][0], "100", "the scan around it");
+    let depth = |i: usize| ends[i][2].parse::<f32>().expect("a number");
+    assert!(
+        (depth(0) - 0.2).abs() < 1e-4 && (depth(2) + 0.1).abs() < 1e-4,
+        "{out}"
+    );
+    // A mesh has its name only, a number is the scan's label; two of one name are told apart.
+    document(
+        &[named("inner.obj", "a"), named("outer.obj", "a")].join(","),
+        r#""segments":{"a 2":{"body":"solid"},"1":{"opacity":1}}"#,
+    );
+    let out = probe(&["--object"], "0.1,0,0\n0.2,0,0\n").ok();
+    assert!(
+        out.out.lines().all(|line| line.ends_with(",a 2")),
+        "{}",
+        out.out
+    );
+    assert!(
+        !out.err.contains("segment"),
+        "every name is known: {}",
+        out.err
+    );
+    // Rays: around the scan, out of whose box a mesh may reach.
+    write(&folder, "wide.obj", box_obj("wide", [0.0; 3], 12.0));
+    document(&named("wide.obj", "box"), "");
+    let rays = probe(&["--rays"], "0,0,2,0,0,-1\n").ok().out;
+    let columns: Vec<&str> = rays.trim_end().split(',').collect();
+    let t: f32 = columns[6].parse().expect("a number");
+    assert!((t - 1.4).abs() < 1e-4, "{rays}");
+    assert_eq!(columns[16..].join(","), "surface,box,#d8cdbd");
+    // One that is not there is named, and the others are drawn; so by hash.
+    document(
+        &[named("none.obj", "lost"), named("outer.obj", "box")].join(","),
+        solid,
+    );
+    let out = probe(&["--object"], "0.2,0,0\n").ok();
+    assert!(out.out.ends_with(",box\n"), "{}", out.out);
+    assert!(out.err.contains("“lost” is not there"), "{}", out.err);
+    document(
+        &[named("outer.obj", "box"), named("none.obj", "lost")].join(","),
+        solid,
+    );
+    let out = probe(&["--object"], "0.2,0,0\n").ok();
+    assert!(
+        out.out.ends_with(",box\n") && out.err.contains("lost"),
+        "{} {}",
+        out.out,
+        out.err
+    );
+    let hashed = format!(
+        r#"{{"sha256":"{}","name":"heart","axes":"ras"}}"#,
+        hash(inner.as_bytes())
+    );
+    document(&hashed, solid);
+    let out = probe(&["--object"], "0.1,0,0\n").ok();
+    assert!(out.out.ends_with(",100,right\n"), "{}", out.out);
+    assert!(out.err.contains("“heart”"), "{}", out.err);
+    let out = probe(&["--object", "--mesh", "inner.obj"], "0.1,0,0\n").ok();
+    assert!(
+        out.out.ends_with(",heart\n") && !out.err.contains("heart"),
+        "{} {}",
+        out.out,
+        out.err
+    );
+    // What is no mesh, has no size, or is more than there may be.
+    document(&named("parts.nii", "scan"), "");
+    probe(&["--object"], "0,0,0\n").failed(&["parts.nii", "a scan, not a surface mesh"]);
+    document(&named("point.obj", "point"), "");
+    probe(&["--object"], "0,0,0\n").failed(&["point.obj"]);
+    document(&vec![named("outer.obj", "box"); 65].join(","), "");
+    probe(&["--object"], "0,0,0\n").failed(&["65", "64"]);
+    // The link of such a document opens to the same.
+    document(&both, solid);
+    let link = fabrica_with(folder.path(), &["link", "d.json"], b"")
+        .ok()
+        .out;
+    let back = fabrica_with(
+        folder.path(),
+        &["probe", link.trim(), "--object"],
+        b"0.1,0,0\n",
+    )
+    .ok();
+    assert!(back.out.ends_with(",heart\n"), "{}", back.out);
+}
+
 #[test]
 fn subjects_are_found_or_named() {
     let folder = folder();

@@ -3,6 +3,7 @@
 mod align;
 mod answers;
 mod baked;
+mod beside;
 mod bodies;
 mod captions;
 mod cli;

@@ -11,7 +11,7 @@ use eframe::egui_wgpu::RenderState;
 use glam::Vec2;
 
 use crate::app::session::{Command, Found, Place, Question};
-use crate::data::{Pending, Resources, Segment, Segmentation, Subject, poll_once};
+use crate::data::{Pending, Resources, Segment, Segmentation, Subject, Surface, poll_once};
 use crate::document::{Background, Camera, Illustration};
 use crate::math::Aabb;
 use crate::render::{
@@ -133,7 +133,12 @@ impl Picture {
         self.renderer.segments()
     }
 
-    /// Takes what has come of the files that documents name.
+    /// Shows these meshes beside the volume; to be called in every frame.
+    pub(crate) fn set_meshes(&mut self, meshes: Option<&Arc<Surface>>) {
+        self.renderer.set_meshes(meshes);
+    }
+
+    /// Draws with what has come of the files that the document names.
     pub(crate) fn set_resources(&mut self, resources: Resources) {
         self.renderer.set_resources(resources);
     }

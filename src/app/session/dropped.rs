@@ -51,10 +51,10 @@ impl Session {
     /// True if the subject takes one mesh more.
     pub fn can_take_mesh(&self) -> bool {
         let shown = self.illustration();
-        // Beside a built-in subject it would be a surface of the same patient.
-        let is_mesh =
-            !self.view.has_values() && !matches!(shown.subject, SubjectRef::Builtin { .. });
-        is_mesh && shown.meshes().len() < MAX_MESHES
+        // Beside a scan it is a surface of the same patient; beside a built-in mesh it would not be drawn.
+        let is_alone = !self.view.has_values();
+        let is_taken = !is_alone || !matches!(shown.subject, SubjectRef::Builtin { .. });
+        is_taken && shown.meshes().len() < MAX_MESHES
     }
 
     /// True if the scene takes one object more.
@@ -87,7 +87,8 @@ impl Session {
                     name: String::new(),
                     reading: load.reading.mesh,
                 };
-                let box_mm = self.box_mm();
+                // Beside a scan its box decides.
+                let box_mm = self.box_mm().filter(|_| !self.view.has_values());
                 if self.apply(&Edit::AddMesh { mesh, box_mm }, false) {
                     self.load_subject();
                 }

@@ -10,7 +10,7 @@ use super::ticket::Ticket;
 use crate::app::words::fill;
 use crate::app::words::messages::w;
 use crate::assets::{OtherFile, Want};
-use crate::document::{Document, Edit, Notice, NoticeKind, Reading, SubjectRef};
+use crate::document::{Document, Edit, Reading, SubjectRef};
 use crate::link;
 
 /// True if a subject that was asked for, or is shown, is that of the document.
@@ -18,20 +18,11 @@ fn is_of(one: &Option<SubjectRef>, subject: &SubjectRef) -> bool {
     one.as_ref().is_some_and(|one| one.is_same_data(subject))
 }
 
-/// A notice on a document, in the language of the interface where it is for everybody: most speak of keys and values,
-/// to who writes documents by hand.
-fn notice_text(notice: &Notice) -> String {
-    match notice.kind {
-        NoticeKind::NotDrawnYet { .. } => fill(w().not_drawn_yet, &[&w().meshes_beside]),
-        _ => notice.to_string(),
-    }
-}
-
 impl Session {
     /// Takes another document in place of the present one, at one of its steps, and shows its notices.
     pub fn open_document(&mut self, document: Document, step: usize) {
         self.keep_work();
-        let notices: Vec<String> = document.notices().iter().map(notice_text).collect();
+        let notices: Vec<String> = document.notices().iter().map(ToString::to_string).collect();
         self.put_down();
         self.withdraw_templates();
         self.link_stale_since = None;

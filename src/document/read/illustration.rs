@@ -4,7 +4,7 @@ use super::object::{Object, wrong};
 use super::reader::Reader;
 use crate::document::limits::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS};
 use crate::document::model::{
-    Camera, Caption, Illustration, MeshRef, PlacedTemplate, Step, TemplateData, keep_sets,
+    Camera, Caption, Illustration, PlacedTemplate, Step, TemplateData, keep_sets,
 };
 use crate::document::schema::ROOT;
 use crate::document::text::json::number_text;
@@ -55,7 +55,6 @@ impl Reader {
         let segments = self.segments(&subject_object)?;
         let recipes = self.recipes(&subject_object)?;
         let objects = self.objects(&root)?;
-        self.not_drawn_yet(&meshes_beside);
         let mut templates = Vec::new();
         for (index, object) in root.children("templates")?.enumerate() {
             templates.extend(self.template(index, &object?)?);
@@ -122,14 +121,6 @@ impl Reader {
             controls,
             steps,
         })
-    }
-
-    /// One notice for all keys that this version reads and does not draw.
-    fn not_drawn_yet(&mut self, beside: &[MeshRef]) {
-        if !beside.is_empty() {
-            let keys = vec!["/subject/meshes"];
-            self.note("/subject/meshes", NoticeKind::NotDrawnYet { keys });
-        }
     }
 
     fn camera(&mut self, object: &Object<'_>) -> Result<Camera, DocumentError> {

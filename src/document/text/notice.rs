@@ -59,11 +59,6 @@ pub enum NoticeKind {
         /// The thing that is not drawn, in plain words.
         what: &'static str,
     },
-    /// Keys that this version reads and keeps, but does not draw.
-    NotDrawnYet {
-        /// JSON pointers to the keys.
-        keys: Vec<&'static str>,
-    },
     /// An object has the name of one before it, which counts where the name is asked for.
     SameName {
         /// What both are called.
@@ -151,13 +146,6 @@ impl fmt::Display for Notice {
             ),
             NoticeKind::NotDrawn { what } => {
                 write!(f, "{pointer}: {what} not drawn yet; kept")
-            }
-            NoticeKind::NotDrawnYet { keys } => {
-                let keys = keys.join(", ");
-                write!(
-                    f,
-                    "{keys}: this version does not draw these yet; they are kept"
-                )
             }
             NoticeKind::SameName { name } => write!(
                 f,

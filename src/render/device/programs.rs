@@ -118,21 +118,39 @@ pub enum SubjectShader {
     Volume,
     /// Triangles, and a field that leads to them.
     Mesh,
+    /// Both: a volume, and meshes beside it.
+    Both,
 }
 
 impl SubjectShader {
     /// All of them.
-    pub const ALL: &[Self] = &[Self::Volume, Self::Mesh];
+    pub const ALL: &[Self] = &[Self::Volume, Self::Mesh, Self::Both];
 
-    /// Paths of its files: what the subject has at a place, the march of a ray through it, and slices of it.
-    pub fn paths(self) -> [&'static str; 3] {
+    /// Paths of its files: what the subject has at a place, the march of a ray through it, what stands on a ray besides
+    /// a volume, what takes a volume's place, and slices.
+    pub fn paths(self) -> [&'static str; 5] {
         match self {
             Self::Volume => [
                 "subject/volume.wgsl",
                 "march/volume.wgsl",
+                "march/straight.wgsl",
+                "march/whole.wgsl",
                 "slice/volume.wgsl",
             ],
-            Self::Mesh => ["subject/mesh.wgsl", "march/mesh.wgsl", "slice/mesh.wgsl"],
+            Self::Mesh => [
+                "subject/surfaces.wgsl",
+                "march/surfaces.wgsl",
+                "march/straight.wgsl",
+                "march/whole.wgsl",
+                "slice/surfaces.wgsl",
+            ],
+            Self::Both => [
+                "subject/both.wgsl",
+                "march/volume.wgsl",
+                "march/layers.wgsl",
+                "march/replaced.wgsl",
+                "slice/both.wgsl",
+            ],
         }
     }
 }
@@ -321,6 +339,7 @@ shader_files![
     "march/bodies.wgsl",
     "march/color.wgsl",
     "march/constrain.wgsl",
+    "march/cover.wgsl",
     "march/edges.wgsl",
     "march/filling.wgsl",
     "march/gathered.wgsl",
@@ -328,6 +347,7 @@ shader_files![
     "march/jacobian.wgsl",
     "march/kept.wgsl",
     "march/kept_surface.wgsl",
+    "march/layers.wgsl",
     "march/marched.wgsl",
     "march/mesh.wgsl",
     "march/objects.wgsl",
@@ -336,22 +356,32 @@ shader_files![
     "march/plain.wgsl",
     "march/ray.wgsl",
     "march/refine.wgsl",
+    "march/replaced.wgsl",
     "march/sample.wgsl",
     "march/seek.wgsl",
     "march/segments.wgsl",
     "march/shade.wgsl",
+    "march/straight.wgsl",
     "march/surface.wgsl",
+    "march/surfaces.wgsl",
     "march/surroundings.wgsl",
     "march/textures.wgsl",
+    "march/under.wgsl",
     "march/value.wgsl",
     "march/volume.wgsl",
+    "march/whole.wgsl",
+    "slice/both.wgsl",
     "slice/mesh.wgsl",
     "slice/objects.wgsl",
     "slice/plane.wgsl",
+    "slice/surfaces.wgsl",
+    "slice/values.wgsl",
     "slice/volume.wgsl",
+    "subject/both.wgsl",
     "subject/crossing.wgsl",
     "subject/mesh.wgsl",
     "subject/place.wgsl",
+    "subject/surfaces.wgsl",
     "subject/volume.wgsl",
     "pass/bake.wgsl",
     "pass/bodies.wgsl",

@@ -162,7 +162,7 @@ pub async fn bench(
     if let Some(meshes) = meshes {
         let drawn = Studio::new(gpu, &Subject::from(Arc::clone(&meshes.surface)), true)?;
         bytes = Some(drawn.subject.bytes());
-        texture_bytes = drawn.subject.texture_bytes;
+        texture_bytes = drawn.subject.texture_bytes();
         cases.extend(mesh_cases(gpu, &drawn, meshes)?);
         cases.push(tool_case(&studio, named, &meshes.tool));
     }

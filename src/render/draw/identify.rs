@@ -45,7 +45,7 @@ pub(super) async fn identify(job: &PictureJob) -> Result<Sighting, RenderError> 
             message,
         });
     }
-    let has_labels = job.subject.uniform.has_labels != 0;
+    let has_labels = job.subject.has_segments();
     let rows = bytes.chunks_exact(pitch as usize);
     let texels = rows.flat_map(|row| row.as_chunks::<TEXEL>().0.iter().take(width));
     let labels = texels.map(|&[a, b, c, d, e, f, g, h, ..]| {

@@ -172,7 +172,7 @@ pub(crate) struct PickScene<'a> {
 impl PickScene<'_> {
     /// Marches one ray and starts reading what it found.
     pub(crate) fn pick(&self, pixel: Vec2) -> PendingPick {
-        let has_labels = self.subject.uniform.has_labels != 0;
+        let has_labels = self.subject.has_segments();
         let read = self.read(self.view, &[self.view.ray(pixel)], 4, Finds::Pick);
         let objects = self.scene.objects_drawn().to_vec();
         Answer::new(read, move |bytes| read_pick(bytes, has_labels, &objects))

@@ -41,7 +41,10 @@ impl RaycastPasses {
         self.pipelines.get(key, || self.make(gpu, key))
     }
 
-    fn make(&self, gpu: &Gpu, key: RaycastKey) -> wgpu::RenderPipeline {
+    fn make(&self, gpu: &Gpu, mut key: RaycastKey) -> wgpu::RenderPipeline {
+        if key.leaves_meshes_out(gpu) {
+            key.subject = SubjectShader::Volume;
+        }
         let number = |flag: bool| f64::from(u8::from(flag));
         let mut constants = vec![
             ("drawn_kinds", f64::from(key.drawn_kinds)),

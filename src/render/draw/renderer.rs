@@ -9,7 +9,7 @@ use super::quality::{WholePicture, least_scale, samples, steady_scale};
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
-use crate::data::{Resources, Segment, Segmentation, Subject};
+use crate::data::{Resources, Segment, Segmentation, Subject, Surface};
 use crate::document::{Camera, Illustration};
 use crate::math::Aabb;
 use crate::render::device::bindings::encoder;
@@ -194,11 +194,22 @@ impl Renderer {
     }
 
     fn take_segmentations(&mut self) -> Result<(), RenderError> {
+        match self.labels.is_some() {
+            true => self.make_subject_anew(),
+            false => Ok(()),
+        }
+    }
+
+    /// Makes what is around the values anew: segments and meshes.
+    fn make_subject_anew(&mut self) -> Result<(), RenderError> {
         let passes = self.passes();
-        if let (Some(labels), Some(studio), Some(fitting)) =
-            (&self.labels, &mut self.studio, &self.fitting)
-        {
-            let labels = labels.as_deref();
+        if let (Some(studio), Some(fitting)) = (&mut self.studio, &self.fitting) {
+            let labels = match &self.labels {
+                Some(labels) => labels.as_deref(),
+                None => fitting
+                    .values()
+                    .and_then(|volume| volume.segmentation.as_ref()),
+            };
             let (gpu, layouts) = (&self.gpu, &passes.layouts);
             let subject = with_segmentation(&studio.subject, gpu, layouts, fitting, labels)?;
             studio.subject = Arc::new(subject);
@@ -207,6 +218,25 @@ impl Renderer {
             self.touch();
         }
         Ok(())
+    }
+
+    /// Shows these meshes beside the volume from when it is on the GPU on; call it every frame. Does nothing where they
+    /// are shown, or where another renderer has the subject. Meshes that the device does not take are left out, with a
+    /// notice.
+    pub fn set_meshes(&mut self, meshes: Option<&Arc<Surface>>) {
+        let shown = match (&self.upload, &self.fitting) {
+            (None, Some(fitting @ Subject::Space(_))) => fitting.clone(),
+            _ => return,
+        };
+        if shown.surface().map(Arc::as_ptr) == meshes.map(Arc::as_ptr) {
+            return;
+        }
+        self.fitting = Some(shown.with_meshes(meshes.cloned()));
+        self.subject = (self.subject.take()).map(|subject| subject.with_meshes(meshes.cloned()));
+        if let Err(error) = self.make_subject_anew() {
+            self.notices
+                .push(RenderNotice::MeshesTooLarge(error.to_string()));
+        }
     }
 
     /// Shows the subject that another renderer on the same device shows; the subject is on the device once.
@@ -619,7 +649,7 @@ impl Renderer {
     pub fn subject_bytes(&self) -> u64 {
         self.studio
             .as_ref()
-            .map_or(0, |s| s.subject.bytes() + s.subject.texture_bytes)
+            .map_or(0, |s| s.subject.bytes() + s.subject.texture_bytes())
     }
 
     /// Brings the next pieces of a subject to the GPU.

@@ -3,7 +3,7 @@
 use super::gpu_types::{BODY_HIDDEN, Bodies};
 use super::kept::labels_of;
 use super::look::linear_color;
-use crate::data::Segment;
+use crate::data::{FIRST_MESH_LABEL, Segment};
 use crate::document::SegmentLook;
 
 /// Color of a body whose segment has none, sRGB.
@@ -23,7 +23,9 @@ pub(crate) fn bodies_of(
         if labels.is_empty() {
             unknown.push(look.name.clone());
         }
-        for label in labels.into_iter().map(usize::from) {
+        // Meshes beside a volume are drawn by their triangles, as `mesh_look_of` has it.
+        let voxels = labels.into_iter().filter(|&label| label < FIRST_MESH_LABEL);
+        for label in voxels.map(usize::from) {
             let means = |s: &Segment| {
                 usize::from(s.label) == label && s.name.eq_ignore_ascii_case(&look.name)
             };

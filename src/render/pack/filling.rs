@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::data::Surface;
+use crate::data::{Subject, Surface};
 use crate::document::{BodyKind, Look, SurfaceLook};
 
 /// What fills a place.
@@ -20,31 +20,41 @@ pub struct Filling {
 #[derive(Clone, Debug)]
 pub struct Fillings<'a> {
     surface: &'a Surface,
+    names: Vec<String>,
     looks: Vec<SurfaceLook>,
 }
 
-/// What a body is, once `auto` is decided for a mesh that lies alone.
-pub(crate) fn body_of(body: BodyKind, is_closed: bool) -> BodyKind {
+/// What a body is, once `auto` is decided.
+pub(crate) fn body_of(body: BodyKind, is_closed: bool, is_beside_volume: bool) -> BodyKind {
     match body {
-        BodyKind::Auto if is_closed => BodyKind::Solid,
+        BodyKind::Auto if is_closed && !is_beside_volume => BodyKind::Solid,
         BodyKind::Auto => BodyKind::Hollow,
         other => other,
     }
 }
 
 impl<'a> Fillings<'a> {
-    /// The bodies of a surface.
-    pub fn of(surface: &'a Surface, look: &Look) -> Self {
-        let named = surface.segments.iter().zip(1..);
-        let looks = named.map(|(segment, number)| {
-            let mut own = look.of_mesh_segment(&segment.name, Some(number)).surface;
-            own.body = body_of(own.body, segment.is_closed);
+    /// The bodies of the meshes of a subject, alone or beside its volume; `None` if it has none.
+    pub fn of(subject: &'a Subject, look: &Look) -> Option<Self> {
+        let (surface, segments) = (subject.surface()?, subject.mesh_segments());
+        let is_beside_volume = subject.values().is_some();
+        let looks = segments.iter().zip(1..).map(|(segment, number)| {
+            let number = (!is_beside_volume).then_some(number);
+            let mut own = look.of_mesh_segment(&segment.name, number).surface;
+            own.body = body_of(own.body, segment.is_closed, is_beside_volume);
             own
         });
-        Self {
+        let looks = looks.collect();
+        Some(Self {
             surface,
-            looks: looks.collect(),
-        }
+            names: segments.into_iter().map(|segment| segment.name).collect(),
+            looks,
+        })
+    }
+
+    /// What a segment is called in this subject.
+    pub fn segment_name(&self, segment: usize) -> &str {
+        &self.names[segment]
     }
 
     /// What fills a place of rest space: of several segments the first (spec/surfaces.md, `filled_k`). `None` where
@@ -77,15 +87,14 @@ impl<'a> Fillings<'a> {
         let layers = self.looks[segment].layers.iter();
         let layer = layers.take_while(|layer| layer.depth <= depth).last();
         let named = layer.filter(|layer| !layer.name.is_empty());
-        named.map_or_else(
-            || self.surface.segments[segment].name.clone(),
-            |layer| layer.name.clone(),
-        )
+        named.map_or_else(|| self.names[segment].clone(), |layer| layer.name.clone())
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::data::{Mesh, MeshPart};
     use crate::document::Document;
@@ -134,7 +143,8 @@ mod tests {
             r#"{"body":"solid","layers":[{"depth":0.05,"name":"flesh"},{"depth":0.1}],
                 "segments":{"box 0":{"body":"hollow"}}}"#,
         );
-        let fillings = Fillings::of(&surface, &look);
+        let subject = Subject::from(Arc::new(surface));
+        let fillings = Fillings::of(&subject, &look).expect("it has meshes");
         let at = |x: f32| {
             fillings
                 .at(Vec3::new(x, 0.0, 0.0))
@@ -151,16 +161,17 @@ mod tests {
         let depth = fillings.at(Vec3::ZERO).expect("filled").depth;
         assert!((depth - 0.5).abs() < 1e-5, "by its own triangles: {depth}");
         assert!(
-            (surface.depth_at(Vec3::ZERO) - 0.5).abs() < 1e-5,
+            (fillings.surface.depth_at(Vec3::ZERO) - 0.5).abs() < 1e-5,
             "the greatest"
         );
-        assert!((surface.depth_at(Vec3::X) + 0.5).abs() < 1e-5);
+        assert!((fillings.surface.depth_at(Vec3::X) + 0.5).abs() < 1e-5);
     }
 
     #[test]
     fn shells_are_filled_near_their_surface() {
-        let surface = boxes(&[10.0]);
-        let fillings = Fillings::of(&surface, &look(r#"{"body":"thick","thickness":0.1}"#));
+        let subject = Subject::from(Arc::new(boxes(&[10.0])));
+        let look = look(r#"{"body":"thick","thickness":0.1}"#);
+        let fillings = Fillings::of(&subject, &look).expect("it has meshes");
         let is_filled = |x: f32| fillings.at(Vec3::new(x, 0.0, 0.0)).is_some();
         assert_eq!(
             [0.51, 0.41, 0.39, 0.0].map(is_filled),

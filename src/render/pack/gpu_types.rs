@@ -268,7 +268,7 @@ pub struct Kept {
     /// Slab of the depth, or 0.
     pub depth_slab: u32,
     /// Sets of each label, four bits each.
-    pub label_sets: [[u32; 4]; 8],
+    pub label_sets: LabelSets,
     /// What each template keeps, in the order of [`Templates::items`].
     pub items: [KeptGroup; MAX_TEMPLATES],
     /// Rigid motions (subject space to rest space) of segments that move as a whole, four for each template: those of
@@ -289,7 +289,7 @@ impl Kept {
         slab_count: 0,
         exact_slab: 0,
         depth_slab: 0,
-        label_sets: [[0; 4]; 8],
+        label_sets: [[0; 4]; 10],
         items: [KeptGroup {
             keeps: 0,
             run: 0,
@@ -304,6 +304,10 @@ impl Kept {
         seams: [[0.0; 4]; MAX_TEMPLATES],
     };
 }
+
+/// Sets of kept tissue that each label belongs to, four bits each, eight labels in a word: of the labels of a volume,
+/// and behind them of the segments of meshes beside it.
+pub type LabelSets = [[u32; 4]; 10];
 
 /// One pass of the making of distances.
 #[repr(C)]
@@ -321,6 +325,8 @@ pub struct DistanceJob {
     pub ratio: [f32; 4],
     /// Fine voxels to voxels of the segmentation.
     pub label_from_voxel: Affine,
+    /// Fine voxels to rest space.
+    pub rest_from_voxel: Affine,
     /// Half a voxel where voxels count as boxes, fine voxels; else 0.
     pub half_box: f32,
     /// Half a voxel where voxels count as balls, subject units; else 0.
@@ -344,7 +350,7 @@ pub struct DistanceJob {
     /// To the next row of four.
     pub padding: [u32; 2],
     /// Sets of kept tissue that each label belongs to, packed as in [`Kept`].
-    pub label_sets: [[u32; 4]; 8],
+    pub label_sets: LabelSets,
 }
 
 /// One picture's camera and sampling.
@@ -406,18 +412,32 @@ pub struct Subject {
     pub detail: f32,
     /// 1 if there is a segmentation.
     pub has_labels: u32,
-    /// xyz: lowest corner of a mesh's box, rest space.
+    /// Rest space to texture space of the field of the meshes.
+    pub field_from_rest: Affine,
+    /// Rest space to texture space of the sets that fill the voxels of that field.
+    pub fill_from_rest: Affine,
+    /// xyz: voxels of the field.
+    pub field_dims: [f32; 4],
+    /// xyz: voxels that have sets.
+    pub fill_dims: [f32; 4],
+    /// xyz: lowest corner of the box of the meshes, rest space.
     pub mesh_min: [f32; 4],
-    /// xyz: highest corner of a mesh's box, rest space.
+    /// xyz: highest corner of the box of the meshes, rest space.
     pub mesh_max: [f32; 4],
-    /// Number of nodes in the tree of a mesh; 0 for volumes.
+    /// Number of nodes in the tree of the meshes; 0 where there are none.
     pub node_count: u32,
-    /// Texel at which the triangles of a mesh begin.
+    /// Texel at which their triangles begin.
     pub triangles_at: u32,
     /// Texel at which the sets of segments begin.
     pub sets_at: u32,
     /// Texel at which the pictures on triangles begin; 0 if there are none.
     pub textures_at: u32,
+    /// Smallest spacing of the field, subject units.
+    pub field_detail: f32,
+    /// Labels before that of their first segment.
+    pub labels_before: u32,
+    /// To the next row of four.
+    pub padding: [u32; 2],
 }
 
 /// Segments of a mesh at most, and layers of all of them together.
@@ -473,8 +493,10 @@ pub struct MeshLook {
     pub layers: [MeshLayer; MESH_LAYERS],
     /// 1 if a segment is a shell.
     pub has_shells: u32,
+    /// 1 if a segment fills any place.
+    pub has_filled: u32,
     /// To the next row of four.
-    pub padding: [u32; 3],
+    pub padding: [u32; 2],
 }
 
 impl Default for MeshLook {

@@ -2,7 +2,7 @@
 
 use super::gpu_types::{
     CONSTRAIN_COORDINATE, CONSTRAIN_DISPLACEMENT, CONSTRAIN_NOTHING, CONSTRAIN_RIGID, KEEPS_DEEP,
-    KeptGroup, MAX_TEMPLATES,
+    KeptGroup, LabelSets, MAX_TEMPLATES,
 };
 use super::notice::RenderNotice;
 use crate::data::{Resources, Segment};
@@ -12,11 +12,14 @@ use crate::document::{
 use crate::math::Aabb;
 use crate::placed::max_displacement;
 
+/// Labels are below this: those of a volume, and behind them those of the segments of meshes.
+const END_OF_LABELS: u16 = 32 * size_of::<LabelSets>() as u16 / 16;
+
 /// What of the labels a document's templates keep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptTissue {
     /// Sets of each label, four bits each, as the shaders take it.
-    pub label_sets: [[u32; 4]; 8],
+    pub label_sets: LabelSets,
     /// Number of different `keep` sets, at most `document::MAX_KEEP_SETS`.
     pub set_count: u32,
     /// Some template keeps what lies deep under the outer surface.
@@ -32,34 +35,36 @@ pub struct KeptTissue {
     pub constraints: u32,
 }
 
-/// The label that a name or number in `keep` means.
-pub(crate) fn labels_of(name: &str, segments: &[Segment]) -> Vec<u8> {
-    let named: Vec<u8> = segments
+/// The labels that a name or number in `keep` means; those of meshes beside a volume have names only.
+pub(crate) fn labels_of(name: &str, segments: &[Segment]) -> Vec<u16> {
+    let named: Vec<u16> = segments
         .iter()
-        .filter(|s| s.name == name)
-        .filter_map(|s| u8::try_from(s.label).ok())
+        .filter(|s| s.name == name && s.label < END_OF_LABELS)
+        .map(|s| s.label)
         .collect();
     if !named.is_empty() {
         return named;
     }
     // Names may differ in case only where files were written by several programs.
-    let similar: Vec<u8> = segments
+    let similar: Vec<u16> = segments
         .iter()
-        .filter(|s| s.name.eq_ignore_ascii_case(name))
-        .filter_map(|s| u8::try_from(s.label).ok())
+        .filter(|s| s.name.eq_ignore_ascii_case(name) && s.label < END_OF_LABELS)
+        .map(|s| s.label)
         .collect();
     if !similar.is_empty() {
         return similar;
     }
     match name.parse::<u8>() {
         Ok(label) if label > 0 => {
+            let label = u16::from(label);
             // Where the segment overlaps others it stands under labels of their own.
-            let own = segments.iter().find(|s| s.label == u16::from(label));
+            let own = segments.iter().find(|s| s.label == label);
             let stands_for = |label: u16| segments.iter().filter(|s| s.label == label).count();
             let overlaps = segments
                 .iter()
                 .filter(|s| own.is_some_and(|own| s.name == own.name) && stands_for(s.label) > 1)
-                .filter_map(|s| u8::try_from(s.label).ok());
+                .map(|s| s.label)
+                .filter(|&label| label < END_OF_LABELS);
             std::iter::once(label).chain(overlaps).collect()
         }
         _ => Vec::new(),
@@ -75,7 +80,7 @@ impl KeptTissue {
         bounds: Aabb,
     ) -> Self {
         let mut kept = Self {
-            label_sets: [[0; 4]; 8],
+            label_sets: LabelSets::default(),
             set_count: 0,
             keeps_deep: false,
             items: [KeptGroup::default(); MAX_TEMPLATES],

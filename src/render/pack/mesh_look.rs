@@ -11,8 +11,13 @@ use crate::document::{BodyKind, Look};
 /// Stands for a colour that is not given.
 const NO_COLOR: [f32; 4] = [0.0, 0.0, 0.0, -1.0];
 
-/// What `look` says of segments that lie alone, without a volume. Layers beyond what the shaders hold are left out.
-pub(crate) fn mesh_look_of(look: &Look, segments: &[SurfaceSegment]) -> MeshLook {
+/// What `look` says of the segments of meshes, alone or beside a volume. Layers beyond what the shaders hold are left
+/// out.
+pub(crate) fn mesh_look_of(
+    look: &Look,
+    segments: &[SurfaceSegment],
+    is_beside_volume: bool,
+) -> MeshLook {
     let mut packed = MeshLook::default();
     let mut lists = Vec::new();
     let mut used = 0;
@@ -20,7 +25,8 @@ pub(crate) fn mesh_look_of(look: &Look, segments: &[SurfaceSegment]) -> MeshLook
         srgb.map_or(NO_COLOR, |srgb| linear_color(srgb).extend(1.0).to_array())
     };
     for ((slot, segment), number) in packed.segments.iter_mut().zip(segments).zip(1..) {
-        let own = look.of_mesh_segment(&segment.name, Some(number));
+        // Beside a volume numbers mean its labels.
+        let own = look.of_mesh_segment(&segment.name, (!is_beside_volume).then_some(number));
         let surface = own.surface;
         let first_layer = match lists.iter().find(|(layers, _)| *layers == surface.layers) {
             Some((_, first)) => *first,
@@ -39,12 +45,13 @@ pub(crate) fn mesh_look_of(look: &Look, segments: &[SurfaceSegment]) -> MeshLook
                 first
             }
         };
-        let kind = match body_of(surface.body, segment.is_closed) {
+        let kind = match body_of(surface.body, segment.is_closed, is_beside_volume) {
             BodyKind::Thick => BODY_THICK,
             BodyKind::Solid => BODY_FULL,
             BodyKind::Hollow | BodyKind::Auto => BODY_HOLLOW,
         };
         packed.has_shells |= u32::from(kind == BODY_THICK);
+        packed.has_filled |= u32::from(kind != BODY_HOLLOW);
         *slot = MeshSegment {
             color: color_of(own.color_srgb),
             inside: color_of(surface.inside_srgb),
@@ -61,9 +68,10 @@ pub(crate) fn mesh_look_of(look: &Look, segments: &[SurfaceSegment]) -> MeshLook
 }
 
 /// Names of the open segments that `look` makes solid: lids close them.
-pub fn lidded(look: &Look, segments: &[SurfaceSegment]) -> Vec<String> {
+pub fn lidded(look: &Look, segments: &[SurfaceSegment], is_beside_volume: bool) -> Vec<String> {
     let is_lidded = |(segment, number): &(&SurfaceSegment, u32)| {
-        let own = look.of_mesh_segment(&segment.name, Some(*number));
+        let number = (!is_beside_volume).then_some(*number);
+        let own = look.of_mesh_segment(&segment.name, number);
         !segment.is_closed && own.surface.body == BodyKind::Solid
     };
     let lidded = segments.iter().zip(1..).filter(is_lidded);
@@ -94,7 +102,7 @@ mod tests {
             segment("skin", true),
             segment("shell", false),
         ];
-        let look = mesh_look_of(&document.illustration().look, &segments);
+        let look = mesh_look_of(&document.illustration().look, &segments, false);
         let [bone, skin, shell, ..] = look.segments;
         assert_eq!(
             [bone.kind, skin.kind, shell.kind],
@@ -112,7 +120,7 @@ mod tests {
         );
         assert_eq!([bone.thickness, skin.gloss], [0.05, 0.9]);
         assert_eq!(look.layers[1].grain, 0.2);
-        assert_eq!(look.has_shells, 1);
+        assert_eq!([look.has_shells, look.has_filled], [1, 1]);
     }
 
     #[test]
@@ -128,6 +136,9 @@ mod tests {
             mean_srgb: [9; 3],
             opacity: 1.0,
         });
-        assert_eq!(lidded(&document.illustration().look, &segments), ["hand"]);
+        assert_eq!(
+            lidded(&document.illustration().look, &segments, false),
+            ["hand"]
+        );
     }
 }

@@ -5,6 +5,7 @@ use crate::data::{FieldSamples, Resources};
 use crate::document::{Illustration, OpacityMode, PlacedTemplate};
 use crate::math::Aabb;
 use crate::placed::deformed_bounds;
+use crate::render::device::programs::SubjectShader;
 use crate::render::pack::bodies::bodies_of;
 use crate::render::pack::gpu_types::{Bodies, MeshLook, Templates};
 use crate::render::pack::kept::KeptTissue;
@@ -75,7 +76,7 @@ impl Inputs {
         self.subject = subject.stamp;
         self.fields.set(acting_fields(placed, resources));
         self.templates.set(Templates::pack(placed, resources));
-        let kept = KeptTissue::of(placed, resources, &subject.segments, subject.frame.bounds);
+        let kept = KeptTissue::of(placed, resources, &subject.segments, subject.bounds);
         self.notify(&kept.unknown, RenderNotice::UnknownKept);
         self.kept.set(Some(kept));
         let bounds_from = [
@@ -86,26 +87,31 @@ impl Inputs {
         ];
         if self.bounds_from.is_stale(bounds_from) {
             self.notify_missed(placed);
-            let bounds = deformed_bounds(placed, resources, subject.frame.bounds);
-            let around = self
-                .rigid_reach()
-                .map(|far| subject.frame.bounds.expanded(far));
+            let bounds = deformed_bounds(placed, resources, subject.bounds);
+            let around = self.rigid_reach().map(|far| subject.bounds.expanded(far));
             self.bounds
                 .set(around.map_or(bounds, |around| bounds.union(around)));
         }
         let mut unknown = Vec::new();
         let look = &illustration.look;
         let bodies = bodies_of(&look.segments, &subject.segments, &mut unknown);
-        self.mesh_look
-            .set(mesh_look_of(look, &subject.mesh_segments));
+        let is_beside = subject.shader == SubjectShader::Both;
+        let of_meshes = &subject.mesh_segments;
+        self.mesh_look.set(mesh_look_of(look, of_meshes, is_beside));
         self.notify(&unknown, RenderNotice::UnknownBody);
-        self.notify(&lidded(look, &subject.mesh_segments), RenderNotice::Lid);
+        self.notify(&lidded(look, of_meshes, is_beside), RenderNotice::Lid);
         self.bodies.set(bodies);
         let objects = DrawnObjects::of(&illustration.objects, resources, &subject.frame);
         self.objects.set(objects);
         let table = TransferTable::new(look, &illustration.subject, &subject.info);
         self.look.set(Some((table, look.opacity)));
         self.background.set(background_uniform(look.background));
+    }
+
+    /// Says once that the meshes beside a volume are left out.
+    pub(crate) fn tell_meshes_left_out(&mut self) {
+        let name = ["meshes".to_owned()];
+        self.notify(&name, |_| RenderNotice::MeshesLeftOut);
     }
 
     /// Grows with every change that the picture shows.

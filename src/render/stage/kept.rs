@@ -7,7 +7,7 @@ use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
 use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
 use crate::render::device::textures::{read_half_texels, volume_texture};
-use crate::render::pack::gpu_types::{DistanceJob, Kept};
+use crate::render::pack::gpu_types::{DistanceJob, Kept, LabelSets};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::textures::{SubjectTextures, VoxelFrame};
@@ -81,7 +81,7 @@ pub(crate) struct KeptTextures {
 
 /// What distances depend on: the stamp of the subject, the sets of each label, their number, whether the depth is
 /// wanted, and whether exact distances are.
-type MadeFor = (Stamp, [[u32; 4]; 8], u32, bool, bool);
+type MadeFor = (Stamp, LabelSets, u32, bool, bool);
 
 /// Where distances are taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -353,6 +353,16 @@ fn texture_of(gpu: &Gpu, dims: UVec3) -> wgpu::Texture {
     volume_texture(gpu, "distances", dims, format, usage)
 }
 
+/// What a pass reads of the subject.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Reads {
+    Nothing,
+    /// Values and labels of voxels.
+    Voxels,
+    /// These, and which segments of meshes lie at a voxel.
+    Sets,
+}
+
 /// The buffers of one making, dropped when it is handed in.
 struct Work<'a> {
     gpu: &'a Gpu,
@@ -411,6 +421,7 @@ impl<'a> Work<'a> {
                 spacing: plan.spacing.extend(0.0).to_array(),
                 ratio: plan.ratio.extend(0.0).to_array(),
                 label_from_voxel: frame.source_from_voxel.as_affine3a().into(),
+                rest_from_voxel: frame.rest_from_voxel.as_affine3a().into(),
                 threshold: threshold(subject),
                 reads_labels: u32::from(plan.reads_labels),
                 axis: 3,
@@ -426,7 +437,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// One dispatch. `bindings` of group 3 besides the job; `reads_subject` binds group 1.
+    /// One dispatch. `bindings` of group 3 besides the job; `reads` says what of group 1 is bound.
     #[expect(
         clippy::too_many_arguments,
         reason = "all that a dispatch is told, each once"
@@ -437,7 +448,7 @@ impl<'a> Work<'a> {
         pipeline: &wgpu::ComputePipeline,
         job: &DistanceJob,
         bindings: &[(u32, &wgpu::Buffer)],
-        reads_subject: bool,
+        reads: Reads,
         threads: [u32; 3],
         size: [u32; 3],
     ) {
@@ -448,7 +459,7 @@ impl<'a> Work<'a> {
                 .iter()
                 .map(|(binding, buffer)| entry(*binding, buffer.as_entire_binding())),
         );
-        self.dispatch(encoder, pipeline, &entries, reads_subject, threads, size);
+        self.dispatch(encoder, pipeline, &entries, reads, threads, size);
     }
 
     fn dispatch(
@@ -456,7 +467,7 @@ impl<'a> Work<'a> {
         encoder: &mut wgpu::CommandEncoder,
         pipeline: &wgpu::ComputePipeline,
         entries: &[wgpu::BindGroupEntry<'_>],
-        reads_subject: bool,
+        reads: Reads,
         threads: [u32; 3],
         size: [u32; 3],
     ) {
@@ -466,21 +477,24 @@ impl<'a> Work<'a> {
             layout: &pipeline.get_bind_group_layout(3),
             entries,
         });
-        let subject = reads_subject.then(|| {
+        let subject = (reads != Reads::Nothing).then(|| {
+            let (subject, view) = (self.subject, wgpu::BindingResource::TextureView);
+            let mut entries = vec![
+                entry(1, view(&subject.volume_view)),
+                entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
+                entry(3, view(&subject.label_view)),
+            ];
+            if let Some(meshes) = &subject.meshes
+                && reads == Reads::Sets
+                && subject.shader == SubjectShader::Both
+            {
+                entries.push(entry(0, subject.buffer.as_entire_binding()));
+                entries.extend(meshes.entries());
+            }
             device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("distance subject"),
                 layout: &pipeline.get_bind_group_layout(1),
-                entries: &[
-                    entry(
-                        1,
-                        wgpu::BindingResource::TextureView(&self.subject.volume_view),
-                    ),
-                    entry(2, wgpu::BindingResource::Sampler(&self.subject.sampler)),
-                    entry(
-                        3,
-                        wgpu::BindingResource::TextureView(&self.subject.label_view),
-                    ),
-                ],
+                entries: &entries,
             })
         });
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
@@ -511,7 +525,7 @@ impl<'a> Work<'a> {
             &self.pipelines.open_blocks,
             &job,
             &[(5, &self.flood)],
-            true,
+            Reads::Voxels,
             coarse.to_array(),
             [4; 3],
         );
@@ -528,7 +542,7 @@ impl<'a> Work<'a> {
                     &self.pipelines.sweep,
                     &job,
                     &[(5, &self.flood)],
-                    false,
+                    Reads::Nothing,
                     threads,
                     [8, 8, 1],
                 );
@@ -559,7 +573,7 @@ impl<'a> Work<'a> {
                 &self.pipelines.along[0],
                 &job,
                 &bindings,
-                true,
+                Reads::Sets,
                 [plan.fine.y, slices, 1],
                 [8, 8, 1],
             );
@@ -568,7 +582,7 @@ impl<'a> Work<'a> {
                 &self.pipelines.along[1],
                 &job,
                 &[(1, &self.lines), (2, &self.planes)],
-                false,
+                Reads::Nothing,
                 [plan.coarse.x, plan.coarse.y, slices],
                 [8, 8, 1],
             );
@@ -581,7 +595,7 @@ impl<'a> Work<'a> {
             &self.pipelines.along[2],
             &job,
             &[(2, &self.planes), (3, &self.fields)],
-            false,
+            Reads::Nothing,
             plan.coarse.to_array(),
             [8, 8, 1],
         );
@@ -601,7 +615,7 @@ impl<'a> Work<'a> {
                 &self.pipelines.smooth[(axis % 2) as usize],
                 &job,
                 &both,
-                false,
+                Reads::Nothing,
                 self.plan.coarse.to_array(),
                 [4; 3],
             );
@@ -633,7 +647,7 @@ impl<'a> Work<'a> {
             &mut encoder,
             &self.pipelines.write,
             &entries,
-            false,
+            Reads::Nothing,
             self.plan.coarse.to_array(),
             [4; 3],
         );

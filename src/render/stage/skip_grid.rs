@@ -12,7 +12,7 @@ use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
-use crate::render::device::programs::{ProgramId, module};
+use crate::render::device::programs::{ProgramId, SubjectShader, module};
 use crate::render::device::textures::{read_texture, row_pitch, volume_texture};
 use crate::render::pack::gpu_types::{
     Affine, Grid, GridJob, GridTemplate, MATERIAL_BENT, MATERIAL_RIPPLED, MATERIAL_SHIFTED,
@@ -211,14 +211,23 @@ impl SkipGrid {
     ) {
         let visible = VisibleValues::new(table, &subject.info);
         let has_body = bricks_of_bodies(subject, bodies);
-        let sums = summed(subject.bricks.dims, |i| {
-            if let Some(seen) = &subject.seen_bricks {
-                return seen.get(i).is_none_or(|&seen| seen);
-            }
+        let bricks = subject.bricks.dims;
+        let has_values = |i: usize| {
             let ranges = &subject.bricks.ranges;
             has_body.get(i).is_some_and(|&has| has)
                 || ranges.get(i).is_some_and(|range| visible.any_in(*range))
-        });
+        };
+        let sums = match (&subject.meshes, &subject.wide_bricks) {
+            (None, _) => summed(bricks, has_values),
+            (Some(meshes), _) if subject.shader == SubjectShader::Mesh => summed(bricks, |i| {
+                meshes.seen_bricks.get(i).is_none_or(|&seen| seen)
+            }),
+            (Some(_), Some(wide)) => summed(wide.dims, |i| {
+                wide.has_mesh[i] || wide.of_volume(i, bricks).is_some_and(has_values)
+            }),
+            // Meshes reach too far out for bricks: something may be seen everywhere, in the one brick that there is.
+            (Some(_), None) => summed(UVec3::ONE, |_| true),
+        };
         let buffer = gpu
             .device
             .create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -385,10 +394,21 @@ fn plan(input: &GridInput<'_>, along: u32) -> (Grid, GridJob) {
         *slot = item(&template, input.resources, bounds);
     }
     let subject = &input.subject.uniform;
-    let bricks = &input.subject.bricks;
     // Texture space times voxels per axis are voxels from the grid's edge; a brick is so many of them.
     let scale = |i: usize| subject.dims[i] / BRICK as f32;
-    let row = |row: [f32; 4], i: usize| row.map(|v| v * scale(i));
+    let (bricks, before) = match (input.subject.shader, &input.subject.wide_bricks) {
+        (SubjectShader::Both, Some(wide)) => (wide.dims, wide.before),
+        (SubjectShader::Both, None) => (UVec3::ONE, UVec3::ZERO),
+        _ => (input.subject.bricks.dims, UVec3::ZERO),
+    };
+    let is_everywhere = input.subject.shader == SubjectShader::Both && bricks == UVec3::ONE;
+    let row = |row: [f32; 4], i: usize| {
+        if is_everywhere {
+            return [0.0, 0.0, 0.0, 0.5];
+        }
+        let [x, y, z, at] = row.map(|v| v * scale(i));
+        [x, y, z, at + before[i] as f32]
+    };
     let map = subject.texture_from_rest;
     let grid = Grid {
         origin_min: bounds.min.extend(0.0).to_array(),
@@ -406,7 +426,7 @@ fn plan(input: &GridInput<'_>, along: u32) -> (Grid, GridJob) {
             row1: row(map.row1, 1),
             row2: row(map.row2, 2),
         },
-        bricks: bricks.dims.extend(0).to_array(),
+        bricks: bricks.extend(0).to_array(),
         margin: MARGIN,
         farthest: FARTHEST_WAY,
         spread,

@@ -1,7 +1,8 @@
 //! Bricks: blocks of voxels, with the range of values and the labels in each.
 
 use crate::data::Segmentation;
-use glam::UVec3;
+use crate::math::Aabb;
+use glam::{DAffine3, DVec3, UVec3};
 use half::f16;
 
 /// Voxels along a side of a brick.
@@ -15,6 +16,82 @@ pub struct Bricks {
     pub dims: UVec3,
     /// Smallest and largest, x fastest.
     pub ranges: Vec<[f32; 2]>,
+}
+
+/// Bricks of a volume, and as many around them as the meshes beside it reach into.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct WideBricks {
+    /// Bricks along each axis.
+    pub dims: UVec3,
+    /// Bricks before the volume's first, along each axis.
+    pub before: UVec3,
+    /// Which hold something of a mesh, x fastest.
+    pub has_mesh: Vec<bool>,
+}
+
+/// Wide bricks at most; meshes that reach farther out count as being everywhere.
+const MOST_WIDE: u64 = 1 << 21;
+
+impl WideBricks {
+    /// Around the bricks of a volume, `brick_from_rest`, with meshes in these boxes of rest space. `None` where they
+    /// reach too far.
+    pub(crate) fn new(
+        bricks: UVec3,
+        brick_from_rest: &DAffine3,
+        boxes: impl Iterator<Item = Aabb>,
+    ) -> Option<Self> {
+        let spans: Vec<[DVec3; 2]> = boxes.map(|held| span_of(brick_from_rest, held)).collect();
+        let all = [DVec3::ZERO, bricks.as_dvec3()];
+        let [low, high] =
+            (spans.iter()).fold(all, |[low, high], [a, b]| [low.min(*a), high.max(*b)]);
+        let before = -low.floor();
+        let dims = high.ceil() + before;
+        if dims.element_product() > MOST_WIDE as f64 {
+            return None;
+        }
+        let (dims, before) = (dims.as_uvec3(), before.as_uvec3());
+        let mut has_mesh = vec![false; dims.as_u64vec3().element_product() as usize];
+        for [low, high] in spans {
+            let low = (low.floor() + before.as_dvec3()).as_uvec3();
+            let high = (high.ceil() + before.as_dvec3()).as_uvec3().min(dims);
+            for z in low.z..high.z {
+                for y in low.y..high.y {
+                    let row = (dims.x * (y + dims.y * z)) as usize;
+                    has_mesh[row + low.x as usize..row + high.x as usize].fill(true);
+                }
+            }
+        }
+        Some(Self {
+            dims,
+            before,
+            has_mesh,
+        })
+    }
+
+    /// The brick of the volume that one of these is, by their indices; `None` around the volume.
+    pub(crate) fn of_volume(&self, index: usize, bricks: UVec3) -> Option<usize> {
+        let i = index as u32;
+        let at = UVec3::new(
+            i % self.dims.x,
+            i / self.dims.x % self.dims.y,
+            i / (self.dims.x * self.dims.y),
+        );
+        let is_in = at.cmpge(self.before).all() && at.cmplt(self.before + bricks).all();
+        let own = at.wrapping_sub(self.before);
+        is_in.then(|| (own.x + bricks.x * (own.y + bricks.y * own.z)) as usize)
+    }
+}
+
+/// The box of a box in another space.
+fn span_of(map: &DAffine3, held: Aabb) -> [DVec3; 2] {
+    let (middle, half) = (
+        (held.min + held.max).as_dvec3() * 0.5,
+        held.size().as_dvec3() * 0.5,
+    );
+    let at = map.transform_point3(middle);
+    let m = map.matrix3;
+    let reach = m.x_axis.abs() * half.x + m.y_axis.abs() * half.y + m.z_axis.abs() * half.z;
+    [at - reach, at + reach]
 }
 
 /// Labels by brick: bit `n` for label `n`.
@@ -127,7 +204,7 @@ fn bricks_of(grid: &crate::data::Grid, texels: &[u16]) -> Bricks {
 mod tests {
     use super::*;
     use crate::data::Grid;
-    use glam::{DAffine3, DMat3};
+    use glam::{DMat3, Vec3};
 
     #[test]
     fn bricks_hold_their_border() {
@@ -184,5 +261,32 @@ mod tests {
         assert_eq!(sets[0][0], 0b1001, "air and label 3");
         assert_eq!(sets[3][6], 1 << (200 - 192), "in the last brick");
         assert_eq!(sets[1][6] | sets[2][6], 0, "and in no other");
+    }
+
+    #[test]
+    fn wide_bricks_reach_as_far_as_meshes() {
+        let bricks = UVec3::new(4, 3, 2);
+        let held = |min: Vec3, max: Vec3| Aabb { min, max };
+        let boxes = [
+            held(Vec3::new(-1.5, 0.2, 0.2), Vec3::new(-0.5, 0.4, 0.4)),
+            held(Vec3::new(3.2, 2.2, 2.5), Vec3::new(3.4, 2.4, 2.6)),
+        ];
+        let wide = WideBricks::new(bricks, &DAffine3::IDENTITY, boxes.into_iter()).expect("small");
+        assert_eq!(
+            (wide.dims, wide.before),
+            (UVec3::new(6, 3, 3), UVec3::new(2, 0, 0))
+        );
+        let at = |x: usize, y: usize, z: usize| x + 6 * (y + 3 * z);
+        let has: Vec<usize> = (0..54).filter(|&i| wide.has_mesh[i]).collect();
+        assert_eq!(has, [at(0, 0, 0), at(1, 0, 0), at(5, 2, 2)]);
+        assert_eq!(wide.of_volume(at(2, 0, 0), bricks), Some(0));
+        assert_eq!(wide.of_volume(at(5, 2, 1), bricks), Some(23));
+        assert_eq!(wide.of_volume(at(1, 0, 0), bricks), None);
+        assert_eq!(wide.of_volume(at(5, 2, 2), bricks), None);
+        let far = [held(Vec3::splat(-300.0), Vec3::ZERO)];
+        assert_eq!(
+            WideBricks::new(bricks, &DAffine3::IDENTITY, far.into_iter()),
+            None
+        );
     }
 }

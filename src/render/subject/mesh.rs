@@ -1,11 +1,12 @@
-//! A mesh on the GPU: its field, its segments on the field's voxels, and its tree and triangles in one texture.
+//! Meshes on the GPU: their field, their segments on the field's voxels, and tree and triangles in one texture.
 
 use super::bricks::{BRICK, Bricks, LabelSet, labels_in_bricks};
 use super::textures::{
-    Bound, HeldView, MESH_ROW, SubjectTextures, VoxelFrame, mesh_texture, next_stamp,
+    Bound, HeldView, MESH_ROW, MeshTextures, SubjectTextures, VoxelFrame, label_texture,
+    mesh_texture, next_stamp,
 };
-use super::volume::label_texture;
 use crate::data::{Surface, SurfaceField};
+use crate::math::Aabb;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
@@ -42,7 +43,7 @@ impl MeshUpload {
     /// Makes the textures.
     ///
     /// # Errors
-    /// [`RenderError::TooLarge`] with the number of triangles.
+    /// [`RenderError::TooLarge`] with the number of triangles, if the device does not take them.
     pub(crate) fn new(gpu: &Gpu, surface: &Arc<Surface>) -> Result<Self, RenderError> {
         let limits = gpu.device.limits();
         let rows = texel_count(surface).div_ceil(MESH_ROW as usize);
@@ -134,47 +135,113 @@ impl MeshUpload {
         !is_more
     }
 
-    /// The subject, once [`MeshUpload::advance`] said that all is handed over.
-    pub(crate) fn finish(self, gpu: &Gpu, layouts: &Layouts) -> SubjectTextures {
-        let surface = &*self.surface;
-        let (field, segmentation) = (&surface.field, &surface.segmentation);
+    /// The meshes, once [`MeshUpload::advance`] said that all is handed over.
+    pub(crate) fn finish(self) -> MeshTextures {
         let views = [&self.depth_texture, &self.label_texture, &self.mesh_texture];
-        let [volume_view, label_view, mesh_view] = views.map(HeldView::new);
-        let uniform = uniform_of(surface);
+        let [depths, fills, texels] = views.map(HeldView::new);
+        MeshTextures {
+            surface: self.surface,
+            depths,
+            fills,
+            texels,
+            seen_bricks: self.seen_bricks,
+            label_bricks: self.label_bricks.unwrap_or_default(),
+        }
+    }
+}
+
+impl MeshTextures {
+    /// Hands meshes over in one piece.
+    ///
+    /// # Errors
+    /// [`RenderError::TooLarge`] with the number of triangles, if the device does not take them.
+    pub(crate) fn new(gpu: &Gpu, surface: &Arc<Surface>) -> Result<Self, RenderError> {
+        let mut upload = MeshUpload::new(gpu, surface)?;
+        while !upload.advance(gpu) {}
+        Ok(upload.finish())
+    }
+
+    /// Adds to a subject's uniform where the meshes lie. Their first segment has the label after `labels_before`.
+    pub(crate) fn place(&self, labels_before: u32, uniform: Subject) -> Subject {
+        let surface = &self.surface;
+        let (field, grid) = (&surface.field, &surface.segmentation.grid);
+        let field_voxels = VoxelFrame::new(field.dims, field.rest_from_voxel);
+        let fill_voxels = VoxelFrame::new(grid.dims, field.rest_from_inner_voxel());
+        let affine = |affine: DAffine3| affine.as_affine3a().into();
+        Subject {
+            field_from_rest: affine(field_voxels.texture_from_rest()),
+            fill_from_rest: affine(fill_voxels.texture_from_rest()),
+            field_dims: field.dims.as_vec3().extend(0.0).to_array(),
+            fill_dims: grid.dims.as_vec3().extend(0.0).to_array(),
+            mesh_min: surface.frame.bounds.min.extend(0.0).to_array(),
+            mesh_max: surface.frame.bounds.max.extend(0.0).to_array(),
+            node_count: surface.tree.nodes.len() as u32,
+            triangles_at: 2 * surface.tree.nodes.len() as u32,
+            sets_at: texels_of(surface),
+            textures_at: match surface.textures {
+                Some(_) => textures_at(surface),
+                None => 0,
+            },
+            field_detail: surface.frame.detail,
+            labels_before,
+            ..uniform
+        }
+    }
+
+    /// The boxes of its bricks that hold something, rest space.
+    pub(crate) fn seen_boxes(&self) -> impl Iterator<Item = Aabb> {
+        let field = &self.surface.field;
+        let count = bricks_of(field);
+        let place = |voxel: UVec3| {
+            let at = voxel.as_dvec3() - 0.5;
+            field.rest_from_voxel.transform_point3(at).as_vec3()
+        };
+        let seen = (0..).zip(&self.seen_bricks).filter(|(_, seen)| **seen);
+        seen.map(move |(i, _): (u32, _)| {
+            let brick = UVec3::new(i % count.x, i / count.x % count.y, i / (count.x * count.y));
+            Aabb::from_points([place(brick * BRICK), place((brick + 1) * BRICK)])
+        })
+    }
+
+    /// A subject of these meshes alone.
+    pub(crate) fn alone(mut self, gpu: &Gpu, layouts: &Layouts) -> SubjectTextures {
+        let surface = Arc::clone(&self.surface);
+        let (field, segmentation) = (&surface.field, &surface.segmentation);
+        let uniform = self.place(0, uniform_of(&surface));
         let segments = segmentation.segments.clone();
+        let (volume_view, label_view) = (Arc::clone(&self.depths), Arc::clone(&self.fills));
         let bound = Bound::new(
             gpu,
             layouts,
             &uniform,
             [&volume_view, &label_view],
-            Some(&mesh_view),
+            Some(&self),
             &segments,
         );
-        let voxels = VoxelFrame::new(field.dims, field.rest_from_voxel);
         let own = segmentation.grid;
         SubjectTextures {
             stamp: next_stamp(),
             shader: SubjectShader::Mesh,
             bind_group: bound.bind_group,
             buffer: bound.buffer,
-            seen_bricks: Some(self.seen_bricks),
             bricks: Bricks {
                 dims: bricks_of(field),
                 ranges: Vec::new(),
             },
+            wide_bricks: None,
             info: SubjectInfo::of_no_values(bound.has_colors),
-            label_bricks: self.label_bricks,
+            label_bricks: Some(std::mem::take(&mut self.label_bricks)),
             frame: surface.frame,
+            bounds: surface.frame.bounds,
             uniform,
             volume_view,
             label_view,
-            mesh_view: Some(mesh_view),
+            meshes: Some(Arc::new(self)),
             sampler: layouts.linear_sampler.clone(),
-            voxels,
+            voxels: VoxelFrame::new(field.dims, field.rest_from_voxel),
             label_voxels: Some(VoxelFrame::new(own.dims, field.rest_from_inner_voxel())),
             foot_axis: 2,
             mesh_segments: surface.segments.clone(),
-            texture_bytes: 16 * u64::from(texels_of_textures(surface)),
             segments,
         }
     }
@@ -190,30 +257,23 @@ fn textures_at(surface: &Surface) -> u32 {
     texels_of(surface) + surface.field.sets.len() as u32
 }
 
+/// The uniform of a subject of meshes alone, but for where they lie.
 fn uniform_of(surface: &Surface) -> Subject {
-    let field = &surface.field;
-    let label_grid = &surface.segmentation.grid;
+    let (field, labels) = (&surface.field, surface.segmentation.grid.dims);
     let field_voxels = VoxelFrame::new(field.dims, field.rest_from_voxel);
+    let label_voxels = VoxelFrame::new(labels, field.rest_from_inner_voxel());
     let affine = |affine: DAffine3| affine.as_affine3a().into();
     Subject {
         texture_from_rest: affine(field_voxels.texture_from_rest()),
-        label_from_rest: affine(label_grid.texture_from_subject()),
+        label_from_rest: affine(label_voxels.texture_from_rest()),
         dims: field.dims.as_vec3().extend(0.0).to_array(),
-        label_dims: label_grid.dims.as_vec3().extend(0.0).to_array(),
+        label_dims: labels.as_vec3().extend(0.0).to_array(),
         texture_end: [1.0, 1.0, 1.0, 0.0],
         value_low: 0.0,
         value_range: 1.0,
         detail: surface.frame.detail,
         has_labels: 1,
-        mesh_min: surface.frame.bounds.min.extend(0.0).to_array(),
-        mesh_max: surface.frame.bounds.max.extend(0.0).to_array(),
-        node_count: surface.tree.nodes.len() as u32,
-        triangles_at: 2 * surface.tree.nodes.len() as u32,
-        sets_at: texels_of(surface),
-        textures_at: match surface.textures {
-            Some(_) => textures_at(surface),
-            None => 0,
-        },
+        ..Subject::default()
     }
 }
 

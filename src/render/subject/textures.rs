@@ -1,15 +1,17 @@
 //! A subject on the GPU in the form that every pass reads, whatever the kind of subject.
 
-use super::bricks::{Bricks, LabelSet};
-use crate::data::{Segment, SubjectFrame, SurfaceSegment};
+use super::bricks::{Bricks, LabelSet, WideBricks};
+use crate::data::{FIRST_MESH_LABEL, Segment, SubjectFrame, Surface, SurfaceSegment};
+use crate::math::Aabb;
 use crate::render::device::bindings::entry;
 use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
 use crate::render::device::programs::SubjectShader;
-use crate::render::device::textures::{extent, write_slices};
+use crate::render::device::textures::{extent, volume_texture, write_slices};
 use crate::render::pack::gpu_types::Subject;
 use crate::render::pack::stamps::Stamp;
+use crate::render::pack::triangles::texels_of_textures;
 use crate::render::pack::values::SubjectInfo;
 use glam::{DAffine3, DVec3, UVec3, Vec3};
 use std::sync::Arc;
@@ -28,12 +30,14 @@ pub(crate) struct SubjectTextures {
     pub bricks: Bricks,
     /// The window that presets take by default, and the span of the values.
     pub info: SubjectInfo,
-    /// Bricks in which something is seen whatever the look is, where that does not follow from values.
-    pub seen_bricks: Option<Vec<bool>>,
+    /// The bricks of a volume and of the meshes beside it; `None` where there are none.
+    pub wide_bricks: Option<WideBricks>,
     /// Labels by brick, where they lie on the grid of the values.
     pub label_bricks: Option<Vec<LabelSet>>,
     /// Where the untouched subject lies, and how fine it is.
     pub frame: SubjectFrame,
+    /// Box of everything that is untouched, subject space: meshes may reach out of the volume that they lie beside.
+    pub bounds: Aabb,
     /// The uniform, as uploaded.
     pub uniform: Subject,
     /// The buffer that holds `uniform` on the GPU.
@@ -42,8 +46,8 @@ pub(crate) struct SubjectTextures {
     /// The same scalars may have other labels.
     pub volume_view: Arc<HeldView>,
     pub label_view: Arc<HeldView>,
-    /// Tree and triangles of a mesh.
-    pub mesh_view: Option<Arc<HeldView>>,
+    /// Its meshes, alone or beside a volume.
+    pub meshes: Option<Arc<MeshTextures>>,
     pub sampler: wgpu::Sampler,
     /// Where the voxels of the scalars lie. On these voxels, or on `label_voxels`, distances to kept tissue are made.
     pub voxels: VoxelFrame,
@@ -53,9 +57,7 @@ pub(crate) struct SubjectTextures {
     pub foot_axis: u32,
     /// Named segments of the subject.
     pub segments: Vec<Segment>,
-    /// Bytes of the pictures on a mesh's triangles, which lie in `mesh_view`; 0 if there are none.
-    pub texture_bytes: u64,
-    /// What the segments of a mesh are; none of a volume.
+    /// What the segments of meshes are; none of a volume.
     pub mesh_segments: Vec<SurfaceSegment>,
 }
 
@@ -103,10 +105,57 @@ impl std::ops::Deref for HeldView {
 }
 
 impl SubjectTextures {
-    /// Bytes of the values and the labels, and of a mesh's tree and triangles; its pictures are counted apart.
+    /// True if places have segments: labels of voxels, or meshes.
+    pub(crate) fn has_segments(&self) -> bool {
+        self.uniform.has_labels != 0 || self.meshes.is_some()
+    }
+
+    /// Bytes of the values and the labels, and of the meshes: their field, tree and triangles. Their pictures are counted
+    /// apart, by [`SubjectTextures::texture_bytes`].
     pub(crate) fn bytes(&self) -> u64 {
-        let mesh = self.mesh_view.as_ref().map_or(0, |view| view.bytes());
-        self.volume_view.bytes() + self.label_view.bytes() + mesh - self.texture_bytes
+        let beside = match &self.meshes {
+            Some(meshes) if self.shader == SubjectShader::Both => {
+                meshes.depths.bytes() + meshes.fills.bytes()
+            }
+            _ => 0,
+        };
+        let texels = self.meshes.as_ref().map_or(0, |meshes| meshes.texels.bytes());
+        self.volume_view.bytes() + self.label_view.bytes() + beside + texels - self.texture_bytes()
+    }
+
+    /// Bytes of the pictures on triangles.
+    pub(crate) fn texture_bytes(&self) -> u64 {
+        let meshes = self.meshes.as_ref();
+        meshes.map_or(0, |meshes| 16 * u64::from(texels_of_textures(&meshes.surface)))
+    }
+}
+
+/// Meshes on the GPU, alone or beside a volume.
+#[derive(Debug)]
+pub(crate) struct MeshTextures {
+    /// What is there.
+    pub surface: Arc<Surface>,
+    /// Depths under the surface on the field's grid.
+    pub depths: Arc<HeldView>,
+    /// Which set of segments fills each of its voxels, its margin left out.
+    pub fills: Arc<HeldView>,
+    /// Tree, triangles and sets.
+    pub texels: Arc<HeldView>,
+    /// Bricks of the field's voxels that hold triangles or the inside of a segment.
+    pub seen_bricks: Vec<bool>,
+    /// Segments by brick of the voxels of `fills`.
+    pub label_bricks: Vec<LabelSet>,
+}
+
+impl MeshTextures {
+    /// Their bindings in group 1, in order.
+    pub(crate) fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 3] {
+        let view = |view| wgpu::BindingResource::TextureView(view);
+        [
+            entry(5, view(&self.texels)),
+            entry(6, view(&self.depths)),
+            entry(7, view(&self.fills)),
+        ]
     }
 }
 
@@ -152,18 +201,28 @@ impl SubjectTextures {
         let mut entries = vec![
             entry(0, self.buffer.as_entire_binding()),
             entry(2, wgpu::BindingResource::Sampler(&self.sampler)),
-            entry(3, view(&self.label_view)),
         ];
-        if let Some(mesh) = &self.mesh_view {
-            entries.push(entry(1, view(&self.volume_view)));
-            entries.push(entry(5, view(mesh)));
+        if self.shader != SubjectShader::Mesh {
+            entries.push(entry(3, view(&self.label_view)));
+        }
+        if let Some(meshes) = &self.meshes {
+            entries.extend(meshes.entries());
         }
         entries
     }
 }
 
+/// Colours of labels: those of a volume, and behind them those of the segments of meshes.
+const PALETTE: u32 = FIRST_MESH_LABEL as u32 + 64;
+
 /// Texels in a row of the texture of a mesh, as in shaders/subject/mesh.wgsl.
 pub(crate) const MESH_ROW: u32 = 4096;
+
+/// A byte per voxel: the number of its segment, or of what fills it.
+pub(crate) fn label_texture(gpu: &Gpu, dims: UVec3) -> wgpu::Texture {
+    let format = wgpu::TextureFormat::R8Uint;
+    volume_texture(gpu, "labels", dims, format, wgpu::TextureUsages::COPY_DST)
+}
 
 /// The texture of a mesh's tree and triangles.
 pub(crate) fn mesh_texture(gpu: &Gpu, [width, height]: [u32; 2]) -> wgpu::Texture {
@@ -190,17 +249,17 @@ pub(crate) struct Bound {
 }
 
 impl Bound {
-    /// Of the uniform, the textures of scalars, of labels and of triangles, and the segments, whose colours are looked
+    /// Of the uniform, the textures of scalars, of labels and of meshes, and the segments, whose colours are looked
     /// up by label.
     pub(crate) fn new(
         gpu: &Gpu,
         layouts: &Layouts,
         uniform: &Subject,
         [volume_view, label_view]: [&wgpu::TextureView; 2],
-        mesh_view: Option<&wgpu::TextureView>,
+        meshes: Option<&MeshTextures>,
         segments: &[Segment],
     ) -> Self {
-        let mut colors = [[0u8; 4]; 256];
+        let mut colors = [[0u8; 4]; PALETTE as usize];
         let mut has_colors = false;
         for segment in segments {
             if let (Some(slot), Some([r, g, b])) = (
@@ -211,12 +270,12 @@ impl Bound {
                 if *slot == [0; 4] {
                     *slot = [r, g, b, 255];
                 }
-                has_colors = true;
+                has_colors |= segment.label < FIRST_MESH_LABEL;
             }
         }
         let palette = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("palette"),
-            size: extent(UVec3::new(256, 1, 1)),
+            size: extent(UVec3::new(PALETTE, 1, 1)),
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -227,20 +286,31 @@ impl Bound {
         write_slices(gpu, &palette, 0, 1, 4, bytemuck::cast_slice(&colors));
         let buffer = uniform_buffer(gpu, "subject", uniform);
         let palette_view = palette.create_view(&Default::default());
-        let no_mesh = mesh_view
-            .is_none()
-            .then(|| mesh_texture(gpu, [1, 1]).create_view(&Default::default()));
-        let mesh_view = mesh_view.or(no_mesh.as_ref()).unwrap_or(label_view);
+        let no_mesh = mesh_texture(gpu, [1, 1]).create_view(&Default::default());
+        let view = wgpu::BindingResource::TextureView;
+        let mesh_entries = meshes.map_or_else(
+            || {
+                [
+                    entry(5, view(&no_mesh)),
+                    entry(6, view(volume_view)),
+                    entry(7, view(label_view)),
+                ]
+            },
+            MeshTextures::entries,
+        );
+        let [texels, depths, fills] = mesh_entries;
         let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("subject"),
             layout: &layouts.subject,
             entries: &[
                 entry(0, buffer.as_entire_binding()),
-                entry(1, wgpu::BindingResource::TextureView(volume_view)),
+                entry(1, view(volume_view)),
                 entry(2, wgpu::BindingResource::Sampler(&layouts.linear_sampler)),
-                entry(3, wgpu::BindingResource::TextureView(label_view)),
-                entry(4, wgpu::BindingResource::TextureView(&palette_view)),
-                entry(5, wgpu::BindingResource::TextureView(mesh_view)),
+                entry(3, view(label_view)),
+                entry(4, view(&palette_view)),
+                texels,
+                depths,
+                fills,
             ],
         });
         Self {

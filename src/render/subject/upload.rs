@@ -3,13 +3,14 @@
 
 use super::mesh::MeshUpload;
 use super::reduce::reduced_to_fit;
-use super::textures::SubjectTextures;
+use super::textures::{MeshTextures, SubjectTextures};
 use super::volume;
 use super::volume_upload::VolumeUpload;
 use crate::data::{Reduction, Segmentation, Subject};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
+use std::sync::Arc;
 
 /// A subject on its way to the GPU, piece by piece.
 #[derive(Debug)]
@@ -28,17 +29,21 @@ pub(crate) fn fitting(
 ) -> Result<(Subject, Option<Reduction>), RenderError> {
     match subject {
         Subject::Space(space) => Ok(match reduced_to_fit(gpu, &space.volume)? {
-            Some((small, reduction)) => (Subject::from(small), Some(reduction)),
+            Some((small, reduction)) => {
+                let small = Subject::from(small).with_meshes(space.meshes.clone());
+                (small, Some(reduction))
+            }
             None => (subject.clone(), None),
         }),
         Subject::Mesh(_) => Ok((subject.clone(), None)),
     }
 }
 
-/// A subject with other segments than it came with. `subject` is the one that was uploaded as `textures`.
+/// A subject with other segments than it came with, or other meshes beside its volume. The values of `subject` are
+/// those that were uploaded as `textures`.
 ///
 /// # Errors
-/// [`RenderError::TooLarge`] if the device does not take the segments.
+/// [`RenderError::TooLarge`] if the device does not take the segments or the meshes.
 pub(crate) fn with_segmentation(
     textures: &SubjectTextures,
     gpu: &Gpu,
@@ -48,14 +53,19 @@ pub(crate) fn with_segmentation(
 ) -> Result<SubjectTextures, RenderError> {
     match subject {
         Subject::Space(space) => {
-            volume::with_labels(textures, gpu, layouts, &space.volume, segmentation)
+            let is_there = |there: &&Arc<MeshTextures>| {
+                let meshes = space.meshes.as_ref();
+                meshes.is_some_and(|meshes| Arc::ptr_eq(meshes, &there.surface))
+            };
+            let meshes = match (textures.meshes.as_ref().filter(is_there), &space.meshes) {
+                (Some(there), _) => Some(Arc::clone(there)),
+                (None, Some(meshes)) => Some(Arc::new(MeshTextures::new(gpu, meshes)?)),
+                (None, None) => None,
+            };
+            volume::with_labels(textures, gpu, layouts, &space.volume, segmentation, meshes)
         }
         // The segments of a mesh are its parts.
-        Subject::Mesh(surface) => {
-            let mut upload = MeshUpload::new(gpu, surface)?;
-            while !upload.advance(gpu) {}
-            Ok(upload.finish(gpu, layouts))
-        }
+        Subject::Mesh(surface) => Ok(MeshTextures::new(gpu, surface)?.alone(gpu, layouts)),
     }
 }
 
@@ -69,6 +79,7 @@ impl Upload {
             Subject::Space(space) => Ok(Self::Volume(Box::new(VolumeUpload::new(
                 gpu,
                 &space.volume,
+                space.meshes.as_ref(),
             )?))),
             Subject::Mesh(surface) => Ok(Self::Mesh(Box::new(MeshUpload::new(gpu, surface)?))),
         }
@@ -94,7 +105,7 @@ impl Upload {
     pub(crate) fn finish(self, gpu: &Gpu, layouts: &Layouts) -> SubjectTextures {
         match self {
             Self::Volume(upload) => upload.finish(gpu, layouts),
-            Self::Mesh(upload) => upload.finish(gpu, layouts),
+            Self::Mesh(upload) => upload.finish().alone(gpu, layouts),
         }
     }
 }

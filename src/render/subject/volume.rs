@@ -1,13 +1,15 @@
 //! A volume on the GPU: values, labels and their colours, and where they lie.
 
-use super::bricks::{BRICK, Bricks, labels_in_bricks};
-use super::textures::{Bound, HeldView, SubjectTextures, VoxelFrame, next_stamp};
-use crate::data::{Segmentation, Volume};
+use super::bricks::{BRICK, Bricks, WideBricks, labels_in_bricks};
+use super::textures::{
+    Bound, HeldView, MeshTextures, SubjectTextures, VoxelFrame, label_texture, next_stamp,
+};
+use crate::data::{FIRST_MESH_LABEL, Segmentation, Volume, called_as_in, with_mesh_segments};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
 use crate::render::device::programs::SubjectShader;
-use crate::render::device::textures::{volume_texture, write_slices};
+use crate::render::device::textures::write_slices;
 use crate::render::pack::gpu_types::Subject;
 use crate::render::pack::values::{SubjectInfo, span};
 use glam::{Affine3A, DAffine3, UVec3};
@@ -16,7 +18,8 @@ use std::sync::Arc;
 /// Bytes converted and handed to the GPU at a time: small enough that a frame is not missed.
 pub(crate) const SLAB_BYTES: usize = 2 << 20;
 
-/// The same volume with other segments, around the textures that hold it. `volume` is the one that was uploaded.
+/// The same volume with other segments, and with these meshes beside it, around the textures that hold it. `volume` is
+/// the one that was uploaded.
 ///
 /// # Errors
 /// [`RenderError::TooLarge`] if the device does not take so many labels along an axis, or they are not whole.
@@ -26,6 +29,7 @@ pub(crate) fn with_labels(
     layouts: &Layouts,
     volume: &Volume,
     labels: Option<&Segmentation>,
+    meshes: Option<Arc<MeshTextures>>,
 ) -> Result<SubjectTextures, RenderError> {
     let dims = labels.map_or(UVec3::ONE, |labels| labels.grid.dims);
     let most = gpu.device.limits().max_texture_dimension_3d;
@@ -46,12 +50,8 @@ pub(crate) fn with_labels(
     }
     let views = [Arc::clone(&textures.volume_view), HeldView::new(&texture)];
     let (bricks, info) = (textures.bricks.clone(), textures.info);
-    Ok(assemble(gpu, layouts, volume, labels, views, bricks, info))
-}
-
-pub(crate) fn label_texture(gpu: &Gpu, dims: UVec3) -> wgpu::Texture {
-    let format = wgpu::TextureFormat::R8Uint;
-    volume_texture(gpu, "labels", dims, format, wgpu::TextureUsages::COPY_DST)
+    let held = (views, meshes);
+    Ok(assemble(gpu, layouts, volume, labels, held, bricks, info))
 }
 
 /// Everything that the passes want, around textures that are filled. `info` is complete but for the segments.
@@ -60,7 +60,7 @@ pub(crate) fn assemble(
     layouts: &Layouts,
     volume: &Volume,
     labels: Option<&Segmentation>,
-    [volume_view, label_view]: [Arc<HeldView>; 2],
+    ([volume_view, label_view], meshes): ([Arc<HeldView>; 2], Option<Arc<MeshTextures>>),
     bricks: Bricks,
     mut info: SubjectInfo,
 ) -> SubjectTextures {
@@ -75,7 +75,7 @@ pub(crate) fn assemble(
         label_texture_from_voxel * (subject_from_world * label_grid.world_from_voxel).inverse();
     let label_dims = labels.map_or(glam::Vec3::ONE, |labels| labels.grid.dims.as_vec3());
     let frame = grid.frame();
-    let uniform = Subject {
+    let mut uniform = Subject {
         texture_from_rest: affine32(&grid.texture_from_subject()).into(),
         label_from_rest: affine32(&label_from_rest).into(),
         dims: dims.extend(0.0).to_array(),
@@ -87,13 +87,25 @@ pub(crate) fn assemble(
         has_labels: u32::from(labels.is_some()),
         ..Subject::default()
     };
-    let segments = labels.map(|l| l.segments.clone()).unwrap_or_default();
+    let mut segments = labels.map(|l| l.segments.clone()).unwrap_or_default();
+    let mut mesh_segments = Vec::new();
+    let mut bounds = frame.bounds;
+    let mut wide_bricks = None;
+    if let Some(meshes) = &meshes {
+        uniform = meshes.place(u32::from(FIRST_MESH_LABEL) - 1, uniform);
+        segments = with_mesh_segments(&segments, &meshes.surface);
+        mesh_segments = called_as_in(&segments, &meshes.surface);
+        bounds = bounds.union(meshes.surface.frame.bounds);
+        let brick_from_rest = DAffine3::from_scale(grid.dims.as_dvec3() / f64::from(BRICK))
+            * grid.texture_from_subject();
+        wide_bricks = WideBricks::new(bricks.dims, &brick_from_rest, meshes.seen_boxes());
+    }
     let bound = Bound::new(
         gpu,
         layouts,
         &uniform,
         [&*volume_view, &*label_view],
-        None,
+        meshes.as_deref(),
         &segments,
     );
     info.has_segments = bound.has_colors;
@@ -102,27 +114,30 @@ pub(crate) fn assemble(
     let foot_axis = (0..3).fold(0, |best, i| if rises[i] > rises[best] { i } else { best });
     SubjectTextures {
         stamp: next_stamp(),
-        shader: SubjectShader::Volume,
+        shader: match &meshes {
+            Some(_) => SubjectShader::Both,
+            None => SubjectShader::Volume,
+        },
         buffer: bound.buffer,
         volume_view,
         label_view,
-        mesh_view: None,
+        meshes,
         sampler: layouts.linear_sampler.clone(),
         voxels: VoxelFrame::new(grid.dims, grid.subject_from_voxel()),
         label_voxels: labels
             .map(|l| VoxelFrame::new(l.grid.dims, subject_from_world * l.grid.world_from_voxel)),
         foot_axis: foot_axis as u32,
-        mesh_segments: Vec::new(),
-        texture_bytes: 0,
+        mesh_segments,
         segments,
         bind_group: bound.bind_group,
         bricks,
-        seen_bricks: None,
+        wide_bricks,
         label_bricks: labels
             .filter(|labels| labels.grid == *grid)
             .map(|labels| labels_in_bricks(labels, BRICK)),
         info,
         frame,
+        bounds,
         uniform,
     }
 }

@@ -1,7 +1,7 @@
 use super::bricks::BrickBuilder;
-use super::textures::{HeldView, SubjectTextures};
-use super::volume::{SLAB_BYTES, assemble, label_texture};
-use crate::data::{Volume, Voxels};
+use super::textures::{HeldView, MeshTextures, SubjectTextures, label_texture};
+use super::volume::{SLAB_BYTES, assemble};
+use crate::data::{Surface, Volume, Voxels};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
@@ -15,6 +15,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(crate) struct VolumeUpload {
     volume: Arc<Volume>,
+    meshes: Option<Arc<MeshTextures>>,
     volume_texture: wgpu::Texture,
     label_texture: wgpu::Texture,
     next_slice: u32,
@@ -26,7 +27,12 @@ pub(crate) struct VolumeUpload {
 
 impl VolumeUpload {
     /// Makes the textures. The volume must fit ([`super::reduce::reduced_to_fit`]) and be whole.
-    pub(crate) fn new(gpu: &Gpu, volume: &Arc<Volume>) -> Result<Self, RenderError> {
+    /// Meshes beside it are handed over at once.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        volume: &Arc<Volume>,
+        meshes: Option<&Arc<Surface>>,
+    ) -> Result<Self, RenderError> {
         let count = volume.grid.voxel_count();
         if volume.voxels.len() != count || count == 0 {
             return Err(RenderError::TooLarge(format!(
@@ -38,8 +44,10 @@ impl VolumeUpload {
             Some(labels) if labels.labels.len() == labels.grid.voxel_count() => labels.grid.dims,
             _ => UVec3::ONE,
         };
+        let meshes = meshes.map(|meshes| MeshTextures::new(gpu, meshes));
         Ok(Self {
             volume: Arc::clone(volume),
+            meshes: meshes.transpose()?.map(Arc::new),
             volume_texture: volume_texture(
                 gpu,
                 "volume",
@@ -125,7 +133,7 @@ impl VolumeUpload {
             layouts,
             volume,
             labels,
-            views,
+            (views, self.meshes.clone()),
             self.bricks.bricks,
             info,
         )

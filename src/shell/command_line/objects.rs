@@ -5,12 +5,10 @@ use std::sync::Arc;
 
 use super::args::Common;
 use super::error::{CliError, MissingSubject};
-use super::subject::{given_of, read, report_missing, surface_of};
-use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
-use crate::data::{ObjectMeshes, Subject, Surface, VolumeLimits};
+use super::subject::{mesh_data, path_of, report_missing, surface_of};
+use crate::assets::{Assets, Data, Role, Source, Wanted};
+use crate::data::{ObjectMeshes, Surface};
 use crate::document::Illustration;
-use crate::load::LoadError;
-use crate::shell::files::local;
 use crate::subjects::{SubjectError, tool};
 
 /// The meshes of a document's objects. A notice names those whose files are not there; they are left out.
@@ -36,16 +34,13 @@ pub(super) fn objects_of(
                 // What is generated has no hash that could be another one.
                 let _always_taken = assets.take(&want, data);
             }
-            Source::File { src, .. } => {
-                let given = match src {
-                    Some(src) => local(folder, src).filter(|path| path.exists()),
-                    None => given_of(&common.meshes, &want).map(Path::to_owned),
-                };
-                let Some(path) = given else {
+            Source::File { .. } => {
+                let Some(path) = path_of(&want, common, folder) else {
                     report_missing("object", &want, folder);
                     continue;
                 };
-                let taken = assets.take(&want, of_file(&path, &want, folder)?);
+                let data = mesh_data(&path, &want, folder, &[], "an object")?;
+                let taken = assets.take(&want, data);
                 taken.map_err(|other| MissingSubject::other(&path, other))?;
             }
         }
@@ -60,24 +55,4 @@ pub(super) fn objects_of(
 pub(super) fn generated(name: &str) -> Result<Arc<Surface>, MissingSubject> {
     let mesh = tool(name).ok_or_else(|| SubjectError::UnknownName(name.to_owned()))?;
     surface_of(&mesh)
-}
-
-fn of_file(path: &Path, want: &Want, folder: &Path) -> Result<Data, MissingSubject> {
-    let limits = VolumeLimits {
-        max_dim: u32::MAX,
-        max_voxels: u64::MAX,
-    };
-    match read(path, &want.reading, limits, folder, &[])? {
-        Data::Subject {
-            subject: Subject::Mesh(mesh),
-            sha256,
-        } => Ok(Data::Object { mesh, sha256 }),
-        _ => Err(MissingSubject::File {
-            path: path.display().to_string(),
-            source: LoadError::Mesh {
-                message: "a scan, not a surface mesh: an object has to be OBJ, STL, PLY or GLB"
-                    .to_owned(),
-            },
-        }),
-    }
 }

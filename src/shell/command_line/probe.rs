@@ -45,9 +45,10 @@ pub(super) fn probe(
         true => Some(subject_of(&illustration, common, &opened.folder, WHOLE)?),
         false => None,
     };
-    if columns.depth && !matches!(subject, Some(Subject::Mesh(_))) {
+    let surface = subject.as_ref().and_then(Subject::surface);
+    if columns.depth && surface.is_none() {
         return Err(CliError::Usage(
-            "--depth asks for the depth under a mesh, and this subject is none",
+            "--depth asks for the depth under a mesh, and this subject has none",
         ));
     }
     let positions: Vec<Vec3> = points
@@ -79,7 +80,7 @@ pub(super) fn probe(
             let (value, segment) = found.unwrap_or_default();
             write!(out, ",{value},{}", quoted(&segment)).map_err(CliError::Output)?;
         }
-        if let Some(Subject::Mesh(surface)) = subject.as_ref().filter(|_| columns.depth) {
+        if let Some(surface) = surface.filter(|_| columns.depth) {
             write!(out, ",{}", surface.depth_at(*s)).map_err(CliError::Output)?;
         }
         writeln!(out).map_err(CliError::Output)?;
@@ -119,36 +120,41 @@ pub(super) fn map_samples(
 }
 
 /// What a subject has at places of rest space, as a document draws it.
-pub(super) enum Materials<'a> {
-    Scan(&'a Subject),
-    Mesh(Fillings<'a>),
+pub(super) struct Materials<'a> {
+    subject: &'a Subject,
+    fillings: Option<Fillings<'a>>,
 }
 
 impl<'a> Materials<'a> {
     pub(super) fn of(subject: &'a Subject, illustration: &Illustration) -> Self {
-        match subject {
-            Subject::Mesh(surface) => Self::Mesh(Fillings::of(surface, &illustration.look)),
-            Subject::Space(_) => Self::Scan(subject),
+        Self {
+            subject,
+            fillings: Fillings::of(subject, &illustration.look),
         }
     }
 
+    /// The bodies of its meshes, if it has any.
+    pub(super) fn fillings(&self) -> Option<&Fillings<'a>> {
+        self.fillings.as_ref()
+    }
+
     /// Value (of a mesh the depth under its surface) and name of the segment or layer at a place; `None` where nothing
-    /// is. Either may be empty.
+    /// is. Either may be empty. Where a mesh fills a place of a volume, the mesh is there.
     pub(super) fn at(&self, place: Vec3) -> Option<(String, String)> {
-        match self {
-            Self::Scan(subject) => {
-                let material = subject.material_at(place)?;
-                let value = material.value.map(|value| value.to_string());
-                Some((
-                    value.unwrap_or_default(),
-                    material.segment.unwrap_or_default(),
-                ))
-            }
-            Self::Mesh(fillings) => {
-                let filling = fillings.at(place)?;
-                Some((filling.depth.to_string(), filling.name))
-            }
+        let filling = self
+            .fillings
+            .as_ref()
+            .and_then(|fillings| fillings.at(place));
+        if let Some(filling) = filling {
+            return Some((filling.depth.to_string(), filling.name));
         }
+        self.subject.values()?;
+        let material = self.subject.material_at(place)?;
+        let value = material.value.map(|value| value.to_string());
+        Some((
+            value.unwrap_or_default(),
+            material.segment.unwrap_or_default(),
+        ))
     }
 }
 

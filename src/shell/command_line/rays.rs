@@ -13,7 +13,6 @@ use super::objects::objects_of;
 use super::opening::Opened;
 use super::probe::{Materials, WHOLE, quoted};
 use super::subject::{report_drawing, subject_of};
-use crate::data::Subject;
 use crate::math::srgb_from_linear;
 use crate::render::{Meeting, RayEvent, Studio};
 
@@ -51,7 +50,7 @@ pub(super) fn rays(
     for ((numbers, ray), event) in given.iter().zip(&asked).zip(&events) {
         let numbers = numbers.map(|number| number.to_string()).join(",");
         let found = match event {
-            Some(event) => columns_of(event, *ray, &subject, &materials, name_of),
+            Some(event) => columns_of(event, *ray, &materials, name_of),
             None => ",".repeat(12),
         };
         writeln!(out, "{numbers},{found}").map_err(CliError::Output)?;
@@ -63,19 +62,14 @@ pub(super) fn rays(
 fn columns_of<'o>(
     event: &RayEvent,
     (origin, dir): (Vec3, Vec3),
-    subject: &Subject,
     materials: &Materials<'_>,
     object_name: impl Fn(usize) -> &'o str,
 ) -> String {
-    let own = |k: usize| match subject {
-        Subject::Mesh(surface) => surface.segments[k].name.clone(),
-        Subject::Space(_) => String::new(),
-    };
-    let segment = match (event.meeting, event.segment, materials) {
-        (Meeting::Surface | Meeting::Inside, Some(k), _) => own(k),
-        (Meeting::Cut, Some(k), Materials::Mesh(fillings)) => {
-            fillings.name_at(k, event.pos_in_rest)
+    let segment = match (event.meeting, event.segment, materials.fillings()) {
+        (Meeting::Surface | Meeting::Inside, Some(k), Some(fillings)) => {
+            fillings.segment_name(k).to_owned()
         }
+        (Meeting::Cut, Some(k), Some(fillings)) => fillings.name_at(k, event.pos_in_rest),
         (Meeting::Object, Some(k), _) => object_name(k).to_owned(),
         _ => materials.at(event.pos_in_rest).unwrap_or_default().1,
     };

@@ -14,7 +14,7 @@ use crate::data::{
     Surface, TimeSlices, VolumeBuilder, VolumeLimits, segment,
 };
 use crate::document::{Illustration, Reading};
-use crate::load::{LabelFile, LoadReport, ReadOptions, read_label_file};
+use crate::load::{LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
 use crate::render::{KeptTissue, RenderNotice, lidded};
 use crate::shell::files::{Folder, local, mesh_set};
 use crate::shell::loading::hash_of;
@@ -46,12 +46,13 @@ pub(super) fn subject_of(
             Role::Segments => take_segments(&mut assets, &want, &mut given, folder)?,
             // Fields come by `fields_of`, as they need the subject's grid only.
             Role::Field => {}
-            // The document's notices say that these are not drawn; here those are named that are not even there.
-            Role::Mesh => report_missing("mesh", &want, folder),
+            // Where these lie is known when the subject is there.
+            Role::Mesh => {}
             // Objects come by `objects_of`: they are no part of the subject.
             Role::Object => {}
         }
     }
+    take_meshes(&mut assets, illustration, common, folder)?;
     for (_, file) in given {
         assets.add_segments(file);
     }
@@ -145,6 +146,68 @@ fn take_subject(
             let taken = assets.take(want, read(path)?);
             taken.map_err(|other| MissingSubject::other(path, other))
         }
+    }
+}
+
+/// Brings the meshes beside a volume. A notice names those whose files are not there; they are left out.
+fn take_meshes(
+    assets: &mut Assets,
+    illustration: &Illustration,
+    common: &Common,
+    folder: &Path,
+) -> Result<(), MissingSubject> {
+    while let Some(want) = assets.meshes_wanted(illustration) {
+        let Some(path) = path_of(&want, common, folder) else {
+            report_missing("mesh", &want, folder);
+            assets.refuse(&want);
+            continue;
+        };
+        let data = mesh_data(
+            &path,
+            &want,
+            folder,
+            &common.meshes,
+            "a mesh of the subject",
+        )?;
+        let taken = assets.take(&want, data);
+        return taken.map_err(|other| MissingSubject::other(&path, other));
+    }
+    Ok(())
+}
+
+/// The file of a mesh or an object: at its address, or among those given; `None` if it is not there.
+pub(super) fn path_of(want: &Want, common: &Common, folder: &Path) -> Option<PathBuf> {
+    match want.src() {
+        Some(src) => local(folder, src).filter(|path| path.exists()),
+        None => given_of(&common.meshes, want).map(Path::to_owned),
+    }
+}
+
+/// Reads a mesh that is no subject by itself. `what` it is to be, for who gives a scan.
+pub(super) fn mesh_data(
+    path: &Path,
+    want: &Want,
+    folder: &Path,
+    given: &[PathBuf],
+    what: &str,
+) -> Result<Data, MissingSubject> {
+    let limits = VolumeLimits {
+        max_dim: u32::MAX,
+        max_voxels: u64::MAX,
+    };
+    match read(path, &want.reading, limits, folder, given)? {
+        Data::Subject {
+            subject: Subject::Mesh(mesh),
+            sha256,
+        } => Ok(Data::Object { mesh, sha256 }),
+        _ => Err(MissingSubject::File {
+            path: path.display().to_string(),
+            source: LoadError::Mesh {
+                message: format!(
+                    "a scan, not a surface mesh: {what} has to be OBJ, STL, PLY or GLB"
+                ),
+            },
+        }),
     }
 }
 
@@ -249,7 +312,7 @@ pub(super) fn generate(name: &str) -> Result<Subject, MissingSubject> {
 }
 
 /// The given file that has the hash of a want.
-pub(super) fn given_of<'a>(given: &'a [PathBuf], want: &Want) -> Option<&'a Path> {
+fn given_of<'a>(given: &'a [PathBuf], want: &Want) -> Option<&'a Path> {
     let is_it = |path: &&PathBuf| {
         let (mut files, name) = Folder::of(path);
         hash_of(&mut files, &name).is_some_and(|hash| want.check(&hash).is_ok())
@@ -316,9 +379,8 @@ pub(super) fn report_drawing(
     for line in KeptTissue::of(templates, resources, segments, bounds).notices() {
         notice(line);
     }
-    if let Subject::Mesh(surface) = subject {
-        for name in lidded(&illustration.look, &surface.segments) {
-            notice(RenderNotice::Lid(name));
-        }
+    let is_beside = subject.values().is_some();
+    for name in lidded(&illustration.look, &subject.mesh_segments(), is_beside) {
+        notice(RenderNotice::Lid(name));
     }
 }
