@@ -482,7 +482,7 @@ export class Embed {
       const { reader } = this.#engine;
       marks.show(reader.marks(this.id), this.#words);
       const room = [stage.clientWidth, stage.clientHeight, captions.gap, ...marks.room];
-      captions.place(reader.captions(this.id, captions.sizes(), new Float32Array(room)));
+      captions.place(reader.captions(this.id, captions.sizes(), new Float32Array(room)), room[0]);
       layer.style.visibility = "";
       this.#parts.before?.remove();
     }
