@@ -131,8 +131,8 @@ impl Column<'_> {
         (crossings.count(), length)
     }
 
-    /// Puts the texts into an order in which no lines cross if they stand at equal distances and end on one line: where
-    /// that is, and their upper edges. None if there is no room.
+    /// Puts the texts into an order in which no lines cross if they stand at equal distances and end on one line.
+    /// Returns where that is, and their upper edges; None if there is no room.
     fn equal_places(&mut self) -> Option<(f32, Vec<f32>)> {
         let sizes = || self.order.iter().map(|&i| self.sizes[i]);
         let most = sizes().fold(Vec2::ZERO, Vec2::max);
@@ -185,8 +185,8 @@ mod tests {
     use super::*;
     use glam::vec2;
 
-    /// In random plates of up to `most` captions whose points lie within this height: pairs of lines that cross, pairs of
-    /// texts that lie over each other, and texts that hang out.
+    /// In random plates of up to `most` captions whose points lie within this height: pairs of lines that cross, pairs
+    /// of texts that lie over each other, and texts that hang out.
     fn faults(most: usize, [top, bottom]: [f32; 2]) -> [usize; 3] {
         let mut seed = 7_u32;
         let mut random = |below: f32| {
