@@ -37,6 +37,10 @@ impl App {
                     }
                 }
                 Message::Field { want, outcome } => self.take_field(want, *outcome),
+                Message::AskFieldHost { want, host } => {
+                    self.session.ask_for_fields(&host);
+                    self.fields_elsewhere.push((host, want));
+                }
                 Message::Shipped { file, outcome } => match (file, outcome) {
                     (Shipped::Examples, outcome) => {
                         let outcome = outcome.as_deref().map_err(Clone::clone);
@@ -89,6 +93,7 @@ impl App {
             self.opened = self.session.opened;
             self.assets.forget_addresses();
             self.fields_asked.clear();
+            self.fields_elsewhere.clear();
         }
     }
 

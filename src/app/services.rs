@@ -33,9 +33,13 @@ pub trait Services {
     }
     /// The reader agreed to fetch from the host that [`Message::AskHost`] named.
     fn allow_host(&mut self, ticket: Ticket);
+    /// The reader agreed to fetch displacement fields from the host that [`Message::AskFieldHost`] named.
+    fn allow_fields(&mut self, host: &str) {
+        _ = host;
+    }
     /// How the voxels lie in the file that [`LoadEvent::AskRaw`] asked about; its load goes on under the same ticket.
     fn answer_raw(&mut self, ticket: Ticket, raw: &RawVoxels);
-    /// Reads a displacement field; [`Message::Field`] follows.
+    /// Reads a displacement field; [`Message::Field`] follows, or [`Message::AskFieldHost`].
     fn load_field(&mut self, want: &Want) {
         _ = want;
     }
@@ -159,6 +163,13 @@ pub enum Message {
     AskHost {
         /// The load that waits.
         ticket: Ticket,
+        /// Name of the host.
+        host: String,
+    },
+    /// A displacement field lies on another host than the page: fetch it?
+    AskFieldHost {
+        /// What was asked for.
+        want: Want,
         /// Name of the host.
         host: String,
     },

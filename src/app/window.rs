@@ -82,6 +82,8 @@ pub struct App {
     pub(crate) opened: u64,
     /// Fields that the shell was asked for.
     pub(crate) fields_asked: Vec<Want>,
+    /// Those of them that are fetched only if the reader agrees, with their hosts.
+    pub(crate) fields_elsewhere: Vec<(String, Want)>,
     /// Data of the files that the shown document names, as the picture has them.
     pub(crate) resources: Resources,
     /// The plot of the transfer function.
@@ -204,6 +206,7 @@ impl App {
             assets: Assets::default(),
             opened: 0,
             fields_asked: Vec::new(),
+            fields_elsewhere: Vec::new(),
             resources: Resources::default(),
             transfer: transfer::Editor::default(),
             preset_pictures: presets::Pictures::default(),
@@ -323,6 +326,14 @@ impl App {
                 }
                 Effect::CancelLoad(ticket) => services.cancel_load(ticket),
                 Effect::AllowHost(ticket) => services.allow_host(ticket),
+                Effect::AllowFields(host) => {
+                    services.allow_fields(&host);
+                    // They are missing still, and are asked for anew.
+                    let allowed = self.fields_elsewhere.extract_if(.., |(on, _)| *on == host);
+                    for (_, want) in allowed {
+                        self.fields_asked.retain(|asked| *asked != want);
+                    }
+                }
                 Effect::AnswerRaw(ticket, voxels) => services.answer_raw(ticket, &voxels),
                 Effect::ShowMesh(sha256) => mesh = Some(sha256),
                 Effect::DropMesh => self.held_mesh = None,

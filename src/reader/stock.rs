@@ -62,6 +62,8 @@ pub struct Stock {
     /// How far that is, 0 to 1.
     fraction: f32,
     is_whole: bool,
+    /// Pieces of the subject are on their way to the GPU.
+    is_uploading: bool,
     troubles: Vec<Trouble>,
     /// Grows when the pictures have to be drawn anew.
     revision: u64,
@@ -82,6 +84,7 @@ impl Stock {
             loading: None,
             fraction: 0.0,
             is_whole: false,
+            is_uploading: false,
             troubles: Vec::new(),
             revision: 0,
         }
@@ -187,7 +190,8 @@ impl Stock {
     /// True when everything has come that will come, and is on the GPU.
     pub fn is_settled(&self) -> bool {
         let is_made = !self.work.is_behind(&self.assets, &self.illustration);
-        self.has_failed() || (self.is_whole && self.loading.is_none() && is_made)
+        let is_there = self.is_whole && !self.is_uploading;
+        self.has_failed() || (is_there && self.loading.is_none() && is_made)
     }
 
     /// Nothing more will come of what is under way, and why.
@@ -333,7 +337,8 @@ impl Stock {
     /// Those of the renderer; a lost device has to be replaced by [`Stock::recover`].
     pub fn advance(&mut self, budget: f32) -> Result<bool, RenderError> {
         let state = self.host.draw([0, 0], budget, false)?;
-        let mut is_busy = state.uploading.is_some();
+        self.is_uploading = state.uploading.is_some();
+        let mut is_busy = self.is_uploading;
         if self.assets.subject().is_some() {
             let (resources, news) = self.assets.resources(&self.illustration);
             if let Some(Subject::Space(space)) = &resources.subject {
@@ -363,6 +368,7 @@ impl Stock {
     /// Those of the renderer.
     pub fn recover(&mut self, gpu: Gpu) -> Result<(), RenderError> {
         self.revision += 1;
+        self.is_uploading = true;
         self.host.recover(gpu)
     }
 
@@ -370,6 +376,7 @@ impl Stock {
         match std::mem::take(&mut self.incoming).finish() {
             Some(Ok((subject, _))) => {
                 let shown = subject.clone();
+                self.is_uploading = true;
                 self.assets.give(Data::Subject { subject, sha256 });
                 self.work.restart();
                 if let Err(error) = self.host.set_subject(shown) {

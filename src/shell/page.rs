@@ -519,15 +519,22 @@ impl Services for PageServices {
         let missing = match &want.source {
             Source::Builtin(name) | Source::File { name, .. } => wanted_file(name),
         };
+        // What lies elsewhere is not fetched unasked.
+        let host = address.as_ref().and_then(|(_, at)| foreign_host(at));
+        let mut page = self.0.borrow_mut();
+        if let Some(host) = host.filter(|host| !page.allowed_hosts.contains(host)) {
+            page.n_reading -= 1;
+            let want = want.clone();
+            page.send(Message::AskFieldHost { want, host });
+            return;
+        }
+        drop(page);
         spawn_local(async move {
-            if let Some((src, address)) = address {
-                // What lies elsewhere is not fetched unasked: the reader opens the file.
-                if foreign_host(&address).is_none()
-                    && let Some(blob) = fetched(&address).await
-                {
-                    let name = src.rsplit('/').next().unwrap_or(&src).to_owned();
-                    return services.read_field(for_want, name, blob).await;
-                }
+            if let Some((src, address)) = address
+                && let Some(blob) = fetched(&address).await
+            {
+                let name = src.rsplit('/').next().unwrap_or(&src).to_owned();
+                return services.read_field(for_want, name, blob).await;
             }
             let mut page = services.0.borrow_mut();
             page.send_field(for_want, Err(missing));
@@ -553,6 +560,10 @@ impl Services for PageServices {
             }
             self.start(ticket, &address_task(address, &want));
         }
+    }
+
+    fn allow_fields(&mut self, host: &str) {
+        self.0.borrow_mut().allowed_hosts.insert(host.to_owned());
     }
 
     fn answer_raw(&mut self, ticket: Ticket, raw: &RawVoxels) {

@@ -372,6 +372,11 @@ impl Reader {
         .to_string()
     }
 
+    /// The reader has agreed to fetch from this host.
+    pub fn allow_host(&self, host: String) {
+        self.inner.borrow_mut().allowed_hosts.insert(host);
+    }
+
     /// The reader agrees to fetch from the host that a picture's data lie on.
     pub fn allow(&self, id: u32) {
         let mut inner = self.inner.borrow_mut();
@@ -382,6 +387,9 @@ impl Reader {
             .and_then(|stocked| stocked.asks.take());
         if let (Some((want, address, host)), Some(stock)) = (asks, stock) {
             inner.allowed_hosts.insert(host);
+            if want.role == Role::Field {
+                return; // It is missing still, and fetched with the next frame.
+            }
             let base = inner
                 .stocks
                 .get(&stock)
@@ -860,7 +868,7 @@ impl Inner {
         }
     }
 
-    /// Fetches displacement fields that pictures show.
+    /// Fetches displacement fields that pictures show, once the reader has agreed to their hosts.
     fn fetch_fields(&mut self, inner: &Rc<RefCell<Self>>) {
         for shown in self.shown.values() {
             let id = shown.stock;
@@ -871,11 +879,21 @@ impl Inner {
                 if stocked.fields.contains(&want) {
                     continue;
                 }
+                let address = want.src().map(|src| absolute(src, &shown.base));
+                let host = address
+                    .as_ref()
+                    .and_then(|at| foreign_host(at.as_deref().ok()?));
+                if let (Some(host), Some(Ok(address))) = (host, &address)
+                    && !self.allowed_hosts.contains(&host)
+                {
+                    let asks = (want, address.clone(), host);
+                    stocked.asks.get_or_insert(asks);
+                    continue;
+                }
                 stocked.fields.push(want.clone());
-                let (inner, worker, base) =
-                    (Rc::clone(inner), self.worker.clone(), shown.base.clone());
+                let (inner, worker) = (Rc::clone(inner), self.worker.clone());
                 spawn_local(async move {
-                    let outcome = field(&worker, &want, &base).await;
+                    let outcome = field(&worker, &want, address).await;
                     let on_news = {
                         let mut inner = inner.borrow_mut();
                         if let Some(stocked) = inner.stocks.get_mut(&id) {
@@ -891,17 +909,18 @@ impl Inner {
     }
 }
 
-/// Reads a displacement field of the page's own host.
-async fn field(worker: &Maker, want: &Want, base: &str) -> Result<crate::load::FieldFile, String> {
+/// Reads a displacement field from its address, if it has one.
+async fn field(
+    worker: &Maker,
+    want: &Want,
+    address: Option<Result<String, String>>,
+) -> Result<crate::load::FieldFile, String> {
     let missing = match &want.source {
         Source::Builtin(name) | Source::File { name, .. } => wanted_file(name),
     };
-    let src = want.src().ok_or_else(|| missing.clone())?;
-    let address = absolute(src, base)?;
-    if foreign_host(&address).is_some() {
-        return Err(missing);
-    }
+    let address = address.ok_or_else(|| missing.clone())??;
     let blob = fetched(&address).await.ok_or(missing)?;
+    let src = want.src().unwrap_or(&address);
     let name = src.rsplit('/').next().unwrap_or(src).to_owned();
     run::read_field(worker, name, blob).await
 }

@@ -212,6 +212,36 @@ fn another_host_is_asked_about_before_it_is_fetched_from() {
     assert_eq!(log.0.borrow().allowed, [ticket]);
 }
 
+#[test]
+fn a_field_on_another_host_is_asked_about() {
+    let log = Fake::default();
+    let json = r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [
+        { "kind": "field", "params": { "src": "https://fields.example/a.nrrd" } },
+        { "kind": "field", "params": { "src": "https://fields.example/b.nrrd" } },
+        { "kind": "field", "params": { "src": "https://other.example/c.nrrd" } } ] }"#;
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log.clone(), Some(json));
+    let asked = || log.0.borrow().fields.len();
+    assert_eq!(asked(), 3, "each once");
+    let question =
+        |host: &str| format!("This document displaces tissue by a file from {host}. Fetch it?");
+    let is_asked = |window: &Window, host: &str| {
+        let found = window.harness.query_all_by_label(&question(host)).count();
+        assert!(found <= 1, "one question about {host}");
+        found == 1
+    };
+    assert!(is_asked(&window, "fields.example") && is_asked(&window, "other.example"));
+    assert!(log.0.borrow().field_hosts.is_empty());
+    // The newest message stands lowest; the first host's is above it.
+    let buttons = window.harness.query_all_by_label("Fetch");
+    let first = buttons.map(|button| button.rect().center());
+    let first = first.min_by(|a, b| a.y.total_cmp(&b.y)).expect("a button");
+    window.click_at(first);
+    window.steps(3);
+    assert_eq!(log.0.borrow().field_hosts, ["fields.example"]);
+    assert_eq!(asked(), 5, "both of that host again, and no other");
+    assert!(!is_asked(&window, "fields.example") && is_asked(&window, "other.example"));
+}
+
 /// A file of the user's that was read: the bar, under a hash.
 fn file_arrives(log: &Fake, ticket: Ticket, before_done: Option<LoadEvent>) {
     let log = &mut *log.0.borrow_mut();

@@ -17,6 +17,10 @@ pub(crate) struct Log {
     pub(crate) answered_raw: Vec<(Ticket, RawVoxels)>,
     pub(crate) cancelled: Vec<Ticket>,
     pub(crate) allowed: Vec<Ticket>,
+    /// Displacement fields that were asked for.
+    pub(crate) fields: Vec<Want>,
+    /// Hosts that the reader lets fields come from.
+    pub(crate) field_hosts: Vec<String>,
     pub(crate) dialogs: usize,
     pub(crate) queue: Vec<Message>,
     pub(crate) next_ticket: u64,
@@ -190,6 +194,19 @@ impl Services for Fake {
     }
     fn allow_host(&mut self, ticket: Ticket) {
         self.0.borrow_mut().allowed.push(ticket);
+    }
+    fn load_field(&mut self, want: &Want) {
+        let log = &mut *self.0.borrow_mut();
+        log.fields.push(want.clone());
+        let host = want.src().and_then(|src| src.strip_prefix("https://"));
+        let host = host.and_then(|rest| Some(rest.split_once('/')?.0.to_owned()));
+        if let Some(host) = host.filter(|host| !log.field_hosts.contains(host)) {
+            let want = want.clone();
+            log.queue.push(Message::AskFieldHost { want, host });
+        }
+    }
+    fn allow_fields(&mut self, host: &str) {
+        self.0.borrow_mut().field_hosts.push(host.to_owned());
     }
     fn answer_raw(&mut self, ticket: Ticket, raw: &RawVoxels) {
         self.0.borrow_mut().answered_raw.push((ticket, raw.clone()));

@@ -23,6 +23,18 @@ async fn assert_accessible(tab: &Tab, what: &str) {
     assert!(broken.is_empty(), "{what}:\n{}", broken.join("\n"));
 }
 
+/// Plants a button without a name where the controls of a page of this kind stand, and fails if that is not found: what
+/// is told of the page above is looked for there.
+async fn assert_watched(tab: &Tab, room: &str, what: &str) {
+    let plant = format!("({room}.append(document.createElement('button')), true)");
+    tab.eval::<bool>(&plant).await;
+    let broken: Vec<String> = tab.eval(BROKEN).await;
+    let is_found = broken.iter().any(|line| line.starts_with("button-name"));
+    assert!(is_found, "{what}: a button without a name: {broken:?}");
+    tab.eval::<bool>(&format!("({room}.lastElementChild.remove(), true)"))
+        .await;
+}
+
 /// Role and name of everything that the browser tells assistive technology.
 async fn told(tab: &Tab) -> Vec<(String, String)> {
     let tree = tab.page.execute(GetFullAxTreeParams::default()).await;
@@ -91,12 +103,8 @@ fn an_embed_is_accessible() {
         rests_quietly(&tab).await;
         assert_accessible(&tab, "presenting").await;
 
-        tab.eval::<bool>("(e0.shadowRoot.querySelector('.bar button').removeAttribute('aria-label'), e0.shadowRoot.querySelector('.bar button').removeAttribute('title'), true)").await;
-        let broken: Vec<String> = tab.eval(BROKEN).await;
-        assert!(
-            broken.iter().any(|line| line.starts_with("button-name")),
-            "a button without a name is found: {broken:?}"
-        );
+        let bar = "e0.shadowRoot.querySelector('.bar')";
+        assert_watched(&tab, bar, "presenting").await;
     });
 }
 
@@ -111,6 +119,8 @@ fn pages_around_embeds_are_accessible() {
         let viewer = "document.querySelector('fabrica-viewer')";
         tab.wait_until(&is_ready(viewer), 120).await;
         assert_accessible(&tab, "embed.html").await;
+        let bar = format!("{viewer}.shadowRoot.querySelector('.controls')");
+        assert_watched(&tab, &bar, "embed.html").await;
         for page in [
             "index",
             "opening-the-skull",
@@ -128,6 +138,7 @@ fn pages_around_embeds_are_accessible() {
                 emulate(&tab, "", &[("prefers-color-scheme", scheme)]).await;
                 assert_accessible(&tab, &format!("{page}, {scheme}")).await;
             }
+            assert_watched(&tab, "document.querySelector('main')", page).await;
             tab.page.close().await.expect("the tab closes");
         }
     });
@@ -141,12 +152,19 @@ fn the_authors_page_is_accessible() {
         let tab = session.coarse_viewer(&format!("#{link}"), PAGE).await;
         tab.settled().await;
         assert_accessible(&tab, "the author's page").await;
+        assert_watched(&tab, "document.body", "the author's page").await;
     });
     with_browser(BrowserGpu::None, |session| async move {
         let tab = session.open("").await;
         let state = "document.documentElement.dataset.state === 'no-webgpu'";
         tab.wait_until(state, 60).await;
         assert_accessible(&tab, "the page without WebGPU").await;
+        assert_watched(
+            &tab,
+            "document.querySelector('#cover')",
+            "the page without WebGPU",
+        )
+        .await;
     });
 }
 
@@ -172,6 +190,8 @@ fn the_authors_controls_are_elements_for_who_asks() {
         tab.wait_until(&format!("Boolean({})", named("button", "Add")), 30)
             .await;
         assert_accessible(&tab, "with the controls as elements").await;
+        let mirror = "document.getElementById('mirror')";
+        assert_watched(&tab, mirror, "the controls as elements").await;
         let told = told(&tab).await;
         let count = |role: &str| told.iter().filter(|(its, _)| its == role).count();
         assert!(count("button") > 5, "{told:?}");

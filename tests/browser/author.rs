@@ -248,7 +248,8 @@ fn ctrl_f_finds_a_tissue() {
 
 // ---------------------------------------------------------------------------------------------------- tabs
 
-async fn to_front(tab: &Tab) {
+/// Brings a tab to the front that another one lies over.
+pub(crate) async fn to_front(tab: &Tab) {
     tab.page.bring_to_front().await.expect("the tab comes up");
     tab.wait_until("!document.hidden", 20).await;
     tab.frames(2).await;

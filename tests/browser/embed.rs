@@ -1,9 +1,12 @@
 //! The reader: illustrations as elements in somebody else's page.
 
+use super::author::to_front;
+use super::film::Film;
 use super::hand::{Touch, bring_to_front, pause, strike};
 use super::harness::{Session, Tab};
 use super::parts::small_scan;
 use super::*;
+use chromiumoxide::cdp::browser_protocol::emulation::SetCpuThrottlingRateParams;
 use chromiumoxide::cdp::browser_protocol::input::{
     DispatchMouseEventParams, DispatchMouseEventType,
 };
@@ -13,7 +16,7 @@ pub(crate) const LESSON: &str = r#"{"fabrica":1,"title":"Opening a cube","captio
 
 /// Counts what a page makes on its graphics device, its workers, frames and timers. Stands before all other scripts.
 const LEDGER: &[u8] = br"
-window.ledger = { textures: new Map(), buffers: new Map(), devices: new Set(), workers: new Set(), frames: 0, timers: 0 };
+window.ledger = { textures: new Map(), buffers: new Map(), devices: new Set(), workers: new Set(), frames: 0, due: new Set(), timers: 0 };
 const bytesPerTexel = (format) => ({ r8unorm: 1, r8uint: 1, r16float: 2, r16uint: 2, rg8unorm: 2, r32float: 4, r32uint: 4, rg16float: 4, rgba16float: 8, rg32float: 8, rgba32float: 16 })[format] ?? 4;
 function sizeOf({ size, format, mipLevelCount = 1 }) {
   const [width, height = 1, depth = 1] = Array.isArray(size) ? size : [size.width, size.height, size.depthOrArrayLayers];
@@ -49,10 +52,18 @@ window.Worker = class extends Plain {
   constructor(...args) { super(...args); ledger.workers.add(this); }
   terminate() { ledger.workers.delete(this); super.terminate(); }
 };
-for (const [name, count] of [['requestAnimationFrame', 'frames'], ['setTimeout', 'timers'], ['setInterval', 'timers']]) {
+for (const name of ['setTimeout', 'setInterval']) {
   const plain = window[name];
-  window[name] = (...args) => { ledger[count] += 1; return plain(...args); };
+  window[name] = (...args) => { ledger.timers += 1; return plain(...args); };
 }
+window.requestAnimationFrame = (act) => {
+  ledger.frames += 1;
+  const id = plainFrame((time) => { ledger.due.delete(id); act(time); });
+  ledger.due.add(id);
+  return id;
+};
+const plainCancel = window.cancelAnimationFrame.bind(window);
+window.cancelAnimationFrame = (id) => { ledger.due.delete(id); plainCancel(id); };
 ledger.bytes = () => ['textures', 'buffers'].flatMap((kept) => [...ledger[kept].values()]).reduce((sum, { bytes }) => sum + bytes, 0);
 ledger.volumes = () => [...ledger.textures.values()].filter(({ label }) => label === 'volume').length;
 // For the waits of the tests: frames of the browser.
@@ -65,7 +76,7 @@ for (const name of ['ready', 'stepchange', 'paramchange', 'viewchange', 'error']
 ";
 
 /// A page with embeds of these attributes, the first with the id `e0`, under the policy that the documentation names.
-fn page_of(embeds: &[String], between: &str) -> Vec<u8> {
+fn page_of(embeds: &[String], between: &str) -> String {
     let embeds: Vec<String> = embeds
         .iter()
         .enumerate()
@@ -75,7 +86,6 @@ fn page_of(embeds: &[String], between: &str) -> Vec<u8> {
         "<!doctype html><html lang=en><meta name=viewport content=\"width=device-width\"><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; img-src 'self' data:; style-src 'self'\"><link rel=stylesheet href=tall.css><title>A lesson</title><script src=ledger.js></script><script type=module src=fabrica-viewer.js></script><main><h1>A lesson</h1>{}</main></html>",
         embeds.join(between)
     )
-    .into_bytes()
 }
 
 pub(crate) fn lesson(attributes: &str) -> String {
@@ -104,13 +114,21 @@ pub(crate) async fn open_coarse(
     session.open_coarse("lesson.html", size).await
 }
 
+/// Serves such a page under another policy, with the second text in place of the first.
+pub(crate) fn serve_where(session: &Session, name: &str, embeds: &[String], policy: [&str; 2]) {
+    serve(session, embeds, "");
+    let page = page_of(embeds, "").replace(policy[0], policy[1]);
+    session.server.add(name, page.into_bytes());
+}
+
 fn serve(session: &Session, embeds: &[String], between: &str) {
     session.server.add("ledger.js", LEDGER.to_vec());
     session.server.add(
         "tall.css",
         b".tall { height: 5000px } .narrow { max-width: 200px; margin: 40px auto }".to_vec(),
     );
-    session.server.add("lesson.html", page_of(embeds, between));
+    let page = page_of(embeds, between);
+    session.server.add("lesson.html", page.into_bytes());
 }
 
 /// Waits until so many embeds have told that they are ready.
@@ -124,6 +142,11 @@ pub(crate) async fn ready(tab: &Tab, number: usize) {
         .eval("window.told.filter(([name]) => name === 'error')")
         .await;
     assert!(faults.is_empty(), "{faults:?}");
+    // Captions are placed with the first picture that there is.
+    let blank: Vec<String> = tab
+        .eval("[...document.querySelectorAll('fabrica-viewer')].filter(({ shadowRoot }) => shadowRoot?.querySelector('.ready .layer')?.style.visibility === 'hidden').map(({ id }) => id)")
+        .await;
+    assert!(blank.is_empty(), "ready without a picture: {blank:?}");
 }
 
 /// The place of an embed's picture: left, top, width, height, CSS pixels.
@@ -240,6 +263,38 @@ fn an_embed_walks_its_steps_and_takes_values() {
             "back to the lesson"
         );
 
+        // A lost device comes back to the same picture.
+        let before = tab.picture("embed_before_the_loss").await;
+        tab.eval::<bool>("(told.length = 0, devices.at(-1).destroy(), true)")
+            .await;
+        tab.wait_until("devices.length === 2 && ledger.devices.size === 1", 60)
+            .await;
+        rests_at(&tab, "e0", 0).await;
+        let after = tab.picture("embed_after_the_loss").await;
+        let off = difference(&before, &after, WHITE).mean;
+        assert!(off < 0.2, "the same picture after a loss: {off}");
+        assert_eq!(
+            tab.eval::<usize>("told.length").await,
+            0,
+            "nothing is told of it"
+        );
+
+        // Behind another tab a lesson that plays asks for no frame and holds no timer.
+        tab.eval::<bool>("(e0.play(), true)").await;
+        let other = session.open("icon.svg").await;
+        tab.wait_until("document.hidden", 20).await;
+        pause(1000).await;
+        tab.eval::<bool>("(ledger.frames = ledger.timers = 0, true)")
+            .await;
+        pause(2000).await;
+        let asked: [u32; 2] = tab.eval("[ledger.frames, ledger.timers]").await;
+        assert_eq!(asked, [0, 0]);
+        other.page.close().await.expect("the tab closes");
+        to_front(&tab).await;
+        tab.wait_until("e0.step > 0", 20).await;
+        tab.eval::<bool>("(e0.pause(), e0.step = 0, true)").await;
+        rests_at(&tab, "e0", 0).await;
+
         // Another lesson of the same subject is shown on the same device, from the same volume.
         let volumes: Vec<u32> = tab.eval("[ledger.devices.size, ledger.volumes()]").await;
         let plain = payload(PLAIN);
@@ -308,8 +363,13 @@ fn many_embeds_are_guests_and_share_what_they_need() {
                 "nobody took the keyboard"
             );
             let _: bool = tab.eval("(globalThis.prevented = 0, addEventListener('contextmenu', (event) => { prevented += event.defaultPrevented; }), true)").await;
-            for index in [0, 3, 7] {
+            let fingers = match width {
+                390 => Some(Touch::new(&tab).await),
+                _ => None,
+            };
+            for index in 0..8 {
                 let embed = format!("e{index}");
+                let way = if index == 7 { -120.0 } else { 120.0 };
                 tab.eval::<bool>(&format!(
                     "({embed}.scrollIntoView({{ block: 'center' }}), true)"
                 ))
@@ -319,9 +379,14 @@ fn many_embeds_are_guests_and_share_what_they_need() {
                 let before: f64 = tab.eval("scrollY").await;
                 let mut wheel =
                     DispatchMouseEventParams::new(DispatchMouseEventType::MouseWheel, x, y);
-                (wheel.delta_x, wheel.delta_y) =
-                    (Some(0.0), Some(if index == 7 { -120.0 } else { 120.0 }));
+                (wheel.delta_x, wheel.delta_y) = (Some(0.0), Some(way));
                 tab.page.execute(wheel).await.expect("a wheel");
+                tab.wait_until(&format!("scrollY !== {before}"), 10).await;
+                let Some(fingers) = &fingers else { continue };
+                let (x, y) = middle(&tab, &embed).await;
+                let before: f64 = tab.eval("scrollY").await;
+                let there = y - 0.5 * way;
+                fingers.swipe(&[[(x, y), (x, there)]]).await;
                 tab.wait_until(&format!("scrollY !== {before}"), 10).await;
             }
             let moved: Vec<serde_json::Value> = tab
@@ -366,7 +431,7 @@ fn many_embeds_are_guests_and_share_what_they_need() {
 
 pub(crate) async fn rests_quietly(tab: &Tab) {
     tab.wait_until(
-        "(globalThis.quiet = ledger.frames === globalThis.was ? (globalThis.quiet ?? 0) + 1 : 0, globalThis.was = ledger.frames, globalThis.quiet > 8)",
+        "(globalThis.quiet = ledger.due.size === 0 && ledger.frames === globalThis.was ? (globalThis.quiet ?? 0) + 1 : 0, globalThis.was = ledger.frames, globalThis.quiet > 8)",
         120,
     )
     .await;
@@ -435,6 +500,24 @@ fn an_embed_is_entered_and_left() {
             );
         }
         assert!(seen.len() < 40, "Tab leads out: {seen:?}");
+        // And out at the first end, to what stands before it.
+        tab.eval::<bool>("(document.querySelector('h1').tabIndex = 0, e0.shadowRoot.querySelector('.stage').focus(), true)").await;
+        strike(&tab, 8, "Tab", None).await;
+        let before: String = tab.eval("document.activeElement.tagName").await;
+        assert_eq!(before, "H1", "Shift and Tab lead out");
+
+        // Controls speak the language of the page.
+        let mut words = Vec::new();
+        for lang in ["de", "es", "zh", "en"] {
+            tab.eval::<bool>(&format!("(e0.lang = '{lang}', true)"))
+                .await;
+            let next = "e0.shadowRoot.querySelector('[part~=next]').title";
+            words.push(tab.eval::<String>(next).await);
+        }
+        assert_eq!(
+            words,
+            ["Nächster Schritt", "Paso siguiente", "下一步", "Next step"]
+        );
 
         // A mouse turns the object without entering; a click enters, the wheel zooms, a press elsewhere leaves.
         tab.eval::<bool>("(e0.reset(), told.length = 0, true)")
@@ -608,6 +691,114 @@ fn a_poster_stays_until_there_is_a_picture() {
         assert_eq!(lazy.eval::<u32>(wasm).await, 0);
         lazy.eval::<bool>("(e1.scrollIntoView(), true)").await;
         ready(&lazy, 1).await;
+    });
+}
+
+/// Of an embed's picture: the share that has the colours of the poster, and the share that has the background of the
+/// illustration.
+fn poster_and_ground(page: &image::RgbaImage, place: [f64; 4]) -> [f32; 2] {
+    let [left, top, width, height] = place.map(|v| v as u32);
+    let part = image::imageops::crop_imm(page, left, top, width, height).to_image();
+    let share = |color: [u8; 3]| {
+        let is_it = |p: &&image::Rgba<u8>| (0..3).all(|k| p[k].abs_diff(color[k]) <= 8);
+        part.pixels().filter(is_it).count() as f32 / part.pixels().len() as f32
+    };
+    [share(POSTER), share(GROUND)]
+}
+
+const POSTER: [u8; 3] = [200, 0, 160];
+const GROUND: [u8; 3] = [0x10, 0x50, 0x28];
+
+/// The poster is painted where scripts are blocked, and before a byte of the program has come; no frame between it and
+/// the picture is blank.
+#[test]
+fn no_frame_is_blank_from_the_poster_to_the_picture() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let mut png = Vec::new();
+        let [r, g, b] = POSTER;
+        image::RgbImage::from_pixel(64, 48, image::Rgb([r, g, b]))
+            .write_to(&mut std::io::Cursor::new(&mut png), image::ImageFormat::Png)
+            .expect("a PNG");
+        session.server.add("poster.png", png);
+        let json =
+            r##"{"fabrica":1,"subject":{"builtin":"cube"},"look":{"background":"#105028"}}"##;
+        let embed = format!(
+            "src=\"#{}\"><img src=poster.png alt=Poster width=64 height=48><p>What is to be seen.</p>",
+            payload(json)
+        );
+        let policy = ["script-src 'self' 'wasm-unsafe-eval'", "script-src 'none'"];
+        serve_where(
+            &session,
+            "blocked.html",
+            std::slice::from_ref(&embed),
+            policy,
+        );
+        let image = "document.querySelector('fabrica-viewer img')";
+        let place = format!(
+            "(({{ x, y, width, height }}) => [x, y, width, height])({image}.getBoundingClientRect())"
+        );
+        // Without the element's style the poster has a size of its own.
+        let blocked = session.open_sized("blocked.html", (320, 500)).await;
+        blocked
+            .wait_until(&format!("{image}?.complete === true"), 20)
+            .await;
+        let shown = blocked.picture("embed_poster_blocked").await;
+        let [poster, _] = poster_and_ground(&shown, blocked.eval(&place).await);
+        assert!(poster > 0.95, "{poster} of the poster without scripts");
+        let text: String = blocked.text().await;
+        assert!(text.contains("What is to be seen."), "{text}");
+        blocked.page.close().await.expect("the tab closes");
+
+        let program = "fabrica_reader_bg.wasm";
+        session.server.hold(program, true);
+        let tab = open(&session, &[embed], "", (320, 500)).await;
+        bring_to_front(&tab).await;
+        let is_asked = || {
+            session
+                .server
+                .asked()
+                .iter()
+                .any(|path| path.contains(program))
+        };
+        while !is_asked() {
+            tab.frames(2).await;
+        }
+        let place: [f64; 4] = tab.eval(&place).await;
+        let shown = tab.picture("embed_poster_waiting").await;
+        let [poster, _] = poster_and_ground(&shown, place);
+        assert!(poster > 0.95, "{poster} of the poster on a slow connection");
+        let film = Film::start(&tab).await;
+        // Slow, so that data come to the device in pieces.
+        let throttle = SetCpuThrottlingRateParams::new(6.0);
+        tab.page.execute(throttle).await.expect("a slow processor");
+        session.server.hold(program, false);
+        ready(&tab, 1).await;
+        rests_quietly(&tab).await;
+        // The browser sends frames a little later than it shows them.
+        film.shows(|frame| poster_and_ground(frame, place)[1] > 0.2)
+            .await;
+        let frames = film.end().await;
+        let shares: Vec<[f32; 2]> = frames
+            .iter()
+            .map(|frame| poster_and_ground(frame, place))
+            .collect();
+        let is_other = |pair: &&[[f32; 2]]| pair[0] != pair[1];
+        let changes: Vec<_> = shares.windows(2).filter(is_other).collect();
+        println!("{} frames, changes: {changes:?}", shares.len());
+        let (first, last) = (shares[0], shares[shares.len() - 1]);
+        assert!(
+            first[0] > 0.95 && last[1] > 0.2 && last[0] == 0.0,
+            "{changes:?}"
+        );
+        let blank = shares
+            .iter()
+            .find(|[poster, ground]| *poster < 0.95 && *ground < 0.8 * last[1]);
+        assert!(blank.is_none(), "a frame has neither: {blank:?}");
+        // The page around it is blank, and is found to be that.
+        let [x, y, width, height] = place;
+        let around = poster_and_ground(&frames[0], [x, y + height + 20.0, width, 40.0]);
+        assert_eq!(around, [0.0, 0.0]);
+        tab.assert_no_complaints().await;
     });
 }
 

@@ -1,6 +1,6 @@
 //! The reader in frames, from other hosts, and in pages that platforms have mangled; the lesson pages.
 
-use super::embed::LESSON;
+use super::embed::{LESSON, picture_of, ready, rests_quietly, serve_where};
 use super::harness::{Session, Tab};
 use super::parts::small_scan;
 use super::*;
@@ -176,6 +176,82 @@ fn without_workers_the_page_does_their_work() {
                 .await;
             tab.page.close().await.expect("the tab closes");
         }
+    });
+}
+
+/// What lies on another host is fetched once the reader agrees: a displacement field; a document, with the subject that
+/// lies beside it. Where that host does not allow it, a sentence says what to set.
+#[test]
+fn another_host_is_asked_about_first() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let far = session.server.beside();
+        let host = far.address();
+        let mut table = String::from("x,y,z,dx,dy,dz\n");
+        for i in 0..125 {
+            let at = [i % 5, i / 5 % 5, i / 25].map(|n| f64::from(n) * 40.0 - 80.0);
+            table += &format!(
+                "{},{},{},0,{},0\n",
+                at[0],
+                at[1],
+                at[2],
+                0.3 * (at[0] + 80.0)
+            );
+        }
+        far.add("nodes.csv", table.into_bytes());
+        far.add("ball.nrrd", small_scan());
+        let ball = br#"{"fabrica":1,"subject":{"src":"ball.nrrd"}}"#;
+        far.add("ball.json", ball.to_vec());
+        far.add("own.json", ball.to_vec());
+        far.keep_to_itself("own.json");
+        let asked = || far.asked().len();
+        let field = payload(&format!(
+            r#"{{"fabrica":1,"subject":{{"builtin":"cube"}},"templates":[{{"kind":"field","params":{{"src":"{host}/nodes.csv"}}}}]}}"#
+        ));
+        let embeds = [format!("src=\"#{field}\">")];
+        let policy = ["connect-src 'self'", &format!("connect-src 'self' {host}")];
+        serve_where(&session, "elsewhere.html", &embeds, policy);
+        let tab = session.open_coarse("elsewhere.html", (320, 500)).await;
+        let words = "e0.shadowRoot.querySelector('.words')";
+        let name = host.trim_start_matches("http://");
+        let asks = format!(
+            "(e0.shadowRoot && {words}?.hidden === false && {words}.textContent.includes('{name}'))"
+        );
+        let agree = format!("({words}.querySelector('button').click(), true)");
+        ready(&tab, 1).await;
+        tab.wait_until(&asks, 60).await;
+        assert_eq!(asked(), 0, "nothing is fetched unasked");
+        let straight = picture_of(&tab, "e0").await;
+        tab.eval::<bool>(&agree).await;
+        // A notice tells how the nodes were taken.
+        tab.wait_until("told.some(([name, , detail]) => name === 'error' && detail.message.includes('125 nodes'))", 60)
+            .await;
+        rests_quietly(&tab).await;
+        assert_eq!(far.asked(), ["/nodes.csv"]);
+        let bent = picture_of(&tab, "e0").await;
+        let off = difference(&straight, &bent, WHITE).mean;
+        assert!(off > 0.5, "the field displaces: {off}");
+
+        // A document, by the address of a page that shows it.
+        let show = |file: &str| {
+            format!("(told.length = 0, e0.setAttribute('src', '?doc={host}/{file}'), true)")
+        };
+        tab.eval::<bool>(&show("ball.json")).await;
+        tab.wait_until(&asks, 60).await;
+        assert_eq!(asked(), 1, "nor is a document");
+        tab.eval::<bool>(&agree).await;
+        ready(&tab, 1).await;
+        assert_eq!(
+            far.asked()[1..],
+            ["/ball.json", "/ball.nrrd"],
+            "one answer is enough"
+        );
+        tab.eval::<bool>(&show("own.json")).await;
+        tab.wait_until(&asks, 60).await;
+        tab.eval::<bool>(&agree).await;
+        tab.wait_until("told.some(([name]) => name === 'error')", 60)
+            .await;
+        let said: String = tab.eval(&format!("{words}.textContent")).await;
+        assert!(said.contains("Access-Control-Allow-Origin: *"), "{said}");
     });
 }
 

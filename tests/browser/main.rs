@@ -11,6 +11,7 @@ mod compare;
 mod data;
 mod embed;
 mod files;
+mod film;
 mod frame;
 mod hand;
 mod harness;

@@ -1,7 +1,7 @@
 //! A lesson before a room: keys as of a slide program, a black screen, a spotlight, a QR code, and all as it was after.
 
 use super::embed::{LESSON, lesson, open_coarse, ready, rests_quietly, stage};
-use super::hand::{Touch, bring_to_front, pause, strike};
+use super::hand::{Touch, bring_to_front, strike};
 use super::harness::{Session, Tab};
 use super::*;
 use chromiumoxide::cdp::browser_protocol::input::DispatchMouseEventType;
@@ -246,7 +246,6 @@ fn a_frame_is_filled_and_walked_by_fingers() {
         touch.tap_at((x + 30.0, y + 250.0)).await;
         tab.wait_until(&format!("{step} === 0"), 10).await;
         touch.tap_at((x + 250.0, y + 250.0)).await;
-        pause(3000).await;
         tab.picture("present_phone").await;
         tab.eval::<bool>(&format!(
             "({}.click(), true)",

@@ -1,7 +1,7 @@
 //! A server on localhost for the built page and for files that a test adds. Each test has its own, at its own port:
 //! what one test adds is not there for the next, and origins are fresh.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::{TcpListener, TcpStream};
 use std::path::PathBuf;
@@ -19,6 +19,10 @@ struct Shared {
     folder: PathBuf,
     added: Mutex<BTreeMap<String, Vec<u8>>>,
     asked: Mutex<Vec<String>>,
+    /// Files whose answers wait.
+    held: Mutex<BTreeSet<String>>,
+    /// Files that other hosts may not have.
+    own: Mutex<BTreeSet<String>>,
 }
 
 impl Server {
@@ -33,6 +37,8 @@ impl Server {
             folder,
             added: Mutex::default(),
             asked: Mutex::default(),
+            held: Mutex::default(),
+            own: Mutex::default(),
         });
         let for_thread = Arc::clone(&shared);
         std::thread::spawn(move || {
@@ -58,6 +64,21 @@ impl Server {
     pub(crate) fn add(&self, name: &str, bytes: Vec<u8>) {
         let mut added = self.shared.added.lock().expect("no answer panicked");
         added.insert(name.to_owned(), bytes);
+    }
+
+    /// Answers nothing to who asks for `/name`, as on a slow connection, until it is let go.
+    pub(crate) fn hold(&self, name: &str, is_held: bool) {
+        let mut held = self.shared.held.lock().expect("no answer panicked");
+        let _changed = match is_held {
+            true => held.insert(name.to_owned()),
+            false => held.remove(name),
+        };
+    }
+
+    /// Gives `/name` to pages of its own host alone.
+    pub(crate) fn keep_to_itself(&self, name: &str) {
+        let mut own = self.shared.own.lock().expect("no answer panicked");
+        own.insert(name.to_owned());
     }
 
     /// Paths that were asked for, in order.
@@ -92,6 +113,10 @@ impl Shared {
         if let Ok(mut asked) = self.asked.lock() {
             asked.push(target.clone());
         }
+        let is_held = || self.held.lock().is_ok_and(|held| held.contains(name));
+        while is_held() {
+            std::thread::sleep(Duration::from_millis(10));
+        }
         let added = self.added.lock().ok().and_then(|a| a.get(name).cloned());
         let body = added.or_else(|| {
             (!name.contains("..")).then(|| std::fs::read(self.folder.join(name)).ok())?
@@ -110,8 +135,13 @@ impl Shared {
             Some(body) => ("200 OK", body),
             None => ("404 Not Found", b"no such file".to_vec()),
         };
+        let is_own = self.own.lock().is_ok_and(|own| own.contains(name));
+        let allowed = match is_own {
+            true => "",
+            false => "Access-Control-Allow-Origin: *\r\n",
+        };
         let head = format!(
-            "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nCache-Control: no-store\r\nAccess-Control-Allow-Origin: *\r\nConnection: close\r\n\r\n",
+            "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nCache-Control: no-store\r\n{allowed}Connection: close\r\n\r\n",
             body.len()
         );
         let _sent = stream

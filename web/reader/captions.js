@@ -59,8 +59,8 @@ export class Captions {
     return GAP;
   }
 
-  /** Puts every caption where its tissue is: six numbers each (see Reader.captions). */
-  place(found) {
+  /** Puts every caption where its tissue is: six numbers each (see Reader.captions), in a picture of this width, CSS pixels. */
+  place(found, width) {
     const seen = new Map();
     for (let i = 0; i < found.length; i += 6) seen.set(found[i], found.subarray(i + 1, i + 6));
     this.#items.forEach(({ item, note, parts }, index) => {
@@ -74,10 +74,10 @@ export class Captions {
       for (const part of parts) part.style.display = isPlaced ? "" : "none";
       if (!isPlaced) return;
       item.style.transform = `translate(${left}px, ${top}px)`;
-      const [width, height] = this.#sizes.subarray(2 * index, 2 * index + 2);
-      // The line begins at the side of the text that is nearer to the tissue.
-      const from = x < left ? left - 2 : left + width + 2;
-      const path = `M${from} ${top + 0.5 * height}L${x} ${y}`;
+      const [wide, high] = this.#sizes.subarray(2 * index, 2 * index + 2);
+      // The line begins at the inner side of its column.
+      const from = x < 0.5 * width ? left + wide + 2 : left - 2;
+      const path = `M${from} ${top + 0.5 * high}L${x} ${y}`;
       parts[0].setAttribute("d", path);
       parts[1].setAttribute("d", path);
       parts[2].setAttribute("cx", x);

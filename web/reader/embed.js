@@ -67,6 +67,10 @@ export class Embed {
   #lang = "en";
   /** Where the document came from: its text, its base and, if it has one, its address. */
   #from = null;
+  /** The host that its reader has agreed to fetch from. */
+  #allowed = null;
+  /** A question or a fault stands there that the picture before, which may still be drawn, knows nothing of. */
+  #isTold = false;
   #presentation = null;
 
   constructor(host, root, step) {
@@ -275,6 +279,7 @@ export class Embed {
   /** Shows what `src` names. */
   async open() {
     const opening = ++this.#opening;
+    this.#isTold = false;
     const isStale = () => opening !== this.#opening;
     try {
       const source = sourceOf(this.#host.getAttribute("src") ?? "");
@@ -301,7 +306,9 @@ export class Embed {
         engine.release();
       }
     } catch (error) {
-      if (!isStale()) this.fail(error);
+      if (isStale()) return;
+      this.#isTold = true;
+      this.fail(error);
     }
   }
 
@@ -318,6 +325,7 @@ export class Embed {
     canvas.part = "picture";
     canvas.setAttribute("role", "img");
     const before = this.id;
+    if (this.#allowed) engine.reader.allow_host(this.#allowed);
     this.id = engine.add(this, canvas, { text: source.text, base, step });
     this.#presentation?.leave?.();
     this.#engine = engine;
@@ -340,7 +348,9 @@ export class Embed {
     const { origin, host } = new URL(address);
     if (["null", self.origin, new URL(import.meta.url).origin].includes(origin)) return;
     this.#build();
+    this.#isTold = true;
     await new Promise((agree) => this.#ask(this.#words.host(host), this.#words.fetch, agree));
+    [this.#isTold, this.#allowed] = [false, host];
   }
 
   /** Gives back what only this embed has used. */
@@ -482,7 +492,7 @@ export class Embed {
       const { reader } = this.#engine;
       marks.show(reader.marks(this.id), this.#words);
       const room = [stage.clientWidth, stage.clientHeight, captions.gap, ...marks.room];
-      captions.place(reader.captions(this.id, captions.sizes(), new Float32Array(room)));
+      captions.place(reader.captions(this.id, captions.sizes(), new Float32Array(room)), room[0]);
       layer.style.visibility = "";
       this.#parts.before?.remove();
     }
@@ -524,23 +534,30 @@ export class Embed {
     if (!this.#engine) return this.#state;
     const before = this.#state;
     this.#state = JSON.parse(this.#engine.reader.state(this.id, seconds()));
-    const { step, host, file, failed, troubles, progress, wait } = this.#state;
+    const { step, troubles, wait } = this.#state;
     if (before.step !== step) {
       this.#heedTexts();
       this.#arrived(step);
     }
     for (const message of (troubles ?? []).slice(before.troubles?.length ?? 0)) this.#tell("error", { message });
     this.#show();
-    if (failed && !before.failed && !file) this.#parts.words.textContent = `${this.#words.cannot} ${troubles.at(-1) ?? ""}`;
-    else if (host) this.#ask(this.#words.host(host), this.#words.fetch, () => this.#engine.reader.allow(this.id));
-    else if (file) this.#askFile();
-    else if (!this.isReady && progress !== null) this.#wait(progress);
-    else if (!failed) this.#parts.words.hidden = true;
-    if (failed) this.#parts.words.hidden = false;
+    if (!this.#isTold) this.#showLoad(before.failed);
     clearTimeout(this.#timer);
     // A lesson that plays by itself sleeps until the next step.
     if (wait !== null && wait !== undefined) this.#timer = setTimeout(() => this.#wake(), 1000 * Math.max(wait, 0) + 5);
     return this.#state;
+  }
+
+  /** Words about what is fetched for the picture, or was not to be had. */
+  #showLoad(hadFailed) {
+    const { host, file, failed, troubles, progress } = this.#state;
+    const { words } = this.#parts;
+    if (failed && !hadFailed && !file) words.textContent = `${this.#words.cannot} ${troubles.at(-1) ?? ""}`;
+    else if (host) this.#ask(this.#words.host(host), this.#words.fetch, () => this.#engine.reader.allow(this.id));
+    else if (file) this.#askFile();
+    else if (!this.isReady && progress !== null) this.#wait(progress);
+    else if (!failed) words.hidden = true;
+    if (failed) words.hidden = false;
   }
 
   #arrived(step) {

@@ -16,9 +16,10 @@ pub(crate) fn is_dark(background: Background) -> bool {
     }
 }
 
-/// Where a caption's line begins: in the middle of the side that faces its tissue.
-pub(crate) fn line_start(text: Rect, at: Pos2, gap: f32) -> Pos2 {
-    if text.center().x < at.x {
+/// Where the line of a caption begins that [`arranged`] has placed in an area: in the middle of the inner side of its
+/// column. `at` is the place of its tissue, `middle` that of the area.
+pub(crate) fn line_start(text: Rect, at: Pos2, middle: f32, gap: f32) -> Pos2 {
+    if at.x < middle {
         text.right_center() + vec2(gap, 0.0)
     } else {
         text.left_center() - vec2(gap, 0.0)

@@ -95,7 +95,7 @@ impl Followed {
             let rect = places[i];
             let fade = if is_hidden { 0.55 } else { 1.0 };
             let (ink, ground) = (ink.gamma_multiply(fade), ground.gamma_multiply(fade));
-            let from = line_start(rect, at, 4.0);
+            let from = line_start(rect, at, free.center().x, 4.0);
             painter.line_segment([from, at], Stroke::new(3.0, ground));
             painter.line_segment([from, at], Stroke::new(1.2, ink));
             painter.circle_filled(at, 4.0, ground);

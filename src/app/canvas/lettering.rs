@@ -192,7 +192,7 @@ pub(crate) fn letter_with(
     for (((galley, _, is_hidden), at), rect) in texts.iter().zip(&points).zip(places) {
         mask.write(ctx, galley, rect.min);
         mask.line(
-            caption_layout::line_start(rect, *at, 0.3 * letters),
+            caption_layout::line_start(rect, *at, free.center().x, 0.3 * letters),
             *at,
             0.1 * letters,
         );

@@ -133,12 +133,17 @@ fn notice_ui(ui: &mut Ui, notice: &Notice, commands: &mut Vec<Command>) {
                     }
                 });
             });
-            let keeps_templates = notice.offer == Some(Offer::KeepTemplates);
-            let keep = w().keep_templates;
-            if keeps_templates
-                && widget::labelled_button(ui, Icon::Layers, keep, true, true).clicked()
+            let offered = notice.offer.as_ref().map(|offer| match offer {
+                Offer::KeepTemplates => (Icon::Layers, w().keep_templates, Command::KeepTemplates),
+                Offer::FetchFields(host) => {
+                    let allow = Command::AllowFields(notice.id, host.clone());
+                    (Icon::Download, w().fetch, allow)
+                }
+            });
+            if let Some((icon, name, command)) = offered
+                && widget::labelled_button(ui, icon, name, true, true).clicked()
             {
-                commands.push(Command::KeepTemplates);
+                commands.push(command);
             }
             if notice.is_unfolded {
                 let text = RichText::new(&notice.details).small().color(palette.weak);

@@ -162,6 +162,8 @@ pub enum Command {
     CancelLoad,
     /// Fetches from the host that was asked about.
     AllowHost,
+    /// Fetches displacement fields from this host; answers the message of this number.
+    AllowFields(u64, String),
     /// Answers the question what a mesh file is to be.
     UseMesh(MeshUse),
     /// Answers the question how the voxels of a bare file lie.

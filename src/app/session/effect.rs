@@ -49,6 +49,8 @@ pub enum Effect {
     CancelLoad(Ticket),
     /// Let a load fetch from the host that the user was asked about.
     AllowHost(Ticket),
+    /// Fetch displacement fields from this host.
+    AllowFields(String),
     /// Go on with the mesh of this hash that was held back: it becomes the subject.
     ShowMesh(String),
     /// Let go of the mesh that was held back.

@@ -29,10 +29,12 @@ impl Gravity {
 }
 
 /// What a message offers to do by a button.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Offer {
     /// The templates of the document that was left come into the new one.
     KeepTemplates,
+    /// Displacement fields are fetched from this host.
+    FetchFields(String),
 }
 
 /// One message to the user; kept when it is no longer shown.

@@ -154,6 +154,10 @@ impl Session {
                     self.effects.push(Effect::AllowHost(load.ticket));
                 }
             }
+            Command::AllowFields(notice, host) => {
+                self.notices.dismiss(notice);
+                self.effect(Effect::AllowFields(host));
+            }
             Command::UseMesh(answer) => self.use_mesh(answer),
             Command::Raw(command) => self.run_raw(command),
             Command::See(see) => self.run_see(see),

@@ -8,13 +8,14 @@ use super::effect::{Effect, LinkChange};
 use super::files::{FileChoice, RawDraft};
 use super::library::Library;
 use super::mode::Mode;
-use super::notices::{Gravity, Notices};
+use super::notices::{Gravity, Notices, Offer};
 use super::selection::Selection;
 use super::ticket::Ticket;
 use super::tissues::Tissues;
 use super::tool::Tool;
 use super::tracing::Tracing;
 use super::view::ViewState;
+use crate::app::words::{fill, messages};
 use crate::assets::Want;
 use crate::data::Subject;
 use crate::data::SubjectFrame;
@@ -383,6 +384,13 @@ impl Session {
     ) {
         self.notices
             .add(self.now, gravity, message.into(), details.into());
+    }
+
+    /// A displacement field of the document lies on another host: a message offers to fetch it.
+    pub fn ask_for_fields(&mut self, host: &str) {
+        let text = fill(messages::w().fetch_field, &[&host]);
+        let offer = Offer::FetchFields(host.to_owned());
+        self.notices.offer(self.now, offer, text);
     }
 
     // ------------------------------------------------------------------------------------------------ the tool

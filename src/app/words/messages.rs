@@ -38,6 +38,7 @@ words! {
         details: "Details", "Einzelheiten", "Detalles", "详情";
         dismiss: "Dismiss", "Ausblenden", "Descartar", "关闭";
         fetch_it: "This document shows a scan from {0}. Fetch it?", "Dieses Dokument zeigt einen Scan von {0}. Laden?", "Este documento muestra un estudio de {0}. ¿Descargarlo?", "此文档显示来自 {0} 的扫描。要获取吗？";
+        fetch_field: "This document displaces tissue by a file from {0}. Fetch it?", "Dieses Dokument verschiebt Gewebe nach einer Datei von {0}. Laden?", "Este documento desplaza tejido según un archivo de {0}. ¿Descargarlo?", "此文档按来自 {0} 的文件移动组织。要获取吗？";
         fetch: "Fetch", "Laden", "Descargar", "获取";
         no: "No", "Nein", "No", "否";
         cancel_loading: "Cancel loading", "Laden abbrechen", "Cancelar la carga", "取消载入";
