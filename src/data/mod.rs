@@ -53,8 +53,9 @@ pub use statistics::{Histogram, Statistics};
 pub use subject::{Space, Subject};
 pub use subject_builder::SubjectBuilder;
 pub use surface::{
-    FIELD_MARGIN, FIELD_VOXELS, MAX_SURFACE_SEGMENTS, Nearest, PLAIN_SRGB, Surface, SurfaceArrays,
-    SurfaceError, SurfaceField, SurfaceSegment, Tree, TreeNode, Triangle, times_inside,
+    CARVER_MARGIN, Carver, CarverLevel, FIELD_MARGIN, FIELD_VOXELS, MAX_SURFACE_SEGMENTS, Nearest,
+    PLAIN_SRGB, Surface, SurfaceArrays, SurfaceError, SurfaceField, SurfaceSegment, Tree, TreeNode,
+    Triangle, times_inside,
 };
 pub use time_slices::TimeSlices;
 pub use volume::{Grid, Segment, Segmentation, Volume, Voxels};

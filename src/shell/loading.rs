@@ -95,8 +95,8 @@ pub fn make_subject(
     }
 }
 
-/// Makes a built-in subject that is a mesh, or a tool.
-pub fn make_mesh(name: &str, post: &mut dyn Post) {
+/// Makes a built-in subject that is a mesh, or a tool; `carves`: one that a template carves by.
+pub fn make_mesh(name: &str, carves: bool, post: &mut dyn Post) {
     let Some(mesh) = mesh(name).or_else(|| tool(name)) else {
         post.post(LoadEvent::Failed {
             message: SubjectError::UnknownName(name.chars().take(40).collect()).to_string(),
@@ -110,6 +110,11 @@ pub fn make_mesh(name: &str, post: &mut dyn Post) {
         last_fraction: 0.0,
         is_stopped: false,
     };
+    let mut carving = Carving(&mut sink);
+    let sink: &mut dyn SubjectSink = match carves {
+        true => &mut carving,
+        false => carving.0,
+    };
     let surface = Surface::new(&mesh, None, &mut |part| sink.progress(part));
     let part = surface.map(|surface| SubjectPart::Surface(Arc::new(surface)));
     let is_whole = part.is_ok_and(|part| sink.take(part).is_ok());
@@ -118,6 +123,33 @@ pub fn make_mesh(name: &str, post: &mut dyn Post) {
         // A mesh of the program's own has a size.
         false => LoadEvent::Cancelled,
     });
+}
+
+/// Passes on the surface of an object with what a template `carve` reads of it.
+struct Carving<'a>(&'a mut dyn SubjectSink);
+
+impl Carving<'_> {
+    /// Part of the work that is done when there is a surface.
+    const SURFACE: f32 = 0.5;
+}
+
+impl SubjectSink for Carving<'_> {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        let SubjectPart::Surface(surface) = part else {
+            return self.0.take(part);
+        };
+        let mut go_on = |part| {
+            self.0
+                .progress(Self::SURFACE + (1.0 - Self::SURFACE) * part)
+        };
+        let surface = Arc::unwrap_or_clone(surface).carving(&mut go_on);
+        let surface = surface.map_err(|stopped| stopped.to_string())?;
+        self.0.take(SubjectPart::Surface(Arc::new(surface)))
+    }
+
+    fn progress(&mut self, fraction: f32) -> bool {
+        self.0.progress(Self::SURFACE * fraction)
+    }
 }
 
 /// Makes the slabs of a generator one after the other.
@@ -316,6 +348,11 @@ pub fn read_scan(
     if may_be_mesh && matches!(mesh_or_not(files, name)?, MeshOrNot::Mesh(_)) {
         let meshes = mesh_files(files, name, reading, report)?;
         let within = reading.bounds.map(|bounds| [bounds.min_mm, bounds.max_mm]);
+        let mut carving = Carving(sink);
+        let sink: &mut dyn SubjectSink = match reading.carves {
+            true => &mut carving,
+            false => carving.0,
+        };
         return read_mesh_subject(files, &meshes, within, sink, report);
     }
     match &reading.raw {

@@ -5,6 +5,7 @@ mod answers;
 mod baked;
 mod bodies;
 mod captions;
+mod carve;
 mod cli;
 mod coarse;
 mod describe;
@@ -19,6 +20,8 @@ mod objects;
 mod probes;
 mod slices;
 
+#[path = "../reference/carved.rs"]
+mod carved;
 #[path = "../support/data.rs"]
 mod data;
 #[path = "../support/firm.rs"]

@@ -1,7 +1,10 @@
 //! A surface as a few flat arrays, which travel between threads that share no memory.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, UVec3, Vec3};
 
+use super::carver::{Carver, CarverLevel};
 use super::field::{FIELD_MARGIN, SurfaceField};
 use super::tree::{Tree, TreeNode};
 use super::triangle::Triangle;
@@ -22,6 +25,12 @@ pub struct SurfaceArrays {
     pub indices: Vec<u32>,
     /// Colours and segments of triangles, fills of voxels, colours of segments and whether they are closed.
     pub bytes: Vec<u8>,
+    /// Of an object that carves: half its box, cells, least distance, room and steps of its levels.
+    pub carver_numbers: Vec<f32>,
+    /// Of an object that carves: nodes of its levels along the axes; four numbers each, the last where they begin.
+    pub carver_levels: Vec<u32>,
+    /// Of an object that carves: the nodes of its levels.
+    pub carver_texels: Vec<u32>,
 }
 
 impl SurfaceArrays {
@@ -71,7 +80,47 @@ impl SurfaceArrays {
             arrays.bytes.push(u8::from(segment.is_closed));
             arrays.bytes.extend(segment.mean_srgb);
         }
+        if let Some(carver) = &surface.carver {
+            let numbers = &mut arrays.carver_numbers;
+            numbers.extend(carver.half.to_array());
+            numbers.extend([carver.cell, carver.least, carver.room]);
+            for level in &carver.levels {
+                numbers.push(level.step);
+                arrays.carver_levels.extend(level.nodes.to_array());
+                arrays.carver_levels.push(level.first);
+            }
+            arrays.carver_texels.clone_from(&carver.texels);
+        }
         arrays
+    }
+
+    /// What carves of the arrays, if it is whole.
+    fn carver(&self) -> Option<Carver> {
+        let (&[x, y, z, cell, least, room], steps) =
+            self.carver_numbers.split_first_chunk::<6>()?;
+        let (levels, []) = self.carver_levels.as_chunks::<4>() else {
+            return None;
+        };
+        let mut total = 0;
+        let mut level_of = |(&[x, y, z, first], &step): (&[u32; 4], &f32)| {
+            let nodes = UVec3::new(x, y, z);
+            let fits = u64::from(first) == total && nodes.max_element() < 1024;
+            total += nodes.as_u64vec3().element_product();
+            fits.then_some(CarverLevel { nodes, first, step })
+        };
+        let levels: Option<Vec<CarverLevel>> =
+            levels.iter().zip(steps).map(&mut level_of).collect();
+        let is_whole = steps.len() == levels.as_ref()?.len()
+            && 4 * steps.len() == self.carver_levels.len()
+            && total == self.carver_texels.len() as u64;
+        is_whole.then(|| Carver {
+            half: Vec3::new(x, y, z),
+            cell,
+            levels: levels.unwrap_or_default(),
+            least,
+            room,
+            texels: self.carver_texels.clone(),
+        })
     }
 
     /// The surface of the arrays; `None` if they are not those of a surface.
@@ -162,6 +211,10 @@ impl SurfaceArrays {
                 .all(|&f| usize::from(f) < field.sets.len())
             && grid.dims + 2 * FIELD_MARGIN == field.dims;
         let segmentation = is_whole.then(|| segmentation_of(grid, &field, &segments))?;
+        let carver = match self.carver_numbers.is_empty() {
+            true => None,
+            false => Some(Arc::new(self.carver()?)),
+        };
         Some(Surface {
             frame: frame_of(&grid, field.rest_from_inner_voxel()),
             triangles,
@@ -172,6 +225,7 @@ impl SurfaceArrays {
             field,
             segments,
             segmentation,
+            carver,
         })
     }
 }
@@ -195,6 +249,7 @@ mod tests {
             ..Mesh::default()
         };
         let surface = Surface::new(&mesh, None, &mut |_| true).expect("it has a size");
+        let surface = surface.carving(&mut |_| true).expect("not stopped");
         let arrays = SurfaceArrays::of(&surface);
         assert_eq!(arrays.surface().as_ref(), Some(&surface));
         // What is cut short anywhere is no surface, and nothing else happens.
@@ -210,5 +265,17 @@ mod tests {
             assert_eq!(short.surface(), None);
         }
         assert_eq!(SurfaceArrays::default().surface(), None);
+        let mut short = arrays.clone();
+        short.carver_texels.pop();
+        assert_eq!(short.surface(), None);
+        let mut short = arrays.clone();
+        short.carver_levels.pop();
+        assert_eq!(short.surface(), None);
+        let plain = SurfaceArrays {
+            carver_numbers: Vec::new(),
+            ..arrays
+        };
+        let plain = plain.surface().expect("whole without");
+        assert_eq!(plain.carver, None);
     }
 }

@@ -2,6 +2,7 @@
 //! to them, and the generalised winding number says what is inside (spec/surfaces.md, "Inside and outside").
 
 mod arrays;
+mod carver;
 mod field;
 mod lids;
 mod normals;
@@ -14,6 +15,7 @@ mod whole;
 mod winding;
 
 pub use arrays::SurfaceArrays;
+pub use carver::{CARVER_MARGIN, Carver, CarverLevel};
 pub use field::{FIELD_MARGIN, FIELD_VOXELS, SurfaceField, times_inside};
 pub use tree::{Tree, TreeNode};
 pub use triangle::{Nearest, Triangle};

@@ -1,5 +1,6 @@
 //! Rigid motions of segments that move as a whole, found on the GPU after each change of a template.
 
+use super::held::HeldTextures;
 use super::inputs::Inputs;
 use super::kept::KeptTextures;
 use crate::render::device::bindings::{encoder, entry};
@@ -48,12 +49,12 @@ impl RigidMotions {
         inputs: &Inputs,
         subject: &SubjectTextures,
         templates: &wgpu::Buffer,
-        (kept_textures, fields): (&KeptTextures, &wgpu::TextureView),
+        (kept_textures, held): (&KeptTextures, &HeldTextures),
     ) {
         let is_stale = self.0.is_stale([
             inputs.subject,
             inputs.templates.stamp(),
-            inputs.fields.stamp(),
+            inputs.held.stamp(),
             inputs.kept.stamp(),
         ]);
         if !is_stale || !inputs.kept().is_some_and(KeptTissue::has_rigid) {
@@ -62,14 +63,15 @@ impl RigidMotions {
         let pipeline = programs.pipeline(gpu, inputs.templates.get().drawn_kinds(), subject.shader);
         let motions = result_buffer(gpu, "rigid motions", BYTES);
         let view = wgpu::BindingResource::TextureView;
+        let mut of_templates = vec![
+            entry(0, templates.as_entire_binding()),
+            entry(5, kept_textures.uniform.as_entire_binding()),
+            entry(6, view(&kept_textures.view)),
+        ];
+        of_templates.extend(held.entries());
         let groups = [
             subject.kept_entries(),
-            vec![
-                entry(0, templates.as_entire_binding()),
-                entry(5, kept_textures.uniform.as_entire_binding()),
-                entry(6, view(&kept_textures.view)),
-                entry(7, view(fields)),
-            ],
+            of_templates,
             vec![entry(0, motions.as_entire_binding())],
         ];
         let mut encoder = encoder(gpu);

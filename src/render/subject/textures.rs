@@ -163,14 +163,24 @@ impl SubjectTextures {
 pub(crate) const MESH_ROW: u32 = 4096;
 
 /// The texture of a mesh's tree and triangles.
-pub(crate) fn mesh_texture(gpu: &Gpu, [width, height]: [u32; 2]) -> wgpu::Texture {
+pub(crate) fn mesh_texture(gpu: &Gpu, size: [u32; 2]) -> wgpu::Texture {
+    flat_texture(gpu, "mesh", size, wgpu::TextureFormat::Rgba32Uint)
+}
+
+/// A texture of whole numbers that the processor writes.
+pub(crate) fn flat_texture(
+    gpu: &Gpu,
+    label: &str,
+    [width, height]: [u32; 2],
+    format: wgpu::TextureFormat,
+) -> wgpu::Texture {
     gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("mesh"),
+        label: Some(label),
         size: extent(UVec3::new(width, height, 1)),
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba32Uint,
+        format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     })

@@ -46,7 +46,9 @@ pub(super) fn fields_of(
     let (resources, news) = assets.resources(illustration);
     for news in news {
         match news {
-            ResourceNews::NoSegment { .. } | ResourceNews::FieldNotice { .. } => notice(news),
+            ResourceNews::NoSegment { .. }
+            | ResourceNews::FieldNotice { .. }
+            | ResourceNews::TooThin { .. } => notice(news),
             ResourceNews::FieldRefused { template, .. } => {
                 let path = paths.iter().find(|(index, _)| *index == template);
                 let path = path.map(|(_, path)| path.display().to_string());

@@ -34,12 +34,15 @@ pub fn unpacked(word: &str, held: &JsValue) -> Option<SubjectPart> {
 /// The arrays of a surface, in their order.
 fn packed_surface(surface: &Surface) -> JsValue {
     let arrays = SurfaceArrays::of(surface);
-    let packed: [JsValue; 5] = [
+    let packed: [JsValue; 8] = [
         serde_json::json!(arrays.names).to_string().into(),
         Float64Array::from(arrays.places.as_slice()).into(),
         Float32Array::from(arrays.numbers.as_slice()).into(),
         Uint32Array::from(arrays.indices.as_slice()).into(),
         Uint8Array::from(arrays.bytes.as_slice()).into(),
+        Float32Array::from(arrays.carver_numbers.as_slice()).into(),
+        Uint32Array::from(arrays.carver_levels.as_slice()).into(),
+        Uint32Array::from(arrays.carver_texels.as_slice()).into(),
     ];
     packed.iter().collect::<Array>().into()
 }
@@ -55,6 +58,9 @@ fn unpacked_surface(held: &JsValue) -> Option<Surface> {
         numbers: held.get(2).dyn_into::<Float32Array>().ok()?.to_vec(),
         indices: held.get(3).dyn_into::<Uint32Array>().ok()?.to_vec(),
         bytes: held.get(4).dyn_into::<Uint8Array>().ok()?.to_vec(),
+        carver_numbers: held.get(5).dyn_into::<Float32Array>().ok()?.to_vec(),
+        carver_levels: held.get(6).dyn_into::<Uint32Array>().ok()?.to_vec(),
+        carver_texels: held.get(7).dyn_into::<Uint32Array>().ok()?.to_vec(),
     };
     arrays.surface()
 }

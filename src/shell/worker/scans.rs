@@ -32,8 +32,10 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
     post::module_unless_known(&message)?;
     let limits = limits_of(&message)?;
     match ScanTask::of(&message)? {
-        ScanTask::Mesh(name) => {
-            make_mesh(&name, &mut |event: LoadEvent| post::event(event).is_ok());
+        ScanTask::Mesh(name, carves) => {
+            make_mesh(&name, carves, &mut |event: LoadEvent| {
+                post::event(event).is_ok()
+            });
             Ok(())
         }
         ScanTask::Field { name, file } => post_field(name, file).await,
