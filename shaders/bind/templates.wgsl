@@ -1,7 +1,10 @@
-// Group 2, bindings 0 and 7: the templates. compose.wgsl reads it as a global, since 32 templates cannot go by value.
+// Group 2, bindings 0, 7 and 13: the templates. compose.wgsl reads it as a global, since 32 templates cannot go by value.
 // needs: types.wgsl
 
 /// Templates of the document, in order.
 @group(2) @binding(0) var<uniform> templates: Templates;
 /// Sampled displacements of all fields, one behind the other along z: xyz displacement (template space), w continuity.
 @group(2) @binding(7) var fields: texture_3d<f32>;
+/// Grids of all objects that carve, one node behind the other (data/surface/carver.rs): in the upper 20 bits the
+/// distance, in the lower 12 how far tissue may be pushed.
+@group(2) @binding(13) var carvers: texture_2d<u32>;

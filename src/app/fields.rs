@@ -24,7 +24,7 @@ impl App {
         let (resources, news) = self.assets.resources(self.session.shown());
         for news in news {
             match news {
-                ResourceNews::NoSegment { .. } => {
+                ResourceNews::NoSegment { .. } | ResourceNews::TooThin { .. } => {
                     self.session.notify(Gravity::Warning, news.to_string(), "");
                 }
                 ResourceNews::MeshesKept => {

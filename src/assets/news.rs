@@ -22,6 +22,13 @@ pub enum ResourceNews {
         /// What is different.
         line: String,
     },
+    /// An object is thinner than a cell of the grids by which it would carve, and cuts nothing.
+    TooThin {
+        /// Index of the template in the document.
+        template: usize,
+        /// What the object is called.
+        object: String,
+    },
     /// A field cannot be used with this subject.
     FieldRefused {
         /// Index of the template in the document.
@@ -46,6 +53,10 @@ impl fmt::Display for ResourceNews {
                 "/subject/meshes: meshes beside a subject that is a mesh itself are kept, but not drawn yet",
             ),
             Self::FieldNotice { template, line } => write!(f, "/templates/{template}: {line}"),
+            Self::TooThin { template, object } => write!(
+                f,
+                "/templates/{template}: “{object}” is too thin everywhere to carve: thinner than a cell of 1/128 of its longest side or less"
+            ),
             Self::FieldRefused { template, why } => write!(f, "/templates/{template}: {why}"),
         }
     }

@@ -84,6 +84,8 @@ pub struct Assets {
     own_named: Option<(Vec<SegmentsRef>, Arc<Vec<Segment>>)>,
     /// Fields over the present subject; `None` for one that does not fit.
     fitted: Vec<(FieldKey, Option<FieldSamples>)>,
+    /// Templates and objects of which it was told that they are too thin.
+    thin: Vec<(usize, String)>,
 }
 
 impl Assets {
@@ -216,7 +218,11 @@ impl Assets {
             Role::Subject => self.subject.is_some(),
             Role::Segments => find(&self.segments, want).is_some(),
             Role::Field => find(&self.fields, want).is_some(),
-            Role::Object | Role::Mesh => self.mesh(want).is_some(),
+            Role::Object => {
+                let is_enough = |mesh: &Arc<Surface>| mesh.carver.is_some() || !want.reading.carves;
+                self.mesh(want).is_some_and(is_enough)
+            }
+            Role::Mesh => self.mesh(want).is_some(),
         }
     }
 
@@ -305,8 +311,35 @@ impl Assets {
             segmentations,
             fields: self.field_samples(illustration, &mut news),
             objects: self.object_meshes(illustration),
+            frame: self.subject.as_ref().map(Subject::frame),
         };
+        self.tell_of_thin(illustration, &resources, &mut news);
         (resources, news)
+    }
+
+    /// Tells once of each `carve` whose object cuts nothing.
+    fn tell_of_thin(
+        &mut self,
+        illustration: &Illustration,
+        resources: &Resources,
+        news: &mut Vec<ResourceNews>,
+    ) {
+        for template in illustration.templates.iter().filter(|t| t.enabled) {
+            let TemplateData::Object(held) = &template.data else {
+                continue;
+            };
+            let told = (template.index, held.name.clone());
+            let is_thin = resources
+                .carver(template)
+                .is_some_and(|carver| !carver.cuts());
+            if is_thin && !self.thin.contains(&told) {
+                news.push(ResourceNews::TooThin {
+                    template: told.0,
+                    object: told.1.clone(),
+                });
+                self.thin.push(told);
+            }
+        }
     }
 
     /// The meshes of objects that are here, each once.
@@ -314,7 +347,8 @@ impl Assets {
         let mut meshes = ObjectMeshes::new();
         for object in &illustration.objects {
             if meshes.iter().all(|(known, _)| *known != object.source)
-                && let Some(mesh) = Want::object(object).and_then(|want| self.mesh(&want))
+                && let Some(want) = Want::object(object, illustration)
+                && let Some(mesh) = self.mesh(&want)
             {
                 meshes.push((object.source.clone(), Arc::clone(mesh)));
             }

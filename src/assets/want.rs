@@ -138,20 +138,28 @@ impl Want {
         hashes.any(|own| own.eq_ignore_ascii_case(sha256))
     }
 
-    /// The mesh of an object; `None` where the document names no file.
-    pub fn object(object: &SceneObject) -> Option<Self> {
-        match &object.source {
-            ObjectSource::Builtin(name) => Some(Self {
+    /// The mesh of an object of an illustration, with what carving takes if templates carve by it; `None` where the
+    /// document names no file.
+    pub fn object(object: &SceneObject, illustration: &Illustration) -> Option<Self> {
+        let want = match &object.source {
+            ObjectSource::Builtin(name) => Self {
                 role: Role::Object,
                 source: Source::Builtin((*name).to_owned()),
                 reading: Reading::default(),
-            }),
+            },
             ObjectSource::File {
                 src,
                 sha256,
                 reading,
-            } => Self::file(Role::Object, src, sha256, &object.name, *reading),
-        }
+            } => Self::file(Role::Object, src, sha256, &object.name, *reading)?,
+        };
+        Some(Self {
+            reading: Reading {
+                carves: illustration.carves_by(&object.source),
+                ..want.reading
+            },
+            ..want
+        })
     }
 
     fn file(
@@ -183,7 +191,7 @@ impl Want {
         }
     }
 
-    /// True if both mean one file, read in one way, in one role, whatever they call it.
+    /// True if both mean one file, read in one way, in one role, whatever they call it and whether or not it carves.
     pub fn is_same_mesh(&self, other: &Self) -> bool {
         let is_same_source = match (&self.source, &other.source) {
             (Source::Builtin(own), Source::Builtin(theirs)) => own == theirs,
@@ -192,7 +200,11 @@ impl Want {
             }
             _ => false,
         };
-        self.role == other.role && is_same_source && self.reading == other.reading
+        let reading = Reading {
+            carves: self.reading.carves,
+            ..other.reading.clone()
+        };
+        self.role == other.role && is_same_source && self.reading == reading
     }
 
     /// Address of the file, as written in the document; `None` without one.
@@ -247,7 +259,8 @@ impl Wanted {
         }
         let meshes = illustration.meshes_beside.iter();
         let objects = illustration.objects.iter().filter(|o| o.enabled);
-        let further = meshes.map(Want::mesh).chain(objects.map(Want::object));
+        let object = |object| Want::object(object, illustration);
+        let further = meshes.map(Want::mesh).chain(objects.map(object));
         for want in further.flatten() {
             if !wants.contains(&want) {
                 wants.push(want);

@@ -1,8 +1,14 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::{FieldSamples, Segment, Segmentation, Subject, Surface};
-use crate::document::{ObjectSource, ParamValue, PlacedTemplate, SceneObject, TemplateData};
+use glam::{Quat, Vec3};
+
+use super::{Carver, FieldSamples, Segment, Segmentation, Subject, SubjectFrame, Surface};
+use crate::displace::Holds;
+use crate::document::{
+    FoundObject, ObjectSource, ParamValue, PlacedTemplate, SceneObject, TemplateData,
+};
+use crate::math::Placement;
 
 /// The data of the files that a document names, as far as they have arrived. An
 /// [`Illustration`](crate::document::Illustration) only names the files, so drawing and measuring take both. Cheap to
@@ -19,6 +25,8 @@ pub struct Resources {
     pub fields: Vec<(FieldKey, FieldSamples)>,
     /// Meshes of the objects that have arrived, by where each comes from.
     pub objects: ObjectMeshes,
+    /// Where the subject lies; of use where an object that a template carves by lies where its file says.
+    pub frame: Option<SubjectFrame>,
 }
 
 /// Meshes of objects, by where each comes from.
@@ -79,10 +87,40 @@ impl Resources {
         found.map(|(_, mesh)| mesh)
     }
 
+    /// What a `carve` cuts by, if its object has arrived.
+    pub fn carver(&self, template: &PlacedTemplate) -> Option<&Arc<Carver>> {
+        let found = template.carves_by()?;
+        let mut meshes = self.objects.iter();
+        let (_, mesh) = meshes.find(|(source, _)| *source == found.source)?;
+        mesh.carver.as_ref()
+    }
+
+    /// The cube of a `carve` whose object lies where its file says.
+    fn cube_of_file(&self, found: &FoundObject) -> Option<Placement> {
+        let frame = self.frame?;
+        let mut meshes = self.objects.iter();
+        let (_, mesh) = meshes.find(|(source, _)| *source == found.source)?;
+        let away = (mesh.frame.middle_mm - frame.middle_mm) / frame.mm_per_unit;
+        Some(Placement {
+            at: away.as_vec3(),
+            rotate: Quat::IDENTITY,
+            size: Vec3::splat((mesh.frame.mm_per_unit / frame.mm_per_unit) as f32),
+        })
+    }
+
     /// The template as it acts ([`PlacedTemplate::acting`]). A `field` that the document gives no place lies where its
-    /// file says.
+    /// file says, and a `carve` where its object lies; without an object it is switched off.
     pub fn acting(&self, template: &PlacedTemplate) -> PlacedTemplate {
         let mut acting = template.acting();
+        if template.kind.facts().holds == Holds::Object {
+            let place = |found: &FoundObject| match found.placement {
+                Some(placement) => Some(placement.cube()),
+                None => self.cube_of_file(found),
+            };
+            let place = template.carves_by().and_then(place);
+            acting.enabled &= place.is_some() && self.carver(template).is_some();
+            acting.placement = place.unwrap_or(acting.placement);
+        }
         if let TemplateData::Field(field) = &template.data
             && !field.is_placed
             && let Some(FieldSamples(samples)) = self.field(template)
@@ -130,5 +168,6 @@ impl PartialEq for Resources {
             && segmentations.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))
             && self.fields == other.fields
             && self.has_objects_of(other)
+            && self.frame == other.frame
     }
 }

@@ -321,6 +321,22 @@ fn doing(template: &PlacedTemplate) -> Option<(Line, Option<Extent>)> {
                 "应用了位移场，强度 {0}",
             ],
         ),
+        K::Carve if template.carves_by().is_none() => None,
+        K::Carve => {
+            let line = [
+                "The tissue is cut by a tool and pushed aside by {0}",
+                "Das Gewebe ist von einem Werkzeug geschnitten und um {0} beiseite gedrückt",
+                "El tejido está cortado por un instrumento y apartado {0}",
+                "组织被器械切开，并推开 {0}",
+            ];
+            let still = [
+                "The tissue is cut by a tool",
+                "Das Gewebe ist von einem Werkzeug geschnitten",
+                "El tejido está cortado por un instrumento",
+                "组织被器械切开",
+            ];
+            length(number("push").max(0.0), line).or(Some((still, None)))
+        }
     }
 }
 

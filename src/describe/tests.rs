@@ -119,13 +119,18 @@ fn every_kind_has_a_sentence_of_its_own_and_none_at_rest() {
                 TemplateKind::Rbf => {
                     json!({ "points": [{ "at": [0.5, 0.5, 0.5], "move": [0.1, 0, 0] }] })
                 }
+                TemplateKind::Carve => json!({ "object": "knife" }),
                 _ => json!({}),
             };
-            let done =
-                told(json!({ "fabrica": 1, "templates": [{ "kind": name, "params": params }] }));
-            let rest = told(
-                json!({ "fabrica": 1, "templates": [{ "kind": name, "params": params, "amount": 0 }] }),
-            );
+            let objects = match kind {
+                TemplateKind::Carve => json!([{ "builtin": "scalpel", "name": "knife" }]),
+                _ => json!([]),
+            };
+            let told_at = |amount: f64| {
+                let template = json!({ "kind": name, "params": params, "amount": amount });
+                told(json!({ "fabrica": 1, "objects": objects, "templates": [template] }))
+            };
+            let (done, rest) = (told_at(1.0), told_at(0.0));
             let nothing = [
                 "Nothing is deformed",
                 "Nichts ist verformt",

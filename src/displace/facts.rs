@@ -133,6 +133,19 @@ pub struct Given {
     pub points: Option<ControlPoints>,
     /// The samples of a `field`, once they have been read.
     pub samples: Option<Samples>,
+    /// The object of a `carve`, once it has been read.
+    pub tool: Option<Tool>,
+}
+
+/// What bounds the object of a `carve`.
+#[derive(Clone, Copy, Debug)]
+pub struct Tool {
+    /// Half the sides of its box, template space.
+    pub half: Vec3,
+    /// The farthest that it lets tissue be pushed into it, template space.
+    pub room: f32,
+    /// Side of a cell of its finest grid, template space.
+    pub cell: f32,
 }
 
 /// What bounds the samples of a `field`.
@@ -176,6 +189,8 @@ pub enum Holds {
     Points,
     /// A file with the samples of a displacement field. Such a template cannot be mirrored.
     File,
+    /// The name of an object of the scene, which gives the template its place. Such a template cannot be mirrored.
+    Object,
 }
 
 /// How a template is done in part, by an amount from 0 (it is the identity) to 1.
@@ -183,6 +198,8 @@ pub enum Holds {
 pub enum Amount {
     /// The main parameter is scaled by the amount, and a rotation turns by that part of its angle.
     Parameters,
+    /// As `Parameters`; at 0 it is switched off, since its other parameters still do something.
+    ParametersOrNone,
     /// Its box shrinks, in the way that the parameters (those of its spec, in their order) decide. At 0 it is switched
     /// off.
     Box(fn(&[ParamValue]) -> Shrinking),

@@ -3,8 +3,8 @@
 use super::facts::{Facts, Holds};
 use super::spec::TemplateSpec;
 use super::{
-    bend, crack, cut, cutquad, dilate, field, flap, hole, lens, r#move, peel, peeler, poke, pull,
-    rbf, retractor, slices, split, squeeze, twist, wave,
+    bend, carve, crack, cut, cutquad, dilate, field, flap, hole, lens, r#move, peel, peeler, poke,
+    pull, rbf, retractor, slices, split, squeeze, twist, wave,
 };
 
 macro_rules! kinds {
@@ -54,10 +54,12 @@ kinds! {
     Rbf = 19 in rbf,
     Field = 20 in field,
     Crack = 21 in crack,
+    Carve = 22 in carve,
 }
 
 impl TemplateKind {
-    /// The kinds that are described whole by their parameters. The others hold control points or a file besides.
+    /// The kinds that are described whole by their parameters. The others hold control points, a file or an object
+    /// besides.
     pub const FORMULAS: [Self; 19] = {
         let mut formulas = [Self::Poke; 19];
         let (mut from, mut to) = (0, 0);

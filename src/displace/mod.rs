@@ -7,7 +7,7 @@
 //!
 //! A kind has five places. Say that a `swirl` is wanted, which turns the middle of its box:
 //!
-//! 1. One line in `kind.rs`, at the end, with the next number: `Swirl = 22 in swirl`. The compiler and the tests ask
+//! 1. One line in `kind.rs`, at the end, with the next number: `Swirl = 23 in swirl`. The compiler and the tests ask
 //!    for the rest.
 //! 2. `displace/swirl.rs`: its [`Facts`]. A smooth kind that moves material within its box by no more than its
 //!    parameter is short:
@@ -44,6 +44,7 @@
 //! by tests/gpu/probes.rs, tests/gpu/kinds.rs and the tests of `kind.rs`.
 
 mod bend;
+mod carve;
 mod constants;
 mod crack;
 mod cut;
@@ -75,7 +76,7 @@ mod wave;
 pub use constants::shader_constants;
 pub use facts::{
     Amount, Arc, Facts, Given, Grip, Group, Holds, Icon, Material, Mirror, Reach, Samples, Shape,
-    Shrinking,
+    Shrinking, Tool,
 };
 pub(crate) use interpolant::Interpolant;
 pub use interpolant::Missed;

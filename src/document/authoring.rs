@@ -87,9 +87,9 @@ pub fn mirrored(template: &PlacedTemplate, plane: Plane) -> (Placement, Vec<Para
 
 /// The edits that mirror a template, or a copy of it that is inserted after it.
 ///
-/// There are none for a template that holds a file: samples from a file cannot be mirrored.
+/// There are none for a template that holds a file or an object: samples and objects cannot be mirrored.
 pub fn mirror(template: &PlacedTemplate, plane: Plane, as_copy: bool) -> Vec<Edit> {
-    if template.kind.facts().holds == Holds::File {
+    if matches!(template.kind.facts().holds, Holds::File | Holds::Object) {
         return Vec::new();
     }
     let (placement, params) = mirrored(template, plane);

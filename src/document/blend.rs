@@ -3,7 +3,7 @@
 use super::model::{
     Align, Background, Curve, Illustration, Layer, ParamKind, ParamValue, PlacedTemplate,
     SceneObject, SegmentLook, SurfaceChange, SurfaceLook, TemplateData, Transfer, TransferPoint,
-    Window,
+    Window, join_objects,
 };
 use crate::math::mix_srgb;
 use glam::Quat;
@@ -47,6 +47,8 @@ pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illu
             blend_object(before, object, part);
         }
     }
+    // What carves is where its object is. Which of them do nothing was told when the document was read.
+    let _told = join_objects(&mut out.templates, &out.objects);
     if let (Some(a), Some(b)) = (start.look.tint, end.look.tint) {
         out.look.tint = Some(mix(a, b));
     }

@@ -20,6 +20,8 @@ pub(crate) const MAX_BOX_MM: f64 = 1e7;
 pub const MAX_POINTS: usize = 64;
 /// Most fields of a document that are drawn.
 pub const MAX_FIELDS: usize = 4;
+/// Most objects of a document that carve.
+pub const MAX_CARVERS: usize = 4;
 /// Most points on the cut of an `rbf`.
 pub const MAX_CUT: usize = 16;
 /// Most points of a template's curve.

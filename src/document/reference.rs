@@ -47,6 +47,7 @@ fn object(page: &mut String, at: &str, holds: Option<Holds>, keys: &[Key]) {
     let of = match holds {
         Some(Holds::Points) => " of an `rbf`, besides its parameters",
         Some(Holds::File) => " of a `field`, besides its parameters",
+        Some(Holds::Object) => " of a `carve`, besides its parameters",
         Some(Holds::Parameters) | None => "",
     };
     _ = write!(

@@ -463,6 +463,12 @@ pub(crate) const FIELD: &[Key] = &[
     key(250, "name", Kind::Text, "the author's name for the file"),
 ];
 
+/// Keys in `params` of a `carve`, besides its parameters.
+#[rustfmt::skip]
+pub(crate) const CARVE: &[Key] = &[
+    key(BY_NAME, "object", Kind::Text, "name of the entry of `objects` by whose surface is cut; its place is the template's place"),
+];
+
 /// Keys of `/look`.
 #[rustfmt::skip]
 pub(crate) const LOOK: &[Key] = &[
@@ -562,6 +568,7 @@ pub(crate) fn params_of(kind: Option<TemplateKind>) -> &'static [Key] {
     match kind.map(|kind| kind.facts().holds) {
         Some(Holds::Points) => RBF,
         Some(Holds::File) => FIELD,
+        Some(Holds::Object) => CARVE,
         Some(Holds::Parameters) | None => &[],
     }
 }
@@ -810,6 +817,7 @@ pub(crate) fn visit(visit: &mut impl FnMut(&str, Option<Holds>, &'static [Key]))
                 Kind::Params => {
                     inside(&at, Some(Holds::Points), visit, RBF);
                     inside(&at, Some(Holds::File), visit, FIELD);
+                    inside(&at, Some(Holds::Object), visit, CARVE);
                 }
                 _ => {}
             }

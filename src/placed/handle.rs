@@ -1,6 +1,6 @@
 use super::reach::given;
 use crate::displace::Grip;
-use crate::document::{ParamKind, ParamValue, PlacedTemplate};
+use crate::document::{ObjectRef, ParamKind, ParamValue, PlacedTemplate, TemplateData};
 use glam::Vec3;
 
 /// Where the main parameter is dragged in the picture.
@@ -59,8 +59,15 @@ fn set_from_acting(template: &PlacedTemplate, acting: ParamValue, amount: f32) -
     }
 }
 
-/// The handle of a template, as much as it does; `None` if its kind has no main parameter.
+/// The handle of a template, as much as it does; `None` if its kind has no main parameter, or if it has no place
+/// without the data of its object.
 pub fn handle(template: &PlacedTemplate) -> Option<Handle> {
+    let is_placed = |held: &ObjectRef| held.found.as_ref().is_some_and(|f| f.placement.is_some());
+    if let TemplateData::Object(held) = &template.data
+        && !is_placed(held)
+    {
+        return None;
+    }
     let (template, _) = &held(template);
     let param = template.kind.spec().main_param?;
     let at = match &template.kind.facts().grip {
@@ -181,7 +188,7 @@ fn path_point(template: &PlacedTemplate, value: f32) -> Option<Vec3> {
     let Grip::Number(position, _) = &template.kind.facts().grip else {
         return None;
     };
-    let mut given = given(template, None);
+    let mut given = given(template, None, None);
     // Every main number so far has only numbers before it, one float each.
     *given.p.get_mut(template.kind.spec().main_param?)? = value;
     Some(template.subject_from_template(position(&given)))

@@ -1,13 +1,22 @@
 use crate::displace::Holds;
 use crate::document::{
-    Background, Camera, ControlPoints, Document, DocumentError, Edit, ParamValue, PlacedTemplate,
-    SubjectRef, TemplateData, TemplateKind,
+    Background, Camera, ControlPoints, Document, DocumentError, Edit, ObjectPlacement, ObjectRef,
+    ParamValue, PlacedTemplate, SubjectRef, TemplateData, TemplateKind,
 };
 use crate::math::Placement;
 use glam::{Quat, Vec3};
+use serde_json::json;
 
 /// Far enough for the opened cube to fit.
 const DISTANCE: f32 = 3.4;
+
+/// The tool by which a template carves in its icon, and where it stands in the cube.
+const TOOL: &str = "retractor";
+const TOOL_AT: ObjectPlacement = ObjectPlacement {
+    at: Vec3::new(0.0, 0.0, 0.4),
+    rotate: Quat::IDENTITY,
+    size: 1.2,
+};
 
 /// Pixels along an icon's side in the sheet of icons: twice its size in the catalogue in points.
 pub const ICON_PX: u32 = 112;
@@ -35,6 +44,10 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
         Holds::Points => TemplateData::Points(ControlPoints {
             points: icon.points.to_vec(),
             cut: Vec::new(),
+        }),
+        Holds::Object => TemplateData::Object(ObjectRef {
+            name: TOOL.to_owned(),
+            found: None,
         }),
         Holds::Parameters | Holds::File => TemplateData::None,
     };
@@ -81,6 +94,21 @@ pub fn icon_document(kind: TemplateKind) -> Result<Document, DocumentError> {
         param: param.name,
         value: *value,
     }));
+    if let TemplateData::Object(held) = &template.data {
+        edits.push(Edit::AddObject {
+            index: 0,
+            object: json!({ "builtin": held.name, "name": held.name }),
+        });
+        edits.push(Edit::PlaceObject {
+            object: 0,
+            placement: TOOL_AT,
+        });
+        edits.push(Edit::Set {
+            pointer: "/templates/0/params/object".to_owned(),
+            value: json!(held.name),
+            name: String::new(),
+        });
+    }
     if let TemplateData::Points(points) = template.data {
         edits.push(Edit::SetControlPoints {
             template: 0,

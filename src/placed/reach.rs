@@ -1,16 +1,20 @@
-use crate::data::{FieldSamples, Resources};
-use crate::displace::{Given, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples};
+use crate::data::{Carver, FieldSamples, Resources};
+use crate::displace::{Given, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples, Tool};
 use crate::document::{PlacedTemplate, TemplateData};
 use glam::Vec3;
 
-/// A template as its kind sees it; `samples` are those of a `field`.
-pub(super) fn given(template: &PlacedTemplate, samples: Option<&FieldSamples>) -> Given {
+/// A template as its kind sees it; `samples` are those of a `field`, `carver` is what a `carve` cuts by.
+pub(super) fn given(
+    template: &PlacedTemplate,
+    samples: Option<&FieldSamples>,
+    carver: Option<&Carver>,
+) -> Given {
     let mut floats = Vec::with_capacity(MAX_PARAM_FLOATS);
     template.params.iter().for_each(|v| v.pack(&mut floats));
     floats.resize(MAX_PARAM_FLOATS, 0.0);
     let points = match &template.data {
         TemplateData::Points(held) => Some(held.clone()),
-        TemplateData::None | TemplateData::Field(_) => None,
+        _ => None,
     };
     let samples = samples.map(|FieldSamples(held)| Samples {
         most: held.dims.iter().copied().max().unwrap_or(1),
@@ -23,34 +27,40 @@ pub(super) fn given(template: &PlacedTemplate, samples: Option<&FieldSamples>) -
         p: std::array::from_fn(|i| floats[i]),
         points,
         samples,
+        tool: carver.map(|carver| Tool {
+            half: carver.half,
+            room: carver.room,
+            cell: carver.cell,
+        }),
     }
 }
 
 /// What a template reaches with the parameters and the size it has, template space.
 pub fn reach(template: &PlacedTemplate, resources: &Resources) -> Reach {
     let samples = resources.field(template);
-    (template.kind.facts().reach)(&given(&resources.acting(template), samples))
+    let carver = resources.carver(template).map(|carver| &**carver);
+    (template.kind.facts().reach)(&given(&resources.acting(template), samples, carver))
 }
 
 /// What the shader of an `rbf` that acts ([`PlacedTemplate::acting`]) reads besides its parameters
 /// (shaders/displace/rbf.wgsl).
 pub fn solved_points(template: &PlacedTemplate) -> Vec<[f32; 4]> {
-    Interpolant::of(&given(template, None)).pack()
+    Interpolant::of(&given(template, None, None)).pack()
 }
 
 /// The control points of an `rbf` that its map misses, because another point with another displacement stands at the
 /// same place; none for other kinds.
 pub fn missed_points(template: &PlacedTemplate) -> Vec<Missed> {
     match &template.data {
-        TemplateData::Points(points) => Interpolant::of(&given(template, None)).missed(points),
-        TemplateData::None | TemplateData::Field(_) => Vec::new(),
+        TemplateData::Points(points) => Interpolant::of(&given(template, None, None)).missed(points),
+        TemplateData::None | TemplateData::Field(_) | TemplateData::Object(_) => Vec::new(),
     }
 }
 
 /// Lines of a lattice on the tissue of an `rbf`'s middle plane (z = ½), as they lie when it is bent, subject space.
 pub fn bent_lattice(template: &PlacedTemplate) -> Vec<Vec<Vec3>> {
     let template = template.acting();
-    let interpolant = Interpolant::of(&given(&template, None));
+    let interpolant = Interpolant::of(&given(&template, None, None));
     let place = |q: Vec3| template.subject_from_template(q);
     let lines = interpolant.bent_lattice().into_iter();
     lines

@@ -14,7 +14,7 @@ use crate::render::pack::raycast_key::{Finds, RaycastKey};
 use crate::render::pack::stamps::MadeFrom;
 use crate::render::stage::baked::BakedTexture;
 use crate::render::stage::bodies::BodyTextures;
-use crate::render::stage::fields::FieldTexture;
+use crate::render::stage::held::HeldTextures;
 use crate::render::stage::inputs::Inputs;
 use crate::render::stage::kept::KeptTextures;
 use crate::render::stage::look::LookTable;
@@ -46,7 +46,7 @@ pub(crate) struct Scene {
     /// Pictures lie on the subject's triangles.
     has_textures: bool,
     templates: TemplateBuffer,
-    fields: FieldTexture,
+    held: HeldTextures,
     kept_textures: KeptTextures,
     motions: RigidMotions,
     bodies: BodyTextures,
@@ -65,7 +65,6 @@ impl Drop for Scene {
     fn drop(&mut self) {
         let views = [
             &self.kept_textures.view,
-            &self.fields.view,
             &self.bodies.view,
             &self.look.view,
             &self.objects.view,
@@ -86,6 +85,7 @@ impl Drop for Scene {
         for buffer in buffers {
             buffer.destroy();
         }
+        self.held.destroy();
         if let Some(grid) = &self.grid {
             grid.destroy();
         }
@@ -99,7 +99,7 @@ impl Scene {
     /// Holds nothing until [`Scene::update`].
     pub(crate) fn new(gpu: &Gpu, layouts: &Layouts, wants_grid: bool) -> Self {
         let templates = TemplateBuffer::new(gpu);
-        let fields = FieldTexture::new(gpu);
+        let held = HeldTextures::new(gpu);
         let kept_textures = KeptTextures::new(gpu);
         let bodies = BodyTextures::new(gpu);
         let look = LookTable::new(gpu);
@@ -113,7 +113,7 @@ impl Scene {
                 .as_ref()
                 .map_or((&no_grid.0, &no_grid.1), SkipGrid::binding),
             kept_textures: &kept_textures,
-            fields: &fields,
+            held: &held,
             bodies: &bodies,
             objects: &objects,
         }
@@ -127,7 +127,7 @@ impl Scene {
             has_segments: false,
             has_textures: false,
             templates,
-            fields,
+            held,
             kept_textures,
             motions: RigidMotions::default(),
             bodies,
@@ -164,10 +164,10 @@ impl Scene {
         }
         let inputs = &self.inputs;
         self.templates.update(gpu, &inputs.templates);
-        self.fields.update(gpu, &inputs.fields);
+        self.held.update(gpu, &inputs.held);
         self.kept_textures
             .update(gpu, &programs.distance, subject, &inputs.kept);
-        let textures = (&self.kept_textures, &self.fields.view);
+        let textures = (&self.kept_textures, &self.held);
         let templates = &self.templates.uniform;
         self.motions
             .update(gpu, &programs.rigid, inputs, subject, templates, textures);
@@ -183,7 +183,7 @@ impl Scene {
                 resources,
                 templates,
                 kept_textures: &self.kept_textures,
-                fields: &self.fields.view,
+                held: &self.held,
                 subject,
                 step: longest_step(subject.frame.detail),
             };
@@ -191,14 +191,14 @@ impl Scene {
         }
         let map_from = [
             inputs.templates.stamp(),
-            inputs.fields.stamp(),
+            inputs.held.stamp(),
             inputs.bounds.stamp(),
         ];
         if self.baked_from.is_stale(map_from) {
             self.baked = None;
         }
         let textures = [
-            self.fields.stamp,
+            self.held.stamp,
             self.kept_textures.stamp,
             self.bodies.stamp,
             self.objects.stamp,
@@ -217,7 +217,7 @@ impl Scene {
             look: &self.look,
             grid: self.grid.as_ref().map_or(no_grid, SkipGrid::binding),
             kept_textures: &self.kept_textures,
-            fields: &self.fields,
+            held: &self.held,
             bodies: &self.bodies,
             objects: &self.objects,
         }
@@ -271,9 +271,9 @@ impl Scene {
         &self.templates.uniform
     }
 
-    /// The displacements of all `field` templates, sampled.
-    pub(crate) fn fields(&self) -> &wgpu::TextureView {
-        &self.fields.view
+    /// What templates hold besides numbers.
+    pub(crate) fn held(&self) -> &HeldTextures {
+        &self.held
     }
 
     /// True where drawing the map from a texture may be faster: it holds several formulas, and no tissue is kept,
@@ -302,10 +302,7 @@ impl Scene {
         baked.advance(
             gpu,
             &programs.bake,
-            [
-                self.templates.uniform.as_entire_binding(),
-                wgpu::BindingResource::TextureView(&self.fields.view),
-            ],
+            (&self.templates.uniform, &self.held),
             drawn_kinds,
             most_texels,
         )
@@ -342,7 +339,7 @@ struct Bound<'a> {
     look: &'a LookTable,
     grid: (&'a wgpu::Buffer, &'a wgpu::TextureView),
     kept_textures: &'a KeptTextures,
-    fields: &'a FieldTexture,
+    held: &'a HeldTextures,
     bodies: &'a BodyTextures,
     objects: &'a ObjectTextures,
 }
@@ -350,6 +347,7 @@ struct Bound<'a> {
 impl Bound<'_> {
     fn group(&self, gpu: &Gpu, layouts: &Layouts) -> wgpu::BindGroup {
         let view = wgpu::BindingResource::TextureView;
+        let [fields, carvers] = self.held.entries();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("scene"),
             layout: &layouts.scene,
@@ -361,12 +359,13 @@ impl Bound<'_> {
                 entry(4, view(self.grid.1)),
                 entry(5, self.kept_textures.uniform.as_entire_binding()),
                 entry(6, view(&self.kept_textures.view)),
-                entry(7, view(&self.fields.view)),
+                fields,
                 entry(8, self.bodies.uniform.as_entire_binding()),
                 entry(9, view(&self.bodies.view)),
                 entry(10, self.look.mesh_uniform.as_entire_binding()),
                 entry(11, self.objects.uniform.as_entire_binding()),
                 entry(12, view(&self.objects.view)),
+                carvers,
             ],
         })
     }

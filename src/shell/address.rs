@@ -61,9 +61,9 @@ pub(super) fn at_base(want: &Want, base: &str) -> Want {
 }
 
 /// The task to make what the program generates: a subject, or a tool that stands as an object in the scene.
-pub(super) fn builtin_task(name: &str, role: Role) -> Task {
-    match role {
-        Role::Object => Task::Scan(ScanTask::Mesh(name.to_owned())),
+pub(super) fn builtin_task(name: &str, want: &Want) -> Task {
+    match want.role {
+        Role::Object => Task::Scan(ScanTask::Mesh(name.to_owned(), want.reading.carves)),
         _ => Task::Subject(name.to_owned(), None),
     }
 }

@@ -58,7 +58,14 @@ fn read_meshes(
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     let meshes = mesh_files(files, name, reading, report)?;
-    read_mesh_subject(files, &meshes, box_of(reading), sink, report)
+    let mut carving = Carving(sink);
+    read_mesh_subject(
+        files,
+        &meshes,
+        box_of(reading),
+        carving.where_it(reading.carves),
+        report,
+    )
 }
 
 /// The box that takes the place of that of all vertices, if the document has one.
@@ -66,8 +73,8 @@ pub(super) fn box_of(reading: &Reading) -> Option<[DVec3; 2]> {
     reading.bounds.map(|bounds| [bounds.min_mm, bounds.max_mm])
 }
 
-/// Makes a built-in subject that is a mesh, or a tool.
-pub fn make_mesh(name: &str, post: &mut dyn Post) {
+/// Makes a built-in subject that is a mesh, or a tool; `carves`: one that a template carves by.
+pub fn make_mesh(name: &str, carves: bool, post: &mut dyn Post) {
     let Some(mesh) = mesh(name).or_else(|| tool(name)) else {
         post.post(LoadEvent::Failed {
             message: SubjectError::UnknownName(name.chars().take(40).collect()).to_string(),
@@ -77,6 +84,8 @@ pub fn make_mesh(name: &str, post: &mut dyn Post) {
         return;
     };
     let mut sink = PostingSink::new(post);
+    let mut carving = Carving(&mut sink);
+    let sink = carving.where_it(carves);
     let surface = Surface::new(&mesh, None, &mut |part| sink.progress(part));
     let part = surface.map(|surface| SubjectPart::Surface(Arc::new(surface)));
     let is_whole = part.is_ok_and(|part| sink.take(part).is_ok());
@@ -85,6 +94,41 @@ pub fn make_mesh(name: &str, post: &mut dyn Post) {
         // A mesh of the program's own has a size.
         false => LoadEvent::Cancelled,
     });
+}
+
+/// Passes on the surface of an object with what a template `carve` reads of it.
+pub(super) struct Carving<'a>(pub(super) &'a mut dyn SubjectSink);
+
+impl Carving<'_> {
+    /// Part of the work that is done when there is a surface.
+    const SURFACE: f32 = 0.5;
+
+    /// This one for an object that a template carves by, else the sink behind it.
+    pub(super) fn where_it(&mut self, carves: bool) -> &mut dyn SubjectSink {
+        match carves {
+            true => self,
+            false => self.0,
+        }
+    }
+}
+
+impl SubjectSink for Carving<'_> {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        let SubjectPart::Surface(surface) = part else {
+            return self.0.take(part);
+        };
+        let mut go_on = |part| {
+            self.0
+                .progress(Self::SURFACE + (1.0 - Self::SURFACE) * part)
+        };
+        let surface = Arc::unwrap_or_clone(surface).carving(&mut go_on);
+        let surface = surface.map_err(|stopped| stopped.to_string())?;
+        self.0.take(SubjectPart::Surface(Arc::new(surface)))
+    }
+
+    fn progress(&mut self, fraction: f32) -> bool {
+        self.0.progress(Self::SURFACE * fraction)
+    }
 }
 
 /// The files of a subject of meshes, `name` that of the first: by their addresses, by the last parts of those, or by

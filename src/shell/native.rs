@@ -293,15 +293,16 @@ impl NativeServices {
         ticket
     }
 
-    fn start_builtin(&mut self, name: String, role: Role) -> Ticket {
-        let is_mesh = role == Role::Object || mesh_names().contains(&name.as_str());
+    fn start_builtin(&mut self, name: String, want: &Want) -> Ticket {
+        let carves = want.reading.carves;
+        let is_mesh = want.role == Role::Object || mesh_names().contains(&name.as_str());
         let (ticket, is_wanted) = self.new_ticket();
         let (sender, ctx, limits) = (self.sender.clone(), self.ctx.clone(), self.limits);
         std::thread::spawn(move || {
             let mut post =
                 |event: LoadEvent| post_while_wanted(&sender, &ctx, ticket, &is_wanted, event);
             match is_mesh {
-                true => make_mesh(&name, &mut post),
+                true => make_mesh(&name, carves, &mut post),
                 false => make_subject(&name, &resolutions(limits), slabs_in_threads, &mut post),
             }
         });
@@ -546,7 +547,7 @@ impl Services for NativeServices {
 
     fn load(&mut self, want: &Want) -> Ticket {
         let (src, name) = match &want.source {
-            Source::Builtin(name) => return self.start_builtin(name.clone(), want.role),
+            Source::Builtin(name) => return self.start_builtin(name.clone(), want),
             Source::File { src, name, .. } => (src.clone(), name),
         };
         // A file is read where the document says that it is, even if the same bytes were opened before.

@@ -447,7 +447,7 @@ impl Services for PageServices {
         let (src, sha256, name) = match &want.source {
             Source::Builtin(name) => {
                 let ticket = self.0.borrow_mut().new_ticket();
-                self.start(ticket, &builtin_task(name, want.role));
+                self.start(ticket, &builtin_task(name, want));
                 return ticket;
             }
             Source::File { src, sha256, name } => (src, sha256, name),

@@ -803,7 +803,7 @@ impl Inner {
 
     fn way(&self, stock: u32, want: &Want) -> Way {
         let (src, name) = match &want.source {
-            Source::Builtin(name) => return Way::Start(builtin_task(name, want.role)),
+            Source::Builtin(name) => return Way::Start(builtin_task(name, want)),
             Source::File { src, name, .. } => (src, name),
         };
         let Some(src) = src else {

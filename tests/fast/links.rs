@@ -732,6 +732,9 @@ fn golden_links_open_for_ever() {
     wanted.push(json!({ "fabrica": 1, "templates": [{ "kind": "field", "params": { "sha256": "b".repeat(64), "name": "Warp", "units": "subject" } }] }));
     wanted.push(json!({ "fabrica": 1, "templates": [{ "kind": "peel", "size": [0.5, 0.4, 0.2], "curve": { "points": [[0, 0.4], [0.5, 1], [1, 0.55]] } },
         { "kind": "poke", "curve": { "points": [[0, 1], [0.5, 1.2], [1, 1]], "spline": false } }] }));
+    wanted.push(json!({ "fabrica": 1, "objects": [{ "builtin": "scalpel", "name": "knife", "at": [0.1, 0.3, 0.2] }],
+        "templates": [{ "kind": "carve", "params": { "object": "knife", "push": 0.01, "reach": 0.2 }, "amount": 0.5 }],
+        "steps": [{ "title": "In", "set": { "/objects/0/at": [0.1, 0.3, 0.05], "/templates/0/params/push": 0.02 } }] }));
     wanted.push(lesson(&mut Random(2026)));
     wanted.push(Random(1543).document());
     wanted.push(json!({ "fabrica": 1, "title": "Дом 家 🧠", "x-unknown": { "deep": [null, true, 1e-7, -2.5e300, 18_446_744_073_709_551_615_u64] } }));

@@ -2,10 +2,12 @@
 //! than what the facts say of an icon, fails.
 
 use crate::gpu::{builtin, software, studio_of};
-use fabrica::document::{Illustration, ParamValue, TemplateKind};
+use fabrica::data::{Resources, Surface};
+use fabrica::document::{Illustration, ObjectSource, ParamValue, TemplateKind};
 use fabrica::placed::{ICON_COLUMNS, ICON_PX, icon_document, icon_kinds};
 use fabrica::render::{Image, decode_png};
-use fabrica::subjects::FINE_RESOLUTION;
+use fabrica::subjects::{FINE_RESOLUTION, tool};
+use std::sync::Arc;
 
 /// What one does about it.
 const REMEDY: &str = "run `cargo xtask icons`";
@@ -44,6 +46,21 @@ fn difference(a: &Image, b: &Image) -> f64 {
     sum / a.rgba.len() as f64
 }
 
+/// The tools that an icon shows, as far as its template carves by them.
+fn tools(illustration: &Illustration) -> Resources {
+    let mut resources = Resources::default();
+    for object in &illustration.objects {
+        let ObjectSource::Builtin(name) = object.source else {
+            panic!("{:?} is no tool", object.source);
+        };
+        let surface = Surface::new(&tool(name).expect("a tool"), None, &mut |_| true);
+        let surface = surface.expect("a size").carving(&mut |_| true);
+        let surface = Arc::new(surface.expect("not stopped"));
+        resources.objects.push((object.source.clone(), surface));
+    }
+    resources
+}
+
 /// A palette of 256 colours is off by 0.2 to 0.4 of 255 in the mean; adapters of one family differ by less than 0.1.
 const BOUND: f64 = 0.45;
 
@@ -60,6 +77,7 @@ fn the_icons_are_what_the_renderer_draws() {
     let sheet = sheet.unwrap_or_else(|error| panic!("{error}: {REMEDY}"));
     let studio = studio_of(software(), &builtin("cube", FINE_RESOLUTION), true);
     let draw = |illustration: &Illustration| {
+        let studio = studio.clone().with_resources(tools(illustration));
         let picture = studio.render_image(illustration, [ICON_PX; 2], 16);
         pollster::block_on(picture).expect("an icon")
     };

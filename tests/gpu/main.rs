@@ -6,6 +6,7 @@ mod baked;
 mod beside;
 mod bodies;
 mod captions;
+mod carve;
 mod cli;
 mod coarse;
 mod describe;
@@ -21,6 +22,8 @@ mod probes;
 mod slices;
 mod textures;
 
+#[path = "../reference/carved.rs"]
+mod carved;
 #[path = "../support/data.rs"]
 mod data;
 #[path = "../support/firm.rs"]

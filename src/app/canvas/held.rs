@@ -65,6 +65,20 @@ impl<'a> Held<'a> {
         if placement == self.placement() {
             return None;
         }
+        // Where a template carves is where its object is.
+        if let Self::Template(template) = self
+            && let Some(found) = template.carves_by()
+        {
+            let size = sized.map_or(template.placement.size.x, |axis| placement.size[axis]);
+            return Some(Edit::PlaceObject {
+                object: found.index,
+                placement: ObjectPlacement {
+                    at: placement.at,
+                    rotate: placement.rotate,
+                    size: size.clamp(0.001, 10.0),
+                },
+            });
+        }
         Some(match self {
             Self::Template(template) => Edit::SetPlacement {
                 template: template.index,

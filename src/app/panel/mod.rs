@@ -2,6 +2,7 @@
 
 pub(crate) mod bodies;
 pub(crate) mod captions;
+pub(crate) mod carve;
 pub(crate) mod catalogue;
 pub(crate) mod controls;
 pub(crate) mod curve;

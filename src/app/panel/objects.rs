@@ -8,7 +8,7 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::menu::menu_item;
 use crate::app::kit::theme::Palette;
 use crate::app::kit::widget::{self, Change, NumberRow};
-use crate::app::session::objects::{enabling, object_edit, regrouping, renaming};
+use crate::app::session::objects::{enabling, object_edit, regrouping};
 use crate::app::session::{Command, Session};
 use crate::app::words::objects::{tool, w};
 use crate::app::words::{self, fill, templates, tissue};
@@ -137,7 +137,7 @@ pub(super) fn selected_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Com
         let hints = (kind_of(object), w().name_hint);
         let id = ("object name", object.index);
         if let Some(name) = entry::name_row(ui, id, &object.name, hints) {
-            let edit = renaming(object.index, &object.name, &name);
+            let edit = session.renamed_object(object, &name);
             commands.push(Command::Drag(edit));
         }
         match object.placement {

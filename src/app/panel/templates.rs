@@ -2,7 +2,7 @@
 
 use egui::{DragAndDrop, Id, Label, Rect, Stroke, Ui, vec2};
 
-use super::{curve, kept, objects, points};
+use super::{carve, curve, kept, objects, points};
 use crate::app::kit::entry::{self, EntryRow, rotation_row, vec3};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::template_menu;
@@ -12,6 +12,7 @@ use crate::app::session::{Command, LibraryCommand, Session};
 use crate::app::words::templates::w;
 use crate::app::words::{self, kinds, names};
 use crate::data::Segment;
+use crate::displace::Holds;
 use crate::document::{
     Edit, ParamKind, ParamSpec, ParamValue, PlacedTemplate, TemplateMode, group_of, groups,
 };
@@ -195,7 +196,12 @@ fn template_ui(
         ui.push_id((index, i), |ui| param_ui(ui, template, i, *value, commands));
     }
     points::ui(ui, template, commands);
-    curve::ui(ui, template, commands);
+    // The place of one that carves is its object's.
+    let has_place = template.kind.facts().holds != Holds::Object;
+    carve::ui(ui, session, template, commands);
+    if has_place {
+        curve::ui(ui, template, commands);
+    }
     ui.add_space(2.0);
     let hints = (kinds::title(template.kind), w().name_hint);
     if let Some(name) = entry::name_row(ui, ("template name", index), &template.name, hints) {
@@ -233,8 +239,10 @@ fn template_ui(
     widget::divider(ui);
     let illustration = session.shown();
     kept::ui(ui, template, illustration, segments, inside, commands);
-    widget::divider(ui);
-    placement_ui(ui, template, commands);
+    if has_place {
+        widget::divider(ui);
+        placement_ui(ui, template, commands);
+    }
 }
 
 /// How much of it is done.

@@ -78,6 +78,9 @@ pub enum Command {
     /// Puts the tool of this index among those of the program to the surface that was found, else to where the camera
     /// looks.
     PlaceTool(usize, Option<Found>),
+    /// Puts a scalpel into the surface that was found, else where the camera looks, and a template that carves by it.
+    /// The number is of no use.
+    PlaceCarving(usize, Option<Found>),
     /// Selects the next one in the list of templates, then in that of objects, or with `false` the one before.
     SelectNext(bool),
     /// Removes the selected template or object.

@@ -7,17 +7,27 @@ use super::camera;
 use super::command::Command;
 use super::effect::Effect;
 use super::found::Found;
+use super::notices::Gravity;
 use super::question::{Place, Question};
 use super::selection::Selection;
 use super::session::{Session, Tab};
+use super::tool::Tool;
 use crate::app::words::{in_sentence, objects};
 use crate::data::SubjectFrame;
-use crate::document::{Camera, Edit, ObjectPlacement, SceneObject, free_group_name};
+use crate::document::{
+    Camera, Edit, ObjectPlacement, ParamValue, SceneObject, TemplateKind, free_group_name,
+};
+use crate::math::Placement;
 
 /// A new tool is held like a pen: so far aside from the line of sight, radians, to the upper right.
 const HELD_ASIDE: f32 = 0.8;
 /// Between the working end of a new tool and the surface, parts of its size.
 const GAP: f32 = 0.03;
+
+/// How far the working end of a tool that comes to carve goes in, parts of its size.
+const ENTERED: f32 = 0.12;
+/// How far a new template that carves pushes tissue aside, subject units.
+const NEW_PUSH: f32 = 0.01;
 
 /// An object where it is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,6 +137,79 @@ impl Session {
         }
     }
 
+    /// Adds a template that carves by the selected object, else by the last that is shown. Where there is none, asks
+    /// where a scalpel for it goes.
+    pub(super) fn start_carving(&mut self, kind: TemplateKind) {
+        self.take_tool(Tool::Look);
+        let mut shown = self.illustration().objects.iter();
+        let last = shown.rfind(|object| object.enabled);
+        let object = self.selected_object().or(last);
+        let Some(name) = object.map(|object| object.name.clone()) else {
+            let question = Question::new(Place::Middle, Command::PlaceCarving);
+            return self.effect(Effect::Ask(question));
+        };
+        let edits = self.carving(kind, &name);
+        self.apply_carving(edits);
+    }
+
+    /// Puts a scalpel into what was found, and a template that carves by it.
+    pub(super) fn place_carving(&mut self, found: Option<Found>) {
+        let pos = found.map_or(self.camera.target, |found| found.pos);
+        let mut placement = held_before(pos, &self.camera);
+        // Its working end goes in.
+        placement.at += placement.rotate * Vec3::NEG_Z * (placement.size * (GAP + ENTERED));
+        let [builtin, ..] = SceneObject::BUILTINS;
+        let name = self.free_object_name(&in_sentence(objects::tool(builtin)));
+        let index = self.object_count();
+        let mut edits = vec![
+            Edit::AddObject {
+                index,
+                object: json!({ "builtin": builtin, "name": &name }),
+            },
+            Edit::PlaceObject {
+                object: index,
+                placement,
+            },
+        ];
+        edits.extend(self.carving(TemplateKind::Carve, &name));
+        if self.apply_carving(edits) {
+            self.notify(Gravity::Info, objects::w().brought, "");
+        }
+    }
+
+    /// The edits that add a template that carves by an object of this name.
+    fn carving(&self, kind: TemplateKind, name: &str) -> Vec<Edit> {
+        let index = self.template_count();
+        vec![
+            Edit::AddTemplate {
+                index,
+                kind,
+                placement: Placement::DOCUMENT_DEFAULT,
+            },
+            carve_by(index, name),
+            Edit::SetParam {
+                template: index,
+                param: "push",
+                value: ParamValue::Number(NEW_PUSH),
+            },
+        ]
+    }
+
+    fn apply_carving(&mut self, edits: Vec<Edit>) -> bool {
+        let index = self.template_count();
+        let edit = Edit::All {
+            name: "Add carve".to_owned(),
+            edits,
+        };
+        let is_done = self.apply(&edit, false);
+        if is_done {
+            self.selection = Selection::Template(index);
+            self.side_tab = Tab::Templates;
+            self.tab = self.tab.filter(|tab| *tab != Tab::Add);
+        }
+        is_done
+    }
+
     /// A name for an object that no other one has: the wanted one, with a number if need be.
     pub(super) fn free_object_name(&self, wanted: &str) -> String {
         let taken = self.illustration().objects.iter();
@@ -152,6 +235,23 @@ impl Session {
             name,
             edits: vec![copy, renamed],
         }
+    }
+
+    /// Another name for an object, for the templates that carve by it too.
+    pub fn renamed_object(&self, object: &SceneObject, name: &str) -> Edit {
+        let rename = renaming(object.index, &object.name, name);
+        let carving = self.illustration().templates.iter();
+        let carving = carving.filter(|template| {
+            let found = template.carves_by();
+            found.is_some_and(|found| found.index == object.index)
+        });
+        let mut edits: Vec<Edit> = carving.map(|t| carve_by(t.index, name)).collect();
+        if edits.is_empty() {
+            return rename;
+        }
+        let name = rename.name(self.document());
+        edits.insert(0, rename);
+        Edit::All { name, edits }
     }
 
     /// The selected object pushed towards its working end, in hundredths of its size; drawn back if negative.
@@ -182,6 +282,15 @@ fn held_before(pos: Vec3, camera: &Camera) -> ObjectPlacement {
     ObjectPlacement { at, rotate, size }
 }
 
+/// Lets a template carve by the object of this name.
+pub fn carve_by(template: usize, name: &str) -> Edit {
+    Edit::Set {
+        pointer: format!("/templates/{template}/params/object"),
+        value: json!(name),
+        name: "Change object of carve".to_owned(),
+    }
+}
+
 /// Sets a key of an object, or puts it back to what it is without the key. `what` names it in the menu of undo.
 pub fn object_edit(object: &SceneObject, key: &str, value: Option<Value>, what: &str) -> Edit {
     let pointer = format!("/objects/{}/{key}", object.index);
@@ -207,7 +316,7 @@ pub fn enabling(object: &SceneObject, enabled: bool) -> Edit {
 }
 
 /// Gives the object of this index another name.
-pub fn renaming(index: usize, before: &str, name: &str) -> Edit {
+fn renaming(index: usize, before: &str, name: &str) -> Edit {
     Edit::Set {
         pointer: format!("/objects/{index}/name"),
         value: json!(name),

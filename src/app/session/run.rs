@@ -13,6 +13,7 @@ use super::session::{Session, Tab};
 use super::tool::Tool;
 use super::view::See;
 use crate::app::words::{self, fill};
+use crate::displace::Holds;
 use crate::document::{Camera, Document, TemplateKind};
 
 /// The key under which it is kept that the first hint was seen.
@@ -83,6 +84,7 @@ impl Session {
                     self.select(Selection::Object(object));
                 }
             }
+            Command::PlaceCarving(_, found) => self.place_carving(found),
             Command::PlaceTool(tool, found) => self.place_tool(tool, found),
             Command::SelectNext(forward) => self.select_next(forward),
             Command::DeleteSelected => self.delete_selected(),
@@ -213,6 +215,9 @@ impl Session {
 
     fn start_placing(&mut self, kind: TemplateKind) {
         self.end_tissues();
+        if kind.facts().holds == Holds::Object {
+            return self.start_carving(kind);
+        }
         let is_same = self.tool == Tool::Place(kind);
         self.take_tool(if is_same {
             Tool::Look

@@ -717,6 +717,35 @@ fn kind_words(kind: TemplateKind) -> Kind {
                 (EDGE, EDGE_MEANS),
             ],
         },
+        K::Carve => Kind {
+            title: ["Carve", "Nachformen", "Tallar", "雕切"],
+            summary: [
+                "Cut by the surface of an object, and push aside what was there",
+                "Entlang der Fläche eines Gegenstands schneiden und beiseite drücken, was dort war",
+                "Cortar por la superficie de un objeto y apartar lo que había",
+                "沿物体表面切开，并推开原处的组织",
+            ],
+            params: &[
+                (
+                    ["Push", "Verdrängung", "Empuje", "推移"],
+                    [
+                        "How deep in the object the tissue stood that now lies at its surface",
+                        "Wie tief im Gegenstand das Gewebe stand, das nun an seiner Fläche liegt",
+                        "A qué profundidad del objeto estaba el tejido que ahora toca su superficie",
+                        "现贴于物体表面的组织原先位于物体内多深",
+                    ],
+                ),
+                (
+                    ["Reach", "Reichweite", "Alcance", "范围"],
+                    [
+                        "How far from the object tissue is pushed",
+                        "Wie weit um den Gegenstand Gewebe verdrängt wird",
+                        "Hasta qué distancia del objeto se empuja el tejido",
+                        "物体周围多远的组织被推移",
+                    ],
+                ),
+            ],
+        },
     }
 }
 

@@ -201,6 +201,7 @@ pub(crate) fn edit_title(name: &str) -> String {
                 "inside colour" => w.inside,
                 "opacity" => w.opacity,
                 "gloss" => w.gloss,
+                "object" => super::objects::w().one,
                 "constraint" => super::kept::w().constraint,
                 _ => param.unwrap_or(what),
             };

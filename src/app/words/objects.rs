@@ -37,6 +37,10 @@ words! {
         place_here: "Place it freely", "Frei platzieren", "Colocarlo libremente", "自由放置";
         opacity_hint: "How much of what lies behind it it covers", "Wie viel er von dem verdeckt, was hinter ihm liegt", "Cuánto cubre de lo que hay detrás", "遮挡其后方物体的程度";
         own_colour: "The colours of its own", "Seine eigenen Farben", "Sus propios colores", "恢复自身颜色";
+        carves: "Cut by", "Geschnitten mit", "Corta", "切割物体";
+        carves_hint: "The object by whose surface is cut; the template goes with it", "Der Gegenstand, an dessen Fläche geschnitten wird; die Vorlage geht mit ihm", "El objeto por cuya superficie se corta; la plantilla va con él", "沿其表面切割的物体；模板随之移动";
+        carves_nothing: "No visible object has this name: choose one, or show it.", "Kein sichtbarer Gegenstand heißt so: einen wählen oder ihn einblenden.", "Ningún objeto visible se llama así: elija uno o muéstrelo.", "没有可见的物体使用此名称：请选择一个，或将其显示。";
+        brought: "A scalpel was brought to cut by: move it, or choose another object", "Ein Skalpell wurde dazu geholt: verschieben, oder einen anderen Gegenstand wählen", "Se ha traído un bisturí para cortar: muévalo o elija otro objeto", "已放入一把手术刀用于切割：可移动它，或选择其他物体";
         group_hint: "Objects and templates of a group are moved together", "Gegenstände und Vorlagen einer Gruppe werden zusammen bewegt", "Los objetos y plantillas de un grupo se mueven juntos", "同组的物体和模板一起移动";
     }
 }

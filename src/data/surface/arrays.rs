@@ -1,9 +1,12 @@
 //! A surface as a few flat arrays, which travel between threads that share no memory. Those of triangles and voxels
 //! become the surface's own without a copy, so that the thread that draws does not wait for them.
 
+use std::sync::Arc;
+
 use bytemuck::allocation::try_cast_vec;
 use glam::{DAffine3, UVec3, Vec2, Vec3};
 
+use super::carver::{Carver, CarverLevel};
 use super::field::{FIELD_MARGIN, SurfaceField};
 use super::textures::{SurfacePicture, SurfaceTextures};
 use super::tree::{Tree, TreeNode};
@@ -45,6 +48,12 @@ pub struct SurfaceArrays {
     pub picture_of: Vec<u16>,
     /// Pixels of pictures and their copies.
     pub pixels: Vec<u8>,
+    /// Of an object that carves: half its box, cells, least distance, room and steps of its levels.
+    pub carver_numbers: Vec<f32>,
+    /// Of an object that carves: nodes of its levels along the axes; four numbers each, the last where they begin.
+    pub carver_levels: Vec<u32>,
+    /// Of an object that carves: the nodes of its levels.
+    pub carver_texels: Vec<u32>,
 }
 
 impl SurfaceArrays {
@@ -99,11 +108,55 @@ impl SurfaceArrays {
             let closed = u8::from(segment.is_closed);
             indices.push(u32::from_le_bytes([r, g, b, closed]));
         }
+        if let Some(carver) = &surface.carver {
+            let numbers = &mut arrays.carver_numbers;
+            numbers.extend(carver.half.to_array());
+            numbers.extend([carver.cell, carver.least, carver.room]);
+            for level in &carver.levels {
+                numbers.push(level.step);
+                arrays.carver_levels.extend(level.nodes.to_array());
+                arrays.carver_levels.push(level.first);
+            }
+            arrays.carver_texels.clone_from(&carver.texels);
+        }
         arrays
     }
 
+    /// Takes what carves out of the arrays, if it is whole.
+    fn carver(&mut self) -> Option<Carver> {
+        let (&[x, y, z, cell, least, room], steps) =
+            self.carver_numbers.split_first_chunk::<6>()?;
+        let (levels, []) = self.carver_levels.as_chunks::<4>() else {
+            return None;
+        };
+        let mut total = 0;
+        let mut level_of = |(&[x, y, z, first], &step): (&[u32; 4], &f32)| {
+            let nodes = UVec3::new(x, y, z);
+            let fits = u64::from(first) == total && nodes.max_element() < 1024;
+            total += nodes.as_u64vec3().element_product();
+            fits.then_some(CarverLevel { nodes, first, step })
+        };
+        let levels: Option<Vec<CarverLevel>> =
+            levels.iter().zip(steps).map(&mut level_of).collect();
+        let is_whole = steps.len() == levels.as_ref()?.len()
+            && 4 * steps.len() == self.carver_levels.len()
+            && total == self.carver_texels.len() as u64;
+        is_whole.then(|| Carver {
+            half: Vec3::new(x, y, z),
+            cell,
+            levels: levels.unwrap_or_default(),
+            least,
+            room,
+            texels: std::mem::take(&mut self.carver_texels),
+        })
+    }
+
     /// The surface of the arrays; `None` if they are not those of a surface.
-    pub fn into_surface(self) -> Option<Surface> {
+    pub fn into_surface(mut self) -> Option<Surface> {
+        let carver = match self.carver_numbers.is_empty() {
+            true => None,
+            false => Some(Arc::new(self.carver()?)),
+        };
         let (places, opacities) = self.places.split_at_checked(24)?;
         let places = places.as_chunks::<12>().0;
         let [world_from_voxel, rest_from_voxel] =
@@ -217,6 +270,7 @@ impl SurfaceArrays {
             field,
             segments,
             segmentation,
+            carver,
         })
     }
 }
@@ -306,7 +360,9 @@ mod tests {
             textures: None,
             ..surface.clone()
         };
-        for surface in [&surface, &plain] {
+        let carving = surface.clone().carving(&mut |_| true).expect("not stopped");
+        assert!(carving.carver.is_some());
+        for surface in [&surface, &plain, &carving] {
             let arrays = SurfaceArrays::of(surface);
             assert_eq!(arrays.into_surface().as_ref(), Some(surface));
         }
@@ -336,6 +392,22 @@ mod tests {
             assert_eq!(short.into_surface(), None, "cut {number}");
         }
         assert_eq!(SurfaceArrays::default().into_surface(), None);
+        let arrays = SurfaceArrays::of(&carving);
+        let cuts: [&dyn Fn(&mut SurfaceArrays); 3] = [
+            &|arrays| drop(arrays.carver_texels.pop()),
+            &|arrays| drop(arrays.carver_levels.pop()),
+            &|arrays| drop(arrays.carver_numbers.pop()),
+        ];
+        for (number, cut) in cuts.iter().enumerate() {
+            let mut short = arrays.clone();
+            cut(&mut short);
+            assert_eq!(short.into_surface(), None, "cut {number} of what carves");
+        }
+        let without = SurfaceArrays {
+            carver_numbers: Vec::new(),
+            ..arrays
+        };
+        assert_eq!(without.into_surface().expect("whole without").carver, None);
     }
 
     #[test]

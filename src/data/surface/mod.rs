@@ -2,6 +2,7 @@
 //! to them, and the generalised winding number says what is inside (spec/surfaces.md, "Inside and outside").
 
 mod arrays;
+mod carver;
 mod field;
 mod lids;
 mod normals;
@@ -15,6 +16,7 @@ mod whole;
 mod winding;
 
 pub use arrays::SurfaceArrays;
+pub use carver::{CARVER_MARGIN, Carver, CarverLevel};
 pub use field::{FIELD_MARGIN, FIELD_VOXELS, SurfaceField, times_inside};
 pub use textures::{SurfacePicture, SurfaceTextures};
 pub use tree::{Tree, TreeNode};

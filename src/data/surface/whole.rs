@@ -1,7 +1,10 @@
 //! A mesh prepared to be drawn, asked and kept.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DVec3, Vec3};
 
+use super::carver::Carver;
 use super::field::{FIELD_MARGIN, FieldMaker, SurfaceField, times_inside, voxels_of};
 use super::lids::{MAX_TRIANGLES, lids_of};
 use super::normals::corner_normals;
@@ -54,6 +57,8 @@ pub struct Surface {
     pub segments: Vec<SurfaceSegment>,
     /// The segments on the field's voxels, without its margin; overlaps have labels of their own.
     pub segmentation: Segmentation,
+    /// What a template `carve` reads of it; `None` of a surface that no template carves by.
+    pub carver: Option<Arc<Carver>>,
 }
 
 /// What a named part of the mesh is, apart from its triangles.
@@ -208,6 +213,19 @@ impl Surface {
             field,
             segments,
             segmentation,
+            carver: None,
+        })
+    }
+
+    /// This surface, which stands alone, with what a template `carve` reads of it. `go_on` as in [`Surface::new`].
+    ///
+    /// # Errors
+    /// [`SurfaceError::Stopped`].
+    pub fn carving(self, go_on: &mut dyn FnMut(f32) -> bool) -> Result<Self, SurfaceError> {
+        let carver = Carver::of(&self, go_on).ok_or(SurfaceError::Stopped)?;
+        Ok(Self {
+            carver: Some(Arc::new(carver)),
+            ..self
         })
     }
 

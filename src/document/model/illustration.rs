@@ -2,7 +2,7 @@
 
 use super::look::{Background, Look, OpacityMode, Transfer, Window};
 use super::mesh::MeshRef;
-use super::object::SceneObject;
+use super::object::{ObjectSource, SceneObject};
 use super::recipe::Recipe;
 use super::script::needs_shaping;
 use super::subject::{SegmentsRef, SubjectRef};
@@ -97,6 +97,17 @@ impl Illustration {
             SubjectRef::Meshes { meshes, .. } => meshes,
             _ => &self.meshes_beside,
         }
+    }
+
+    /// True if a template that is switched on carves by an object with these triangles.
+    pub fn carves_by(&self, source: &ObjectSource) -> bool {
+        let is_it = |template: &PlacedTemplate| {
+            template.enabled
+                && template
+                    .carves_by()
+                    .is_some_and(|found| found.source == *source)
+        };
+        self.templates.iter().any(is_it)
     }
 
     /// The object of a name: the first, if there are several.

@@ -27,7 +27,8 @@ pub use preset::{PRESETS, Preset, PresetSubject, preset, presets};
 pub use recipe::{CleanStep, Recipe, RecipeSource, Stroke};
 pub use subject::{RawVoxels, Reading, SegmentsRef, SubjectRef};
 pub use surface::{BodyKind, Layer, SurfaceChange, SurfaceLook};
+pub(in crate::document) use template::join_objects;
 pub use template::{
-    Align, Constrain, ConstrainBy, FieldRef, PlacedTemplate, TemplateData, TemplateMode, keep_set,
-    keep_sets,
+    Align, Constrain, ConstrainBy, FieldRef, FoundObject, NotCarving, ObjectRef, PlacedTemplate,
+    TemplateData, TemplateMode, keep_set, keep_sets,
 };

@@ -115,6 +115,8 @@ pub struct Reading {
     pub bounds: Option<SubjectBox>,
     /// All meshes of a subject that has several, the one that this is the reading of first; else none.
     pub meshes: Vec<MeshRef>,
+    /// True for the mesh of an object by which a template carves: what that takes is made besides.
+    pub carves: bool,
 }
 
 /// The layout of a file that holds bare voxels, as its author describes it.

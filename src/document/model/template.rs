@@ -1,7 +1,9 @@
 //! A placed template and everything that belongs to it.
 
 use super::curve::Curve;
+use super::object::{ObjectPlacement, ObjectSource, SceneObject};
 use crate::displace::{Amount, ControlPoints, ParamValue, Shrinking, TemplateKind};
+use crate::document::limits::MAX_CARVERS;
 use crate::math::{Bent, Placement};
 use glam::{Quat, Vec2, Vec3};
 
@@ -64,8 +66,12 @@ impl PlacedTemplate {
         }
         let part = self.amount.max(0.0);
         acting.amount = 1.0;
-        match self.kind.facts().amount {
-            Amount::Parameters => {
+        let facts = self.kind.facts();
+        if matches!(facts.amount, Amount::ParametersOrNone) {
+            acting.enabled &= part > 0.0;
+        }
+        match facts.amount {
+            Amount::Parameters | Amount::ParametersOrNone => {
                 let main = self.kind.spec().main_param;
                 for (i, value) in acting.params.iter_mut().enumerate() {
                     *value = match *value {
@@ -89,6 +95,14 @@ impl PlacedTemplate {
             }
         }
         acting
+    }
+
+    /// The object that a `carve` cuts by; `None` for one without an object, and for any other kind.
+    pub fn carves_by(&self) -> Option<&FoundObject> {
+        match &self.data {
+            TemplateData::Object(held) => held.found.as_ref(),
+            _ => None,
+        }
     }
 
     /// Makes its box smaller, to a part of its size.
@@ -246,6 +260,101 @@ pub enum TemplateData {
     Points(ControlPoints),
     /// The file of a `field`.
     Field(FieldRef),
+    /// The object of a `carve`.
+    Object(ObjectRef),
+}
+
+/// The object of a `carve`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ObjectRef {
+    /// Its name, as the document writes it.
+    pub name: String,
+    /// The object that has this name, if it may carve.
+    pub found: Option<FoundObject>,
+}
+
+/// What a template takes from its object. The place of the template is that of the object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundObject {
+    /// The object's index in the document's list.
+    pub index: usize,
+    /// Where the triangles of the object come from.
+    pub source: ObjectSource,
+    /// Where the object lies; `None` is where its file says.
+    pub placement: Option<ObjectPlacement>,
+}
+
+impl ObjectPlacement {
+    /// The cube of a template that an object with this placement gives it.
+    pub fn cube(&self) -> Placement {
+        Placement {
+            at: self.at,
+            rotate: self.rotate,
+            size: Vec3::splat(self.size),
+        }
+    }
+}
+
+/// Why a `carve` does nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotCarving {
+    /// It names nothing.
+    Nameless,
+    /// No object has the name.
+    Unknown,
+    /// The object of this name is disabled.
+    Disabled,
+    /// More objects carve than may.
+    TooMany,
+}
+
+/// Gives each `carve` the object that it names, and with it its place. Says which of them do nothing, by their index,
+/// and why.
+pub(in crate::document) fn join_objects(
+    templates: &mut [PlacedTemplate],
+    objects: &[SceneObject],
+) -> Vec<(usize, NotCarving)> {
+    let mut without = Vec::new();
+    let mut carving: Vec<&str> = Vec::new();
+    for template in templates {
+        let TemplateData::Object(held) = &mut template.data else {
+            continue;
+        };
+        held.found = None;
+        let object = objects.iter().find(|object| object.name == held.name);
+        let object = match object {
+            _ if held.name.is_empty() => Err(NotCarving::Nameless),
+            None => Err(NotCarving::Unknown),
+            Some(object) if !object.enabled => Err(NotCarving::Disabled),
+            Some(object) => Ok(object),
+        };
+        let object = object.and_then(|object| {
+            let is_known = carving.contains(&object.name.as_str());
+            if template.enabled && !is_known {
+                if carving.len() == MAX_CARVERS {
+                    return Err(NotCarving::TooMany);
+                }
+                carving.push(&object.name);
+            }
+            Ok(object)
+        });
+        match object {
+            Ok(object) => {
+                held.found = Some(FoundObject {
+                    index: object.index,
+                    source: object.source.clone(),
+                    placement: object.placement,
+                });
+                template.placement = match object.placement {
+                    Some(placement) => placement.cube(),
+                    None => template.placement,
+                };
+                template.curve = None;
+            }
+            Err(why) => without.push((template.index, why)),
+        }
+    }
+    without
 }
 
 /// The file of a `field`.

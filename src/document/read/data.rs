@@ -3,7 +3,9 @@
 use super::object::Object;
 use super::reader::Reader;
 use crate::displace::Holds;
-use crate::document::model::{ControlPoint, ControlPoints, FieldRef, TemplateData, TemplateKind};
+use crate::document::model::{
+    ControlPoint, ControlPoints, FieldRef, ObjectRef, TemplateData, TemplateKind,
+};
 use crate::document::text::DocumentError;
 use crate::document::text::pointer::join;
 
@@ -23,6 +25,11 @@ impl Reader {
                 is_placed: ["at", "rotate", "size"]
                     .iter()
                     .any(|key| template.map.contains_key(*key)),
+            }),
+            // Which object has the name is found once all are read.
+            Holds::Object => TemplateData::Object(ObjectRef {
+                name: params.string("object")?,
+                found: None,
             }),
             Holds::Parameters => TemplateData::None,
         })

@@ -4,7 +4,7 @@ use super::object::{Object, wrong};
 use super::reader::Reader;
 use crate::document::limits::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS};
 use crate::document::model::{
-    Camera, Caption, Illustration, PlacedTemplate, Step, TemplateData, keep_sets,
+    Camera, Caption, Illustration, PlacedTemplate, Step, TemplateData, join_objects, keep_sets,
 };
 use crate::document::schema::ROOT;
 use crate::document::text::json::number_text;
@@ -58,6 +58,10 @@ impl Reader {
         let mut templates = Vec::new();
         for (index, object) in root.children("templates")?.enumerate() {
             templates.extend(self.template(index, &object?)?);
+        }
+        for (index, why) in join_objects(&mut templates, &objects) {
+            let at = format!("/templates/{index}/params/object");
+            self.note(at, NoticeKind::NotCarving { why });
         }
         let is_field = |t: &&PlacedTemplate| matches!(t.data, TemplateData::Field(_)) && t.enabled;
         if let Some(over) = templates.iter().filter(is_field).nth(MAX_FIELDS) {

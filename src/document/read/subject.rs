@@ -96,6 +96,7 @@ impl Reader {
             mesh: self.mesh_reading(object)?,
             bounds: self.subject_box(object)?,
             meshes: Vec::new(),
+            carves: false,
         })
     }
 

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::document::model::NotCarving;
+
 /// A remark on a value that is kept, but not drawn as written. A document with notices is still drawn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
@@ -63,6 +65,11 @@ pub enum NoticeKind {
     SameName {
         /// What both are called.
         name: String,
+    },
+    /// A `carve` that does nothing, for the sake of its object.
+    NotCarving {
+        /// The reason.
+        why: NotCarving,
     },
     /// A step sets a value in a place that the document does not have.
     Dangling {
@@ -151,6 +158,15 @@ impl fmt::Display for Notice {
                 f,
                 "{pointer}: an object before is called “{name}” too; that one counts"
             ),
+            NoticeKind::NotCarving { why } => {
+                let why = match why {
+                    NotCarving::Nameless => "the template names no object to carve by",
+                    NotCarving::Unknown => "no object has this name",
+                    NotCarving::Disabled => "the object of this name is disabled",
+                    NotCarving::TooMany => "more than four objects carve",
+                };
+                write!(f, "{pointer}: {why}; the template is kept, not drawn")
+            }
             NoticeKind::Dangling { target } => {
                 write!(f, "{pointer}: {target} is not there; left out")
             }

@@ -320,6 +320,7 @@ shader_files![
     "displace/field.wgsl",
     "displace/noise.wgsl",
     "displace/crack.wgsl",
+    "displace/carve.wgsl",
     "displace/curve.wgsl",
     "displace/compose.wgsl",
     "bind/frame.wgsl",

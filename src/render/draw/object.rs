@@ -119,16 +119,11 @@ pub(crate) fn object_groups(
         })
     };
     let kept_textures = scene.kept_textures();
-    [
-        group(1, &subject.kept_entries()),
-        group(
-            2,
-            &[
-                entry(0, scene.templates().as_entire_binding()),
-                entry(5, kept_textures.uniform.as_entire_binding()),
-                entry(6, wgpu::BindingResource::TextureView(&kept_textures.view)),
-                entry(7, wgpu::BindingResource::TextureView(scene.fields())),
-            ],
-        ),
-    ]
+    let mut entries = vec![
+        entry(0, scene.templates().as_entire_binding()),
+        entry(5, kept_textures.uniform.as_entire_binding()),
+        entry(6, wgpu::BindingResource::TextureView(&kept_textures.view)),
+    ];
+    entries.extend(scene.held().entries());
+    [group(1, &subject.kept_entries()), group(2, &entries)]
 }

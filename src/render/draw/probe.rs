@@ -9,7 +9,7 @@ use crate::render::device::gpu::Gpu;
 use crate::render::device::kernel::{Binding, Kernel};
 use crate::render::device::programs::ProgramId;
 use crate::render::pack::gpu_types::Templates;
-use crate::render::stage::fields::{FieldTexture, acting_fields};
+use crate::render::stage::held::{HeldData, HeldTextures};
 use glam::Vec3;
 
 /// Points of one dispatch: 65,535 workgroups of 64 is the limit everywhere; a quarter of a million keeps a software GPU
@@ -58,9 +58,9 @@ impl Probe {
         points: &[Vec3],
     ) -> Result<Vec<Sample>, RenderError> {
         let placed = &illustration.templates;
-        let fields = FieldTexture::of(&self.gpu, &acting_fields(placed, resources));
+        let held = HeldTextures::of(&self.gpu, &HeldData::of(placed, resources));
         let templates = Templates::pack(placed, resources);
-        self.ask(&templates, &fields, points).await
+        self.ask(&templates, &held, points).await
     }
 
     /// As [`Probe::samples`], for templates that are packed already; fields among them are at rest.
@@ -72,14 +72,14 @@ impl Probe {
         templates: &Templates,
         points: &[Vec3],
     ) -> Result<Vec<Sample>, RenderError> {
-        let fields = FieldTexture::new(&self.gpu);
-        self.ask(templates, &fields, points).await
+        let held = HeldTextures::new(&self.gpu);
+        self.ask(templates, &held, points).await
     }
 
     async fn ask(
         &self,
         templates: &Templates,
-        fields: &FieldTexture,
+        held: &HeldTextures,
         points: &[Vec3],
     ) -> Result<Vec<Sample>, RenderError> {
         let templates = uniform_buffer(&self.gpu, "probe templates", templates);
@@ -94,13 +94,16 @@ impl Probe {
                 binding,
                 resource: wgpu::Buffer::as_entire_binding(buffer),
             };
+            let of_held = held.entries().map(|entry| Binding {
+                group: 2,
+                binding: entry.binding,
+                resource: entry.resource,
+            });
+            let [fields, carvers] = of_held;
             let bindings = [
                 bind(2, 0, &templates),
-                Binding {
-                    group: 2,
-                    binding: 7,
-                    resource: wgpu::BindingResource::TextureView(&fields.view),
-                },
+                fields,
+                carvers,
                 bind(3, 0, &input),
                 bind(3, 1, &output),
             ];

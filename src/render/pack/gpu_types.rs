@@ -1,6 +1,8 @@
 //! Mirrors of the structs in `shaders/types.wgsl`, member by member and in order; `tests/layout.rs` compares them.
 
-use crate::data::{FieldSamples, Resources};
+use std::sync::Arc;
+
+use crate::data::{Carver, FieldSamples, Resources};
 use crate::document::{
     MAX_FIELDS, MAX_OBJECTS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData, TemplateMode,
 };
@@ -112,6 +114,7 @@ impl Templates {
         let mut packed = Self::NONE;
         let acting = placed.iter().map(|t| resources.acting(t));
         let enabled: Vec<_> = acting.filter(|t| t.enabled).take(MAX_TEMPLATES).collect();
+        let carvers = acting_carvers(placed, resources);
         let (mut count, mut group) = (0, 0);
         // The first entry stays 0: no points, no samples, no curve. Curves come first: there is room for one of every
         // template.
@@ -146,6 +149,7 @@ impl Templates {
                     }
                     _ => Vec::new(),
                 },
+                TemplateData::Object(_) => carver_rows(template, resources, &carvers),
                 TemplateData::None => Vec::new(),
             };
             if let Some(first) = hold(&held) {
@@ -164,6 +168,53 @@ impl Templates {
             bits | kind | u32::from(t.curve != 0)
         })
     }
+}
+
+/// What each of the objects that carve has for it, in the order in which their nodes lie behind each other.
+pub(crate) fn acting_carvers(placed: &[PlacedTemplate], resources: &Resources) -> Vec<Arc<Carver>> {
+    let mut carvers: Vec<Arc<Carver>> = Vec::new();
+    for template in placed.iter().filter(|t| resources.acting(t).enabled) {
+        if let Some(carver) = resources.carver(template)
+            && !carvers.iter().any(|known| Arc::ptr_eq(known, carver))
+        {
+            carvers.push(Arc::clone(carver));
+        }
+    }
+    carvers
+}
+
+/// So far from an object that carves its distance is read from its grids, subject units, where it does nothing too.
+const FAR_FROM_OBJECT: f32 = 4.0;
+
+/// Where the nodes of an object lie among those of all, as packed into the pool: as many levels as the template reads.
+fn carver_rows(
+    template: &PlacedTemplate,
+    resources: &Resources,
+    carvers: &[Arc<Carver>],
+) -> Vec<[f32; 4]> {
+    let Some(carver) = resources.carver(template) else {
+        return Vec::new();
+    };
+    let before = carvers
+        .iter()
+        .take_while(|known| !Arc::ptr_eq(known, carver));
+    let begin: usize = before.map(|known| known.texels.len()).sum();
+    let reach = template.number("reach").max(FAR_FROM_OBJECT);
+    let count = carver.levels_within(reach / template.placement.size.x);
+    let most_room = ((1 << Carver::ROOM_BITS) - 1) as f32;
+    let mut rows = vec![[
+        count as f32,
+        carver.cell,
+        carver.least,
+        carver.room / most_room,
+    ]];
+    rows.extend(carver.levels.iter().take(count).map(|level| {
+        let [x, y, z] = level.nodes.to_array();
+        // Whole numbers below 2 to the 24th, which floats hold.
+        let first = begin as u32 + level.first;
+        [first as f32, (x + 1024 * y) as f32, z as f32, level.step]
+    }));
+    rows
 }
 
 /// Where the samples of a field begin among those of all, as packed into the pool.

@@ -10,6 +10,7 @@ use crate::render::device::pipelines::{Pipelines, compute_pipeline};
 use crate::render::device::programs::{ProgramId, module};
 use crate::render::device::textures::{read_half_texels, volume_texture};
 use crate::render::pack::gpu_types::Baked;
+use crate::render::stage::held::HeldTextures;
 use glam::{UVec3, Vec3};
 
 /// Format of the baked map. Halves: 0.0002 subject units at a displacement of a quarter.
@@ -132,7 +133,7 @@ impl BakedTexture {
         &mut self,
         gpu: &Gpu,
         programs: &BakePrograms,
-        [templates, fields]: [wgpu::BindingResource<'_>; 2],
+        (templates, held): (&wgpu::Buffer, &HeldTextures),
         drawn_kinds: u32,
         most_texels: u32,
     ) -> u32 {
@@ -155,7 +156,9 @@ impl BakedTexture {
                 entries,
             })
         };
-        let of_templates = bind(2, &[entry(0, templates), entry(7, fields)]);
+        let mut entries = vec![entry(0, templates.as_entire_binding())];
+        entries.extend(held.entries());
+        let of_templates = bind(2, &entries);
         let of_pass = bind(
             3,
             &[

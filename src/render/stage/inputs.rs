@@ -1,7 +1,7 @@
 //! What the stages of a scene are made from.
 
-use super::fields::acting_fields;
-use crate::data::{FieldSamples, Resources};
+use super::held::HeldData;
+use crate::data::Resources;
 use crate::document::{Illustration, OpacityMode, PlacedTemplate};
 use crate::math::Aabb;
 use crate::placed::deformed_bounds;
@@ -23,8 +23,8 @@ pub(crate) struct Inputs {
     pub subject: Stamp,
     /// As the shaders take them.
     pub templates: Stamped<Templates>,
-    /// Samples of the fields that act.
-    pub fields: Stamped<Vec<FieldSamples>>,
+    /// What the templates that act hold besides numbers.
+    pub held: Stamped<HeldData>,
     /// What templates leave alone; `None` before the first update.
     pub kept: Stamped<Option<KeptTissue>>,
     /// Box of the deformed object, subject space.
@@ -51,7 +51,7 @@ impl Inputs {
         Self {
             subject: 0,
             templates: Stamped::new(Templates::NONE),
-            fields: Stamped::default(),
+            held: Stamped::default(),
             kept: Stamped::default(),
             bounds: Stamped::new(Aabb::EMPTY),
             bodies: Stamped::new(Bodies::NONE),
@@ -74,7 +74,7 @@ impl Inputs {
     ) {
         let placed = &illustration.templates;
         self.subject = subject.stamp;
-        self.fields.set(acting_fields(placed, resources));
+        self.held.set(HeldData::of(placed, resources));
         self.templates.set(Templates::pack(placed, resources));
         let kept = KeptTissue::of(placed, resources, &subject.segments, subject.bounds);
         self.notify(&kept.unknown, RenderNotice::UnknownKept);
@@ -82,7 +82,7 @@ impl Inputs {
         let bounds_from = [
             self.subject,
             self.templates.stamp(),
-            self.fields.stamp(),
+            self.held.stamp(),
             self.kept.stamp(),
         ];
         if self.bounds_from.is_stale(bounds_from) {
@@ -119,7 +119,7 @@ impl Inputs {
         [
             self.subject,
             self.templates.stamp(),
-            self.fields.stamp(),
+            self.held.stamp(),
             self.kept.stamp(),
             self.bodies.stamp(),
             self.mesh_look.stamp(),

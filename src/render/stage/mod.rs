@@ -2,7 +2,7 @@
 
 pub(crate) mod baked;
 pub(crate) mod bodies;
-pub(crate) mod fields;
+pub(crate) mod held;
 pub(crate) mod inputs;
 pub(crate) mod kept;
 pub(crate) mod look;

@@ -1,5 +1,6 @@
 //! Rigid motions of segments that move as a whole, found on the GPU after each change of a template.
 
+use super::held::HeldTextures;
 use super::inputs::Inputs;
 use super::kept::KeptTextures;
 use crate::render::device::bindings::{encoder, entry};
@@ -52,12 +53,12 @@ impl RigidMotions {
         inputs: &Inputs,
         subject: &SubjectTextures,
         templates: &wgpu::Buffer,
-        (kept_textures, fields): (&KeptTextures, &wgpu::TextureView),
+        (kept_textures, held): (&KeptTextures, &HeldTextures),
     ) {
         let is_stale = self.0.is_stale([
             inputs.subject,
             inputs.templates.stamp(),
-            inputs.fields.stamp(),
+            inputs.held.stamp(),
             inputs.kept.stamp(),
             inputs.bounds.stamp(),
         ]);
@@ -82,17 +83,15 @@ impl RigidMotions {
             padding: [0; 2],
         };
         let lattice = uniform_buffer(gpu, "deformed box", &lattice);
+        let mut of_templates = vec![
+            entry(0, templates.as_entire_binding()),
+            entry(5, kept_textures.uniform.as_entire_binding()),
+            entry(6, view(&kept_textures.view)),
+        ];
+        of_templates.extend(held.entries());
         let groups = [
-            vec![
-                entry(0, subject.buffer.as_entire_binding()),
-                entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
-            ],
-            vec![
-                entry(0, templates.as_entire_binding()),
-                entry(5, kept_textures.uniform.as_entire_binding()),
-                entry(6, view(&kept_textures.view)),
-                entry(7, view(fields)),
-            ],
+            subject.kept_entries(),
+            of_templates,
             vec![
                 entry(0, motions.as_entire_binding()),
                 entry(1, lattice.as_entire_binding()),

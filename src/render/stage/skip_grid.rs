@@ -1,5 +1,6 @@
 //! The skip grid over the deformed space: which templates reach a cell, and whether anything visible may map into it.
 
+use super::held::HeldTextures;
 use super::inputs::Inputs;
 use super::kept::KeptTextures;
 use crate::data::Resources;
@@ -119,8 +120,8 @@ pub(crate) struct GridInput<'a> {
     pub templates: &'a wgpu::Buffer,
     /// What templates leave alone.
     pub kept_textures: &'a KeptTextures,
-    /// The displacements of all `field` templates, sampled.
-    pub fields: &'a wgpu::TextureView,
+    /// What templates hold besides numbers.
+    pub held: &'a HeldTextures,
     /// The subject on the GPU, with its value ranges by brick.
     pub subject: &'a SubjectTextures,
     /// The largest step of a ray that will read it, subject units.
@@ -192,7 +193,7 @@ impl SkipGrid {
         let has_other_map = self.grid_from.is_stale([
             inputs.subject,
             inputs.templates.stamp(),
-            inputs.fields.stamp(),
+            inputs.held.stamp(),
             inputs.kept.stamp(),
             inputs.bounds.stamp(),
         ]);
@@ -299,19 +300,16 @@ impl SkipGrid {
                     entry(3, self.ways[0].as_entire_binding()),
                 ],
             );
-            let templates = bind(
-                &fill,
-                2,
-                &[
-                    entry(0, input.templates.as_entire_binding()),
-                    entry(5, input.kept_textures.uniform.as_entire_binding()),
-                    entry(
-                        6,
-                        wgpu::BindingResource::TextureView(&input.kept_textures.view),
-                    ),
-                    entry(7, wgpu::BindingResource::TextureView(input.fields)),
-                ],
-            );
+            let mut entries = vec![
+                entry(0, input.templates.as_entire_binding()),
+                entry(5, input.kept_textures.uniform.as_entire_binding()),
+                entry(
+                    6,
+                    wgpu::BindingResource::TextureView(&input.kept_textures.view),
+                ),
+            ];
+            entries.extend(input.held.entries());
+            let templates = bind(&fill, 2, &entries);
             pass.set_bind_group(2, &templates, &[]);
             pass.set_bind_group(3, &fill_group, &[]);
             pass.dispatch_workgroups(groups.x, groups.y, groups.z);

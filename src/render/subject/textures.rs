@@ -119,14 +119,19 @@ impl SubjectTextures {
             }
             _ => 0,
         };
-        let texels = self.meshes.as_ref().map_or(0, |meshes| meshes.texels.bytes());
+        let texels = self
+            .meshes
+            .as_ref()
+            .map_or(0, |meshes| meshes.texels.bytes());
         self.volume_view.bytes() + self.label_view.bytes() + beside + texels - self.texture_bytes()
     }
 
     /// Bytes of the pictures on triangles.
     pub(crate) fn texture_bytes(&self) -> u64 {
         let meshes = self.meshes.as_ref();
-        meshes.map_or(0, |meshes| 16 * u64::from(texels_of_textures(&meshes.surface)))
+        meshes.map_or(0, |meshes| {
+            16 * u64::from(texels_of_textures(&meshes.surface))
+        })
     }
 }
 
@@ -225,14 +230,24 @@ pub(crate) fn label_texture(gpu: &Gpu, dims: UVec3) -> wgpu::Texture {
 }
 
 /// The texture of a mesh's tree and triangles.
-pub(crate) fn mesh_texture(gpu: &Gpu, [width, height]: [u32; 2]) -> wgpu::Texture {
+pub(crate) fn mesh_texture(gpu: &Gpu, size: [u32; 2]) -> wgpu::Texture {
+    flat_texture(gpu, "mesh", size, wgpu::TextureFormat::Rgba32Uint)
+}
+
+/// A texture of whole numbers that the processor writes.
+pub(crate) fn flat_texture(
+    gpu: &Gpu,
+    label: &str,
+    [width, height]: [u32; 2],
+    format: wgpu::TextureFormat,
+) -> wgpu::Texture {
     gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("mesh"),
+        label: Some(label),
         size: extent(UVec3::new(width, height, 1)),
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba32Uint,
+        format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     })

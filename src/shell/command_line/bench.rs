@@ -28,7 +28,7 @@ pub(super) fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
         Subject::Mesh(surface) => (generate(SCAN)?, surface),
         scan @ Subject::Space(_) => (scan, built_in_mesh()?),
     };
-    let tool = generated(SceneObject::BUILTINS[0])?;
+    let tool = generated(SceneObject::BUILTINS[0], false)?;
     let report = pollster::block_on(crate::render::bench(
         &gpu,
         (&scan, &illustration.subject),

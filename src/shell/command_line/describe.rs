@@ -6,10 +6,11 @@ use super::args::Common;
 use super::device::open_gpu;
 use super::error::CliError;
 use super::fields::fields_of;
-use super::objects::objects_of;
+use super::objects::{Needed, objects_of};
 use super::opening::Opened;
 use super::output::{notice, print};
 use super::subject::{report_drawing, subject_of};
+use crate::data::ObjectMeshes;
 use crate::describe::{Description, Lang, Measured, Sight, describe as in_words};
 use crate::render::{SIGHT_PX, Studio};
 
@@ -49,7 +50,8 @@ pub(super) fn describe(
         }
         let shown = at_step.illustration();
         let mut resources = fields_of(shown, common, &opened.folder)?;
-        resources.objects = objects_of(shown, common, &opened.folder)?;
+        let place = (common, opened.folder.as_path());
+        resources.objects = objects_of(shown, Needed::All, ObjectMeshes::new(), place)?;
         if told.is_empty() {
             report_drawing(shown, &resources, &subject);
         }

@@ -48,7 +48,8 @@ pub(super) fn fields_of(
         match news {
             ResourceNews::NoSegment { .. }
             | ResourceNews::MeshesKept
-            | ResourceNews::FieldNotice { .. } => notice(news),
+            | ResourceNews::FieldNotice { .. }
+            | ResourceNews::TooThin { .. } => notice(news),
             ResourceNews::FieldRefused { template, .. } => {
                 let path = paths.iter().find(|(index, _)| *index == template);
                 let path = path.map(|(_, path)| path.display().to_string());

@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 use super::args::{Common, Moment};
 use super::error::CliError;
 use super::fields::fields_of;
+use super::objects::{Needed, objects_of};
 use super::output::{notice, shortened};
-use crate::data::Resources;
+use super::subject::subject_of;
+use crate::data::{ObjectMeshes, Resources, VolumeLimits};
 use crate::document::{Document, Illustration, MAX_BYTES};
 use crate::link::{self, LinkError};
 use crate::render::missed_notices;
@@ -26,7 +28,8 @@ impl Opened {
         }
     }
 
-    /// What the document says at a moment, its notices said, and the samples of its fields.
+    /// What the document says at a moment, its notices said, and what its templates hold: the samples of its fields, and
+    /// the objects that it carves by.
     pub(super) fn illustration(
         &self,
         moment: Moment,
@@ -36,7 +39,18 @@ impl Opened {
         missed_notices(&illustration.templates)
             .iter()
             .for_each(notice);
-        let resources = fields_of(&illustration, common, &self.folder)?;
+        let mut resources = fields_of(&illustration, common, &self.folder)?;
+        let place = (common, self.folder.as_path());
+        resources.objects = objects_of(&illustration, Needed::Carving, ObjectMeshes::new(), place)?;
+        let mut carving = illustration.templates.iter().filter_map(|t| t.carves_by());
+        if carving.any(|found| found.placement.is_none()) {
+            let limits = VolumeLimits {
+                max_dim: u32::MAX,
+                max_voxels: u64::MAX,
+            };
+            let subject = subject_of(&illustration, common, &self.folder, limits)?;
+            resources.frame = Some(subject.frame());
+        }
         Ok((illustration, resources))
     }
 

@@ -33,6 +33,7 @@ impl ReadingFlags {
             mesh: document.mesh,
             bounds: document.bounds,
             meshes: document.meshes,
+            carves: document.carves,
         }
     }
 

@@ -2,7 +2,11 @@
 
 use serde_json::{Value, json};
 
+use crate::displace::Holds;
 use crate::document::{ParamKind, TemplateKind, plain_f64};
+
+/// The parameter of a kind that holds an object, and what it is.
+const OBJECT: [&str; 2] = ["object", "Name of the object of the scene"];
 
 pub(super) fn templates_json() -> String {
     let templates: Vec<Value> = TemplateKind::ALL
@@ -56,6 +60,11 @@ pub(super) fn templates_json() -> String {
                 })
                 .collect();
             let mut value = json!({ "kind": spec.name, "summary": spec.summary, "params": params });
+            if kind.facts().holds == Holds::Object {
+                value["params"].as_array_mut().into_iter().for_each(|list| {
+                    list.push(json!({ "name": OBJECT[0], "summary": OBJECT[1], "type": "text", "default": "" }));
+                });
+            }
             if let Some(main) = spec.main_param.and_then(|i| spec.params.get(i)) {
                 value["main"] = json!(main.name);
             }
@@ -74,6 +83,9 @@ pub(super) fn templates_text() -> String {
     for kind in TemplateKind::ALL {
         let spec = kind.spec();
         text.push_str(&format!("{}: {}\n", spec.name, spec.summary));
+        if kind.facts().holds == Holds::Object {
+            text.push_str(&format!("  {}: {}\n", OBJECT[0], OBJECT[1]));
+        }
         for param in spec.params {
             let values = match param.kind {
                 ParamKind::Number { default, min, max } => format!("{default} ({min} to {max})"),

@@ -13,7 +13,7 @@ use crate::document::Reading;
 use crate::load::{LoadError, LoadReport, mesh_among, names_beside, read_meshes};
 use crate::pictures::Picture;
 use crate::shell::loading::{PostingSink, is_mesh_file};
-use crate::shell::meshes::{box_of, make_mesh, mesh_files};
+use crate::shell::meshes::{Carving, box_of, make_mesh, mesh_files};
 
 /// Called once when the part has been loaded.
 pub fn loaded() {
@@ -30,8 +30,9 @@ pub async fn run(message: JsValue, load: Function) -> Result<Option<String>, JsV
     fault::heed_scope(&message);
     post::module_unless_known(&message, Part::Meshes)?;
     match ScanTask::of(&message)? {
-        ScanTask::Mesh(name) => {
-            make_mesh(&name, &mut |event: LoadEvent| post::event(event).is_ok());
+        ScanTask::Mesh(name, carves) => {
+            let mut post = |event: LoadEvent| post::event(event).is_ok();
+            make_mesh(&name, carves, &mut post);
             Ok(None)
         }
         ScanTask::Address {
@@ -132,7 +133,8 @@ async fn prepare(
         let outcome = unpacked(packed, load).await;
         read.unpacked(outcome.map_err(|error| text_of(&error)), report);
     }
-    read.prepare(box_of(reading), sink, report)
+    let mut carving = Carving(sink);
+    read.prepare(box_of(reading), carving.where_it(reading.carves), report)
 }
 
 /// Has a picture unpacked by the part that holds the decoders.

@@ -32,7 +32,7 @@ pub fn unpacked(word: &str, held: &JsValue) -> Option<SubjectPart> {
 }
 
 /// How many arrays a surface has.
-pub const SURFACE_ARRAYS: usize = 14;
+pub const SURFACE_ARRAYS: usize = 17;
 
 /// Puts an array of a surface, by its index in [`packed_surface`], to those that have come. Each comes in a message of
 /// its own, so that no frame waits for all of them. `None` if it is none.
@@ -60,6 +60,9 @@ pub fn put_array(arrays: &mut SurfaceArrays, index: u32, held: &JsValue) -> Opti
         11 => arrays.uvs = floats()?,
         12 => arrays.picture_of = held.dyn_ref::<Uint16Array>()?.to_vec(),
         13 => arrays.pixels = bytes()?,
+        14 => arrays.carver_numbers = floats()?,
+        15 => arrays.carver_levels = indices()?,
+        16 => arrays.carver_texels = indices()?,
         _ => return None,
     }
     Some(())
@@ -86,6 +89,9 @@ pub fn packed_surface(surface: &Surface) -> [JsValue; SURFACE_ARRAYS] {
         floats(&arrays.uvs),
         Uint16Array::from(arrays.picture_of.as_slice()).into(),
         bytes(&arrays.pixels),
+        floats(&arrays.carver_numbers),
+        indices(&arrays.carver_levels),
+        indices(&arrays.carver_texels),
     ]
 }
 

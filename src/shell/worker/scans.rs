@@ -29,7 +29,7 @@ pub async fn run(message: JsValue) -> Result<Option<String>, JsValue> {
     post::module_unless_known(&message, Part::Scans)?;
     let limits = limits_of(&message)?;
     match ScanTask::of(&message)? {
-        ScanTask::Mesh(_) => Ok(Some(Part::Meshes.name().to_owned())),
+        ScanTask::Mesh(..) => Ok(Some(Part::Meshes.name().to_owned())),
         ScanTask::Field { name, file } => post_field(name, file).await.map(|()| None),
         ScanTask::Address {
             address,

@@ -2,9 +2,9 @@
 //! compiled module, if the page has it), `max_dim` and `max_voxels` (the limits of the device), `task` (`true`), and
 //! - for the makers of subjects `builtin` (a name) and `resolution` (voxels along the longest side; without it the
 //!   coarse volume comes first, then the fine one),
-//! - for the readers of scans and of meshes `builtin` (of a mesh), `files` (pairs of name and `Blob`), `address`, or
-//!   `field` (a pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label volumes),
-//!   `has_scan` and `may_be_field`.
+//! - for the readers of scans and of meshes `builtin` (of a mesh) and `carves`, `files` (pairs of name and `Blob`),
+//!   `address`, or `field` (a pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label
+//!   volumes), `has_scan` and `may_be_field`.
 
 use glam::DVec3;
 use js_sys::{Array, Object, Reflect};
@@ -93,8 +93,8 @@ pub enum ScanTask {
         /// How the file is to be read.
         reading: Reading,
     },
-    /// Make a built-in subject that is a mesh.
-    Mesh(String),
+    /// Make a built-in subject that is a mesh, or a tool; true for one that a template carves by.
+    Mesh(String, bool),
     /// Read a displacement field.
     Field {
         /// Name of the file, which tells its format.
@@ -168,8 +168,9 @@ impl Task {
                 set("are_segments", &(*are_segments).into())?;
                 set("reading", &text_of_reading(reading).into())?;
             }
-            Self::Scan(ScanTask::Mesh(name)) => {
+            Self::Scan(ScanTask::Mesh(name, carves)) => {
                 set("builtin", &name.into())?;
+                set("carves", &(*carves).into())?;
             }
             Self::Scan(ScanTask::Field { name, file }) => {
                 set("field", &Array::of2(&name.into(), file))?;
@@ -192,7 +193,7 @@ impl ScanTask {
             (name, pair.get(1).unchecked_into::<Blob>())
         };
         if let Some(name) = get("builtin")?.as_string() {
-            return Ok(Self::Mesh(name));
+            return Ok(Self::Mesh(name, get("carves")?.is_truthy()));
         }
         let field = get("field")?;
         if field.is_truthy() {
@@ -253,6 +254,7 @@ pub fn text_of_reading(reading: &Reading) -> String {
     }).collect();
     json!({
         "frame": reading.frame, "raw": raw, "mesh": value_of_mesh(&reading.mesh), "bounds": bounds, "meshes": meshes,
+        "carves": reading.carves,
     })
     .to_string()
 }
@@ -272,6 +274,7 @@ pub fn reading_of(text: &str) -> Reading {
         raw: value.get("raw").and_then(raw_of),
         mesh: value.get("mesh").map(mesh_of).unwrap_or_default(),
         bounds: value.get("bounds").and_then(bounds_of),
+        carves: value.get("carves").and_then(Value::as_bool) == Some(true),
         meshes: value
             .get("meshes")
             .and_then(Value::as_array)
