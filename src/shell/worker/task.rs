@@ -2,9 +2,9 @@
 //! compiled module, if the page has it), `max_dim` and `max_voxels` (the limits of the device), `task` (`true`), and
 //! - for the makers of subjects `builtin` (a name) and `resolution` (voxels along the longest side; without it the
 //!   coarse volume comes first, then the fine one),
-//! - for the readers of scans `builtin` (of a mesh) and `carves`, `files` (pairs of name and `Blob`), `address`, or `field` (a
-//!   pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label volumes), `has_scan` and
-//!   `may_be_field`.
+//! - for the readers of scans `builtin` (of a mesh) and `carves`, `files` (pairs of name and `Blob`), `address`, or
+//!   `field` (a pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label volumes),
+//!   `has_scan` and `may_be_field`.
 
 use glam::DVec3;
 use js_sys::{Array, Object, Reflect};
