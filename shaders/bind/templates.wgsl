@@ -1,4 +1,5 @@
-// Group 2, bindings 0, 7 and 13: the templates. compose.wgsl reads it as a global, since 32 templates cannot go by value.
+// Group 2, bindings 0, 7 and 13: the templates. compose.wgsl reads them as globals, since 32 templates cannot go by
+// value.
 // needs: types.wgsl
 
 /// Templates of the document, in order.

@@ -9,14 +9,14 @@
 //   |     |  <- .       by less, at `reach` by nothing
 //   +-----+             A = d: what lies in the object now is a gap
 //
-// Differs from the source: never past the middle of the object (room), since the map folds at sharp edges with one depth
-// for all. m fades where the surface is equally near on two sides, so that the map does not jump within a cell.
+// Differs from the source: never past the middle of the object (room), since with one depth for all the map folds at
+// sharp edges. m fades where the surface is equally near on two sides, so that the map does not jump within a cell.
 //
 // d and room lie on grids, each twice as coarse as the one inside it (data/surface/carver.rs). Each is read by a
 // quadratic B-spline, whose slopes are the differences over a cell; towards the end of a grid the next one fades in.
-// `templates.pool[held]` has the number of grids, the finest cell, the least distance and a step of room; the rows behind
-// it have for each grid where its nodes begin, their number along x plus 1024 times that along y, along z, and a step of
-// distance.
+// `templates.pool[held]` has the number of grids, the finest cell, the least distance and a step of room; the rows
+// behind it have for each grid where its nodes begin, their number along x plus 1024 times that along y, along z, and a
+// step of distance.
 // needs: types.wgsl bind/templates.wgsl displace/frame.wgsl
 
 /// Texels in a row of `carvers`.

@@ -52,7 +52,9 @@ pub fn solved_points(template: &PlacedTemplate) -> Vec<[f32; 4]> {
 /// same place; none for other kinds.
 pub fn missed_points(template: &PlacedTemplate) -> Vec<Missed> {
     match &template.data {
-        TemplateData::Points(points) => Interpolant::of(&given(template, None, None)).missed(points),
+        TemplateData::Points(points) => {
+            Interpolant::of(&given(template, None, None)).missed(points)
+        }
         TemplateData::None | TemplateData::Field(_) | TemplateData::Object(_) => Vec::new(),
     }
 }

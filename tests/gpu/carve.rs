@@ -130,7 +130,7 @@ fn bound(size: f64) -> f64 {
 }
 
 /// Settings: size of the tool, push, reach. Push below and above half the thickness, and below 0. The ball is made of
-/// flat triangles, which lean against it by up to a degree: of a larger one the room would differ by more than the bound.
+/// flat triangles, which lean against it by up to a degree: of a larger one the room would differ by more than asked.
 const SETTINGS: [[f64; 3]; 6] = [
     [0.3, 0.02, 0.15],
     [0.2, 0.5, 0.3],
@@ -237,8 +237,8 @@ fn displacement_and_continuity_go_on_at_the_wall() {
     assert_eq!(crossed, 500, "A grows outwards");
 }
 
-/// Where there is material the map does not fold: differences over a cell have a positive determinant. With `push` where
-/// the object has no room for it the box does.
+/// Where there is material the map does not fold: differences over a cell have a positive determinant. With `push`
+/// where the object has no room for it the box does.
 #[test]
 fn nothing_folds_outside_of_the_object() {
     let probe = probe();

@@ -394,9 +394,21 @@ mod tests {
         assert_eq!(SurfaceArrays::default().into_surface(), None);
         let arrays = SurfaceArrays::of(&carving);
         let cuts: [&dyn Fn(&mut SurfaceArrays); 3] = [
-            &|arrays| drop(arrays.carver_texels.pop()),
-            &|arrays| drop(arrays.carver_levels.pop()),
-            &|arrays| drop(arrays.carver_numbers.pop()),
+            &|arrays| {
+                arrays
+                    .carver_texels
+                    .truncate(arrays.carver_texels.len() - 1)
+            },
+            &|arrays| {
+                arrays
+                    .carver_levels
+                    .truncate(arrays.carver_levels.len() - 1)
+            },
+            &|arrays| {
+                arrays
+                    .carver_numbers
+                    .truncate(arrays.carver_numbers.len() - 1)
+            },
         ];
         for (number, cut) in cuts.iter().enumerate() {
             let mut short = arrays.clone();

@@ -3,6 +3,7 @@
 
 mod arrays;
 mod carver;
+mod carving;
 mod field;
 mod lids;
 mod normals;

@@ -217,18 +217,6 @@ impl Surface {
         })
     }
 
-    /// This surface, which stands alone, with what a template `carve` reads of it. `go_on` as in [`Surface::new`].
-    ///
-    /// # Errors
-    /// [`SurfaceError::Stopped`].
-    pub fn carving(self, go_on: &mut dyn FnMut(f32) -> bool) -> Result<Self, SurfaceError> {
-        let carver = Carver::of(&self, go_on).ok_or(SurfaceError::Stopped)?;
-        Ok(Self {
-            carver: Some(Arc::new(carver)),
-            ..self
-        })
-    }
-
     /// The segment of a triangle: an index into `segments`.
     pub fn segment_of(&self, triangle: usize) -> usize {
         usize::from(self.owners[triangle] & !LID)

@@ -308,6 +308,18 @@ pub enum NotCarving {
     TooMany,
 }
 
+impl NotCarving {
+    /// In plain words.
+    pub fn why(self) -> &'static str {
+        match self {
+            Self::Nameless => "the template names no object to carve by",
+            Self::Unknown => "no object has this name",
+            Self::Disabled => "the object of this name is disabled",
+            Self::TooMany => "more than four objects carve",
+        }
+    }
+}
+
 /// Gives each `carve` the object that it names, and with it its place. Says which of them do nothing, by their index,
 /// and why.
 pub(in crate::document) fn join_objects(

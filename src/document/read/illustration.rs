@@ -61,7 +61,7 @@ impl Reader {
         }
         for (index, why) in join_objects(&mut templates, &objects) {
             let at = format!("/templates/{index}/params/object");
-            self.note(at, NoticeKind::NotCarving { why });
+            self.note(at, NoticeKind::NotCarving { why: why.why() });
         }
         let is_field = |t: &&PlacedTemplate| matches!(t.data, TemplateData::Field(_)) && t.enabled;
         if let Some(over) = templates.iter().filter(is_field).nth(MAX_FIELDS) {

@@ -14,7 +14,7 @@ fn carve(object: &str) -> Value {
 }
 
 /// Pointers of the notices, each with the reason.
-fn told(document: &Document) -> Vec<(String, NotCarving)> {
+fn told(document: &Document) -> Vec<(String, &'static str)> {
     let notices = document.notices().iter();
     let each = notices.map(|notice| match notice.kind {
         NoticeKind::NotCarving { why } => (notice.pointer.clone(), why),
@@ -67,9 +67,9 @@ fn what_does_not_carve_is_named() {
     );
     let at = |index: usize| format!("/templates/{index}/params/object");
     let expected = [
-        (at(0), NotCarving::Disabled),
-        (at(1), NotCarving::Unknown),
-        (at(2), NotCarving::Nameless),
+        (at(0), NotCarving::Disabled.why()),
+        (at(1), NotCarving::Unknown.why()),
+        (at(2), NotCarving::Nameless.why()),
     ];
     assert_eq!(told(&document), expected);
     let carving = document.illustration().templates.iter();
@@ -87,7 +87,10 @@ fn four_objects_carve_and_a_fifth_is_named() {
     // One that carves twice counts once, and one that is switched off does not.
     let mut templates: Vec<Value> = ["a", "a", "b", "c", "d", "e"].map(carve).to_vec();
     let all = document(json!(objects), json!(templates));
-    let fifth = ("/templates/5/params/object".to_owned(), NotCarving::TooMany);
+    let fifth = (
+        "/templates/5/params/object".to_owned(),
+        NotCarving::TooMany.why(),
+    );
     assert_eq!(told(&all), [fifth]);
     templates[2]["enabled"] = json!(false);
     assert_eq!(told(&document(json!(objects), json!(templates))), []);

@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use crate::document::model::NotCarving;
-
 /// A remark on a value that is kept, but not drawn as written. A document with notices is still drawn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
@@ -68,8 +66,8 @@ pub enum NoticeKind {
     },
     /// A `carve` that does nothing, for the sake of its object.
     NotCarving {
-        /// The reason.
-        why: NotCarving,
+        /// The reason, in plain words.
+        why: &'static str,
     },
     /// A step sets a value in a place that the document does not have.
     Dangling {
@@ -159,12 +157,6 @@ impl fmt::Display for Notice {
                 "{pointer}: an object before is called “{name}” too; that one counts"
             ),
             NoticeKind::NotCarving { why } => {
-                let why = match why {
-                    NotCarving::Nameless => "the template names no object to carve by",
-                    NotCarving::Unknown => "no object has this name",
-                    NotCarving::Disabled => "the object of this name is disabled",
-                    NotCarving::TooMany => "more than four objects carve",
-                };
                 write!(f, "{pointer}: {why}; the template is kept, not drawn")
             }
             NoticeKind::Dangling { target } => {

@@ -28,8 +28,8 @@ impl Opened {
         }
     }
 
-    /// What the document says at a moment, its notices said, and what its templates hold: the samples of its fields, and
-    /// the objects that it carves by.
+    /// What the document says at a moment, its notices said, and what its templates hold: samples of fields, and the
+    /// objects that it carves by.
     pub(super) fn illustration(
         &self,
         moment: Moment,
