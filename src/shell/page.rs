@@ -217,7 +217,7 @@ impl PageServices {
                 drop(ended);
                 services.take_field(None, files.clone(), *outcome);
             }
-            Answer::Module(_) => {}
+            Answer::Module(..) => {}
         });
         match started {
             Ok(load) => self.0.borrow_mut().opening = Some((ticket, load)),

@@ -110,7 +110,7 @@ impl Task {
         match self {
             Self::Subject(name, _) if mesh_names().contains(&name.as_str()) => Part::Meshes,
             Self::Subject(..) => Part::Subjects,
-            Self::Scan(ScanTask::Mesh(_)) => Part::Meshes,
+            Self::Scan(ScanTask::Mesh(..)) => Part::Meshes,
             Self::Scan(ScanTask::Files { files, .. }) => {
                 match are_mesh_names(files.iter().map(|(name, _)| name.as_str())) {
                     true => Part::Meshes,
