@@ -31,7 +31,7 @@ impl PictureKind {
 /// What the header of a picture says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PictureHeader {
-    /// The format.
+    /// What the file is by its first bytes.
     pub kind: PictureKind,
     /// Width and height, pixels, as stored: no orientation is followed.
     pub size: [u32; 2],

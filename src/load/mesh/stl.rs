@@ -60,6 +60,8 @@ fn read_binary(input: &mut Input<'_, '_>, draft: &mut Draft) -> Result<(), MeshE
             break n;
         }
         count += 1;
+        // Triangles are counted before their corners, so that it is they that are too many.
+        draft.has_room_for(1)?;
         let mut corners = [0; 3];
         for (corner, bytes) in corners.iter_mut().zip(triangle[12..48].chunks_exact(12)) {
             let float =
@@ -103,7 +105,10 @@ fn read_text(input: &mut Input<'_, '_>, draft: &mut Draft) -> Result<(), MeshErr
                 part = Some(draft.add_part(name));
                 has_solid = true;
             }
-            ("facet", Some(_)) if facet.is_none() => facet = Some(Vec::new()),
+            ("facet", Some(_)) if facet.is_none() => {
+                draft.has_room_for(1)?;
+                facet = Some(Vec::new());
+            }
             ("outer" | "endloop", Some(_)) if facet.is_some() => {}
             ("vertex", Some(_)) if let Some(corners) = &mut facet => {
                 let mut position = [0.0; 3];

@@ -624,6 +624,12 @@ fn limits_hold_before_memory_is_asked_for() {
     assert!(fails("a.obj", four.as_bytes()).starts_with("4 triangles so far are more than the 3"));
     let vertices = "v 1 2 3\n".repeat(10);
     assert!(fails("a.obj", vertices.as_bytes()).starts_with("10 vertices so far"));
+    let mut stl = vec![0; 84 + 4 * 50];
+    stl[80] = 4;
+    assert!(fails("a.stl", &stl).starts_with("4 triangles so far are more than the 3"));
+    let facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    let ascii = format!("solid a\n{}endsolid a\n", facet.repeat(4));
+    assert!(fails("a.stl", ascii.as_bytes()).starts_with("4 triangles so far"));
     let normals = "vn 1 2 3\n".repeat(10);
     assert!(fails("a.obj", normals.as_bytes()).starts_with("10 normals so far"));
     read_as(&[("a.obj", obj("f 1 2 3 4 5\n").as_bytes())], &options).expect("three");
