@@ -90,7 +90,10 @@ impl RigidMotions {
         ];
         of_templates.extend(held.entries());
         let groups = [
-            subject.kept_entries(),
+            vec![
+                entry(0, subject.buffer.as_entire_binding()),
+                entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
+            ],
             of_templates,
             vec![
                 entry(0, motions.as_entire_binding()),

@@ -110,8 +110,8 @@ impl SubjectTextures {
         self.uniform.has_labels != 0 || self.meshes.is_some()
     }
 
-    /// Bytes of the values and the labels, and of the meshes: their field, tree and triangles. Their pictures are counted
-    /// apart, by [`SubjectTextures::texture_bytes`].
+    /// Bytes of the values and the labels, and of the meshes: their field, tree and triangles. Their pictures are
+    /// counted apart, by [`SubjectTextures::texture_bytes`].
     pub(crate) fn bytes(&self) -> u64 {
         let beside = match &self.meshes {
             Some(meshes) if self.shader == SubjectShader::Both => {
