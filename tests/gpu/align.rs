@@ -864,7 +864,7 @@ fn far_tissue_goes_its_way() {
         let kept = giving_way(free.clone(), ConstrainBy::Displacement, "core");
         let pairs = probe(&studio, &[kept], &points).into_iter().zip(probe(
             &studio,
-            &[free.clone()],
+            std::slice::from_ref(&free),
             &points,
         ));
         let (mut share, mut count) = (0.0, 0);

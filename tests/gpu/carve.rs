@@ -133,17 +133,20 @@ fn bound(size: f64) -> f64 {
 /// flat triangles, which lean against it by up to a degree: of a larger one the room would differ by more than asked.
 const SETTINGS: [[f64; 3]; 6] = [
     [0.3, 0.02, 0.15],
-    [0.2, 0.5, 0.3],
+    [0.1, 0.5, 0.3],
     [0.6, 0.1, 0.1],
     [0.5, -0.1, 0.12],
     [0.05, 0.5, 1.0],
     [0.3, 0.0, 0.15],
 ];
 
+/// An object of a size, in closed form.
+type SolidOf = dyn Fn(f64) -> Box<dyn Solid>;
+
 #[test]
 fn carve_is_the_page_s_formula_for_a_ball_and_a_box() {
     let probe = probe();
-    let tools: [(Arc<Surface>, &dyn Fn(f64) -> Box<dyn Solid>); 3] = [
+    let tools: [(Arc<Surface>, &SolidOf); 3] = [
         (carving(&ball()), &|size| Box::new(Ball(size / 2.0))),
         (carving(&brick(Vec3::new(50.0, 30.0, 40.0))), &|size| {
             Box::new(Brick(DVec3::new(0.5, 0.3, 0.4) * size))

@@ -1,7 +1,7 @@
 //! A plain f64 reading of `carve` (spec/surfaces.md) for two objects whose distances are known in closed form. It was
 //! written from that page, not from the shaders.
 
-use glam::{BVec3, DVec3};
+use glam::DVec3;
 
 /// An object in its own axes, about its middle, subject units.
 pub(crate) trait Solid {
@@ -90,7 +90,7 @@ impl Solid for Brick {
 
     fn room(&self, pos: DVec3) -> f64 {
         let foot = pos.clamp(-self.0, self.0);
-        let over = BVec3::from((pos.abs() - self.0).cmpgt(DVec3::ZERO));
+        let over = (pos.abs() - self.0).cmpgt(DVec3::ZERO);
         let axis = match over.bitmask().count_ones() {
             // At an edge the sides are nearer than 0.9 r from the start.
             2.. => return 0.0,
@@ -110,8 +110,7 @@ impl Solid for Brick {
         sorted.sort_by(f64::total_cmp);
         // Inside, where two sides are equally near; this holds the edges. Opposite sides are, in the middle.
         let nearest = self.nearest_axis(pos);
-        let is_between = sorted[2] < within
-            && ((sorted[2] - sorted[1]) < within * 2f64.sqrt() || pos[nearest].abs() < within);
-        is_between
+        sorted[2] < within
+            && ((sorted[2] - sorted[1]) < within * 2f64.sqrt() || pos[nearest].abs() < within)
     }
 }

@@ -118,6 +118,8 @@ pub(crate) fn tests(args: &[&str]) -> std::process::Command {
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
         command.env("XDG_RUNTIME_DIR", std::env::temp_dir());
     }
+    // Windows make their shaders without debug information too (see `Gpu::open`).
+    command.env("WGPU_DEBUG", "0");
     // Tests that find no scans put their names there.
     command.env("FABRICA_NOT_RUN", root().join("target/xtask/not_run.txt"));
     command
