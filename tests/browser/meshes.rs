@@ -1,11 +1,8 @@
-//! Meshes in the page: their programs are fetched when one comes, textures are those of the native program, and a large
-//! one holds no frame up.
+//! Meshes in the page: their programs are fetched when one comes, and textures are those of the native program.
 
 use super::*;
 use crate::parts::count;
 use crate::picture_files::{jpeg, plate, rgb_png};
-use fabrica::load::{MemoryFiles, MeshOptions, read_mesh};
-use glam::Vec3;
 use sha2::{Digest as _, Sha256};
 
 /// The page's decoders give the pixels of the native ones: a photograph, a plate, and small files of other kinds.
@@ -119,96 +116,8 @@ fn an_obj_is_dropped_with_its_picture() {
         let tab = session.coarse_viewer(&head, PAGE).await;
         tab.settled().await;
         drop_files(&tab, &["a.jpg", "a.mtl", "a.obj"]).await;
+        hand::click(&tab, "The subject").await;
         tab.drawn("obj_with_picture", is_green).await;
         tab.assert_no_complaints().await;
-    });
-}
-
-/// A mesh as a binary STL, each triangle parted in four as often as `turns` says.
-fn parted_stl(name: &str, bytes: Vec<u8>, turns: u32) -> (Vec<u8>, usize) {
-    let mut files = MemoryFiles::new([(name, bytes)]);
-    let options = MeshOptions::default();
-    let (mesh, _) = read_mesh(&mut files, name, &options, &mut |_| true).expect("a mesh");
-    let corners = mesh
-        .triangles
-        .iter()
-        .map(|&triangle| mesh.corners_of(triangle));
-    let mut triangles: Vec<[Vec3; 3]> = corners.collect();
-    for _ in 0..turns {
-        let parts = triangles.iter().flat_map(|&[a, b, c]| {
-            let (ab, bc, ca) = (a.midpoint(b), b.midpoint(c), c.midpoint(a));
-            [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-        });
-        triangles = parts.collect();
-    }
-    let mut file = vec![0; 80];
-    file.extend((triangles.len() as u32).to_le_bytes());
-    for triangle in &triangles {
-        let places = [Vec3::ZERO, triangle[0], triangle[1], triangle[2]];
-        file.extend(
-            places
-                .iter()
-                .flat_map(|place| place.to_array())
-                .flat_map(f32::to_le_bytes),
-        );
-        file.extend([0, 0]);
-    }
-    (file, triangles.len())
-}
-
-/// Armadillo with 466,720 triangles loads with progress while the page draws on, can be stopped, and is refused where
-/// there are more than two million.
-#[test]
-fn a_large_mesh_holds_no_frame_up() {
-    let Some(data) = data_folder("a_large_mesh_holds_no_frame_up") else {
-        return;
-    };
-    let bytes = std::fs::read(data.join("mesh/armadillo.obj")).expect("the armadillo");
-    let (file, count) = parted_stl("armadillo.obj", bytes, 2);
-    assert_eq!(count, 466_720);
-    let mut too_large = vec![0; 84];
-    too_large[80..84].copy_from_slice(&2_000_001_u32.to_le_bytes());
-    too_large.resize(84 + 50 * 2_000_001, 0);
-    // No two corners at one place, so that it is the count that is refused.
-    for (index, triangle) in too_large[84..].chunks_exact_mut(50).enumerate() {
-        for (corner, x) in [(12, 0.0), (24, 1.0), (36, 2.0)] {
-            let place = index as f32 + x;
-            triangle[corner..corner + 4].copy_from_slice(&place.to_le_bytes());
-        }
-    }
-    with_browser(BrowserGpu::Software, |session| async move {
-        session.server.add("large.stl", file);
-        session.server.add("too_large.stl", too_large);
-        let head = format!(
-            "#{}",
-            payload(r#"{"fabrica":1,"subject":{"builtin":"cube"},"camera":{"distance":6}}"#)
-        );
-        let tab = session.coarse_viewer(&head, (300, 300)).await;
-        tab.settled().await;
-        tab.eval::<bool>(
-            "(window.long = [], new PerformanceObserver((list) => window.long.push(
-                ...list.getEntries().map((entry) => Math.round(entry.duration)))).observe({ type: 'longtask' }), true)",
-        )
-        .await;
-        drop_files(&tab, &["large.stl"]).await;
-        hand::click(&tab, "Cancel").await;
-        tab.settled().await;
-        let before: String = tab.eval("window.fabrica.viewer.get_document()").await;
-        assert!(before.contains("cube"), "stopped: {before}");
-        tab.eval::<bool>("(window.long.length = 0, true)").await;
-        drop_files(&tab, &["large.stl"]).await;
-        hand::click(&tab, "The subject").await;
-        tab.wait_until(
-            "JSON.parse(window.fabrica.viewer.get_document()).subject?.sha256 !== undefined",
-            240,
-        )
-        .await;
-        let long: Vec<f64> = tab.eval("window.long").await;
-        println!("tasks of more than 50 ms while the mesh was prepared: {long:?}");
-        drop_files(&tab, &["too_large.stl"]).await;
-        let lines = "window.fabrica.viewer.controls()";
-        tab.wait_until(&format!("{lines}.includes('2000001')"), 120)
-            .await;
-        assert!(long.is_empty(), "frames were held up: {long:?}");
     });
 }
