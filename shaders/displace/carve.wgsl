@@ -79,6 +79,17 @@ fn carver_read(at: vec3f, nodes: vec3u, row: vec4f, cell: f32, least: f32, room_
     return Carved(sum.xyz * (row.w / cell), least + sum.w * row.w, room * room_step);
 }
 
+/// Nodes of a grid along each axis, by its row of the pool.
+fn carver_nodes(row: vec4f) -> vec3u {
+    let flat = u32(row.y);
+    return vec3u(flat % 1024u, flat / 1024u, u32(row.z));
+}
+
+/// A place of the object's space, in nodes of a grid.
+fn carver_place(pos: vec3f, nodes: vec3u, cell: f32) -> vec3f {
+    return pos / cell + 0.5 * (vec3f(nodes) - 1.0);
+}
+
 /// What is known of the object whose grids begin at `held` of the pool. `pos` has the middle of the object's box at 0.
 fn carver_at(pos: vec3f, held: u32) -> Carved {
     let head = templates.pool[held];
@@ -86,11 +97,11 @@ fn carver_at(pos: vec3f, held: u32) -> Carved {
     var cell = head.y;
     var found = Carved(vec3f(0.0), NO_END, 0.0);
     var left = 1.0;
+    var near = 0.0;
     for (var level = 0u; level < count && left > 0.0; level++) {
         let row = templates.pool[held + 1u + level];
-        let flat = u32(row.y);
-        let nodes = vec3u(flat % 1024u, flat / 1024u, u32(row.z));
-        let at = pos / cell + 0.5 * (vec3f(nodes) - 1.0);
+        let nodes = carver_nodes(row);
+        let at = carver_place(pos, nodes, cell);
         // The coarsest one is read as it is to its end.
         let inside = carver_inside(at, vec3f(nodes));
         let part = select(clamp(inside / CARVER_FADE, 0.0, 1.0), f32(inside >= 0.0), level + 1u == count);
@@ -98,14 +109,25 @@ fn carver_at(pos: vec3f, held: u32) -> Carved {
             let read = carver_read(at, nodes, row, cell, head.z, head.w);
             let share = left * part;
             let distance = select(found.distance + share * read.distance, share * read.distance, left == 1.0);
-            found = Carved(found.slope + share * read.slope, distance, found.room + share * read.room);
+            let room = select(found.room, share * read.room, level == 0u);
+            found = Carved(found.slope + share * read.slope, distance, room);
+            near = select(near, share, level == 0u);
             left -= share;
         }
         cell *= 2.0;
     }
-    // Beyond all grids it is far from the object, whose box lies in a ball.
-    let beyond = length(pos) - CARVER_BALL;
-    return Carved(found.slope, select(found.distance, beyond, left > 0.0), found.room);
+    if left > 0.0 {
+        // Beyond all grids it is far from the object, whose box lies in a ball.
+        return Carved(found.slope, length(pos) - CARVER_BALL, 0.0);
+    }
+    if near < 1.0 {
+        // Room changes within a cell of the finest grid, so it is read there, at the nearest point of the surface.
+        let row = templates.pool[held + 1u];
+        let nodes = carver_nodes(row);
+        let foot = carver_place(pos - found.slope * found.distance, nodes, head.y);
+        found.room += (1.0 - near) * carver_read(foot, nodes, row, head.y, head.z, head.w).room;
+    }
+    return found;
 }
 
 /// p0: push, reach, subject units. `held`: index of the object's grids in `templates.pool`, 0 for none.
