@@ -116,7 +116,12 @@ impl Carver {
             for (index, distance) in distances.iter().enumerate() {
                 let (triangle, _) = nodes.nearest[index];
                 let foot = object.triangle(triangle).nearest_point(nodes.place(index));
-                let own = levels[0].interpolated(foot, |node| rooms[node]);
+                // Beside the wall each node has its own; elsewhere it is that of the wall's nearest point.
+                let is_beside = nodes.cell == cell && nodes.is_beside(index);
+                let own = match is_beside {
+                    true => rooms[index],
+                    false => levels[0].interpolated(foot, |node| rooms[node]),
+                };
                 let far = ((distance - packed.least) / step + 0.5).clamp(0.0, most) as u32;
                 let deep = (own / room.max(f32::MIN_POSITIVE) * most_room + 0.5) as u32;
                 packed
@@ -353,6 +358,11 @@ impl Nodes {
         sum
     }
 
+    /// True for a node so near the wall that it may be one of the eight around a point of the wall.
+    fn is_beside(&self, index: usize) -> bool {
+        self.nearest[index].1.abs() <= 1.8 * self.cell
+    }
+
     /// How deep in the object tissue may have stood that lies at the wall, for the nodes beside the wall; 0 elsewhere.
     fn rooms(&self, object: &Shape<'_>, go_on: &mut dyn FnMut(f32) -> bool) -> Option<Vec<f32>> {
         let slice = (self.count.x * self.count.y) as usize;
@@ -362,7 +372,7 @@ impl Nodes {
                 return None;
             }
             let (triangle, distance) = self.nearest[index];
-            if distance.abs() > 1.8 * self.cell {
+            if !self.is_beside(index) {
                 continue;
             }
             let place = self.place(index);
