@@ -51,8 +51,8 @@ impl Gpu {
     pub async fn open(options: &GpuOptions) -> Result<Self, RenderError> {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);
-        // Debug information of shaders has a line for each instruction, which is counted from the beginning of the text:
-        // debug builds took many times as long to make a program. No tool here reads it.
+        // Debug information of shaders has a line for each instruction, which is counted from the beginning of the
+        // text: debug builds took many times as long to make a program. No tool here reads it.
         descriptor.flags.remove(wgpu::InstanceFlags::DEBUG);
         if options.is_strict {
             descriptor.flags |= wgpu::InstanceFlags::STRICT_WEBGPU_COMPLIANCE;
