@@ -12,6 +12,7 @@ use glam::{DMat3, DVec3, Vec3};
 use crate::carved::{Ball, Brick, Solid, carve};
 use crate::gpu::gpu;
 use crate::scatter::Random;
+use crate::surfaces::brick_mesh;
 
 /// A closed ball of triangles, radius 50 mm.
 fn ball() -> Mesh {
@@ -39,26 +40,6 @@ fn ball() -> Mesh {
         }
     }
     whole(positions, triangles)
-}
-
-/// A box of these half sides, mm.
-fn brick(half: Vec3) -> Mesh {
-    let corner = |i: u32| {
-        let sign = |bit: u32| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
-        half * Vec3::new(sign(0), sign(1), sign(2))
-    };
-    let quads = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let triangles = quads
-        .iter()
-        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
-    whole((0..8).map(corner).collect(), triangles.collect())
 }
 
 fn whole(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
@@ -154,10 +135,10 @@ fn carve_is_the_page_s_formula_for_a_ball() {
 #[ignore = "far from an edge P is up to 1.5 cells too large, and half a cell is asked for (issue 15)"]
 fn carve_is_the_page_s_formula_for_boxes() {
     compare(&[
-        (carving(&brick(Vec3::new(50.0, 30.0, 40.0))), &|size| {
+        (carving(&brick_mesh(Vec3::new(50.0, 30.0, 40.0))), &|size| {
             Box::new(Brick(DVec3::new(0.5, 0.3, 0.4) * size))
         }),
-        (carving(&brick(Vec3::new(50.0, 4.0, 20.0))), &|size| {
+        (carving(&brick_mesh(Vec3::new(50.0, 4.0, 20.0))), &|size| {
             Box::new(Brick(DVec3::new(0.5, 0.04, 0.2) * size))
         }),
     ]);
@@ -256,7 +237,7 @@ fn displacement_and_continuity_go_on_at_the_wall() {
 fn nothing_folds_outside_of_the_object() {
     let probe = probe();
     let half = Vec3::new(50.0, 15.0, 30.0);
-    let surface = carving(&brick(half));
+    let surface = carving(&brick_mesh(half));
     let (size, push, reach) = (0.4, 0.5, 0.2);
     let document = document(size, push, reach);
     let resources = with_tool(&document, &surface);
@@ -310,7 +291,7 @@ fn nothing_folds_outside_of_the_object() {
 /// tool with a wide reach takes little.
 #[test]
 fn a_small_tool_with_a_wide_reach_takes_little_memory() {
-    let surface = carving(&brick(Vec3::new(50.0, 30.0, 40.0)));
+    let surface = carving(&brick_mesh(Vec3::new(50.0, 30.0, 40.0)));
     let carver = surface.carver.as_ref().expect("made");
     assert!(carver.cuts(), "it is thick");
     let bytes = 4 * carver.texels.len();
@@ -320,10 +301,10 @@ fn a_small_tool_with_a_wide_reach_takes_little_memory() {
         levels <= carver.levels.len() && levels > carver.levels_within(1.0),
         "{levels} levels"
     );
-    let cube = carving(&brick(Vec3::splat(50.0)));
+    let cube = carving(&brick_mesh(Vec3::splat(50.0)));
     let bytes = 4 * cube.carver.as_ref().expect("made").texels.len();
     assert!(bytes < 16 << 20, "{bytes} bytes of a cube");
-    let sheet = carving(&brick(Vec3::new(50.0, 0.002, 40.0)));
+    let sheet = carving(&brick_mesh(Vec3::new(50.0, 0.002, 40.0)));
     assert!(
         !sheet.carver.as_ref().expect("made").cuts(),
         "a sheet cuts nothing"
@@ -334,7 +315,7 @@ fn a_small_tool_with_a_wide_reach_takes_little_memory() {
 #[test]
 fn its_bounds_hold_what_it_does() {
     let probe = probe();
-    let surface = carving(&brick(Vec3::new(50.0, 10.0, 30.0)));
+    let surface = carving(&brick_mesh(Vec3::new(50.0, 10.0, 30.0)));
     for [size, push, reach] in SETTINGS {
         let document = document(size, push, reach);
         let resources = with_tool(&document, &surface);

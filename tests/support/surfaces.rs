@@ -42,7 +42,12 @@ pub(crate) fn surface_of_files(files: &[(&str, Vec<u8>)]) -> Arc<Surface> {
 
 /// A box of 100 × 60 × 80 mm.
 pub(crate) fn brick() -> Arc<Surface> {
-    let half = Vec3::new(50.0, 30.0, 40.0);
+    let mesh = brick_mesh(Vec3::new(50.0, 30.0, 40.0));
+    Arc::new(Surface::new(&mesh, None, &mut |_| true).expect("it has a size"))
+}
+
+/// A box of these half sides, mm.
+pub(crate) fn brick_mesh(half: Vec3) -> Mesh {
     let corner = |i: u32| {
         let sign = |bit: u32| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
         half * Vec3::new(sign(0), sign(1), sign(2))
@@ -55,7 +60,7 @@ pub(crate) fn brick() -> Arc<Surface> {
         [0, 4, 6, 2],
         [1, 3, 7, 5],
     ];
-    let mesh = Mesh {
+    Mesh {
         positions: (0..8).map(corner).collect(),
         triangles: quads
             .iter()
@@ -66,6 +71,5 @@ pub(crate) fn brick() -> Arc<Surface> {
             triangles: 0..12,
         }],
         ..Mesh::default()
-    };
-    Arc::new(Surface::new(&mesh, None, &mut |_| true).expect("it has a size"))
+    }
 }
