@@ -107,7 +107,7 @@ impl Scan {
             let value = 1.0 / (1.0 + (object.distance(at) / spacing / SOFTNESS).exp());
             voxels.push(f16::from_f64(value).to_bits());
         }
-        let texture = texture(wgpu::TextureFormat::R16Float, n);
+        let texture = texture(wgpu::TextureFormat::R16Float, wgpu::TextureDimension::D3, n);
         gpu.queue.write_texture(
             texture.as_image_copy(),
             bytemuck::cast_slice(&voxels),
@@ -139,18 +139,26 @@ impl Scan {
     }
 }
 
-/// A cube of n³ texels.
-fn texture(format: wgpu::TextureFormat, n: u32) -> wgpu::Texture {
+/// A square or cube of n texels a side.
+fn texture(
+    format: wgpu::TextureFormat,
+    dimension: wgpu::TextureDimension,
+    n: u32,
+) -> wgpu::Texture {
+    let depth_or_array_layers = match dimension {
+        wgpu::TextureDimension::D3 => n,
+        _ => 1,
+    };
     gpu().device.create_texture(&wgpu::TextureDescriptor {
         label: Some("texels"),
         size: wgpu::Extent3d {
             width: n,
             height: n,
-            depth_or_array_layers: n,
+            depth_or_array_layers,
         },
         mip_level_count: 1,
         sample_count: 1,
-        dimension: wgpu::TextureDimension::D3,
+        dimension,
         format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
@@ -164,6 +172,8 @@ pub(crate) struct Method<'a> {
     templates: wgpu::Buffer,
     /// Of a list without fields.
     fields: wgpu::TextureView,
+    /// Of a list without objects that carve.
+    carvers: wgpu::TextureView,
 }
 
 fn source() -> String {
@@ -215,7 +225,14 @@ impl<'a> Method<'a> {
             scan,
             pipeline,
             templates: uniform_buffer(gpu, "templates", &packed),
-            fields: texture(wgpu::TextureFormat::Rgba16Float, 1).create_view(&Default::default()),
+            fields: texture(
+                wgpu::TextureFormat::Rgba16Float,
+                wgpu::TextureDimension::D3,
+                1,
+            )
+            .create_view(&Default::default()),
+            carvers: texture(wgpu::TextureFormat::R32Uint, wgpu::TextureDimension::D2, 1)
+                .create_view(&Default::default()),
         }
     }
 
@@ -252,6 +269,7 @@ impl<'a> Method<'a> {
                     &[
                         entry(0, self.templates.as_entire_binding()),
                         entry(7, wgpu::BindingResource::TextureView(&self.fields)),
+                        entry(13, wgpu::BindingResource::TextureView(&self.carvers)),
                     ],
                 ),
             ),

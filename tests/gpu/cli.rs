@@ -506,7 +506,7 @@ fn the_catalogue_is_listed() {
     let catalogue: Value =
         serde_json::from_str(&fabrica(&["templates", "--json"]).ok().out).expect("JSON");
     let kinds = catalogue.as_array().expect("a list");
-    assert_eq!(kinds.len(), 21);
+    assert_eq!(kinds.len(), 22);
     let param = |kind: &str, name: &str| {
         let kind = kinds.iter().find(|k| k["kind"] == kind).expect("the kind");
         let params = kind["params"].as_array().expect("params");

@@ -109,11 +109,7 @@ fn constraints_by_coordinate_scale_the_main_parameter() {
         // Where a displacement keeps its direction as it is done, any part of it looks alike.
         let is_straight = !matches!(
             kind,
-            TemplateKind::Twist
-                | TemplateKind::Bend
-                | TemplateKind::Peel
-                | TemplateKind::Flap
-                | TemplateKind::Slices
+            TemplateKind::Twist | TemplateKind::Bend | TemplateKind::Peel | TemplateKind::Flap
         );
         assert!(
             is_straight || wrong_unscaled as f64 > 0.3 * f64::from(asked),
