@@ -369,7 +369,8 @@ fn many_embeds_are_guests_and_share_what_they_need() {
             };
             for index in 0..8 {
                 let embed = format!("e{index}");
-                let way = if index == 7 { -120.0 } else { 120.0 };
+                // Away from the page's nearer end.
+                let way = if index < 4 { 120.0 } else { -120.0 };
                 tab.eval::<bool>(&format!(
                     "({embed}.scrollIntoView({{ block: 'center' }}), true)"
                 ))
@@ -383,6 +384,17 @@ fn many_embeds_are_guests_and_share_what_they_need() {
                 tab.page.execute(wheel).await.expect("a wheel");
                 tab.wait_until(&format!("scrollY !== {before}"), 10).await;
                 let Some(fingers) = &fingers else { continue };
+                // Until the wheel's way is at its end.
+                tab.wait_until(
+                    "(globalThis.last_y === scrollY) || ((globalThis.last_y = scrollY), false)",
+                    10,
+                )
+                .await;
+                tab.eval::<bool>(&format!(
+                    "({embed}.scrollIntoView({{ block: 'center' }}), true)"
+                ))
+                .await;
+                tab.frames(2).await;
                 let (x, y) = middle(&tab, &embed).await;
                 let before: f64 = tab.eval("scrollY").await;
                 let there = y - 0.5 * way;
