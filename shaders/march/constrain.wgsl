@@ -100,10 +100,10 @@ fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     var source = whole.pos + by / total;
     let voxel = kept.spacing;
     for (var turn = 0u; turn < 2u; turn++) {
-        let here = distance_to_guarded(source, head, sets);
-        if here >= 0.5 * voxel {
+        if !is_guarded(source, head, sets) {
             break;
         }
+        let here = distance_to_guarded(source, head, sets);
         var slope = vec3f(0.0);
         for (var axis = 0u; axis < 3u; axis++) {
             let along = select(vec3f(0.0), vec3f(voxel), vec3u(0u, 1u, 2u) == vec3u(axis));

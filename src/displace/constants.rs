@@ -1,6 +1,7 @@
 //! What the shaders know of kinds, as one block of `const` lines: their numbers, their bits in `drawn_kinds`, their
-//! main parameters.
+//! main parameters; and what stands for the formula of a kind that a document does not have.
 
+use super::facts::Holds;
 use super::kind::TemplateKind;
 use super::spec::{ParamKind, ParamValue};
 use std::fmt::Write as _;
@@ -30,6 +31,35 @@ pub fn shader_constants() -> String {
          const MAIN_PARAMETERS: vec4u = vec4u({x:#x}u, {y:#x}u, {z:#x}u, {w:#x}u);"
     );
     text
+}
+
+/// The file of a kind's formula for programs of documents without the kind (`drawn_kinds`: bit k for kind k): in place
+/// of the formula, which is the last in its file, a function that moves nothing. None for other files, and for kinds
+/// that occur. The function names the texture that the formula reads, so that the program has the same bindings.
+/// `path`: under `shaders/`.
+pub fn without_formula(path: &str, text: &str, drawn_kinds: u32) -> Option<String> {
+    let name = path.strip_prefix("displace/")?.strip_suffix(".wgsl")?;
+    let kind = TemplateKind::from_name(name)?;
+    if drawn_kinds & (1 << kind as u32) != 0 {
+        return None;
+    }
+    let (held, texture) = match kind.facts().holds {
+        Holds::Parameters => ("", None),
+        Holds::Points => (", held: u32", None),
+        Holds::File => (", held: u32", Some("fields")),
+        Holds::Object => (", held: u32", Some("carvers")),
+    };
+    let touched = texture.map_or_else(String::new, |texture| {
+        format!(
+            "    d.continuity = select(d.continuity, 0.0, textureDimensions({texture}).x == 0u);\n"
+        )
+    });
+    let formula = text.find(&format!("fn displace_{name}("))?;
+    let before = &text[..formula];
+    Some(format!(
+        "{before}fn displace_{name}(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f{held}) -> Displaced {{\n    \
+         var d = at_rest(q);\n{touched}    return d;\n}}\n"
+    ))
 }
 
 /// Where the main parameter lies among the floats that the parameters are packed into; nothing for a kind without one.

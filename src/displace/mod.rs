@@ -73,7 +73,7 @@ mod squeeze;
 mod twist;
 mod wave;
 
-pub use constants::shader_constants;
+pub use constants::{shader_constants, without_formula};
 pub use facts::{
     Amount, Arc, Facts, Given, Grip, Group, Holds, Icon, Material, Mirror, Reach, Samples, Shape,
     Shrinking, Tool,

@@ -1,7 +1,9 @@
 //! Every shader program parses and validates with what browsers have, and keeps the rules of the house.
 
 use fabrica::document::TemplateKind;
-use fabrica::render::programs::{self, Assembled, PROGRAMS, Program, Stage, SubjectShader};
+use fabrica::render::programs::{
+    self, ALL_KINDS, Assembled, PROGRAMS, Program, Stage, SubjectShader,
+};
 use std::collections::BTreeSet;
 use wgpu::naga;
 
@@ -11,17 +13,19 @@ fn browser_capabilities() -> naga::valid::Capabilities {
     naga::valid::Capabilities::empty()
 }
 
+fn validator() -> naga::valid::Validator {
+    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), browser_capabilities())
+}
+
 fn check(source: &str) -> Result<naga::Module, (Option<usize>, String)> {
     let module = naga::front::wgsl::parse_str(source).map_err(|error| {
         let line = error.location(source).map(|at| at.line_number as usize);
         (line, error.emit_to_string(source))
     })?;
-    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), browser_capabilities())
-        .validate(&module)
-        .map_err(|error| {
-            let line = error.location(source).map(|at| at.line_number as usize);
-            (line, error.emit_to_string(source))
-        })?;
+    validator().validate(&module).map_err(|error| {
+        let line = error.location(source).map(|at| at.line_number as usize);
+        (line, error.emit_to_string(source))
+    })?;
     Ok(module)
 }
 
@@ -34,7 +38,7 @@ fn programs_of_kinds() -> impl Iterator<Item = (&'static Program, SubjectShader)
 #[test]
 fn every_program_validates() {
     for (program, kind) in programs_of_kinds() {
-        let text = Assembled::new(program, kind);
+        let text = Assembled::new(program, kind, ALL_KINDS);
         let module = check(&text.source).unwrap_or_else(|(line, message)| {
             let place = line.map_or_else(String::new, |line| text.place(line));
             panic!("{} at {place}: {message}", program.name)
@@ -60,6 +64,36 @@ fn every_program_validates() {
     }
 }
 
+/// Programs for documents of some kinds only: whatever the kinds, a program validates and has the same bindings.
+#[test]
+fn programs_without_some_kinds_validate() {
+    let bindings = |text: &Assembled, what: &str| {
+        let module = check(&text.source).unwrap_or_else(|(line, message)| {
+            let place = line.map_or_else(String::new, |line| text.place(line));
+            panic!("{what} at {place}: {message}")
+        });
+        let info = validator().validate(&module).expect("validated above");
+        let mut used = BTreeSet::new();
+        for entry in 0..module.entry_points.len() {
+            for (handle, global) in module.global_variables.iter() {
+                let binding = global.binding.as_ref().map(|b| (entry, b.group, b.binding));
+                used.extend(binding.filter(|_| !info.get_entry_point(entry)[handle].is_empty()));
+            }
+        }
+        used
+    };
+    for (program, kind) in programs_of_kinds() {
+        let whole = bindings(&Assembled::new(program, kind, ALL_KINDS), program.name);
+        let none = bindings(&Assembled::new(program, kind, 0), program.name);
+        assert_eq!(none, whole, "{} for {kind:?}", program.name);
+    }
+    for kind in TemplateKind::ALL {
+        let program = programs::ProgramId::Probe.program();
+        let text = Assembled::new(program, SubjectShader::Volume, 1 << kind as u32);
+        bindings(&text, kind.spec().name);
+    }
+}
+
 /// Where a folder is named, the programs are left there as the GPU gets them, each line with the file and line it came
 /// from.
 #[test]
@@ -69,7 +103,7 @@ fn programs_are_written_where_a_folder_is_named() {
         .map_or_else(|| scratch.path().to_owned(), std::path::PathBuf::from);
     std::fs::create_dir_all(&folder).expect("the folder");
     for program in PROGRAMS {
-        let text = Assembled::new(program, SubjectShader::Volume);
+        let text = Assembled::new(program, SubjectShader::Volume, ALL_KINDS);
         std::fs::write(folder.join(format!("{}.wgsl", program.name)), &text.source)
             .expect("the program");
         let map: String = (1..=text.source.lines().count())
@@ -96,7 +130,8 @@ fn drawing_uses_no_storage() {
         {
             continue;
         }
-        let module = check(&Assembled::new(program, kind).source).expect("validated above");
+        let module =
+            check(&Assembled::new(program, kind, ALL_KINDS).source).expect("validated above");
         for (_, global) in module.global_variables.iter() {
             let name = global.name.as_deref().unwrap_or_default();
             assert!(
@@ -161,7 +196,7 @@ fn needs_lines_hold() {
             if files.iter().any(|file| is_other(&file.path)) {
                 continue;
             }
-            let text = Assembled::of(&files);
+            let text = Assembled::of(&files, ALL_KINDS);
             check(&text.source).unwrap_or_else(|(line, message)| {
                 let place = line.map_or_else(String::new, |line| text.place(line));
                 panic!("{} with what it needs, at {place}: {message}", file.path)
@@ -175,7 +210,7 @@ fn needs_lines_hold() {
 fn a_missing_need_is_seen() {
     let undecided = programs::files_of("pass/raycast.wgsl", &[]);
     assert!(
-        check(&Assembled::of(&undecided).source).is_err(),
+        check(&Assembled::of(&undecided, ALL_KINDS).source).is_err(),
         "somebody has to choose"
     );
     let alone = programs::file("march/value.wgsl").expect("embedded");
@@ -259,7 +294,7 @@ fn bindings_have_comments() {
 #[test]
 fn an_error_names_its_file_and_line() {
     let program = programs::ProgramId::Raycast.program();
-    let text = Assembled::new(program, SubjectShader::Volume);
+    let text = Assembled::new(program, SubjectShader::Volume, ALL_KINDS);
     let planted = "let half_dir = normalize(KEY_DIR + to_eye);";
     let broken = text
         .source

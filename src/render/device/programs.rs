@@ -5,7 +5,7 @@
 use super::bare;
 use super::error::RenderError;
 use super::gpu::Gpu;
-use crate::displace::shader_constants;
+use crate::displace::{shader_constants, without_formula};
 use std::fmt::Write as _;
 use std::sync::LazyLock;
 
@@ -561,13 +561,15 @@ pub struct Assembled {
 }
 
 impl Assembled {
-    /// Puts a program's files together.
-    pub fn new(program: &Program, subject: SubjectShader) -> Self {
-        Self::of(&program.files(subject))
+    /// Puts a program's files together, for documents of these kinds of templates (bit k for kind k, as
+    /// `Templates::drawn_kinds`). Compilers look at a formula wherever it is called before they see that a branch is
+    /// never taken, so in place of the formulas of other kinds stands one that moves nothing.
+    pub fn new(program: &Program, subject: SubjectShader, drawn_kinds: u32) -> Self {
+        Self::of(&program.files(subject), drawn_kinds)
     }
 
     /// Puts files together in the order given.
-    pub fn of(files: &[&'static ShaderFile]) -> Self {
+    pub fn of(files: &[&'static ShaderFile], drawn_kinds: u32) -> Self {
         let (mut source, mut starts, mut line) = (String::new(), Vec::new(), 1);
         for file in files {
             starts.push((line, file.path));
@@ -575,6 +577,8 @@ impl Assembled {
             let text = &super::reload::text_of(file.path, file.source);
             #[cfg(not(all(debug_assertions, not(target_arch = "wasm32"))))]
             let text = file.source;
+            let without = without_formula(file.path, text, drawn_kinds);
+            let text = without.as_deref().unwrap_or(text);
             source.push_str(text);
             source.push('\n');
             line += text.matches('\n').count() + 1;
@@ -591,27 +595,35 @@ impl Assembled {
     }
 }
 
-/// Makes a program's module at once. What the compiler has to say arrives later in [`Gpu::take_errors`];
-/// tests/shaders.rs sees to it that it has nothing to say.
-pub fn module(gpu: &Gpu, id: ProgramId) -> wgpu::ShaderModule {
-    module_for(gpu, id, ANY_SUBJECT)
+/// Makes a program's module at once, for documents of these kinds of templates. What the compiler has to say arrives
+/// later in [`Gpu::take_errors`]; tests/shaders.rs sees to it that it has nothing to say.
+pub fn module(gpu: &Gpu, id: ProgramId, drawn_kinds: u32) -> wgpu::ShaderModule {
+    module_for(gpu, id, ANY_SUBJECT, drawn_kinds)
 }
 
 /// As [`module`], of a program that asks a subject of this kind what it has at a place.
-pub fn module_for(gpu: &Gpu, id: ProgramId, subject: SubjectShader) -> wgpu::ShaderModule {
+pub fn module_for(
+    gpu: &Gpu,
+    id: ProgramId,
+    subject: SubjectShader,
+    drawn_kinds: u32,
+) -> wgpu::ShaderModule {
     let program = id.program();
-    module_of(gpu, program, &Assembled::new(program, subject))
+    module_of(gpu, program, &Assembled::new(program, subject, drawn_kinds))
 }
 
 /// For programs that do not ask the subject what it has at a place.
 const ANY_SUBJECT: SubjectShader = SubjectShader::Volume;
+
+/// For programs that serve every document, or move nothing.
+pub const ALL_KINDS: u32 = u32::MAX;
 
 /// Compiles a program.
 ///
 /// # Errors
 /// [`RenderError::Shader`] with `file.wgsl:line` for each message.
 pub async fn compile(gpu: &Gpu, id: ProgramId) -> Result<wgpu::ShaderModule, RenderError> {
-    compile_for(gpu, id, ANY_SUBJECT).await
+    compile_for(gpu, id, ANY_SUBJECT, ALL_KINDS).await
 }
 
 /// As [`compile`], of a program that asks a subject of this kind what it has at a place.
@@ -622,9 +634,10 @@ pub async fn compile_for(
     gpu: &Gpu,
     id: ProgramId,
     subject: SubjectShader,
+    drawn_kinds: u32,
 ) -> Result<wgpu::ShaderModule, RenderError> {
     let program = id.program();
-    let assembled = Assembled::new(program, subject);
+    let assembled = Assembled::new(program, subject, drawn_kinds);
     let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
     let module = module_of(gpu, program, &assembled);
     if let Some(error) = scope.pop().await {
@@ -664,7 +677,7 @@ pub(crate) fn check_programs() -> Result<(), RenderError> {
     use wgpu::naga;
     let each = |program| SubjectShader::ALL.iter().map(move |kind| (program, *kind));
     for (program, kind) in PROGRAMS.iter().flat_map(each) {
-        let text = Assembled::new(program, kind);
+        let text = Assembled::new(program, kind, ALL_KINDS);
         let fault = |line: Option<usize>, message: String| {
             let place = line.map_or_else(String::new, |line| text.place(line));
             RenderError::Shader {

@@ -29,7 +29,8 @@ pub(crate) async fn object_samples(
     let pipeline = match probes.made(&key) {
         Some(pipeline) => pipeline,
         None => {
-            let module = compile_for(gpu, ProgramId::Object, subject.shader).await?;
+            let module =
+                compile_for(gpu, ProgramId::Object, subject.shader, key.drawn_kinds).await?;
             probes.get(key, || object_pipeline(gpu, &module, "probe_object", &key))
         }
     };

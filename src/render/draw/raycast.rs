@@ -15,8 +15,8 @@ use glam::Vec3;
 /// The programs of the ray march. Built once per device.
 #[derive(Debug)]
 pub(crate) struct RaycastPasses {
-    /// The modules by program and kind of subject; each is compiled when it first draws a picture.
-    modules: Pipelines<(ProgramId, SubjectShader), wgpu::ShaderModule>,
+    /// The modules by program, kind of subject and kinds of templates; each is compiled when it first draws a picture.
+    modules: Pipelines<(ProgramId, SubjectShader, u32), wgpu::ShaderModule>,
     layout: wgpu::PipelineLayout,
     baked_layout: wgpu::PipelineLayout,
     asked_layout: wgpu::PipelineLayout,
@@ -66,8 +66,9 @@ impl RaycastPasses {
         } else {
             ProgramId::Raycast
         };
-        let make = || module_for(gpu, program, key.subject);
-        let module = self.modules.get((program, key.subject), make);
+        let kinds = key.drawn_kinds;
+        let make = || module_for(gpu, program, key.subject, kinds);
+        let module = self.modules.get((program, key.subject, kinds), make);
         let layout = match key.finds {
             Finds::Pick | Finds::Event => &self.asked_layout,
             Finds::Picture | Finds::Segments if key.is_baked => &self.baked_layout,

@@ -135,7 +135,7 @@ pub(crate) struct SlicePasses {
     layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
     /// Each is compiled when the first slice comes that is drawn by it.
-    modules: Pipelines<(ProgramId, SubjectShader), wgpu::ShaderModule>,
+    modules: Pipelines<(ProgramId, SubjectShader, u32), wgpu::ShaderModule>,
     pipelines: Pipelines<SliceKey, wgpu::RenderPipeline>,
 }
 
@@ -170,9 +170,9 @@ impl SlicePasses {
             constants.extend(key.drawn.align_constants());
             program = ProgramId::SliceAligned;
         }
-        let subject = key.drawn.subject;
-        let make = || module_for(gpu, program, subject);
-        let module = self.modules.get((program, subject), make);
+        let (subject, kinds) = (key.drawn.subject, key.drawn.drawn_kinds);
+        let make = || module_for(gpu, program, subject, kinds);
+        let module = self.modules.get((program, subject, kinds), make);
         let (entry, format) = if key.is_read {
             ("read", PICK_FORMAT)
         } else {

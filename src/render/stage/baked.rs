@@ -27,25 +27,18 @@ const MOST_TEXELS: u32 = 320;
 const DIFFERENCE_TEXELS: f32 = 0.75;
 
 /// The compute program that samples the composed map.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct BakePrograms {
-    module: wgpu::ShaderModule,
     /// By the kinds that occur: software GPUs run every branch.
     pipelines: Pipelines<u32, wgpu::ComputePipeline>,
 }
 
 impl BakePrograms {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self {
-            module: module(gpu, ProgramId::Bake),
-            pipelines: Pipelines::default(),
-        }
-    }
-
     fn pipeline(&self, gpu: &Gpu, drawn_kinds: u32) -> wgpu::ComputePipeline {
         let constants = [("drawn_kinds", f64::from(drawn_kinds))];
         self.pipelines.get(drawn_kinds, || {
-            compute_pipeline(gpu, &self.module, "bake", &constants)
+            let module = module(gpu, ProgramId::Bake, drawn_kinds);
+            compute_pipeline(gpu, &module, "bake", &constants)
         })
     }
 }

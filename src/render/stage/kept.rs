@@ -5,7 +5,7 @@ use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
-use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
+use crate::render::device::programs::{ALL_KINDS, ProgramId, SubjectShader, module_for};
 use crate::render::device::textures::{read_half_texels, volume_texture};
 use crate::render::pack::gpu_types::{DistanceJob, Kept, LabelSets};
 use crate::render::pack::kept::KeptTissue;
@@ -53,7 +53,7 @@ struct DistancePipelines {
 impl DistancePrograms {
     fn get(&self, gpu: &Gpu, subject: SubjectShader) -> Arc<DistancePipelines> {
         self.0.get(subject, || {
-            let module = module_for(gpu, ProgramId::Distance, subject);
+            let module = module_for(gpu, ProgramId::Distance, subject, ALL_KINDS);
             let pipeline = |entry: &str| compute_pipeline(gpu, &module, entry, &[]);
             Arc::new(DistancePipelines {
                 open_blocks: pipeline("open_blocks"),

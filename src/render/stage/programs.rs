@@ -20,7 +20,7 @@ impl StagePrograms {
     pub(crate) fn new(gpu: &Gpu) -> Self {
         Self {
             grid: GridPrograms::new(gpu),
-            bake: BakePrograms::new(gpu),
+            bake: BakePrograms::default(),
             distance: DistancePrograms::default(),
             rigid: RigidPrograms::default(),
             bodies: BodyProgram::default(),

@@ -24,16 +24,13 @@ const CELLS: f32 = 48.0;
 /// The program, compiled when the first document with such a segment is drawn; one pipeline per set of template kinds.
 #[derive(Debug, Default)]
 pub(crate) struct RigidPrograms {
-    modules: Pipelines<SubjectShader, wgpu::ShaderModule>,
     pipelines: Pipelines<(u32, SubjectShader), wgpu::ComputePipeline>,
 }
 
 impl RigidPrograms {
     fn pipeline(&self, gpu: &Gpu, kinds: u32, subject: SubjectShader) -> wgpu::ComputePipeline {
         self.pipelines.get((kinds, subject), || {
-            let module = self
-                .modules
-                .get(subject, || module_for(gpu, ProgramId::Rigid, subject));
+            let module = module_for(gpu, ProgramId::Rigid, subject, kinds);
             compute_pipeline(gpu, &module, "fit", &[("drawn_kinds", f64::from(kinds))])
         })
     }

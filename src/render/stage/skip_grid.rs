@@ -52,7 +52,6 @@ const LONGEST_STEP: f32 = 1.7;
 /// The compute programs. Built once per device.
 #[derive(Debug)]
 pub(crate) struct GridPrograms {
-    module: wgpu::ShaderModule,
     spread: [wgpu::ComputePipeline; 3],
     /// By the kinds that occur, and whether tissue is kept: software GPUs run every branch.
     fill: Pipelines<(u32, bool), wgpu::ComputePipeline>,
@@ -60,11 +59,10 @@ pub(crate) struct GridPrograms {
 
 impl GridPrograms {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        let module = module(gpu, ProgramId::Grid);
+        let module = module(gpu, ProgramId::Grid, 0);
         let spread = ["spread_x", "spread_y", "spread_z"]
             .map(|entry| pipeline(gpu, &module, entry, 0, false));
         Self {
-            module,
             spread,
             fill: Pipelines::default(),
         }
@@ -72,7 +70,8 @@ impl GridPrograms {
 
     fn fill(&self, gpu: &Gpu, drawn_kinds: u32, has_kept: bool) -> wgpu::ComputePipeline {
         self.fill.get((drawn_kinds, has_kept), || {
-            pipeline(gpu, &self.module, "fill", drawn_kinds, has_kept)
+            let module = module(gpu, ProgramId::Grid, drawn_kinds);
+            pipeline(gpu, &module, "fill", drawn_kinds, has_kept)
         })
     }
 }
