@@ -13,5 +13,5 @@
 
 /// p0: strength, 0 to 0.9. `q` in template space, as in every template.
 fn displace_dilate(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
-    return displace_squeeze(q, size, -p0, p1);
+    return waisted(q, -p0.x);
 }

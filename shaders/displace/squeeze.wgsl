@@ -19,11 +19,16 @@ fn waist(z: f32) -> f32 {
     return (1.0 / (1.0 + exp(20.0 * abs(z - 0.5) - 5.0)) - low) / (high - low);
 }
 
-/// p0: strength, 0 to 2; below 0 the waist becomes a bulge (dilate).
-fn displace_squeeze(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
+/// A waist at mid height; below 0 the waist becomes a bulge.
+fn waisted(q: vec3f, strength: f32) -> Displaced {
     if is_beyond(q, vec3f(-NO_END, -NO_END, 0.0), vec3f(NO_END, NO_END, 1.0)) {
         return at_rest(q);
     }
-    let moved = p0.x * waist(q.z) * (in_cube(q).xy - 0.5);
+    let moved = strength * waist(q.z) * (in_cube(q).xy - 0.5);
     return Displaced(vec3f(q.xy + moved, q.z), 1.0);
+}
+
+/// p0: strength, 0 to 2. `q` in template space, as in every template.
+fn displace_squeeze(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
+    return waisted(q, p0.x);
 }

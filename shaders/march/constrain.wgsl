@@ -64,15 +64,19 @@ fn before_group(pos: vec3f, head: u32) -> Mapped {
     return rest_from_subject(pos, ~(0xffffffffu << before));
 }
 
-/// True if what the templates before a group have at a point is in one of some sets.
-fn is_guarded(pos: vec3f, head: u32, sets: u32) -> bool {
-    let there = before_group(pos, head);
-    return there.continuity >= 0.0 && is_kept(there.pos, sets, 0.0);
+/// How a point lies to some sets.
+struct Guarded {
+    /// True if what is there is in one of the sets.
+    is_in: bool,
+    /// How far it lies from them, by the distance at rest.
+    away: f32,
 }
 
-/// How far a point lies from some sets as the templates before a group have them, by the distance at rest.
-fn distance_to_guarded(pos: vec3f, head: u32, sets: u32) -> f32 {
-    return distance_to_kept(before_group(pos, head).pos, sets, 0.0, kept.exact_slab);
+/// How a point lies to some sets as the templates before a group have them.
+fn guarded(pos: vec3f, head: u32, sets: u32) -> Guarded {
+    let there = before_group(pos, head);
+    let is_in = there.continuity >= 0.0 && is_kept(there.pos, sets, 0.0);
+    return Guarded(is_in, distance_to_kept(there.pos, sets, 0.0, kept.exact_slab));
 }
 
 /// The map where segments move as a whole: each segment by its own rigid motion, the tissue around by a blend that
@@ -87,10 +91,11 @@ fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
         let own = sets & (1u << channel);
         if own != 0u {
             let rigid = apply_affine(kept.motions[4u * head + channel], pos);
-            if is_guarded(rigid, head, own) {
+            let place = guarded(rigid, head, own);
+            if place.is_in {
                 return Mapped(rigid, 1.0);
             }
-            let away = max(distance_to_guarded(rigid, head, own), 0.0);
+            let away = max(place.away, 0.0);
             let nearness = 1.0 / max(away * away, 1e-8);
             let part = 1.0 - smoothstep(0.0, max(kept.seams[head][channel], 1e-6), away);
             by += nearness * part * (rigid - whole.pos);
@@ -99,19 +104,25 @@ fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     }
     var source = whole.pos + by / total;
     let voxel = kept.spacing;
-    for (var turn = 0u; turn < 2u; turn++) {
-        if !is_guarded(source, head, sets) {
-            break;
-        }
-        let here = distance_to_guarded(source, head, sets);
+    var is_free = false;
+    for (var turn = 0u; turn < 3u && !is_free; turn++) {
+        var here = 0.0;
         var slope = vec3f(0.0);
-        for (var axis = 0u; axis < 3u; axis++) {
-            let along = select(vec3f(0.0), vec3f(voxel), vec3u(0u, 1u, 2u) == vec3u(axis));
-            slope += along * (distance_to_guarded(source + along, head, sets) - here);
+        // The place itself, then one along each axis. After two ways out there is no third.
+        var count = select(4u, 1u, turn == 2u);
+        for (var k = 0u; k < count; k++) {
+            let along = select(vec3f(0.0), vec3f(voxel), vec3u(1u, 2u, 3u) == vec3u(k));
+            let place = guarded(source + along, head, sets);
+            if k == 0u {
+                here = place.away;
+                is_free = !place.is_in;
+                count = select(count, 1u, is_free);
+            }
+            slope += along * (place.away - here);
         }
         source += slope / max(length(slope), 1e-9) * (0.5 * voxel - here);
     }
-    return Mapped(source, select(whole.continuity, -1.0, is_guarded(source, head, sets)));
+    return Mapped(source, select(-1.0, whole.continuity, is_free));
 }
 
 /// The map of one group, with its constraint.
@@ -133,11 +144,11 @@ fn group_map(pos: vec3f, head: u32, bits: u32) -> Mapped {
         return whole;
     }
     let sets = kept.items[head].gives_way_to;
-    if is_guarded(pos, head, sets) {
+    let place = guarded(pos, head, sets);
+    if place.is_in {
         return Mapped(pos, 1.0);
     }
-    let stored = distance_to_guarded(pos, head, sets);
-    let away = max(stored - kept.distance_dims.w, 0.0);
+    let away = max(place.away - kept.distance_dims.w, 0.0);
     if (has_constraints & (1u << CONSTRAIN_COORDINATE)) != 0u {
         if mode == CONSTRAIN_COORDINATE {
             let part = min(away / max(kept.motions[4u * head].row0.x, 1e-6), 1.0);

@@ -155,23 +155,28 @@ fn length_of_way(pos: vec3f, bits: u32) -> f32 {
 fn longest_way(bits: u32, is_asked: bool, lane: u32) -> f32 {
     let count = LONGEST_SIDE * LONGEST_SIDE * LONGEST_SIDE;
     var left = bits;
-    var best = vec4f(0.0);
+    var best = vec4f(0.0, 0.0, 0.0, -1.0);
     let all = vec3f(lattice.cells.xyz) * lattice.side;
     var step = vec3f(max(all.x, max(all.y, all.z)) / f32(LONGEST_SIDE));
-    for (var k = select(count, lane, is_asked); k < count; k += 64u) {
-        let pos = lattice.corner.xyz + (cell_of(k, LONGEST_SIDE) + 0.5) / f32(LONGEST_SIDE) * all;
-        let way = length_of_way(pos, bits);
-        best = select(best, vec4f(pos, way), way > best.w);
-    }
-    // About each template, twice as far as its box reaches on every side.
-    while left != 0u {
-        let i = firstLeadingBit(left);
-        left &= ~(1u << i);
+    // The whole box, then about each template, twice as far as its box reaches on every side. One loop for both, and so
+    // one place that asks the map: compilers draw the map into each.
+    loop {
+        let i = firstLeadingBit(max(left, 1u));
+        let is_whole = left == bits && best.w < 0.0;
         for (var k = select(count, lane, is_asked); k < count; k += 64u) {
-            let q = (cell_of(k, LONGEST_SIDE) + 0.5) / f32(LONGEST_SIDE) * 3.0 - 1.0;
-            let pos = apply_affine(templates.items[i].subject_from_template, q);
+            let part = (cell_of(k, LONGEST_SIDE) + 0.5) / f32(LONGEST_SIDE);
+            let about = apply_affine(templates.items[i].subject_from_template, part * 3.0 - 1.0);
+            let pos = select(about, lattice.corner.xyz + part * all, is_whole);
             let way = length_of_way(pos, bits);
             best = select(best, vec4f(pos, way), way > best.w);
+        }
+        if is_whole {
+            best.w = max(best.w, 0.0);
+            continue;
+        }
+        left &= ~(1u << i);
+        if left == 0u {
+            break;
         }
     }
     // Uphill, by steps that are halved where none of six goes higher.
@@ -266,10 +271,12 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
         let away = distance_to_kept(at_rest_before(mapped.pos, item.before), sets, 0.0, exact);
         let share = clamp(0.5 - 0.5 * away / fade, 0.0, 1.0);
         if mapped.continuity >= 0.0 && share > 0.0 {
-            let x = (rest_from_subject(pos + vec3f(h, 0.0, 0.0), bits).pos - mapped.pos) / h;
-            let y = (rest_from_subject(pos + vec3f(0.0, h, 0.0), bits).pos - mapped.pos) / h;
-            let z = (rest_from_subject(pos + vec3f(0.0, 0.0, h), bits).pos - mapped.pos) / h;
-            let weight = share * min(abs(dot(x, cross(y, z))), MOST_WEIGHT);
+            var columns = mat3x3f();
+            for (var axis = 0u; axis < 3u; axis++) {
+                let along = select(vec3f(0.0), vec3f(h), vec3u(0u, 1u, 2u) == vec3u(axis));
+                columns[axis] = (rest_from_subject(pos + along, bits).pos - mapped.pos) / h;
+            }
+            let weight = share * min(abs(determinant(columns)), MOST_WEIGHT);
             let at = pos - middle;
             let from_origin = (mapped.pos - origin) * weight;
             n += weight;

@@ -88,6 +88,23 @@ fn programs_without_some_kinds_validate() {
         assert_eq!(none, whole, "{} for {kind:?}", program.name);
     }
     for kind in TemplateKind::ALL {
+        let name = kind.spec().name;
+        let file = programs::file(&format!("displace/{name}.wgsl")).expect("embedded");
+        for other in TemplateKind::ALL.into_iter().filter(|other| *other != kind) {
+            let call = format!("displace_{}(", other.spec().name);
+            assert!(
+                !file.source.contains(&call),
+                "{name} calls {call}, which may not be there"
+            );
+        }
+        let formula = file
+            .source
+            .find(&format!("fn displace_{name}("))
+            .expect("its formula");
+        assert!(
+            !file.source[formula + 1..].contains("\nfn "),
+            "{name}'s formula is the last in its file"
+        );
         let program = programs::ProgramId::Probe.program();
         let text = Assembled::new(program, SubjectShader::Volume, 1 << kind as u32);
         bindings(&text, kind.spec().name);
