@@ -34,6 +34,8 @@
 //!    };
 //!    ```
 //! 3. `shaders/displace/swirl.wgsl`: `displace_swirl(q, size, p0, p1)`, with its source and a diagram of its unit cube.
+//!    The formula is the last function of the file and calls no formula of another kind: programs for documents without
+//!    the kind are put together without it ([`without_formula`]).
 //!    It is embedded in `render/device/programs.rs` and called in `shaders/displace/compose.wgsl` under `KIND_SWIRL`;
 //!    that name, its bit `DRAWN_SWIRL` and its main parameter are generated ([`shader_constants`]).
 //! 4. Its words in `app/words/kinds.rs`, in every language.
