@@ -13,8 +13,8 @@
 // the pass declares `templates: Templates` (group 2, binding 0) and this file reads that variable.
 //
 // `drawn_kinds` saves time on devices that run both sides of every branch, as software rasterisers do: the pipeline of
-// a document leaves out the kinds that the document does not use. All ones, the default, serves every document. The text
-// of such a program has no formulas of other kinds either (`without_formula`, src/displace/constants.rs), since
+// a document leaves out the kinds that the document does not use. All ones, the default, serves every document. The
+// text of such a program has no formulas of other kinds either (`without_formula`, src/displace/constants.rs), since
 // compilers draw a formula into each place that asks the map before they see that its branch is never taken.
 // needs: types.wgsl affine.wgsl kinds.wgsl bind/templates.wgsl displace/frame.wgsl displace/curve.wgsl
 //   displace/poke.wgsl displace/twist.wgsl displace/wave.wgsl displace/bend.wgsl displace/squeeze.wgsl
