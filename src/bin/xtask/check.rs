@@ -41,29 +41,20 @@ const NATIVE: [Check; 6] = [
     ("docs", &["doc", "--no-deps", "--document-private-items"]),
 ];
 
-/// The page's programs, each by its features; `None` for the default ones.
-const PAGE: [(&str, Option<&str>, &str); 6] = [
-    ("lint, page", None, "fabrica"),
+/// The page's programs, with their features; `None` for the default ones. The parts share all but what each of them
+/// exports, so that they are looked through together.
+const PAGE: [(&str, Option<&str>, &[&str]); 3] = [
+    ("lint, page", None, &["fabrica"]),
+    ("lint, the reader", Some("reader"), &["fabrica_reader"]),
     (
-        "lint, the part that makes subjects",
-        Some("part-subjects"),
-        "fabrica_subjects",
-    ),
-    ("lint, the reader", Some("reader"), "fabrica_reader"),
-    (
-        "lint, the part that reads scans",
-        Some("part-scans"),
-        "fabrica_scans",
-    ),
-    (
-        "lint, the part that reads meshes",
-        Some("part-meshes"),
-        "fabrica_meshes",
-    ),
-    (
-        "lint, the part that unpacks pictures",
-        Some("part-pictures"),
-        "fabrica_pictures",
+        "lint, the parts that run in workers",
+        Some("part-subjects,part-scans,part-meshes,part-pictures"),
+        &[
+            "fabrica_subjects",
+            "fabrica_scans",
+            "fabrica_meshes",
+            "fabrica_pictures",
+        ],
     ),
 ];
 
@@ -88,10 +79,11 @@ pub(crate) fn check_native() -> Outcome {
 /// Lints the page's programs. With the page's profile cargo works in other folders than it does for native programs,
 /// and neither waits for the other.
 pub(crate) fn check_page(run: fn(&str, &mut Command) -> Outcome) -> Outcome {
-    all(PAGE.map(|(what, features, program)| {
+    all(PAGE.map(|(what, features, programs)| {
         let mut command = cargo();
         command.args(["clippy", "--target", "wasm32-unknown-unknown"]);
-        command.args(["--profile", "web", "--bin", program]);
+        command.args(["--profile", "web"]);
+        command.args(programs.iter().flat_map(|program| ["--bin", *program]));
         if let Some(features) = features {
             command.args(["--no-default-features", "--features", features]);
         }

@@ -11,7 +11,7 @@ use crate::setup;
 /// The test binaries, fast to slow.
 const BINARIES: [&str; 5] = ["fast", "gpu", "evaluate", "app", "browser"];
 
-/// Parts of tests/app that get a process each: Mesa 22's lavapipe keeps some 0.3 GB of every window drawn in a process,
+/// Parts of tests/app that get a process each: Mesa 22's lavapipe keeps 0.15 GB of every window drawn in a process,
 /// as long as it lives, and half a hundred windows are more than a small machine has.
 const PARTS_OF_APP: [&str; 14] = [
     "authoring::",
