@@ -343,7 +343,8 @@ struct GridJob {
 
 /// What one template leaves alone. Stands at the head of its `add` group and holds for the whole group.
 struct KeptGroup {
-    /// Sets of kept tissue, bit k for set k, KEEPS_DEEP for what lies deep under the outer surface; 0 keeps nothing.
+    /// Sets of tissue that stays, bit k for set k, KEEPS_DEEP for what lies deep under the outer surface; 0 keeps
+    /// nothing. Those of alignments, and in lists those that displacements give way to.
     keeps: u32,
     /// Index of the first template of the run of groups that keep the same.
     run: u32,
@@ -359,6 +360,8 @@ struct KeptGroup {
     longest: f32,
     /// Tissue that gives way is where the templates before this index have brought it; 0: it is at rest.
     before: u32,
+    /// Those of `keeps` that an alignment keeps: between them and the tissue that moved there is a surface.
+    @size(16) aligned: u32,
 }
 
 /// Bit of `KeptGroup.keeps`: what lies deeper than `depth` under the outer surface.
@@ -385,6 +388,11 @@ struct Kept {
     exact_slab: u32,
     /// Which slab has the depth under the outer surface in its x, 0 for none.
     depth_slab: u32,
+    /// Of each set, four bits for each: the sets that are connected parts of the same segments, itself among them; 0
+    /// for one that is whole. A label has all of them, and a place is in the nearest.
+    parts: u32,
+    /// 1 where a voxel of the distances is larger than one of the segments along some axis, else 0.
+    is_coarse: u32,
     /// Sets of each label, four bits each, eight labels in a word.
     label_sets: array<vec4u, 10>,
     /// As in `Templates`, in the same order; only heads of groups count.
@@ -431,6 +439,10 @@ struct DistanceJob {
     /// Slab that is written, and the number of sets in it: 0 for the depth.
     slab: u32,
     set_count: u32,
+    /// Rank of the connected part that distances are taken to, from 1; 0: the whole set.
+    part: u32,
+    /// How many parts have a rank.
+    part_count: u32,
     /// Sets of kept tissue that each label belongs to, four bits each; packed as in `Kept`.
     label_sets: array<vec4u, 10>,
 }

@@ -12,10 +12,13 @@ const FAR_INSIDE: f32 = 2.0;
 /// how far a search has to go where no other segment is nearer.
 fn nearest_inside(rest: vec3f, segment: u32) -> vec4f {
     var within = max(field_at(rest), 0.0) * 1.12 + 1.5 * subject.field_detail;
-    var nearest = to_nearest(rest, within, segment);
-    while nearest.w >= within && within < FAR_INSIDE {
-        within *= 4.0;
+    var nearest: vec4f;
+    loop {
         nearest = to_nearest(rest, within, segment);
+        if nearest.w < within || within >= FAR_INSIDE {
+            break;
+        }
+        within *= 4.0;
     }
     return nearest;
 }
@@ -56,14 +59,14 @@ fn surface_color(triangle: u32, footprint: Footprint, is_front: bool) -> vec3f {
     return select(back, own, is_front);
 }
 
-/// Linear RGB of what fills a segment, from 1, at a place: its layer's, else that of its inside.
-fn filling_color(segment: u32, rest: vec3f) -> vec3f {
+/// Linear RGB of what fills a segment, from 1, at a place: its layer's, else that of its inside. `depth` is the
+/// distance to the nearest triangle of the segment, which layers alone ask for.
+fn filling_color(segment: u32, rest: vec3f, depth: f32) -> vec3f {
     let body = mesh_look.segments[segment - 1u];
     let mean = textureLoad(palette, vec2i(i32(subject.labels_before + segment), 0), 0).rgb;
     let own = select(mean, body.color.rgb, body.color.a >= 0.0);
     var color = select(own * INSIDE_SHARE, body.inside.rgb, body.inside.a >= 0.0);
     if body.layer_count > 0u {
-        let depth = nearest_inside(rest, segment - 1u).w;
         var grain = 0.0;
         for (var i = 0u; i < body.layer_count; i++) {
             let layer = mesh_look.layers[body.first_layer + i];
@@ -81,4 +84,13 @@ fn filling_color(segment: u32, rest: vec3f) -> vec3f {
         }
     }
     return color;
+}
+
+/// As `filling_color`, at a place whose depth is not known.
+fn filling_color_at(segment: u32, rest: vec3f) -> vec3f {
+    var depth = 0.0;
+    if mesh_look.segments[segment - 1u].layer_count > 0u {
+        depth = nearest_inside(rest, segment - 1u).w;
+    }
+    return filling_color(segment, rest, depth);
 }

@@ -8,9 +8,9 @@
 /// same set or depth, the others keep nothing. 3: any other case. A pipeline constant.
 override align_mode: u32 = 3u;
 
-/// By what tissue is kept. Bit 0: by its segment; bit 1: by its depth under the outer surface. A pipeline constant, so
-/// that a picture reads only the textures that it needs.
-override kept_by: u32 = 3u;
+/// By what tissue is kept. Bit 0: by its segment; bit 1: by its depth under the outer surface; bit 2: some segments
+/// by their connected parts. A pipeline constant, so that a picture reads only the textures that it needs.
+override kept_by: u32 = 7u;
 
 /// Texture coordinates of a rest point in this slab of the texture of distances.
 fn distance_uvw(rest: vec3f, slab: u32) -> vec3f {
@@ -23,6 +23,22 @@ fn distance_uvw(rest: vec3f, slab: u32) -> vec3f {
 /// Depth of a rest point under the outer surface, subject units.
 fn depth_at(rest: vec3f) -> f32 {
     return textureSampleLevel(distances, linear_sampler, distance_uvw(rest, kept.depth_slab), 0.0).x;
+}
+
+/// True if a rest point that has a label of these sets lies in one of them: of connected parts, in the nearest.
+fn is_in_parts(rest: vec3f, sets: u32) -> bool {
+    if (kept_by & 4u) == 0u {
+        return true;
+    }
+    let d = textureSampleLevel(distances, linear_sampler, distance_uvw(rest, kept.exact_slab), 0.0);
+    var is_in = false;
+    for (var channel = 0u; channel < 4u; channel++) {
+        let parts = vec4u((kept.parts >> (4u * channel)) & 15u);
+        let each = select(vec4f(NO_END), d, (parts & vec4u(1u, 2u, 4u, 8u)) != vec4u(0u));
+        let least = min(min(each.x, each.y), min(each.z, each.w));
+        is_in = is_in || ((sets & (1u << channel)) != 0u && d[channel] <= least);
+    }
+    return is_in;
 }
 
 /// True if a rest point lies in one of the sets in `keeps` (a bit for each, and KEEPS_DEEP), by the nearest label
@@ -47,7 +63,8 @@ fn is_kept(rest: vec3f, keeps: u32, depth: f32) -> bool {
             break;
         }
         let word = kept.label_sets[label >> 5u][(label >> 3u) & 3u];
-        if ((word >> (4u * (label & 7u))) & keeps & 15u) != 0u {
+        let found = (word >> (4u * (label & 7u))) & keeps & 15u;
+        if found != 0u && is_in_parts(rest, found) {
             return true;
         }
     }

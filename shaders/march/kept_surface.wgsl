@@ -16,20 +16,18 @@ fn kept_surface(rest: vec3f, path: u32, jacobian: mat3x3f, to_eye: vec3f) -> Kep
     for (var i = 0u; i < count; i++) {
         let item = kept.items[i];
         // A displacement that gives way to tissue moves what lies beside it with it: there is no surface between them.
-        let gives_way = item.constraint == CONSTRAIN_DISPLACEMENT || item.constraint == CONSTRAIN_COORDINATE;
-        let parted = item.keeps & ~select(0u, item.gives_way_to, gives_way);
-        if parted == 0u {
+        if item.aligned == 0u {
             continue;
         }
         let group = select(1u << i, 0xffffffffu, align_mode == 1u);
-        let away = distance_to_kept(rest, parted, item.depth, 0u);
+        let away = distance_to_kept(rest, item.aligned, item.depth, 0u);
         let has_moved = (path & group) != 0u;
         let is_on_side = select(away <= slack, away >= -slack, has_moved);
         // Within the stairs of the labels it is the surface itself.
         let near = 1.0 - max(abs(away) - slack, 0.0) / max(item.blend, slack);
         if is_on_side && near > weight {
             weight = near;
-            keeps = parted;
+            keeps = item.aligned;
             depth = item.depth;
             is_kept_side = !has_moved;
         }

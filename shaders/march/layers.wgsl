@@ -30,20 +30,16 @@ fn others_on(asked: Ray, on_ray: ptr<function, ObjectsMet>, layers: ptr<function
     }
     (*layers).count = 0u;
     (*layers).next = 0u;
-    var walk = MeshWalk(unmoved_spot(ray, ray.t_start), 0u, LONGEST_STEP, 1.0, NO_TRIANGLE);
+    var walk = MeshWalk(unmoved_spot(ray, ray.t_start), 0u, LONGEST_STEP, 1.0, NO_TRIANGLE, true);
     var steps = 0u;
-    var met = met_at_start(ray);
     while (*layers).count < MAX_CROSSINGS {
-        if !met.is_met {
-            met = next_met(ray, &walk, &steps);
-        }
+        let met = next_met(ray, &walk, &steps);
         if !met.is_met {
             break;
         }
         let seen = seen_of(ray, met);
         (*layers).items[(*layers).count] = seen;
         (*layers).count++;
-        met.is_met = false;
         if seen.opacity >= 1.0 - OPAQUE {
             // As far behind it as the volume's next sample may be.
             ray.t_end = min(ray.t_end, seen.event.t + 2.0 * frame.step);

@@ -58,6 +58,8 @@ struct MeshWalk {
     stretch: f32,
     /// The triangle that `here` lies on, or NO_TRIANGLE.
     skipped: u32,
+    /// True until the place of the eye has been looked at: a ray that begins inside begins with a cut face.
+    is_at_eye: bool,
 }
 
 /// Something that a ray meets.
@@ -101,55 +103,63 @@ fn cell_on_ray(ray: Ray, t: f32) -> vec3u {
     return vec3u(content, bitcast<u32>(min(t_out, ray.t_end)));
 }
 
+// What a walk does next. Each of them asks the map once at most, and one place of the program asks it, as one place
+// searches for triangles and one asks what fills a place: software GPUs compile each of these anew for every place.
+/// Plans the next step.
+const PLANS: u32 = 0u;
+/// Asks for the place of the eye.
+const STARTS: u32 = 1u;
+/// Asks for the place of the walk, where it comes from places that no template reaches.
+const ENTERS: u32 = 2u;
+/// Asks for the end of a step.
+const STEPS: u32 = 3u;
+/// Asks for the middle of a way on which something changes.
+const HALVES: u32 = 4u;
+/// Asks for a guess of where the ray crosses a triangle, or the inner wall of a shell.
+const GUESSES: u32 = 5u;
+/// Has come to the end of a step. This and those below ask the map nothing.
+const ARRIVES: u32 = 6u;
+/// Goes straight on through places that no template reaches.
+const CROSSES: u32 = 7u;
+/// Looks at what lies behind an edge.
+const FACES: u32 = 8u;
+/// Looks for the inner wall of a shell on a step.
+const SINKS: u32 = 9u;
+
 /// The last place before something changes between two places of a ray, and the first behind it.
 struct Edge {
     before: Spot,
     behind: Spot,
 }
 
-/// Finds where a gap begins or ends, or where the path changes, or, if neither does, where the map jumps.
-fn edge_between(ray: Ray, here: Spot, next: Spot, mask: u32) -> Edge {
-    var edge = Edge(here, next);
-    let turns_gap = (here.continuity < 0.0) != (next.continuity < 0.0);
-    let turns_path = here.path != next.path && !turns_gap;
-    for (var turn = 0u; turn < MESH_BISECTIONS; turn++) {
-        let middle = spot_at(ray, 0.5 * (edge.before.t + edge.behind.t), mask);
-        var is_before = distance(middle.pos, edge.before.pos) <= distance(middle.pos, edge.behind.pos);
-        if turns_gap {
-            is_before = (middle.continuity < 0.0) == (here.continuity < 0.0);
-        } else if turns_path {
-            is_before = middle.path == here.path;
-        }
-        if is_before {
-            edge.before = middle;
-        } else {
-            edge.behind = middle;
-        }
-    }
-    return edge;
+/// What a walk is about, between one step and the next.
+struct Errand {
+    /// One of the constants above.
+    task: u32,
+    /// Where the map is asked, distance from the eye.
+    t: f32,
+    /// By which templates.
+    mask: u32,
+    /// True after `ENTERS`, until the step from there is planned.
+    has_entered: bool,
+    /// How often the task has been done.
+    turn: u32,
+    /// Length of the step, and whether it began inside a shell.
+    way: f32,
+    is_in_shell: bool,
+    /// The edge on the step, or twice its end if it has none.
+    edge: Edge,
+    has_edge: bool,
+    /// The crossing that is made exact; of the wall of a shell NO_TRIANGLE, and the segment from 1.
+    crossing: TriangleCrossing,
+    segment: u32,
+    /// Two places of the ray on both sides of it (distance from the eye), and their heights above it.
+    low: vec2f,
+    high: vec2f,
 }
 
-/// A crossing of a triangle between two places, made exact along the true curve: regula falsi on the triangle's plane.
-fn exact_spot(ray: Ray, here: Spot, next: Spot, crossing: TriangleCrossing, mask: u32) -> Spot {
-    let normal = face_of(crossing.triangle);
-    let corner = corner_of(crossing.triangle, 0u);
-    var low = vec2f(here.t, dot(here.pos - corner, normal));
-    var high = vec2f(next.t, dot(next.pos - corner, normal));
-    var spot = spot_at(ray, mix(here.t, next.t, crossing.part), mask);
-    for (var turn = 0u; turn < 3u; turn++) {
-        let height = dot(spot.pos - corner, normal);
-        if (height < 0.0) == (low.y < 0.0) {
-            low = vec2f(spot.t, height);
-        } else {
-            high = vec2f(spot.t, height);
-        }
-        let way = low.y - high.y;
-        if abs(way) < 1e-9 {
-            break;
-        }
-        spot = spot_at(ray, mix(low.x, high.x, clamp(low.y / way, 0.0, 1.0)), mask);
-    }
-    return spot;
+fn met_nothing(at: Spot, mask: u32) -> Met {
+    return Met(false, at, NO_TRIANGLE, vec3f(0.0), true, 0u, mask);
 }
 
 fn met_triangle(at: Spot, crossing: TriangleCrossing, mask: u32) -> Met {
@@ -157,37 +167,8 @@ fn met_triangle(at: Spot, crossing: TriangleCrossing, mask: u32) -> Met {
     return Met(true, at, crossing.triangle, crossing.weights, crossing.is_front, segment, mask);
 }
 
-/// What lies behind an edge: a cut face where the place behind is filled with a segment that did not fill the one
-/// before; the surface of kept tissue, where the edge lies on a triangle.
-fn met_at_edge(ray: Ray, edge: Edge, mask: u32) -> Met {
-    let is_into_gap = edge.behind.continuity < 0.0;
-    var at = edge.behind;
-    if is_into_gap && KEEPS_TISSUE {
-        at = edge.before;
-    }
-    var met = Met(false, at, NO_TRIANGLE, vec3f(0.0), true, 0u, mask);
-    if at.continuity < 0.0 {
-        return met;
-    }
-    let segment = filled_at(at.pos);
-    let is_in_gap = min(edge.before.continuity, edge.behind.continuity) < 0.0;
-    var before = 0u;
-    // A gap around a hollow body that is kept ends at its triangles.
-    if !is_in_gap || (KEEPS_TISSUE && segment == 0u) {
-        before = select(filled_at(edge.before.pos), 0u, is_in_gap);
-        let reach = ray.dir * LEAST_JUMP;
-        let crossing = first_crossing(at.pos - reach, at.pos + reach, NO_TRIANGLE);
-        if crossing.triangle != NO_TRIANGLE {
-            return met_triangle(at, crossing, mask);
-        }
-    }
-    met.is_met = !is_into_gap && segment != 0u && segment != before;
-    met.segment = segment;
-    return met;
-}
-
-/// The way to a place that no template reaches: one straight line as far as there is none.
-fn cross_unmoved(ray: Ray, walk: ptr<function, MeshWalk>, first_exit: f32) -> Met {
+/// Where a straight way ends that begins in a cell which no template reaches: as far as there is none.
+fn end_of_unmoved(ray: Ray, first_exit: f32) -> f32 {
     var t_out = first_exit;
     loop {
         let cell = cell_on_ray(ray, t_out);
@@ -196,137 +177,328 @@ fn cross_unmoved(ray: Ray, walk: ptr<function, MeshWalk>, first_exit: f32) -> Me
         }
         t_out = max(bitcast<f32>(cell.z), t_out + 0.00002);
     }
-    let start = ray.origin + ray.dir * (*walk).here.t;
-    let end = ray.origin + ray.dir * t_out;
-    let crossing = first_crossing(start, end, (*walk).skipped);
-    let t = select(t_out, mix((*walk).here.t, t_out, crossing.part), crossing.triangle != NO_TRIANGLE);
-    (*walk).here = unmoved_spot(ray, t);
-    (*walk).skipped = crossing.triangle;
-    var met = Met(false, (*walk).here, NO_TRIANGLE, vec3f(0.0), true, 0u, 0u);
-    if crossing.triangle != NO_TRIANGLE {
-        met = met_triangle((*walk).here, crossing, 0u);
-    }
-    return met;
+    return t_out;
 }
 
-/// Takes one step where templates act.
-fn step_moved(ray: Ray, walk: ptr<function, MeshWalk>, mask: u32, t_out: f32) -> Met {
+/// Plans what comes next at the place of the walk.
+fn plan(ray: Ray, walk: ptr<function, MeshWalk>, errand: ptr<function, Errand>) {
     let here = (*walk).here;
-    let nothing = Met(false, here, NO_TRIANGLE, vec3f(0.0), true, 0u, mask);
+    let cell = cell_on_ray(ray, here.t);
+    let t_out = bitcast<f32>(cell.z);
+    let is_moved = (cell.x != 0u && drawn_kinds != 0u) || mesh_look.has_shells != 0u;
+    if cell.y != 0u && has_grid != 0u && grid.is_used != 0u {
+        (*walk).here = unmoved_spot(ray, max(t_out, here.t + 0.00002));
+        (*walk).mask = 0u;
+        (*walk).skipped = NO_TRIANGLE;
+    } else if !is_moved {
+        (*walk).mask = 0u;
+        (*errand).task = CROSSES;
+        (*errand).t = end_of_unmoved(ray, t_out);
+    } else if (*walk).mask == 0u && (*walk).skipped == NO_TRIANGLE && !(*errand).has_entered {
+        (*errand).task = ENTERS;
+        (*errand).t = here.t;
+        (*errand).mask = cell.x;
+    } else {
+        let is_in_shell = mesh_look.has_shells != 0u && field_at(here.pos) > 0.0;
+        let free = max(here.clearance, LONGEST_CHORD) / (1.25 * max((*walk).stretch, 0.25));
+        let longest = select(LONGEST_STEP, SHELL_STEP, is_in_shell);
+        let wanted = min((*walk).step, select(min(free, longest), GAP_STEP, here.continuity < 0.0));
+        (*errand).task = STEPS;
+        (*errand).t = min(here.t + max(wanted, SHORTEST_STEP), max(t_out, here.t + SHORTEST_STEP));
+        (*errand).mask = cell.x | (*walk).mask;
+        (*errand).way = (*errand).t - here.t;
+        (*errand).is_in_shell = is_in_shell;
+        (*errand).has_entered = false;
+        (*walk).mask = cell.x;
+    }
+}
+
+/// The end of a step is known.
+fn take_step(walk: ptr<function, MeshWalk>, errand: ptr<function, Errand>, next: Spot) {
+    let here = (*walk).here;
     let is_gap = here.continuity < 0.0;
-    let is_in_shell = mesh_look.has_shells != 0u && field_at(here.pos) > 0.0;
-    let free = max(here.clearance, LONGEST_CHORD) / (1.25 * max((*walk).stretch, 0.25));
-    let longest = select(LONGEST_STEP, SHELL_STEP, is_in_shell);
-    let wanted = min((*walk).step, select(min(free, longest), GAP_STEP, is_gap));
-    let t_next = min(here.t + max(wanted, SHORTEST_STEP), max(t_out, here.t + SHORTEST_STEP));
-    let way = t_next - here.t;
-    let next = spot_at(ray, t_next, mask);
     if is_gap && next.continuity < 0.0 {
         (*walk).here = next;
         (*walk).step = LONGEST_STEP;
         (*walk).stretch = 1.0;
         (*walk).skipped = NO_TRIANGLE;
-        return nothing;
+        (*errand).task = PLANS;
+        return;
     }
     let turns = is_gap != (next.continuity < 0.0) || here.path != next.path;
-    var edge = Edge(next, next);
-    var has_edge = turns || distance(here.pos, next.pos) > MAX_STRETCH * way + LEAST_JUMP;
-    if has_edge {
-        edge = edge_between(ray, here, next, mask);
-        has_edge = turns || distance(edge.before.pos, edge.behind.pos) > LEAST_JUMP;
+    (*errand).has_edge = turns || distance(here.pos, next.pos) > MAX_STRETCH * (*errand).way + LEAST_JUMP;
+    (*errand).task = select(ARRIVES, HALVES, (*errand).has_edge);
+    (*errand).edge = Edge(next, next);
+    if (*errand).has_edge {
+        (*errand).edge.before = here;
+        (*errand).t = 0.5 * (here.t + next.t);
+        (*errand).turn = 0u;
     }
-    if is_gap {
-        (*walk).here = edge.behind;
-        (*walk).step = LONGEST_STEP;
-        return met_at_edge(ray, edge, mask);
-    }
-    let chord = distance(here.pos, edge.before.pos);
-    if chord > 0.8 * (here.clearance + edge.before.clearance) {
-        if chord > 1.5 * LONGEST_CHORD && way > 2.0 * SHORTEST_STEP {
-            (*walk).step = 0.5 * way;
-            return nothing;
-        }
-        let crossing = first_crossing(here.pos, edge.before.pos, (*walk).skipped);
-        if crossing.triangle != NO_TRIANGLE {
-            let at = exact_spot(ray, here, edge.before, crossing, mask);
-            (*walk).here = at;
-            (*walk).skipped = crossing.triangle;
-            (*walk).step = LONGEST_STEP;
-            return met_triangle(at, crossing, mask);
-        }
-    }
-    (*walk).stretch = chord / max(edge.before.t - here.t, SHORTEST_STEP);
-    (*walk).here = edge.behind;
-    (*walk).step = 2.0 * way;
-    (*walk).skipped = NO_TRIANGLE;
-    if has_edge {
-        (*walk).step = LONGEST_STEP;
-        (*walk).stretch = 1.0;
-        return met_at_edge(ray, edge, mask);
-    }
-    if is_in_shell {
-        return inner_wall(ray, walk, here, edge.behind, mask);
-    }
-    return nothing;
 }
 
-/// The inner wall of a shell between two places inside of it.
-fn inner_wall(ray: Ray, walk: ptr<function, MeshWalk>, here: Spot, next: Spot, mask: u32) -> Met {
-    var met = Met(false, next, NO_TRIANGLE, vec3f(0.0), true, 0u, mask);
-    let segment = filled_at(next.pos);
-    if segment == 0u {
-        return met;
+/// Halves the way on which a gap begins or ends, or the path changes, or, if neither does, the map jumps.
+fn halve(walk: ptr<function, MeshWalk>, errand: ptr<function, Errand>, middle: Spot) {
+    let here = (*walk).here;
+    let edge = (*errand).edge;
+    let is_gap = here.continuity < 0.0;
+    let turns_gap = is_gap != (edge.behind.continuity < 0.0);
+    let turns_path = here.path != edge.behind.path && !turns_gap;
+    var is_before = distance(middle.pos, edge.before.pos) <= distance(middle.pos, edge.behind.pos);
+    if turns_gap {
+        is_before = (middle.continuity < 0.0) == is_gap;
+    } else if turns_path {
+        is_before = middle.path == here.path;
     }
-    if filled_at(here.pos) != 0u {
-        return met;
+    if is_before {
+        (*errand).edge.before = middle;
+    } else {
+        (*errand).edge.behind = middle;
     }
-    // Where the depth is that of the wall: regula falsi, for each look at the triangles is dear.
-    let thickness = mesh_look.segments[segment - 1u].thickness;
-    var low = vec2f(here.t, max(nearest_inside(here.pos, segment - 1u).w - thickness, 1e-6));
-    var high = vec2f(next.t, min(nearest_inside(next.pos, segment - 1u).w - thickness, -1e-6));
-    var wall = next;
-    for (var turn = 0u; turn < 3u; turn++) {
-        let at = spot_at(ray, mix(low.x, high.x, low.y / (low.y - high.y)), mask);
-        let above = nearest_inside(at.pos, segment - 1u).w - thickness;
-        if above > 0.0 {
-            low = vec2f(at.t, above);
+    (*errand).t = 0.5 * ((*errand).edge.before.t + (*errand).edge.behind.t);
+    (*errand).turn++;
+    if (*errand).turn == MESH_BISECTIONS {
+        let jump = distance((*errand).edge.before.pos, (*errand).edge.behind.pos);
+        (*errand).has_edge = turns_gap || turns_path || jump > LEAST_JUMP;
+        (*errand).task = ARRIVES;
+    }
+}
+
+/// Height of a place above what is made exact: a triangle's plane, or the inner wall of a shell.
+fn height_above(errand: ptr<function, Errand>, pos: vec3f) -> f32 {
+    let triangle = (*errand).crossing.triangle;
+    var height = 0.0;
+    var is_wall = triangle == NO_TRIANGLE;
+    while is_wall {
+        is_wall = false;
+        let segment = (*errand).segment - 1u;
+        height = nearest_inside(pos, segment).w - mesh_look.segments[segment].thickness;
+    }
+    if triangle != NO_TRIANGLE {
+        height = dot(pos - corner_of(triangle, 0u), face_of(triangle));
+    }
+    return height;
+}
+
+/// Takes a guess of where the ray crosses, along the true curve, and makes the next one: regula falsi. Returns what is
+/// met after the last one.
+fn take_guess(walk: ptr<function, MeshWalk>, errand: ptr<function, Errand>, spot: Spot) -> Met {
+    let crossing = (*errand).crossing;
+    let is_wall = crossing.triangle == NO_TRIANGLE;
+    var height = height_above(errand, spot.pos);
+    var is_low = (height < 0.0) == ((*errand).low.y < 0.0);
+    let turn = (*errand).turn;
+    let measures = is_wall && turn < 2u;
+    if measures {
+        // Both ends of the way to a wall are measured first, the far one before the near one.
+        is_low = turn == 1u;
+        height = select(min(height, -1e-6), max(height, 1e-6), is_low);
+    }
+    if is_low {
+        (*errand).low = vec2f(spot.t, height);
+    } else {
+        (*errand).high = vec2f(spot.t, height);
+    }
+    let fall = (*errand).low.y - (*errand).high.y;
+    let guess = clamp((*errand).low.y / select(fall, 1.0, fall == 0.0), 0.0, 1.0);
+    let part = select(guess, 0.0, is_wall && turn == 0u);
+    (*errand).t = mix((*errand).low.x, (*errand).high.x, part);
+    (*errand).turn++;
+    var met = met_nothing(spot, (*errand).mask);
+    if turn == select(3u, 4u, is_wall) || (abs(fall) < 1e-9 && !measures) {
+        (*errand).task = PLANS;
+        if is_wall {
+            met = Met(true, spot, NO_TRIANGLE, vec3f(0.0), false, (*errand).segment, (*errand).mask);
         } else {
-            high = vec2f(at.t, min(above, -1e-6));
+            met = met_triangle(spot, crossing, (*errand).mask);
+            (*walk).here = spot;
+            (*walk).skipped = crossing.triangle;
+            (*walk).step = LONGEST_STEP;
         }
-        wall = at;
     }
-    met.is_met = true;
-    met.at = wall;
-    met.segment = segment;
-    met.is_front = false;
+    return met;
+}
+
+/// Takes what the map said of the place that was asked.
+fn take_spot(walk: ptr<function, MeshWalk>, errand: ptr<function, Errand>, spot: Spot) -> Met {
+    var met = met_nothing(spot, (*errand).mask);
+    let task = (*errand).task;
+    if task == STEPS {
+        take_step(walk, errand, spot);
+    } else if task == HALVES {
+        halve(walk, errand, spot);
+    } else if task == GUESSES {
+        met = take_guess(walk, errand, spot);
+    } else if task == ENTERS {
+        (*walk).here = spot;
+        (*walk).step = LONGEST_STEP;
+        (*walk).stretch = 1.0;
+        (*errand).has_entered = true;
+        (*errand).task = PLANS;
+    } else {
+        (*errand).edge = Edge(spot, spot);
+    }
+    return met;
+}
+
+/// What an errand asks the bodies and their triangles.
+struct Question {
+    /// How many places are asked for what fills them: of the edge's two the one behind, then the one before.
+    fills: u32,
+    /// The place behind, or, where kept tissue ends there, the one before.
+    at: Spot,
+    /// True if a line is searched for triangles, from where to where, and without which.
+    searches: bool,
+    start: vec3f,
+    end: vec3f,
+    skipped: u32,
+}
+
+/// What is asked where no template moves anything, at the end of a step, behind an edge, in a shell and at the eye.
+fn question_of(ray: Ray, walk: ptr<function, MeshWalk>, errand: ptr<function, Errand>) -> Question {
+    let here = (*walk).here;
+    let edge = (*errand).edge;
+    var asked = Question(0u, edge.behind, false, vec3f(0.0), vec3f(0.0), (*walk).skipped);
+    if (*errand).task == ARRIVES {
+        let chord = distance(here.pos, edge.before.pos);
+        let is_near = chord > 0.8 * (here.clearance + edge.before.clearance);
+        if here.continuity < 0.0 {
+            (*walk).here = edge.behind;
+            (*walk).step = LONGEST_STEP;
+            (*errand).task = FACES;
+        } else if is_near && chord > 1.5 * LONGEST_CHORD && (*errand).way > 2.0 * SHORTEST_STEP {
+            (*walk).step = 0.5 * (*errand).way;
+            (*errand).task = PLANS;
+        } else {
+            asked.searches = is_near;
+            asked.start = here.pos;
+            asked.end = edge.before.pos;
+        }
+    }
+    let task = (*errand).task;
+    if task == CROSSES {
+        asked.searches = true;
+        asked.start = ray.origin + ray.dir * here.t;
+        asked.end = ray.origin + ray.dir * (*errand).t;
+    } else if task == FACES || task == STARTS {
+        if KEEPS_TISSUE && edge.behind.continuity < 0.0 {
+            asked.at = edge.before;
+        }
+        let is_alone = task == STARTS || min(edge.before.continuity, edge.behind.continuity) < 0.0;
+        asked.fills = select(select(2u, 1u, is_alone), 0u, asked.at.continuity < 0.0);
+    } else if task == SINKS {
+        asked.fills = 2u;
+    }
+    return asked;
+}
+
+/// Segments, from 1, that fill the places that are asked, `at` first; 0 where there is none.
+fn fillings_of(asked: Question, errand: ptr<function, Errand>) -> vec2u {
+    var filled = vec2u(0u);
+    for (var k = 0u; k < asked.fills; k++) {
+        let segment = filled_at(select(asked.at.pos, (*errand).edge.before.pos, k == 1u));
+        filled = select(filled, vec2u(segment), vec2u(0u, 1u) == vec2u(k));
+        if (*errand).task == SINKS && segment == 0u {
+            break;
+        }
+    }
+    return filled;
+}
+
+/// Draws the conclusion of an errand that asks the map nothing. Returns what is met there.
+fn conclude(ray: Ray, walk: ptr<function, MeshWalk>, errand: ptr<function, Errand>, at: Spot, filled: vec2u, crossing: TriangleCrossing) -> Met {
+    let mask = (*errand).mask;
+    let here = (*walk).here;
+    let edge = (*errand).edge;
+    let task = (*errand).task;
+    let is_crossed = crossing.triangle != NO_TRIANGLE;
+    var met = met_nothing(at, mask);
+    (*errand).task = PLANS;
+    if task == CROSSES {
+        let t = select((*errand).t, mix(here.t, (*errand).t, crossing.part), is_crossed);
+        (*walk).here = unmoved_spot(ray, t);
+        (*walk).skipped = crossing.triangle;
+        if is_crossed {
+            met = met_triangle((*walk).here, crossing, 0u);
+        }
+    } else if task == ARRIVES && is_crossed {
+        let normal = face_of(crossing.triangle);
+        let corner = corner_of(crossing.triangle, 0u);
+        (*errand).crossing = crossing;
+        (*errand).low = vec2f(here.t, dot(here.pos - corner, normal));
+        (*errand).high = vec2f(edge.before.t, dot(edge.before.pos - corner, normal));
+        (*errand).t = mix(here.t, edge.before.t, crossing.part);
+        (*errand).turn = 0u;
+        (*errand).task = GUESSES;
+    } else if task == ARRIVES {
+        let chord = distance(here.pos, edge.before.pos);
+        (*walk).stretch = select(chord / max(edge.before.t - here.t, SHORTEST_STEP), 1.0, (*errand).has_edge);
+        (*walk).step = select(2.0 * (*errand).way, LONGEST_STEP, (*errand).has_edge);
+        (*walk).here = edge.behind;
+        (*walk).skipped = NO_TRIANGLE;
+        if (*errand).has_edge {
+            (*errand).task = FACES;
+        } else if (*errand).is_in_shell {
+            (*errand).edge.before = here;
+            (*errand).task = SINKS;
+        }
+    } else if task == SINKS {
+        if filled.x != 0u && filled.y == 0u {
+            (*errand).crossing.triangle = NO_TRIANGLE;
+            (*errand).segment = filled.x;
+            (*errand).low = vec2f(edge.before.t, 0.0);
+            (*errand).t = edge.behind.t;
+            (*errand).turn = 0u;
+            (*errand).task = GUESSES;
+        }
+    } else if is_crossed {
+        met = met_triangle(at, crossing, mask);
+    } else if at.continuity >= 0.0 {
+        // A cut face, where the place is filled with a segment that does not fill the one before.
+        met.is_met = edge.behind.continuity >= 0.0 && filled.x != 0u && filled.x != filled.y;
+        met.segment = filled.x;
+    }
     return met;
 }
 
 /// Marches to the next thing that the ray meets.
 fn next_met(ray: Ray, walk: ptr<function, MeshWalk>, steps: ptr<function, u32>) -> Met {
-    var met = Met(false, (*walk).here, NO_TRIANGLE, vec3f(0.0), true, 0u, 0u);
-    while *steps < MAX_STEPS && (*walk).here.t < ray.t_end && !met.is_met {
-        (*steps)++;
-        let cell = cell_on_ray(ray, (*walk).here.t);
-        let t_out = bitcast<f32>(cell.z);
-        let is_moved = (cell.x != 0u && drawn_kinds != 0u) || mesh_look.has_shells != 0u;
-        if cell.y != 0u && has_grid != 0u && grid.is_used != 0u {
-            (*walk).here = unmoved_spot(ray, max(t_out, (*walk).here.t + 0.00002));
-            (*walk).mask = 0u;
-            (*walk).skipped = NO_TRIANGLE;
-        } else if !is_moved {
-            (*walk).mask = 0u;
-            met = cross_unmoved(ray, walk, t_out);
-        } else {
-            if (*walk).mask == 0u && (*walk).skipped == NO_TRIANGLE {
-                // From where no template acts.
-                (*walk).here = spot_at(ray, (*walk).here.t, cell.x);
-                (*walk).step = LONGEST_STEP;
-                (*walk).stretch = 1.0;
+    var met = met_nothing((*walk).here, 0u);
+    var errand: Errand;
+    errand.task = select(PLANS, STARTS, (*walk).is_at_eye && ray.t_start <= 0.0);
+    errand.mask = 0xffffffffu;
+    (*walk).is_at_eye = false;
+    while !met.is_met {
+        if errand.task == PLANS {
+            if *steps >= MAX_STEPS || (*walk).here.t >= ray.t_end {
+                break;
             }
-            let mask = cell.x | (*walk).mask;
-            (*walk).mask = cell.x;
-            met = step_moved(ray, walk, mask, t_out);
+            (*steps)++;
+            plan(ray, walk, &errand);
+        }
+        // Loops, which software rasterisers leave out where they would run a branch.
+        var asks = errand.task != PLANS && errand.task < ARRIVES;
+        while asks {
+            asks = false;
+            met = take_spot(walk, &errand, spot_at(ray, errand.t, errand.mask));
+        }
+        if errand.task == STARTS || errand.task >= ARRIVES {
+            var asked = question_of(ray, walk, &errand);
+            let filled = fillings_of(asked, &errand);
+            if errand.task == FACES && asked.at.continuity >= 0.0 {
+                // Kept tissue ends at its triangles: so does a gap around a hollow body that is kept.
+                asked.searches = asked.fills == 2u || (KEEPS_TISSUE && filled.x == 0u);
+                asked.start = asked.at.pos - ray.dir * LEAST_JUMP;
+                asked.end = asked.at.pos + ray.dir * LEAST_JUMP;
+                asked.skipped = NO_TRIANGLE;
+            }
+            var crossing = TriangleCrossing(NO_TRIANGLE, 1.0, vec3f(0.0), false);
+            while asked.searches {
+                asked.searches = false;
+                crossing = first_crossing(asked.start, asked.end, asked.skipped);
+            }
+            if errand.task != PLANS {
+                met = conclude(ray, walk, &errand, asked.at, filled, crossing);
+            }
         }
     }
     return met;
@@ -361,48 +533,42 @@ fn look_of(ray: Ray, met: Met) -> MetLook {
     let edge = Sample(met.at.pos, 0.0, 1.0, met.at.continuity, met.at.path);
     let map = differential_at(ray.origin + ray.dir * met.at.t, ray.forward, edge, met.mask);
     let segment = met.segment - 1u;
+    let is_cut = met.triangle == NO_TRIANGLE;
+    let is_wall = is_cut && !met.is_front;
+    let shows_filling = is_cut || owner_of(met.triangle) >= LID;
+    var nearest = vec4f(0.0);
+    var asks = select(0u, 1u, is_wall || (shows_filling && mesh_look.segments[segment].layer_count > 0u));
+    while asks > 0u {
+        asks--;
+        nearest = nearest_inside(met.at.pos, segment);
+    }
     var look_here = MetLook(-ray.dir, -ray.dir, vec3f(0.0), 1.0, mesh_look.segments[segment].gloss);
-    if met.triangle != NO_TRIANGLE {
-        let face = carried_over(map.jacobian, face_of(met.triangle));
-        let smooth_normal = carried_over(map.jacobian, normal_of_triangle(met.triangle, met.weights));
-        look_here.normal = normal_to_eye(smooth_normal, face, ray.dir);
-        look_here.plane_normal = normalize(select(face, -face, dot(face, ray.dir) > 0.0));
-        if owner_of(met.triangle) >= LID {
-            look_here.albedo = filling_color(met.segment, met.at.pos);
-        } else {
-            look_here.albedo = surface_color(met.triangle, footprint_of(ray, met, map.jacobian), met.is_front);
-            look_here.opacity = opacity_of_triangle(met.triangle);
-        }
-    } else {
+    if is_cut {
         let slope = length(map.slope);
-        if !met.is_front {
+        if is_wall {
             // The inner wall of a shell lies along the surface above it.
-            let normal = normalize(carried_over(map.jacobian, nearest_inside(met.at.pos, segment).xyz) - ray.dir * 1e-6);
+            let normal = normalize(carried_over(map.jacobian, nearest.xyz) - ray.dir * 1e-6);
             look_here.normal = select(normal, -normal, dot(normal, ray.dir) >= 0.0);
         } else if slope > 1e-3 && slope < MAX_SLOPE && met.at.t > 0.0 {
             let normal = -map.slope / slope;
             look_here.normal = select(normal, -ray.dir, dot(normal, ray.dir) >= 0.0);
         }
         look_here.plane_normal = look_here.normal;
-        look_here.albedo = filling_color(met.segment, met.at.pos);
+    } else {
+        let face = carried_over(map.jacobian, face_of(met.triangle));
+        let smooth_normal = carried_over(map.jacobian, normal_of_triangle(met.triangle, met.weights));
+        look_here.normal = normal_to_eye(smooth_normal, face, ray.dir);
+        look_here.plane_normal = normalize(select(face, -face, dot(face, ray.dir) > 0.0));
+    }
+    if shows_filling {
+        look_here.albedo = filling_color(met.segment, met.at.pos, nearest.w);
+    } else {
+        look_here.albedo = surface_color(met.triangle, footprint_of(ray, met, map.jacobian), met.is_front);
+        look_here.opacity = opacity_of_triangle(met.triangle);
     }
     let opacity = mesh_look.segments[segment].opacity;
     look_here.opacity = select(look_here.opacity, opacity, opacity >= 0.0);
     return look_here;
-}
-
-/// The cut face that a ray begins with: what fills the place of the eye.
-fn met_at_start(ray: Ray) -> Met {
-    var met = Met(false, unmoved_spot(ray, 0.0), NO_TRIANGLE, vec3f(0.0), true, 0u, 0xffffffffu);
-    // A loop, which software rasterisers leave out where they would run a branch.
-    for (var turn = ray.t_start; turn <= 0.0; turn = 1.0) {
-        met.at = spot_at(ray, 0.0, 0xffffffffu);
-        if met.at.continuity >= 0.0 {
-            met.segment = filled_at(met.at.pos);
-            met.is_met = met.segment != 0u;
-        }
-    }
-    return met;
 }
 
 /// What a ray is said to meet.

@@ -22,10 +22,8 @@
 // The outside of the object: voxels below a threshold that belong to no segment and are connected with a side face of
 // the grid. Connections with the faces at the head and foot ends of a scan do not count: a windpipe that ends there
 // would let the outside into the lungs.
-// needs: types.wgsl affine.wgsl bind/subject.wgsl subject/volume.wgsl|subject/surfaces.wgsl|subject/both.wgsl
+// needs: types.wgsl affine.wgsl bind/subject.wgsl bind/distance_job.wgsl subject/member.wgsl
 
-/// The job: sizes, sets and axis (see types.wgsl).
-@group(3) @binding(0) var<uniform> job: DistanceJob;
 /// Per coarse x, fine y, slice of the part: way to the nearest voxel of the set, and to the nearest outside it, along
 /// x.
 @group(3) @binding(1) var<storage, read_write> line_ways: array<vec2f>;
@@ -35,7 +33,8 @@
 @group(3) @binding(3) var<storage, read_write> fields: array<f32>;
 /// Per coarse voxel: between two passes of a smoothing.
 @group(3) @binding(4) var<storage, read_write> smoothed: array<f32>;
-/// Per coarse voxel: FILLED, OPEN (nothing in it) or OUTSIDE (open and connected with a side of the grid).
+/// Per coarse voxel: FILLED, OPEN (nothing in it) or OUTSIDE (open and connected with a side of the grid). While
+/// distances to connected parts are taken, the rank of its part (pass/parts.wgsl).
 @group(3) @binding(5) var<storage, read_write> flood: array<u32>;
 /// The distances, four channels, in slabs (see `Kept`).
 @group(3) @binding(6) var distance_out: texture_storage_3d<rgba16float, write>;
@@ -47,13 +46,6 @@ const OPEN: u32 = 1u;
 const OUTSIDE: u32 = 2u;
 /// Channel of the signed distance to the outside of the object, after the four sets.
 const CHANNEL_OUTSIDE: u32 = 4u;
-
-/// Label of a fine voxel.
-fn label_of(voxel: vec3i) -> u32 {
-    let at = vec3i(floor(apply_affine(job.label_from_voxel, vec3f(voxel)) + 0.5));
-    let is_inside = all(at >= vec3i(0)) && all(at < vec3i(textureDimensions(labels)));
-    return select(0u, textureLoad(labels, clamp(at, vec3i(0), vec3i(textureDimensions(labels)) - 1), 0).x, is_inside);
-}
 
 /// Normalised value at a fine voxel; below every threshold beyond the volume.
 fn texel_of(voxel: vec3i) -> f32 {
@@ -70,29 +62,37 @@ fn is_open(voxel: vec3i) -> bool {
     return texel_of(voxel) < job.threshold;
 }
 
-fn coarse_index(at: vec3u) -> u32 {
-    return at.x + job.coarse.x * (at.y + job.coarse.y * at.z);
-}
-
-/// True if a label belongs to the set that is worked on.
-fn is_in_channel(label: u32) -> bool {
-    let word = job.label_sets[label >> 5u][(label >> 3u) & 3u];
-    return ((word >> (4u * (label & 7u))) & (1u << job.channel)) != 0u;
+/// Rank of the connected part that a fine voxel of the set lies in, by this label: that of the nearest sample around,
+/// of connected ones if there are. What is too small to have a rank goes with the largest part.
+fn part_of(voxel: vec3i, label: u32) -> u32 {
+    let block = vec3i(floor((vec3f(voxel) + 0.5) / job.ratio.xyz));
+    let last = vec3i(job.coarse.xyz) - 1;
+    if all(job.ratio.xyz <= vec3f(1.0)) {
+        return max(flood[coarse_index(vec3u(clamp(block, vec3i(0), last)))], 1u);
+    }
+    var least = 4.0 * FAR;
+    var part = 1u;
+    for (var i = 0; i < 27; i++) {
+        let at = vec3u(clamp(block + vec3i(i % 3, (i / 3) % 3, i / 9) - 1, vec3i(0), last));
+        let rank = flood[coarse_index(at)];
+        if rank != 0u {
+            let way = length(((vec3f(at) + 0.5) * job.ratio.xyz - 0.5 - vec3f(voxel)) * job.spacing.xyz);
+            let apart = select(way + FAR, way, is_joined(voxel, voxel_of(at), label));
+            part = select(part, rank, apart < least);
+            least = min(least, apart);
+        }
+    }
+    return part;
 }
 
 /// True if a fine voxel belongs to what distances are taken to.
 fn is_member(voxel: vec3i) -> bool {
     if job.channel < CHANNEL_OUTSIDE {
-        var is_it = is_in_channel(label_of(voxel));
-        var left = labels_beside(apply_affine(job.rest_from_voxel, vec3f(voxel)));
-        loop {
-            let label = take_label(&left);
-            if label == NO_LABEL || is_it {
-                break;
-            }
-            is_it = is_in_channel(label);
+        let label = member_label(voxel);
+        if label == NO_LABEL || job.part == 0u {
+            return label != NO_LABEL;
         }
-        return is_it;
+        return part_of(voxel, label) == job.part;
     }
     if !is_open(voxel) {
         return false;

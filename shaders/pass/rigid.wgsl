@@ -2,21 +2,27 @@
 //
 // Rigid segments: for each set of a group whose constraint lets tissue move as a whole, the rigid motion that comes
 // nearest to what the group would do to that tissue (Correa, section 5.7.2, second part: "the displacement should be
-// the same for all points in that region").
+// the same for all points in that region"): the least-squares motion over all of its voxels. A voxel is a box full of
+// tissue and not a point, so that one voxel has a motion too, that of the map about it.
 //
-// One workgroup per group and set. A lattice over the deformed space asks where material comes from; the box of the
-// cells that may hold some of the segment gets a lattice of its own, until it is close about the segment:
+// One workgroup per group and set.
 //
-//   +--+--+--+--+        +--+--+--+--+
-//   |  |  |  |  |        |##|##|##|  |        ##  the material there is near enough to the segment at rest
-//   |  |##|##|  |   ->   |##|##|##|  |   ->   ...  a last, finer lattice is summed over
-//   |  |  |##|  |        |  |##|##|##|
+//   rest space                                     deformed space
+//   +--+--+--+--+       +--+--+--+--+              +-----+-----+
+//   |  |  |  |  |       |##|##|##|  |              |  s  |     |   s  a start: a place whose material is that of the
+//   |  |##|##|  |  ->   |##|##|##|  |  each cell   |     |  s  |      segment, one for each block of a lattice
+//   |  |  |##|  |       |  |##|##|  |  -------->   +-----+-----+
+//   +--+--+--+--+                      its place   |     |     |
+//   the box of the segment closes in on it,
+//   and is divided along its voxels
 //
-// There a place and its source are a pair, as heavy as the tissue at rest that it stands for: the determinant of the
-// map, faded over a cell at the surface of the segment, so that the sums change evenly when a parameter does. The
-// rotation that best takes places to sources (least squares) is found by turning it towards the pairs' moments until it
-// stays (Müller, Bender, Chentanez, Macklin 2016, "A robust method to extract the rotational part of deformations"),
-// from four starts, since from half a turn away no side is nearer.
+// The map leads from places to what was there at rest, so the place of a cell is found by Newton's method (Deuflhard,
+// Newton Methods for Nonlinear Problems, section 3.3), from the place of the cell before or from the nearest start.
+// What a cut has taken away has no place, and no say. The cells are those of the segment at rest whatever the
+// parameters are: the motion changes evenly with them.
+//
+// The rotation is that of the greatest eigenvalue of a matrix of the pairs' moments (Horn 1987, "Closed-form solution
+// of absolute orientation using unit quaternions", section 4), by Jacobi's rotations.
 //
 // Constraints by coordinate: the longest displacement of any material of the subject, found on lattices about each
 // template and about the subject, then climbed from the longest of each lane.
@@ -39,26 +45,40 @@ struct Fitted {
 /// The box of the deformed object: a corner, and cells of one side.
 @group(3) @binding(1) var<uniform> lattice: Lattice;
 
-/// Cells along each side of a lattice that looks for the segment, and how often it is looked for.
+/// Cells along each side of a lattice that looks for the segment at rest, and how often it is looked for.
 const SEEK_SIDE: u32 = 24u;
 const SEEK_TURNS: u32 = 4u;
-/// Cells along each side of the lattice that is summed over.
-const SIDE: u32 = 48u;
-/// How many times as long as a way in the deformed space the way at rest may be: cells are kept so far from the
-/// segment.
-const STRETCH: f32 = 3.0;
-/// Heavier than this many times its own volume no place is.
-const MOST_WEIGHT: f32 = 8.0;
+/// Cells along each side of the box of the segment, at most.
+const SIDE: u32 = 32u;
+/// Places of a lattice over the deformed space where the longest displacement is looked for, and of the block of it
+/// that is a lane's where starts are; blocks along each side.
+const PLACES: u32 = 65536u;
+const BLOCK_PLACES: u32 = 512u;
+const BLOCKS: f32 = 4.0;
+/// Starts of each lane: one of the lattice over the object, one of those about templates.
+const STARTS: u32 = 2u;
+/// From how many starts the place of a cell is looked for, the nearest first.
+const TRIES: u32 = 3u;
+/// Questions to the map at most on the way to a place, and how often a step is halved.
+const QUESTIONS: u32 = 48u;
+const HALVINGS: u32 = 7u;
+/// So near at rest (subject units) a place is that of what is looked for; farther than the second it is not.
+const NEAR: f32 = 2e-6;
+const FAR: f32 = 2e-5;
+/// Offset of finite differences of the map, subject units: as `map_step` of march/align.wgsl.
+const MAP_STEP: f32 = 0.0005;
+/// The longest step on the way to a place, subject units.
+const LONGEST_STEP: f32 = 0.3;
+/// Sweeps of Jacobi's rotations; six settle four by four numbers of 32 bits.
+const SWEEPS: u32 = 8u;
 /// How far around a segment tissue goes with it: so many times what its motion misses in the mean, so that the seam is
 /// stretched twofold and not more, within limits (subject units).
 const SEAM: f32 = 4.0;
 const LEAST_SEAM: f32 = 0.02;
 const MOST_SEAM: f32 = 0.25;
-/// Turns at most; each is a Newton step, a dozen settle a right angle.
-const TURNS: u32 = 40u;
-/// Cells along each side of a lattice that looks for the longest displacement, and steps of a climb.
-const LONGEST_SIDE: u32 = 32u;
+/// Halvings of the steps of a climb to the longest displacement, and how many are tried of each length.
 const CLIMBS: u32 = 14u;
+const TRIED: u32 = 12u;
 
 /// xyz: lowest and highest corner that a lane found.
 var<workgroup> lows: array<vec4f, 64>;
@@ -71,6 +91,10 @@ var<workgroup> sources: array<vec4f, 64>;
 var<workgroup> products_x: array<vec4f, 64>;
 var<workgroup> products_y: array<vec4f, 64>;
 var<workgroup> products_z: array<vec4f, 64>;
+/// xyz: starts, two of each lane; w: 1 where there is one.
+var<workgroup> start_places: array<vec4f, 128>;
+/// xyz: what is at a start, rest space.
+var<workgroup> start_rests: array<vec4f, 128>;
 
 fn matrix_of(q: vec4f) -> mat3x3f {
     return mat3x3f(
@@ -80,52 +104,53 @@ fn matrix_of(q: vec4f) -> mat3x3f {
     );
 }
 
-/// The rotation nearest to a matrix, from a start (unit quaternion).
-fn turned_to(a: mat3x3f, start: vec4f) -> mat3x3f {
-    var q = start;
-    for (var turn = 0u; turn < TURNS; turn++) {
-        let r = matrix_of(q);
-        let hold = abs(dot(r[0], a[0]) + dot(r[1], a[1]) + dot(r[2], a[2])) + 1e-12;
-        let way = (cross(r[0], a[0]) + cross(r[1], a[1]) + cross(r[2], a[2])) / hold;
-        let angle = length(way);
-        if angle < 1e-7 {
-            break;
-        }
-        let axis = way / angle * sin(0.5 * angle);
-        let c = cos(0.5 * angle);
-        q = normalize(vec4f(c * q.xyz + q.w * axis + cross(axis, q.xyz), c * q.w - dot(axis, q.xyz)));
-    }
-    return matrix_of(q);
-}
-
-/// The rotation nearest to a matrix; none where the matrix tells none.
+/// The rotation nearest to a matrix, that is, with the greatest sum of products; none where the matrix tells none.
 fn nearest_rotation(given: mat3x3f) -> mat3x3f {
     let size = sqrt(dot(given[0], given[0]) + dot(given[1], given[1]) + dot(given[2], given[2]));
-    var best = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-    if size < 1e-14 {
-        return best;
-    }
-    let a = given * (1.0 / size);
-    var most = -NO_END;
-    for (var start = 0u; start < 4u; start++) {
-        // The identity, then half a turn about each axis.
-        let first = select(vec4f(0.0), vec4f(1.0), vec4u(1u, 2u, 3u, 0u) == vec4u(start));
-        let r = turned_to(a, first);
-        let likeness = dot(r[0], a[0]) + dot(r[1], a[1]) + dot(r[2], a[2]);
-        if likeness > most + 1e-6 {
-            most = likeness;
-            best = r;
+    let a = given * (1.0 / max(size, 1e-30));
+    // Of quaternions x, y, z, w. The product of a quaternion with this and itself is that sum.
+    var n = mat4x4f(
+        a[0].x - a[1].y - a[2].z, a[0].y + a[1].x, a[2].x + a[0].z, a[1].z - a[2].y,
+        a[0].y + a[1].x, a[1].y - a[0].x - a[2].z, a[1].z + a[2].y, a[2].x - a[0].z,
+        a[2].x + a[0].z, a[1].z + a[2].y, a[2].z - a[0].x - a[1].y, a[0].y - a[1].x,
+        a[1].z - a[2].y, a[2].x - a[0].z, a[0].y - a[1].x, a[0].x + a[1].y + a[2].z,
+    );
+    var axes = mat4x4f(
+        1.0, 0.0, 0.0, 0.0,
+        0.0, 1.0, 0.0, 0.0,
+        0.0, 0.0, 1.0, 0.0,
+        0.0, 0.0, 0.0, 1.0,
+    );
+    for (var turn = 0u; turn < SWEEPS * 6u; turn++) {
+        // The pairs 0 1, 0 2, 0 3, 1 2, 1 3, 2 3.
+        let pair = turn % 6u;
+        let p = select(select(2u, 1u, pair < 5u), 0u, pair < 3u);
+        let q = select(select(3u, pair - 1u, pair < 5u), pair + 1u, pair < 3u);
+        let beside = n[p][q];
+        if abs(beside) > 1e-12 {
+            let cotangent = 0.5 * (n[q][q] - n[p][p]) / beside;
+            let t = select(-1.0, 1.0, cotangent >= 0.0) / (abs(cotangent) + sqrt(1.0 + cotangent * cotangent));
+            let c = inverseSqrt(1.0 + t * t);
+            let s = t * c;
+            let column = n[p];
+            n[p] = c * column - s * n[q];
+            n[q] = s * column + c * n[q];
+            for (var k = 0u; k < 4u; k++) {
+                let first = n[k][p];
+                n[k][p] = c * first - s * n[k][q];
+                n[k][q] = s * first + c * n[k][q];
+            }
+            let axis = axes[p];
+            axes[p] = c * axis - s * axes[q];
+            axes[q] = s * axis + c * axes[q];
         }
     }
-    return best;
-}
-
-/// Where what the templates before an index have at a point was at rest.
-fn at_rest_before(pos: vec3f, before: u32) -> vec3f {
-    if before == 0u {
-        return pos;
+    // None is that of the last: of equal ones it is taken.
+    var best = 3u;
+    for (var k = 0u; k < 3u; k++) {
+        best = select(best, k, n[k][k] > n[best][best] + 1e-6);
     }
-    return rest_from_subject(pos, ~(0xffffffffu << before)).pos;
+    return matrix_of(normalize(axes[best]));
 }
 
 /// Number of a cell along each axis, of a lattice with as many cells along each.
@@ -151,39 +176,51 @@ fn length_of_way(pos: vec3f, bits: u32) -> f32 {
     return select(0.0, length(mapped.pos - pos), is_there);
 }
 
+/// Numbers from 0 to 1 that fill a cube evenly, seen from any side: no layer is so thin and so straight that it falls
+/// between them, as it may between the rows of a grid (the multiples of three irrational numbers; Roberts 2018, "The
+/// unreasonable effectiveness of quasirandom sequences").
+fn evenly(k: u32) -> vec3f {
+    return vec3f((vec3u(k) * vec3u(3518319155u, 2882110345u, 2360945575u)) >> vec3u(8u)) / 16777216.0;
+}
+
+/// How many lattices there are for a mask of templates: one over the object, two about each.
+fn lattice_count(bits: u32) -> u32 {
+    return 1u + 2u * countOneBits(bits);
+}
+
+/// A place in a lattice over the deformed space, by its part of each side: in the first of the lattices that over the
+/// object, then for each template one that reaches as far beyond its box as this is wide, and one of the box.
+fn place_in_lattice(part: vec3f, turn: u32, bits: u32) -> vec3f {
+    var left = bits;
+    for (var k = 3u; k <= turn; k += 2u) {
+        left &= left - 1u;
+    }
+    let i = firstTrailingBit(max(left, 1u));
+    let in_template = select(part * 3.0 - 1.0, part * 1.1 - 0.05, (turn & 1u) == 0u);
+    let about = apply_affine(templates.items[i].subject_from_template, in_template);
+    return select(about, lattice.corner.xyz + part * vec3f(lattice.cells.xyz) * lattice.side, turn == 0u);
+}
+
 /// The longest displacement of any material by the templates of a mask; known to the first lane. 0 if it is not asked.
 fn longest_way(bits: u32, is_asked: bool, lane: u32) -> f32 {
-    let count = LONGEST_SIDE * LONGEST_SIDE * LONGEST_SIDE;
-    var left = bits;
-    var best = vec4f(0.0, 0.0, 0.0, -1.0);
+    var best = vec4f(0.0);
     let all = vec3f(lattice.cells.xyz) * lattice.side;
-    var step = vec3f(max(all.x, max(all.y, all.z)) / f32(LONGEST_SIDE));
-    // The whole box, then about each template, twice as far as its box reaches on every side. One loop for both, and so
-    // one place that asks the map: compilers draw the map into each.
-    loop {
-        let i = firstLeadingBit(max(left, 1u));
-        let is_whole = left == bits && best.w < 0.0;
-        for (var k = select(count, lane, is_asked); k < count; k += 64u) {
-            let part = (cell_of(k, LONGEST_SIDE) + 0.5) / f32(LONGEST_SIDE);
-            let about = apply_affine(templates.items[i].subject_from_template, part * 3.0 - 1.0);
-            let pos = select(about, lattice.corner.xyz + part * all, is_whole);
+    var step = vec3f(max(all.x, max(all.y, all.z)) / 32.0);
+    for (var turn = 0u; turn < lattice_count(bits); turn++) {
+        for (var k = select(PLACES, lane, is_asked); k < PLACES; k += 64u) {
+            let pos = place_in_lattice(evenly(k), turn, bits);
             let way = length_of_way(pos, bits);
             best = select(best, vec4f(pos, way), way > best.w);
         }
-        if is_whole {
-            best.w = max(best.w, 0.0);
-            continue;
-        }
-        left &= ~(1u << i);
-        if left == 0u {
-            break;
-        }
     }
-    // Uphill, by steps that are halved where none of six goes higher.
+    // Uphill, by steps along the axes and in all directions, halved where none of a dozen goes higher: the longest
+    // often lies at a side of the subject or in a thin layer.
     for (var climb = select(CLIMBS * 4u, 0u, is_asked); climb < CLIMBS * 4u; climb++) {
         var has_climbed = false;
-        for (var k = 0u; k < 6u; k++) {
-            let way = select(vec3f(0.0), step, vec3u(0u, 1u, 2u) == vec3u(k >> 1u)) * select(1.0, -1.0, (k & 1u) == 1u);
+        for (var k = 0u; k < TRIED; k++) {
+            let along = select(vec3f(0.0), vec3f(1.0), vec3u(0u, 1u, 2u) == vec3u(k >> 1u)) * select(1.0, -1.0, (k & 1u) == 1u);
+            let askew = 2.0 * evenly(TRIED * (64u * climb + lane) + k) - 1.0;
+            let way = step * select(askew, along, k < 6u);
             let there = length_of_way(best.xyz + way, bits);
             if there > best.w {
                 best = vec4f(best.xyz + way, there);
@@ -202,6 +239,100 @@ fn longest_way(bits: u32, is_asked: bool, lane: u32) -> f32 {
     return most;
 }
 
+/// A place, and what is there.
+struct Place {
+    /// Deformed space, as the group has it.
+    pos: vec3f,
+    /// Rest space.
+    rest: vec3f,
+    /// From steps at rest to steps of places, about there.
+    inverse: mat3x3f,
+    /// True if the inverse is not known yet.
+    is_new: bool,
+}
+
+/// The place of some material by a mask of templates, from a place and what is there. What is found lies farther off
+/// than FAR at rest where there is none.
+fn place_of(wanted: vec3f, start: Place, bits: u32) -> Place {
+    var best = start;
+    var off = wanted - best.rest;
+    var step = best.inverse * off;
+    var columns = mat3x3f();
+    // 0: the next place is asked for; 1 to 3: how the map changes along each axis.
+    var column = select(0u, 1u, start.is_new);
+    var is_fresh = false;
+    var halvings = 0u;
+    for (var k = 0u; k < QUESTIONS && dot(off, off) > NEAR * NEAR && halvings < HALVINGS; k++) {
+        let along = select(vec3f(0.0), vec3f(MAP_STEP), vec3u(1u, 2u, 3u) == vec3u(column));
+        let short = step * min(1.0, LONGEST_STEP / max(length(step), 1e-9));
+        let mapped = rest_from_subject(best.pos + select(short, along, column > 0u), bits);
+        if column > 0u {
+            columns[column - 1u] = (mapped.pos - best.rest) / MAP_STEP;
+            column = (column + 1u) & 3u;
+            if column == 0u {
+                let volume = determinant(columns);
+                // Where the map is flat there is no way on.
+                halvings = select(0u, HALVINGS, abs(volume) < 1e-5);
+                best.inverse = transpose(mat3x3f(
+                    cross(columns[1], columns[2]),
+                    cross(columns[2], columns[0]),
+                    cross(columns[0], columns[1]),
+                )) * (1.0 / select(volume, 1.0, abs(volume) < 1e-5));
+                best.is_new = false;
+                is_fresh = true;
+                step = best.inverse * off;
+            }
+        } else {
+            let next = wanted - mapped.pos;
+            let left = best.inverse * next;
+            let whole = best.inverse * off;
+            let is_nearer = dot(next, next) < dot(off, off) || (is_fresh && dot(left, left) < dot(whole, whole));
+            if mapped.continuity >= 0.0 && is_nearer {
+                // The map changes little from one place to the next: it is asked anew where that is too slow.
+                column = select(0u, 1u, dot(next, next) > 0.01 * dot(off, off));
+                best.pos += short;
+                best.rest = mapped.pos;
+                off = next;
+                step = left;
+                is_fresh = false;
+                halvings = 0u;
+            } else if is_fresh {
+                step = 0.5 * short;
+                halvings++;
+            } else {
+                column = 1u;
+            }
+        }
+    }
+    return best;
+}
+
+/// True if a place is that of some material.
+fn is_place_of(wanted: vec3f, found: Place) -> bool {
+    return distance(wanted, found.rest) < FAR;
+}
+
+/// True if a rest point lies on the grid of the distances; beyond it they are those of its sides.
+fn has_distance(rest: vec3f) -> bool {
+    let uvw = apply_affine(kept.distance_from_rest, rest);
+    return all(uvw >= vec3f(0.0)) && all(uvw <= vec3f(1.0));
+}
+
+/// The map from samples of distances, counted from a corner of their grid, to rest space.
+fn rest_from_sample() -> Affine {
+    let row0 = kept.distance_from_rest.row0 * kept.distance_dims.x;
+    let row1 = kept.distance_from_rest.row1 * kept.distance_dims.y;
+    let row2 = kept.distance_from_rest.row2 * kept.distance_dims.z;
+    let columns = mat3x3f(
+        cross(row1.xyz, row2.xyz),
+        cross(row2.xyz, row0.xyz),
+        cross(row0.xyz, row1.xyz),
+    ) * (1.0 / dot(row0.xyz, cross(row1.xyz, row2.xyz)));
+    let rows = transpose(columns);
+    let offset = -(columns * vec3f(row0.w, row1.w, row2.w));
+    return Affine(vec4f(rows[0], offset.x), vec4f(rows[1], offset.y), vec4f(rows[2], offset.z));
+}
+
 @compute @workgroup_size(64)
 fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let head = group.x >> 2u;
@@ -212,51 +343,107 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
     let asks_longest = item.constraint == CONSTRAIN_COORDINATE && sets == 1u && bits != 0u;
     let longest = longest_way(bits, asks_longest, lane);
     let exact = kept.exact_slab;
-    var low = lattice.corner.xyz;
-    var high = low + vec3f(lattice.cells.xyz) * lattice.side;
-    var origin = vec3f(0.0);
+
+    // The box of the segment at rest, in samples.
+    let to_rest = rest_from_sample();
+    let sides = vec3f(
+        length(vec3f(to_rest.row0.x, to_rest.row1.x, to_rest.row2.x)),
+        length(vec3f(to_rest.row0.y, to_rest.row1.y, to_rest.row2.y)),
+        length(vec3f(to_rest.row0.z, to_rest.row1.z, to_rest.row2.z)),
+    );
+    var low = vec3f(0.0);
+    var high = kept.distance_dims.xyz;
     for (var turn = 0u; turn < SEEK_TURNS; turn++) {
         let cell = (high - low) / f32(SEEK_SIDE);
-        let reach = 0.5 * STRETCH * length(cell) + kept.distance_dims.w;
+        let reach = 0.5 * length(sides * cell) + kept.distance_dims.w;
         var own_low = vec3f(NO_END);
         var own_high = vec3f(-NO_END);
-        var near = vec4f(0.0);
         let count = SEEK_SIDE * SEEK_SIDE * SEEK_SIDE;
         for (var k = select(count, lane, is_asked); k < count; k += 64u) {
             let corner = low + cell_of(k, SEEK_SIDE) * cell;
-            let mapped = rest_from_subject(corner + 0.5 * cell, bits);
-            // A gap has a source too, and nothing there: cells well inside of one do not count.
-            let is_there = mapped.continuity >= -length(cell);
-            if is_there && distance_to_kept(at_rest_before(mapped.pos, item.before), sets, 0.0, exact) <= reach {
+            if distance_to_kept(apply_affine(to_rest, corner + 0.5 * cell), sets, 0.0, exact) <= reach {
                 own_low = min(own_low, corner);
                 own_high = max(own_high, corner + cell);
-                near += vec4f(mapped.pos, 1.0);
             }
         }
         lows[lane] = vec4f(own_low, 0.0);
         highs[lane] = vec4f(own_high, 0.0);
-        sources[lane] = near;
         workgroupBarrier();
         for (var k = 0u; k < 64u; k++) {
             own_low = min(own_low, lows[k].xyz);
             own_high = max(own_high, highs[k].xyz);
         }
-        near = vec4f(0.0);
-        for (var k = 0u; k < 64u; k++) {
-            near += sources[k];
-        }
-        if near.w > 0.0 {
+        if all(own_low < own_high) {
             low = own_low;
             high = own_high;
-            origin = near.xyz / near.w;
         }
         workgroupBarrier();
     }
+    low = max(floor(low), vec3f(0.0));
+    high = min(ceil(high), kept.distance_dims.xyz);
+    let samples = max(vec3u(high - low), vec3u(1u));
+    let cells = select(vec3u(SIDE), samples * (SIDE / min(samples, vec3u(SIDE))), samples <= vec3u(SIDE));
+    let cell = vec3f(samples) / vec3f(cells);
+    // Cells within a voxel are in the segment or not, as the voxel is. Of others its labels say what share is.
+    let has_shares = kept.is_coarse != 0u || any(samples > vec3u(SIDE));
+    let fade = 0.5 * length(sides * cell);
 
-    let middle = 0.5 * (low + high);
-    let cell = (high - low) / f32(SIDE);
-    let fade = 0.5 * length(cell);
-    let h = 0.25 * min(cell.x, min(cell.y, cell.z));
+    // The starts: of each block of a lattice the place whose material is nearest to the segment, then the place of the
+    // tissue of the segment that is nearest to that.
+    let all_bits = bits | select(0u, ~(0xffffffffu << item.before), item.before > 0u);
+    let block = vec3f(vec3u(lane & 3u, (lane >> 2u) & 3u, lane >> 4u));
+    var still = Place(vec3f(0.0), vec3f(0.0), mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), true);
+    for (var slot = 0u; slot < STARTS; slot++) {
+        start_places[STARTS * lane + slot] = vec4f(0.0);
+    }
+    for (var turn = 0u; turn < lattice_count(all_bits); turn++) {
+        let slot = STARTS * lane + min(turn, 1u);
+        if !is_asked || start_places[slot].w > 0.0 {
+            continue;
+        }
+        var nearest = still;
+        var least = NO_END;
+        for (var k = 0u; k < BLOCK_PLACES; k++) {
+            let pos = place_in_lattice((block + evenly(k)) / BLOCKS, turn, all_bits);
+            let mapped = rest_from_subject(pos, all_bits);
+            let away = distance_to_kept(mapped.pos, sets, 0.0, exact);
+            if mapped.continuity >= 0.0 && has_distance(mapped.pos) && away < least {
+                least = away;
+                nearest.pos = pos;
+                nearest.rest = mapped.pos;
+            }
+        }
+        if least < NO_END {
+            // Towards the segment, and half a sample into it.
+            var slope = vec3f(0.0);
+            for (var axis = 0u; axis < 3u; axis++) {
+                let along = select(vec3f(0.0), vec3f(kept.spacing), vec3u(0u, 1u, 2u) == vec3u(axis));
+                slope[axis] = distance_to_kept(nearest.rest + along, sets, 0.0, exact)
+                    - distance_to_kept(nearest.rest - along, sets, 0.0, exact);
+            }
+            let way = max(least + 0.5 * kept.spacing, 0.0);
+            let wanted = nearest.rest - slope / max(length(slope), 1e-9) * way;
+            let there = place_of(wanted, nearest, all_bits);
+            // Where distances lead astray, as between two parts of the segment, there is none.
+            let is_of_segment = distance_to_kept(wanted, sets, 0.0, exact) <= kept.distance_dims.w;
+            if is_of_segment && is_place_of(wanted, there) {
+                start_places[slot] = vec4f(there.pos, 1.0);
+                start_rests[slot] = vec4f(there.rest, 0.0);
+            }
+        }
+    }
+    workgroupBarrier();
+    // Sums are taken about one of the pairs, so that small numbers are summed.
+    var middle = vec3f(0.0);
+    var origin = vec3f(0.0);
+    for (var k = 0u; k < STARTS * 64u; k++) {
+        if start_places[k].w > 0.0 {
+            middle = start_places[k].xyz;
+            origin = start_rests[k].xyz;
+            break;
+        }
+    }
+
     var n = 0.0;
     var place = vec3f(0.0);
     var source = vec3f(0.0);
@@ -264,28 +451,67 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
     var row_y = vec3f(0.0);
     var row_z = vec3f(0.0);
     var squares = 0.0;
-    let count = SIDE * SIDE * SIDE;
-    for (var k = select(count, lane, is_asked); k < count; k += 64u) {
-        let pos = low + (cell_of(k, SIDE) + 0.5) * cell;
-        let mapped = rest_from_subject(pos, bits);
-        let away = distance_to_kept(at_rest_before(mapped.pos, item.before), sets, 0.0, exact);
-        let share = clamp(0.5 - 0.5 * away / fade, 0.0, 1.0);
-        if mapped.continuity >= 0.0 && share > 0.0 {
-            var columns = mat3x3f();
-            for (var axis = 0u; axis < 3u; axis++) {
-                let along = select(vec3f(0.0), vec3f(h), vec3u(0u, 1u, 2u) == vec3u(axis));
-                columns[axis] = (rest_from_subject(pos + along, bits).pos - mapped.pos) / h;
+    let count = cells.x * cells.y * cells.z;
+    // Neighbours are a lane's, so that each place is near the one before.
+    let own = (count + 63u) / 64u;
+    var last = still;
+    for (var k = select(count, lane * own, is_asked); k < min(count, (lane + 1u) * own); k++) {
+        let index = vec3u(k % cells.x, (k / cells.x) % cells.y, k / (cells.x * cells.y));
+        let at_sample = low + (vec3f(index) + 0.5) * cell;
+        let wanted = apply_affine(to_rest, at_sample);
+        let told = select(apply_affine(to_rest, floor(at_sample) + 0.5), wanted, has_shares);
+        let away = distance_to_kept(told, sets, 0.0, exact);
+        var share = select(0.0, 1.0, away < 0.0);
+        if has_shares && abs(away) <= fade + kept.distance_dims.w {
+            share = 0.0;
+            for (var eighth = 0u; eighth < 8u; eighth++) {
+                let aside = (cell_of(eighth, 2u) - 0.5) * 0.5 * cell;
+                share += select(0.0, 0.125, is_kept(apply_affine(to_rest, at_sample + aside), sets, 0.0));
             }
-            let weight = share * min(abs(determinant(columns)), MOST_WEIGHT);
-            let at = pos - middle;
-            let from_origin = (mapped.pos - origin) * weight;
-            n += weight;
-            place += at * weight;
+        }
+        if share <= 0.0 {
+            continue;
+        }
+        var there = last;
+        var is_found = false;
+        var passed = -1.0;
+        for (var attempt = select(0u, 1u, last.is_new); attempt <= TRIES && !is_found; attempt++) {
+            if attempt > 0u {
+                // The nearest start that was not tried yet.
+                var least = NO_END;
+                for (var i = 0u; i < STARTS * 64u; i++) {
+                    let way = distance(start_rests[i].xyz, wanted);
+                    if start_places[i].w > 0.0 && way > passed && way < least {
+                        least = way;
+                        there = still;
+                        there.pos = start_places[i].xyz;
+                        there.rest = start_rests[i].xyz;
+                    }
+                }
+                passed = least;
+                if least == NO_END {
+                    break;
+                }
+            }
+            there = place_of(wanted, there, all_bits);
+            is_found = is_place_of(wanted, there);
+        }
+        if is_found {
+            last = there;
+            // What the templates before have there, where they act.
+            var before = there.rest;
+            if item.before > 0u {
+                before = rest_from_subject(there.pos, bits).pos;
+            }
+            let at = there.pos - middle;
+            let from_origin = (before - origin) * share;
+            n += share;
+            place += at * share;
             source += from_origin;
             row_x += from_origin.x * at;
             row_y += from_origin.y * at;
             row_z += from_origin.z * at;
-            squares += weight * dot(at, at) + dot(from_origin, mapped.pos - origin);
+            squares += share * dot(at, at) + dot(from_origin, before - origin);
         }
     }
     places[lane] = vec4f(place, n);

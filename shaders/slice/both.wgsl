@@ -23,7 +23,7 @@ fn color_at(pixel: vec2f) -> vec3f {
     }
     let here = object_at(subject_from_pixel(pixel));
     if here.is_there && here.label > subject.labels_before {
-        return filling_color(here.label - subject.labels_before, here.pos);
+        return filling_color_at(here.label - subject.labels_before, here.pos);
     }
     return marked_color_of(here);
 }

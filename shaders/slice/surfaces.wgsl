@@ -25,5 +25,5 @@ fn color_at(pixel: vec2f) -> vec3f {
     if !here.is_there {
         return slice.background.rgb;
     }
-    return filling_color(here.label, here.pos);
+    return filling_color_at(here.label, here.pos);
 }

@@ -49,15 +49,14 @@ mod saving;
 #[cfg(feature = "app")]
 mod services;
 #[cfg(feature = "app")]
-#[cfg(feature = "app")]
 mod window;
 #[cfg(feature = "app")]
 mod window_title;
 
 #[cfg(feature = "app")]
-#[cfg(feature = "app")]
-#[cfg(feature = "app")]
 pub use self::canvas::lettering::{letter, mark};
+#[cfg(feature = "app")]
+pub use self::picture::host::gpu_of;
 #[cfg(feature = "app")]
 pub use self::services::{Message, MissingDocument, SavedTo, Services, WhyMissing};
 pub use self::session::{

@@ -27,7 +27,7 @@ use crate::assets::{Assets, SegmentationsExpected, TissueWork, Want};
 use crate::data::{Resources, Site, SubjectBuilder, Surface};
 use crate::document::{Document, SegmentsRef};
 use crate::load::LabelFile;
-use crate::render::{Clock, RenderNotice};
+use crate::render::{Clock, Gpu, RenderNotice};
 
 /// Width in points below which panels become drawers.
 const NARROW: f32 = 760.0;
@@ -46,6 +46,9 @@ pub struct Start {
     pub missing: Option<MissingDocument>,
     /// A load that the shell has already started in place of the document's subject.
     pub subject: Option<Ticket>,
+    /// The device that egui draws with, where somebody has chosen for it, or where other windows of the program draw on
+    /// it too: they share its programs.
+    pub gpu: Option<Gpu>,
     /// Seconds, from any origin; the renderer measures itself with it.
     pub clock: Clock,
 }
@@ -146,7 +149,7 @@ impl App {
         let picture = cc
             .wgpu_render_state
             .as_ref()
-            .map(|render_state| Picture::new(render_state, start.clock));
+            .map(|render_state| Picture::new(render_state, start.gpu, start.clock));
         let mut session = Session::new(Document::new());
         let is_wished = |key| services.stored(key).as_deref() == Some("yes");
         session.is_lettering = is_wished(STORED_LETTERING);

@@ -497,6 +497,12 @@ fn kept(template: &PlacedTemplate, ruler: Ruler) -> Vec<String> {
                 "Tejido del que cada parte se mueve en una pieza: {0}",
                 "各自整体移动的组织：{0}",
             ],
+            ConstrainBy::Parts => [
+                "Tissue of which each connected part moves in one piece: {0}",
+                "Gewebe, von dem sich jedes zusammenhängende Stück für sich bewegt: {0}",
+                "Tejido del que cada parte conexa se mueve en una pieza: {0}",
+                "各相连部分各自整体移动的组织：{0}",
+            ],
             ConstrainBy::Rigid => [
                 "Tissue that moves in one piece: {0}",
                 "Gewebe, das sich als ein Stück bewegt: {0}",

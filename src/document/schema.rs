@@ -437,7 +437,7 @@ pub(crate) const ALIGN: &[Key] = &[
 /// Keys of a template's `constrain`.
 #[rustfmt::skip]
 pub(crate) const CONSTRAIN: &[Key] = &[
-    key(470, "by", Kind::Name(&ConstrainBy::NAMES), "`displacement`: its length fades (section 5.7.1); `coordinate`: the main parameter fades (section 5.7.2); `rigid`: the segments in `keep` move rigidly, by the least-squares fit to the displacement, and nearby tissue blends into that motion (section 5.7.2); `bodies`: as `rigid`, but each of these segments by a motion of its own, as the bones of a joint (each counts as a set of its own)").stays(),
+    key(470, "by", Kind::Name(&ConstrainBy::NAMES), "`displacement`: its length fades (section 5.7.1); `coordinate`: the main parameter fades (section 5.7.2); `rigid`: the segments in `keep` move rigidly, by the least-squares fit to the displacement, and nearby tissue blends into that motion (section 5.7.2); `bodies`: as `rigid`, but each of these segments by a motion of its own, as the bones of a joint (each counts as a set of its own); `parts`: as `bodies`, but each connected part by itself, as several bones in one segment (the largest, as many as sets are left of four; what is smaller goes with the largest)").stays(),
     key(480, "keep", Kind::Segments, "segments that are not deformed").stays().unmade(),
 ];
 

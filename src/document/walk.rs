@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::lesson::Lesson;
+use super::lesson::{Lesson, eased};
 use super::model::{Camera, Illustration};
 use super::tree::Document;
 use super::turn::between;
@@ -31,9 +31,11 @@ struct Passage {
     since: Option<f64>,
     /// How much of its time is over, 0 to 1.
     part: f32,
-    /// How long it takes, seconds.
-    seconds: f64,
-    /// How long the way from the step that was left to its beginning takes, seconds.
+    /// How far it leads, in seconds of undisturbed passages: that of a whole passage is as long as it takes.
+    way: f64,
+    /// The same of the passage that its way is a part of.
+    whole: f64,
+    /// How far the way from the step that was left to its beginning is, in the same seconds.
     behind: f64,
     /// The cameras at both ends, if the step turns the camera at all.
     cameras: Option<[Camera; 2]>,
@@ -53,10 +55,19 @@ impl Passage {
         Some(between(&from, &to, self.part))
     }
 
-    /// How long the way takes that is done, and the way that is left, at the pace of the whole passage, seconds.
+    /// How long it takes, seconds.
+    ///
+    /// It begins and ends slowly, also where the whole passage is fast. In `way` seconds it would be nowhere faster
+    /// than that is at its fastest, but near the ends faster than that is there: a colour that changes most near its
+    /// end would jump. In so many seconds no place is passed faster than the whole passage passes it.
+    fn seconds(&self) -> f64 {
+        (self.way * self.whole).sqrt()
+    }
+
+    /// How far the way is that is done, and the way that is left, in seconds of undisturbed passages.
     fn done_and_left(&self) -> [f64; 2] {
-        let done = f64::from(self.part * self.part * (3.0 - 2.0 * self.part));
-        [done * self.seconds, (1.0 - done) * self.seconds]
+        let done = f64::from(eased(self.part));
+        [done * self.way, (1.0 - done) * self.way]
     }
 }
 
@@ -111,8 +122,8 @@ impl Walk {
     /// Goes to a step from what is shown now: to a neighbour by a passage, unless `is_cut`, further at once. A passage
     /// that stands still goes on if it leads there. Returns the camera that is taken at once.
     ///
-    /// A passage that begins in the middle of another takes as long as the way back to where that came from, or as the
-    /// rest of that and its own: nothing moves faster than in an undisturbed passage.
+    /// A passage that begins in the middle of another leads back to where that came from, or over the rest of that and
+    /// its own way, and takes its time for it: nothing changes faster than in an undisturbed passage.
     pub fn go(
         &mut self,
         document: &Document,
@@ -150,7 +161,8 @@ impl Walk {
             is_backwards: step < before,
             since: Some(now),
             part: 0.0,
-            seconds: own,
+            way: own,
+            whole: own,
             behind: 0.0,
             cameras: end.map(|end| [from, end]),
         };
@@ -160,11 +172,18 @@ impl Walk {
                 // The rest of a passage that stood still.
                 next.before = passage.before;
                 next.is_backwards = passage.is_backwards;
-                (next.seconds, next.behind) = (left, done + passage.behind);
+                (next.way, next.behind) = (left, done + passage.behind);
+                next.whole = passage.whole;
             } else if step == passage.before {
-                (next.seconds, next.behind) = (done + passage.behind, left);
+                (next.way, next.behind) = (done + passage.behind, left);
+                next.whole = passage.whole;
             } else {
-                (next.seconds, next.behind) = (left + own, left);
+                // Both ways are gone at once, each of them as slowly as it would be by itself.
+                (next.way, next.behind) = (left + own, left);
+                let seconds = (left * passage.whole).sqrt() + own;
+                next.whole = (seconds * seconds / next.way.max(f64::MIN_POSITIVE))
+                    .max(passage.whole)
+                    .max(own);
             }
         }
         self.shown = Some(Arc::clone(&next.ends[0]));
@@ -193,6 +212,8 @@ impl Walk {
         }
         let start = state_at(document, step - 1)?;
         let steps = &document.illustration().steps;
+        let seconds = steps.get(step - 1);
+        let seconds = seconds.map_or(0.0, |step| f64::from(step.seconds));
         let passage = Passage {
             before: step - 1,
             at: (step - 1) as f32,
@@ -201,9 +222,8 @@ impl Walk {
             is_backwards: false,
             since: None,
             part,
-            seconds: steps
-                .get(step - 1)
-                .map_or(0.0, |step| f64::from(step.seconds)),
+            way: seconds,
+            whole: seconds,
             behind: 0.0,
         };
         let camera = passage.camera();
@@ -229,13 +249,14 @@ impl Walk {
     pub fn advance(&mut self, document: &Document, now: f64) -> Option<Camera> {
         let passage = self.passage.as_mut()?;
         let past = (now - passage.since?).max(0.0);
-        if past >= passage.seconds {
+        let seconds = passage.seconds();
+        if past >= seconds {
             let end = passage.cameras.map(|[_, end]| end);
             self.passage = None;
             self.shown = shown_at(document, self.step);
             return end;
         }
-        passage.part = (past / passage.seconds) as f32;
+        passage.part = (past / seconds) as f32;
         self.shown = Some(Arc::new(passage.shown()));
         passage.camera()
     }
@@ -253,4 +274,103 @@ fn shown_at(document: &Document, step: usize) -> Option<Arc<Illustration>> {
 fn state_at(document: &Document, step: usize) -> Option<Arc<Illustration>> {
     let state = document.lesson().ok()?.at_step(step).ok()?;
     Some(Arc::clone(state))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::ParamValue;
+
+    /// Each step takes a second.
+    const LESSON: &str = r#"{ "fabrica": 1, "subject": { "builtin": "cube" },
+        "templates": [{ "kind": "peel", "params": { "progress": 0 } }],
+        "steps": [{ "set": { "/templates/0/params/progress": 1 } }, { "set": { "/camera/fov": 40 } },
+            { "set": { "/templates/0/params/progress": 0.4 } }] }"#;
+
+    /// A frame, seconds.
+    const FRAME: f64 = 0.01;
+
+    struct Lesson {
+        document: Document,
+        walk: Walk,
+        now: f64,
+    }
+
+    impl Lesson {
+        fn new() -> Self {
+            let document = Document::from_json(LESSON).expect("a document");
+            Self {
+                walk: Walk::at(&document, 0),
+                document,
+                now: 0.0,
+            }
+        }
+
+        /// What pictures may make of a value: most of it happens near its end, or near its start.
+        fn looks(&self) -> [f32; 2] {
+            let illustration = self.document.illustration();
+            let template = &self.walk.shown().unwrap_or(illustration).templates[0];
+            let mut params = template.kind.spec().params.iter();
+            let index = params.position(|param| param.name == "progress");
+            let ParamValue::Number(value) = template.params[index.expect("a progress")] else {
+                panic!("a number");
+            };
+            [value.powi(8), (1.0 - value).powi(8)]
+        }
+
+        fn go(&mut self, step: usize) {
+            let from = (self.now, Camera::DOCUMENT_DEFAULT);
+            self.walk.go(&self.document, step, from, false);
+        }
+
+        /// Goes on for so long; the largest change from one frame to the next of each look.
+        fn advance(&mut self, seconds: f64) -> [f32; 2] {
+            let mut most = [0.0_f32; 2];
+            for _ in 0..(seconds / FRAME).round() as usize {
+                let before = self.looks();
+                self.now += FRAME;
+                self.walk.advance(&self.document, self.now);
+                let after = self.looks();
+                most = std::array::from_fn(|k| most[k].max((after[k] - before[k]).abs()));
+            }
+            most
+        }
+    }
+
+    #[test]
+    fn nothing_changes_faster_than_in_an_undisturbed_passage() {
+        let mut lesson = Lesson::new();
+        let mut most = [0.0_f32; 2];
+        for step in [1, 0] {
+            lesson.go(step);
+            let found = lesson.advance(1.1);
+            most = std::array::from_fn(|k| most[k].max(found[k]));
+        }
+        assert!(most.iter().all(|most| *most > 0.02), "{most:?}");
+        for moment in 1..20 {
+            let moment = 0.05 * f64::from(moment);
+            // Turned round, and round again; from a place where it stood still, to either side.
+            for (start, first, second) in [(0, 1, 0), (1, 0, 1)] {
+                let mut lesson = Lesson::new();
+                lesson.walk = Walk::at(&lesson.document, start);
+                lesson.go(first);
+                lesson.advance(moment);
+                lesson.go(second);
+                let once = lesson.advance(0.3);
+                lesson.go(first);
+                let again = lesson.advance(2.0);
+                assert!(!lesson.walk.is_moving(), "it has come to its end");
+                let mut found = [once, again].concat();
+                for to in [0, 1] {
+                    lesson.walk.scrub(&lesson.document, moment as f32);
+                    lesson.go(to);
+                    found.extend(lesson.advance(2.0));
+                }
+                for (k, found) in found.iter().enumerate() {
+                    let most = most[k % 2];
+                    assert!(*found < 1.02 * most, "{k} at {moment}: {found}, {most}");
+                }
+            }
+        }
+    }
 }

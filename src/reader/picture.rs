@@ -87,6 +87,14 @@ impl Picture {
         let seen = self.seen();
         self.renderer.set_illustration(&seen);
         let state = self.renderer.draw(size_px, budget, is_moving)?;
+        if state.is_behind {
+            // What the canvas shows stays, with the captions that belong to it.
+            self.is_complete = false;
+            return Ok(Drawn {
+                has_picture: false,
+                is_done: state.is_done,
+            });
+        }
         self.seen = Some(Box::new(seen));
         self.size_px = self.renderer.output_size().unwrap_or(size_px);
         let has_picture = state.has_picture && stock.host().subject_info().is_some();

@@ -159,9 +159,6 @@ impl Scene {
         self.has_segments = subject.info.has_segments;
         self.has_textures = subject.texture_bytes() > 0;
         self.subject = subject.shader;
-        if self.key().leaves_meshes_out(gpu) {
-            self.inputs.tell_meshes_left_out();
-        }
         let inputs = &self.inputs;
         self.templates.update(gpu, &inputs.templates);
         self.held.update(gpu, &inputs.held);

@@ -12,6 +12,8 @@ mod page;
 pub mod reader;
 #[cfg(all(target_arch = "wasm32", feature = "app"))]
 pub mod web;
+#[cfg(all(target_arch = "wasm32", feature = "reader"))]
+mod wished;
 #[cfg(target_arch = "wasm32")]
 pub mod worker;
 

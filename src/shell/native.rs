@@ -102,6 +102,7 @@ pub fn view(opening: Opening) -> Result<(), WindowError> {
             text: None,
             missing: None,
             subject,
+            gpu: None,
             clock: seconds,
         };
         Ok(Box::new(App::new(cc, Box::new(services), start)))

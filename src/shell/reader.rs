@@ -14,6 +14,7 @@ use super::address::{
     absolute, address_task, at_base, builtin_task, fetched, foreign_host, part_of,
 };
 use super::loading::wanted_file;
+use super::wished;
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
 use super::worker::run::{self, Maker, WorkerLoad};
@@ -634,7 +635,8 @@ impl Reader {
 
 async fn open_gpu() -> Result<Gpu, JsValue> {
     let gpu = Gpu::open(&GpuOptions::default()).await;
-    gpu.map_err(|error| JsValue::from(error.to_string()))
+    let gpu = gpu.map_err(|error| JsValue::from(error.to_string()))?;
+    Ok(gpu.with_samples(wished::samples()))
 }
 
 impl Shown {

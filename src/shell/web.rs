@@ -11,9 +11,10 @@ use web_sys::{HtmlCanvasElement, Url};
 use super::address::{foreign_host, part_of};
 use super::mirror::Mirror;
 use super::page::{Page, PageServices, Place, kept_document};
+use super::wished;
 use super::worker::run;
 use super::worker::task::Part;
-use crate::app::{App, Message, MissingDocument, Start, WhyMissing};
+use crate::app::{App, Message, MissingDocument, Start, WhyMissing, gpu_of};
 use crate::data::VolumeLimits;
 use crate::document::Document;
 use crate::link;
@@ -145,6 +146,10 @@ impl Viewer {
                 text,
                 missing,
                 subject: None,
+                gpu: cc
+                    .wgpu_render_state
+                    .as_ref()
+                    .map(|state| gpu_of(state).with_samples(wished::samples())),
                 clock: seconds,
             };
             let app = App::new(cc, Box::new(PageServices(page)), start);

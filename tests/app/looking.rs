@@ -186,7 +186,7 @@ fn a_preset_is_taken_from_its_group() {
 /// Each preset is offered as a picture of the scan that is open; of another scan there are other pictures.
 #[test]
 fn presets_are_pictures_of_the_scan() {
-    let mut window = Window::open(DESK, CUBE);
+    let mut window = Window::open_with(DESK, egui::Theme::Light, Fake::fine(), Some(CUBE));
     window.click("Panel: Look");
     let open_list = |window: &mut Window| {
         window

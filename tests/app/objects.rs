@@ -184,7 +184,7 @@ fn the_panel_changes_everything_about_an_object() {
 
 #[test]
 fn a_drag_over_a_number_is_one_step_of_undo() {
-    let mut window = Window::open(DESK, TRAY);
+    let mut window = Window::open_with(DESK, egui::Theme::Light, Fake::fine(), Some(TRAY));
     window.click("Object 1: knife");
     let before = window.placement(0);
     let field = window.harness.get_by_label("Position y").rect().center();

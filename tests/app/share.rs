@@ -6,7 +6,7 @@ const LESSON: &str = r#"{ "fabrica": 1, "title": "A <b>cube</b>", "caption": "Pe
     "templates": [{ "kind": "peel" }], "steps": [{ "title": "One", "set": { "/templates/0/params/progress": 0.2 } }] }"#;
 
 fn opened(size: Vec2, theme: egui::Theme, json: &str) -> Window {
-    let mut window = Window::open_with(size, theme, Fake::default(), Some(json));
+    let mut window = Window::open_with(size, theme, Fake::fine(), Some(json));
     window.settle();
     window.click("More");
     window.click("Share…");

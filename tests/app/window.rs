@@ -3,8 +3,11 @@
 //! With `FABRICA_LOOK_AT=folder` the windows are written there as PNG, to be looked at.
 
 use super::*;
+use eframe::egui_wgpu::{WgpuSetup, WgpuSetupExisting};
 use fabrica::assets::{Role, Source, Want};
 use fabrica::load::{LabelSource, LoadReport, ReadOptions, read_label_file, read_subject};
+use fabrica::render::Gpu;
+use std::sync::OnceLock;
 
 /// What the app asked of its surroundings.
 #[derive(Default)]
@@ -32,6 +35,8 @@ pub(crate) struct Log {
     pub(crate) files: Vec<(String, Vec<u8>)>,
     /// Files of the program that were asked for.
     pub(crate) fetched: Vec<fabrica::app::Shipped>,
+    /// The window has a pixel for each point, for tests that look at small things in it.
+    pub(crate) is_fine: bool,
     /// Files of the program do not come.
     pub(crate) is_offline: bool,
     /// A load that was started in place of the document's subject.
@@ -58,6 +63,13 @@ impl Log {
 pub(crate) struct Fake(pub(crate) Rc<RefCell<Log>>);
 
 impl Fake {
+    /// Surroundings of a window that is looked at closely.
+    pub(crate) fn fine() -> Self {
+        let fake = Self::default();
+        fake.0.borrow_mut().is_fine = true;
+        fake
+    }
+
     /// A file that the user opened begins to load.
     pub(crate) fn file_starts(&self, ticket: Ticket) {
         self.0.borrow_mut().file_starts(ticket);
@@ -277,6 +289,34 @@ pub(crate) const DESK: Vec2 = if option_env!("FABRICA_LOOK_AT").is_some() {
     Vec2::new(940.0, 700.0)
 };
 
+/// Coarse windows are a quarter of the work for the software device, with the same layout.
+const COARSE: f32 = 0.5;
+
+/// The software device of all windows of the process, which share its programs: compiling them takes longer than most
+/// tests.
+fn shared_device() -> (WgpuSetupExisting, Gpu) {
+    static DEVICE: OnceLock<(WgpuSetupExisting, Gpu)> = OnceLock::new();
+    let device = DEVICE.get_or_init(|| {
+        let mut setup = match egui_kittest::wgpu::default_wgpu_setup() {
+            WgpuSetup::CreateNew(setup) => setup,
+            other => panic!("the harness makes its own device, not {other:?}"),
+        };
+        setup.device_descriptor = Arc::new(Gpu::device_descriptor);
+        let options = eframe::egui_wgpu::RendererOptions::PREDICTABLE;
+        let made = egui_kittest::wgpu::create_render_state(WgpuSetup::CreateNew(setup), options);
+        let (device, queue, info) = (made.device, made.queue, made.adapter.get_info());
+        let gpu = Gpu::from_parts(device.clone(), queue.clone(), info);
+        let setup = WgpuSetupExisting {
+            instance: made.instance,
+            adapter: made.adapter,
+            device,
+            queue,
+        };
+        (setup, gpu)
+    });
+    device.clone()
+}
+
 /// The app in a window of a size, on the software device.
 pub(crate) struct Window {
     pub(crate) harness: Harness<'static, App>,
@@ -291,11 +331,8 @@ impl Window {
     }
 
     pub(crate) fn open_with(size: Vec2, theme: egui::Theme, log: Fake, text: Option<&str>) -> Self {
-        let mut setup = match egui_kittest::wgpu::default_wgpu_setup() {
-            eframe::egui_wgpu::WgpuSetup::CreateNew(setup) => setup,
-            other => panic!("the harness makes its own device, not {other:?}"),
-        };
-        setup.device_descriptor = Arc::new(fabrica::render::Gpu::device_descriptor);
+        let (setup, gpu) = shared_device();
+        let is_fine = log.0.borrow().is_fine || std::env::var_os("FABRICA_LOOK_AT").is_some();
         let services = log.clone();
         let text = text.map(str::to_owned);
         let instead = log.0.borrow().instead;
@@ -303,17 +340,17 @@ impl Window {
         let clock = log.0.borrow().clock.unwrap_or(clock);
         let harness = Harness::builder()
             .with_size(size)
+            .with_pixels_per_point(if is_fine { 1.0 } else { COARSE })
             .with_theme(theme)
             .with_max_steps(2000)
-            .renderer(WgpuTestRenderer::from_setup(
-                eframe::egui_wgpu::WgpuSetup::CreateNew(setup),
-            ))
+            .renderer(WgpuTestRenderer::from_setup(WgpuSetup::Existing(setup)))
             .build_eframe(|cc| {
                 let start = Start {
                     document: None,
                     text,
                     missing,
                     subject: instead,
+                    gpu: Some(gpu),
                     clock,
                 };
                 App::new(cc, Box::new(services), start)

@@ -1,8 +1,9 @@
 //! What assistive technology, paper, large letters and forced colours make of the pages.
 
 use super::embed::{lesson, middle, open_coarse, ready, rests_quietly};
-use super::hand::bring_to_front;
+use super::hand::{bring_to_front, strike};
 use super::harness::Tab;
+use super::presenting::read;
 use super::*;
 use chromiumoxide::cdp::browser_protocol::accessibility::GetFullAxTreeParams;
 use chromiumoxide::cdp::browser_protocol::emulation::{MediaFeature, SetEmulatedMediaParams};
@@ -108,7 +109,19 @@ fn an_embed_is_accessible() {
     });
 }
 
-/// embed.html and the lesson pages, with their illustrations.
+/// What is wider than the room that it has, or small to press, of a page and the controls of an embed.
+async fn assert_in_reach(tab: &Tab, embed: &str, what: &str) {
+    let wide: Vec<String> = tab
+        .eval(&format!("[document.documentElement, ...{embed}.shadowRoot.querySelectorAll('.frame, .controls, .controls *')].filter((it) => it.scrollWidth > it.clientWidth + 1 && it.clientWidth > 0 && it.tagName !== 'SELECT' || it.getBoundingClientRect().right > innerWidth + 1).map((it) => it.outerHTML.slice(0, 120))"))
+        .await;
+    assert!(wide.is_empty(), "{what}: {wide:?}");
+    let small: Vec<String> = tab
+        .eval(&format!("[...document.querySelectorAll('button'), ...{embed}.shadowRoot.querySelectorAll('button, select, input')].filter((it) => {{ const {{ width, height }} = it.getBoundingClientRect(); return it.checkVisibility() && (width < 24 || height < 24); }}).map((it) => it.outerHTML)"))
+        .await;
+    assert!(small.is_empty(), "{what}: {small:?}");
+}
+
+/// embed.html and the lesson pages, with their illustrations, at 400 % too, and when they are presented.
 #[test]
 fn pages_around_embeds_are_accessible() {
     with_browser(BrowserGpu::Software, |session| async move {
@@ -139,6 +152,32 @@ fn pages_around_embeds_are_accessible() {
                 assert_accessible(&tab, &format!("{page}, {scheme}")).await;
             }
             assert_watched(&tab, "document.querySelector('main')", page).await;
+            if page == "index" {
+                tab.page.close().await.expect("the tab closes");
+                continue;
+            }
+            // A window of 1280 pixels at 400 %.
+            emulate(&tab, "", &[("forced-colors", "active")]).await;
+            tab.resize(320, 600).await;
+            assert_in_reach(&tab, viewer, &format!("{page} at 400 %")).await;
+            emulate(&tab, "", &[]).await;
+            // Before a room, with the code of the step's link.
+            tab.eval::<bool>(&format!(
+                "({viewer}.step = 2, {viewer}.present().then(() => true))"
+            ))
+            .await;
+            strike(&tab, 0, "q", None).await;
+            let code = format!("{viewer}.shadowRoot.querySelector('.code').checkVisibility()");
+            tab.wait_until(&code, 20).await;
+            let document: String = tab
+                .eval(&format!(
+                    "new URL({viewer}.getAttribute('src'), location).href"
+                ))
+                .await;
+            let query: String = tab.eval(&format!("encodeURIComponent({document:?})")).await;
+            let link = format!("{}/embed.html?doc={query}&step=2", session.server.address());
+            let read = read(&tab.picture(&format!("lesson_code_{page}")).await);
+            assert_eq!(read.as_deref(), Some(link.as_str()), "{page}");
             tab.page.close().await.expect("the tab closes");
         }
     });
@@ -282,14 +321,7 @@ fn large_letters_and_forced_colours_leave_everything_in_reach() {
             ] {
                 emulate(&tab, "", &features).await;
                 rests_quietly(&tab).await;
-                let wide: Vec<String> = tab
-                    .eval("[document.documentElement, ...e0.shadowRoot.querySelectorAll('.frame, .controls, .controls *')].filter((it) => it.scrollWidth > it.clientWidth + 1 && it.clientWidth > 0 && it.tagName !== 'SELECT' || it.getBoundingClientRect().right > innerWidth + 1).map((it) => it.outerHTML.slice(0, 120))")
-                    .await;
-                assert!(wide.is_empty(), "{percent} %, {look}: {wide:?}");
-                let small: Vec<String> = tab
-                    .eval("[...e0.shadowRoot.querySelectorAll('button, select, input')].filter((it) => { const { width, height } = it.getBoundingClientRect(); return width < 24 || height < 24; }).map((it) => it.outerHTML)")
-                    .await;
-                assert!(small.is_empty(), "{percent} %, {look}: {small:?}");
+                assert_in_reach(&tab, "e0", &format!("{percent} %, {look}")).await;
                 for (part, name) in [(".stage", "picture"), (".controls", "controls")] {
                     tab.eval::<bool>(&format!("(e0.shadowRoot.querySelector('{part}').scrollIntoView({{ block: 'start' }}), true)")).await;
                     tab.frames(3).await;

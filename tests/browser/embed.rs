@@ -16,7 +16,7 @@ pub(crate) const LESSON: &str = r#"{"fabrica":1,"title":"Opening a cube","captio
 
 /// Counts what a page makes on its graphics device, its workers, frames and timers. Stands before all other scripts.
 const LEDGER: &[u8] = br"
-window.ledger = { textures: new Map(), buffers: new Map(), devices: new Set(), workers: new Set(), frames: 0, due: new Set(), timers: 0 };
+window.ledger = { textures: new Map(), buffers: new Map(), devices: new Set(), workers: new Set(), pipelines: 0, frames: 0, due: new Set(), timers: 0 };
 const bytesPerTexel = (format) => ({ r8unorm: 1, r8uint: 1, r16float: 2, r16uint: 2, rg8unorm: 2, r32float: 4, r32uint: 4, rg16float: 4, rgba16float: 8, rg32float: 8, rgba32float: 16 })[format] ?? 4;
 function sizeOf({ size, format, mipLevelCount = 1 }) {
   const [width, height = 1, depth = 1] = Array.isArray(size) ? size : [size.width, size.height, size.depthOrArrayLayers];
@@ -32,6 +32,10 @@ if (window.GPUDevice) {
       made.destroy = function () { ledger[kept].delete(made); return destroy.call(this); };
       return made;
     };
+  }
+  for (const name of ['createRenderPipeline', 'createComputePipeline']) {
+    const make = GPUDevice.prototype[name];
+    GPUDevice.prototype[name] = function (descriptor) { ledger.pipelines += 1; return make.call(this, descriptor); };
   }
   const request = GPUAdapter.prototype.requestDevice;
   GPUAdapter.prototype.requestDevice = async function (...wanted) {
@@ -327,7 +331,7 @@ fn many_embeds_are_guests_and_share_what_they_need() {
         let one = open(&session, &[lesson("")], "", (216, 700)).await;
         ready(&one, 1).await;
         rests_quietly(&one).await;
-        let alone: f64 = one.eval("ledger.bytes()").await;
+        let [alone, made]: [f64; 2] = one.eval("[ledger.bytes(), ledger.pipelines]").await;
 
         one.page.close().await.expect("the tab closes");
 
@@ -345,17 +349,18 @@ fn many_embeds_are_guests_and_share_what_they_need() {
                 .await;
             }
             rests_quietly(&tab).await;
-            let found: [f64; 4] = tab
+            let found: [f64; 5] = tab
                 .eval(
-                    "[ledger.devices.size, ledger.volumes(), ledger.workers.size, ledger.bytes()]",
+                    "[ledger.devices.size, ledger.volumes(), ledger.workers.size, ledger.bytes(), ledger.pipelines]",
                 )
                 .await;
-            println!("{width}: {found:?}, alone {alone}");
+            println!("{width}: {found:?}, alone {alone}, {made} pipelines");
             assert_eq!(
                 found[..3],
                 [1.0, 1.0, 0.0],
                 "one device, one volume, no worker"
             );
+            assert_eq!(found[4], made, "programs are compiled once for all");
             assert!(found[3] <= 1.3 * alone, "{} bytes, {alone} alone", found[3]);
             assert!(
                 tab.eval::<bool>("document.activeElement === document.body")
@@ -492,6 +497,19 @@ fn an_embed_is_entered_and_left() {
             if name.is_empty() {
                 break;
             }
+            // A step and a value are within reach of the keyboard, too.
+            match &*name {
+                "Next step" => {
+                    strike(&tab, 0, " ", None).await;
+                    tab.wait_until("e0.step === 1", 20).await;
+                }
+                "Gap" => {
+                    strike(&tab, 0, "ArrowRight", None).await;
+                    tab.wait_until("told.some(([name]) => name === 'paramchange')", 20)
+                        .await;
+                }
+                _ => {}
+            }
             seen.push(name);
         }
         for wanted in [
@@ -547,6 +565,26 @@ fn an_embed_is_entered_and_left() {
             .await;
         tab.click(240.0, 20.0).await;
         assert!(!tab.eval::<bool>(inside).await, "a press elsewhere leaves");
+
+        // A caption's text can be selected, which neither turns the object nor enters it; the browser's search finds
+        // it.
+        tab.eval::<bool>("(e0.reset(), e0.step = 0, told.length = 0, true)")
+            .await;
+        rests_at(&tab, "e0", 0).await;
+        let text = "e0.shadowRoot.querySelector('[part=caption]')";
+        let [left, right, y]: [f64; 3] = tab
+            .eval(&format!("(({{ left, right, top, height }}) => [left, right, top + height / 2])({text}.getBoundingClientRect())"))
+            .await;
+        tab.drag((left + 1.0, y), (right - 1.0, y), 4).await;
+        let selected: String = tab.eval("getSelection().toString()").await;
+        assert!(selected.contains("corner"), "selected: {selected:?}");
+        assert_eq!(tab.eval::<String>(camera).await, "null", "nothing turns");
+        assert!(!tab.eval::<bool>(inside).await);
+        tab.eval::<bool>("(getSelection().empty(), true)").await;
+        for (words, is_there) in [("A corner", true), ("Its middle", true), ("Its end", false)] {
+            let found: bool = tab.eval(&format!("find('{words}')")).await;
+            assert_eq!(found, is_there, "a search for {words:?}");
+        }
         tab.assert_no_complaints().await;
     });
 }

@@ -39,8 +39,10 @@ const ROUND: Duration = Duration::from_millis(30);
 const VIEWER: &str = "window.fabrica.viewer";
 
 /// Runs in every page before its own scripts: keeps what the page complains of and the graphics devices that it made,
-/// and counts frames for [`Tab::frames`]. A page that sleeps is asked for the frames.
+/// and counts frames for [`Tab::frames`]. A page that sleeps is asked for the frames. Finished pictures have one sample
+/// for each pixel: a software GPU takes the longest for the others.
 const PREPARED: &str = r#"
+window.fabricaSamples = 1;
 window.messages = [];
 for (const kind of ["log", "info", "warn", "error"]) {
   const write = console[kind];
@@ -246,6 +248,13 @@ impl Session {
     pub(crate) async fn viewer_sized(&self, path: &str, size: (u32, u32)) -> Tab {
         self.viewer_at(&format!("{}/{path}", self.server.address()), size)
             .await
+    }
+
+    /// As [`Session::viewer_sized`], with all samples of a finished picture: for tests of what is done meanwhile.
+    pub(crate) async fn refining_viewer(&self, path: &str, size: (u32, u32)) -> Tab {
+        let address = format!("{}/{path}", self.server.address());
+        let before = "delete window.fabricaSamples;";
+        self.viewer_with(before, &address, size).await
     }
 
     /// Opens a tab of this size at an address and waits until the viewer has started.

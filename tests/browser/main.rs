@@ -15,6 +15,7 @@ mod film;
 mod frame;
 mod hand;
 mod harness;
+mod lesson;
 mod library;
 mod making;
 mod marks;

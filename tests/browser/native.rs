@@ -1,12 +1,13 @@
 //! Pictures of the page beside pictures of the native program.
 
 use super::harness::{Session, Tab};
-use super::surfaces::surface_of;
+use super::surfaces::{surface_of, surface_within};
 use super::*;
-use fabrica::data::{FieldSamples, Grid, Resources, Surface, VolumeBuilder};
+use fabrica::data::{FieldSamples, Grid, Resources, Subject, Surface, Volume, VolumeBuilder};
 use fabrica::document::{Illustration, TemplateData};
 use fabrica::load::{FieldUse, OneFile, read_field};
 use fabrica::subjects::{FINE_RESOLUTION, tool};
+use glam::DVec3;
 use image::RgbaImage;
 use serde_json::{Value, json};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -250,9 +251,7 @@ impl Native {
     fn subject(&mut self, name: &str, resolution: u32) -> (Studio, Grid) {
         let wanted = (name.to_owned(), resolution);
         if self.held.as_ref().is_none_or(|(held, ..)| *held != wanted) {
-            let mut builder = VolumeBuilder::new();
-            fabrica::subjects::generate(name, resolution, &mut builder).expect("a subject");
-            let volume = builder.finish().expect("a whole volume");
+            let volume = volume_of(name, resolution);
             let grid = volume.grid;
             let studio = Studio::new(&self.gpu, &volume.into(), true).expect("the subject fits");
             self.held = Some((wanted, studio, grid));
@@ -278,6 +277,12 @@ impl Native {
         }
         (image, plain)
     }
+}
+
+fn volume_of(name: &str, resolution: u32) -> Volume {
+    let mut builder = VolumeBuilder::new();
+    fabrica::subjects::generate(name, resolution, &mut builder).expect("a subject");
+    builder.finish().expect("a whole volume")
 }
 
 async fn drawn(studio: &Studio, illustration: &Illustration, size: [u32; 2]) -> RgbaImage {
@@ -394,31 +399,59 @@ fn bumpy_ball() -> String {
     text
 }
 
-/// A mesh that a link names is fetched, prepared in a worker and drawn as the native program draws it.
+/// A mesh that a link names is fetched, prepared in a worker and drawn as the native program draws it, with objects
+/// that keep their place where templates move the mesh.
 #[test]
 fn a_mesh_is_drawn_as_the_native_program_draws_it() {
     compare_ball(
         r##"{"fabrica":1,"subject":{"src":"ball.obj"},
             "look":{"layers":[{"depth":0,"color":"#b8433a"},{"depth":0.03,"color":"#f2e3b3","grain":0.2}]},
+            "objects":[{"src":"ball.obj","at":[0.35,0.6,0.1],"size":0.25},{"builtin":"scalpel","at":[0.1,0.6,0.2],"size":0.5}],
             "templates":[{"kind":"split","at":[0,0,0.1],"size":[0.7,1.2,0.9]}],"camera":{"rotate":[-0.3,0.05,0.1,0.94]}}"##,
-        &["/templates/0", "/look/layers"],
+        &["/templates/0", "/look/layers", "/objects/1", "/objects/0"],
+        (300, 420),
     );
 }
 
-/// Draws a document of the bumpy ball in the page and natively. Without each of `about` the picture is another.
-fn compare_ball(json: &'static str, about: &'static [&'static str]) {
+/// A template opens a volume and the mesh in it.
+#[test]
+fn a_mesh_in_a_volume_is_drawn_as_natively() {
+    compare_ball(
+        r##"{"fabrica":1,"subject":{"builtin":"cube","meshes":[{"src":"ball.obj"}]},
+            "look":{"segments":{"ball":{"body":"solid","color":"#b8433a"}}},
+            "templates":[{"kind":"split","at":[0,0,0.4],"size":[0.8,1.2,0.9]}],"camera":{"rotate":[0.5,0,0,0.866]}}"##,
+        &["/templates/0", "/look/segments"],
+        (180, 252),
+    );
+}
+
+/// The bumpy ball as a document has it: the subject, or a part of a built-in one.
+fn ball_in(document: &Value) -> Subject {
+    let bytes = bumpy_ball().into_bytes();
+    let Some(name) = document["subject"]["builtin"].as_str() else {
+        return surface_of("ball.obj", bytes).into();
+    };
+    let subject = Subject::from(volume_of(name, FINE_RESOLUTION));
+    let half = DVec3::splat(0.5 * subject.mm_per_unit().expect("it has a size"));
+    subject.with_meshes(Some(surface_within("ball.obj", bytes, [-half, half])))
+}
+
+/// Draws a document of the bumpy ball in a page of this size (CSS pixels) and natively. Without each of `about` the
+/// picture is another.
+fn compare_ball(json: &'static str, about: &'static [&'static str], page_size: (u32, u32)) {
     with_browser(BrowserGpu::Software, move |session| async move {
         let bytes = bumpy_ball().into_bytes();
         session.server.add("ball.obj", bytes.clone());
         let tab = session
-            .coarse_viewer(&format!("#{}", payload(json)), (300, 420))
+            .coarse_viewer(&format!("#{}", payload(json)), page_size)
             .await;
         tab.settled().await;
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
 
         let ball = surface_of("ball.obj", bytes);
         let native = Native::open().await;
-        let studio = Studio::new(&native.gpu, &Arc::clone(&ball).into(), true).expect("it fits");
+        let document: Value = serde_json::from_str(json).expect("JSON");
+        let studio = Studio::new(&native.gpu, &ball_in(&document), true).expect("it fits");
         let knife = tool("scalpel").expect("it is generated");
         let knife = Surface::new(&knife, None, &mut |_| true).expect("it has a size");
         let shown = Document::from_json(json).expect("a good document");
@@ -431,7 +464,6 @@ fn compare_ball(json: &'static str, about: &'static [&'static str]) {
             objects: sources.zip([ball, Arc::new(knife)]).collect(),
             ..Resources::default()
         });
-        let document: Value = serde_json::from_str(json).expect("JSON");
         let draw = async |document: &Value| {
             let document = Document::from_json(&document.to_string()).expect("a good document");
             let size = page.dimensions().into();

@@ -43,7 +43,7 @@ fn is_shown(part: &str) -> String {
 }
 
 /// What a phone before the screen reads.
-fn read(picture: &image::RgbaImage) -> Option<String> {
+pub(crate) fn read(picture: &image::RgbaImage) -> Option<String> {
     let (width, height) = picture.dimensions();
     let gray = |x: usize, y: usize| picture.get_pixel(x as u32, y as u32)[1];
     let mut image =

@@ -130,7 +130,7 @@ const DOCUMENT: &str = "const d = JSON.parse(window.fabrica.viewer.get_document(
 fn a_slow_processor_loses_nothing() {
     with_browser(BrowserGpu::Software, |session| async move {
         let tab = session
-            .viewer_sized(&format!("#{}", payload(LESSON)), SIZE)
+            .refining_viewer(&format!("#{}", payload(LESSON)), SIZE)
             .await;
         focus(&tab).await;
         tab.frames(3).await;

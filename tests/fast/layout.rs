@@ -58,14 +58,15 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
             subject_from_pixel, background, grey_scale, grey_offset, mode, samples, marked, marked_from, marked_to,
         }
         Lattice { corner, cells, side, count }
-        KeptGroup { keeps, run, gives_way_to, constraint, depth, blend, longest, before }
+        KeptGroup { keeps, run, gives_way_to, constraint, depth, blend, longest, before, aligned }
         Kept {
-            distance_from_rest, distance_dims, spacing, slab_count, exact_slab, depth_slab, label_sets, items, motions, seams,
+            distance_from_rest, distance_dims, spacing, slab_count, exact_slab, depth_slab, parts, is_coarse, label_sets,
+            items, motions, seams,
         }
         DistanceJob {
             volume_from_voxel, fine, coarse, spacing, ratio, label_from_voxel, rest_from_voxel, half_box, half_ball,
             channel, threshold, reads_labels,
-            first_slice, slice_count, axis, slab, set_count, label_sets,
+            first_slice, slice_count, axis, slab, set_count, part, part_count, label_sets,
         }
         Bodies { items }
         GridTemplate {

@@ -19,19 +19,19 @@ fn illustration(templates: Vec<PlacedTemplate>) -> Illustration {
     illustration
 }
 
-fn probe(studio: &Studio, templates: &[PlacedTemplate], points: &[Vec3]) -> Vec<Sample> {
+pub(crate) fn probe(studio: &Studio, templates: &[PlacedTemplate], points: &[Vec3]) -> Vec<Sample> {
     let scene = illustration(templates.to_vec());
     pollster::block_on(studio.probe_object(&scene, points)).expect("samples")
 }
 
 /// Labels at points of rest space, the nearest voxel's; 0 outside.
-struct Labels<'a> {
-    volume: &'a Segmentation,
+pub(crate) struct Labels<'a> {
+    pub(crate) volume: &'a Segmentation,
     voxel_from_rest: DAffine3,
 }
 
 impl<'a> Labels<'a> {
-    fn new(volume: &'a Volume) -> Self {
+    pub(crate) fn new(volume: &'a Volume) -> Self {
         let labels = volume.segmentation.as_ref().expect("a subject with labels");
         let world = volume.grid.world_from_voxel * volume.grid.subject_from_voxel().inverse();
         Self {
@@ -50,7 +50,7 @@ impl<'a> Labels<'a> {
         self.volume.labels[index as usize]
     }
 
-    fn at(&self, rest: DVec3) -> u8 {
+    pub(crate) fn at(&self, rest: DVec3) -> u8 {
         self.at_voxel((self.voxel_from_rest.transform_point3(rest) + 0.5).floor())
     }
 
@@ -63,7 +63,7 @@ impl<'a> Labels<'a> {
         around.all(|l| l == label).then_some(label)
     }
 
-    fn number(&self, name: &str) -> u8 {
+    pub(crate) fn number(&self, name: &str) -> u8 {
         let segment = self.volume.segments.iter().find(|s| s.name == name);
         segment.expect("a segment of that name").label as u8
     }
@@ -636,7 +636,11 @@ fn outside(volume: &Volume) -> Vec<bool> {
 }
 
 /// A template that gives way to a segment.
-fn giving_way(mut template: PlacedTemplate, by: ConstrainBy, name: &str) -> PlacedTemplate {
+pub(crate) fn giving_way(
+    mut template: PlacedTemplate,
+    by: ConstrainBy,
+    name: &str,
+) -> PlacedTemplate {
     template.constrain = Some(Constrain {
         by,
         keep: vec![name.to_owned()],
@@ -937,83 +941,28 @@ fn nothing_is_drawn_through_bone() {
     }
 }
 
-/// A segment that moves as a whole: it is all there once, as rigid as it was, has moved, and nothing else is drawn from
-/// it.
-#[test]
-fn rigid_segments_move_as_a_whole() {
-    let volume = builtin("knee", 64);
-    let studio = studio_of(gpu(), &volume, false);
-    let labels = Labels::new(&volume);
-    let keep = vec!["tibia".to_owned(), "fibula".to_owned()];
-    let bones: Vec<u8> = keep.iter().map(|name| labels.number(name)).collect();
-    let mut random = Random(0x0b01_e5eb);
-    let knee = Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2);
-    for (kind, rotate) in [
-        (TemplateKind::Bend, knee),
-        (
-            TemplateKind::Twist,
-            Quat::from_rotation_x(std::f32::consts::PI),
-        ),
-        (TemplateKind::Pull, Quat::IDENTITY),
-    ] {
-        let placement = Placement {
-            at: Vec3::ZERO,
-            rotate,
-            size: Vec3::new(0.9, 0.9, 0.9),
-        };
-        let free = PlacedTemplate::new(kind, placement);
-        let mut rigid = free.clone();
-        rigid.constrain = Some(Constrain {
-            by: ConstrainBy::Rigid,
-            keep: keep.clone(),
-        });
-        let points: Vec<Vec3> = (0..60_000).map(|_| random.vector(-0.6, 0.6)).collect();
-        let bone = |template: &PlacedTemplate| -> Vec<(DVec3, DVec3)> {
-            probe(&studio, std::slice::from_ref(template), &points)
-                .iter()
-                .zip(&points)
-                .filter(|(s, _)| s.continuity >= 0.0)
-                .map(|(s, p)| (p.as_dvec3(), s.pos_in_rest.as_dvec3()))
-                .filter(|(_, rest)| bones.contains(&labels.at(*rest)))
-                .collect()
-        };
-        // Lengths between places and between where they come from, and how much of the bone there is against the bone
-        // at rest.
-        let strain = |pairs: &[(DVec3, DVec3)]| {
-            let ways = pairs.iter().zip(pairs.iter().skip(pairs.len() / 2));
-            ways.map(|(a, b)| (a.0.distance(b.0) - a.1.distance(b.1)).abs())
-                .fold(0.0, f64::max)
-        };
-        let (one, other) = (bone(&rigid), bone(&free));
-        let way = one.iter().map(|(p, r)| p.distance(*r)).fold(0.0, f64::max);
-        let (own, unconstrained) = (strain(&one), strain(&other));
-        println!(
-            "{kind:?}: {} places of bone, moved up to {way:.3}, strained {own:.1e}, else {unconstrained:.1e}",
-            one.len()
-        );
-        assert!(one.len() > 300, "{kind:?}: bone is there");
-        assert!(way > 0.03, "{kind:?}: it moves");
-        assert!(own < 1e-4, "{kind:?}: bone is strained by {own}");
-        assert!(
-            unconstrained > 1e-2,
-            "{kind:?}: negative control, {unconstrained}"
-        );
-    }
+/// A volume of nothing but a ball, of 96 voxels along each side.
+pub(crate) fn ball(center: DVec3, radius: f64) -> Volume {
+    balls(96, &[(center, radius)])
 }
 
-/// A volume of nothing but a ball, of 96 voxels along each side.
-fn ball(center: DVec3, radius: f64) -> Volume {
-    const SIDE: u32 = 96;
+/// A volume of nothing but balls of one segment, of so many voxels along each side.
+pub(crate) fn balls(side: u32, balls: &[(DVec3, f64)]) -> Volume {
     let grid = Grid {
-        dims: UVec3::splat(SIDE),
+        dims: UVec3::splat(side),
         world_from_voxel: DAffine3::IDENTITY,
     };
     let place = |i: u32| {
-        let voxel = UVec3::new(i % SIDE, i / SIDE % SIDE, i / (SIDE * SIDE)).as_dvec3();
-        (voxel + 0.5) / f64::from(SIDE) - 0.5
+        let voxel = UVec3::new(i % side, i / side % side, i / (side * side)).as_dvec3();
+        (voxel + 0.5) / f64::from(side) - 0.5
     };
-    let labels: Vec<u8> = (0..SIDE.pow(3))
-        .map(|i| u8::from(place(i).distance(center) < radius))
+    let is_in = |at: DVec3| {
+        balls
+            .iter()
+            .any(|(center, radius)| at.distance(*center) < *radius)
+    };
+    let labels: Vec<u8> = (0..side.pow(3))
+        .map(|i| u8::from(is_in(place(i))))
         .collect();
     Volume {
         has_size: true,
@@ -1103,182 +1052,6 @@ fn moved_tissue_is_guarded_where_it_is() {
     }
 }
 
-/// A rigid motion, subject space to rest space.
-#[derive(Clone, Copy, Debug)]
-struct Motion {
-    turn: DMat3,
-    shift: DVec3,
-}
-
-impl Motion {
-    /// The one that best takes places to sources: by the polar part of the pairs' moments (Higham 1986, Newton's
-    /// iteration).
-    fn fitted(pairs: &[(DVec3, DVec3)]) -> Self {
-        let n = pairs.len() as f64;
-        let place = pairs.iter().map(|p| p.0).sum::<DVec3>() / n;
-        let source = pairs.iter().map(|p| p.1).sum::<DVec3>() / n;
-        let outer = |(p, s): &(DVec3, DVec3)| {
-            let (p, s) = (*p - place, *s - source);
-            DMat3::from_cols(s * p.x, s * p.y, s * p.z)
-        };
-        let mut turn = pairs.iter().map(outer).fold(DMat3::ZERO, |a, b| a + b);
-        for _ in 0..60 {
-            turn = (turn + turn.inverse().transpose()) * 0.5;
-        }
-        Self {
-            turn,
-            shift: source - turn * place,
-        }
-    }
-
-    fn rest(&self, pos: DVec3) -> DVec3 {
-        self.turn * pos + self.shift
-    }
-
-    fn place(&self, rest: DVec3) -> DVec3 {
-        self.turn.transpose() * (rest - self.shift)
-    }
-}
-
-/// Where material is that was at a place: by steps along the map's inverse, in 64 bits.
-fn forward(list: &[Placed], rest: DVec3) -> Option<DVec3> {
-    let map = |pos: DVec3| crate::reference::map(list, pos).0;
-    let starts = [
-        DVec3::ZERO,
-        DVec3::X,
-        DVec3::Y,
-        DVec3::Z,
-        -DVec3::X,
-        -DVec3::Y,
-        -DVec3::Z,
-    ];
-    starts.iter().find_map(|start| {
-        let mut pos = rest + *start * 0.3;
-        for _ in 0..60 {
-            let off = rest - map(pos);
-            if off.length() < 1e-11 {
-                return Some(pos);
-            }
-            let h = 1e-6;
-            let column = |axis: DVec3| (map(pos + axis * h) - map(pos - axis * h)) / (2.0 * h);
-            let slope = DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z));
-            if slope.determinant().abs() < 1e-6 {
-                return None;
-            }
-            pos += (slope.inverse() * off).clamp_length_max(0.1);
-        }
-        None
-    })
-}
-
-/// While a parameter eases, a rigid ball goes in even steps.
-#[test]
-fn rigid_balls_go_in_even_steps() {
-    let steps = if std::env::var_os("FABRICA_LONG").is_some() {
-        200
-    } else {
-        40
-    };
-    let center = DVec3::new(0.0, 0.2, 0.05);
-    let volume = ball(center, 0.1);
-    let studio = studio_of(gpu(), &volume, false);
-    let placement = Placement {
-        at: Vec3::ZERO,
-        rotate: Quat::IDENTITY,
-        size: Vec3::ONE,
-    };
-    let mut template = giving_way(
-        PlacedTemplate::new(TemplateKind::Bend, placement),
-        ConstrainBy::Rigid,
-        "ball",
-    );
-    let tip = center + DVec3::new(0.0, 0.09, 0.0);
-    let mut place = tip;
-    let mut ways = Vec::new();
-    for step in 0..=steps {
-        template.params[0] =
-            fabrica::document::ParamValue::Number(0.3 + 0.8 * step as f32 / steps as f32);
-        // The motion, from places about where the middle of the ball was last.
-        let from_tip = DVec3::new(0.0, -0.06, 0.0);
-        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, -DVec3::ONE];
-        let middle = match step {
-            0 => forward(&as_reference(std::slice::from_ref(&template)), center)
-                .expect("it is somewhere"),
-            _ => place + from_tip,
-        };
-        let at: Vec<Vec3> = corners
-            .iter()
-            .map(|c| (middle + *c * 0.02).as_vec3())
-            .collect();
-        let found = probe(&studio, std::slice::from_ref(&template), &at);
-        let pairs: Vec<(DVec3, DVec3)> = at
-            .iter()
-            .zip(&found)
-            .map(|(p, s)| (p.as_dvec3(), s.pos_in_rest.as_dvec3()))
-            .collect();
-        let next = Motion::fitted(&pairs).place(tip);
-        if step > 0 {
-            ways.push(place.distance(next));
-        }
-        place = next;
-    }
-    let mean = ways.iter().sum::<f64>() / ways.len() as f64;
-    let longest = ways.iter().copied().fold(0.0, f64::max);
-    let shortest = ways.iter().copied().fold(f64::INFINITY, f64::min);
-    println!("{steps} steps of {mean:.2e} in the mean, {shortest:.2e} to {longest:.2e}");
-    assert!(mean > 1e-4, "it moves");
-    assert!(longest < 2.0 * mean, "{longest} against {mean}");
-}
-
-/// The bones of the knee, each a body of its own: the knee bends, and none of them is strained.
-#[test]
-fn bones_move_each_by_itself() {
-    let volume = builtin("knee", 64);
-    let studio = studio_of(gpu(), &volume, false);
-    let labels = Labels::new(&volume);
-    let names = ["femur", "tibia", "patella"];
-    let placement = Placement {
-        at: Vec3::ZERO,
-        rotate: Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2),
-        size: Vec3::splat(0.9),
-    };
-    let mut template = PlacedTemplate::new(TemplateKind::Bend, placement);
-    template.constrain = Some(Constrain {
-        by: ConstrainBy::Bodies,
-        keep: names.map(str::to_owned).to_vec(),
-    });
-    let mut random = Random(0x0b01_71c9);
-    let points: Vec<Vec3> = (0..80_000).map(|_| random.vector(-0.6, 0.6)).collect();
-    let found = probe(&studio, std::slice::from_ref(&template), &points);
-    let motion_of = |name: &str| -> Motion {
-        let number = labels.number(name);
-        let pairs: Vec<(DVec3, DVec3)> = points
-            .iter()
-            .zip(&found)
-            .filter(|(_, s)| s.continuity >= 0.0 && labels.at(s.pos_in_rest.as_dvec3()) == number)
-            .map(|(p, s)| (p.as_dvec3(), s.pos_in_rest.as_dvec3()))
-            .collect();
-        assert!(pairs.len() > 20, "{name}: {} places", pairs.len());
-        let motion = Motion::fitted(&pairs);
-        let strain = pairs
-            .iter()
-            .map(|(p, s)| motion.rest(*p).distance(*s))
-            .fold(0.0, f64::max);
-        println!("{name}: {} places, strained {strain:.1e}", pairs.len());
-        assert!(strain < 1e-5, "{name} is strained by {strain}");
-        motion
-    };
-    let [femur, tibia, _patella] = names.map(motion_of);
-    let between = femur.turn * tibia.turn.transpose();
-    let trace = between.x_axis.x + between.y_axis.y + between.z_axis.z;
-    let angle = (0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos();
-    println!(
-        "femur and tibia are turned by {:.1} degrees to each other",
-        angle.to_degrees()
-    );
-    assert!(angle > 0.3, "the knee bends by {angle}");
-}
-
 /// Draws a template with and without the grid, and fails if the grid hides something.
 fn assert_nothing_is_hidden(volume: &Volume, template: &PlacedTemplate) {
     const SIZE: [u32; 2] = [80, 80];
@@ -1361,37 +1134,4 @@ fn the_grid_finds_kept_tissue_between_thick_slices() {
         thickness: 0.01,
     };
     assert_nothing_is_hidden(&volume, &template);
-}
-
-/// Figure 5.11: a bar that twists from an anchor on, and one whose end turns as a whole.
-#[test]
-fn a_twist_has_an_anchor_and_a_rigid_end() {
-    let text = include_str!("../../web/gallery/anchored-twist.json");
-    let document = fabrica::document::Document::from_json(text).expect("a document");
-    let volume = builtin("bar", 32);
-    let studio = studio_of(gpu(), &volume, false);
-    let mut random = Random(0x51_1511);
-    let points: Vec<Vec3> = (0..4000)
-        .map(|_| random.vector(-0.48, 0.48) * Vec3::new(0.3, 1.0, 0.3))
-        .collect();
-    let full = std::f32::consts::PI;
-    for (step, turned) in [
-        (2, &(|y: f32| full * (y + 0.5)) as &dyn Fn(f32) -> f32),
-        (3, &|y: f32| full * (2.0 * (y + 0.5)).min(1.0)),
-    ] {
-        let shown = document.at_step(step).expect("a step");
-        let samples = pollster::block_on(studio.probe_object(shown.illustration(), &points));
-        let mut farthest = 0.0_f32;
-        for (sample, pos) in samples.expect("samples").iter().zip(&points) {
-            let source = sample.pos_in_rest;
-            let around = |p: Vec3| glam::Vec2::new(p.x, p.z);
-            // Which way it turns is the template's business; how far, and that it stays in its slice, is asked here.
-            let way = 2.0 * around(*pos).length() * (0.5 * turned(pos.y)).sin();
-            farthest = farthest
-                .max((pos.distance(source) - way.abs()).abs())
-                .max((pos.y - source.y).abs());
-        }
-        println!("step {step}: wrong by {farthest:.1e} at most");
-        assert!(farthest < 1e-4, "step {step}: wrong by {farthest}");
-    }
 }

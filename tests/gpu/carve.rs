@@ -1,7 +1,7 @@
 //! The template `carve` against the page's formula, with a ball and a box, whose distances and depths are known in
 //! closed form.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use fabrica::data::{Mesh, MeshPart, Resources, Surface};
 use fabrica::document::Document;
@@ -54,6 +54,9 @@ fn whole(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
         ..Mesh::default()
     }
 }
+
+/// The ball, made ready once for all tests: of 36,480 triangles that takes seconds.
+static BALL: LazyLock<Arc<Surface>> = LazyLock::new(|| carving(&ball()));
 
 fn carving(mesh: &Mesh) -> Arc<Surface> {
     let surface = Surface::new(mesh, None, &mut |_| true).expect("it has a size");
@@ -126,28 +129,39 @@ type SolidOf = dyn Fn(f64) -> Box<dyn Solid>;
 
 #[test]
 fn carve_is_the_page_s_formula_for_a_ball() {
-    compare(&[(carving(&ball()), &|size| Box::new(Ball(size / 2.0)))]);
+    let ball: [(_, &SolidOf); 1] = [(Arc::clone(&BALL), &|size| Box::new(Ball(size / 2.0)))];
+    compare(&ball, |_| true);
 }
 
-/// Far from a box, beside the line where the nearest point goes over from a side to an edge, that point is found within
-/// 1.5 cells only, and tissue is pushed by as much more than it should.
 #[test]
-#[ignore = "far from an edge P is up to 1.5 cells too large, and half a cell is asked for (issue 15)"]
 fn carve_is_the_page_s_formula_for_boxes() {
-    compare(&[
+    compare(&boxes(), |push| push >= 0.0);
+}
+
+/// Tissue that closes in goes all of `push` also beside an edge, where the grid turns its direction over a cell or two
+/// and not at once.
+#[test]
+#[ignore = "two to six cells from an edge m is wrong by up to 6 %, and tissue that closes in by that of `push` (issue 15)"]
+fn closing_in_is_the_page_s_formula_for_boxes() {
+    compare(&boxes(), |push| push < 0.0);
+}
+
+fn boxes() -> [(Arc<Surface>, &'static SolidOf); 2] {
+    [
         (carving(&brick_mesh(Vec3::new(50.0, 30.0, 40.0))), &|size| {
             Box::new(Brick(DVec3::new(0.5, 0.3, 0.4) * size))
         }),
         (carving(&brick_mesh(Vec3::new(50.0, 4.0, 20.0))), &|size| {
             Box::new(Brick(DVec3::new(0.5, 0.04, 0.2) * size))
         }),
-    ]);
+    ]
 }
 
-fn compare(tools: &[(Arc<Surface>, &SolidOf)]) {
+/// Compares each tool in all settings whose push is asked for.
+fn compare(tools: &[(Arc<Surface>, &SolidOf)], is_asked: impl Fn(f64) -> bool) {
     let probe = probe();
     for (index, (surface, solid_of)) in tools.iter().enumerate() {
-        for [size, push, reach] in SETTINGS {
+        for [size, push, reach] in SETTINGS.into_iter().filter(|setting| is_asked(setting[1])) {
             let document = document(size, push, reach);
             let resources = with_tool(&document, surface);
             let solid = solid_of(size);
@@ -205,7 +219,7 @@ fn compare(tools: &[(Arc<Surface>, &SolidOf)]) {
 #[test]
 fn displacement_and_continuity_go_on_at_the_wall() {
     let probe = probe();
-    let surface = carving(&ball());
+    let surface = Arc::clone(&BALL);
     let document = document(0.4, 0.1, 0.2);
     let resources = with_tool(&document, &surface);
     let mut random = Random(5);

@@ -11,6 +11,8 @@ use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 use tempfile::TempDir;
 
+use crate::data::data_folder;
+use crate::scatter::Random;
 use crate::segment_files::{self, nifti};
 
 struct Outcome {
@@ -918,6 +920,171 @@ fn several_meshes_are_one_subject() {
     let given = probe(&["--mesh", "inner.obj"], "0,0,0\n").ok().out;
     assert!(given.contains(",heart,"), "{given}");
     probe(&[], "0,0,0\n").failed(&["heart"]);
+}
+
+/// What a step does to a tool is seen under way, what the tool carves goes with it, and a link says the same.
+#[test]
+fn a_tool_moves_by_steps_and_carves_where_it_is() {
+    let folder = folder();
+    write(&folder, "box.obj", box_obj("box", [0.0; 3], 50.0));
+    write(&folder, "tool.obj", box_obj("tool", [0.0; 3], 10.0));
+    let document = |at: [f64; 3], steps: Value| {
+        let tool =
+            json!({ "src": "tool.obj", "name": "tool", "axes": "ras", "at": at, "size": 0.3 });
+        json!({ "fabrica": 1, "subject": { "src": "box.obj", "axes": "ras" }, "objects": [tool],
+            "templates": [{ "kind": "carve", "params": { "object": "tool", "push": 0.05, "reach": 0.2 } }],
+            "camera": { "rotate": [0.3, 0.2, 0.1, 0.92] }, "steps": steps })
+        .to_string()
+    };
+    let steps = json!([{ "set": { "/objects/0/at": [0, 0, 0.5] }, "seconds": 2 }]);
+    write(&folder, "moving.json", document([0.0, 0.0, 0.8], steps));
+    write(&folder, "still.json", document([0.0, 0.0, 0.65], json!([])));
+    let half = ["--step", "1", "--time", "1"];
+    let probe = |args: &[&str], input: &str| -> Vec<f32> {
+        let args = [&["probe", "moving.json"], args].concat();
+        let out = fabrica_with(folder.path(), &args, input.as_bytes())
+            .ok()
+            .out;
+        let numbers = out
+            .trim_end()
+            .split(',')
+            .map_while(|text| text.parse().ok());
+        numbers.collect()
+    };
+    // Its upper face from above, and its lower one over tissue that gives way. A cell of it is 0.3/128.
+    let ray = probe(&[&["--rays"], &half[..]].concat(), "0,0,2,0,0,-1\n");
+    assert!((ray[6] - 1.2).abs() < 1e-4, "{ray:?}");
+    for (moment, away) in [(&half[..], 0.06), (&half[..2], -0.09)] {
+        let found = probe(moment, "0.02,0.01,0.44\n");
+        assert!((found[6] - away).abs() < 0.0012, "{moment:?}: {found:?}");
+        // Inside of the tool is a gap; beside it tissue is pushed in by `push`, less with the distance.
+        let risen = found[5] - 0.44;
+        let is_right = away < 0.0 || (risen - 0.05 * (1.0 - away / 0.2)).abs() < 0.0012;
+        assert!(is_right, "{moment:?}: {found:?}");
+    }
+    let draw = |what: &str, name: &str, moment: &[&str]| {
+        let args = [
+            "render",
+            what,
+            "-o",
+            name,
+            "--size",
+            "64x48",
+            "--samples",
+            "1",
+        ];
+        fabrica_with(folder.path(), &[&args, moment].concat(), b"").ok();
+        image::open(folder.path().join(name))
+            .expect("a PNG")
+            .to_rgba8()
+    };
+    // By its link, as a reader opens it.
+    let link = fabrica_with(folder.path(), &["link", "moving.json"], b"")
+        .ok()
+        .out;
+    let under_way = draw(link.trim(), "way.png", &half);
+    let still = draw("still.json", "still.png", &[]);
+    assert_eq!(under_way, still, "half way it is in the middle");
+}
+
+/// Corners of a binary STL.
+fn corners_of(stl: &[u8]) -> Vec<[f32; 3]> {
+    let number = |bytes: &[u8]| f32::from_le_bytes(bytes.try_into().expect("four bytes"));
+    let corner = |bytes: &[u8]| std::array::from_fn(|i| number(&bytes[4 * i..4 * i + 4]));
+    let triangles = stl[84..].chunks_exact(50);
+    triangles
+        .flat_map(|triangle| triangle[12..48].chunks_exact(12).map(corner))
+        .collect()
+}
+
+/// Five bones of a leg under one bend: the talus that is kept stays to the bit, and no other bone gets into it.
+#[test]
+fn one_of_five_bones_is_kept() {
+    let Some(data) = data_folder("one of five bones is kept") else {
+        return;
+    };
+    let folder = folder();
+    let names = ["cuboid", "navicular", "patella", "phalanges", "talus"];
+    let bounds = |corners: &[[f32; 3]]| -> [[f32; 2]; 3] {
+        std::array::from_fn(|axis| {
+            let along = corners.iter().map(|corner| corner[axis]);
+            [
+                along.clone().fold(f32::INFINITY, f32::min),
+                along.fold(f32::NEG_INFINITY, f32::max),
+            ]
+        })
+    };
+    let (mut all, mut meshes) = (Vec::new(), Vec::new());
+    let mut talus = Vec::new();
+    for name in names {
+        let bytes = std::fs::read(data.join(format!("mesh/vhf_left_{name}.stl"))).expect("a bone");
+        talus = corners_of(&bytes);
+        all.extend(&talus);
+        write(&folder, &format!("{name}.stl"), bytes);
+        meshes.push(json!({ "src": format!("{name}.stl"), "name": name }));
+    }
+    let (all, talus) = (bounds(&all), bounds(&talus));
+    let unit = all.iter().map(|[low, high]| high - low).fold(0.0, f32::max);
+    // The middle of everything is the origin; points in the box of the talus and around it.
+    let mut random = Random(14);
+    let mut points = String::new();
+    for _ in 0..3000 {
+        let place: [f32; 3] = std::array::from_fn(|axis| {
+            let ([low, high], [least, most]) = (talus[axis], all[axis]);
+            let grown = 0.15 * (high - low);
+            (random.between(low - grown, high + grown) - 0.5 * (least + most)) / unit
+        });
+        points += &format!("{},{},{}\n", place[0], place[1], place[2]);
+    }
+    // Through the middle of the talus.
+    let at: [f32; 3] = std::array::from_fn(|axis| {
+        let ([low, high], [least, most]) = (talus[axis], all[axis]);
+        (0.5 * (low + high) - 0.5 * (least + most)) / unit
+    });
+    let probe = |templates: Value| -> Vec<Vec<String>> {
+        let document = json!({ "fabrica": 1, "subject": { "meshes": meshes }, "look": { "body": "solid" }, "templates": templates });
+        write(&folder, "leg.json", document.to_string());
+        let args = ["probe", "leg.json", "--object"];
+        let out = fabrica_with(folder.path(), &args, points.as_bytes())
+            .ok()
+            .out;
+        let lines = out
+            .lines()
+            .map(|line| line.split(',').map(str::to_owned).collect());
+        lines.collect()
+    };
+    let bend =
+        json!({ "kind": "bend", "at": at, "size": [0.5, 0.5, 0.5], "params": { "angle": 0.8 } });
+    let mut keeping = bend.clone();
+    keeping["align"] = json!({ "to": "segment", "keep": ["talus"] });
+    let (plain, bent, kept) = (
+        probe(json!([])),
+        probe(json!([bend])),
+        probe(json!([keeping])),
+    );
+    let (mut inside, mut would_move, mut others) = (0, 0, 0);
+    for ((plain, bent), kept) in plain.iter().zip(&bent).zip(&kept) {
+        if plain[8] == "talus" {
+            inside += 1;
+            would_move += usize::from(bent[3..6] != plain[3..6]);
+            assert_eq!(
+                kept[3..],
+                plain[3..],
+                "it stays to the bit, and alone: {}",
+                kept[..3].join(",")
+            );
+        } else {
+            assert_ne!(
+                kept[8],
+                "talus",
+                "nothing of it is elsewhere: {}",
+                kept[..3].join(",")
+            );
+            others += usize::from(kept[3..6] != plain[3..6]);
+        }
+    }
+    println!("{inside} points in the talus, {would_move} would move; {others} beside it do");
+    assert!(inside > 300 && would_move > 250 && others > 250);
 }
 
 /// The outer faces of voxels with a label as a binary STL, mm, for voxels of 1 mm about the origin.

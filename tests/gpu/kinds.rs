@@ -6,10 +6,11 @@ use crate::reference::{self, as_reference};
 use crate::scatter::{Random, placed};
 use fabrica::data::Resources;
 use fabrica::document::{
-    Constrain, ConstrainBy, Illustration, ParamValue, PlacedTemplate, Plane, TemplateKind, mirrored,
+    Constrain, ConstrainBy, ControlPoint, ControlPoints, Illustration, ParamValue, PlacedTemplate,
+    Plane, TemplateData, TemplateKind, mirrored,
 };
-use fabrica::math::Placement;
-use fabrica::placed::max_displacement;
+use fabrica::math::{Aabb, Placement};
+use fabrica::placed::{deformed_bounds, max_displacement};
 use fabrica::render::gpu_types::Templates;
 use fabrica::render::{Probe, Sample};
 use glam::{DVec3, Quat, Vec3};
@@ -205,6 +206,103 @@ fn the_longest_displacement_is_the_longest() {
         assert!(asked > 30, "{kind:?}: {asked}");
         assert!(least > 0.97 && most < 1.1, "{kind:?}: {least} to {most}");
     }
+}
+
+/// The longest displacement that a constraint by coordinate divides by is found for every kind: within a tenth of the
+/// longest that a search finds by asking the map alone.
+#[test]
+fn the_longest_displacement_is_found_for_every_kind() {
+    let volume = builtin("knee", 32);
+    let studio = studio_of(gpu(), &volume, false);
+    let bounds = volume.grid.subject_bounds();
+    let probe = pollster::block_on(Probe::new(gpu())).expect("the probe program compiles");
+    let rounds = if std::env::var_os("FABRICA_LONG").is_some() {
+        200
+    } else {
+        3
+    };
+    let mut random = Random(0x0b01_71d0);
+    let kinds = TemplateKind::FORMULAS
+        .into_iter()
+        .chain([TemplateKind::Rbf]);
+    let mut asked = 0;
+    for kind in kinds.filter(|kind| *kind != TemplateKind::Cut) {
+        let (mut least, mut most, mut loose) = (f32::INFINITY, 0.0_f32, 0.0_f32);
+        for round in 0..rounds {
+            let mut free = random.template(kind);
+            free.placement.at *= 0.3;
+            free.placement.size = random.vector(0.3, 1.0);
+            if kind == TemplateKind::Rbf {
+                let moves = (0..3 + random.index(6)).map(|_| ControlPoint {
+                    at: random.vector(0.1, 0.9),
+                    shift: random.vector(-0.3, 0.3),
+                });
+                free.data = TemplateData::Points(ControlPoints {
+                    points: moves.collect(),
+                    cut: Vec::new(),
+                });
+            } else if round % 3 == 2 && is_curved_here(kind) {
+                free.curve = Some(random.curve(free.placement.size));
+            }
+            let true_longest = longest_asked(&probe, &free, bounds, &mut random);
+            if true_longest < 0.01 {
+                continue;
+            }
+            let mut scene = Illustration::document_default();
+            scene.templates = vec![PlacedTemplate {
+                constrain: Some(Constrain {
+                    by: ConstrainBy::Coordinate,
+                    keep: vec!["femur".to_owned()],
+                }),
+                ..free.clone()
+            }];
+            let found = pollster::block_on(studio.motions(&scene)).expect("what was found");
+            let ratio = found[0].row0[0] / true_longest;
+            asked += 1;
+            least = least.min(ratio);
+            most = most.max(ratio);
+            loose =
+                loose.max(max_displacement(&free, &Resources::default(), bounds) / true_longest);
+        }
+        println!(
+            "{kind:?}: {least:.3} to {most:.3} of the longest; the box of it is up to {loose:.2}"
+        );
+        assert!(most < 1.1, "{kind:?}: {most} of the longest");
+        assert!(least > 0.9, "{kind:?}: {least} of the longest");
+    }
+    assert!(asked > 40, "only {asked} templates move anything");
+}
+
+/// Which kinds are laid along curves, each a program of its own: a few, or all where there is time.
+fn is_curved_here(kind: TemplateKind) -> bool {
+    std::env::var_os("FABRICA_LONG").is_some()
+        || matches!(kind, TemplateKind::Poke | TemplateKind::Peel)
+}
+
+/// The longest displacement of what lies in a box, found by asking at random, and then ever closer about the longest.
+fn longest_asked(probe: &Probe, free: &PlacedTemplate, bounds: Aabb, random: &mut Random) -> f32 {
+    let list = std::slice::from_ref(free);
+    let all = deformed_bounds(list, &Resources::default(), bounds);
+    let (mut best, mut longest) = (Vec3::ZERO, 0.0_f32);
+    for turn in 0..8 {
+        let reach = 0.1 * 0.4_f32.powi(turn - 1);
+        let points: Vec<Vec3> = (0..if turn == 0 { 30_000 } else { 800 })
+            .map(|i| match (turn, i % 3) {
+                (0, 0) => random.vector(-0.7, 0.7),
+                (0, 1) => all.min + all.size() * random.vector(0.0, 1.0),
+                (0, _) => free.subject_from_template(random.vector(-0.3, 1.6)),
+                _ => best + random.vector(-reach, reach),
+            })
+            .collect();
+        for (pos, sample) in points.iter().zip(ask(probe, free, &points)) {
+            let way = sample.pos_in_rest.distance(*pos);
+            let is_there = sample.continuity >= 0.0 && bounds.contains(sample.pos_in_rest);
+            if is_there && way > longest {
+                (best, longest) = (*pos, way);
+            }
+        }
+    }
+    longest
 }
 
 fn ask(probe: &Probe, template: &PlacedTemplate, points: &[Vec3]) -> Vec<Sample> {

@@ -19,6 +19,7 @@ mod load_memory;
 mod meshes;
 mod objects;
 mod probes;
+mod rigid;
 mod slices;
 mod textures;
 

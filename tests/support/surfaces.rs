@@ -4,7 +4,7 @@
 
 use fabrica::data::{Mesh, MeshPart, SubjectPart, SubjectSink, Surface};
 use fabrica::load::{LoadReport, MemoryFiles, MeshFile, read_mesh_subject};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 struct Taken(Option<Arc<Surface>>);
@@ -27,8 +27,17 @@ pub(crate) fn surface_of(name: &str, bytes: Vec<u8>) -> Arc<Surface> {
     surface_of_files(&[(name, bytes)])
 }
 
+/// As [`surface_of`], laid in a box (corners, mm), such as that of a volume beside it.
+pub(crate) fn surface_within(name: &str, bytes: Vec<u8>, within: [DVec3; 2]) -> Arc<Surface> {
+    read_first(&[(name, bytes)], Some(within))
+}
+
 /// The surface of the first of these files, beside the others.
 pub(crate) fn surface_of_files(files: &[(&str, Vec<u8>)]) -> Arc<Surface> {
+    read_first(files, None)
+}
+
+fn read_first(files: &[(&str, Vec<u8>)], within: Option<[DVec3; 2]>) -> Arc<Surface> {
     let name = files[0].0;
     let (mut files, mut taken) = (MemoryFiles::new(files.to_vec()), Taken(None));
     let mesh = MeshFile {
@@ -36,7 +45,7 @@ pub(crate) fn surface_of_files(files: &[(&str, Vec<u8>)]) -> Arc<Surface> {
         ..MeshFile::default()
     };
     let mut report = LoadReport::default();
-    read_mesh_subject(&mut files, &[mesh], None, &mut taken, &mut report).expect("a mesh");
+    read_mesh_subject(&mut files, &[mesh], within, &mut taken, &mut report).expect("a mesh");
     taken.0.expect("it came")
 }
 

@@ -48,7 +48,7 @@ export const STYLE = `
   .words-only .stage { display: none; }
   .legend { margin: 0; padding: 8px 12px; min-height: 1.4em; }
   .controls { display: flex; flex-wrap: wrap; gap: 6px 14px; padding: 6px; }
-  .controls > div { display: flex; flex-wrap: wrap; align-items: center; gap: 4px; }
+  .controls > div { display: flex; flex-wrap: wrap; align-items: center; gap: 4px; min-width: 0; }
   .controls > div:first-child { flex: 1 1 20rem; }
   button { font: inherit; color: inherit; background: none; border: 1px solid color-mix(in srgb, currentColor 45%, transparent); border-radius: 6px;
     min-width: 32px; min-height: 32px; padding: 4px 7px; cursor: pointer; }
@@ -60,7 +60,7 @@ export const STYLE = `
   input { color: inherit; accent-color: currentColor; }
   input[type="range"] { min-height: 24px; min-width: 6rem; flex: 3 1 8rem; }
   input[type="checkbox"] { width: 24px; height: 24px; margin: 0; }
-  select { font: inherit; color: inherit; background: Canvas; min-height: 32px; flex: 1 1 8rem; max-width: 22rem; border-radius: 6px; }
+  select { font: inherit; color: inherit; background: Canvas; min-height: 32px; flex: 1 1 8rem; max-width: min(22rem, 100%); border-radius: 6px; text-overflow: ellipsis; }
   fieldset { display: flex; flex-wrap: wrap; gap: 4px 14px; flex: 1 1 100%; margin: 0; border: 0; padding: 2px; min-width: 0; }
   legend { padding: 0; font-weight: 600; }
   label { display: flex; align-items: center; gap: 6px; flex: 1 1 14rem; min-height: 28px; }

@@ -41,6 +41,7 @@ enum Yields {
     Weaker,
     Whole,
     Each,
+    Parts,
 }
 
 /// What lies inside of the tissue that a template leaves alone. Found when the template or the segments change.
@@ -258,6 +259,7 @@ fn constrain_ui(
         Some(ConstrainBy::Coordinate) => Yields::Weaker,
         Some(ConstrainBy::Rigid) => Yields::Whole,
         Some(ConstrainBy::Bodies) => Yields::Each,
+        Some(ConstrainBy::Parts) => Yields::Parts,
     };
     ui.add_space(4.0);
     ui.label(w().yields).on_hover_text(w().yields_hint);
@@ -267,6 +269,7 @@ fn constrain_ui(
         (Yields::Weaker, w().weaker, w().weaker_hint),
         (Yields::Whole, w().whole, w().whole_hint),
         (Yields::Each, w().bodies, w().bodies_hint),
+        (Yields::Parts, w().parts, w().parts_hint),
     ];
     if let Some(yields) = widget::explained(ui, w().yields, &options, current) {
         let keep = match &template.constrain {
@@ -279,6 +282,7 @@ fn constrain_ui(
             Yields::Weaker => Some(ConstrainBy::Coordinate),
             Yields::Whole => Some(ConstrainBy::Rigid),
             Yields::Each => Some(ConstrainBy::Bodies),
+            Yields::Parts => Some(ConstrainBy::Parts),
         };
         commands.push(set(by.map(|by| Constrain { by, keep })));
     }

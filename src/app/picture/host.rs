@@ -58,18 +58,21 @@ pub(crate) struct Picture {
     pub(crate) state: DrawState,
 }
 
+/// The device that egui draws with.
+pub fn gpu_of(render_state: &RenderState) -> Gpu {
+    Gpu::from_parts(
+        render_state.device.clone(),
+        render_state.queue.clone(),
+        render_state.adapter.get_info(),
+    )
+}
+
 impl Picture {
-    /// On the device that egui draws with.
-    pub(crate) fn new(render_state: &RenderState, clock: Clock) -> Self {
+    /// On the device that egui draws with: `gpu` is that one, if it is known already.
+    pub(crate) fn new(render_state: &RenderState, gpu: Option<Gpu>, clock: Clock) -> Self {
+        let gpu = gpu.unwrap_or_else(|| gpu_of(render_state));
         Self {
-            renderer: Renderer::new(
-                Gpu::from_parts(
-                    render_state.device.clone(),
-                    render_state.queue.clone(),
-                    render_state.adapter.get_info(),
-                ),
-                clock,
-            ),
+            renderer: Renderer::new(gpu, clock),
             render_state: render_state.clone(),
             texture: None,
             generation: 0,
@@ -84,6 +87,7 @@ impl Picture {
                 is_done: false,
                 progress: 0.0,
                 has_picture: false,
+                is_behind: true,
                 uploading: None,
                 is_held: false,
                 whole_seconds: None,

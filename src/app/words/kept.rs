@@ -33,6 +33,8 @@ words! {
         whole_hint: "The protected tissue moves along in one piece and keeps its shape", "Das geschützte Gewebe bewegt sich als ein Stück mit und behält seine Form", "El tejido protegido se mueve en una pieza y conserva su forma", "受保护组织作为整体移动，形状不变";
         bodies: "Rigid, each by itself", "Starr, jedes für sich", "Rígido, cada uno por sí", "各自刚性";
         bodies_hint: "Each of the protected tissues moves along in one piece of its own, as bones do at a joint", "Jedes der geschützten Gewebe bewegt sich als eigenes Stück mit, wie Knochen an einem Gelenk", "Cada tejido protegido se mueve en una pieza propia, como los huesos de una articulación", "每个受保护组织各自作为整体移动，如关节处的骨";
+        parts: "Rigid, part by part", "Starr, Stück für Stück", "Rígido, pieza por pieza", "逐块刚性";
+        parts_hint: "Each connected part of the protected tissue moves along in one piece of its own, where several bones are one tissue; four at most", "Jedes zusammenhängende Stück des geschützten Gewebes bewegt sich für sich mit, wo mehrere Knochen ein Gewebe sind; höchstens vier", "Cada parte conexa del tejido protegido se mueve en una pieza propia, cuando varios huesos son un solo tejido; cuatro como máximo", "受保护组织的每个相连部分各自作为整体移动，适用于多块骨属于同一组织的情形；最多四块";
         constraint: "constraint", "Rücksicht", "la restricción", "约束";
     }
 }

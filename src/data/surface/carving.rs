@@ -243,7 +243,8 @@ impl Nodes {
             if let Some(around) = around
                 && let Some(distance) = around.distance(place, FAR * self.cell)
             {
-                self.nearest[index] = (around.level.triangle_near(place, object), distance);
+                let nearest = around.level.nearest_around(place, object);
+                self.nearest[index] = (nearest.triangle as u32, distance);
                 is_inside = distance < 0.0;
                 continue;
             }
@@ -294,23 +295,39 @@ impl Nodes {
         sum
     }
 
-    /// The nearest of the triangles that are nearest to the eight nodes around a place.
-    fn triangle_near(&self, place: Vec3, object: &Shape<'_>) -> u32 {
+    /// The nearest point of the triangles that are nearest to the eight nodes around a place. That of all triangles is
+    /// hardly nearer, and takes no search.
+    fn nearest_around(&self, place: Vec3, object: &Shape<'_>) -> Nearest {
         let last = (self.count - 1).as_vec3();
         let low = (place / self.cell + last * 0.5)
             .floor()
             .clamp(Vec3::ZERO, last - 1.0);
-        let (mut best, mut least) = (0, f32::INFINITY);
-        for corner in 0..8_u32 {
-            let step = UVec3::new(corner & 1, corner >> 1 & 1, corner >> 2);
-            let (triangle, _) = self.nearest[self.index(low.as_uvec3() + step)];
+        let first = self.index(low.as_uvec3());
+        let (row, slice) = (
+            self.count.x as usize,
+            (self.count.x * self.count.y) as usize,
+        );
+        let mut asked = [u32::MAX; 8];
+        let (mut best, mut least) = ((0, place), f32::INFINITY);
+        for corner in 0..8 {
+            let step = (corner & 1) + (corner >> 1 & 1) * row + (corner >> 2) * slice;
+            let (triangle, _) = self.nearest[first + step];
+            // Around a place there are few triangles, if these are not small.
+            if asked[..corner].contains(&triangle) {
+                continue;
+            }
+            asked[corner] = triangle;
             let point = object.triangle(triangle).nearest_point(place);
             let squared = point.distance_squared(place);
             if squared < least {
-                (best, least) = (triangle, squared);
+                (best, least) = ((triangle, point), squared);
             }
         }
-        best
+        Nearest {
+            triangle: best.0 as usize,
+            point: best.1,
+            distance: least.sqrt(),
+        }
     }
 
     /// Second differences of the distances at a node along the axes; 0 along one at whose end the node lies.
@@ -401,10 +418,10 @@ impl Nodes {
                 way += ((slack - 0.15 * self.cell) / (1.0 + PART_OF_WAY)).max(0.25 * self.cell);
                 continue;
             }
-            // Exactly: the surface's nearest point, and how far one may go before it is too near.
-            let found = object.nearest(place, PART_OF_WAY * way * 0.9999);
-            if let Some(nearest) = found {
-                return PART_OF_WAY * shortened(object, foot, inwards, way, nearest.point);
+            // The surface's nearest point, and how far one may go before it is too near.
+            let nearest = self.nearest_around(place, object);
+            if nearest.distance < PART_OF_WAY * way * 0.9999 {
+                return PART_OF_WAY * self.shortened(object, foot, inwards, way, nearest.point);
             }
             if slack < -self.cell {
                 // Far from the surface, and yet not inside.
@@ -414,13 +431,40 @@ impl Nodes {
         }
         PART_OF_WAY * way
     }
+
+    /// The way at whose end a point of the surface is just not too near, and no other point either.
+    fn shortened(
+        &self,
+        object: &Shape<'_>,
+        foot: Vec3,
+        inwards: Vec3,
+        way: f32,
+        point: Vec3,
+    ) -> f32 {
+        // |inwards · way - across| = part · way, solved for the shorter way.
+        const LEFT: f32 = 1.0 - PART_OF_WAY * PART_OF_WAY;
+        let (mut way, mut point) = (way, point);
+        for _ in 0..12 {
+            let across = point - foot;
+            let along = across.dot(inwards);
+            let inner = along * along - LEFT * across.length_squared();
+            let own = (along - inner.max(0.0).sqrt()) / LEFT;
+            way = way.min(own.max(0.0));
+            let nearest = self.nearest_around(foot + inwards * way, object);
+            if nearest.distance >= PART_OF_WAY * way * 0.999 {
+                break;
+            }
+            point = nearest.point;
+        }
+        way
+    }
 }
 
 /// The next coarser level, from which a level takes distances far from the surface.
 struct Around<'a> {
     level: &'a Nodes,
     coefficients: Vec<f32>,
-    /// False for nodes at which the distances bend so much that a spline is not exact.
+    /// False for nodes at which, or beside which, the distances bend so much that a spline is not exact.
     is_even: Vec<bool>,
 }
 
@@ -428,48 +472,32 @@ impl<'a> Around<'a> {
     fn of(level: &'a Nodes) -> Self {
         let most = MOST_BEND * level.cell;
         let bends = (0..level.nearest.len()).map(|index| level.bends(index).abs().element_sum());
+        let mut is_even: Vec<bool> = bends.map(|bend| bend <= most).collect();
+        // A spline reads the 27 nodes around a place: along each axis a node takes over what both beside it are.
+        let (row, slice) = (level.count.x, level.count.x * level.count.y);
+        for step in [1, row, slice].map(|step| step as usize) {
+            let own = is_even.clone();
+            let both = own.iter().zip(own.iter().skip(2 * step));
+            for (even, (before, behind)) in is_even.iter_mut().skip(step).zip(both) {
+                *even &= before & behind;
+            }
+        }
         Self {
             level,
             coefficients: level.corrected(),
-            is_even: bends.map(|bend| bend <= most).collect(),
+            is_even,
         }
     }
 
     /// The distance of a place, if the surface is farther away than `far` and the distances around are even.
     fn distance(&self, place: Vec3, far: f32) -> Option<f32> {
-        let distance = self.level.spline(place, &self.coefficients);
-        if distance.abs() <= far {
-            return None;
-        }
         let last = (self.level.count - 1).as_vec3();
         let at = place / self.level.cell + last * 0.5;
         let middle = at.round().clamp(Vec3::ONE, last - 1.0).as_uvec3();
-        let is_even = |node: UVec3| self.is_even[self.level.index(node)];
-        let beside = |axis: usize| {
-            let mut ends = [middle, middle];
-            ends[0][axis] -= 1;
-            ends[1][axis] += 1;
-            ends.into_iter().all(is_even)
-        };
-        (is_even(middle) && (0..3).all(beside)).then_some(distance)
+        if !self.is_even[self.level.index(middle)] {
+            return None;
+        }
+        let distance = self.level.spline(place, &self.coefficients);
+        (distance.abs() > far).then_some(distance)
     }
-}
-
-/// The way at whose end a point of the surface is just not too near, and no other point either.
-fn shortened(object: &Shape<'_>, foot: Vec3, inwards: Vec3, way: f32, point: Vec3) -> f32 {
-    // |inwards · way - across| = part · way, solved for the shorter way.
-    const LEFT: f32 = 1.0 - PART_OF_WAY * PART_OF_WAY;
-    let (mut way, mut point) = (way, point);
-    for _ in 0..12 {
-        let across = point - foot;
-        let along = across.dot(inwards);
-        let inner = along * along - LEFT * across.length_squared();
-        let own = (along - inner.max(0.0).sqrt()) / LEFT;
-        way = way.min(own.max(0.0));
-        let Some(nearest) = object.nearest(foot + inwards * way, PART_OF_WAY * way * 0.999) else {
-            break;
-        };
-        point = nearest.point;
-    }
-    way
 }

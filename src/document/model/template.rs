@@ -185,18 +185,23 @@ pub enum ConstrainBy {
     Rigid,
     /// As [`ConstrainBy::Rigid`], but each of the kept segments moves by its own motion, as bones do at a joint.
     Bodies,
+    /// As [`ConstrainBy::Bodies`], but each connected part of them moves by its own motion: of a segment that holds
+    /// several bones, each bone. As many of the largest as there are sets left; what is smaller goes with the largest.
+    Parts,
 }
 
 impl ConstrainBy {
     /// All ways; the first is the default.
-    pub(crate) const ALL: [Self; 4] = [
+    pub(crate) const ALL: [Self; 5] = [
         Self::Displacement,
         Self::Coordinate,
         Self::Rigid,
         Self::Bodies,
+        Self::Parts,
     ];
     /// Names in documents, in the order of [`Self::ALL`].
-    pub(crate) const NAMES: [&'static str; 4] = ["displacement", "coordinate", "rigid", "bodies"];
+    pub(crate) const NAMES: [&'static str; 5] =
+        ["displacement", "coordinate", "rigid", "bodies", "parts"];
 }
 
 /// The tissue that a template leaves where it is (dissertation, section 5.4).

@@ -1,5 +1,6 @@
 use super::error::RenderError;
 use crate::data::VolumeLimits;
+use std::any::Any;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Poll, Waker};
 
@@ -22,8 +23,11 @@ pub struct Gpu {
     /// Name, kind and driver.
     pub info: wgpu::AdapterInfo,
     health: Arc<Mutex<Health>>,
+    shared: Arc<Mutex<Option<Box<Shared>>>>,
     /// Natively, whether futures wait for the GPU (a headless program) or are polled by a frame loop (a window).
     waits: bool,
+    /// Samples of a finished picture, where somebody has chosen them.
+    samples: Option<u32>,
 }
 
 #[derive(Debug, Default)]
@@ -34,10 +38,21 @@ struct Health {
     errors: Vec<String>,
 }
 
+/// Something made on a device.
+#[cfg(not(target_arch = "wasm32"))]
+type Shared = dyn Any + Send + Sync;
+
+/// Something made on a device, which no other thread of a page can have.
+#[cfg(target_arch = "wasm32")]
+type Shared = dyn Any;
+
 /// Two bytes each on the GPU and as much in the heap: 2 GiB each natively.
 const MAX_VOXELS_NATIVE: u64 = 1 << 30;
 /// A page has 4 GiB of heap at most, and phones have little to give: 400 MB each.
 const MAX_VOXELS_WEB: u64 = 200 << 20;
+
+/// More samples than this are not seen.
+const MAX_SAMPLES: u32 = 64;
 
 /// Errors kept until somebody asks; later ones are dropped, the first one is the cause.
 const MAX_KEPT_ERRORS: usize = 8;
@@ -140,8 +155,44 @@ impl Gpu {
             queue,
             info,
             health,
+            shared: Arc::default(),
             waits: false,
+            samples: None,
         }
+    }
+
+    /// The same device, on which viewers draw finished pictures with so many samples a pixel, 1 to 64. With `None` they
+    /// choose by what the device can do.
+    #[must_use]
+    pub fn with_samples(mut self, samples: Option<u32>) -> Self {
+        self.samples = samples.map(|number| number.clamp(1, MAX_SAMPLES));
+        self
+    }
+
+    /// What [`Self::with_samples`] has chosen.
+    pub(crate) const fn samples(&self) -> Option<u32> {
+        self.samples
+    }
+
+    /// What all that draw on this device share: made for the first who asks. A device shares values of one type, which
+    /// may not hold the device's `Gpu`.
+    pub(crate) fn shared<T: Clone + wgpu::WasmNotSendSync + 'static>(
+        &self,
+        make: impl FnOnce() -> T,
+    ) -> T {
+        let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(made) = shared.as_ref().and_then(|any| any.downcast_ref::<T>()) {
+            return made.clone();
+        }
+        let made = make();
+        *shared = Some(Box::new(made.clone()));
+        made
+    }
+
+    /// The next who asks for what is shared gets it made anew.
+    #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
+    pub(crate) fn forget_shared(&self) {
+        *self.shared.lock().unwrap_or_else(PoisonError::into_inner) = None;
     }
 
     /// Waits until the device is lost, also by being destroyed. Only the last one who waits is told.

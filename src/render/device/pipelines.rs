@@ -3,7 +3,7 @@
 use super::gpu::Gpu;
 use std::collections::HashMap;
 use std::hash::Hash;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// What a pipeline that draws over the whole target is made of.
 pub(crate) struct PipelineParts<'a> {
@@ -94,7 +94,7 @@ pub(crate) fn compute_pipeline(
 /// Pipelines by what they are made for: software GPUs run every branch, so each document gets programs without what
 /// it does not use.
 #[derive(Debug)]
-pub(crate) struct Pipelines<Key, Pipeline>(Mutex<HashMap<Key, Pipeline>>);
+pub(crate) struct Pipelines<Key, Pipeline>(Mutex<HashMap<Key, Arc<OnceLock<Pipeline>>>>);
 
 impl<Key, Pipeline> Default for Pipelines<Key, Pipeline> {
     fn default() -> Self {
@@ -103,17 +103,18 @@ impl<Key, Pipeline> Default for Pipelines<Key, Pipeline> {
 }
 
 impl<Key: Eq + Hash, Pipeline: Clone> Pipelines<Key, Pipeline> {
-    /// The pipeline for a key; made on first use.
+    /// The pipeline for a key; made on first use. Who asks for another key meanwhile does not wait.
     pub(crate) fn get(&self, key: Key, make: impl FnOnce() -> Pipeline) -> Pipeline {
-        self.all().entry(key).or_insert_with(make).clone()
+        let place = Arc::clone(self.all().entry(key).or_default());
+        place.get_or_init(make).clone()
     }
 
     /// The pipeline for a key, if it was made before.
     pub(crate) fn made(&self, key: &Key) -> Option<Pipeline> {
-        self.all().get(key).cloned()
+        self.all().get(key).and_then(|place| place.get().cloned())
     }
 
-    fn all(&self) -> MutexGuard<'_, HashMap<Key, Pipeline>> {
+    fn all(&self) -> MutexGuard<'_, HashMap<Key, Arc<OnceLock<Pipeline>>>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -44,6 +44,8 @@ pub enum ProgramId {
     Rigid,
     /// Distances to kept tissue.
     Distance,
+    /// Connected parts of kept tissue.
+    Parts,
     /// Shares of the segments that are drawn as bodies.
     Bodies,
     /// The skip grid over the deformed space.
@@ -334,6 +336,7 @@ shader_files![
     "bind/rays.wgsl",
     "bind/slice.wgsl",
     "bind/kept.wgsl",
+    "bind/distance_job.wgsl",
     "march/align.wgsl",
     "march/asked.wgsl",
     "march/baked.wgsl",
@@ -384,12 +387,14 @@ shader_files![
     "subject/place.wgsl",
     "subject/surfaces.wgsl",
     "subject/volume.wgsl",
+    "subject/member.wgsl",
     "pass/bake.wgsl",
     "pass/bodies.wgsl",
     "pass/distance.wgsl",
     "pass/follow.wgsl",
     "pass/grid.wgsl",
     "pass/object.wgsl",
+    "pass/parts.wgsl",
     "pass/probe.wgsl",
     "pass/raycast.wgsl",
     "pass/resolve.wgsl",
@@ -441,6 +446,19 @@ pub const PROGRAMS: &[Program] = &[
             ("smooth_out", Stage::Compute),
             ("smooth_back", Stage::Compute),
             ("write_texture", Stage::Compute),
+        ],
+    },
+    Program {
+        id: ProgramId::Parts,
+        name: "parts",
+        pass: "pass/parts.wgsl",
+        stand_in: None,
+        entries: &[
+            ("mark_parts", Stage::Compute),
+            ("spread_parts", Stage::Compute),
+            ("count_parts", Stage::Compute),
+            ("rank_parts", Stage::Compute),
+            ("name_parts", Stage::Compute),
         ],
     },
     Program {

@@ -10,6 +10,7 @@ use crate::render::device::layouts::Layouts;
 use crate::render::scene::Scene;
 use crate::render::stage::programs::StagePrograms;
 use crate::render::subject::textures::SubjectTextures;
+use std::sync::Arc;
 
 /// Layouts and programs. Built once per device and shared by everything that draws on it.
 #[derive(Debug)]
@@ -24,7 +25,12 @@ pub(crate) struct Passes {
 }
 
 impl Passes {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
+    /// The passes of a device.
+    pub(crate) fn of(gpu: &Gpu) -> Arc<Self> {
+        gpu.shared(|| Arc::new(Self::new(gpu)))
+    }
+
+    fn new(gpu: &Gpu) -> Self {
         let layouts = Layouts::new(gpu);
         Self {
             stages: StagePrograms::new(gpu),

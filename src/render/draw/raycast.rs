@@ -41,10 +41,7 @@ impl RaycastPasses {
         self.pipelines.get(key, || self.make(gpu, key))
     }
 
-    fn make(&self, gpu: &Gpu, mut key: RaycastKey) -> wgpu::RenderPipeline {
-        if key.leaves_meshes_out(gpu) {
-            key.subject = SubjectShader::Volume;
-        }
+    fn make(&self, gpu: &Gpu, key: RaycastKey) -> wgpu::RenderPipeline {
         let number = |flag: bool| f64::from(u8::from(flag));
         let mut constants = vec![
             ("drawn_kinds", f64::from(key.drawn_kinds)),
@@ -53,10 +50,7 @@ impl RaycastPasses {
             ("has_edges", number(key.has_edges)),
             ("has_bodies", number(key.has_bodies)),
             key.textures_constant(false),
-            (
-                "has_objects",
-                number(key.has_objects && !is_endless_to_compile(gpu, key)),
-            ),
+            ("has_objects", number(key.has_objects)),
         ];
         let program = if key.is_baked {
             ProgramId::RaycastBaked
@@ -92,13 +86,6 @@ impl RaycastPasses {
         };
         render_pipeline(gpu, &parts)
     }
-}
-
-/// True for a program that the software GPU of browsers compiles for minutes, so that the browser ends it: objects
-/// beside a mesh that templates move. There the picture goes without its objects.
-fn is_endless_to_compile(gpu: &Gpu, key: RaycastKey) -> bool {
-    let is_long = key.subject == SubjectShader::Mesh && key.drawn_kinds != 0;
-    cfg!(target_arch = "wasm32") && gpu.is_software() && is_long
 }
 
 const MEAN_PART: wgpu::BlendComponent = wgpu::BlendComponent {

@@ -52,6 +52,8 @@ pub struct DrawState {
     pub progress: f32,
     /// There is a picture in [`Renderer::output_view`].
     pub has_picture: bool,
+    /// That picture is of what was to be shown before: nothing has been drawn since the last change.
+    pub is_behind: bool,
     /// A subject is on its way to the GPU: fraction done.
     pub uploading: Option<f32>,
     /// It waits until nobody does anything: no repaint is needed until [`Renderer::draw`] is told so.
@@ -68,7 +70,6 @@ pub struct DrawState {
 pub struct Renderer {
     gpu: Gpu,
     clock: Clock,
-    passes: Option<Arc<Passes>>,
     studio: Option<Studio>,
     subject: Option<Subject>,
     upload: Option<(Upload, Subject)>,
@@ -132,7 +133,6 @@ impl Renderer {
         Self {
             gpu,
             clock,
-            passes: None,
             studio: None,
             subject: None,
             upload: None,
@@ -202,7 +202,6 @@ impl Renderer {
 
     /// Makes what is around the values anew: segments and meshes.
     fn make_subject_anew(&mut self) -> Result<(), RenderError> {
-        let passes = self.passes();
         if let (Some(studio), Some(fitting)) = (&mut self.studio, &self.fitting) {
             let labels = match &self.labels {
                 Some(labels) => labels.as_deref(),
@@ -210,7 +209,7 @@ impl Renderer {
                     .values()
                     .and_then(|volume| volume.segmentation.as_ref()),
             };
-            let (gpu, layouts) = (&self.gpu, &passes.layouts);
+            let (gpu, layouts) = (&self.gpu, &studio.passes.layouts);
             let subject = with_segmentation(&studio.subject, gpu, layouts, fitting, labels)?;
             studio.subject = Arc::new(subject);
             self.scene = None;
@@ -247,7 +246,6 @@ impl Renderer {
             _ => false,
         };
         if !is_same {
-            self.passes = other.passes.clone();
             self.studio = other.studio.clone();
             self.scene = None;
             self.slices.forget();
@@ -660,7 +658,7 @@ impl Renderer {
         let start = (self.clock)();
         loop {
             if upload.advance(&self.gpu) {
-                let passes = self.passes();
+                let passes = Passes::of(&self.gpu);
                 let subject = upload.finish(&self.gpu, &passes.layouts);
                 self.studio = Some(Studio {
                     gpu: self.gpu.clone(),
@@ -691,24 +689,14 @@ impl Renderer {
     #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
     pub fn reload_shaders(&mut self) -> Result<(), RenderError> {
         crate::render::device::programs::check_programs()?;
-        let passes = Arc::new(Passes::new(&self.gpu));
+        self.gpu.forget_shared();
         if let Some(studio) = &mut self.studio {
-            studio.passes = Arc::clone(&passes);
+            studio.passes = Passes::of(&self.gpu);
         }
-        self.passes = Some(passes);
         self.scene = None;
         self.slices.forget();
         self.touch();
         Ok(())
-    }
-
-    fn passes(&mut self) -> Arc<Passes> {
-        if let Some(passes) = &self.passes {
-            return Arc::clone(passes);
-        }
-        let passes = Arc::new(Passes::new(&self.gpu));
-        self.passes = Some(Arc::clone(&passes));
-        passes
     }
 
     /// Learns from the last submission how long a pixel takes.
@@ -908,6 +896,9 @@ impl Renderer {
     }
 
     fn samples(&self) -> u32 {
+        if let Some(chosen) = self.gpu.samples() {
+            return chosen;
+        }
         let usual = match self.gpu.is_software() {
             true => SAMPLES_SOFTWARE,
             false => SAMPLES_HARDWARE,
@@ -931,6 +922,7 @@ impl Renderer {
                 && (!has_scene || self.stage == Stage::Done || self.targets.is_none()),
             progress,
             has_picture: self.targets.is_some() && self.drawn_generation() == self.generation,
+            is_behind: self.stage == Stage::Stale,
             uploading: self.upload.as_ref().map(|(upload, _)| upload.progress()),
             is_held: false,
             whole_seconds: self.whole.seconds().map(|seconds| seconds as f32),

@@ -12,6 +12,7 @@ use crate::data::{Resources, Segment, Subject};
 use crate::document::Illustration;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
+use crate::render::pack::gpu_types::Affine;
 use crate::render::pack::values::SubjectInfo;
 use crate::render::pack::view::View;
 use crate::render::scene::Scene;
@@ -57,7 +58,7 @@ impl Studio {
     /// # Errors
     /// [`RenderError::TooLarge`].
     pub fn new(gpu: &Gpu, subject: &Subject, wants_grid: bool) -> Result<Self, RenderError> {
-        let passes = Passes::new(gpu);
+        let passes = Passes::of(gpu);
         let (fitting, _) = fitting(gpu, subject)?;
         let mut upload = Upload::new(gpu, &fitting)?;
         while !upload.advance(gpu) {
@@ -67,7 +68,7 @@ impl Studio {
         let subject = upload.finish(gpu, &passes.layouts);
         Ok(Self {
             gpu: gpu.clone(),
-            passes: Arc::new(passes),
+            passes,
             subject: Arc::new(subject),
             wants_grid,
             resources: Resources::default(),
@@ -258,6 +259,18 @@ impl Studio {
     ) -> Result<([u32; 3], Vec<[f32; 4]>), RenderError> {
         let scene = self.scene(illustration, false);
         scene.kept_textures().read(&self.gpu).await
+    }
+
+    /// What was found of the map as a whole for an illustration, read back: four for each enabled template, at the
+    /// place of the first of its group. Of segments that move as a whole the motions of the four sets, subject space to
+    /// rest space; of what gives way by its coordinate, the longest displacement in the first number of the first. For
+    /// tests and whoever wants to look.
+    ///
+    /// # Errors
+    /// [`RenderError::DeviceLost`], [`RenderError::Refused`].
+    pub async fn motions(&self, illustration: &Illustration) -> Result<Vec<Affine>, RenderError> {
+        let scene = self.scene(illustration, false);
+        scene.kept_textures().read_motions(&self.gpu).await
     }
 
     /// The surface at a point of the picture (pixels, origin top left). The future owns its resources.

@@ -281,7 +281,7 @@ pub const CONSTRAIN_RIGID: u32 = 3;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct KeptGroup {
-    /// Sets kept, bit k for set k, and [`KEEPS_DEEP`]; 0 keeps nothing.
+    /// Sets whose tissue stays, bit k for set k, and [`KEEPS_DEEP`]; 0 keeps nothing.
     pub keeps: u32,
     /// First template of the run of groups that keep the same.
     pub run: u32,
@@ -297,6 +297,10 @@ pub struct KeptGroup {
     pub longest: f32,
     /// Tissue that gives way is where the templates before this index have brought it; 0: it is at rest.
     pub before: u32,
+    /// Those of `keeps` that an alignment keeps.
+    pub aligned: u32,
+    /// To the next row of four.
+    pub padding: [u32; 3],
 }
 
 /// Motions of the segments that move as a whole: four sets for each template.
@@ -318,6 +322,13 @@ pub struct Kept {
     pub exact_slab: u32,
     /// Slab of the depth, or 0.
     pub depth_slab: u32,
+    /// Of each set, four bits for each: the sets that are connected parts of the same segments; 0 for one that is
+    /// whole.
+    pub parts: u32,
+    /// 1 where a voxel of the distances is larger than one of the segments.
+    pub is_coarse: u32,
+    /// To the next row of four.
+    pub padding: [u32; 2],
     /// Sets of each label, four bits each.
     pub label_sets: LabelSets,
     /// What each template keeps, in the order of [`Templates::items`].
@@ -340,6 +351,9 @@ impl Kept {
         slab_count: 0,
         exact_slab: 0,
         depth_slab: 0,
+        parts: 0,
+        is_coarse: 0,
+        padding: [0; 2],
         label_sets: [[0; 4]; 10],
         items: [KeptGroup {
             keeps: 0,
@@ -350,6 +364,8 @@ impl Kept {
             blend: 0.0,
             longest: 0.0,
             before: 0,
+            aligned: 0,
+            padding: [0; 3],
         }; MAX_TEMPLATES],
         motions: [Affine::ZERO; MAX_MOTIONS],
         seams: [[0.0; 4]; MAX_TEMPLATES],
@@ -398,8 +414,10 @@ pub struct DistanceJob {
     pub slab: u32,
     /// Sets in that slab, 0 for the depth.
     pub set_count: u32,
-    /// To the next row of four.
-    pub padding: [u32; 2],
+    /// Rank of the connected part that distances are taken to, from 1; 0: the whole set.
+    pub part: u32,
+    /// How many parts have a rank.
+    pub part_count: u32,
     /// Sets of kept tissue that each label belongs to, packed as in [`Kept`].
     pub label_sets: LabelSets,
 }

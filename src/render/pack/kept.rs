@@ -22,6 +22,9 @@ pub struct KeptTissue {
     pub label_sets: LabelSets,
     /// Number of different `keep` sets, at most `document::MAX_KEEP_SETS`.
     pub set_count: u32,
+    /// Of each set, a bit for each of those that are connected parts of the same segments, itself among them; 0 for a
+    /// set that is whole.
+    pub parts: [u32; MAX_KEEP_SETS],
     /// Some template keeps what lies deep under the outer surface.
     pub keeps_deep: bool,
     /// Per enabled template, in order.
@@ -82,6 +85,7 @@ impl KeptTissue {
         let mut kept = Self {
             label_sets: LabelSets::default(),
             set_count: 0,
+            parts: [0; MAX_KEEP_SETS],
             keeps_deep: false,
             items: [KeptGroup::default(); MAX_TEMPLATES],
             unknown: Vec::new(),
@@ -96,6 +100,7 @@ impl KeptTissue {
             .collect();
         let enabled: Vec<&PlacedTemplate> = acting.iter().collect();
         let sets = keep_sets(&acting);
+        let members = kept.divide(&sets, &enabled);
         for (set, names) in sets.iter().take(MAX_KEEP_SETS).enumerate() {
             for name in names {
                 let labels = labels_of(name, segments);
@@ -103,17 +108,15 @@ impl KeptTissue {
                     kept.unknown.push(name.clone());
                 }
                 for label in labels.into_iter().map(usize::from) {
-                    kept.label_sets[label / 32][label / 8 % 4] |= 1 << (4 * (label % 8) + set);
+                    kept.label_sets[label / 32][label / 8 % 4] |= members[set] << (4 * (label % 8));
                 }
             }
-            kept.set_count = set as u32 + 1;
         }
         let bit = |keep: &[String]| {
             let wanted = keep_set(keep);
-            sets.iter()
-                .take(MAX_KEEP_SETS)
-                .position(|set| *set == wanted)
-                .map_or(0, |i| 1 << i)
+            let sets = sets.iter().zip(members);
+            let mut found = sets.filter(|(set, _)| **set == wanted);
+            found.next().map_or(0, |(_, members)| members)
         };
         let mut head = 0;
         for (index, template) in enabled.iter().enumerate() {
@@ -127,19 +130,19 @@ impl KeptTissue {
                 Align::Axis => {}
                 Align::Surface { depth, thickness } => {
                     // Two depths in one group: what either keeps.
-                    let is_first = item.keeps & KEEPS_DEEP == 0;
+                    let is_first = item.aligned & KEEPS_DEEP == 0;
                     item.depth = if is_first {
                         *depth
                     } else {
                         item.depth.min(*depth)
                     };
                     item.blend = item.blend.max(*thickness);
-                    item.keeps |= KEEPS_DEEP;
+                    item.aligned |= KEEPS_DEEP;
                     kept.keeps_deep = true;
                 }
                 Align::Segment { keep, thickness } => {
                     item.blend = item.blend.max(*thickness);
-                    item.keeps |= bit(keep);
+                    item.aligned |= bit(keep);
                 }
             }
             let given = template.constrain.iter().flat_map(Constrain::sets);
@@ -149,7 +152,9 @@ impl KeptTissue {
                 item.constraint = match constrain.by {
                     ConstrainBy::Displacement => CONSTRAIN_DISPLACEMENT,
                     ConstrainBy::Coordinate => CONSTRAIN_COORDINATE,
-                    ConstrainBy::Rigid | ConstrainBy::Bodies => CONSTRAIN_RIGID,
+                    ConstrainBy::Rigid | ConstrainBy::Bodies | ConstrainBy::Parts => {
+                        CONSTRAIN_RIGID
+                    }
                 };
                 kept.constraints |= 1 << item.constraint;
             }
@@ -162,6 +167,9 @@ impl KeptTissue {
             // The motion nearest to a displacement goes farther than it in places.
             item.longest = 1.5 * item.longest + 0.02;
         }
+        for item in &mut kept.items {
+            item.keeps = item.aligned;
+        }
         kept.guard_late(&enabled);
         kept.find_runs(&enabled);
         for (head, item) in kept.items.iter_mut().enumerate() {
@@ -172,6 +180,39 @@ impl KeptTissue {
             };
         }
         kept
+    }
+
+    /// Counts the sets, and divides what is left of [`MAX_KEEP_SETS`] among those whose connected parts move each by
+    /// itself, in turn. Returns a bit for each set that stands for one of the given: for itself, and for its parts.
+    fn divide(
+        &mut self,
+        sets: &[Vec<String>],
+        enabled: &[&PlacedTemplate],
+    ) -> [u32; MAX_KEEP_SETS] {
+        let count = sets.len().min(MAX_KEEP_SETS);
+        let mut members = std::array::from_fn(|set| if set < count { 1 << set } else { 0 });
+        let constraints = enabled.iter().filter_map(|t| t.constrain.as_ref());
+        let parted: Vec<Vec<String>> = constraints
+            .filter(|constrain| constrain.by == ConstrainBy::Parts)
+            .flat_map(Constrain::sets)
+            .collect();
+        let parted: Vec<usize> = (0..count)
+            .filter(|set| parted.contains(&sets[*set]))
+            .collect();
+        self.set_count = if parted.is_empty() {
+            count
+        } else {
+            MAX_KEEP_SETS
+        } as u32;
+        for (free, set) in (count..MAX_KEEP_SETS).zip(parted.iter().cycle()) {
+            members[*set] |= 1 << free;
+        }
+        for (set, parts) in self.parts.iter_mut().enumerate() {
+            let of_it = members.iter().filter(|members| *members >> set & 1 != 0);
+            let own: u32 = of_it.sum();
+            *parts = if own.count_ones() > 1 { own } else { 0 };
+        }
+        members
     }
 
     /// A displacement that gives way to tissue which templates before it have moved guards it as an alignment does, by
@@ -247,8 +288,10 @@ impl KeptTissue {
         self.constraints & (1 << CONSTRAIN_RIGID) != 0
     }
 
-    /// What the pipeline constant `kept_by` has to be: bit 0 for segments, bit 1 for the depth.
+    /// What the pipeline constant `kept_by` has to be: bit 0 for segments, bit 1 for the depth, bit 2 for connected
+    /// parts.
     pub fn kept_by(&self) -> u32 {
-        u32::from(self.set_count > 0) | u32::from(self.keeps_deep) << 1
+        let has_parts = self.parts.iter().any(|parts| *parts != 0);
+        u32::from(self.set_count > 0) | u32::from(self.keeps_deep) << 1 | u32::from(has_parts) << 2
     }
 }

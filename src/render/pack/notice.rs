@@ -24,8 +24,6 @@ pub enum RenderNotice {
         /// By how much, template units.
         by: f32,
     },
-    /// This GPU draws the volume without the meshes beside it.
-    MeshesLeftOut,
     /// The meshes beside a volume do not fit on the device, and why.
     MeshesTooLarge(String),
     /// The volume is larger than the device takes, and is drawn coarser.
@@ -49,10 +47,9 @@ impl fmt::Display for RenderNotice {
                 f,
                 "{template}: control point {point} is missed by {by:.4} of the box, for another point that stands at its place is met"
             ),
-            Self::MeshesLeftOut => f.write_str(
-                "this browser draws without a graphics card: where templates act, the meshes beside the scan are left out",
-            ),
-            Self::MeshesTooLarge(why) => write!(f, "the meshes beside the scan are not drawn: {why}"),
+            Self::MeshesTooLarge(why) => {
+                write!(f, "the meshes beside the scan are not drawn: {why}")
+            }
             Self::Reduced(reduction) => reduction.fmt(f),
         }
     }

@@ -1,4 +1,3 @@
-use crate::render::device::gpu::Gpu;
 use crate::render::device::programs::SubjectShader;
 
 /// What a ray march pipeline is made for. Few of them per document: software GPUs run every branch, so what a document
@@ -62,13 +61,6 @@ impl RaycastKey {
             (true, true) => 2.0,
         };
         ("has_textures", value)
-    }
-
-    /// True where the picture of a volume with meshes goes without its meshes: their march and the volume's, both under
-    /// templates, are more than the software GPU of browsers ends compiling. Then a notice says so.
-    pub(crate) fn leaves_meshes_out(&self, gpu: &Gpu) -> bool {
-        let is_long = self.subject == SubjectShader::Both && self.drawn_kinds != 0;
-        cfg!(target_arch = "wasm32") && gpu.is_software() && is_long
     }
 
     /// The pipeline constants of march/align.wgsl.

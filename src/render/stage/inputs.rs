@@ -108,12 +108,6 @@ impl Inputs {
         self.background.set(background_uniform(look.background));
     }
 
-    /// Says once that the meshes beside a volume are left out.
-    pub(crate) fn tell_meshes_left_out(&mut self) {
-        let name = ["meshes".to_owned()];
-        self.notify(&name, |_| RenderNotice::MeshesLeftOut);
-    }
-
     /// Grows with every change that the picture shows.
     pub(crate) fn revision(&self) -> u64 {
         [

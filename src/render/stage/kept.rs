@@ -1,17 +1,20 @@
 //! How far every place is from kept tissue: textures of distances, made on the GPU.
 
+use super::parts::PartPrograms;
+use crate::document::MAX_KEEP_SETS;
 use crate::render::device::bindings::{encoder, entry};
-use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::buffers::{submit_and_read, uniform_buffer};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
 use crate::render::device::programs::{ALL_KINDS, ProgramId, SubjectShader, module_for};
 use crate::render::device::textures::{read_half_texels, volume_texture};
-use crate::render::pack::gpu_types::{DistanceJob, Kept, LabelSets};
+use crate::render::pack::gpu_types::{Affine, DistanceJob, Kept, LabelSets, MAX_MOTIONS};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::textures::{SubjectTextures, VoxelFrame};
 use glam::{DAffine3, DMat3, DVec3, UVec3, Vec3};
+use std::mem::offset_of;
 use std::sync::Arc;
 
 /// Voxels of the distances at most: 128³, 16 MiB of texture. Distances are measured to the fine voxels, so
@@ -39,7 +42,10 @@ const DARK_PART: f32 = 0.12;
 
 /// The compute programs that make distances; compiled when the first document keeps something.
 #[derive(Debug, Default)]
-pub(crate) struct DistancePrograms(Pipelines<SubjectShader, Arc<DistancePipelines>>);
+pub(crate) struct DistancePrograms {
+    pipelines: Pipelines<SubjectShader, Arc<DistancePipelines>>,
+    parts: PartPrograms,
+}
 
 #[derive(Debug)]
 struct DistancePipelines {
@@ -52,7 +58,7 @@ struct DistancePipelines {
 
 impl DistancePrograms {
     fn get(&self, gpu: &Gpu, subject: SubjectShader) -> Arc<DistancePipelines> {
-        self.0.get(subject, || {
+        self.pipelines.get(subject, || {
             let module = module_for(gpu, ProgramId::Distance, subject, ALL_KINDS);
             let pipeline = |entry: &str| compute_pipeline(gpu, &module, entry, &[]);
             Arc::new(DistancePipelines {
@@ -79,9 +85,9 @@ pub(crate) struct KeptTextures {
     made_from: MadeFrom<2>,
 }
 
-/// What distances depend on: the stamp of the subject, the sets of each label, their number, whether the depth is
-/// wanted, and whether exact distances are.
-type MadeFor = (Stamp, LabelSets, u32, bool, bool);
+/// What distances depend on: the stamp of the subject, the sets of each label, their number, which of them are
+/// connected parts, whether the depth is wanted, and whether exact distances are.
+type MadeFor = (Stamp, LabelSets, u32, [u32; MAX_KEEP_SETS], bool, bool);
 
 /// Where distances are taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -151,7 +157,14 @@ impl KeptTextures {
     pub(crate) fn new(gpu: &Gpu) -> Self {
         let texture = texture_of(gpu, UVec3::ONE);
         Self {
-            uniform: uniform_buffer(gpu, "kept", &Kept::NONE),
+            uniform: gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("kept"),
+                size: size_of::<Kept>() as u64,
+                usage: wgpu::BufferUsages::UNIFORM
+                    | wgpu::BufferUsages::COPY_DST
+                    | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: false,
+            }),
             view: texture.create_view(&Default::default()),
             texture,
             plan: None,
@@ -178,11 +191,12 @@ impl KeptTextures {
                 subject.stamp,
                 kept.label_sets,
                 kept.set_count,
+                kept.parts,
                 kept.keeps_deep,
                 kept.constraints != 0,
             );
             if self.made_for != Some(made_for) {
-                self.make(gpu, &programs.get(gpu, subject.shader), subject, kept);
+                self.make(gpu, programs, subject, kept);
                 self.made_for = Some(made_for);
             }
         }
@@ -206,6 +220,11 @@ impl KeptTextures {
             slab_count: self.plan.map_or(1, |plan| plan.slab_count),
             exact_slab: self.plan.map_or(0, |plan| plan.exact_slab),
             depth_slab: self.plan.map_or(0, |plan| plan.depth_slab),
+            is_coarse: self
+                .plan
+                .map_or(0, |plan| u32::from(plan.ratio.max_element() > 1.0)),
+            parts: (kept.parts.iter().enumerate())
+                .fold(0, |all, (set, parts)| all | parts << (4 * set)),
             label_sets: kept.label_sets,
             items: kept.items,
             ..Kept::NONE
@@ -225,13 +244,22 @@ impl KeptTextures {
         Ok(([x, y, z], texels))
     }
 
+    /// What was found of the map as a whole, read back.
+    pub(crate) async fn read_motions(&self, gpu: &Gpu) -> Result<Vec<Affine>, RenderError> {
+        let bytes = submit_and_read(gpu, encoder(gpu), &self.uniform).await?;
+        let start = offset_of!(Kept, motions);
+        let motions = &bytes[start..start + size_of::<[Affine; MAX_MOTIONS]>()];
+        Ok(bytemuck::pod_collect_to_vec(motions))
+    }
+
     fn make(
         &mut self,
         gpu: &Gpu,
-        pipelines: &DistancePipelines,
+        programs: &DistancePrograms,
         subject: &SubjectTextures,
         kept: &KeptTissue,
     ) {
+        let pipelines = &programs.get(gpu, subject.shader);
         let frame = frame_for(subject, kept);
         let reads_labels = frame == *subject.label_voxels.as_ref().unwrap_or(&subject.voxels)
             && subject.label_voxels.is_some();
@@ -245,8 +273,12 @@ impl KeptTextures {
             self.plan = Some(plan);
         }
         let work = Work::new(gpu, pipelines, subject, &plan, &frame, kept, &self.view);
-        for set in 0..kept.set_count {
-            work.distances(set);
+        for (set, parts) in (0..kept.set_count).zip(kept.parts) {
+            if parts == 0 {
+                work.distances(set, 0);
+            } else if parts.trailing_zeros() == set {
+                work.parts(&programs.parts, set, parts);
+            }
         }
         if plan.exact_slab != 0 {
             work.write(plan.exact_slab, kept.set_count);
@@ -257,7 +289,7 @@ impl KeptTextures {
         work.write(0, kept.set_count);
         if plan.depth_slab != 0 {
             work.flood(subject.foot_axis);
-            work.distances(CHANNEL_OUTSIDE);
+            work.distances(CHANNEL_OUTSIDE, 0);
             work.write(plan.depth_slab, 0);
         }
     }
@@ -551,11 +583,24 @@ impl<'a> Work<'a> {
         self.gpu.queue.submit([encoder.finish()]);
     }
 
-    /// Signed distances of one channel.
-    fn distances(&self, channel: u32) {
+    /// Signed distances of the sets that are the connected parts of one, the largest first.
+    fn parts(&self, programs: &PartPrograms, first: u32, parts: u32) {
+        let mut job = self.job;
+        job.channel = first;
+        job.part_count = parts.count_ones();
+        programs.find(self.gpu, self.subject, &job, &self.flood);
+        let sets = (first..CHANNEL_OUTSIDE).filter(|set| parts & (1 << set) != 0);
+        for (set, rank) in sets.zip(1..) {
+            self.distances(set, rank);
+        }
+    }
+
+    /// Signed distances of one channel; `part` is the rank of a connected part, 0 stands for all.
+    fn distances(&self, channel: u32, part: u32) {
         let plan = self.plan;
         let mut job = self.job;
         job.channel = channel;
+        job.part = part;
         // Only where something gives way to a set has a cube to be a box.
         let is_box = !plan.is_cubic || (plan.exact_slab != 0 && channel != CHANNEL_OUTSIDE);
         job.half_box = if is_box { 0.5 } else { 0.0 };

@@ -7,6 +7,7 @@ pub(crate) mod inputs;
 pub(crate) mod kept;
 pub(crate) mod look;
 pub(crate) mod objects;
+pub(crate) mod parts;
 pub(crate) mod programs;
 pub(crate) mod rigid;
 pub(crate) mod skip_grid;

@@ -87,10 +87,7 @@ impl RigidMotions {
         ];
         of_templates.extend(held.entries());
         let groups = [
-            vec![
-                entry(0, subject.buffer.as_entire_binding()),
-                entry(2, wgpu::BindingResource::Sampler(&subject.sampler)),
-            ],
+            subject.kept_entries(),
             of_templates,
             vec![
                 entry(0, motions.as_entire_binding()),
