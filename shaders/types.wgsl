@@ -282,6 +282,8 @@ struct Lattice {
     side: f32,
     /// Points that are followed.
     count: u32,
+    /// Number of the dispatch where a program takes several, from 0.
+    dispatch: u32,
 }
 
 /// What a template reaches, for the making of the skip grid. Template space, of the straight box; a side without an end

@@ -145,30 +145,22 @@ fn open_blocks(@builtin(global_invocation_id) at: vec3u) {
 /// Spreads the outside along one axis (`job.axis`), both ways; one line for each invocation.
 @compute @workgroup_size(8, 8, 1)
 fn sweep(@builtin(global_invocation_id) id: vec3u) {
-    let axis = job.axis;
-    let across = select(select(job.coarse.xy, job.coarse.xz, axis == 1u), job.coarse.yz, axis == 0u);
-    if any(id.xy >= across) {
-        return;
-    }
-    let start = select(select(vec3u(id.xy, 0u), vec3u(id.x, 0u, id.y), axis == 1u), vec3u(0u, id.xy), axis == 0u);
-    let stride = select(select(job.coarse.x * job.coarse.y, job.coarse.x, axis == 1u), 1u, axis == 0u);
-    let count = select(select(job.coarse.z, job.coarse.y, axis == 1u), job.coarse.x, axis == 0u);
-    let first = coarse_index(start);
+    let line = line_at(id.xy);
     var is_out = false;
-    for (var i = 0u; i < count; i++) {
-        let state = flood[first + i * stride];
+    for (var i = 0u; i < line.count; i++) {
+        let state = flood[line.first + i * line.stride];
         is_out = state == OUTSIDE || (is_out && state == OPEN);
         if is_out && state == OPEN {
-            flood[first + i * stride] = OUTSIDE;
+            flood[line.first + i * line.stride] = OUTSIDE;
         }
     }
     is_out = false;
-    for (var k = 0u; k < count; k++) {
-        let i = count - 1u - k;
-        let state = flood[first + i * stride];
+    for (var k = 0u; k < line.count; k++) {
+        let i = line.count - 1u - k;
+        let state = flood[line.first + i * line.stride];
         is_out = state == OUTSIDE || (is_out && state == OPEN);
         if is_out && state == OPEN {
-            flood[first + i * stride] = OUTSIDE;
+            flood[line.first + i * line.stride] = OUTSIDE;
         }
     }
 }

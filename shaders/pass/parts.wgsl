@@ -47,32 +47,24 @@ fn mark_parts(@builtin(global_invocation_id) at: vec3u) {
 /// Takes the least number along one axis (`job.axis`), both ways; one line for each invocation.
 @compute @workgroup_size(8, 8, 1)
 fn spread_parts(@builtin(global_invocation_id) id: vec3u) {
-    let axis = job.axis;
-    let across = select(select(job.coarse.xy, job.coarse.xz, axis == 1u), job.coarse.yz, axis == 0u);
-    if any(id.xy >= across) {
-        return;
-    }
-    let start = select(select(vec3u(id.xy, 0u), vec3u(id.x, 0u, id.y), axis == 1u), vec3u(0u, id.xy), axis == 0u);
-    let stride = select(select(job.coarse.x * job.coarse.y, job.coarse.x, axis == 1u), 1u, axis == 0u);
-    let count = select(select(job.coarse.z, job.coarse.y, axis == 1u), job.coarse.x, axis == 0u);
-    let first = coarse_index(start);
-    let link = 1u << (FIRST_LINK + axis);
+    let line = line_at(id.xy);
+    let link = 1u << (FIRST_LINK + job.axis);
     // The least number of what is connected so far; 0: nothing is.
     var least = 0u;
-    for (var i = 0u; i < count; i++) {
-        let word = owners[first + i * stride];
+    for (var i = 0u; i < line.count; i++) {
+        let word = owners[line.first + i * line.stride];
         let own = word & ~LINKS;
         least = select(own, min(own, least), least != 0u);
-        owners[first + i * stride] = (word & LINKS) | least;
+        owners[line.first + i * line.stride] = (word & LINKS) | least;
         least = select(0u, least, (word & link) != 0u);
     }
     least = 0u;
-    for (var k = 0u; k < count; k++) {
-        let i = count - 1u - k;
-        let word = owners[first + i * stride];
+    for (var k = 0u; k < line.count; k++) {
+        let i = line.count - 1u - k;
+        let word = owners[line.first + i * line.stride];
         let own = word & ~LINKS;
         least = select(own, min(own, least), least != 0u && (word & link) != 0u);
-        owners[first + i * stride] = (word & LINKS) | least;
+        owners[line.first + i * line.stride] = (word & LINKS) | least;
     }
 }
 

@@ -5,7 +5,7 @@
 // the same for all points in that region"): the least-squares motion over all of its voxels. A voxel is a box full of
 // tissue and not a point, so that one voxel has a motion too, that of the map about it.
 //
-// One workgroup per group and set.
+// One workgroup per group and set (`lattice.dispatch` is 1).
 //
 //   rest space                                     deformed space
 //   +--+--+--+--+       +--+--+--+--+              +-----+-----+
@@ -24,12 +24,15 @@
 // The rotation is that of the greatest eigenvalue of a matrix of the pairs' moments (Horn 1987, "Closed-form solution
 // of absolute orientation using unit quaternions", section 4), by Jacobi's rotations.
 //
-// Constraints by coordinate: the longest displacement of any material of the subject, found on lattices about each
-// template and about the subject, then climbed from the longest of each lane.
+// Constraints by coordinate: the longest displacement of any material of the subject, looked for on lattices about each
+// template and about the subject in a dispatch of its own (`lattice.dispatch` is 0 in it), 64 workgroups a group, then
+// climbed to from the longest of each of them. Many lanes with short loops: lavapipe ends all loops of a shader after
+// 65,535 turns, and each question along a curve takes a turn for each of its segments.
 //
 // Differs from the source: there a template's coordinate is held still over the region, kind by kind; this asks nothing
 // of the kind.
-// needs: types.wgsl affine.wgsl bind/templates.wgsl bind/kept.wgsl displace/compose.wgsl march/kept.wgsl
+// needs: types.wgsl affine.wgsl bind/templates.wgsl bind/kept.wgsl displace/curve.wgsl displace/compose.wgsl
+//   march/kept.wgsl
 
 /// What is found, as the end of `Kept` has it.
 struct Fitted {
@@ -44,6 +47,9 @@ struct Fitted {
 @group(3) @binding(0) var<storage, read_write> found: Fitted;
 /// The box of the deformed object: a corner, and cells of one side.
 @group(3) @binding(1) var<uniform> lattice: Lattice;
+/// Per group (at the index of its head) 64 places from which the climb to the longest displacement begins; w: how long
+/// it is there.
+@group(3) @binding(2) var<storage, read_write> climb_starts: array<vec4f, 2048>;
 
 /// Cells along each side of a lattice that looks for the segment at rest, and how often it is looked for.
 const SEEK_SIDE: u32 = 24u;
@@ -189,30 +195,56 @@ fn lattice_count(bits: u32) -> u32 {
 }
 
 /// A place in a lattice over the deformed space, by its part of each side: in the first of the lattices that over the
-/// object, then for each template one that reaches as far beyond its box as this is wide, and one of the box.
+/// object, then for each template one that reaches as far beyond its box as this is wide, and one of the box, both laid
+/// along its curve if it has one.
 fn place_in_lattice(part: vec3f, turn: u32, bits: u32) -> vec3f {
     var left = bits;
     for (var k = 3u; k <= turn; k += 2u) {
         left &= left - 1u;
     }
     let i = firstTrailingBit(max(left, 1u));
-    let in_template = select(part * 3.0 - 1.0, part * 1.1 - 0.05, (turn & 1u) == 0u);
+    var in_template = select(part * 3.0 - 1.0, part * 1.1 - 0.05, (turn & 1u) == 0u);
+    // A box that is laid along a curve may have little in common with the straight one.
+    if (drawn_kinds & DRAWN_CURVES) != 0u {
+        let curve = templates.items[i].curve;
+        if curve != 0u {
+            in_template = bend(curve, templates.items[i].size.xyz, in_template);
+        }
+    }
     let about = apply_affine(templates.items[i].subject_from_template, in_template);
     return select(about, lattice.corner.xyz + part * vec3f(lattice.cells.xyz) * lattice.side, turn == 0u);
 }
 
-/// The longest displacement of any material by the templates of a mask; known to the first lane. 0 if it is not asked.
-fn longest_way(bits: u32, is_asked: bool, lane: u32) -> f32 {
+/// Looks for the longest displacement of any material in one of 64 parts of the lattices, and keeps it as a start.
+fn seek_longest(head: u32, part: u32, lane: u32) {
+    let bits = bits_of(head);
+    let is_asked = kept.items[head].constraint == CONSTRAIN_COORDINATE && bits != 0u;
     var best = vec4f(0.0);
-    let all = vec3f(lattice.cells.xyz) * lattice.side;
-    var step = vec3f(max(all.x, max(all.y, all.z)) / 32.0);
     for (var turn = 0u; turn < lattice_count(bits); turn++) {
-        for (var k = select(PLACES, lane, is_asked); k < PLACES; k += 64u) {
+        for (var k = select(PLACES, 64u * part + lane, is_asked); k < PLACES; k += 4096u) {
             let pos = place_in_lattice(evenly(k), turn, bits);
             let way = length_of_way(pos, bits);
             best = select(best, vec4f(pos, way), way > best.w);
         }
     }
+    sources[lane] = best;
+    workgroupBarrier();
+    if is_asked && lane == 0u {
+        for (var k = 1u; k < 64u; k++) {
+            best = select(best, sources[k], sources[k].w > best.w);
+        }
+        climb_starts[64u * head + part] = best;
+    }
+}
+
+/// The longest displacement of any material by the templates of a group; known to the first lane. 0 if it is not asked.
+fn longest_way(head: u32, bits: u32, is_asked: bool, lane: u32) -> f32 {
+    var best = vec4f(0.0);
+    if is_asked {
+        best = climb_starts[64u * head + lane];
+    }
+    let all = vec3f(lattice.cells.xyz) * lattice.side;
+    var step = vec3f(max(all.x, max(all.y, all.z)) / 32.0);
     // Uphill, by steps along the axes and in all directions, halved where none of a dozen goes higher: the longest
     // often lies at a side of the subject or in a thin layer.
     for (var climb = select(CLIMBS * 4u, 0u, is_asked); climb < CLIMBS * 4u; climb++) {
@@ -335,13 +367,17 @@ fn rest_from_sample() -> Affine {
 
 @compute @workgroup_size(64)
 fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    if lattice.dispatch == 0u {
+        seek_longest(group.x, group.y, lane);
+        return;
+    }
     let head = group.x >> 2u;
     let sets = 1u << (group.x & 3u);
     let item = kept.items[head];
     let bits = bits_of(head);
     let is_asked = item.constraint == CONSTRAIN_RIGID && (item.gives_way_to & sets) != 0u && bits != 0u;
     let asks_longest = item.constraint == CONSTRAIN_COORDINATE && sets == 1u && bits != 0u;
-    let longest = longest_way(bits, asks_longest, lane);
+    let longest = longest_way(head, bits, asks_longest, lane);
     let exact = kept.exact_slab;
 
     // The box of the segment at rest, in samples.

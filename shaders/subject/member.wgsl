@@ -13,6 +13,27 @@ fn coarse_index(at: vec3u) -> u32 {
     return at.x + job.coarse.x * (at.y + job.coarse.y * at.z);
 }
 
+/// The samples of a line along one axis: index of the first, from one to the next, and how many.
+struct SampleLine {
+    first: u32,
+    stride: u32,
+    count: u32,
+}
+
+/// The line along `job.axis` at a place across it; beyond the samples it has none.
+fn line_at(across: vec2u) -> SampleLine {
+    let axis = job.axis;
+    let size = job.coarse.xyz;
+    let sides = select(select(size.xy, size.xz, axis == 1u), size.yz, axis == 0u);
+    if any(across >= sides) {
+        return SampleLine(0u, 0u, 0u);
+    }
+    let x_or_y = select(vec3u(across.x, 0u, across.y), vec3u(0u, across), axis == 0u);
+    let start = select(x_or_y, vec3u(across, 0u), axis == 2u);
+    let stride = select(select(size.x * size.y, size.x, axis == 1u), 1u, axis == 0u);
+    return SampleLine(coarse_index(start), stride, size[axis]);
+}
+
 /// True if a label belongs to the set that is worked on.
 fn is_in_channel(label: u32) -> bool {
     let word = job.label_sets[label >> 5u][(label >> 3u) & 3u];

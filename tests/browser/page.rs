@@ -306,7 +306,7 @@ fn bench_page_ends_in_a_table() {
             .iter()
             .filter_map(|row| row["name"].as_str())
             .collect();
-        assert_eq!(names.len(), 12, "{names:?}");
+        assert_eq!(names.len(), 14, "{names:?}");
         assert_eq!(
             (names[0], frames[0]["ratio"].as_f64()),
             ("undeformed", Some(1.0))

@@ -57,7 +57,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Slice {
             subject_from_pixel, background, grey_scale, grey_offset, mode, samples, marked, marked_from, marked_to,
         }
-        Lattice { corner, cells, side, count }
+        Lattice { corner, cells, side, count, dispatch }
         KeptGroup { keeps, run, gives_way_to, constraint, depth, blend, longest, before, aligned }
         Kept {
             distance_from_rest, distance_dims, spacing, slab_count, exact_slab, depth_slab, parts, is_coarse, label_sets,

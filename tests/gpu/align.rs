@@ -810,7 +810,7 @@ fn constraints_hold_on_every_grid() {
     println!(
         "{asked} points in {documents} documents: {moved} moved, {limited} limited, {through} through kept tissue else"
     );
-    assert!(moved * 10 > asked && limited * 20 > asked && through * 200 > asked);
+    assert!(moved * 10 > asked && limited * 20 > asked && through > 100);
 }
 
 /// The bar with its core kept: the outermost shell goes four fifths of its way and more.

@@ -225,7 +225,7 @@ fn the_longest_displacement_is_found_for_every_kind() {
     let kinds = TemplateKind::FORMULAS
         .into_iter()
         .chain([TemplateKind::Rbf]);
-    let mut asked = 0;
+    let (mut asked, mut wrong) = (0, Vec::new());
     for kind in kinds.filter(|kind| *kind != TemplateKind::Cut) {
         let (mut least, mut most, mut loose) = (f32::INFINITY, 0.0_f32, 0.0_f32);
         for round in 0..rounds {
@@ -244,7 +244,7 @@ fn the_longest_displacement_is_found_for_every_kind() {
             } else if round % 3 == 2 && is_curved_here(kind) {
                 free.curve = Some(random.curve(free.placement.size));
             }
-            let true_longest = longest_asked(&probe, &free, bounds, &mut random);
+            let mut true_longest = longest_asked(&probe, &free, bounds, &mut random);
             if true_longest < 0.01 {
                 continue;
             }
@@ -257,7 +257,17 @@ fn the_longest_displacement_is_found_for_every_kind() {
                 ..free.clone()
             }];
             let found = pollster::block_on(studio.motions(&scene)).expect("what was found");
+            // What is found is asked of the map too: where it is longer, the search here may have missed it.
+            for _ in 0..4 {
+                if found[0].row0[0] > 1.1 * true_longest {
+                    let again = longest_asked(&probe, &free, bounds, &mut random);
+                    true_longest = true_longest.max(again);
+                }
+            }
             let ratio = found[0].row0[0] / true_longest;
+            if !(0.9..1.1).contains(&ratio) {
+                println!("{ratio:.3} of {true_longest:.3}: {free:?}");
+            }
             asked += 1;
             least = least.min(ratio);
             most = most.max(ratio);
@@ -267,9 +277,11 @@ fn the_longest_displacement_is_found_for_every_kind() {
         println!(
             "{kind:?}: {least:.3} to {most:.3} of the longest; the box of it is up to {loose:.2}"
         );
-        assert!(most < 1.1, "{kind:?}: {most} of the longest");
-        assert!(least > 0.9, "{kind:?}: {least} of the longest");
+        if least < 0.9 || most > 1.1 {
+            wrong.push(kind);
+        }
     }
+    assert!(wrong.is_empty(), "not found for {wrong:?}");
     assert!(asked > 40, "only {asked} templates move anything");
 }
 
@@ -279,30 +291,50 @@ fn is_curved_here(kind: TemplateKind) -> bool {
         || matches!(kind, TemplateKind::Poke | TemplateKind::Peel)
 }
 
-/// The longest displacement of what lies in a box, found by asking at random, and then ever closer about the longest.
+/// The longest displacement of what lies in a box, found by asking at random, and then ever closer about the longest of
+/// several regions.
 fn longest_asked(probe: &Probe, free: &PlacedTemplate, bounds: Aabb, random: &mut Random) -> f32 {
+    /// Regions, and how far they are apart at least.
+    const REGIONS: usize = 8;
+    const APART: f32 = 0.06;
     let list = std::slice::from_ref(free);
     let all = deformed_bounds(list, &Resources::default(), bounds);
-    let (mut best, mut longest) = (Vec3::ZERO, 0.0_f32);
-    for turn in 0..8 {
-        let reach = 0.1 * 0.4_f32.powi(turn - 1);
-        let points: Vec<Vec3> = (0..if turn == 0 { 30_000 } else { 800 })
-            .map(|i| match (turn, i % 3) {
-                (0, 0) => random.vector(-0.7, 0.7),
-                (0, 1) => all.min + all.size() * random.vector(0.0, 1.0),
-                (0, _) => free.subject_from_template(random.vector(-0.3, 1.6)),
-                _ => best + random.vector(-reach, reach),
-            })
-            .collect();
-        for (pos, sample) in points.iter().zip(ask(probe, free, &points)) {
-            let way = sample.pos_in_rest.distance(*pos);
+    let ways = |points: &[Vec3]| -> Vec<f32> {
+        let way = |(pos, sample): (&Vec3, Sample)| {
             let is_there = sample.continuity >= 0.0 && bounds.contains(sample.pos_in_rest);
-            if is_there && way > longest {
-                (best, longest) = (*pos, way);
+            f32::from(u8::from(is_there)) * sample.pos_in_rest.distance(*pos)
+        };
+        let found = ask(probe, free, points);
+        points.iter().zip(found).map(way).collect()
+    };
+    let points: Vec<Vec3> = (0..40_000)
+        .map(|i| match i % 3 {
+            0 => random.vector(-0.7, 0.7),
+            1 => all.min + all.size() * random.vector(0.0, 1.0),
+            _ => free.subject_from_template(random.vector(-0.3, 1.6)),
+        })
+        .collect();
+    let mut by_way: Vec<(f32, Vec3)> = ways(&points).into_iter().zip(points).collect();
+    by_way.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut best: Vec<(f32, Vec3)> = Vec::new();
+    for (way, pos) in by_way {
+        if best.len() < REGIONS && best.iter().all(|(_, other)| other.distance(pos) > APART) {
+            best.push((way, pos));
+        }
+    }
+    for turn in 0..8 {
+        let reach = 0.1 * 0.4_f32.powi(turn);
+        let points: Vec<Vec3> = (0..200 * best.len())
+            .map(|i| best[i % best.len()].1 + random.vector(-reach, reach))
+            .collect();
+        for (i, (way, pos)) in ways(&points).into_iter().zip(points).enumerate() {
+            let region = i % best.len();
+            if way > best[region].0 {
+                best[region] = (way, pos);
             }
         }
     }
-    longest
+    best.iter().map(|(way, _)| *way).fold(0.0, f32::max)
 }
 
 fn ask(probe: &Probe, template: &PlacedTemplate, points: &[Vec3]) -> Vec<Sample> {

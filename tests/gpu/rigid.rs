@@ -143,8 +143,9 @@ fn forward(list: &[Placed], rest: DVec3) -> Option<DVec3> {
     })
 }
 
-/// Places of the tissue of a segment at rest: the middles of its voxels, or where these are few, eight to the cube in
-/// each, for a voxel is a box full of tissue.
+/// Places of the tissue of a segment at rest: the middles of its voxels, or where these are few, those of cells in
+/// each, for a voxel is a box full of tissue. (64 cells have 15/16 of its moments, which turns five voxels by 0.1
+/// degrees.)
 fn tissue_of(volume: &Volume, number: u8) -> Vec<DVec3> {
     let labels = Labels::new(volume);
     let rest_from_voxel = volume.grid.subject_from_voxel();
@@ -156,7 +157,10 @@ fn tissue_of(volume: &Volume, number: u8) -> Vec<DVec3> {
             UVec3::new(i % dims.x, i / dims.x % dims.y, i / (dims.x * dims.y)).as_dvec3()
         })
         .collect();
-    let parts = if members.len() < 200 { 4 } else { 1 };
+    let parts = (1..=16_u32)
+        .rev()
+        .find(|parts| members.len() * parts.pow(3) as usize <= 12_000)
+        .unwrap_or(1);
     let part = |i: u32| (f64::from(i % parts) + 0.5) / f64::from(parts) - 0.5;
     let cells =
         (0..parts.pow(3)).map(|i| DVec3::new(part(i), part(i / parts), part(i / parts / parts)));
@@ -283,8 +287,10 @@ fn rigid_balls_follow_whatever_their_size() {
             let bent = alone
                 .map(|(p, s)| wanted.rest(p).distance(s))
                 .fold(0.0, f64::max);
+            // Some kinds leave it where it is, and what is small is hardly bent.
+            let stays = wanted.rest(center).distance(center) < 1e-9;
             assert!(
-                free.kind == TemplateKind::Move || radius < 0.05 || bent > 1e-4,
+                free.kind == TemplateKind::Move || stays || radius < 0.05 || bent > 1e-4,
                 "{what}: {bent}"
             );
         }

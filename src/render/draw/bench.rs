@@ -2,8 +2,8 @@ use super::clock::Clock;
 use super::studio::Studio;
 use crate::data::{Resources, Subject, Surface};
 use crate::document::{
-    Align, BodyKind, Document, Illustration, ObjectPlacement, ObjectSource, PlacedTemplate,
-    SceneObject, SubjectRef, TemplateKind,
+    Align, BodyKind, Constrain, ConstrainBy, Document, Illustration, ObjectPlacement, ObjectSource,
+    PlacedTemplate, SceneObject, SubjectRef, TemplateKind,
 };
 use crate::math::Placement;
 use crate::render::device::error::RenderError;
@@ -106,7 +106,8 @@ pub const BENCH_REPEATS: usize = 7;
 /// The eight templates read from the baked map, as while the camera moves.
 const BAKED: &str = "eight, baked";
 
-/// The documents that are measured: nothing, one peel, eight templates of eight kinds.
+/// The documents that are measured with and without the grid: nothing, one peel, eight templates of eight kinds, and
+/// what the peel may do with kept tissue.
 const CASES: [(&str, usize); 6] = [
     ("undeformed", 0),
     ("one peel", 1),
@@ -114,6 +115,11 @@ const CASES: [(&str, usize); 6] = [
     ("peel, surface", 1),
     ("peel, segment", 1),
     (BAKED, 8),
+];
+/// Measured with the grid alone: the peel gives way to bone, and takes bone with it as a rigid body.
+const CONSTRAINED: [(&str, ConstrainBy); 2] = [
+    ("peel, gives way", ConstrainBy::Displacement),
+    ("peel, rigid", ConstrainBy::Rigid),
 ];
 
 /// What is drawn to be measured.
@@ -134,9 +140,9 @@ pub struct BenchMeshes {
 
 /// Times frames (one sample per pixel at rest quality, read back) of a subject, which documents name as `named`:
 /// undeformed, one peel, eight templates, a peel aligned to the surface and to segments, each with and without the
-/// grid; and, if there are `meshes`, of these. After a frame of each that warms up come `repeats` rounds of a frame of
-/// each; the median counts. What is made once per edit, before a frame, is timed apart. `on_progress` hears how much is
-/// measured, 0 to 1.
+/// grid; a peel that gives way to bone, and one of rigid bone; and, if there are `meshes`, of these. After a frame of
+/// each that warms up come `repeats` rounds of a frame of each; the median counts. What is made once per edit, before a
+/// frame, is timed apart. `on_progress` hears how much is measured, 0 to 1.
 ///
 /// # Errors
 /// As [`Studio::render_image`].
@@ -158,6 +164,11 @@ pub async fn bench(
             illustration: aligned_case(named, name, template_count),
         }));
     }
+    cases.extend(CONSTRAINED.map(|(name, by)| Case {
+        name,
+        studio: studio.clone(),
+        illustration: constrained_case(named, by),
+    }));
     let (mut bytes, mut texture_bytes) = (None, 0);
     if let Some(meshes) = meshes {
         let drawn = Studio::new(gpu, &Subject::from(Arc::clone(&meshes.surface)), true)?;
@@ -314,6 +325,18 @@ fn aligned_case(subject: &SubjectRef, name: &str, count: usize) -> Illustration 
             },
             _ => Align::Axis,
         };
+    }
+    illustration
+}
+
+/// The peel with a constraint.
+fn constrained_case(subject: &SubjectRef, by: ConstrainBy) -> Illustration {
+    let mut illustration = case(subject, 1);
+    if let Some(template) = illustration.templates.first_mut() {
+        template.constrain = Some(Constrain {
+            by,
+            keep: vec!["bone".to_owned()],
+        });
     }
     illustration
 }

@@ -61,7 +61,8 @@ impl Follower {
             cells: cells.extend(0).to_array(),
             side,
             count: points.len() as u32,
-            padding: [0; 2],
+            dispatch: 0,
+            padding: 0,
         };
         let padded: Vec<[f32; 4]> = points.iter().map(|p| [p.x, p.y, p.z, 0.0]).collect();
         let lattice_buffer = uniform_buffer(gpu, "lattice", &lattice);

@@ -761,8 +761,10 @@ pub struct Lattice {
     pub side: f32,
     /// Points that are followed.
     pub count: u32,
+    /// Number of the dispatch where a program takes several, from 0.
+    pub dispatch: u32,
     /// To the end of the row.
-    pub padding: [u32; 2],
+    pub padding: u32,
 }
 
 /// What a template reaches, for the making of the skip grid.

@@ -8,7 +8,7 @@ use crate::render::device::buffers::{result_buffer, uniform_buffer};
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
 use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
-use crate::render::pack::gpu_types::{Kept, Lattice, MAX_MOTIONS};
+use crate::render::pack::gpu_types::{Kept, Lattice, MAX_MOTIONS, MAX_TEMPLATES};
 use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::stamps::MadeFrom;
 use crate::render::subject::textures::SubjectTextures;
@@ -17,6 +17,10 @@ use std::mem::offset_of;
 
 /// Bytes of what is found: the motions and the seams, to the end of the uniform.
 const BYTES: u64 = (size_of::<Kept>() - offset_of!(Kept, motions)) as u64;
+
+/// Places for each group from which its longest displacement is climbed to.
+const STARTS: u32 = 64;
+const CLIMB_STARTS: u64 = MAX_TEMPLATES as u64 * STARTS as u64 * size_of::<[f32; 4]>() as u64;
 
 /// Cells along the longest side of the box that the deformed object lies in.
 const CELLS: f32 = 48.0;
@@ -67,7 +71,7 @@ impl RigidMotions {
         let view = wgpu::BindingResource::TextureView;
         let bounds = *inputs.bounds.get();
         let side = bounds.size().max_element() / CELLS;
-        let lattice = Lattice {
+        let lattice = |dispatch| Lattice {
             corner: bounds.min.extend(0.0).to_array(),
             cells: (bounds.size() / side)
                 .ceil()
@@ -77,28 +81,32 @@ impl RigidMotions {
                 .to_array(),
             side,
             count: 0,
-            padding: [0; 2],
+            dispatch,
+            padding: 0,
         };
-        let lattice = uniform_buffer(gpu, "deformed box", &lattice);
+        let climb_starts = result_buffer(gpu, "starts of climbs", CLIMB_STARTS);
         let mut of_templates = vec![
             entry(0, templates.as_entire_binding()),
             entry(5, kept_textures.uniform.as_entire_binding()),
             entry(6, view(&kept_textures.view)),
         ];
         of_templates.extend(held.entries());
-        let groups = [
-            subject.kept_entries(),
-            of_templates,
-            vec![
+        let groups = [subject.kept_entries(), of_templates];
+        let mut encoder = encoder(gpu);
+        // Where displacements are longest first, then the rest, which begins there.
+        for (dispatch, workgroups) in [
+            (0, [MAX_TEMPLATES as u32, STARTS, 1]),
+            (1, [MAX_MOTIONS as u32, 1, 1]),
+        ] {
+            let lattice = uniform_buffer(gpu, "deformed box", &lattice(dispatch));
+            let found = vec![
                 entry(0, motions.as_entire_binding()),
                 entry(1, lattice.as_entire_binding()),
-            ],
-        ];
-        let mut encoder = encoder(gpu);
-        {
+                entry(2, climb_starts.as_entire_binding()),
+            ];
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(&pipeline);
-            for (i, entries) in groups.iter().enumerate() {
+            for (i, entries) in groups.iter().chain([&found]).enumerate() {
                 let index = i as u32 + 1;
                 let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                     label: Some("rigid"),
@@ -107,7 +115,8 @@ impl RigidMotions {
                 });
                 pass.set_bind_group(index, &group, &[]);
             }
-            pass.dispatch_workgroups(MAX_MOTIONS as u32, 1, 1);
+            let [x, y, z] = workgroups;
+            pass.dispatch_workgroups(x, y, z);
         }
         let offset = offset_of!(Kept, motions) as u64;
         encoder.copy_buffer_to_buffer(&motions, 0, &kept_textures.uniform, offset, BYTES);
