@@ -4,7 +4,7 @@ use super::harness::{Session, Tab};
 use super::surfaces::{surface_of, surface_within};
 use super::*;
 use fabrica::data::{FieldSamples, Grid, Resources, Subject, Surface, Volume, VolumeBuilder};
-use fabrica::document::{Illustration, TemplateData};
+use fabrica::document::{Illustration, Lesson, ObjectSource, TemplateData};
 use fabrica::load::{FieldUse, OneFile, read_field};
 use fabrica::subjects::{FINE_RESOLUTION, tool};
 use glam::DVec3;
@@ -16,6 +16,8 @@ use std::sync::Arc;
 const SIZE: [u32; 2] = [112, 84];
 const RESOLUTION: u32 = 64;
 const SAMPLES: u32 = 4;
+/// Pixels beside each other that differ by so much (255ths) lie at a silhouette or at the border of two colours.
+const SILHOUETTE: u8 = 24;
 
 /// A document that both sides draw.
 struct Case {
@@ -436,9 +438,35 @@ fn ball_in(document: &Value) -> Subject {
     subject.with_meshes(Some(surface_within("ball.obj", bytes, [-half, half])))
 }
 
+/// A tool that carves, half way of what a step does to it: its place, its wound, and the tissue that gives way.
+#[test]
+fn a_tool_that_carves_is_drawn_under_way_as_natively() {
+    compare_scene(
+        r##"{"fabrica":1,"subject":{"src":"ball.obj"},
+            "look":{"body":"solid","layers":[{"depth":0,"color":"#b8433a"},{"depth":0.05,"color":"#f2e3b3"}]},
+            "objects":[{"src":"ball.obj","name":"knife","at":[0,0.9,0.3],"size":0.5,"opacity":0.2}],
+            "templates":[{"kind":"carve","params":{"object":"knife","push":0.03,"reach":0.15}}],
+            "steps":[{"set":{"/objects/0/at":[0,0.3,0.1]},"seconds":2}],
+            "camera":{"rotate":[0.3,0.2,0.1,0.92]}}"##,
+        &["/templates/0"],
+        (300, 460),
+        Some(0.5),
+    );
+}
+
 /// Draws a document of the bumpy ball in a page of this size (CSS pixels) and natively. Without each of `about` the
 /// picture is another.
 fn compare_ball(json: &'static str, about: &'static [&'static str], page_size: (u32, u32)) {
+    compare_scene(json, about, page_size, None);
+}
+
+/// As [`compare_ball`]; with a `place`, at that part of the passage to the first step.
+fn compare_scene(
+    json: &'static str,
+    about: &'static [&'static str],
+    page_size: (u32, u32),
+    place: Option<f32>,
+) {
     with_browser(BrowserGpu::Software, move |session| async move {
         let bytes = bumpy_ball().into_bytes();
         session.server.add("ball.obj", bytes.clone());
@@ -446,6 +474,9 @@ fn compare_ball(json: &'static str, about: &'static [&'static str], page_size: (
             .coarse_viewer(&format!("#{}", payload(json)), page_size)
             .await;
         tab.settled().await;
+        if let Some(place) = place {
+            scrub(&tab, place).await;
+        }
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
 
         let ball = surface_of("ball.obj", bytes);
@@ -455,27 +486,90 @@ fn compare_ball(json: &'static str, about: &'static [&'static str], page_size: (
         let knife = tool("scalpel").expect("it is generated");
         let knife = Surface::new(&knife, None, &mut |_| true).expect("it has a size");
         let shown = Document::from_json(json).expect("a good document");
-        let sources = shown
-            .illustration()
-            .objects
+        let shown = shown.illustration();
+        let (knife, mut beside) = (Arc::new(knife), Arc::clone(&ball));
+        if shown
+            .templates
             .iter()
-            .map(|o| o.source.clone());
+            .any(|t| t.kind == TemplateKind::Carve)
+        {
+            let carving = Surface::clone(&ball).carving(&mut |_| true);
+            beside = Arc::new(carving.expect("not stopped"));
+        }
+        let objects = shown.objects.iter().map(|object| match &object.source {
+            source @ ObjectSource::Builtin(_) => (source.clone(), Arc::clone(&knife)),
+            source @ ObjectSource::File { .. } => (source.clone(), Arc::clone(&beside)),
+        });
         let studio = studio.with_resources(Resources {
-            objects: sources.zip([ball, Arc::new(knife)]).collect(),
+            objects: objects.collect(),
             ..Resources::default()
         });
-        let draw = async |document: &Value| {
+        let draw = async |document: &Value, place: Option<f32>| {
             let document = Document::from_json(&document.to_string()).expect("a good document");
             let size = page.dimensions().into();
-            drawn(&studio, document.illustration(), size).await
+            let Some(place) = place else {
+                return drawn(&studio, document.illustration(), size).await;
+            };
+            let lesson = document.lesson().expect("steps");
+            let [first, second] = [0, 1].map(|step| lesson.at_step(step).expect("a step"));
+            drawn(&studio, &Lesson::between(first, second, place), size).await
         };
-        let image = draw(&document).await;
+        let image = draw(&document, place).await;
         let mut plain = Vec::new();
         for pointer in about {
-            plain.push((*pointer, draw(&without(&document, pointer)).await));
+            plain.push((*pointer, draw(&without(&document, pointer), place).await));
+        }
+        if place.is_some() {
+            plain.push(("the passage", draw(&document, Some(0.0)).await));
         }
         let mut findings = Findings::default();
         findings.compare("mesh", &page, &image, &plain);
         assert!(findings.faults.is_empty(), "{}", findings.faults.join("\n"));
+        let (even, off) = apart_in_even_parts(&page, &image);
+        println!("{off} of {even} pixels away from silhouettes differ by more than 1 of 255");
+        assert!(even > 1000 && off == 0, "{off} of {even} pixels differ");
     });
+}
+
+/// Pixels away from silhouettes, and those of them that differ by more than 1 of 255.
+fn apart_in_even_parts(a: &RgbaImage, b: &RgbaImage) -> (usize, usize) {
+    let (width, height) = a.dimensions();
+    let far = |p: &image::Rgba<u8>, q: &image::Rgba<u8>| {
+        let pairs = p.0.iter().zip(q.0);
+        pairs.map(|(p, q)| p.abs_diff(q)).max().unwrap_or(0)
+    };
+    let is_even = |image: &RgbaImage, x: u32, y: u32| {
+        let own = image.get_pixel(x, y);
+        let around = (0..9).map(|i| image.get_pixel(x + i % 3 - 1, y + i / 3 - 1));
+        own.0[..3] != WHITE
+            && around
+                .map(|other| far(own, other))
+                .all(|far| far < SILHOUETTE)
+    };
+    let (mut even, mut off) = (0, 0);
+    for (x, y) in (1..width - 1).flat_map(|x| (1..height - 1).map(move |y| (x, y))) {
+        if is_even(a, x, y) && is_even(b, x, y) {
+            even += 1;
+            off += usize::from(far(a.get_pixel(x, y), b.get_pixel(x, y)) > 1);
+        }
+    }
+    (even, off)
+}
+
+/// Brings the lesson to a place between its start and its first step, and waits until the picture rests there.
+async fn scrub(tab: &Tab, place: f32) {
+    let list = "window.fabrica.viewer.mirrored()";
+    // Nothing is listed before the first call.
+    let _asked: String = tab.eval(list).await;
+    tab.frames(2).await;
+    let slider = "Place in the lesson";
+    let script = format!(
+        "(() => {{
+            const found = JSON.parse({list} || '[]').find((control) => control.name === '{slider}' && control.max !== null);
+            if (found) window.fabrica.viewer.act(found.id, 'number', '{place}');
+            return found !== undefined;
+        }})()"
+    );
+    tab.wait_until(&script, 30).await;
+    tab.settled().await;
 }

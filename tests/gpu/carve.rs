@@ -3,7 +3,7 @@
 
 use std::sync::{Arc, LazyLock};
 
-use fabrica::data::{Mesh, MeshPart, Resources, Surface};
+use fabrica::data::{Mesh, Resources, Surface};
 use fabrica::document::Document;
 use fabrica::placed;
 use fabrica::render::{Probe, Sample};
@@ -12,51 +12,10 @@ use glam::{DMat3, DVec3, Vec3};
 use crate::carved::{Ball, Brick, Solid, carve};
 use crate::gpu::gpu;
 use crate::scatter::Random;
-use crate::surfaces::brick_mesh;
-
-/// A closed ball of triangles, radius 50 mm.
-fn ball() -> Mesh {
-    const RINGS: u32 = 96;
-    let around = 2 * RINGS;
-    let mut positions = vec![Vec3::new(0.0, 0.0, -50.0), Vec3::new(0.0, 0.0, 50.0)];
-    for ring in 1..RINGS {
-        let theta = std::f64::consts::PI * f64::from(ring) / f64::from(RINGS);
-        for side in 0..around {
-            let phi = std::f64::consts::TAU * f64::from(side) / f64::from(around);
-            let (sin, cos) = theta.sin_cos();
-            let place = DVec3::new(sin * phi.cos(), sin * phi.sin(), -cos) * 50.0;
-            positions.push(place.as_vec3());
-        }
-    }
-    let at = |ring: u32, side: u32| 2 + (ring - 1) * around + side % around;
-    let mut triangles = Vec::new();
-    for side in 0..around {
-        triangles.push([0, at(1, side + 1), at(1, side)]);
-        triangles.push([1, at(RINGS - 1, side), at(RINGS - 1, side + 1)]);
-        for ring in 1..RINGS - 1 {
-            let [a, b] = [at(ring, side), at(ring, side + 1)];
-            let [c, d] = [at(ring + 1, side), at(ring + 1, side + 1)];
-            triangles.extend([[a, b, c], [b, d, c]]);
-        }
-    }
-    whole(positions, triangles)
-}
-
-fn whole(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
-    let parts = vec![MeshPart {
-        name: "tool".to_owned(),
-        triangles: 0..triangles.len(),
-    }];
-    Mesh {
-        positions,
-        triangles,
-        parts,
-        ..Mesh::default()
-    }
-}
+use crate::surfaces::{ball_mesh, brick_mesh};
 
 /// The ball, made ready once for all tests: of 36,480 triangles that takes seconds.
-static BALL: LazyLock<Arc<Surface>> = LazyLock::new(|| carving(&ball()));
+static BALL: LazyLock<Arc<Surface>> = LazyLock::new(|| carving(&ball_mesh(96)));
 
 fn carving(mesh: &Mesh) -> Arc<Surface> {
     let surface = Surface::new(mesh, None, &mut |_| true).expect("it has a size");

@@ -20,6 +20,7 @@ mod meshes;
 mod objects;
 mod probes;
 mod rigid;
+mod shells;
 mod slices;
 mod textures;
 

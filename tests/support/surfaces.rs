@@ -82,3 +82,39 @@ pub(crate) fn brick_mesh(half: Vec3) -> Mesh {
         ..Mesh::default()
     }
 }
+
+/// A closed ball of triangles, radius 50 mm, in so many rings from pole to pole, twice as many sides around.
+pub(crate) fn ball_mesh(rings: u32) -> Mesh {
+    let around = 2 * rings;
+    let mut positions = vec![Vec3::new(0.0, 0.0, -50.0), Vec3::new(0.0, 0.0, 50.0)];
+    for ring in 1..rings {
+        let theta = std::f64::consts::PI * f64::from(ring) / f64::from(rings);
+        for side in 0..around {
+            let phi = std::f64::consts::TAU * f64::from(side) / f64::from(around);
+            let (sin, cos) = theta.sin_cos();
+            let place = DVec3::new(sin * phi.cos(), sin * phi.sin(), -cos) * 50.0;
+            positions.push(place.as_vec3());
+        }
+    }
+    let at = |ring: u32, side: u32| 2 + (ring - 1) * around + side % around;
+    let mut triangles = Vec::new();
+    for side in 0..around {
+        triangles.push([0, at(1, side + 1), at(1, side)]);
+        triangles.push([1, at(rings - 1, side), at(rings - 1, side + 1)]);
+        for ring in 1..rings - 1 {
+            let [a, b] = [at(ring, side), at(ring, side + 1)];
+            let [c, d] = [at(ring + 1, side), at(ring + 1, side + 1)];
+            triangles.extend([[a, b, c], [b, d, c]]);
+        }
+    }
+    let parts = vec![MeshPart {
+        name: "ball".to_owned(),
+        triangles: 0..triangles.len(),
+    }];
+    Mesh {
+        positions,
+        triangles,
+        parts,
+        ..Mesh::default()
+    }
+}
