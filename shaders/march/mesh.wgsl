@@ -125,6 +125,8 @@ const CROSSES: u32 = 7u;
 const FACES: u32 = 8u;
 /// Looks for the inner wall of a shell on a step.
 const SINKS: u32 = 9u;
+/// Looks whether a shell is there where the ray goes in through its lid.
+const RIMS: u32 = 10u;
 
 /// The last place before something changes between two places of a ray, and the first behind it.
 struct Edge {
@@ -387,6 +389,8 @@ fn question_of(ray: Ray, walk: ptr<function, MeshWalk>, errand: ptr<function, Er
         asked.fills = select(select(2u, 1u, is_alone), 0u, asked.at.continuity < 0.0);
     } else if task == SINKS {
         asked.fills = 2u;
+    } else if task == RIMS {
+        asked.fills = 1u;
     }
     return asked;
 }
@@ -460,6 +464,15 @@ fn conclude(ray: Ray, walk: ptr<function, MeshWalk>, errand: ptr<function, Erran
     return met;
 }
 
+/// True for the triangles of a lid of a shell.
+fn is_lid_of_shell(triangle: u32) -> bool {
+    if triangle == NO_TRIANGLE {
+        return false;
+    }
+    let owner = owner_of(triangle);
+    return owner >= LID && mesh_look.segments[owner & ~LID].kind == BODY_THICK;
+}
+
 /// Marches to the next thing that the ray meets.
 fn next_met(ray: Ray, walk: ptr<function, MeshWalk>, steps: ptr<function, u32>) -> Met {
     var met = met_nothing((*walk).here, 0u);
@@ -467,7 +480,10 @@ fn next_met(ray: Ray, walk: ptr<function, MeshWalk>, steps: ptr<function, u32>) 
     errand.task = select(PLANS, STARTS, (*walk).is_at_eye && ray.t_start <= 0.0);
     errand.mask = 0xffffffffu;
     (*walk).is_at_eye = false;
+    // A lid of a shell that is crossed: if the shell is there, its rim is met.
+    var rim = met;
     while !met.is_met {
+        let is_at_rim = errand.task == RIMS;
         if errand.task == PLANS {
             if *steps >= MAX_STEPS || (*walk).here.t >= ray.t_end {
                 break;
@@ -494,11 +510,22 @@ fn next_met(ray: Ray, walk: ptr<function, MeshWalk>, steps: ptr<function, u32>) 
             var crossing = TriangleCrossing(NO_TRIANGLE, 1.0, vec3f(0.0), false);
             while asked.searches {
                 asked.searches = false;
-                crossing = first_crossing(asked.start, asked.end, asked.skipped);
+                crossing = first_crossing(asked.start, asked.end, asked.skipped, true);
             }
             if errand.task != PLANS {
                 met = conclude(ray, walk, &errand, asked.at, filled, crossing);
             }
+            if is_at_rim {
+                met = rim;
+                met.is_met = filled.x == rim.segment;
+            }
+        }
+        if met.is_met && !is_at_rim && is_lid_of_shell(met.triangle) {
+            rim = met;
+            met.is_met = false;
+            errand.task = select(PLANS, RIMS, rim.is_front);
+            errand.edge.behind = rim.at;
+            errand.edge.behind.pos -= LEAST_JUMP * face_of(rim.triangle);
         }
     }
     return met;

@@ -14,7 +14,7 @@ fn surface_between(first: vec2f, second: vec2f) -> u32 {
     if min(one.continuity, other.continuity) < 0.0 || distance(one.pos, other.pos) > SLICE_STRETCH * distance(a, b) {
         return NO_TRIANGLE;
     }
-    return first_crossing(one.pos, other.pos, NO_TRIANGLE).triangle;
+    return first_crossing(one.pos, other.pos, NO_TRIANGLE, false).triangle;
 }
 
 /// The triangle whose line lies over a pixel; NO_TRIANGLE for none.

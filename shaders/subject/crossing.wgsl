@@ -1,14 +1,16 @@
 // The triangles that a line meets, as the document has the bodies of a mesh.
 // needs: types.wgsl bind/subject.wgsl bind/mesh_look.wgsl subject/mesh.wgsl
 
-/// True for the triangles of the file, and for those of a lid where the body is full.
-fn is_seen(triangle: u32) -> bool {
+/// True for the triangles of the file, and for those of a lid where the body is full or, if it is said, a shell.
+fn is_seen(triangle: u32, sees_shells: bool) -> bool {
     let owner = owner_of(triangle);
-    return owner < LID || mesh_look.segments[owner & ~LID].kind == BODY_FULL;
+    let kind = mesh_look.segments[owner & ~LID].kind;
+    return owner < LID || kind == BODY_FULL || (sees_shells && kind == BODY_THICK);
 }
 
 /// The first triangle on the way from a place to another, `skipped` left out and lids of bodies that are not full.
-fn first_crossing(start: vec3f, end: vec3f, skipped: u32) -> TriangleCrossing {
+/// `sees_shells`: lids of shells are taken too, at whose rim alone there is something.
+fn first_crossing(start: vec3f, end: vec3f, skipped: u32, sees_shells: bool) -> TriangleCrossing {
     let way = end - start;
     let inverse_way = inverse_of(way);
     var found = TriangleCrossing(NO_TRIANGLE, 1.0, vec3f(0.0), false);
@@ -25,7 +27,7 @@ fn first_crossing(start: vec3f, end: vec3f, skipped: u32) -> TriangleCrossing {
             left--;
             let crossing = crossing_of(triangle, start, way);
             if crossing.triangle != NO_TRIANGLE && crossing.triangle != skipped && crossing.part <= found.part {
-                if is_seen(triangle) {
+                if is_seen(triangle, sees_shells) {
                     found = crossing;
                 }
             }

@@ -149,7 +149,6 @@ fn an_open_hand_is_seen_into_or_closed() {
 
 /// As a shell it has a rim, and is seen into up to its inner wall.
 #[test]
-#[ignore = "rays that go into an open shell through its rim meet nothing there (issue 15)"]
 fn an_open_shell_has_a_rim() {
     check_hand("thick", Meeting::Cut, false, 16);
 }
