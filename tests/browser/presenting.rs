@@ -217,6 +217,10 @@ fn a_frame_is_filled_and_walked_by_fingers() {
         tab.wait_until(&format!("Boolean({})", part(".frame.ready")), 120)
             .await;
         bring_to_front(&tab).await;
+        // A page that is longer than its frame has a scroll bar.
+        let bar = "it.contentWindow.innerWidth - it.contentDocument.documentElement.clientWidth";
+        let lengthen = "it.contentDocument.body.style.minHeight = '2000px'";
+        assert!(tab.eval::<f64>(&format!("({lengthen}, {bar})")).await > 0.0);
         tab.eval::<bool>(&format!("({}.click(), true)", part("[part~=present]")))
             .await;
         tab.wait_until(&format!("Boolean({})", part(".presents .bar")), 20)
@@ -228,6 +232,7 @@ fn a_frame_is_filled_and_walked_by_fingers() {
             ))
             .await;
         assert_eq!([width, height], [350.0, 560.0], "the whole frame");
+        assert_eq!(tab.eval::<f64>(bar).await, 0.0, "without a scroll bar");
         let touch = Touch::new(&tab).await;
         let [x, y]: [f64; 2] = tab
             .eval("(({ x, y }) => [x, y])(it.getBoundingClientRect())")
@@ -260,6 +265,7 @@ fn a_frame_is_filled_and_walked_by_fingers() {
             ))
             .await;
         assert_ne!(focused, "Previous step");
+        assert!(tab.eval::<f64>(bar).await > 0.0, "the page scrolls again");
         tab.assert_no_complaints().await;
     });
 }

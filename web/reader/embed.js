@@ -72,6 +72,8 @@ export class Embed {
   /** A question or a fault stands there that the picture before, which may still be drawn, knows nothing of. */
   #isTold = false;
   #presentation = null;
+  /** Of the page, while its frame is filled. */
+  #overflow = "";
 
   constructor(host, root, step) {
     this.#host = host;
@@ -202,6 +204,9 @@ export class Embed {
       // Where a frame or a device forbids it, the picture fills the frame, over all that the page has.
       const { view } = this.#parts;
       view.classList.add("fills");
+      // What lies below does not scroll, and its scroll bar is no part of the picture.
+      const { style } = document.documentElement;
+      [this.#overflow, style.overflow] = [style.overflow, "hidden"];
       view.popover = "manual";
       view.showPopover();
     }
@@ -212,6 +217,7 @@ export class Embed {
     const { view } = this.#parts;
     view.classList.remove("fills");
     view.removeAttribute("popover");
+    document.documentElement.style.overflow = this.#overflow;
   }
 
   /** Shows the lesson to a room. */
@@ -358,6 +364,7 @@ export class Embed {
     this.#opening += 1;
     clearTimeout(this.#timer);
     this.#presentation?.leave?.();
+    if (this.#parts.view?.classList.contains("fills")) this.#shrink();
     for (const watch of this.#watches) watch();
     this.#watches = [];
     for (const image of this.#host.querySelectorAll(":scope > img[slot=poster]")) image.removeAttribute("slot");
