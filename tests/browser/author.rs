@@ -95,8 +95,7 @@ fn the_path_by_touch_alone() {
 
         // A long press is the right button: the template's menu. A tap above it puts it away.
         let beside = find(&tab, "Picture").await.corner(0.9, 0.3);
-        hand.hold_at(beside).await;
-        let first = find(&tab, "Copy").await;
+        let first = hand.hold_for(beside, "Copy").await;
         tab.picture("touch_5_menu").await;
         hand.tap_at((20.0, first.at.1 - 20.0)).await;
         let open: Vec<String> = controls(&tab).await.into_iter().map(|c| c.name).collect();

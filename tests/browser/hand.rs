@@ -234,17 +234,12 @@ impl<'a> Touch<'a> {
         self.0.frames(3).await;
     }
 
-    /// A finger on a place for so many milliseconds: how long tells a tap from a long press.
-    async fn press_at(&self, at: (f64, f64), milliseconds: u64) {
-        self.touch("touchStart", &[at]).await;
-        pause(milliseconds).await;
-        self.touch("touchEnd", &[]).await;
-        self.0.frames(3).await;
-    }
-
     /// A tap on a place.
     pub(crate) async fn tap_at(&self, at: (f64, f64)) {
-        self.press_at(at, 90).await;
+        self.touch("touchStart", &[at]).await;
+        pause(90).await;
+        self.touch("touchEnd", &[]).await;
+        self.0.frames(3).await;
     }
 
     /// A tap on the control of a name.
@@ -254,9 +249,13 @@ impl<'a> Touch<'a> {
         self.tap_at(control.middle()).await;
     }
 
-    /// A finger rests on a place.
-    pub(crate) async fn hold_at(&self, at: (f64, f64)) {
-        self.press_at(at, 1200).await;
+    /// A finger rests on a place until a control of this name has come.
+    pub(crate) async fn hold_for(&self, at: (f64, f64), name: &str) -> Control {
+        self.touch("touchStart", &[at]).await;
+        let came = find(self.0, name).await;
+        self.touch("touchEnd", &[]).await;
+        self.0.frames(3).await;
+        came
     }
 
     /// Swipes in the drawer until a control stands within it; how many swipes that took.
