@@ -108,7 +108,7 @@ async function main() {
   const query = new URLSearchParams(location.search);
   if (query.has("bench")) {
     early?.worker.terminate();
-    await bench(fabrica, ...["bench", "size"].map((key) => Number.parseInt(query.get(key), 10) || 0));
+    await bench(fabrica, ...["bench", "size", "voxels"].map((key) => Number.parseInt(query.get(key), 10) || 0));
     return;
   }
   const host = fabrica.foreign_document_host();
@@ -174,12 +174,12 @@ function keepFromBrowser(viewer, event) {
 }
 
 /** Frame times in place of the viewer. */
-async function bench(fabrica, repeats, side) {
+async function bench(fabrica, repeats, side, voxels) {
   window.fabrica = { module: fabrica };
   show("Frame times on this device");
   try {
     const { showBench } = await import("./bench.js");
-    window.fabrica.report = await showBench(fabrica, element("remedies"), repeats, side);
+    window.fabrica.report = await showBench(fabrica, element("remedies"), [repeats, side, voxels]);
     document.documentElement.dataset.state = "measured";
   } catch (error) {
     console.error(error);

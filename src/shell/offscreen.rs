@@ -69,8 +69,9 @@ pub async fn render_png(
 }
 
 /// Times frames of the built-in head on this browser's adapter, the rows of `fabrica bench`, and gives the report as
-/// JSON and as text: `[json, text]`. `repeats` frames per row count, of pictures `side_px` wide and high; 0 takes what
-/// the command does. `on_progress` is called with how much is measured, 0 to 1.
+/// JSON and as text: `[json, text]`. `repeats` frames per row count, of pictures `side_px` wide and high and a head of
+/// `resolution` voxels along its longest side; 0 takes what the command does. `on_progress` is called with how much is
+/// measured, 0 to 1.
 ///
 /// # Errors
 /// What is wrong with the subject or the device, in words.
@@ -78,6 +79,7 @@ pub async fn render_png(
 pub async fn bench(
     repeats: u32,
     side_px: u32,
+    resolution: u32,
     on_progress: js_sys::Function,
 ) -> Result<Vec<String>, JsValue> {
     let illustration = Document::new().illustration().clone();
@@ -85,7 +87,11 @@ pub async fn bench(
         return Err("an empty document shows a built-in subject".into());
     };
     let gpu = gpu().await?;
-    let subject = run::make_subject(&run::known_address(), name, FINE_RESOLUTION).await?;
+    let resolution = match resolution {
+        0 => FINE_RESOLUTION,
+        n => n,
+    };
+    let subject = run::make_subject(&run::known_address(), name, resolution).await?;
     let report = crate::render::bench(
         &gpu,
         (&subject, &illustration.subject),

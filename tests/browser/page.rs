@@ -296,7 +296,7 @@ fn page_without_webgpu_names_remedies() {
 #[test]
 fn bench_page_ends_in_a_table() {
     with_browser(BrowserGpu::Software, |session| async move {
-        let tab = session.open("?bench=1&size=48").await;
+        let tab = session.open("?bench=1&size=48&voxels=64").await;
         tab.wait_until("document.documentElement.dataset.state === 'measured'", 300)
             .await;
         let report: serde_json::Value = tab.eval("window.fabrica.report").await;
