@@ -85,7 +85,7 @@ fn a_click_opens_an_example_as_its_link_would() {
     let mut window = Window::open(DESK, CUBE);
     window.click("Examples");
     window.settle();
-    search(&mut window, "tomato");
+    search(&mut window, "bent");
     let name = offered(&window)[0].clone();
     window.click(&format!("Open the example {name}"));
     window.settle();

@@ -149,7 +149,7 @@ fn templates_along_curves_agree_with_the_reference() {
     for kind in TemplateKind::FORMULAS {
         let mut random = Random(0xC0_0001 + kind as u64);
         let mut tally = Tally::default();
-        for _ in 0..60 {
+        for _ in 0..30 {
             let mut template = random.template(kind);
             template.curve = Some(random.curve(template.placement.size));
             let list = [template];

@@ -394,7 +394,7 @@ fn rigid_balls_go_in_even_steps() {
     let steps = if std::env::var_os("FABRICA_LONG").is_some() {
         200
     } else {
-        40
+        20
     };
     let center = DVec3::new(0.0, 0.2, 0.05);
     let volume = balls(48, &[(center, 0.1)]);

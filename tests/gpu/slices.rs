@@ -124,7 +124,7 @@ fn slices_agree_with_the_object_probe() {
 
 #[test]
 fn slices_agree_with_the_object_probe_where_tissue_is_kept() {
-    agree(KEPT, 12, (4_000, 300, 50));
+    agree(KEPT, 6, (2_000, 150, 25));
 }
 
 /// `least`: points compared, of these moved, and points with nothing.
