@@ -163,7 +163,7 @@ fn a_pixel_has_the_segment_that_is_picked_there() {
     let seen = sighting(&studio, &document, 3, size_px);
     let at_step = document.at_step(3).expect("a step");
     let mut n_segments = std::collections::BTreeSet::new();
-    for i in (0..64 * 48).step_by(127) {
+    for i in (0..64 * 48).step_by(61) {
         let pixel = Vec2::new((i % 64) as f32, (i / 64) as f32) + 0.5;
         let pick = pollster::block_on(studio.pick(at_step.illustration(), size_px, pixel));
         let picked = pick
