@@ -10,12 +10,13 @@ const CLICK: f64 = 0.8;
 const QUICK: f64 = 0.25;
 /// Longest time that is made up for, seconds.
 const LONGEST: f64 = 10.0;
-/// Between two frames while a finger is down: so that the wait for the menu of a finger that rests is not taken for a slow frame.
+/// Between two frames while a finger is down: so that the wait for the menu of a finger that rests is not taken for a
+/// slow frame.
 const WATCH: Duration = Duration::from_millis(100);
 
-/// Lets a release end a click, and a move begin a drag, although frames were slow since the press: events do not tell when
-/// within a frame they came. A slow frame counts as the longest quick one, so that a finger that rests opens its menu some
-/// frames later, and a tap or a swipe opens none.
+/// Lets a release end a click, and a move begin a drag, although frames were slow since the press: events do not tell
+/// when within a frame they came. A slow frame counts as the longest quick one, so that a finger that rests opens its
+/// menu some frames later, and a tap or a swipe opens none.
 #[derive(Default)]
 pub(crate) struct SlowClicks {
     /// What slow frames took beyond quick ones since the press, seconds.
