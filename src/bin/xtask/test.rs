@@ -11,23 +11,16 @@ use crate::setup;
 /// The test binaries, fast to slow.
 const BINARIES: [&str; 5] = ["fast", "gpu", "evaluate", "app", "browser"];
 
-/// Parts of tests/app that get a process each: Mesa 22's lavapipe keeps 0.15 GB of every window drawn in a process,
-/// as long as it lives, and half a hundred windows are more than a small machine has.
-const PARTS_OF_APP: [&str; 14] = [
-    "authoring::",
-    "bodies::",
-    "canvas::",
-    "comfort::",
-    "dropping::",
-    "library::",
-    "looking::",
-    "making::",
-    "objects::",
-    "opening::",
-    "screens::",
-    "share::",
-    "steps::",
-    "tissue::",
+/// Parts of tests/app that get a process together: Mesa 22's lavapipe keeps 0.15 GB of every window drawn in a process,
+/// as long as it lives, and half a hundred windows are more than a small machine has. Some two dozen share their
+/// programs, which take long to compile.
+const PARTS_OF_APP: [&[&str]; 6] = [
+    &["authoring::", "bodies::", "canvas::"],
+    &["comfort::", "dropping::", "library::", "share::"],
+    &["looking::", "making::"],
+    &["objects::", "screens::", "steps::"],
+    &["opening::"],
+    &["tissue::"],
 ];
 
 /// Checks, sets up, builds the page and runs all tests; with names, only the test binaries so called.
@@ -73,9 +66,10 @@ fn one(name: &str) -> Outcome {
     match name {
         "app" => {
             let mut rest = vec!["--"];
-            for part in PARTS_OF_APP {
-                run_with(&format!(", {part}"), &[part])?;
-                rest.extend(["--skip", part]);
+            for parts in PARTS_OF_APP {
+                let args = [&["--"], parts].concat();
+                run_with(&format!(", {}", parts.join(" ")), &args)?;
+                rest.extend(parts.iter().flat_map(|part| ["--skip", *part]));
             }
             run_with(", the rest", &rest)
         }
