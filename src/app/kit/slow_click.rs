@@ -84,7 +84,7 @@ mod tests {
     }
 
     /// What the widget met in a frame.
-    #[derive(Debug, PartialEq)]
+    #[derive(Debug)]
     struct Met {
         click: bool,
         drag: bool,
