@@ -41,7 +41,12 @@ impl Session {
             TissueCommand::Select(name) => {
                 let since = self.now;
                 self.tissues.selected = Some(name.clone());
-                self.tissues.glimpse = Some(Glimpse { name, since });
+                self.tissues.is_drawn = false;
+                self.tissues.glimpse = Some(Glimpse {
+                    name,
+                    since,
+                    drawn: None,
+                });
             }
             TissueCommand::Search(text) => self.tissues.search = text,
             TissueCommand::Look(name) => self.tissues.look = name,
@@ -244,11 +249,14 @@ impl Session {
         if panel != Some(Tab::Tissues) {
             self.tissues.making = None;
         }
-        let is_over = self.tissues.glimpse.as_ref().is_some_and(|glimpse| {
-            let seconds = self.now - glimpse.since;
-            seconds > MOST_GLIMPSE_SECONDS || (seconds > GLIMPSE_SECONDS && self.tissues.is_drawn)
-        });
-        if is_over {
+        if let Some(glimpse) = &mut self.tissues.glimpse {
+            let drawn = glimpse.drawn.unwrap_or(self.now);
+            glimpse.drawn = self.tissues.is_drawn.then_some(drawn);
+        }
+        if self
+            .seconds_of_glimpse()
+            .is_some_and(|seconds| seconds < 0.0)
+        {
             self.tissues.glimpse = None;
             self.revision += 1;
         }
@@ -257,7 +265,12 @@ impl Session {
     /// Seconds until a tissue has been shown for long enough.
     pub(super) fn seconds_of_glimpse(&self) -> Option<f64> {
         let glimpse = self.tissues.glimpse.as_ref()?;
-        Some(glimpse.since + GLIMPSE_SECONDS - self.now)
+        let last = glimpse.since + MOST_GLIMPSE_SECONDS;
+        let end = match glimpse.drawn {
+            Some(drawn) => last.min(drawn + GLIMPSE_SECONDS),
+            None => last,
+        };
+        Some(end - self.now)
     }
 }
 
@@ -432,17 +445,17 @@ mod tests {
         run(&mut session, TissueCommand::Select("bone".to_owned()));
         assert_eq!(seen(&session).as_deref(), Some("bone"));
         assert_eq!(session.tissues.selected.as_deref(), Some("bone"));
+        session.advance(3.0);
+        assert_eq!(seen(&session).as_deref(), Some("bone"), "until it is drawn");
         session.tissues.is_drawn = true;
-        session.advance(1.0);
+        session.advance(4.0);
+        session.advance(5.0);
         assert_eq!(seen(&session).as_deref(), Some("bone"), "for a second");
-        session.advance(1.3);
+        session.advance(5.3);
         assert_eq!(seen(&session), None, "for a moment only");
         run(&mut session, TissueCommand::Select("bone".to_owned()));
-        session.tissues.is_drawn = false;
-        session.advance(2.0);
-        assert_eq!(seen(&session).as_deref(), Some("bone"), "until it is drawn");
-        session.advance(10.0);
-        assert_eq!(seen(&session), None, "however long that takes");
+        session.advance(20.1);
+        assert_eq!(seen(&session), None, "though it takes for ever");
     }
 
     /// While the tissue of a new range is looked for, its values are seen; a tissue that is new is waited for.

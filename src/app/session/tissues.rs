@@ -14,10 +14,10 @@ use crate::document::{
 };
 use crate::math::Placement;
 
-/// Seconds for which a tissue is shown whose name was clicked.
+/// Seconds for which the picture of a tissue is shown whose name was clicked.
 pub(super) const GLIMPSE_SECONDS: f64 = 1.2;
-/// Seconds at most where drawing it takes longer.
-pub(super) const MOST_GLIMPSE_SECONDS: f64 = 4.0;
+/// Seconds at most, with those in which it is drawn.
+pub(super) const MOST_GLIMPSE_SECONDS: f64 = 20.0;
 /// Gaps of bone that are closed where voxels are fine enough, mm.
 const CLOSE_MM: f64 = 2.0;
 
@@ -63,6 +63,8 @@ pub struct Glimpse {
     pub name: String,
     /// On the clock of the interface, seconds.
     pub since: f64,
+    /// When its picture became complete, on the same clock.
+    pub drawn: Option<f64>,
 }
 
 /// Something done with tissues.
