@@ -271,6 +271,8 @@ fn an_embed_walks_its_steps_and_takes_values() {
         let before = tab.picture("embed_before_the_loss").await;
         tab.eval::<bool>("(told.length = 0, devices.at(-1).destroy(), true)")
             .await;
+        let stands = "((root) => root.querySelector('.lost .layer')?.style.visibility === 'hidden' && getComputedStyle(root.querySelector('.paper')).display === 'block')(e0.shadowRoot)";
+        tab.wait_until(stands, 20).await;
         tab.wait_until("devices.length === 2 && ledger.devices.size === 1", 60)
             .await;
         rests_at(&tab, "e0", 0).await;
@@ -943,5 +945,32 @@ fn wrong_embeds_say_so_and_leave_the_others_running() {
             ["<u>Lens</u>"],
             "a control without a value is left out"
         );
+
+        // A graphics device that never comes back is told of in each embed, under the last picture. Another source starts
+        // anew.
+        let seen = drawn_pixels(&part_of(&tab, "e5", "before_it_is_gone").await);
+        tab.eval::<bool>("(told.length = 0, navigator.gpu.requestAdapter = async () => null, devices.at(-1).destroy(), true)")
+            .await;
+        let lost = "told.filter(([name, , { message }]) => name === 'error' && message.includes('lost')).length === 2";
+        tab.wait_until(lost, 60).await;
+        let text: String = tab
+            .eval("e5.shadowRoot.querySelector('.words').textContent")
+            .await;
+        assert!(text.contains("lost"), "{text}");
+        let still = drawn_pixels(&part_of(&tab, "e5", "gone").await);
+        assert!(seen > 1000 && still * 10 > seen * 7, "{still} of {seen} px");
+        tab.eval::<bool>(&format!(
+            "(told.length = 0, delete navigator.gpu.requestAdapter, e5.setAttribute('src', '#{}'), true)",
+            payload(PLAIN)
+        ))
+        .await;
+        ready(&tab, 1).await;
     });
+}
+
+/// What is seen of an embed in the page.
+async fn part_of(tab: &Tab, embed: &str, name: &str) -> image::RgbaImage {
+    let [left, top, width, height] = stage(tab, embed).await.map(|px| px as u32);
+    let page = tab.picture(name).await;
+    image::imageops::crop_imm(&page, left, top, width, height).to_image()
 }

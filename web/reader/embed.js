@@ -494,13 +494,14 @@ export class Embed {
 
   /** A frame was drawn. */
   drawn(hasPicture, isDone) {
-    const { captions, layer, marks, stage } = this.#parts;
+    const { captions, layer, marks, stage, view } = this.#parts;
     if (hasPicture) {
       const { reader } = this.#engine;
       marks.show(reader.marks(this.id), this.#words);
       const room = [stage.clientWidth, stage.clientHeight, captions.gap, ...marks.room];
       captions.place(reader.captions(this.id, captions.sizes(), new Float32Array(room)), room[0]);
       layer.style.visibility = "";
+      view.classList.remove("lost");
       this.#parts.before?.remove();
     }
     this.#look();
@@ -511,7 +512,10 @@ export class Embed {
     }
   }
 
-  /** For paper: browsers print nothing of what a graphics device has drawn, unless it is copied in the task that draws. */
+  /**
+   * For paper: browsers print nothing of what a graphics device has drawn, unless it is copied in the task that draws. The copy
+   * also stands for the picture when the device is lost, and with it all that canvases show.
+   */
   #copy() {
     const { canvas } = this.#parts;
     const paper = (this.#parts.paper ??= document.createElement("canvas"));
@@ -660,6 +664,13 @@ export class Embed {
       words.hidden = false;
     }
     this.#tell("error", { message });
+  }
+
+  /** The device is lost. Until there is a new picture the last whole one stands, without captions, which may be ahead of it. */
+  falter() {
+    const { layer, view } = this.#parts;
+    view?.classList.add("lost");
+    if (layer) layer.style.visibility = "hidden";
   }
 
   /** The device is gone for good; another `src` starts anew. */

@@ -12,6 +12,10 @@ const HAS_PICTURE = 1;
 const IS_DONE = 2;
 const IS_MOVING = 4;
 const WAITS = 8;
+/** Before each try to open a lost device again: seconds. A browser may need some to start its own process for graphics anew. */
+const TRIES = [0, 1, 4];
+/** How often a device may be lost in a row before a picture is whole: what is too much for it will be too much again. */
+const MOST_LOSSES = 3;
 
 const beside = (name) => new URL(`../${name}`, import.meta.url).href;
 
@@ -36,13 +40,16 @@ let engine;
  * subject needs, if that is known: it is on its way while the device is opened.
  */
 export async function theEngine(part) {
-  engine ??= start(part).catch((error) => {
-    engine = undefined;
-    throw error;
-  });
-  const found = await engine;
-  found.claims += 1;
-  return found;
+  for (;;) {
+    engine ??= start(part).catch((error) => {
+      engine = undefined;
+      throw error;
+    });
+    const found = await engine;
+    if (!found.reader) continue; // It ended meanwhile.
+    found.claims += 1;
+    return found;
+  }
 }
 
 async function start(part) {
@@ -73,6 +80,8 @@ class Engine {
   /** Embeds that have asked for the engine and have not added their picture yet. */
   claims = 0;
   #restarting = Promise.resolve();
+  /** Devices lost since a picture was whole. */
+  #losses = 0;
   #embeds = new Set();
   #frame = 0;
   /** The picture that was used last keeps its memory on the device; the others give it back when they are complete. */
@@ -193,28 +202,40 @@ class Engine {
     embed.waits = Boolean(flags & WAITS);
     embed.isDirty = !(flags & IS_DONE) && !embed.waits;
     embed.drawn(Boolean(flags & HAS_PICTURE), Boolean(flags & IS_DONE));
-    if (flags & IS_DONE && embed !== this.#used) this.reader.rest(embed.id);
+    if (!(flags & IS_DONE)) return;
+    this.#losses = 0;
+    if (embed !== this.#used) this.reader.rest(embed.id);
   }
 
   /** Starts again when the device is lost: the same pictures, the same data. */
   watch() {
-    this.reader.lost().then(async () => {
+    this.reader.lost().then(() => this.#restart());
+  }
+
+  async #restart() {
+    if (!this.reader) return;
+    for (const embed of this.#embeds) embed.falter();
+    this.#losses += 1;
+    for (const wait of this.#losses > MOST_LOSSES ? [] : TRIES) {
+      await new Promise((go) => setTimeout(go, 1000 * wait));
       if (!this.reader) return;
-      this.#restarting = this.reader.restart();
+      const restarting = this.reader.restart();
+      this.#restarting = restarting.catch(() => {});
       try {
-        await this.#restarting;
-        if (!this.reader) return;
-        this.watch();
-        for (const embed of this.#embeds) embed.isDirty = true;
-        this.#schedule();
+        await restarting;
       } catch {
-        this.#restarting = Promise.resolve();
-        const embeds = [...this.#embeds];
-        for (const embed of embeds) {
-          this.remove(embed);
-          embed.lose();
-        }
+        continue;
       }
-    });
+      if (!this.reader) return;
+      this.watch();
+      for (const embed of this.#embeds) embed.isDirty = true;
+      this.#schedule();
+      return;
+    }
+    const embeds = [...this.#embeds];
+    for (const embed of embeds) {
+      this.remove(embed);
+      embed.lose();
+    }
   }
 }

@@ -15,6 +15,8 @@ export const STYLE = `
   .stage.inside { touch-action: none; }
   canvas, .layer, .layer svg, .cover { position: absolute; inset: 0; width: 100%; height: 100%; }
   .paper { display: none; }
+  .lost .paper { display: block; }
+  .lost canvas:not(.paper) { visibility: hidden; }
   .cover.is-poster { background: Canvas; }
   .cover img, .cover ::slotted(img) { display: block; width: 100%; height: 100%; object-fit: contain; }
   .layer { pointer-events: none; z-index: 1; font-size: 13px; }
