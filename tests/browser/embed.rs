@@ -970,6 +970,10 @@ fn wrong_embeds_say_so_and_leave_the_others_running() {
 
 /// What is seen of an embed in the page.
 async fn part_of(tab: &Tab, embed: &str, name: &str) -> image::RgbaImage {
+    tab.eval::<bool>(&format!(
+        "({embed}.shadowRoot.querySelector('.stage').scrollIntoView(), true)"
+    ))
+    .await;
     let [left, top, width, height] = stage(tab, embed).await.map(|px| px as u32);
     let page = tab.picture(name).await;
     image::imageops::crop_imm(&page, left, top, width, height).to_image()
