@@ -30,6 +30,18 @@ fn apply_to_extent(map: Affine, half: vec3f) -> vec3f {
     return vec3f(dot(abs(map.row0.xyz), half), dot(abs(map.row1.xyz), half), dot(abs(map.row2.xyz), half));
 }
 
+/// The map back.
+fn inverse_of(map: Affine) -> Affine {
+    let columns = mat3x3f(
+        cross(map.row1.xyz, map.row2.xyz),
+        cross(map.row2.xyz, map.row0.xyz),
+        cross(map.row0.xyz, map.row1.xyz),
+    ) * (1.0 / dot(map.row0.xyz, cross(map.row1.xyz, map.row2.xyz)));
+    let rows = transpose(columns);
+    let offset = -(columns * offset_of(map));
+    return Affine(vec4f(rows[0], offset.x), vec4f(rows[1], offset.y), vec4f(rows[2], offset.z));
+}
+
 /// Where the map takes the origin.
 fn offset_of(map: Affine) -> vec3f {
     return vec3f(map.row0.w, map.row1.w, map.row2.w);

@@ -33,15 +33,29 @@ fn crack_middle(y: f32, z: f32, size: vec3f, p0: vec4f, p1: vec4f) -> f32 {
     return clamp(middle, CRACK_MARGIN, 1.0 - CRACK_MARGIN);
 }
 
+/// How far each wall of the crack goes where it has the room, at a place of the cube.
+fn crack_opening(y: f32, z: f32, p0: vec4f) -> f32 {
+    let from_middle = 2.0 * y - 1.0;
+    let deep = clamp((z - 1.0 + p0.z) / max(p0.z, 1e-6), 0.0, 1.0);
+    return 0.5 * p0.x * (1.0 - p0.y * from_middle * from_middle) * deep;
+}
+
+/// A place just inside of a wall of the crack as it is drawn apart: what goes farthest at this height and depth.
+fn wall_of_crack(y: f32, z: f32, is_left: bool, size: vec3f, p0: vec4f, p1: vec4f) -> vec3f {
+    let high = min(z, 1.0);
+    let middle = crack_middle(y, high, size, p0, p1);
+    let room = select(1.0 - middle, middle, is_left);
+    let away = min(crack_opening(y, high, p0), CRACK_MOST * room) + 1e-5;
+    return vec3f(middle + select(away, -away, is_left), y, z);
+}
+
 /// p0: amount, lens, depth, roughness; p1: grain, seed, ripple, cycles.
 fn displace_crack(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     if is_beyond(q, vec3f(0.0), vec3f(1.0, 1.0, NO_END)) {
         return at_rest(q);
     }
     let z = min(q.z, 1.0);
-    let from_middle = 2.0 * q.y - 1.0;
-    let deep = clamp((z - 1.0 + p0.z) / max(p0.z, 1e-6), 0.0, 1.0);
-    let wanted = 0.5 * p0.x * (1.0 - p0.y * from_middle * from_middle) * deep;
+    let wanted = crack_opening(q.y, z, p0);
     if wanted < CLOSED {
         return at_rest(q);
     }

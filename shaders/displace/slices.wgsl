@@ -13,6 +13,13 @@
 //
 // needs: displace/frame.wgsl
 
+/// Where tissue is drawn to, by its place at rest.
+fn carry_slices(rest: vec3f, p0: vec4f) -> vec3f {
+    let count = clamp(floor(p0.x + 0.5), 1.0, 32.0);
+    let k = clamp(floor(rest.z * count), 0.0, count - 1.0);
+    return rest + k * p0.w * vec3f(p0.z, 0.0, p0.y);
+}
+
 /// p0: count, gap, shift, progress.
 fn displace_slices(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
     let count = clamp(floor(p0.x + 0.5), 1.0, 32.0);

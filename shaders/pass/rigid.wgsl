@@ -37,7 +37,8 @@
 /// What is found, as the end of `Kept` has it.
 struct Fitted {
     /// Per group and set (four for each, at the index of its head) the motion, subject space to rest space. Of a group
-    /// that gives way by its coordinate, the longest displacement in the first number of its first.
+    /// that gives way by its coordinate, the longest displacement in the first number of its first, and in the second
+    /// row a place that it leads to, deformed space.
     motions: array<Affine, 128>,
     /// Per group and set how far around the segment other tissue goes with it.
     seams: array<array<f32, 4>, 32>,
@@ -194,15 +195,20 @@ fn lattice_count(bits: u32) -> u32 {
     return 1u + 2u * countOneBits(bits);
 }
 
-/// A place in a lattice over the deformed space, by its part of each side: in the first of the lattices that over the
-/// object, then for each template one that reaches as far beyond its box as this is wide, and one of the box, both laid
-/// along its curve if it has one.
-fn place_in_lattice(part: vec3f, turn: u32, bits: u32) -> vec3f {
+/// The template of a mask that a lattice is about; the first of them for the lattice over the object.
+fn template_of(turn: u32, bits: u32) -> u32 {
     var left = bits;
     for (var k = 3u; k <= turn; k += 2u) {
         left &= left - 1u;
     }
-    let i = firstTrailingBit(max(left, 1u));
+    return firstTrailingBit(max(left, 1u));
+}
+
+/// A place in a lattice over the deformed space, by its part of each side: in the first of the lattices that over the
+/// object, then for each template one that reaches as far beyond its box as this is wide, and one of the box, both laid
+/// along its curve if it has one.
+fn place_in_lattice(part: vec3f, turn: u32, bits: u32) -> vec3f {
+    let i = template_of(turn, bits);
     var in_template = select(part * 3.0 - 1.0, part * 1.1 - 0.05, (turn & 1u) == 0u);
     // A box that is laid along a curve may have little in common with the straight one.
     if (drawn_kinds & DRAWN_CURVES) != 0u {
@@ -215,14 +221,52 @@ fn place_in_lattice(part: vec3f, turn: u32, bits: u32) -> vec3f {
     return select(about, lattice.corner.xyz + part * vec3f(lattice.cells.xyz) * lattice.side, turn == 0u);
 }
 
+/// True for kinds whose longest displacement no lattice over the deformed space is sure to meet: slabs may lie far
+/// apart, and the walls of a crack are jagged and moved the farthest. Where they bring tissue is known from rest.
+fn is_carried(kind: u32) -> bool {
+    let is_slices = (drawn_kinds & DRAWN_SLICES) != 0u && kind == KIND_SLICES;
+    return is_slices || ((drawn_kinds & DRAWN_CRACK) != 0u && kind == KIND_CRACK);
+}
+
+/// A place to which such a template brings tissue, from three numbers from 0 to 1: by slices tissue of anywhere in the
+/// subject, also of its corners, which may be all that the last slab has; by a crack that of its walls.
+fn place_carried(part: vec3f, i: u32) -> vec3f {
+    let size = templates.items[i].size.xyz;
+    let p0 = templates.items[i].params0;
+    let curve = select(0u, templates.items[i].curve, (drawn_kinds & DRAWN_CURVES) != 0u);
+    var q = wall_of_crack(part.y, 3.0 * part.z, part.x < 0.5, size, p0, templates.items[i].params1);
+    if templates.items[i].kind == KIND_SLICES {
+        let inside = clamp(1.2 * part - 0.1, vec3f(1e-4), vec3f(1.0 - 1e-4));
+        let rest = apply_affine(inverse_of(subject.texture_from_rest), inside * subject.texture_end.xyz);
+        q = apply_affine(templates.items[i].template_from_subject, rest);
+        if curve != 0u {
+            q = unbend(curve, size, q).xyz;
+        }
+        q = carry_slices(q, p0);
+    }
+    if curve != 0u {
+        q = bend(curve, size, q);
+    }
+    return apply_affine(templates.items[i].subject_from_template, q);
+}
+
 /// Looks for the longest displacement of any material in one of 64 parts of the lattices, and keeps it as a start.
 fn seek_longest(head: u32, part: u32, lane: u32) {
     let bits = bits_of(head);
     let is_asked = kept.items[head].constraint == CONSTRAIN_COORDINATE && bits != 0u;
     var best = vec4f(0.0);
-    for (var turn = 0u; turn < lattice_count(bits); turn++) {
-        for (var k = select(PLACES, 64u * part + lane, is_asked); k < PLACES; k += 4096u) {
-            let pos = place_in_lattice(evenly(k), turn, bits);
+    let lattices = lattice_count(bits);
+    for (var turn = 0u; turn < lattices + countOneBits(bits); turn++) {
+        let is_lattice = turn < lattices;
+        let i = template_of(1u + 2u * (turn - min(turn, lattices)), bits);
+        let is_due = is_asked && (is_lattice || is_carried(templates.items[i].kind));
+        for (var k = select(PLACES, 64u * part + lane, is_due); k < PLACES; k += 4096u) {
+            var pos = vec3f(0.0);
+            if is_lattice {
+                pos = place_in_lattice(evenly(k), turn, bits);
+            } else {
+                pos = place_carried(evenly(k), i);
+            }
             let way = length_of_way(pos, bits);
             best = select(best, vec4f(pos, way), way > best.w);
         }
@@ -237,8 +281,9 @@ fn seek_longest(head: u32, part: u32, lane: u32) {
     }
 }
 
-/// The longest displacement of any material by the templates of a group; known to the first lane. 0 if it is not asked.
-fn longest_way(head: u32, bits: u32, is_asked: bool, lane: u32) -> f32 {
+/// The longest displacement of any material by the templates of a group, in w, and a place of it; known to the first
+/// lane. 0 if it is not asked.
+fn longest_way(head: u32, bits: u32, is_asked: bool, lane: u32) -> vec4f {
     var best = vec4f(0.0);
     if is_asked {
         best = climb_starts[64u * head + lane];
@@ -263,12 +308,11 @@ fn longest_way(head: u32, bits: u32, is_asked: bool, lane: u32) -> f32 {
     }
     sources[lane] = best;
     workgroupBarrier();
-    var most = 0.0;
     for (var k = 0u; k < 64u; k++) {
-        most = max(most, sources[k].w);
+        best = select(best, sources[k], sources[k].w > best.w);
     }
     workgroupBarrier();
-    return most;
+    return best;
 }
 
 /// A place, and what is there.
@@ -352,17 +396,11 @@ fn has_distance(rest: vec3f) -> bool {
 
 /// The map from samples of distances, counted from a corner of their grid, to rest space.
 fn rest_from_sample() -> Affine {
-    let row0 = kept.distance_from_rest.row0 * kept.distance_dims.x;
-    let row1 = kept.distance_from_rest.row1 * kept.distance_dims.y;
-    let row2 = kept.distance_from_rest.row2 * kept.distance_dims.z;
-    let columns = mat3x3f(
-        cross(row1.xyz, row2.xyz),
-        cross(row2.xyz, row0.xyz),
-        cross(row0.xyz, row1.xyz),
-    ) * (1.0 / dot(row0.xyz, cross(row1.xyz, row2.xyz)));
-    let rows = transpose(columns);
-    let offset = -(columns * vec3f(row0.w, row1.w, row2.w));
-    return Affine(vec4f(rows[0], offset.x), vec4f(rows[1], offset.y), vec4f(rows[2], offset.z));
+    return inverse_of(Affine(
+        kept.distance_from_rest.row0 * kept.distance_dims.x,
+        kept.distance_from_rest.row1 * kept.distance_dims.y,
+        kept.distance_from_rest.row2 * kept.distance_dims.z,
+    ));
 }
 
 @compute @workgroup_size(64)
@@ -557,7 +595,7 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
     products_z[lane] = vec4f(row_z, 0.0);
     workgroupBarrier();
     if asks_longest && lane == 0u {
-        found.motions[group.x] = Affine(vec4f(longest, 0.0, 0.0, 0.0), vec4f(0.0), vec4f(0.0));
+        found.motions[group.x] = Affine(vec4f(longest.w, 0.0, 0.0, 0.0), vec4f(longest.xyz, 0.0), vec4f(0.0));
     }
     if lane > 0u || !is_asked {
         return;
