@@ -316,8 +316,10 @@ fn laid(
             let (samples, _) = file.fit(&given).expect("it fits");
             free.data = TemplateData::Field(FieldRef {
                 sha256: Some(file.sha256.clone()),
+                is_placed: true,
                 ..FieldRef::default()
             });
+            free.params[0] = ParamValue::Number(random.between(0.5, 2.0));
             let key = FieldKey::of(&free).expect("it names a file");
             resources.add_field(key, FieldSamples(Arc::new(samples)));
         }
