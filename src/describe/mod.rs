@@ -18,9 +18,9 @@
 //! # Ok::<(), fabrica::document::DocumentError>(())
 //! ```
 
-mod deeds;
 mod lang;
 mod names;
+mod operations;
 mod sight;
 mod snippet;
 #[cfg(test)]
@@ -28,9 +28,9 @@ mod tests;
 mod text;
 mod view;
 
-pub use deeds::{Deed, Extent};
 pub use lang::{Lang, Line};
 pub use names::{has_patient, segment, subject};
+pub use operations::{Extent, Operation};
 pub use sight::{Seen, Sight};
 pub use snippet::{Snippet, snippet};
 pub use text::{Description, Measured, describe};

@@ -3,9 +3,9 @@
 use glam::Quat;
 use serde_json::{Value, json};
 
-use super::deeds::{Deed, Extent, Ruler, deed, listed};
 use super::lang::{Lang, Line, one_line};
 use super::names::{has_patient, segment_in_sentence, subject_in_sentence};
+use super::operations::{Extent, Operation, Ruler, listed, operation_of};
 use super::sight::Sight;
 use super::view::{Sides, sentence};
 use crate::document::{Document, DocumentError, Illustration, MAX_ALT};
@@ -35,7 +35,7 @@ pub struct Description {
     /// What the author wrote in place of the picture of this step, or empty.
     pub alt: String,
     /// What the templates do, in their order, without those that do nothing.
-    pub deeds: Vec<Deed>,
+    pub operations: Vec<Operation>,
     /// The sides that one looks from.
     pub sides: Sides,
     /// What is in sight, if it was measured.
@@ -76,10 +76,10 @@ pub fn describe(
             .filter(|mm| mm.is_finite() && *mm > 0.0),
         lang,
     };
-    let deeds: Vec<Deed> = shown
+    let operations: Vec<Operation> = shown
         .templates
         .iter()
-        .filter_map(|template| deed(template, ruler))
+        .filter_map(|template| operation_of(template, ruler))
         .collect();
     let sides = Sides::of(measured.turned.unwrap_or(shown.camera.rotate));
     let mut sentences = vec![
@@ -87,7 +87,7 @@ pub fn describe(
         legend.clone(),
     ];
     sentences.push(object(shown, lang));
-    done(&deeds, lang, &mut sentences);
+    done(&operations, lang, &mut sentences);
     drawn(shown, lang, &mut sentences);
     sentences.push(sentence(sides, has_patient(&shown.subject), lang));
     if let Some(sight) = &measured.sight {
@@ -99,7 +99,7 @@ pub fn describe(
         title,
         legend,
         alt: one_line(&alt, MAX_ALT),
-        deeds,
+        operations,
         sides,
         sight: measured.sight.clone(),
         generated: lang.sentences(&sentences),
@@ -122,12 +122,13 @@ impl Description {
 
     /// The same with its numbers, for other programs.
     pub fn to_json(&self) -> Value {
-        let deeds = self.deeds.iter().map(|deed| {
-            let mut value = json!({ "template": deed.index, "kind": deed.kind.spec().name });
-            if !deed.name.is_empty() {
-                value["name"] = json!(deed.name);
+        let operations = self.operations.iter().map(|operation| {
+            let mut value =
+                json!({ "template": operation.index, "kind": operation.kind.spec().name });
+            if !operation.name.is_empty() {
+                value["name"] = json!(operation.name);
             }
-            let (key, number) = match deed.extent {
+            let (key, number) = match operation.extent {
                 None => return value,
                 Some(Extent::Part(part)) => ("part", part),
                 Some(Extent::Angle(degrees)) => ("degrees", degrees),
@@ -143,7 +144,7 @@ impl Description {
             "caption": self.legend,
             "text": self.text(),
             "is_by_author": !self.alt.is_empty(),
-            "done": deeds.collect::<Vec<Value>>(),
+            "done": operations.collect::<Vec<Value>>(),
             "from": self.sides.names(),
         });
         if let Some(sight) = &self.sight {
@@ -196,10 +197,10 @@ fn object(shown: &Illustration, lang: Lang) -> String {
 }
 
 /// What the templates do and leave alone. What all of them leave alone is told once.
-fn done(deeds: &[Deed], lang: Lang, sentences: &mut Vec<String>) {
+fn done(operations: &[Operation], lang: Lang, sentences: &mut Vec<String>) {
     /// Most sentences about templates; if there are more, one fewer is told, and how many others there are.
     const MOST: usize = 8;
-    let Some(first) = deeds.first() else {
+    let Some(first) = operations.first() else {
         let line = [
             "Nothing is deformed",
             "Nichts ist verformt",
@@ -209,27 +210,29 @@ fn done(deeds: &[Deed], lang: Lang, sentences: &mut Vec<String>) {
         sentences.push(lang.of(line).to_owned());
         return;
     };
-    let is_shared = deeds.iter().all(|deed| deed.kept == first.kept);
-    let mut told: Vec<(&Deed, usize)> = Vec::new();
-    for deed in deeds {
-        let same = |(other, _): &&mut (&Deed, usize)| {
-            other.sentence == deed.sentence && other.kept == deed.kept
+    let is_shared = operations
+        .iter()
+        .all(|operation| operation.kept == first.kept);
+    let mut told: Vec<(&Operation, usize)> = Vec::new();
+    for operation in operations {
+        let same = |(other, _): &&mut (&Operation, usize)| {
+            other.sentence == operation.sentence && other.kept == operation.kept
         };
         match told.iter_mut().find(same) {
             Some((_, times)) => *times += 1,
-            None => told.push((deed, 1)),
+            None => told.push((operation, 1)),
         }
     }
     let most = if told.len() > MOST { MOST - 1 } else { MOST };
-    for (deed, times) in told.iter().take(most) {
-        let mut sentence = deed.sentence.clone();
+    for (operation, times) in told.iter().take(most) {
+        let mut sentence = operation.sentence.clone();
         if *times > 1 {
             let line = [" ({0} times)", " ({0}-mal)", " ({0} veces)", "（{0} 次）"];
             sentence.push_str(&lang.fill(line, &[times]));
         }
         sentences.push(sentence);
         if !is_shared {
-            sentences.extend(deed.kept.iter().cloned());
+            sentences.extend(operation.kept.iter().cloned());
         }
     }
     if told.len() > most {

@@ -488,6 +488,27 @@ fn an_embed_is_entered_and_left() {
             .eval("e0.shadowRoot.querySelector('[role=status]').textContent")
             .await;
         assert!(side.starts_with("Seen from"), "{side}");
+        // No key edits, and none opens an editor.
+        tab.eval::<bool>("(told.length = 0, true)").await;
+        for (modifiers, key) in [
+            (0, "Delete"),
+            (0, "Backspace"),
+            (0, "g"),
+            (0, "m"),
+            (2, "z"),
+            (2, "v"),
+        ] {
+            strike(&tab, modifiers, key, None).await;
+        }
+        rests_quietly(&tab).await;
+        let changes: Vec<String> = tab
+            .eval("told.map(([name]) => name).filter((name) => name !== 'viewchange')")
+            .await;
+        assert!(changes.is_empty(), "{changes:?}");
+        let editor: usize = tab
+            .eval("performance.getEntriesByType('resource').filter(({ name }) => name.includes('fabrica_bg.wasm')).length")
+            .await;
+        assert_eq!(editor, 0, "the editor is not fetched");
         strike(&tab, 0, "Escape", None).await;
         assert!(!tab.eval::<bool>(inside).await);
 

@@ -270,6 +270,8 @@ fn mangled_links_are_read() {
             format!("#{head}\n{tail}&step=2"),
             format!("{own}/?utm=mail#{link}&step=2"),
             format!("{own}/?s={link}&step=2&fbclid=x"),
+            format!("#{link}&step=2?a=b"),
+            format!("{own}/#{link}?a=b&step=2"),
         ];
         let embeds: Vec<String> = forms
             .iter()
@@ -281,6 +283,43 @@ fn mangled_links_are_read() {
             .eval("Promise.all([import('./reader/embed.js'), import('./reader/engine.js')]).then(async ([{ sourceOf }, { bindings }]) => { const { outline_of: outline } = await bindings(); return [...document.querySelectorAll('fabrica-viewer')].map((it) => { try { return JSON.parse(outline(sourceOf(it.getAttribute('src')).text, location.href)).step; } catch (error) { return String(error); } }); })")
             .await;
         assert_eq!(found, vec![serde_json::json!(2); forms.len()]);
+        // The same for the address of a frame.
+        for rest in [
+            format!("?s={link}&amp;step=2"),
+            format!("?a=b#{link}&amp;step=2"),
+        ] {
+            let tab = session
+                .open_coarse(&format!("embed.html{rest}"), (320, 400))
+                .await;
+            tab.wait_until("document.querySelector('fabrica-viewer').step === 2", 120)
+                .await;
+            tab.page.close().await.expect("the tab closes");
+        }
+    });
+}
+
+/// A frame without an origin, on a host that keeps its scripts to its own pages: nothing runs there, and a sentence
+/// says what to set.
+#[test]
+fn a_frame_whose_scripts_are_refused_says_so() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.server.keep_to_itself("reader/frame.js");
+        let link = payload(LESSON);
+        let frame = format!(
+            "<iframe id=it sandbox=allow-scripts width=300 height=400 src=\"embed.html#{link}\"></iframe>"
+        );
+        let tab = open_host(&session, &frame).await;
+        tokio::time::sleep(std::time::Duration::from_secs(9)).await;
+        let page = tab.picture("frame_without_scripts").await;
+        let [left, top, width, height]: [f64; 4] = tab
+            .eval(
+                "(({ x, y, width, height }) => [x, y, width, height])(it.getBoundingClientRect())",
+            )
+            .await;
+        let [left, top, width, height] = [left, top, width, height].map(|px| px as u32);
+        let below = image::imageops::crop_imm(&page, left, top + height / 2, width, height / 2);
+        let letters = below.to_image().pixels().filter(|p| p.0[0] < 128).count();
+        assert!(letters > 300, "{letters} dark pixels of a sentence");
     });
 }
 

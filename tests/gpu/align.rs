@@ -1008,7 +1008,8 @@ fn moved_tissue_is_guarded_where_it_is() {
     ];
     let mut random = Random(0x0b01_71cb);
     let count = if std::env::var_os("FABRICA_LONG").is_some() {
-        20_000
+        // Half of them lie in the ball.
+        40_000
     } else {
         4000
     };

@@ -230,13 +230,16 @@ fn rigid_balls_follow_whatever_their_size() {
         size: Vec3::splat(size),
     };
     let center = DVec3::new(0.08, 0.05, -0.03);
-    let mut moved_far = PlacedTemplate::new(TemplateKind::Move, box_of(Vec3::ZERO, 0.8));
-    // By 1.5 units.
-    moved_far.params = vec![
-        ParamValue::Vector(Vec3::new(1.5, 0.9, 0.4)),
-        ParamValue::Rotation(Quat::from_rotation_y(2.8)),
-    ];
-    let mut cases = vec![moved_far];
+    // By 1.5 units, in a box that holds the ball.
+    let moved_far = |size: f32| {
+        let mut moved = PlacedTemplate::new(TemplateKind::Move, box_of(Vec3::ZERO, size));
+        moved.params = vec![
+            ParamValue::Vector(Vec3::new(1.5, 0.9, 0.4).normalize() * (1.5 / size)),
+            ParamValue::Rotation(Quat::from_rotation_y(2.8)),
+        ];
+        moved
+    };
+    let mut cases = Vec::new();
     let of_kind = |kind, size| PlacedTemplate::new(kind, box_of(Vec3::ZERO, size));
     cases.extend([
         of_kind(TemplateKind::Twist, 1.4),
@@ -253,11 +256,8 @@ fn rigid_balls_follow_whatever_their_size() {
         let studio = studio_of(gpu(), &volume, false);
         let labels = Labels::new(&volume);
         let tissue = tissue_of(&volume, 1);
-        for free in &cases {
-            if free.kind == TemplateKind::Move && radius > 0.2 {
-                // It would not fit into the box that is moved.
-                continue;
-            }
+        let far = moved_far(if radius > 0.2 { 1.0 } else { 0.8 });
+        for free in cases.iter().chain([&far]) {
             let wanted = wanted_motion(free, &tissue);
             let rigid = giving_way(free.clone(), ConstrainBy::Rigid, "ball");
             let at: Vec<Vec3> = (0..400)

@@ -31,7 +31,8 @@ export function sourceOf(src) {
   const hash = text.indexOf("#");
   const query = new URLSearchParams(text.split("#")[0].split("?")[1] ?? "");
   if (query.has("s")) return { text: `#${query.get("s")}${query.has("step") ? `&step=${query.get("step")}` : ""}` };
-  if (hash >= 0 && hash + 1 < text.length) return { text: text.slice(hash) };
+  // A payload has no question mark: what a platform has put behind it is none of ours.
+  if (hash >= 0 && hash + 1 < text.length) return { text: text.slice(hash).replace(/\?[^&]*/g, "") };
   if (query.has("doc")) {
     const page = new URL(text, document.baseURI);
     return { address: new URL(query.get("doc"), page).href, step: Number(query.get("step") ?? NaN) };

@@ -2,7 +2,8 @@
 // (embed.html?doc=…). It makes no history entries and stores nothing.
 //
 // The page around it may speak to it by messages, if `?parent=` names that page's origin (several are parted by commas):
-//   { fabrica: 1, type: "command", id, name, args }   name: next, previous, play, pause, reset, setParam, toDataURL, step, steps
+//   { fabrica: 1, type: "command", id, name, args }   name: next, previous, play, pause, reset, present, setParam,
+//                                                    toDataURL, step, steps
 //   { fabrica: 1, type: "result", id, value } or { …, error }
 //   { fabrica: 1, type: "event", name, detail }        ready, stepchange, paramchange, viewchange, error
 // Its height is told to every parent, as { fabrica: 1, type: "height", height } and as learning platforms understand it:
@@ -10,9 +11,13 @@
 
 import "../fabrica-viewer.js";
 
+// The scripts came: no words about those that do not.
+document.querySelector(".late")?.remove();
+
 const VERSION = 1;
 const viewer = document.querySelector("fabrica-viewer");
-const query = new URLSearchParams(location.search);
+// Some platforms write `&amp;` in an address for `&`.
+const query = new URLSearchParams(location.search.replace(/&(amp;)+/g, "&"));
 const parents = (query.get("parent") ?? "").split(",").map((text) => text.trim()).filter((text) => !["", "*", "/"].includes(text));
 const isFramed = window.parent !== window;
 
@@ -55,6 +60,7 @@ const COMMANDS = {
   play: () => viewer.play(),
   pause: () => viewer.pause(),
   reset: () => viewer.reset(),
+  present: () => viewer.present(),
   step: (step) => {
     if (step !== undefined) viewer.step = step;
     return viewer.step;

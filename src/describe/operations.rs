@@ -7,7 +7,7 @@ use crate::document::{
 
 /// What one template of a document does.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Deed {
+pub struct Operation {
     /// Index in the document's `templates`.
     pub index: usize,
     /// The kind of template.
@@ -68,7 +68,7 @@ const OF_LONGEST: Line = [
 ];
 
 /// What a template does; `None` if it is switched off or changes nothing.
-pub(super) fn deed(placed: &PlacedTemplate, ruler: Ruler) -> Option<Deed> {
+pub(super) fn operation_of(placed: &PlacedTemplate, ruler: Ruler) -> Option<Operation> {
     let template = placed.acting();
     if !template.enabled {
         return None;
@@ -96,7 +96,7 @@ pub(super) fn deed(placed: &PlacedTemplate, ruler: Ruler) -> Option<Deed> {
     if !name.is_empty() {
         sentence.push_str(&lang.fill([" (“{0}”)", " („{0}“)", " («{0}»)", "（“{0}”）"], &[&name]));
     }
-    Some(Deed {
+    Some(Operation {
         index: placed.index,
         kind: placed.kind,
         name: placed.name.clone(),
