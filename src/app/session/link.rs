@@ -57,6 +57,7 @@ impl Session {
             }
             (Ok(()), Copied::Snippet) => {
                 self.notify(Gravity::Success, share::w().on_clipboard, "");
+                self.tell_own_file();
             }
             (Ok(()), Copied::Link) => {
                 self.copied_at = Some(self.now);
@@ -65,7 +66,15 @@ impl Session {
                     let text = fill(w.link_long, &[&self.payload.len()]);
                     self.notify(Gravity::Warning, text, "");
                 }
+                self.tell_own_file();
             }
+        }
+    }
+
+    /// Says so where others cannot open what was copied.
+    fn tell_own_file(&mut self) {
+        if self.needs_own_file() {
+            self.notify(Gravity::Warning, share::w().local, "");
         }
     }
 

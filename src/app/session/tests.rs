@@ -470,6 +470,20 @@ fn a_copied_link_is_told_and_ends_the_hint() {
 }
 
 #[test]
+fn a_copied_link_that_others_cannot_open_is_told() {
+    let own = format!(
+        r#"{{ "fabrica": 1, "subject": {{ "sha256": "{}", "name": "scan.nrrd" }} }}"#,
+        "5c".repeat(32)
+    );
+    let mut session = session_of(&own);
+    let _effects = run(&mut session, Command::CopyLink);
+    session.copied(Ok(()));
+    assert_eq!(last_notice(&session), Some(Gravity::Warning));
+    session.copied(Err("no".to_owned()));
+    assert_eq!(last_notice(&session), Some(Gravity::Error));
+}
+
+#[test]
 fn a_saved_document_is_named_for_its_title() {
     let effects = run(&mut lesson(), Command::SaveDocument);
     let [Effect::Save(file)] = &effects[..] else {
