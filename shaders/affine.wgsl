@@ -31,7 +31,7 @@ fn apply_to_extent(map: Affine, half: vec3f) -> vec3f {
 }
 
 /// The map back.
-fn inverse_of(map: Affine) -> Affine {
+fn inverse_affine(map: Affine) -> Affine {
     let columns = mat3x3f(
         cross(map.row1.xyz, map.row2.xyz),
         cross(map.row2.xyz, map.row0.xyz),

@@ -237,7 +237,7 @@ fn place_carried(part: vec3f, i: u32) -> vec3f {
     var q = wall_of_crack(part.y, 3.0 * part.z, part.x < 0.5, size, p0, templates.items[i].params1);
     if templates.items[i].kind == KIND_SLICES {
         let inside = clamp(1.2 * part - 0.1, vec3f(1e-4), vec3f(1.0 - 1e-4));
-        let rest = apply_affine(inverse_of(subject.texture_from_rest), inside * subject.texture_end.xyz);
+        let rest = apply_affine(inverse_affine(subject.texture_from_rest), inside * subject.texture_end.xyz);
         q = apply_affine(templates.items[i].template_from_subject, rest);
         if curve != 0u {
             q = unbend(curve, size, q).xyz;
@@ -396,7 +396,7 @@ fn has_distance(rest: vec3f) -> bool {
 
 /// The map from samples of distances, counted from a corner of their grid, to rest space.
 fn rest_from_sample() -> Affine {
-    return inverse_of(Affine(
+    return inverse_affine(Affine(
         kept.distance_from_rest.row0 * kept.distance_dims.x,
         kept.distance_from_rest.row1 * kept.distance_dims.y,
         kept.distance_from_rest.row2 * kept.distance_dims.z,
