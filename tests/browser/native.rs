@@ -10,6 +10,7 @@ use fabrica::subjects::{FINE_RESOLUTION, tool};
 use glam::DVec3;
 use image::RgbaImage;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::Arc;
 
@@ -236,6 +237,8 @@ struct Native {
     gpu: Gpu,
     /// The last subject, by name and resolution.
     held: Option<((String, u32), Studio, Grid)>,
+    /// Pictures by their documents: without what it is about, many a case is the same.
+    drawn: BTreeMap<String, RgbaImage>,
 }
 
 impl Native {
@@ -247,7 +250,11 @@ impl Native {
         let gpu = Gpu::open(&options).await;
         let gpu = gpu.expect("a Vulkan device, lavapipe is enough");
         println!("native: {} {}", gpu.info.name, gpu.info.driver_info);
-        Self { gpu, held: None }
+        Self {
+            gpu,
+            held: None,
+            drawn: BTreeMap::new(),
+        }
     }
 
     fn subject(&mut self, name: &str, resolution: u32) -> (Studio, Grid) {
@@ -263,10 +270,16 @@ impl Native {
     }
 
     async fn draw(&mut self, document: &Value) -> RgbaImage {
+        let text = document.to_string();
+        if let Some(image) = self.drawn.get(&text) {
+            return image.clone();
+        }
         let name = document["subject"]["builtin"].as_str().expect("a name");
         let (studio, _) = self.subject(name, RESOLUTION);
-        let document = Document::from_json(&document.to_string()).expect("a good document");
-        drawn(&studio, document.illustration(), SIZE).await
+        let document = Document::from_json(&text).expect("a good document");
+        let image = drawn(&studio, document.illustration(), SIZE).await;
+        self.drawn.insert(text, image.clone());
+        image
     }
 
     /// The picture of a case, and those without what it is about.
