@@ -13,7 +13,7 @@
 use crate::firm::{BOUND, difference, firm};
 use crate::gpu::gpu;
 use crate::reference::as_reference;
-use crate::scatter::{Random, defaults, placed};
+use crate::scatter::{Random, defaults, long_or, placed};
 use fabrica::data::Resources;
 use fabrica::document::{Curve, ParamValue, PlacedTemplate, TemplateKind, TemplateMode};
 use fabrica::math::{Aabb, Placement};
@@ -149,7 +149,7 @@ fn templates_along_curves_agree_with_the_reference() {
     for kind in TemplateKind::FORMULAS {
         let mut random = Random(0xC0_0001 + kind as u64);
         let mut tally = Tally::default();
-        for _ in 0..30 {
+        for _ in 0..long_or(60, 30) {
             let mut template = random.template(kind);
             template.curve = Some(random.curve(template.placement.size));
             let list = [template];

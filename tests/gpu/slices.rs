@@ -12,7 +12,7 @@ use fabrica::subjects::FINE_RESOLUTION;
 use glam::{DVec3, Vec2, Vec3};
 
 use crate::gpu::{builtin, software, studio_of};
-use crate::scatter::Random;
+use crate::scatter::{Random, long_or};
 
 /// Pixels along a side of each random slice.
 const SIDE: u32 = 24;
@@ -124,7 +124,8 @@ fn slices_agree_with_the_object_probe() {
 
 #[test]
 fn slices_agree_with_the_object_probe_where_tissue_is_kept() {
-    agree(KEPT, 6, (2_000, 150, 25));
+    let (slices, least) = long_or((12, (4_000, 300, 50)), (6, (2_000, 150, 25)));
+    agree(KEPT, slices, least);
 }
 
 /// `least`: points compared, of these moved, and points with nothing.
