@@ -10,6 +10,7 @@ mod carve;
 mod cli;
 mod coarse;
 mod describe;
+mod exported;
 mod fields;
 mod grid;
 mod icons;
