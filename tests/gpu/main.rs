@@ -23,6 +23,7 @@ mod probes;
 mod rigid;
 mod shells;
 mod slices;
+mod splines;
 mod textures;
 
 #[path = "../reference/carved.rs"]
