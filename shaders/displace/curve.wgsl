@@ -15,8 +15,9 @@
 // corner its place and its mitre. x and z in subject units from the corner of the straight box.
 //
 // For light the segments of a spline are taken as arcs (`rounds_splines`): the line rises over each segment by a cubic
-// that is square to the mitres at both corners, so that the map has one slope on both sides of a corner and no facets
-// show. What is where stays that of the straight segments.
+// that is square to the mitres at both corners, so that a layer has one slope on both sides of a corner and no facets
+// show. How much the map stretches along the line, 1 + t times the curvature of a segment, still steps from one segment
+// to the next where the line's curvature does. What is where stays that of the straight segments.
 // needs: types.wgsl bind/templates.wgsl displace/frame.wgsl
 
 /// Least length of a segment beside the curve, as a fraction of its length on the curve. This and the next constant

@@ -10,6 +10,8 @@
 //   0 +----/------+
 //     0     ½     1
 //
+// Where m is above 0: (|p - p_i|² + r²)^m, which is the most exact where it is largest.
+//
 // Differs from the source: A is a distance and not 0 or 1, so that the cut is found by bisection and has a normal; 1
 // where nothing is displaced. What the sum misses at a point, where points lie too close for 32 bits, is added in a
 // bump (1 - |p - p_i|²/w²)³ up to the next point. Solved by the processor (src/displace/interpolant.rs), which leaves
@@ -55,7 +57,7 @@ fn inner_weight(q: vec3f, edge: f32) -> f32 {
     return s.x * s.y * s.z;
 }
 
-/// A power of a number of at least 1; where there is a function of its own it has less noise.
+/// A power of a number above 0; where there is a function of its own it has less noise.
 fn power(x: f32, exponent: f32) -> f32 {
     if exponent == -0.5 {
         return inverseSqrt(x);
@@ -93,14 +95,16 @@ fn displace_rbf(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Displ
         + templates.pool[from_index + 2u].xyz * middle.y
         + templates.pool[from_index + 3u].xyz * middle.z;
     let exponent = select(p0.z, -0.05, abs(p0.z) < 0.05);
-    let inverse = 1.0 / (p0.y * p0.y);
+    let grows = exponent > 0.0;
+    let inverse = select(1.0 / (p0.y * p0.y), 1.0, grows);
+    let least = select(1.0, p0.y * p0.y, grows);
     for (var i = 0u; i < count; i++) {
         let center = templates.pool[from_index + 4u + 2u * i];
         let way = at - center.xyz;
         let square = dot(way, way);
         var part = 0.0;
         if center.w == 0.0 {
-            part = power(square * inverse + 1.0, exponent);
+            part = power(square * inverse + least, exponent);
         } else {
             let near = max(1.0 - square * center.w, 0.0);
             part = near * near * near;

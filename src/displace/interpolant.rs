@@ -9,15 +9,13 @@ use glam::{DVec2, DVec3, Vec3};
 /// A point that lies nearer than this to one before it is left out, template units: two different displacements at one
 /// place have no smooth interpolant.
 const NEAREST: f64 = 1e-3;
-/// The coefficients of a side are kept below this in sum where the basis falls with the distance: 32-bit floats hold
-/// the result to a few ten thousandths then, and a larger sum is a fold of broad functions that nearly cancel.
-const MOST_FALLING: f64 = 4000.0;
-/// The terms of a side are kept below this in sum at any place where the basis grows with the distance, so that the map
-/// has noise of 1e-5 and not more: a term was measured to have noise of 3e-8 of it where the basis is a square root, of
-/// 1.5e-7 where it is another power.
-const MOST_ROOTS: f64 = 200.0;
-const MOST_POWERS: f64 = 64.0;
-/// A point that is missed by more than this is told of, template units.
+/// The terms of a side, times a strength above 1, are kept below this in sum at any place, so that the map has noise of
+/// 1e-5 and not more between places beside each other: 32-bit terms were measured to have noise of 7e-8 of their sum
+/// where the basis is a square root or its inverse, of 1.4e-7 where it is another power. A larger sum is one of broad
+/// functions that nearly cancel.
+const MOST_ROOTS: f64 = 112.0;
+const MOST_POWERS: f64 = 56.0;
+/// A point that is missed by more than this is told of, subject units.
 const MISSED: f64 = 1e-3;
 /// Least and greatest weight of smallness that is tried where points lie too close for their softness, and how often
 /// the range is halved.
@@ -45,7 +43,7 @@ struct Bump {
 pub struct Missed {
     /// Which of the template's points, from 0.
     pub point: usize,
-    /// By how much, template units.
+    /// By how much, subject units, as the template acts: its strength and its falloffs count.
     pub by: f32,
 }
 
@@ -56,8 +54,9 @@ pub struct Missed {
 /// misses: Wahba 1990, "Spline models for observational data", section 1.3), and what it misses at a point is added in
 /// a bump no wider than the way to the next point. Both change evenly with the points; the points themselves are met.
 ///
-/// Differs from the source: the basis is scaled to 1 at its centre (the same functions with other coefficients); the
-/// linear part is the one of least slope where the points do not determine it (all in a plane, say); the bumps.
+/// Differs from the source: a basis that falls is scaled to 1 at its centre (the same functions with other
+/// coefficients); the linear part is the one of least slope where the points do not determine it (all in a plane, say);
+/// the bumps.
 pub(crate) struct Interpolant {
     sides: Vec<Side>,
     cut: Vec<[DVec2; 2]>,
@@ -162,31 +161,50 @@ impl Interpolant {
         is_right_of(&self.cut, q)
     }
 
-    /// The points of a template that the map misses, with what is missing before strength, falloff and edge count.
-    pub(crate) fn missed(&self, data: &ControlPoints) -> Vec<Missed> {
-        let points = data.points.iter().enumerate();
-        let each = points.map(|(point, given)| {
-            let at = given.at.as_dvec3();
+    /// The points that the map misses in a template of this size. Beyond the box nothing is displaced, and no point is
+    /// missed there.
+    pub(crate) fn missed(&self, given: &Given) -> Vec<Missed> {
+        let points = given.points.iter().flat_map(|data| &data.points);
+        let each = points.enumerate().map(|(point, wanted)| {
+            let at = wanted.at.as_dvec3();
             let side = self.sides.get(usize::from(self.is_right(at)));
             let got = side.map_or(DVec3::ZERO, |s| s.at(flattened(at, &self.p), &self.p));
-            let by = got.distance(given.shift.as_dvec3()) as f32;
+            let lack = (got - wanted.shift.as_dvec3()) * self.weight(at);
+            let by = (lack * given.size.as_dvec3()).length() as f32;
             Missed { point, by }
         });
         each.filter(|missed| f64::from(missed.by) > MISSED)
             .collect()
     }
 
-    /// As the shader has it, for one side.
-    fn displacement(&self, side: usize, q: DVec3) -> DVec3 {
-        let q = q.clamp(DVec3::ZERO, DVec3::ONE);
-        let edge = self.p[5];
-        let mut weight = self.p[0];
+    /// How much of the interpolated displacement counts at a place: the strength, less towards the faces and away from
+    /// the middle as the template says.
+    fn weight(&self, q: DVec3) -> f64 {
+        let [strength, _, _, extrude, falloff, edge, ..] = self.p;
+        if q.cmplt(DVec3::ZERO).any() || q.cmpgt(DVec3::ONE).any() {
+            return 0.0;
+        }
+        let eased = |t: f64| {
+            let t = t.clamp(0.0, 1.0);
+            t * t * (3.0 - 2.0 * t)
+        };
+        let mut weight = strength;
+        if extrude > 0.5 && falloff > 0.0 {
+            let part = ((q.z - 0.5).abs() - 0.5 + 0.5 * falloff) / (0.5 * falloff);
+            weight *= 1.0 - eased(part);
+        }
         if edge > 0.0 {
             for x in q.to_array() {
-                let t = (x.min(1.0 - x) / edge).clamp(0.0, 1.0);
-                weight *= t * t * (3.0 - 2.0 * t);
+                weight *= eased(x.min(1.0 - x) / edge);
             }
         }
+        weight
+    }
+
+    /// As the shader has it, for one side; beyond the faces as at them.
+    fn displacement(&self, side: usize, q: DVec3) -> DVec3 {
+        let q = q.clamp(DVec3::ZERO, DVec3::ONE);
+        let weight = self.weight(q);
         self.sides.get(side).map_or(DVec3::ZERO, |s| {
             s.at(flattened(q, &self.p), &self.p) * weight
         })
@@ -233,9 +251,11 @@ fn flattened(q: DVec3, p: &[f64; MAX_PARAM_FLOATS]) -> DVec3 {
     }
 }
 
-/// The basis at a squared distance, 1 at its centre.
+/// The basis at a squared distance: 1 at its centre where it falls with the distance; 1 about a box away where it
+/// grows. So powers of 32 bits are the most exact where they are largest.
 fn basis(d2: f64, p: &[f64; MAX_PARAM_FLOATS]) -> f64 {
-    libm::pow(d2 / (p[1] * p[1]) + 1.0, exponent(p[2]))
+    let (m, r2) = (exponent(p[2]), p[1] * p[1]);
+    libm::pow(if m > 0.0 { d2 + r2 } else { d2 / r2 + 1.0 }, m)
 }
 
 /// An exponent of 0 is a constant, which interpolates nothing.
@@ -335,7 +355,7 @@ struct System<'a> {
     points: &'a [(DVec3, DVec3)],
     /// Basis of each point at each point, by rows, scaled so that none is above 1.
     basis: Vec<f64>,
-    /// The same at the corners of the box, where a basis that grows is largest.
+    /// The same at the corners of the box, where a basis that grows is largest, by rows.
     at_corners: Vec<f64>,
     /// What the basis was divided by.
     scale: f64,
@@ -351,7 +371,7 @@ struct Solution {
     coefficients: Vec<DVec3>,
     /// For 1, x, y, z about the middle of the box.
     polynomial: [DVec3; 4],
-    /// Greatest sum of the sizes of the terms at a place; where the basis falls, the sum of the coefficients' sizes.
+    /// Greatest sum of the sizes of the terms at a point or a corner.
     terms: f64,
 }
 
@@ -368,11 +388,13 @@ impl<'a> System<'a> {
         let all = |from: DVec3| places().map(move |at| basis(at.distance_squared(from), p));
         let mut at_points: Vec<f64> = places().flat_map(all).collect();
         let mut at_corners: Vec<f64> = corners.flat_map(all).collect();
-        let scale = at_points
-            .iter()
-            .fold(1.0_f64, |most, value| most.max(*value));
+        let scale = at_points.iter().copied().fold(0.0, f64::max);
         at_points.iter_mut().for_each(|value| *value /= scale);
         at_corners.iter_mut().for_each(|value| *value /= scale);
+        let most = match exponent(p[2]).abs() {
+            0.5 => MOST_ROOTS,
+            _ => MOST_POWERS,
+        };
         Self {
             points,
             basis: at_points,
@@ -381,11 +403,7 @@ impl<'a> System<'a> {
             middle,
             radius: if farthest > 1e-9 { farthest } else { 1.0 },
             grows: p[2] > 0.0,
-            most: match exponent(p[2]) {
-                m if m < 0.0 => MOST_FALLING,
-                0.5 => MOST_ROOTS,
-                _ => MOST_POWERS,
-            },
+            most: most / p[0].max(1.0),
         }
     }
 
@@ -416,10 +434,7 @@ impl<'a> System<'a> {
         let sums = places
             .chain(self.at_corners.chunks_exact(n))
             .map(|row| row.iter().zip(sizes()).map(|(basis, a)| basis * a).sum());
-        let terms = match self.grows {
-            true => sums.fold(0.0, f64::max),
-            false => sizes().sum(),
-        };
+        let terms: f64 = sums.fold(0.0, f64::max);
         if !terms.is_finite() {
             return None;
         }

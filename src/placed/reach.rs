@@ -48,15 +48,15 @@ pub fn solved_points(template: &PlacedTemplate) -> Vec<[f32; 4]> {
     Interpolant::of(&given(template, None, None)).pack()
 }
 
-/// The control points of an `rbf` that its map misses, because another point with another displacement stands at the
-/// same place; none for other kinds.
+/// The control points of an `rbf` that its map misses as it acts ([`PlacedTemplate::acting`]), because another point
+/// with another displacement stands at the same place; none for other kinds, and none where it is switched off.
 pub fn missed_points(template: &PlacedTemplate) -> Vec<Missed> {
-    match &template.data {
-        TemplateData::Points(points) => {
-            Interpolant::of(&given(template, None, None)).missed(points)
-        }
-        TemplateData::None | TemplateData::Field(_) | TemplateData::Object(_) => Vec::new(),
+    let template = template.acting();
+    if !template.enabled || !matches!(template.data, TemplateData::Points(_)) {
+        return Vec::new();
     }
+    let given = given(&template, None, None);
+    Interpolant::of(&given).missed(&given)
 }
 
 /// Lines of a lattice on the tissue of an `rbf`'s middle plane (z = ½), as they lie when it is bent, subject space.

@@ -379,6 +379,62 @@ fn control_points_are_dragged_added_and_cut_apart() {
     assert_eq!(points(&window), before, "each was one step of undo");
 }
 
+/// The colour that the middle of a dot has: that of the last full circle that is painted there.
+fn middle_of(window: &Window, dot: &str) -> egui::Color32 {
+    fn collect(shape: &egui::Shape, at: Pos2, found: &mut Option<egui::Color32>) {
+        match shape {
+            egui::Shape::Circle(circle) => {
+                let is_there = circle.center.distance(at) < 0.5;
+                if is_there && circle.fill != egui::Color32::TRANSPARENT {
+                    *found = Some(circle.fill);
+                }
+            }
+            egui::Shape::Vec(shapes) => shapes.iter().for_each(|s| collect(s, at, found)),
+            _ => {}
+        }
+    }
+    let at = window.harness.get_by_label(dot).rect().center();
+    let mut found = None;
+    for clipped in &window.harness.output().shapes {
+        collect(&clipped.shape, at, &mut found);
+    }
+    found.expect("a dot is painted")
+}
+
+#[test]
+fn a_missed_control_point_is_hollow_and_says_by_how_much() {
+    let open = |at: &str, more: &str| {
+        let json = format!(
+            r#"{{ "fabrica": 1, "subject": {{ "builtin": "cube" }}, "templates": [ {{ "kind": "rbf", "size": [0.8, 0.8, 0.8], {more} "params": {{ "points": [
+                {{ "at": [0.7, 0.9, 0.7], "move": [0, 0, -0.2] }}, {{ "at": {at} }}, {{ "at": [0.2, 0.5, 0.2] }} ] }} }} ] }}"#
+        );
+        let mut window = Window::open(DESK, &json);
+        window.click("1. Points");
+        window.settle();
+        window
+    };
+    // At the place of the first point, which is met: its dot lies right under that of the second.
+    let missed = open("[0.7, 0.9, 0.7]", "");
+    let name = "Control point 2, missed by 0.160 subject units";
+    let full = middle_of(&missed, "Control point 3");
+    let (hollow, [r, g, b]) = (middle_of(&missed, name), [full.r(), full.g(), full.b()]);
+    assert_ne!(hollow, full, "another colour than {r} {g} {b}");
+    assert!(hollow.is_opaque(), "the dot under it does not show through");
+    assert!(hollow.g() > g && hollow.b() > b, "light inside: {hollow:?}");
+    assert!(missed.harness.query_by_label("Control point 1").is_some());
+    assert!(missed.harness.query_by_label("Control point 2").is_none());
+    // Apart from it, or where the template is switched off, it is as full as the others.
+    for (at, more) in [
+        ("[0.7, 0.9, 0.4]", ""),
+        ("[0.7, 0.9, 0.7]", r#""enabled": false,"#),
+    ] {
+        let met = open(at, more);
+        let all = ["Control point 1", "Control point 2", "Control point 3"];
+        let colors = all.map(|name| middle_of(&met, name));
+        assert_eq!(colors, [full; 3], "{at} {more}");
+    }
+}
+
 #[test]
 fn a_template_follows_the_surface_and_is_straight_again() {
     let json = r#"{ "fabrica": 1, "subject": { "builtin": "tomato" }, "templates": [

@@ -10,6 +10,7 @@ mod carve;
 mod cli;
 mod coarse;
 mod describe;
+mod exported;
 mod fields;
 mod grid;
 mod icons;
@@ -22,6 +23,7 @@ mod probes;
 mod rigid;
 mod shells;
 mod slices;
+mod splines;
 mod textures;
 
 #[path = "../reference/carved.rs"]

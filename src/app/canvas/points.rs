@@ -2,7 +2,7 @@
 //! lines that bend along.
 //!
 //! A point is a ring where the tissue was and a dot where it goes. Dragging the dot takes the tissue along, the ring
-//! stays. The dot of a point that the map misses is hollow.
+//! stays. The dot of a point that the map misses is hollow: light inside.
 
 use egui::{Key, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo};
 use glam::{Vec2 as Flat, Vec3};
@@ -216,7 +216,8 @@ pub(crate) fn handle(
         dot.color
     };
     if dot.is_hollow {
-        painter.circle_stroke(spot, 5.0, Stroke::new(5.0, ink::HALO_LIGHT));
+        // Light inside, and not clear: the dot of the point that is met may lie right under it.
+        painter.circle_filled(spot, 7.0, ink::HALO_LIGHT.to_opaque());
         painter.circle_stroke(spot, 5.0, Stroke::new(2.6, color));
     } else {
         painter.circle(spot, 6.0, color, Stroke::new(2.0, ink::HALO_LIGHT));

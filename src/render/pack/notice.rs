@@ -21,7 +21,7 @@ pub enum RenderNotice {
         template: String,
         /// Which of its points, from 1.
         point: usize,
-        /// By how much, template units.
+        /// By how much, subject units.
         by: f32,
     },
     /// The meshes beside a volume do not fit on the device, and why.
@@ -45,7 +45,7 @@ impl fmt::Display for RenderNotice {
                 by,
             } => write!(
                 f,
-                "{template}: control point {point} is missed by {by:.4} of the box, for another point that stands at its place is met"
+                "{template}: control point {point} is missed by {by:.4} subject units, for another point that stands at its place is met"
             ),
             Self::MeshesTooLarge(why) => {
                 write!(f, "the meshes beside the scan are not drawn: {why}")
@@ -71,4 +71,53 @@ pub fn missed_notices(templates: &[PlacedTemplate]) -> Vec<RenderNotice> {
         })
     });
     each.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Document;
+
+    fn notices(template: &str) -> Vec<String> {
+        let json = format!(r#"{{ "fabrica": 1, "templates": [{template}] }}"#);
+        let document = Document::from_json(&json).expect("a good document");
+        let said = missed_notices(&document.illustration().templates).into_iter();
+        said.map(|notice| notice.to_string()).collect()
+    }
+
+    /// Three points, of which the second is moved 0.1 along z where the first stays.
+    fn contradicting(head: &str, params: &str) -> Vec<String> {
+        notices(&format!(
+            r#"{{ "kind": "rbf", {head} "params": {{ {params} "points": [{{ "at": [0.5, 0.5, 0.5] }},
+                {{ "at": [0.5, 0.5, 0.5], "move": [0, 0, 0.1] }}, {{ "at": [0.2, 0.2, 0.2] }}] }} }}"#
+        ))
+    }
+
+    #[test]
+    fn a_missed_control_point_is_named_with_the_miss() {
+        let said = |name: &str, by: &str| {
+            vec![format!(
+                "{name}: control point 2 is missed by {by} subject units, for another point that stands at its place is met"
+            )]
+        };
+        let cube = r#""size": [1, 1, 1],"#;
+        assert_eq!(contradicting(cube, ""), said("rbf", "0.1000"));
+        let named = format!(r#"{cube} "name": "the lid","#);
+        assert_eq!(contradicting(&named, ""), said("the lid", "0.1000"));
+        // By what the picture misses: in the units of the subject, by the strength and by the share of it that acts.
+        let flat = r#""size": [1, 1, 0.4],"#;
+        assert_eq!(contradicting(flat, ""), said("rbf", "0.0400"));
+        let strong = r#""strength": 1.5,"#;
+        assert_eq!(contradicting(cube, strong), said("rbf", "0.1500"));
+        let half = format!(r#"{cube} "amount": 0.5,"#);
+        assert_eq!(contradicting(&half, strong), said("rbf", "0.0750"));
+        // Where nothing acts nothing is missed, nor where the points agree.
+        let off = format!(r#"{cube} "enabled": false,"#);
+        assert_eq!(contradicting(&off, ""), Vec::<String>::new());
+        let none = r#""strength": 0,"#;
+        assert_eq!(contradicting(cube, none), Vec::<String>::new());
+        let alike = r#"{ "kind": "rbf", "size": [1, 1, 1], "params": { "points": [
+            { "at": [0.5, 0.5, 0.5], "move": [0, 0, 0.1] }, { "at": [0.5, 0.5, 0.5], "move": [0, 0, 0.1] }] } }"#;
+        assert_eq!(notices(alike), Vec::<String>::new());
+    }
 }
