@@ -967,8 +967,8 @@ fn wrong_embeds_say_so_and_leave_the_others_running() {
             "a control without a value is left out"
         );
 
-        // A graphics device that never comes back is told of in each embed, under the last picture. Another source starts
-        // anew.
+        // A graphics device that never comes back is told of in each embed, under the last picture. Another source
+        // starts anew.
         let seen = drawn_pixels(&part_of(&tab, "e5", "before_it_is_gone").await);
         tab.eval::<bool>("(told.length = 0, navigator.gpu.requestAdapter = async () => null, devices.at(-1).destroy(), true)")
             .await;
