@@ -79,14 +79,24 @@ fn guarded(pos: vec3f, head: u32, sets: u32) -> Guarded {
     return Guarded(is_in, distance_to_kept(there.pos, sets, 0.0, kept.exact_slab));
 }
 
-/// The map where segments move as a whole: each segment by its own rigid motion, the tissue around by a blend that
-/// turns into the map of the templates (`whole`) with the distance; between segments the nearer has more to say (by the
-/// inverse square of the distance). Where the templates alone would move other tissue through a segment, tissue beside
-/// the segment is taken.
+/// How firmly a body holds tissue that lies `away` from it: 1 at its surface, to 0 at the end of its seam, where it lets
+/// go without a crease.
+fn hold(away: f32, seam: f32) -> f32 {
+    let left = 1.0 - min(away / max(seam, 1e-6), 1.0);
+    return left * left;
+}
+
+/// The map where segments move as a whole: each segment by its own rigid motion, the tissue around by a blend of what
+/// the templates do (`whole`) and of the motions. Let h be how firmly a body holds the tissue: its motion has the weight
+/// h / (1 - h) against 1 for the templates. Alone its part is h, so that the blend takes the whole seam. Between two
+/// bodies much nearer to each other than their seams are wide it is nearly b / (a + b), a and b the ways to them: it
+/// takes all of the way from one to the other, evenly. Where the templates alone would move other tissue through a
+/// segment, tissue beside the segment is taken.
 fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     let sets = kept.items[head].gives_way_to;
-    var by = vec3f(0.0);
-    var total = 1e-9;
+    let seams = kept.seams[head];
+    var away = vec4f(0.0);
+    var widths = vec4f(0.0);
     for (var channel = 0u; channel < 4u; channel++) {
         let own = sets & (1u << channel);
         if own != 0u {
@@ -95,11 +105,24 @@ fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
             if place.is_in {
                 return Mapped(rigid, 1.0);
             }
-            let away = max(place.away, 0.0);
-            let nearness = 1.0 / max(away * away, 1e-8);
-            let part = 1.0 - smoothstep(0.0, max(kept.seams[head][channel], 1e-6), away);
-            by += nearness * part * (rigid - whole.pos);
-            total += nearness;
+            // By as much as distances may be too long they count little: no step where the segment ends.
+            let told = max(place.away, 0.0);
+            away[channel] = told * told / (told + max(kept.distance_dims.w, 1e-6));
+            widths[channel] = seams[channel] * hold(away[channel], seams[channel]);
+        }
+    }
+    // Beside a body of wide seam one of a narrow seam has a wide one too: they share the way between them.
+    let squares = widths * widths;
+    let all_squares = squares.x + squares.y + squares.z + squares.w;
+    var by = vec3f(0.0);
+    var total = 1.0;
+    for (var channel = 0u; channel < 4u; channel++) {
+        if (sets & (1u << channel)) != 0u {
+            let seam = sqrt(seams[channel] * seams[channel] + max(all_squares - squares[channel], 0.0));
+            let held = hold(away[channel], seam);
+            let weight = held / max(1.0 - held, 1e-7);
+            by += weight * (apply_affine(kept.motions[4u * head + channel], pos) - whole.pos);
+            total += weight;
         }
     }
     var source = whole.pos + by / total;

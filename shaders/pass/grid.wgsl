@@ -255,7 +255,8 @@ fn is_reached_by_rigid(head: u32, center: vec3f, half: vec3f) -> bool {
                 return true;
             }
             let least = distance_to_sets(distance_voxel(box[0]), own);
-            let reach = length(half) + kept.seams[head][channel] + max(3.0 * kept.spacing, 1.5 * voxel_diagonal());
+            let seam = kept.seams[head][channel] + kept.distance_dims.w;
+            let reach = length(half) + seam + max(3.0 * kept.spacing, 1.5 * voxel_diagonal());
             is_reached = is_reached || least <= reach;
         }
     }

@@ -164,8 +164,9 @@ impl KeptTissue {
             .iter_mut()
             .filter(|i| i.constraint == CONSTRAIN_RIGID)
         {
-            // The motion nearest to a displacement goes farther than it in places.
-            item.longest = 1.5 * item.longest + 0.02;
+            // The motion nearest to a displacement goes farther than it in places, and what lies about a segment that
+            // turns goes farther than the segment.
+            item.longest = 2.0 * item.longest + 0.02;
         }
         for item in &mut kept.items {
             item.keeps = item.aligned;
