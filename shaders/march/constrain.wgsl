@@ -79,18 +79,18 @@ fn guarded(pos: vec3f, head: u32, sets: u32) -> Guarded {
     return Guarded(is_in, distance_to_kept(there.pos, sets, 0.0, kept.exact_slab));
 }
 
-/// How firmly a body holds tissue that lies `away` from it: 1 at its surface, to 0 at the end of its seam, where it lets
-/// go without a crease.
+/// How firmly a body holds tissue that lies `away` from it: 1 at its surface, to 0 at the end of its seam, where it
+/// lets go without a crease.
 fn hold(away: f32, seam: f32) -> f32 {
     let left = 1.0 - min(away / max(seam, 1e-6), 1.0);
     return left * left;
 }
 
 /// The map where segments move as a whole: each segment by its own rigid motion, the tissue around by a blend of what
-/// the templates do (`whole`) and of the motions. Let h be how firmly a body holds the tissue: its motion has the weight
-/// h / (1 - h) against 1 for the templates. Alone its part is h, so that the blend takes the whole seam. Between two
-/// bodies much nearer to each other than their seams are wide it is nearly b / (a + b), a and b the ways to them: it
-/// takes all of the way from one to the other, evenly. Where the templates alone would move other tissue through a
+/// the templates do (`whole`) and of the motions. Let h be how firmly a body holds the tissue: its motion has the
+/// weight h / (1 - h) against 1 for the templates. Alone its part is h, so that the blend takes the whole seam. Between
+/// two bodies much nearer to each other than their seams are wide it is nearly b / (a + b), a and b the ways to them:
+/// it takes all of the way from one to the other, evenly. Where the templates alone would move other tissue through a
 /// segment, tissue beside the segment is taken.
 fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     let sets = kept.items[head].gives_way_to;

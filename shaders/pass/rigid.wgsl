@@ -80,8 +80,8 @@ const LONGEST_STEP: f32 = 0.3;
 const SWEEPS: u32 = 8u;
 /// How far around a segment tissue goes with it: so many times what its motion misses in the mean, within limits
 /// (subject units). At the surface of a ball the motion misses about twice as much, and more with the distance. With 12
-/// times, tissue about it is stretched by a fifth more than by the templates alone at most (99 of 100 places; tests/gpu/
-/// rigid.rs), with 4 times it was up to two thirds more. Wider, more of the tissue goes with the body.
+/// times, tissue about it is stretched by a fifth more than by the templates alone at most (99 of 100 places;
+/// tests/gpu/rigid.rs), with 4 times it was up to two thirds more. Wider, more of the tissue goes with the body.
 const SEAM: f32 = 12.0;
 const LEAST_SEAM: f32 = 0.02;
 const MOST_SEAM: f32 = 0.5;
