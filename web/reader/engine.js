@@ -80,8 +80,9 @@ class Engine {
   /** Embeds that have asked for the engine and have not added their picture yet. */
   claims = 0;
   #restarting = Promise.resolve();
-  /** Devices lost since a picture was whole. */
+  /** Devices lost at work since a picture was whole. */
   #losses = 0;
+  #hasDrawn = false;
   #embeds = new Set();
   #frame = 0;
   /** The picture that was used last keeps its memory on the device; the others give it back when they are complete. */
@@ -196,6 +197,7 @@ class Engine {
       embed.isDirty = false; // It has no room; it is woken when it gets some.
       return;
     }
+    this.#hasDrawn = true;
     const budget = embed.isMoving ? MOVING : REST;
     const flags = this.reader.draw(embed.id, width, height, seconds(), budget, embed.isMoving);
     embed.isWalking = Boolean(flags & IS_MOVING);
@@ -215,7 +217,9 @@ class Engine {
   async #restart() {
     if (!this.reader) return;
     for (const embed of this.#embeds) embed.falter();
-    this.#losses += 1;
+    // A machine that sleeps takes devices away from pages that do nothing.
+    if (this.#hasDrawn) this.#losses += 1;
+    this.#hasDrawn = false;
     for (const wait of this.#losses > MOST_LOSSES ? [] : TRIES) {
       await new Promise((go) => setTimeout(go, 1000 * wait));
       if (!this.reader) return;
