@@ -985,7 +985,9 @@ fn wrong_embeds_say_so_and_leave_the_others_running() {
             payload(PLAIN)
         ))
         .await;
-        ready(&tab, 1).await;
+        tab.wait_until("told.length > 0", 120).await;
+        let told: Vec<(String, String)> = tab.eval("told.map(([name, id]) => [name, id])").await;
+        assert_eq!(told[0], ("ready".to_owned(), "e5".to_owned()));
     });
 }
 
