@@ -57,8 +57,7 @@ impl Outside {
 
     fn picture(&self, document: &Document, step: usize, size: [u32; 2]) -> Image {
         let state = document.at_step(step).expect("a step");
-        // As many samples as saved pictures have in these windows.
-        let drawing = self.0.render_image(state.illustration(), size, 1);
+        let drawing = self.0.render_image(state.illustration(), size, 4);
         pollster::block_on(drawing).expect("a picture")
     }
 }

@@ -322,11 +322,11 @@ impl Picture {
     pub(crate) fn start_file(&mut self, illustration: &Illustration, size_px: [u32; 2]) {
         let progress = Rc::new(Cell::new(0.0));
         let told = Rc::clone(&progress);
-        let samples = self.gpu().samples().unwrap_or(FILE_SAMPLES);
-        let tell = move |part| told.set(part);
-        let picture = self
-            .renderer
-            .render_image(illustration, size_px, samples, tell);
+        let picture =
+            self.renderer
+                .render_image(illustration, size_px, FILE_SAMPLES, move |part| {
+                    told.set(part)
+                });
         self.file = Some(FileJob {
             picture: Box::pin(picture),
             progress,
@@ -418,7 +418,7 @@ fn registered(
     }
 }
 
-/// Samples per pixel of a saved picture, where none are chosen for pictures.
+/// Samples per pixel of a saved picture.
 const FILE_SAMPLES: u32 = 4;
 /// Samples per pixel of a small picture.
 const SMALL_SAMPLES: u32 = 4;

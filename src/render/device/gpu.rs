@@ -161,8 +161,8 @@ impl Gpu {
         }
     }
 
-    /// The same device, on which viewers draw finished and saved pictures with so many samples a pixel, 1 to 64. With
-    /// `None` they choose by what the device can do.
+    /// The same device, on which viewers draw finished pictures with so many samples a pixel, 1 to 64. With `None` they
+    /// choose by what the device can do.
     #[must_use]
     pub fn with_samples(mut self, samples: Option<u32>) -> Self {
         self.samples = samples.map(|number| number.clamp(1, MAX_SAMPLES));
