@@ -4,7 +4,7 @@
 use crate::firm::{BOUND, difference, firm};
 use crate::gpu::{builtin, gpu, studio_of};
 use crate::reference::{Placed, as_reference};
-use crate::scatter::Random;
+use crate::scatter::{Random, is_long, long_or};
 use fabrica::data::{Grid, Resources, Segment, Segmentation, TimeSlices, Volume, Voxels, segment};
 use fabrica::document::{
     Align, Constrain, ConstrainBy, Illustration, PlacedTemplate, TemplateKind, TemplateMode,
@@ -438,7 +438,7 @@ fn kept_tissue_is_untouched() {
         }
     }
     // Each is a program of its own: all of them where there is time, else one after the other in turn.
-    let is_long = std::env::var_os("FABRICA_LONG").is_some();
+    let is_long = is_long();
     let (mut moved_without, mut count) = (0, 0);
     for (turn, kind) in TemplateKind::FORMULAS.into_iter().enumerate() {
         for round in 0..2 {
@@ -745,11 +745,7 @@ fn distances_agree_with_brute_force() {
 /// displacement and no farther than the way there is.
 #[test]
 fn constraints_hold_on_every_grid() {
-    let documents = if std::env::var_os("FABRICA_LONG").is_some() {
-        50
-    } else {
-        8
-    };
+    let documents = long_or(50, 8);
     let mut random = Random(0x0b01_71c4);
     let shear = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::new(0.0, 0.35, 1.0));
     let (mut asked, mut moved, mut limited, mut through) = (0, 0, 0, 0);
@@ -1007,12 +1003,8 @@ fn moved_tissue_is_guarded_where_it_is() {
         fabrica::document::ParamValue::Rotation(Quat::from_rotation_z(0.4)),
     ];
     let mut random = Random(0x0b01_71cb);
-    let count = if std::env::var_os("FABRICA_LONG").is_some() {
-        // Half of them lie in the ball.
-        40_000
-    } else {
-        4000
-    };
+    // Of the many, half lie in the ball.
+    let count = long_or(40_000, 4000);
     let at_new_place: Vec<Vec3> = (0..count)
         .map(|_| center.as_vec3() + offset * 0.3 + random.vector(-0.12, 0.12))
         .collect();

@@ -15,15 +15,18 @@ use crate::data::data_folder;
 use crate::scatter::Random;
 use crate::segment_files::{self, nifti};
 
-struct Outcome {
+/// How a call of the program ended.
+pub(crate) struct Outcome {
     status: i32,
-    out: String,
-    err: String,
+    /// Standard output.
+    pub(crate) out: String,
+    /// Standard error.
+    pub(crate) err: String,
 }
 
 impl Outcome {
     #[track_caller]
-    fn ok(self) -> Self {
+    pub(crate) fn ok(self) -> Self {
         assert_eq!(self.status, 0, "standard error: {}", self.err);
         for line in self.err.lines() {
             assert!(
@@ -52,7 +55,7 @@ impl Outcome {
     }
 }
 
-fn fabrica_with(folder: &Path, args: &[&str], input: &[u8]) -> Outcome {
+pub(crate) fn fabrica_with(folder: &Path, args: &[&str], input: &[u8]) -> Outcome {
     let mut child = Command::new(env!("CARGO_BIN_EXE_fabrica"))
         .args(args)
         .current_dir(folder)

@@ -1,7 +1,8 @@
 //! `probe` and `export-field` tell the map with its constraints: in numbers, and as a picture of the file that comes
 //! back.
 
-use crate::scatter::Random;
+use crate::cli::{Outcome, fabrica_with};
+use crate::scatter::{Random, is_long};
 use crate::segment_files::nifti;
 use fabrica::render::{Image, decode_png};
 use glam::{DVec3, Vec3};
@@ -31,24 +32,10 @@ fn document(templates: &str) -> String {
     )
 }
 
+/// What the program prints, and its notices.
 fn run(folder: &Path, args: &[&str], input: &str) -> (String, String) {
-    use std::io::Write as _;
-    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_fabrica"))
-        .args(args)
-        .current_dir(folder)
-        .stdin(std::process::Stdio::piped())
-        .stdout(std::process::Stdio::piped())
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    let mut pipe = child.stdin.take().expect("a pipe");
-    // What reads no points closes its end.
-    let _closed = pipe.write_all(input.as_bytes());
-    drop(pipe);
-    let out = child.wait_with_output().expect("it ends");
-    let err = String::from_utf8(out.stderr).expect("text");
-    assert!(out.status.success(), "{args:?}: {err}");
-    (String::from_utf8(out.stdout).expect("text"), err)
+    let Outcome { out, err, .. } = fabrica_with(folder, args, input.as_bytes()).ok();
+    (out, err)
 }
 
 /// Source and continuity of each line.
@@ -148,7 +135,7 @@ fn the_map_is_told_with_its_constraints() {
         ("coordinate", "", TWIST),
         ("rigid", "", BEND),
     ];
-    let is_long = std::env::var_os("FABRICA_LONG").is_some();
+    let is_long = is_long();
     for (by, before, template) in all.into_iter().take(if is_long { 4 } else { 1 }) {
         let name = format!("by {by}, {} before it", before.len().min(1));
         let constrain = format!(r#","constrain":{{"by":"{by}","keep":["core"]}}"#);

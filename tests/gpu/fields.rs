@@ -2,7 +2,7 @@
 
 use crate::gpu::gpu;
 use crate::rbf::Rbf;
-use crate::scatter::{Random, placed};
+use crate::scatter::{Random, long_or, placed};
 use fabrica::data::{FieldKey, FieldSamples, Grid, Resources};
 use fabrica::document::{
     ControlPoint, ControlPoints, Document, FieldRef, ParamValue, PlacedTemplate, TemplateData,
@@ -288,11 +288,7 @@ fn softness_and_exponent(random: &mut Random) -> (f32, f32) {
 fn control_points_are_met_or_named() {
     let probe = probe();
     let mut random = Random(0x0b01_71c6);
-    let rounds = if std::env::var_os("FABRICA_LONG").is_some() {
-        400
-    } else {
-        80
-    };
+    let rounds = long_or(400, 80);
     for motion in [Motion::Rough, Motion::Smooth] {
         let (mut met, mut named, mut worst, mut untrue) = (0, 0, 0.0_f64, 0.0_f64);
         for round in 0..rounds {
@@ -379,11 +375,7 @@ fn control_points_are_met_or_named() {
 fn the_map_of_points_has_no_noise() {
     let probe = probe();
     let mut random = Random(0x0b01_71cf);
-    let rounds = if std::env::var_os("FABRICA_LONG").is_some() {
-        1000
-    } else {
-        200
-    };
+    let rounds = long_or(1000, 200);
     let (mut noise, mut slope_of_all) = (0.0_f64, 0.0_f64);
     for round in 0..rounds {
         let count = 2 + random.index(63);

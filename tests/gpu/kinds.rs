@@ -3,7 +3,7 @@
 
 use crate::gpu::{builtin, gpu, studio_of};
 use crate::reference::{self, as_reference};
-use crate::scatter::{Random, placed};
+use crate::scatter::{Random, is_long, long_or, placed};
 use fabrica::data::{FieldKey, FieldSamples, Grid, Resources};
 use fabrica::document::{
     Constrain, ConstrainBy, ControlPoint, ControlPoints, FieldRef, Illustration, ParamValue,
@@ -131,11 +131,7 @@ fn the_longest_displacement_is_the_longest() {
     let studio = studio_of(gpu(), &volume, false);
     let bounds = volume.grid.subject_bounds();
     let keep = vec!["femur".to_owned()];
-    let rounds = if std::env::var_os("FABRICA_LONG").is_some() {
-        200
-    } else {
-        8
-    };
+    let rounds = long_or(200, 8);
     let mut random = Random(0x0b01_71cc);
     let kinds = [TemplateKind::Poke, TemplateKind::Wave];
     for kind in kinds {
@@ -217,11 +213,7 @@ fn the_longest_displacement_is_found_for_every_kind() {
     let studio = studio_of(gpu(), &volume, false);
     let bounds = volume.grid.subject_bounds();
     let probe = pollster::block_on(Probe::new(gpu())).expect("the probe program compiles");
-    let rounds = if std::env::var_os("FABRICA_LONG").is_some() {
-        200
-    } else {
-        3
-    };
+    let rounds = long_or(200, 3);
     let mut random = Random(0x0b01_71d0);
     let kinds = TemplateKind::FORMULAS
         .into_iter()
@@ -346,7 +338,7 @@ fn waves(random: &mut Random) -> Vec<u8> {
     bytes
 }
 
-/// How far slices or a crack move tissue at most, in closed form: 0 for what has none.
+/// How far straight slices move tissue at most, in closed form; 0 for other templates.
 fn known_longest(free: &PlacedTemplate, bounds: Aabb) -> f32 {
     if free.kind != TemplateKind::Slices || free.curve.is_some() {
         return 0.0;
@@ -371,7 +363,7 @@ fn known_longest(free: &PlacedTemplate, bounds: Aabb) -> f32 {
 
 /// Which kinds are laid along curves, each a program of its own: a few, or all where there is time.
 fn is_curved_here(kind: TemplateKind) -> bool {
-    std::env::var_os("FABRICA_LONG").is_some()
+    is_long()
         || matches!(
             kind,
             TemplateKind::Poke | TemplateKind::Peel | TemplateKind::Slices | TemplateKind::Crack

@@ -3,7 +3,7 @@
 use crate::align::{Labels, ball, balls, giving_way, probe};
 use crate::gpu::{builtin, gpu, studio_of};
 use crate::reference::{self, Placed, as_reference};
-use crate::scatter::Random;
+use crate::scatter::{Random, is_long, long_or};
 use fabrica::data::Volume;
 use fabrica::document::{Constrain, ConstrainBy, ParamValue, PlacedTemplate, TemplateKind};
 use fabrica::math::Placement;
@@ -247,7 +247,7 @@ fn rigid_balls_follow_whatever_their_size() {
         of_kind(TemplateKind::Bend, 1.0),
         of_kind(TemplateKind::Pull, 1.0),
     ]);
-    if std::env::var_os("FABRICA_LONG").is_some() {
+    if is_long() {
         let others = TemplateKind::FORMULAS.into_iter();
         let others = others.filter(|kind| !matches!(kind, TemplateKind::Cut | TemplateKind::Move));
         cases.extend(others.map(|kind| of_kind(kind, 0.9)));
@@ -392,11 +392,7 @@ fn connected_parts_move_each_by_itself() {
 /// While a parameter eases, a rigid ball goes in even steps.
 #[test]
 fn rigid_balls_go_in_even_steps() {
-    let steps = if std::env::var_os("FABRICA_LONG").is_some() {
-        200
-    } else {
-        20
-    };
+    let steps = long_or(200, 20);
     let center = DVec3::new(0.0, 0.2, 0.05);
     let volume = balls(48, &[(center, 0.1)]);
     let studio = studio_of(gpu(), &volume, false);
@@ -568,7 +564,7 @@ fn tissue_about_bodies_is_stretched_little() {
             ],
         ),
     ];
-    let is_long = std::env::var_os("FABRICA_LONG").is_some();
+    let is_long = is_long();
     if is_long {
         bodies.push((
             "two",
