@@ -1,7 +1,7 @@
 //! Taking the templates of one document over into another, with what belongs to them: the steps that move them, and the
 //! recipes of the tissue that they keep.
 
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::authoring::{free_group_name, groups};
 use super::text::pointer::{index, join, keys};
@@ -64,7 +64,7 @@ fn list<'a>(document: &'a Document, pointer: &str) -> &'a [Value] {
 fn of_templates(step: &Value, first: usize) -> Value {
     let mut step = step.clone();
     if let Some(Value::Object(set)) = step.get_mut("set") {
-        let all = std::mem::replace(set, Map::new());
+        let all = std::mem::take(set);
         for (target, value) in all {
             let keys = keys(&target).unwrap_or_default();
             let [list, at, rest @ ..] = keys.as_slice() else {

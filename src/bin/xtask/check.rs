@@ -4,12 +4,12 @@
 use crate::house;
 use crate::imports;
 use crate::run::{Outcome, cargo, root, run};
-use std::process::Command;
 
 /// A check: its name, and the arguments of cargo.
 type Check = (&'static str, &'static [&'static str]);
 
-/// What is checked without the page's target, fast to slow. Lints are errors here.
+/// What is checked without the page's target, fast to slow: the last two with the default features. Lints are errors
+/// here.
 const NATIVE: [Check; 6] = [
     ("format", &["fmt", "--check"]),
     (
@@ -61,14 +61,21 @@ const PAGE: [(&str, Option<&str>, &[&str]); 3] = [
 /// Format, lints for every program and every set of features, docs. Goes on after a failure, so that all of them are
 /// seen at once.
 pub(crate) fn check() -> Outcome {
-    all([check_native(), check_page(run)])
+    all([check_native(&NATIVE), check_page()])
 }
 
-/// The checks without the page's target.
-pub(crate) fn check_native() -> Outcome {
-    all(NATIVE.map(|(what, args)| {
+/// The checks of what is not compiled for the page and the tests: these are linted while they are compiled (see
+/// lint.rs).
+pub(crate) fn check_rest() -> Outcome {
+    let (rest, _compiled) = NATIVE.split_at(NATIVE.len() - 2);
+    check_native(rest)
+}
+
+/// Checks without the page's target.
+fn check_native(checks: &[Check]) -> Outcome {
+    all(checks.iter().map(|(what, args)| {
         let mut command = cargo();
-        command.args(args).env("RUSTDOCFLAGS", "-D warnings");
+        command.args(*args).env("RUSTDOCFLAGS", "-D warnings");
         if args.contains(&"clippy") {
             command.args(["--", "-D", "warnings"]);
         }
@@ -76,9 +83,8 @@ pub(crate) fn check_native() -> Outcome {
     }))
 }
 
-/// Lints the page's programs. With the page's profile cargo works in other folders than it does for native programs,
-/// and neither waits for the other.
-pub(crate) fn check_page(run: fn(&str, &mut Command) -> Outcome) -> Outcome {
+/// Lints the page's programs.
+fn check_page() -> Outcome {
     all(PAGE.map(|(what, features, programs)| {
         let mut command = cargo();
         command.args(["clippy", "--target", "wasm32-unknown-unknown"]);

@@ -8,6 +8,7 @@ mod examples;
 mod gallery;
 mod house;
 mod imports;
+mod lint;
 mod page;
 mod palette;
 mod run;
@@ -41,6 +42,9 @@ cargo xtask COMMAND
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
+    if let Some(compiler) = lint::compiler(&args) {
+        return lint::compile(compiler, &args);
+    }
     let rest = args.get(1..).unwrap_or_default();
     let outcome = match args.first().map(String::as_str) {
         Some("serve") => page::serve(rest),

@@ -2,6 +2,7 @@
 
 use std::process::Command;
 
+use crate::lint;
 use crate::run::{Outcome, cargo, find, program, report, root, run, run_beside};
 use crate::setup;
 
@@ -13,9 +14,11 @@ pub(crate) fn build() -> Outcome {
     run(BUILD, &mut trunk(&["build"])?)
 }
 
-/// The same beside something else, once all is set up.
+/// The same with lints, beside something else, once all is set up.
 pub(crate) fn build_beside() -> Outcome {
-    run_beside(BUILD, &mut trunk(&["build"])?)
+    let mut command = trunk(&["build"])?;
+    lint::beside(&mut command)?;
+    run_beside(BUILD, &mut command)
 }
 
 /// Builds and serves the page until it is stopped.

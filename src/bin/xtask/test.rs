@@ -1,11 +1,13 @@
 //! Every check and every test there is, fast to slow.
 
 use std::path::Path;
+use std::process::Command;
 use std::time::Instant;
 
 use crate::check;
+use crate::lint;
 use crate::page;
-use crate::run::{Outcome, cargo, report, root, run, run_beside};
+use crate::run::{Outcome, cargo, report, root, run};
 use crate::setup;
 
 /// The test binaries, fast to slow.
@@ -33,31 +35,36 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         if names.iter().any(|name| name == "browser") {
             page::build()?;
         }
-        let mut outcomes: Vec<Outcome> = names.iter().map(|name| one(name)).collect();
+        let mut outcomes: Vec<Outcome> = names.iter().map(|name| one(name, tests)).collect();
         outcomes.push(all_ran(&not_run));
         return close(start, outcomes);
     }
     setup::for_page()?;
     // The page is built beside the native checks and the compiler of the tests: for most of its time one core optimises
     // one program, and the others have ends that take one core too.
-    let (native, page) = std::thread::scope(|scope| {
-        let page = scope.spawn(|| [page::build_beside(), check::check_page(run_beside)]);
-        let compiled = |checked| [checked, run("compile the tests", &mut tests(&["--no-run"]))];
-        (compiled(check::check_native()), page.join())
+    let ((checked, compiled), page) = std::thread::scope(|scope| {
+        let page = scope.spawn(page::build_beside);
+        let checked = check::check_rest();
+        let what = "lint, document and compile the tests and what they test";
+        let compiled = run(what, &mut linted_tests(&["--no-run"]));
+        ((checked, compiled), page.join())
     });
-    let [built, linted] = page.map_err(|_panic| "building the page panicked".to_owned())?;
-    // Where the page cannot be built there is no use in waiting for the rest.
-    built?;
-    let mut outcomes = Vec::from(native);
-    outcomes.push(linted);
-    outcomes.push(run("unit tests", &mut tests(&["--lib"])));
-    outcomes.extend(BINARIES.map(one));
-    outcomes.push(run("examples in the documentation", &mut tests(&["--doc"])));
+    // Where something cannot be built, or a lint speaks, there is no use in waiting for the rest.
+    let built = page.map_err(|_panic| "building the page panicked".to_owned())?;
+    if built.is_err() || compiled.is_err() {
+        return close(start, vec![checked, compiled, built]);
+    }
+    let mut outcomes = vec![checked];
+    outcomes.push(run("unit tests", &mut linted_tests(&["--lib"])));
+    outcomes.extend(BINARIES.map(|name| one(name, linted_tests)));
+    let examples = &mut linted_tests(&["--doc"]);
+    outcomes.push(run("examples in the documentation", examples));
     outcomes.push(all_ran(&not_run));
     close(start, outcomes)
 }
 
-fn one(name: &str) -> Outcome {
+/// Runs the tests of a binary, which is compiled as `tests` has cargo do it.
+fn one(name: &str, tests: fn(&[&str]) -> Command) -> Outcome {
     let run_with = |what: &str, args: &[&str]| {
         let mut command = tests(&["--test", name]);
         command.args(args);
@@ -105,7 +112,7 @@ fn all_ran(list: &Path) -> Outcome {
 }
 
 /// `cargo test` under a software GPU.
-pub(crate) fn tests(args: &[&str]) -> std::process::Command {
+pub(crate) fn tests(args: &[&str]) -> Command {
     let mut command = cargo();
     command.arg("test").args(args);
     // Mesa complains without it.
@@ -116,6 +123,14 @@ pub(crate) fn tests(args: &[&str]) -> std::process::Command {
     command.env("WGPU_DEBUG", "0");
     // Tests that find no scans put their names there.
     command.env("FABRICA_NOT_RUN", root().join("target/xtask/not_run.txt"));
+    command
+}
+
+/// The same, compiled with lints and docs.
+fn linted_tests(args: &[&str]) -> Command {
+    let mut command = tests(args);
+    // The program that runs has a file.
+    let _known = lint::beside(&mut command);
     command
 }
 

@@ -2,7 +2,7 @@
 
 use crate::document::text::DocumentError;
 use crate::document::text::pointer::{self, join};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 /// A list of the document; created if the key is missing.
 pub(crate) fn list<'a>(
@@ -110,7 +110,7 @@ fn rewrite(root: &mut Value, key: &str, moved: impl Fn(usize) -> Option<usize>) 
             let Some(Value::Object(set)) = step.get_mut("set") else {
                 continue;
             };
-            let old = std::mem::replace(set, Map::new());
+            let old = std::mem::take(set);
             let pairs = old.into_iter();
             set.extend(pairs.filter_map(|(target, value)| Some((followed(target)?, value))));
         }
