@@ -2,6 +2,7 @@
 // No logic lives here that is worth a unit test: decisions are made in src/shell/web.rs.
 
 import { WORKER, startPart } from "./parts.js";
+import { Texts } from "./texts.js";
 
 const element = (id) => document.getElementById(id);
 
@@ -108,7 +109,7 @@ async function main() {
   const query = new URLSearchParams(location.search);
   if (query.has("bench")) {
     early?.worker.terminate();
-    await bench(fabrica, ...["bench", "size", "voxels"].map((key) => Number.parseInt(query.get(key), 10) || 0));
+    await bench(fabrica, ["bench", "size", "voxels", "rows"].map((key) => Math.max(Number.parseInt(query.get(key), 10) || 0, 0)));
     return;
   }
   const host = fabrica.foreign_document_host();
@@ -119,6 +120,8 @@ async function main() {
   const viewer = new fabrica.Viewer(element("fabrica"), WORKER);
   if (early) viewer.lend(early.part, early.worker);
   viewer.on_copy_refused(offerText);
+  const [, , captions] = LIST[navigator.language.slice(0, 2)] ?? LIST.en;
+  viewer.set_texts(new Texts(element("fabrica"), captions, (caption) => viewer.edit_caption(caption)));
   // For whoever embeds or tests the page; the viewer itself never reads it.
   window.fabrica = { viewer, module: fabrica, memory: program.memory };
   try {
@@ -137,12 +140,12 @@ async function main() {
   watch(viewer, keep);
 }
 
-/** What the controls are called for assistive technology, and the button that asks for them as elements of the page. */
+/** What the controls are called for assistive technology, the button that asks for them as elements of the page, and the captions. */
 const LIST = {
-  en: ["Controls", "List the controls for a screen reader"],
-  de: ["Bedienelemente", "Bedienelemente für einen Screenreader auflisten"],
-  es: ["Controles", "Enumerar los controles para un lector de pantalla"],
-  zh: ["控件", "为屏幕阅读器列出控件"],
+  en: ["Controls", "List the controls for a screen reader", "Labels"],
+  de: ["Bedienelemente", "Bedienelemente für einen Screenreader auflisten", "Beschriftungen"],
+  es: ["Controles", "Enumerar los controles para un lector de pantalla", "Rótulos"],
+  zh: ["控件", "为屏幕阅读器列出控件", "标注"],
 };
 
 /** The field that takes what is typed into the canvas has a name for who hears the page. */
@@ -174,12 +177,12 @@ function keepFromBrowser(viewer, event) {
 }
 
 /** Frame times in place of the viewer. */
-async function bench(fabrica, repeats, side, voxels) {
+async function bench(fabrica, plan) {
   window.fabrica = { module: fabrica };
   show("Frame times on this device");
   try {
     const { showBench } = await import("./bench.js");
-    window.fabrica.report = await showBench(fabrica, element("remedies"), [repeats, side, voxels]);
+    window.fabrica.report = await showBench(fabrica, element("remedies"), plan);
     document.documentElement.dataset.state = "measured";
   } catch (error) {
     console.error(error);

@@ -58,7 +58,9 @@ pub use self::canvas::lettering::{letter, mark};
 #[cfg(feature = "app")]
 pub use self::picture::host::gpu_of;
 #[cfg(feature = "app")]
-pub use self::services::{Message, MissingDocument, SavedTo, Services, WhyMissing};
+pub use self::services::{
+    Message, MissingDocument, SavedTo, Services, SetText, TextOver, TextToSet, WhyMissing,
+};
 pub use self::session::{
     Command, GizmoMode, LinkChange, Pane, STORED_DOCUMENT, SaveFile, See, Shipped, StandardView,
     StepCommand, Ticket, TissueCommand, Tool,

@@ -2,6 +2,7 @@
 
 use crate::app::canvas::saved::{Saving, file_size};
 use crate::app::picture::host::Picture;
+use crate::app::services::TextToSet;
 use crate::app::session::{Gravity, SaveFile};
 use crate::app::window::App;
 use crate::app::words;
@@ -52,7 +53,8 @@ impl App {
         if let Some(image) = image
             && let Some(saving) = self.saving.take()
         {
-            match image.and_then(|image| saving.encoded(ctx, image)) {
+            let set = |text: &TextToSet| self.services.set_text(text);
+            match image.and_then(|image| saving.encoded((ctx, &set), image)) {
                 Ok(bytes) => self.services.save_file(SaveFile {
                     name: saving.name,
                     mime: "image/png",

@@ -1,6 +1,7 @@
 //! What the app asks of its surroundings, and what comes back. The shell implements [`Services`] natively and on the
 //! page; tests have a false one. Nothing here blocks and nothing here knows a file, a thread or an address bar.
 
+use egui::{Pos2, Vec2};
 use std::path::PathBuf;
 
 use crate::app::session::{LinkChange, SaveFile, Shipped, Ticket};
@@ -78,6 +79,22 @@ pub trait Services {
     /// True if the reader has asked for less motion everywhere: passages between steps are cuts.
     fn wants_less_motion(&self) -> bool {
         false
+    }
+    /// True if the surroundings set texts themselves, and shape all scripts: see [`Services::show_texts`] and
+    /// [`Services::set_text`].
+    fn sets_texts(&self) -> bool {
+        false
+    }
+    /// Shows these texts over the picture, in place of those of the last call. Returns the width and height of each,
+    /// points; fewer where they are not known.
+    fn show_texts(&mut self, texts: &[TextOver]) -> Vec<Vec2> {
+        _ = texts;
+        Vec::new()
+    }
+    /// Sets a text for a picture; `None` where that cannot be done.
+    fn set_text(&self, text: &TextToSet) -> Option<SetText> {
+        _ = text;
+        None
     }
     /// The text that was last given to [`Services::store`] under this key; `None` if there is none.
     fn stored(&self, key: &str) -> Option<String>;
@@ -196,4 +213,55 @@ pub enum Message {
         /// More, shown on demand; may be empty.
         details: String,
     },
+}
+
+/// A text over the picture, for surroundings that show it as a text of their own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextOver {
+    /// Number of the document's caption, from 0.
+    pub caption: usize,
+    /// What is written.
+    pub text: String,
+    /// The upper left corner, points; `None`: it is not seen, and is told to screen readers alone.
+    pub at: Option<Pos2>,
+    /// Width at most, points.
+    pub widest: f32,
+    /// Height of the letters, points.
+    pub letters: f32,
+    /// Letters are light, for a dark ground.
+    pub is_light: bool,
+    /// What the text names lies behind something.
+    pub is_faded: bool,
+}
+
+/// A text that is to be set for a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextToSet {
+    /// What is written.
+    pub text: String,
+    /// Height of the letters, pixels.
+    pub letters_px: f32,
+    /// In strong letters.
+    pub is_strong: bool,
+    /// Width of a row at most, pixels.
+    pub widest_px: f32,
+    /// Rows at most.
+    pub rows: usize,
+}
+
+/// A text as letters that cover pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SetText {
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// How much of each pixel the letters cover, 0 to 255, row by row from the top.
+    pub coverage: Vec<u8>,
+}
+
+impl SetText {
+    /// Width and height, pixels.
+    pub(crate) fn size_px(&self) -> Vec2 {
+        let [width, height] = self.size;
+        Vec2::new(width as f32, height as f32)
+    }
 }

@@ -160,6 +160,7 @@ impl App {
             && start.missing.is_none()
             && services.stored(STORED_DOCUMENT).is_none();
         session.has_less_motion = services.wants_less_motion();
+        session.has_shaped_texts = services.sets_texts();
         session.has_told_slow = services.stored(STORED_SLOW).is_some();
         session.has_hint = is_first && services.stored(STORED_HINT).is_none();
         let earlier = services.stored(STORED_DOCUMENT);
@@ -300,6 +301,14 @@ impl App {
     pub fn ask_for_picture(&mut self) {
         self.wants_shown_size = true;
         self.run(Command::SavePicture);
+    }
+
+    /// Goes to the field of a caption, by its number, as a click on its text in the picture does.
+    pub fn edit_caption(&mut self, caption: usize) {
+        // In a picture alone there is no field to go to.
+        if !self.session.are_panels_hidden && caption < self.session.shown().captions.len() {
+            self.run(Command::EditCaption(caption));
+        }
     }
 
     /// Runs a command as if a button had been pressed.
@@ -581,6 +590,14 @@ impl App {
     fn afterwards(&mut self, ui: &Ui) {
         self.announce(ui);
         self.tell_title();
+        let services = self.services.as_mut();
+        if services.sets_texts()
+            && self
+                .viewport
+                .show_outside(|texts| services.show_texts(texts))
+        {
+            ui.ctx().request_repaint();
+        }
         self.perform_in_window(ui);
         let ctx = ui.ctx();
         self.advance_saving(ctx);

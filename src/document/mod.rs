@@ -79,7 +79,7 @@ pub use model::{
     ParamValue, PlacedTemplate, Preset, PresetSubject, RawVoxels, Reading, Recipe, RecipeSource,
     SceneObject, SegmentLook, SegmentSurface, SegmentsRef, Step, Stroke, SubjectBox, SubjectRef,
     SurfaceChange, SurfaceLook, TemplateData, TemplateKind, TemplateMode, TemplateSpec, Transfer,
-    TransferPoint, Window, keep_set, keep_sets, preset, presets,
+    TransferPoint, Window, keep_set, keep_sets, needs_shaping, preset, presets,
 };
 pub use text::{DocumentError, Notice, NoticeKind, pointer};
 pub use tree::Document;

@@ -11,6 +11,8 @@ mod page;
 #[cfg(all(target_arch = "wasm32", feature = "reader", not(feature = "app")))]
 pub mod reader;
 #[cfg(all(target_arch = "wasm32", feature = "app"))]
+mod texts;
+#[cfg(all(target_arch = "wasm32", feature = "app"))]
 pub mod web;
 #[cfg(all(target_arch = "wasm32", feature = "reader"))]
 mod wished;

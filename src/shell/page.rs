@@ -10,12 +10,14 @@ use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storag
 
 use super::address::{absolute, address_task, at_base, builtin_task, fetched, foreign_host};
 use super::loading::wanted_file;
+use super::texts::{self, Texts};
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
 use super::worker::run::{self, WorkerLoad};
 use super::worker::task::{ScanTask, Task};
 use crate::app::{
-    LinkChange, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, Shipped, Ticket,
+    LinkChange, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, SetText, Shipped, TextOver,
+    TextToSet, Ticket,
 };
 use crate::assets::{LoadEvent, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
@@ -63,6 +65,8 @@ pub(super) struct Page {
     pub picture_wanted: Option<js_sys::Function>,
     /// Called with the text where the browser refuses the clipboard.
     pub on_copy_refused: Option<js_sys::Function>,
+    /// What sets texts in place of the canvas.
+    pub texts: Option<Texts>,
 }
 
 impl Page {
@@ -88,6 +92,7 @@ impl Page {
             payload: String::new(),
             picture_wanted: None,
             on_copy_refused: None,
+            texts: None,
         }
     }
 
@@ -725,6 +730,24 @@ impl Services for PageServices {
 
     fn wants_less_motion(&self) -> bool {
         matches_media("(prefers-reduced-motion: reduce)")
+    }
+
+    fn sets_texts(&self) -> bool {
+        self.0.borrow().texts.is_some()
+    }
+
+    fn show_texts(&mut self, over: &[TextOver]) -> Vec<egui::Vec2> {
+        let (page, zoom) = {
+            let page = self.0.borrow();
+            let zoom = page.ctx.as_ref().map_or(1.0, egui::Context::zoom_factor);
+            (page.texts.clone(), zoom)
+        };
+        page.map_or_else(Vec::new, |page| texts::shown(&page, over, zoom))
+    }
+
+    fn set_text(&self, text: &TextToSet) -> Option<SetText> {
+        let page = self.0.borrow().texts.clone();
+        texts::set(&page?, text)
     }
 
     fn stored(&self, key: &str) -> Option<String> {

@@ -11,10 +11,11 @@ use web_sys::{HtmlCanvasElement, Url};
 use super::address::{foreign_host, part_of};
 use super::mirror::Mirror;
 use super::page::{Page, PageServices, Place, kept_document};
+use super::texts::Texts;
 use super::wished;
 use super::worker::run;
 use super::worker::task::Part;
-use crate::app::{App, Message, MissingDocument, Start, WhyMissing, gpu_of};
+use crate::app::{App, Message, MissingDocument, Services as _, Start, WhyMissing, gpu_of};
 use crate::data::VolumeLimits;
 use crate::document::Document;
 use crate::link;
@@ -163,6 +164,7 @@ impl Viewer {
     /// Ends drawing and frees the device. The viewer can be started again.
     pub fn destroy(&self) {
         self.runner.destroy();
+        PageServices(Rc::clone(&self.page)).show_texts(&[]);
     }
 
     /// Opens a link, a payload or a document as JSON; what is wrong with a bad one is shown in the viewer.
@@ -310,6 +312,19 @@ impl Viewer {
     /// A function called with a text that the browser did not let onto the clipboard.
     pub fn on_copy_refused(&self, function: js_sys::Function) {
         self.page.borrow_mut().on_copy_refused = Some(function);
+    }
+
+    /// What sets captions over the canvas and letters into saved pictures, from the start on: see web/texts.js.
+    pub fn set_texts(&self, texts: Texts) {
+        self.page.borrow_mut().texts = Some(texts);
+    }
+
+    /// Goes to the field of the caption of this number, from 0.
+    pub fn edit_caption(&self, caption: usize) {
+        if let Some(mut shown) = self.runner.app_mut::<Shown>() {
+            shown.app.edit_caption(caption);
+        }
+        self.request_frame();
     }
 
     /// Opens files as if the reader had picked them.

@@ -65,6 +65,7 @@ fn high_contrast_is_switched_and_kept() {
 fn title_and_credit_are_written_into_a_saved_picture() {
     let json = r##"{ "fabrica": 1, "title": "Strata of a cube", "credit": "Drawn by a test", "subject": { "builtin": "cube" } }"##;
     let mut window = Window::open(DESK, json);
+    window.save_small_pictures();
     let mut save = |is_lettered: bool| {
         if is_lettered {
             window.click("Panel: Text");
@@ -90,6 +91,88 @@ fn title_and_credit_are_written_into_a_saved_picture() {
         let (without, with) = (ink(&plain, rows.clone()), ink(&lettered, rows.clone()));
         assert!(with > without + 200, "rows {rows:?}: {without} and {with}");
     }
+}
+
+/// Where the surroundings set texts, as a page does, captions are theirs in every script, as long as nothing of the
+/// interface lies over them; and so are the letters of saved pictures that the window's fonts cannot set.
+#[test]
+fn captions_are_given_to_surroundings_that_set_texts() {
+    const LETTERS: &str = r#"{ "fabrica": 1, "title": "A cube", "subject": { "builtin": "cube" }, "labels": [
+        { "at": [0.3, 0.49, 0.3], "text": "Upper corner" }, { "at": [-0.3, 0.49, -0.3], "text": "עצם" },
+        { "at": [0, 0, 0], "text": "Not at this step", "enabled": false }, { "at": [0, 9, 0], "text": "Far away" } ] }"#;
+    let seen = |window: &Window| -> Vec<(usize, String, bool)> {
+        let log = window.log.0.borrow();
+        let texts = log.over.iter();
+        texts
+            .map(|over| (over.caption, over.text.clone(), over.at.is_some()))
+            .collect()
+    };
+    let is_warned = |window: &Window| {
+        let log = window.log.0.borrow();
+        log.said
+            .iter()
+            .any(|said| said.contains("Arabic or Hebrew"))
+    };
+    let log = Fake::default();
+    log.0.borrow_mut().has_other_letters = true;
+    let own = Window::open_with(DESK, egui::Theme::Light, log, Some(LETTERS));
+    assert!(own.harness.query_by_label("Upper corner").is_some());
+    assert!(is_warned(&own) && seen(&own).is_empty());
+
+    let log = Fake::default();
+    let size = vec2(70.0, 18.0);
+    log.0.borrow_mut().has_other_letters = true;
+    log.0.borrow_mut().sets_texts = Some(size);
+    let mut window = Window::open_with(DESK, egui::Theme::Light, log, Some(LETTERS));
+    let expected = |[first, second]: [bool; 2]| {
+        vec![
+            (0, "Upper corner".to_owned(), first),
+            (1, "עצם".to_owned(), second),
+            (3, "Far away".to_owned(), false),
+        ]
+    };
+    assert_eq!(seen(&window), expected([true, true]));
+    assert!(!is_warned(&window), "they are set rightly");
+    assert!(
+        window.harness.query_by_label("Upper corner").is_none(),
+        "the canvas has not the same text once more"
+    );
+    let picture = window.harness.get_by_role(egui::Role::Image).rect();
+    for over in &window.log.0.borrow().over {
+        let whole = over.at.map(|at| egui::Rect::from_min_size(at, size));
+        let is_in = whole.is_none_or(|whole| picture.contains_rect(whole));
+        assert!(is_in && !over.is_light && over.letters > 8.0, "{over:?}");
+    }
+    // What lies over a text has the text under it.
+    window.press(Key::Questionmark);
+    window.steps(2);
+    assert_eq!(seen(&window), expected([false, false]));
+    assert!(window.harness.query_by_label("Upper corner").is_some());
+    window.press(Key::Escape);
+    window.steps(3);
+    assert_eq!(seen(&window), expected([true, true]));
+    // A click on a text of theirs goes to its field.
+    window.harness.state_mut().edit_caption(1);
+    window.steps(3);
+    let field = window
+        .harness
+        .get_by_role_and_label(egui::Role::TextInput, "Text of label 2");
+    assert!(field.is_focused());
+    window.harness.state_mut().edit_caption(77);
+    window.press(Key::Escape);
+
+    window.click("Write title, credit and labels into saved pictures");
+    window.save_small_pictures();
+    let lettered = window.saved_picture();
+    let log = window.log.0.borrow();
+    let set = log.set.borrow();
+    let texts: Vec<&str> = set.iter().map(|set| set.text.as_str()).collect();
+    assert_eq!(texts, ["עצם"], "the window's fonts do for the others");
+    let is_ink = |x: u32, y: u32| lettered.get_pixel(x, y).0 == [0x1f, 0x24, 0x26, 255];
+    let is_block = |x: u32, y: u32| (0..200).step_by(20).all(|right| is_ink(x + right, y));
+    let rows = 0..lettered.height();
+    let blocks = rows.filter(|y| (0..lettered.width() - 200).any(|x| is_block(x, *y)));
+    assert_eq!(blocks.count(), 30, "the letters that were handed over");
 }
 
 /// A frame that takes a second lies between press and release of a short click; a finger that rests is still a finger

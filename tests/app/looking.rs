@@ -446,6 +446,7 @@ fn an_amount_is_set_shown_and_taken_back() {
 fn a_scale_bar_and_letters_of_sides_are_switched_on_and_saved() {
     // Tall enough for the whole panel: what is scrolled out of view takes no click.
     let mut window = Window::open(Vec2::new(900.0, 1300.0), CUBE);
+    window.save_small_pictures();
     let plain = window.saved_picture();
     window.click("Panel: Look");
     window.click("Scale bar");

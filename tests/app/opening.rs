@@ -688,6 +688,7 @@ fn saving_a_picture_can_be_stopped() {
     window.settle();
     assert!(window.log.0.borrow().saved.is_empty(), "no file was made");
     // The next one is made as if nothing had been.
+    window.save_small_pictures();
     window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     window.watch_saving();
     assert_eq!(window.log.0.borrow().saved.len(), 1);

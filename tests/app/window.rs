@@ -4,6 +4,7 @@
 
 use super::*;
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupExisting};
+use fabrica::app::{SetText, TextOver, TextToSet};
 use fabrica::assets::{Role, Source, Want};
 use fabrica::load::{LabelSource, LoadReport, ReadOptions, read_label_file, read_subject};
 use fabrica::render::Gpu;
@@ -50,6 +51,14 @@ pub(crate) struct Log {
     pub(crate) clock: Option<fn() -> f64>,
     /// What a screen reader was to speak.
     pub(crate) said: Vec<String>,
+    /// Letters that the window's fonts lack are boxes, as for a user, and no fault.
+    pub(crate) has_other_letters: bool,
+    /// The surroundings set texts, as a page does, each in this size.
+    pub(crate) sets_texts: Option<Vec2>,
+    /// The texts that they show over the picture.
+    pub(crate) over: Vec<TextOver>,
+    /// Those that they have set for pictures.
+    pub(crate) set: RefCell<Vec<TextToSet>>,
 }
 
 impl Log {
@@ -265,6 +274,25 @@ impl Services for Fake {
             .stored
             .insert(key.to_owned(), value.to_owned());
     }
+    fn sets_texts(&self) -> bool {
+        self.0.borrow().sets_texts.is_some()
+    }
+    fn show_texts(&mut self, texts: &[TextOver]) -> Vec<Vec2> {
+        let log = &mut *self.0.borrow_mut();
+        log.over = texts.to_vec();
+        vec![log.sets_texts.unwrap_or_default(); texts.len()]
+    }
+    fn set_text(&self, text: &TextToSet) -> Option<SetText> {
+        let log = self.0.borrow();
+        log.sets_texts?;
+        log.set.borrow_mut().push(text.clone());
+        // A block in place of letters.
+        let size = [200, 30];
+        Some(SetText {
+            size,
+            coverage: vec![255; 6000],
+        })
+    }
     fn stored(&self, key: &str) -> Option<String> {
         let log = self.0.borrow();
         // The machine of the tests is slow; what they look at is something else.
@@ -341,7 +369,11 @@ impl Window {
         // A software GPU takes the longest for the other samples of a finished picture.
         let has_all_samples = own_clock.is_some() || std::env::var_os("FABRICA_LOOK_AT").is_some();
         let gpu = gpu.with_samples((!has_all_samples).then_some(1));
-        let harness = Harness::builder()
+        let builder = match log.0.borrow().has_other_letters {
+            true => Harness::builder().allow_missing_glyphs(),
+            false => Harness::builder(),
+        };
+        let harness = builder
             .with_size(size)
             .with_pixels_per_point(if is_fine { 1.0 } else { COARSE })
             .with_theme(theme)
@@ -422,6 +454,12 @@ impl Window {
         self.steps(2);
         self.press(Key::Enter);
         self.steps(2);
+    }
+
+    /// Pictures are saved as small as the tests can look at them: those of the usual size take a software GPU the
+    /// longest.
+    pub(crate) fn save_small_pictures(&mut self) {
+        self.run_command(fabrica::app::Command::SetPictureSize(Some(800)));
     }
 
     /// Saves the picture by its keys and returns it.

@@ -8,6 +8,9 @@ use super::hand::{
 };
 use super::harness::{Tab, with_browser};
 use super::*;
+use chromiumoxide::cdp::browser_protocol::input::{
+    DispatchMouseEventParams, DispatchMouseEventType,
+};
 use serde_json::Value;
 
 /// A phone, CSS pixels.
@@ -241,6 +244,95 @@ fn ctrl_f_finds_a_tissue() {
         assert!(tab.eval::<bool>(IS_PREVENTED).await, "it is ours");
         find(&tab, "Search tissues and labels").await;
         hear(&tab, "Search tissues and labels").await;
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// Captions over the picture are text of the page: selected, found by the browser's search, one list in the document's
+/// order, and no obstacle for the wheel. What opens over them hides them. The letters of saved pictures are shaped.
+#[test]
+fn captions_are_text_of_the_page() {
+    const LABELLED: &str = r#"{"fabrica":1,"subject":{"builtin":"cube"},"labels":[{"at":[-0.3,0.49,0.3],"text":"Upper corner"},{"at":[0.3,0.49,-0.3],"text":"עצם <b>"}]}"#;
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tab = session
+            .coarse_viewer(&format!("#{}", payload(LABELLED)), PAGE)
+            .await;
+        focus(&tab).await;
+        let are_seen = "document.querySelectorAll('#captions li:not(.absent)').length === 2";
+        tab.wait_until(are_seen, 60).await;
+        tab.settled().await;
+        tab.picture("captions_as_text").await;
+        let texts: Vec<String> = tab
+            .eval("[...document.querySelectorAll('ol#captions[aria-label] li')].map((li) => li.textContent)")
+            .await;
+        assert_eq!(texts, ["Upper corner", "עצם <b>"]);
+        let twice = controls(&tab).await;
+        assert!(twice.iter().all(|c| c.name != "Upper corner"), "{twice:?}");
+
+        let camera =
+            "JSON.stringify(JSON.parse(window.fabrica.viewer.get_document()).camera ?? null)";
+        let before: String = tab.eval(camera).await;
+        let [left, right, top, bottom]: [f64; 4] = tab
+            .eval("(({ left, right, top, bottom }) => [left, right, top, bottom])(document.querySelector('#captions li').getBoundingClientRect())")
+            .await;
+        // From its first row to the last.
+        let (from, to) = ((left + 1.0, top + 6.0), (right - 1.0, bottom - 6.0));
+        tab.drag(from, to, 4).await;
+        let selected: String = tab.eval("getSelection().toString()").await;
+        assert!(selected.contains("corner"), "selected: {selected:?}");
+        assert_eq!(tab.eval::<String>(camera).await, before, "nothing turns");
+        tab.eval::<bool>("(getSelection().empty(), true)").await;
+        for (words, is_there) in [("Upper corner", true), ("Lower corner", false)] {
+            let found: bool = tab.eval(&format!("find('{words}')")).await;
+            assert_eq!(found, is_there, "a search for {words:?}");
+        }
+        tab.eval::<bool>("(getSelection().empty(), true)").await;
+
+        let middle = (0.5 * (left + right), 0.5 * (top + bottom));
+        let mut wheel =
+            DispatchMouseEventParams::new(DispatchMouseEventType::MouseWheel, middle.0, middle.1);
+        (wheel.delta_x, wheel.delta_y) = (Some(0.0), Some(120.0));
+        tab.page.execute(wheel).await.expect("a wheel");
+        tab.wait_until(&format!("{camera} !== '{before}'"), 20)
+            .await;
+
+        // A click goes to the text's field; a sheet hides the texts that it covers.
+        tab.settled().await;
+        tab.wait_until(are_seen, 60).await;
+        let [x, y]: [f64; 2] = tab
+            .eval("(({ left, width, top, height }) => [left + width / 2, top + height / 2])(document.querySelector('#captions li').getBoundingClientRect())")
+            .await;
+        let under = format!("document.elementFromPoint({x}, {y})?.textContent");
+        assert_eq!(tab.eval::<String>(&under).await, "Upper corner");
+        tab.click(x, y).await;
+        find(&tab, "Text of label 1").await;
+        press(&tab, "Escape").await;
+        focus(&tab).await;
+        press(&tab, "?").await;
+        tab.wait_until(
+            "document.querySelectorAll('#captions li.absent').length > 0",
+            20,
+        )
+        .await;
+        press(&tab, "Escape").await;
+        tab.wait_until(are_seen, 20).await;
+
+        // Joined letters are narrower than letters that stand alone; a text from the right ends at the left.
+        let widths: [u32; 2] = tab
+            .eval("import('./texts.js').then(({ Texts }) => { const texts = new Texts(document.createElement('canvas'), '', () => {}); const width = (text) => texts.set(text, 60, false, 900, 1).width - 2; return [width('عظم'), width('ع') + width('ظ') + width('م')]; })")
+            .await;
+        assert!(widths[0] > 40 && widths[0] + 2 < widths[1], "{widths:?}");
+        let rows: Vec<[u32; 3]> = tab
+            .eval("import('./texts.js').then(({ Texts }) => { const texts = new Texts(document.createElement('canvas'), '', () => {}); return [['a long text of many words', 9], ['a long text of many words', 2], ['עצם', 2], ['unbreakable'.repeat(40), 4], ['', 1]].map(([text, rows]) => { const { width, height, coverage } = texts.set(text, 20, true, 100, rows); return [width, height, coverage.filter((c) => c > 200).length]; }); })")
+            .await;
+        for [width, height, inked] in &rows[..4] {
+            assert!(*width <= 102 && *inked > 20, "{width} x {height}: {inked}");
+        }
+        let heights: Vec<u32> = rows.iter().map(|row| row[1]).collect();
+        assert!(
+            heights[0] > 50 && heights[1..] == [50, 25, 100, 25],
+            "{rows:?}"
+        );
         tab.assert_no_complaints().await;
     });
 }

@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use super::caption_layout::{self, is_dark};
 use crate::app::kit::theme;
-use crate::document::{Background, Illustration};
+use crate::app::services::{SetText, TextToSet};
+use crate::document::{Background, Illustration, needs_shaping};
 use crate::render::{CaptionPlace, Image, Marks, View};
 
 /// Height of the title's letters, of the picture's shorter side, and of the credit's.
@@ -30,6 +31,17 @@ const MARGIN: f32 = 0.035;
 /// Radius of the halo, of the letters' height.
 const HALO: f32 = 0.14;
 
+/// Sets a text with fonts that the program does not have, or returns `None`.
+pub(crate) type Setter<'a> = &'a dyn Fn(&TextToSet) -> Option<SetText>;
+
+/// A text that has been laid out.
+enum Laid {
+    /// By the program's own fonts, points.
+    Own(Arc<Galley>),
+    /// By the surroundings.
+    Set(SetText),
+}
+
 /// How much of each pixel letters cover, 0 to 255.
 struct Mask {
     size: [usize; 2],
@@ -39,7 +51,7 @@ struct Mask {
 /// Writes an illustration's title, credit and captions into its picture. `captions` holds the place of each caption.
 /// Returns the characters that no font at hand has.
 pub fn letter(image: &mut Image, illustration: &Illustration, captions: &[CaptionPlace]) -> String {
-    letter_with(&fonts(), image, illustration, captions)
+    letter_with((&fonts(), &|_| None), image, illustration, captions)
 }
 
 /// Draws the scale bar and the letters of the patient's sides into an illustration's picture, where it wishes them.
@@ -77,6 +89,8 @@ pub(crate) fn mark_with(
     illustration: &Illustration,
     mm_per_unit: Option<f64>,
 ) {
+    // Figures, units and single letters: every font has them.
+    let fonts: (&Context, Setter<'_>) = (ctx, &|_| None);
     let marks = Marks::of(illustration, image.size, mm_per_unit);
     let [width, height] = image.size.map(|side| side as f32);
     let short = width.min(height);
@@ -90,11 +104,11 @@ pub(crate) fn mark_with(
         [0.5 * width, height],
     ];
     for (text, [x, y]) in marks.sides.iter().flatten().zip(middles) {
-        let (galley, size, _) = laid_out(ctx, text, theme::STRONG, letters, width, 1);
+        let (laid, size, _) = laid_out(fonts, text, theme::STRONG, letters, width, 1);
         let edge = Vec2::splat(0.5 * margin);
         let room = vec2(width, height) - size - edge;
         let corner = Pos2::new(x, y) - 0.5 * size;
-        mask.write(ctx, &galley, corner.min(room.to_pos2()).max(edge.to_pos2()));
+        mask.write(ctx, &laid, corner.min(room.to_pos2()).max(edge.to_pos2()));
     }
     if let Some(bar) = marks.bar {
         // Whole rows, so that it is crisp; its length is exact.
@@ -107,21 +121,18 @@ pub(crate) fn mark_with(
         // The ends stand up, inside of the length.
         draw([left, foot.y - 4.0 * thick], [left + thick, foot.y]);
         draw([foot.x - thick, foot.y - 4.0 * thick], [foot.x, foot.y]);
-        let (galley, size, _) = laid_out(ctx, &bar.text(), "", letters, width, 1);
+        let (laid, size, _) = laid_out(fonts, &bar.text(), "", letters, width, 1);
         let start = (0.5 * (left + foot.x - size.x)).min(foot.x - size.x);
-        mask.write(
-            ctx,
-            &galley,
-            Pos2::new(start, foot.y - 2.0 * thick - size.y),
-        );
+        mask.write(ctx, &laid, Pos2::new(start, foot.y - 2.0 * thick - size.y));
     }
     let (ink, halo) = inks(illustration.look.background);
     mask.lay(image, letters, ink, halo);
 }
 
-/// Writes the texts like [`letter`], with the fonts of a window, which has more of them.
+/// Writes the texts like [`letter`], with the fonts of a window, which has more of them, and with those of a setter
+/// where the window's do not do.
 pub(crate) fn letter_with(
-    ctx: &Context,
+    fonts: (&Context, Setter<'_>),
     image: &mut Image,
     illustration: &Illustration,
     captions: &[CaptionPlace],
@@ -149,7 +160,8 @@ pub(crate) fn letter_with(
         let rows = 0.4 * height / (1.25 * letters);
         let is_beside_bar = is_at_foot && look.scale_bar;
         let room = free.width() * if is_beside_bar { BESIDE_BAR } else { 1.0 };
-        let (galley, size, lacking) = laid_out(ctx, text, family, letters, room, rows as usize);
+        let rows = rows as usize;
+        let (laid, size, lacking) = laid_out(fonts, text, family, letters, room, rows);
         missing += &lacking;
         let mut at = free.left_top();
         if is_at_foot {
@@ -159,7 +171,7 @@ pub(crate) fn letter_with(
             free.min.y = at.y + size.y + margin;
         }
         let mut mask = Mask::new(image.size);
-        mask.write(ctx, &galley, at);
+        mask.write(fonts.0, &laid, at);
         mask.lay(image, letters, ink, halo);
     }
     if look.scale_bar {
@@ -181,16 +193,16 @@ pub(crate) fn letter_with(
             continue;
         }
         let room = CAPTION_WIDTH * width;
-        let (galley, size, lacking) =
-            laid_out(ctx, &caption.text, "", letters, room, caption_layout::ROWS);
+        let rows = caption_layout::ROWS;
+        let (laid, size, lacking) = laid_out(fonts, &caption.text, "", letters, room, rows);
         missing += &lacking;
         points.push(at);
-        texts.push((galley, size, is_hidden));
+        texts.push((laid, size, is_hidden));
     }
     let sizes: Vec<Vec2> = texts.iter().map(|(_, size, _)| *size).collect();
     let places = caption_layout::arranged(&points, &sizes, 0.3 * letters, free);
-    for (((galley, _, is_hidden), at), rect) in texts.iter().zip(&points).zip(places) {
-        mask.write(ctx, galley, rect.min);
+    for (((laid, _, is_hidden), at), rect) in texts.iter().zip(&points).zip(places) {
+        mask.write(fonts.0, laid, rect.min);
         mask.line(
             caption_layout::line_start(rect, *at, free.center().x, 0.3 * letters),
             *at,
@@ -205,15 +217,15 @@ pub(crate) fn letter_with(
 }
 
 /// Lays a text out, wrapped, with letters of a height in pixels. Returns the layout, its size in pixels, and the
-/// characters that the font lacks.
+/// characters that no font has.
 fn laid_out(
-    ctx: &Context,
+    (ctx, set): (&Context, Setter<'_>),
     text: &str,
     family: &str,
     letters_px: f32,
     room_px: f32,
     rows: usize,
-) -> (Arc<Galley>, Vec2, String) {
+) -> (Laid, Vec2, String) {
     let ppp = ctx.pixels_per_point();
     let font = match family {
         "" => FontId::proportional(letters_px / ppp),
@@ -229,15 +241,26 @@ fn laid_out(
         ..TextWrapping::default()
     };
     job.halign = Align::LEFT;
-    ctx.fonts_mut(|fonts| {
-        let missing: String = text
-            .chars()
-            .filter(|c| !c.is_whitespace() && !fonts.has_glyph(&font, *c))
-            .collect();
-        let galley = fonts.layout_job(job);
-        let size = galley.size() * ppp;
-        (galley, size, missing)
-    })
+    let missing: String = ctx.fonts_mut(|fonts| {
+        let is_missing = |c: &char| !c.is_whitespace() && !fonts.has_glyph(&font, *c);
+        text.chars().filter(is_missing).collect()
+    });
+    if needs_shaping(text) || !missing.is_empty() {
+        let wanted = TextToSet {
+            text: text.trim().to_owned(),
+            letters_px,
+            is_strong: !family.is_empty(),
+            widest_px: room_px,
+            rows: rows.max(1),
+        };
+        if let Some(text) = set(&wanted) {
+            let size = text.size_px();
+            return (Laid::Set(text), size, String::new());
+        }
+    }
+    let galley = ctx.fonts_mut(|fonts| fonts.layout_job(job));
+    let size = galley.size() * ppp;
+    (Laid::Own(galley), size, missing)
 }
 
 impl Mask {
@@ -256,7 +279,24 @@ impl Mask {
     }
 
     /// Writes a text with its upper left corner at a pixel.
-    fn write(&mut self, ctx: &Context, galley: &Galley, corner: Pos2) {
+    fn write(&mut self, ctx: &Context, laid: &Laid, corner: Pos2) {
+        match laid {
+            Laid::Own(galley) => self.write_own(ctx, galley, corner),
+            Laid::Set(text) => self.write_set(text, corner),
+        }
+    }
+
+    fn write_set(&mut self, text: &SetText, corner: Pos2) {
+        let (left, top) = (corner.x.round() as i64, corner.y.round() as i64);
+        let width = text.size[0].max(1) as usize;
+        for (y, row) in (top..).zip(text.coverage.chunks(width)) {
+            for (x, coverage) in (left..).zip(row) {
+                self.cover(x, y, *coverage);
+            }
+        }
+    }
+
+    fn write_own(&mut self, ctx: &Context, galley: &Galley, corner: Pos2) {
         let ppp = ctx.pixels_per_point();
         let atlas = ctx.fonts(|fonts| fonts.image());
         for row in &galley.rows {

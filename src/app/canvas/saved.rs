@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 
-use super::lettering;
+use super::lettering::{self, Setter};
 use crate::document::{Camera, Illustration};
 use crate::math::Aabb;
 use crate::render::{CaptionPlace, Image, RenderError, View, encode_png};
@@ -28,17 +28,17 @@ pub(crate) struct Saving {
 }
 
 impl Saving {
-    /// The PNG of the drawn picture, lettered where that is wished.
+    /// The PNG of the drawn picture, lettered where that is wished, with the fonts of the window and of a setter.
     pub(crate) fn encoded(
         &self,
-        ctx: &egui::Context,
+        (ctx, set): (&egui::Context, Setter<'_>),
         mut image: Image,
     ) -> Result<Vec<u8>, RenderError> {
         if !self.is_for_script {
             lettering::mark_with(ctx, &mut image, &self.illustration, self.mm_per_unit);
         }
         if let Some(places) = &self.captions {
-            lettering::letter_with(ctx, &mut image, &self.illustration, places);
+            lettering::letter_with((ctx, set), &mut image, &self.illustration, places);
         }
         encode_png(&image)
     }

@@ -19,6 +19,7 @@ use super::{curve, orientation, points, slice_plot, view_bar};
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, template_menu, widget};
 use crate::app::picture::host::{Picture, found};
+use crate::app::services::TextOver;
 use crate::app::session::camera;
 use crate::app::session::{Command, Gravity, Place, Question, Selection, Session, Tool};
 use crate::app::words::picture::w;
@@ -84,6 +85,14 @@ impl Viewport {
     /// Where each caption of the document is.
     pub(crate) fn caption_places(&self) -> Vec<CaptionPlace> {
         self.captions.places()
+    }
+
+    /// The surroundings show the texts of captions, with `show`: see [`Followed::show_outside`].
+    pub(crate) fn show_outside(
+        &mut self,
+        show: impl FnOnce(&[TextOver]) -> Vec<egui::Vec2>,
+    ) -> bool {
+        self.captions.show_outside(show)
     }
 
     /// Takes a question of the session, to be asked in the next frame.

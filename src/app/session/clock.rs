@@ -38,6 +38,9 @@ impl Session {
 
     /// Says which captions the program cannot set, when there are more of them than before.
     fn tell_unshaped(&mut self) {
+        if self.has_shaped_texts {
+            return;
+        }
         let found: Vec<String> = self
             .illustration()
             .unshaped_captions()

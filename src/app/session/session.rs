@@ -221,6 +221,8 @@ pub struct Session {
     pub(super) playing: Option<Autoplay>,
     /// The reader wants nothing to move by itself: passages and glides are cuts.
     pub has_less_motion: bool,
+    /// The surroundings shape the texts of captions, whatever their script.
+    pub has_shaped_texts: bool,
     /// Captions of the illustration that the program's letters cannot set, as far as that was told.
     pub(super) unshaped: usize,
     /// Grows with every change of the illustration that is shown.
@@ -286,6 +288,7 @@ impl Session {
             now: 0.0,
             playing: None,
             has_less_motion: false,
+            has_shaped_texts: false,
             revision: 0,
             view: ViewState::default(),
             tissues: Tissues::default(),

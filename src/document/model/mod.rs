@@ -25,6 +25,7 @@ pub use mesh::{MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, SubjectBox}
 pub use object::{ObjectPlacement, ObjectSource, SceneObject};
 pub use preset::{PRESETS, Preset, PresetSubject, preset, presets};
 pub use recipe::{CleanStep, Recipe, RecipeSource, Stroke};
+pub use script::needs_shaping;
 pub use subject::{RawVoxels, Reading, SegmentsRef, SubjectRef};
 pub use surface::{BodyKind, Layer, SurfaceChange, SurfaceLook};
 pub(in crate::document) use template::join_objects;

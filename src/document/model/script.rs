@@ -12,7 +12,7 @@ const BLOCKS: [(char, char); 5] = [
 
 /// True if a text has letters that run from the right or join their neighbours, as Hebrew and Arabic do. Browsers shape
 /// them; the program's own letters stand unjoined and in the order of their characters.
-pub(super) fn needs_shaping(text: &str) -> bool {
+pub fn needs_shaping(text: &str) -> bool {
     let is_in = |letter: char| {
         BLOCKS
             .iter()
