@@ -1,16 +1,19 @@
 // The page with ?bench: frame times on this browser's adapter, as a table that can be copied. ?bench=3 takes three frames a row,
-// &size=128 pictures of 128 × 128 pixels, &voxels=64 a head of 64 voxels along its longest side.
+// &size=128 pictures of 128 × 128 pixels, &voxels=64 a head of 64 voxels along its longest side, &rows=3 the first three rows.
 // The measuring is the program's own (src/render/draw/bench.rs), the same that `fabrica bench` runs.
 
-/** Measures, showing in `box` how far that is, and then the table. Returns the report, as `fabrica bench --json` prints it. */
-export async function showBench(fabrica, box, [repeats, side, voxels]) {
+/**
+ * Measures by a plan (frames a row, size, voxels, rows; 0: as the command does), showing in `box` how far that is, and then the
+ * table. Returns the report, as `fabrica bench --json` prints it.
+ */
+export async function showBench(fabrica, box, plan) {
   const bar = document.createElement("progress");
   const told = document.createElement("p");
   told.textContent = "Frames of the built-in head are drawn and timed. Leave this page in sight until it is done.";
   bar.setAttribute("aria-label", "Measured");
   box.replaceChildren(told, bar);
   box.hidden = false;
-  const [json, text] = await fabrica.bench(repeats, side, voxels, (part) => (bar.value = part));
+  const [json, text] = await fabrica.bench(...plan, (part) => (bar.value = part));
   const report = JSON.parse(json);
   const adapter = document.createElement("p");
   adapter.textContent =

@@ -26,7 +26,7 @@ pub use device::programs;
 pub use device::readback::{Readback, WorkDone};
 #[cfg(all(debug_assertions, not(target_arch = "wasm32")))]
 pub use device::reload::watch_shaders;
-pub use draw::bench::{BENCH_REPEATS, BENCH_SIZE_PX, BenchMeshes, BenchReport, BenchRow, bench};
+pub use draw::bench::{BenchMeshes, BenchPlan, BenchReport, BenchRow, bench};
 pub use draw::captions::{CaptionPlace, FollowedCaptions, caption_places};
 pub use draw::clock::Clock;
 #[cfg(not(target_arch = "wasm32"))]

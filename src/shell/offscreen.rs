@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::*;
 use super::web::{open, seconds};
 use super::worker::run;
 use crate::document::{Document, SubjectRef};
-use crate::render::{BENCH_REPEATS, BENCH_SIZE_PX, Gpu, GpuOptions, Studio, encode_png};
+use crate::render::{BenchPlan, Gpu, GpuOptions, Studio, encode_png};
 use crate::subjects::FINE_RESOLUTION;
 
 thread_local! {
@@ -70,8 +70,8 @@ pub async fn render_png(
 
 /// Times frames of the built-in head on this browser's adapter, the rows of `fabrica bench`, and gives the report as
 /// JSON and as text: `[json, text]`. `repeats` frames per row count, of pictures `side_px` wide and high and a head of
-/// `resolution` voxels along its longest side; 0 takes what the command does. `on_progress` is called with how much is
-/// measured, 0 to 1.
+/// `resolution` voxels along its longest side, in the first `rows` rows; 0 takes what the command does. `on_progress`
+/// is called with how much is measured, 0 to 1.
 ///
 /// # Errors
 /// What is wrong with the subject or the device, in words.
@@ -80,12 +80,22 @@ pub async fn bench(
     repeats: u32,
     side_px: u32,
     resolution: u32,
+    rows: u32,
     on_progress: js_sys::Function,
 ) -> Result<Vec<String>, JsValue> {
     let illustration = Document::new().illustration().clone();
     let SubjectRef::Builtin { name } = &illustration.subject else {
         return Err("an empty document shows a built-in subject".into());
     };
+    let mut plan = BenchPlan::default();
+    if side_px > 0 {
+        plan.size_px = [side_px; 2];
+    }
+    for (number, given) in [(repeats, &mut plan.repeats), (rows, &mut plan.most_rows)] {
+        if number > 0 {
+            *given = number as usize;
+        }
+    }
     let gpu = gpu().await?;
     let resolution = match resolution {
         0 => FINE_RESOLUTION,
@@ -96,16 +106,7 @@ pub async fn bench(
         &gpu,
         (&subject, &illustration.subject),
         None,
-        (
-            match side_px {
-                0 => BENCH_SIZE_PX,
-                side => [side; 2],
-            },
-            match repeats {
-                0 => BENCH_REPEATS,
-                n => n as usize,
-            },
-        ),
+        plan,
         seconds,
         |part| {
             let _ignored = on_progress.call1(&JsValue::NULL, &JsValue::from_f64(f64::from(part)));

@@ -17,6 +17,8 @@ mod hand;
 mod harness;
 mod lesson;
 mod library;
+#[path = "../support/long.rs"]
+mod long;
 mod making;
 mod marks;
 mod meshes;
@@ -47,6 +49,7 @@ use fabrica::link;
 use fabrica::render::{Gpu, GpuOptions, Studio, View};
 use hand::drop_files;
 use harness::{Gpu as BrowserGpu, from_base64, with_browser};
+use long::{is_long, long_or};
 
 /// Size of the page in these tests, CSS pixels: wide enough for the panels, small enough for a software GPU.
 const PAGE: (u32, u32) = (780, 420);

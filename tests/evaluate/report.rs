@@ -394,7 +394,11 @@ fn cost(page: &mut Page) {
         gpu(),
         bench,
         None,
-        ([160, 120], 5),
+        render::BenchPlan {
+            size_px: [160, 120],
+            repeats: 5,
+            ..Default::default()
+        },
         render::system_clock,
         |_| {},
     );

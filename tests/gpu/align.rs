@@ -3,8 +3,9 @@
 
 use crate::firm::{BOUND, difference, firm};
 use crate::gpu::{builtin, gpu, studio_of};
+use crate::long::{is_long, long_or};
 use crate::reference::{Placed, as_reference};
-use crate::scatter::{Random, is_long, long_or};
+use crate::scatter::Random;
 use fabrica::data::{Grid, Resources, Segment, Segmentation, TimeSlices, Volume, Voxels, segment};
 use fabrica::document::{
     Align, Constrain, ConstrainBy, Illustration, PlacedTemplate, TemplateKind, TemplateMode,
@@ -437,58 +438,65 @@ fn kept_tissue_is_untouched() {
             in_depth.push(pos.as_vec3());
         }
     }
-    // Each is a program of its own: all of them where there is time, else one after the other in turn.
+    // Each list is a program of its own: each kind alone and in all ways where there is time, else three kinds at once
+    // and one way after the other.
     let is_long = is_long();
     let (mut moved_without, mut count) = (0, 0);
-    for (turn, kind) in TemplateKind::FORMULAS.into_iter().enumerate() {
+    let kinds = TemplateKind::FORMULAS.chunks(if is_long { 1 } else { 3 });
+    for (turn, kinds) in kinds.enumerate() {
         for round in 0..2 {
-            let mut template = random.template(kind);
-            template.placement.at *= 0.6;
-            if round == 1 {
-                template.curve = Some(random.curve(template.placement.size));
-            }
-            moved_without += probe(&studio, &[template.clone()], &in_segment)
+            let mut drawn = |kind: &TemplateKind| {
+                let mut template = random.template(*kind);
+                template.placement.at *= 0.6;
+                if round == 1 {
+                    template.curve = Some(random.curve(template.placement.size));
+                }
+                template
+            };
+            let list: Vec<PlacedTemplate> = kinds.iter().map(&mut drawn).collect();
+            moved_without += probe(&studio, &list, &in_segment)
                 .iter()
                 .zip(&in_segment)
                 .filter(|(s, p)| s.pos_in_rest.distance(**p) > 1e-3)
                 .count();
             let aligned = |align: Align| {
-                let mut template = template.clone();
-                template.align = align;
-                template
+                let with = |template: &PlacedTemplate| PlacedTemplate {
+                    align: align.clone(),
+                    ..template.clone()
+                };
+                list.iter().map(with).collect::<Vec<_>>()
             };
-            let segment = aligned(Align::Segment {
+            let constrained = |by: ConstrainBy| {
+                let with = |template: &PlacedTemplate| PlacedTemplate {
+                    constrain: Some(Constrain {
+                        by,
+                        keep: keep.clone(),
+                    }),
+                    ..template.clone()
+                };
+                list.iter().map(with).collect::<Vec<_>>()
+            };
+            let segment = Align::Segment {
                 keep: keep.clone(),
                 thickness: 0.01,
-            });
-            let surface = aligned(Align::Surface {
+            };
+            let surface = Align::Surface {
                 depth: 0.05,
                 thickness: 0.01,
-            });
-            let mut constrained = template.clone();
-            constrained.constrain = Some(Constrain {
-                by: ConstrainBy::Displacement,
-                keep: keep.clone(),
-            });
-            let mut by_coordinate = constrained.clone();
-            by_coordinate.constrain = Some(Constrain {
-                by: ConstrainBy::Coordinate,
-                keep: keep.clone(),
-            });
+            };
             let ways = [
-                (segment, &in_segment),
-                (surface, &in_depth),
-                (constrained, &in_segment),
-                (by_coordinate, &in_segment),
+                (aligned(segment), &in_segment),
+                (aligned(surface), &in_depth),
+                (constrained(ConstrainBy::Displacement), &in_segment),
+                (constrained(ConstrainBy::Coordinate), &in_segment),
             ];
-            let first = (turn + round) % ways.len();
+            let first = (2 * turn + round) % ways.len();
             let count_of = if is_long { ways.len() } else { 1 };
-            for (template, points) in ways.into_iter().cycle().skip(first).take(count_of) {
-                let template = [template];
-                for (sample, point) in probe(&studio, &template, points).iter().zip(points) {
+            for (list, points) in ways.into_iter().cycle().skip(first).take(count_of) {
+                for (sample, point) in probe(&studio, &list, points).iter().zip(points) {
                     assert!(
                         sample.pos_in_rest == *point && sample.continuity >= 0.0,
-                        "{template:?} moves {point:?}: {sample:?}"
+                        "{list:?} moves {point:?}: {sample:?}"
                     );
                     count += 1;
                 }
@@ -988,39 +996,71 @@ pub(crate) fn balls(side: u32, balls: &[(DVec3, f64)]) -> Volume {
 #[test]
 fn moved_tissue_is_guarded_where_it_is() {
     let center = DVec3::new(-0.12, 0.0, 0.0);
-    let volume = ball(center, 0.12);
-    let studio = studio_of(gpu(), &volume, false);
-    let labels = Labels::new(&volume);
+    let kinds = [TemplateKind::Bend, TemplateKind::Poke, TemplateKind::Twist];
+    let place = (center.as_vec3(), 0.12);
+    assert_moved_tissue_is_guarded(&ball(center, 0.12), "ball", place, &kinds);
+    // A stretch of a long bone: the move tears it out of the rest of the bone.
+    let knee = builtin("knee", 96);
+    let femur = center_of(&knee, "femur");
+    let kinds = long_or(&kinds[..], &kinds[..1]);
+    assert_moved_tissue_is_guarded(&knee, "femur", (femur, 0.12), kinds);
+}
+
+/// The mean place of the label voxels of a segment, in rest space.
+fn center_of(volume: &Volume, name: &str) -> Vec3 {
+    let labels = Labels::new(volume);
+    let label = labels.number(name);
+    let UVec3 { x, y, .. } = labels.volume.grid.dims;
+    let voxels = (0_u32..).zip(&labels.volume.labels);
+    let of_label = voxels.filter(|(_, l)| **l == label);
+    let places = of_label.map(|(i, _)| UVec3::new(i % x, i / x % y, i / (x * y)).as_dvec3());
+    let (sum, count) = places.fold((DVec3::ZERO, 0), |(sum, n), at| (sum + at, n + 1));
+    let rest_from_voxel = labels.voxel_from_rest.inverse();
+    rest_from_voxel
+        .transform_point3(sum / f64::from(count.max(1)))
+        .as_vec3()
+}
+
+/// Moves what lies about `center` and asks at places within `reach` of its new one: kept tissue fills them in part.
+fn assert_moved_tissue_is_guarded(
+    volume: &Volume,
+    keep: &str,
+    (center, reach): (Vec3, f32),
+    kinds: &[TemplateKind],
+) {
+    let studio = studio_of(gpu(), volume, false);
+    let labels = Labels::new(volume);
+    let label = labels.number(keep);
     let placement = |at: Vec3, size: f32| Placement {
         at,
         rotate: Quat::IDENTITY,
         size: Vec3::splat(size),
     };
-    let mut first = PlacedTemplate::new(TemplateKind::Move, placement(center.as_vec3(), 0.3));
+    let mut first = PlacedTemplate::new(TemplateKind::Move, placement(center, 0.3));
     let offset = Vec3::new(0.9, 0.2, 0.1);
     first.params = vec![
         fabrica::document::ParamValue::Vector(offset),
         fabrica::document::ParamValue::Rotation(Quat::from_rotation_z(0.4)),
     ];
     let mut random = Random(0x0b01_71cb);
-    // Of the many, half lie in the ball.
+    // Of the many, half lie in the kept tissue.
     let count = long_or(40_000, 4000);
     let at_new_place: Vec<Vec3> = (0..count)
-        .map(|_| center.as_vec3() + offset * 0.3 + random.vector(-0.12, 0.12))
+        .map(|_| center + offset * 0.3 + random.vector(-reach, reach))
         .collect();
     let moved = probe(&studio, std::slice::from_ref(&first), &at_new_place);
-    let is_ball = |sample: &Sample| {
-        sample.continuity >= 0.0 && labels.firm_at(sample.pos_in_rest.as_dvec3()) == Some(1)
+    let is_kept = |sample: &Sample| {
+        sample.continuity >= 0.0 && labels.firm_at(sample.pos_in_rest.as_dvec3()) == Some(label)
     };
-    for kind in [TemplateKind::Bend, TemplateKind::Poke, TemplateKind::Twist] {
+    for &kind in kinds {
         let free = PlacedTemplate::new(kind, placement(Vec3::ZERO, 1.1));
         let unguarded = probe(&studio, &[first.clone(), free.clone()], &at_new_place);
         for by in [ConstrainBy::Displacement, ConstrainBy::Coordinate] {
-            let list = [first.clone(), giving_way(free.clone(), by, "ball")];
+            let list = [first.clone(), giving_way(free.clone(), by, keep)];
             let guarded = probe(&studio, &list, &at_new_place);
             let (mut held, mut lost) = (0, 0);
             for ((before, after), without) in moved.iter().zip(&guarded).zip(&unguarded) {
-                if !is_ball(before) {
+                if !is_kept(before) {
                     continue;
                 }
                 let is_same = |s: &Sample| {
@@ -1028,7 +1068,7 @@ fn moved_tissue_is_guarded_where_it_is() {
                 };
                 assert!(
                     is_same(after),
-                    "{kind:?} {by:?}: {before:?} became {after:?}"
+                    "{keep} {kind:?} {by:?}: {before:?} became {after:?}"
                 );
                 held += 1;
                 lost += usize::from(!is_same(without));
@@ -1040,10 +1080,10 @@ fn moved_tissue_is_guarded_where_it_is() {
             let twice = once
                 .iter()
                 .zip(&found)
-                .filter(|(a, b)| !is_ball(a) && is_ball(b))
+                .filter(|(a, b)| !is_kept(a) && is_kept(b))
                 .count();
             println!(
-                "{kind:?} {by:?}: {held} places held, {lost} lost without the constraint, {twice} seen twice"
+                "{keep} {kind:?} {by:?}: {held} places held, {lost} lost without the constraint, {twice} seen twice"
             );
             assert!(held > 500 && lost * 2 > held && twice == 0);
         }

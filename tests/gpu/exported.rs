@@ -2,7 +2,8 @@
 //! back.
 
 use crate::cli::{Outcome, fabrica_with};
-use crate::scatter::{Random, is_long};
+use crate::long::is_long;
+use crate::scatter::Random;
 use crate::segment_files::nifti;
 use fabrica::render::{Image, decode_png};
 use glam::{DVec3, Vec3};

@@ -1,8 +1,9 @@
 //! Displacements that are drawn (`rbf`) or imported (`field`): WGSL numbers against plain f64 readings.
 
 use crate::gpu::gpu;
+use crate::long::long_or;
 use crate::rbf::Rbf;
-use crate::scatter::{Random, long_or, placed};
+use crate::scatter::{Random, placed};
 use fabrica::data::{FieldKey, FieldSamples, Grid, Resources};
 use fabrica::document::{
     ControlPoint, ControlPoints, Document, FieldRef, ParamValue, PlacedTemplate, TemplateData,

@@ -2,8 +2,9 @@
 //! coordinate scale it, and the mirror image.
 
 use crate::gpu::{builtin, gpu, studio_of};
+use crate::long::{is_long, long_or};
 use crate::reference::{self, as_reference};
-use crate::scatter::{Random, is_long, long_or, placed};
+use crate::scatter::{Random, placed};
 use fabrica::data::{FieldKey, FieldSamples, Grid, Resources};
 use fabrica::document::{
     Constrain, ConstrainBy, ControlPoint, ControlPoints, FieldRef, Illustration, ParamValue,

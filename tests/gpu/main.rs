@@ -34,6 +34,8 @@ mod data;
 mod firm;
 #[path = "../support/gpu.rs"]
 mod gpu;
+#[path = "../support/long.rs"]
+mod long;
 #[path = "../support/pictures.rs"]
 mod picture_files;
 #[path = "../reference/rbf.rs"]

@@ -12,8 +12,9 @@
 
 use crate::firm::{BOUND, difference, firm};
 use crate::gpu::gpu;
+use crate::long::long_or;
 use crate::reference::as_reference;
-use crate::scatter::{Random, defaults, long_or, placed};
+use crate::scatter::{Random, defaults, placed};
 use fabrica::data::Resources;
 use fabrica::document::{Curve, ParamValue, PlacedTemplate, TemplateKind, TemplateMode};
 use fabrica::math::{Aabb, Placement};

@@ -2,8 +2,9 @@
 
 use crate::align::{Labels, ball, balls, giving_way, probe};
 use crate::gpu::{builtin, gpu, studio_of};
+use crate::long::{is_long, long_or};
 use crate::reference::{self, Placed, as_reference};
-use crate::scatter::{Random, is_long, long_or};
+use crate::scatter::Random;
 use fabrica::data::Volume;
 use fabrica::document::{Constrain, ConstrainBy, ParamValue, PlacedTemplate, TemplateKind};
 use fabrica::math::Placement;

@@ -12,7 +12,8 @@ use fabrica::subjects::FINE_RESOLUTION;
 use glam::{DVec3, Vec2, Vec3};
 
 use crate::gpu::{builtin, software, studio_of};
-use crate::scatter::{Random, long_or};
+use crate::long::long_or;
+use crate::scatter::Random;
 
 /// Pixels along a side of each random slice.
 const SIDE: u32 = 24;

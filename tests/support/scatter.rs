@@ -6,16 +6,6 @@ use fabrica::document::{Curve, ParamKind, ParamValue, PlacedTemplate, TemplateKi
 use fabrica::math::Placement;
 use glam::{Quat, Vec2, Vec3};
 
-/// True where there is time for all that a test can ask: `FABRICA_LONG` in the environment.
-pub(crate) fn is_long() -> bool {
-    std::env::var_os("FABRICA_LONG").is_some()
-}
-
-/// The first of two sizes of a test where there is time for it, else the second.
-pub(crate) fn long_or<T>(long: T, short: T) -> T {
-    if is_long() { long } else { short }
-}
-
 /// A small generator, the same numbers everywhere (xorshift64*).
 pub(crate) struct Random(pub(crate) u64);
 

@@ -98,10 +98,27 @@ impl std::fmt::Display for BenchReport {
     }
 }
 
-/// Size of the measured picture, pixels: small enough for a software GPU to end within a minute or two.
-pub const BENCH_SIZE_PX: [u32; 2] = [256, 256];
-/// Frames per case; the median counts.
-pub const BENCH_REPEATS: usize = 7;
+/// How much is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BenchPlan {
+    /// Width and height of the pictures, pixels.
+    pub size_px: [u32; 2],
+    /// Rounds of a frame of each row, one at least.
+    pub repeats: usize,
+    /// Rows at most, from the first on: one at least.
+    pub most_rows: usize,
+}
+
+impl Default for BenchPlan {
+    /// Small enough for a software GPU to end within a minute or two.
+    fn default() -> Self {
+        Self {
+            size_px: [256, 256],
+            repeats: 7,
+            most_rows: usize::MAX,
+        }
+    }
+}
 
 /// The eight templates read from the baked map, as while the camera moves.
 const BAKED: &str = "eight, baked";
@@ -141,8 +158,8 @@ pub struct BenchMeshes {
 /// Times frames (one sample per pixel at rest quality, read back) of a subject, which documents name as `named`:
 /// undeformed, one peel, eight templates, a peel aligned to the surface and to segments, each with and without the
 /// grid; a peel that gives way to bone, and one of rigid bone; and, if there are `meshes`, of these. After a frame of
-/// each that warms up come `repeats` rounds of a frame of each; the median counts. What is made once per edit, before a
-/// frame, is timed apart. `on_progress` hears how much is measured, 0 to 1.
+/// each that warms up come the plan's rounds of a frame of each; the median counts. What is made once per edit, before
+/// a frame, is timed apart. `on_progress` hears how much is measured, 0 to 1.
 ///
 /// # Errors
 /// As [`Studio::render_image`].
@@ -150,12 +167,12 @@ pub async fn bench(
     gpu: &Gpu,
     (subject, named): (&Subject, &SubjectRef),
     meshes: Option<&BenchMeshes>,
-    (size_px, repeats): ([u32; 2], usize),
+    plan: BenchPlan,
     clock: Clock,
     on_progress: impl Fn(f32),
 ) -> Result<BenchReport, RenderError> {
     let studio = Studio::new(gpu, subject, true)?;
-    let repeats = repeats.max(1);
+    let (size_px, repeats) = (plan.size_px, plan.repeats.max(1));
     let mut cases = Vec::new();
     for has_grid in [true, false] {
         cases.extend(CASES.map(|(name, template_count)| Case {
@@ -177,6 +194,7 @@ pub async fn bench(
         cases.extend(mesh_cases(gpu, &drawn, meshes)?);
         cases.push(tool_case(&studio, named, &meshes.tool));
     }
+    cases.truncate(plan.most_rows.max(1));
     let all = (cases.len() * (1 + repeats)) as f32;
     let mut measured = 0.0;
     let mut tell = || {

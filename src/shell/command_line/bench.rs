@@ -11,7 +11,7 @@ use super::output::print;
 use super::subject::{generate, subject_of, surface_of};
 use crate::data::{Subject, Surface};
 use crate::document::{Document, SceneObject};
-use crate::render::{BENCH_REPEATS, BENCH_SIZE_PX, BenchMeshes, system_clock};
+use crate::render::{BenchMeshes, BenchPlan, system_clock};
 use crate::subjects::{SubjectError, mesh};
 
 /// The mesh that is measured where none is given.
@@ -33,7 +33,7 @@ pub(super) fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
         &gpu,
         (&scan, &illustration.subject),
         Some(&BenchMeshes { surface, tool }),
-        (BENCH_SIZE_PX, BENCH_REPEATS),
+        BenchPlan::default(),
         system_clock,
         |_| {},
     ))?;
