@@ -45,8 +45,11 @@ export class Texts {
       item.style.maxWidth = `${widest}px`;
       item.style.fontSize = `${letters}px`;
       if (at) item.style.transform = `translate(${at[0]}px, ${at[1]}px)`;
+      const form = `${widest} ${letters} ${text}`;
+      if (kept.form !== form) Object.assign(kept, { form, size: null });
     }
-    return new Float32Array(items.flatMap((item) => [item.offsetWidth, item.offsetHeight]));
+    // Measured only where that can have changed: it makes the browser lay the page out.
+    return new Float32Array([...this.#items.values()].flatMap((kept) => (kept.size ??= [kept.item.offsetWidth, kept.item.offsetHeight])));
   }
 
   #make(caption) {
@@ -66,7 +69,7 @@ export class Texts {
       item.style.pointerEvents = "";
     };
     item.addEventListener("wheel", pass, { passive: false });
-    return { item, text: "" };
+    return { item, text: "", form: "", size: null };
   }
 
   /** A text as letters of a height in pixels: width, height and how much of each pixel is covered, 0 to 255. */
