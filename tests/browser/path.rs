@@ -420,8 +420,8 @@ async fn walk(session: &Session, scan: &Path, with: With) {
     reader.open(scan).await;
     reader.stage("10_elsewhere").await;
     assert_eq!(document(&other).await, sent, "the link is what was made");
-    let is_labelled =
-        "document.querySelector('#captions li:not(.absent)')?.textContent === 'Skull'";
+    // Text of the page, or of the canvas where something lies over it.
+    let is_labelled = "document.querySelector('#captions li:not(.absent)')?.textContent === 'Skull' || window.fabrica.viewer.controls().includes('Label\\t\\tSkull\\t')";
     other.wait_until(is_labelled, 60).await;
     other.assert_no_complaints().await;
     elsewhere.end().await;
