@@ -97,33 +97,31 @@ fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     let seams = kept.seams[head];
     var away = vec4f(0.0);
     var widths = vec4f(0.0);
-    for (var channel = 0u; channel < 4u; channel++) {
-        let own = sets & (1u << channel);
-        if own != 0u {
-            let rigid = apply_affine(kept.motions[4u * head + channel], pos);
-            let place = guarded(rigid, head, own);
-            if place.is_in {
-                return Mapped(rigid, 1.0);
-            }
-            // By as much as distances may be too long they count little: no step where the segment ends.
-            let told = max(place.away, 0.0);
-            away[channel] = told * told / (told + max(kept.distance_dims.w, 1e-6));
-            widths[channel] = seams[channel] * hold(away[channel], seams[channel]);
+    // Over the sets alone that there are: software rasterisers would run the body of a branch for all four.
+    for (var left = sets; left != 0u; left &= left - 1u) {
+        let channel = firstTrailingBit(left);
+        let rigid = apply_affine(kept.motions[4u * head + channel], pos);
+        let place = guarded(rigid, head, 1u << channel);
+        if place.is_in {
+            return Mapped(rigid, 1.0);
         }
+        // By as much as distances may be too long they count little: no step where the segment ends.
+        let told = max(place.away, 0.0);
+        away[channel] = told * told / (told + max(kept.distance_dims.w, 1e-6));
+        widths[channel] = seams[channel] * hold(away[channel], seams[channel]);
     }
     // Beside a body of wide seam one of a narrow seam has a wide one too: they share the way between them.
     let squares = widths * widths;
     let all_squares = squares.x + squares.y + squares.z + squares.w;
     var by = vec3f(0.0);
     var total = 1.0;
-    for (var channel = 0u; channel < 4u; channel++) {
-        if (sets & (1u << channel)) != 0u {
-            let seam = sqrt(seams[channel] * seams[channel] + max(all_squares - squares[channel], 0.0));
-            let held = hold(away[channel], seam);
-            let weight = held / max(1.0 - held, 1e-7);
-            by += weight * (apply_affine(kept.motions[4u * head + channel], pos) - whole.pos);
-            total += weight;
-        }
+    for (var left = sets; left != 0u; left &= left - 1u) {
+        let channel = firstTrailingBit(left);
+        let seam = sqrt(seams[channel] * seams[channel] + max(all_squares - squares[channel], 0.0));
+        let held = hold(away[channel], seam);
+        let weight = held / max(1.0 - held, 1e-7);
+        by += weight * (apply_affine(kept.motions[4u * head + channel], pos) - whole.pos);
+        total += weight;
     }
     var source = whole.pos + by / total;
     let voxel = kept.spacing;
