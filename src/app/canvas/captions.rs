@@ -75,7 +75,7 @@ impl Followed {
     fn in_picture(&self, shown: &Illustration, view: &Projection) -> Vec<(usize, Pos2, bool)> {
         let captions = shown.captions.iter().enumerate();
         captions
-            .filter(|(_, caption)| caption.enabled && !caption.text.trim().is_empty())
+            .filter(|(_, caption)| caption.is_drawn())
             .filter_map(|(index, _)| {
                 let (place, hidden) = self.places.place(index)?;
                 let at = view.ui_from_subject(place)?;
@@ -191,7 +191,7 @@ impl Followed {
 fn texts_over(shown: &Illustration, widest: f32) -> Vec<TextOver> {
     let captions = shown.captions.iter().enumerate();
     captions
-        .filter(|(_, caption)| caption.enabled && !caption.text.trim().is_empty())
+        .filter(|(_, caption)| caption.is_drawn())
         .map(|(index, caption)| TextOver {
             caption: index,
             text: caption.text.trim().to_owned(),

@@ -183,9 +183,7 @@ pub(crate) fn letter_with(
     let (mut points, mut texts) = (Vec::new(), Vec::new());
     for (caption, place) in illustration.captions.iter().zip(captions) {
         let seen = place.and_then(|(pos, hidden)| Some((view.pixel_from_subject(pos)?, hidden)));
-        let Some((at, is_hidden)) =
-            seen.filter(|_| caption.enabled && !caption.text.trim().is_empty())
-        else {
+        let Some((at, is_hidden)) = seen.filter(|_| caption.is_drawn()) else {
             continue;
         };
         let at = Pos2::new(at.x, at.y);

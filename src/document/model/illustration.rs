@@ -161,6 +161,13 @@ pub struct Caption {
     pub enabled: bool,
 }
 
+impl Caption {
+    /// True if there is something to draw: switched on, and more than spaces.
+    pub fn is_drawn(&self) -> bool {
+        self.enabled && !self.text.trim().is_empty()
+    }
+}
+
 /// A value that readers of a lesson may move (an entry of `controls` in a document).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Control {
