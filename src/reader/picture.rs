@@ -162,7 +162,7 @@ impl Picture {
             .enumerate()
             .zip(sizes.as_chunks::<2>().0)
         {
-            if !caption.enabled || caption.text.trim().is_empty() {
+            if !caption.is_drawn() {
                 continue;
             }
             let Some((place, is_hidden)) = self.captions.place(index) else {
