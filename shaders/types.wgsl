@@ -373,6 +373,10 @@ const CONSTRAIN_NOTHING: u32 = 0u;
 const CONSTRAIN_DISPLACEMENT: u32 = 1u;
 const CONSTRAIN_COORDINATE: u32 = 2u;
 const CONSTRAIN_RIGID: u32 = 3u;
+/// Bit of the pipeline constant `has_constraints`: a group gives way to tissue that templates before it have moved.
+const CONSTRAIN_LATE: u32 = 4u;
+/// Bit of the same: a group moves several segments, each as a whole.
+const CONSTRAIN_MANY: u32 = 5u;
 
 /// Kept tissue of a document.
 struct Kept {

@@ -21,9 +21,10 @@
 // needs: types.wgsl affine.wgsl kinds.wgsl bind/templates.wgsl bind/kept.wgsl displace/frame.wgsl displace/compose.wgsl
 //   march/kept.wgsl
 
-/// How displacements give way to kept tissue, a bit for each CONSTRAIN_ mode that occurs; 0: none does. A pipeline
-/// constant.
-override has_constraints: u32 = 14u;
+/// How displacements give way to kept tissue, a bit for each CONSTRAIN_ mode that occurs, and for CONSTRAIN_LATE and
+/// CONSTRAIN_MANY; 0: none does. A pipeline constant: software rasterisers take long for what is not asked, and for
+/// loops about texture reads.
+override has_constraints: u32 = 62u;
 
 /// How many times as long as the displacement the way to kept tissue has to be for the displacement to be whole. Nearer
 /// to 1 more tissue goes its whole way, and what lies beside kept tissue is stretched more, by h / (h - 1) at most.
@@ -57,6 +58,9 @@ fn group_done_partly(pos: vec3f, bits: u32, part: f32) -> Mapped {
 /// below 0 where they opened a gap. Constraints of theirs are left out: tissue that they guard too has not moved, and
 /// `before` is where the first of those stands.
 fn before_group(pos: vec3f, head: u32) -> Mapped {
+    if (has_constraints & (1u << CONSTRAIN_LATE)) == 0u {
+        return Mapped(pos, 1.0);
+    }
     let before = kept.items[head].before;
     if before == 0u {
         return Mapped(pos, 1.0);
@@ -95,10 +99,13 @@ fn hold(away: f32, seam: f32) -> f32 {
 fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     let sets = kept.items[head].gives_way_to;
     let seams = kept.seams[head];
+    let is_one = (has_constraints & (1u << CONSTRAIN_MANY)) == 0u;
     var away = vec4f(0.0);
     var widths = vec4f(0.0);
-    // Over the sets alone that there are: software rasterisers would run the body of a branch for all four.
-    for (var left = sets; left != 0u; left &= left - 1u) {
+    var by = vec3f(0.0);
+    var total = 1.0;
+    var left = sets;
+    loop {
         let channel = firstTrailingBit(left);
         let rigid = apply_affine(kept.motions[4u * head + channel], pos);
         let place = guarded(rigid, head, 1u << channel);
@@ -107,43 +114,48 @@ fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
         }
         // By as much as distances may be too long they count little: no step where the segment ends.
         let told = max(place.away, 0.0);
-        away[channel] = told * told / (told + max(kept.distance_dims.w, 1e-6));
-        widths[channel] = seams[channel] * hold(away[channel], seams[channel]);
+        let far = told * told / (told + max(kept.distance_dims.w, 1e-6));
+        let held = hold(far, seams[channel]);
+        if is_one {
+            total = 1.0 / max(1.0 - held, 1e-7);
+            by = held * total * (rigid - whole.pos);
+            break;
+        }
+        away[channel] = far;
+        widths[channel] = seams[channel] * held;
+        left &= left - 1u;
+        if left == 0u {
+            break;
+        }
     }
-    // Beside a body of wide seam one of a narrow seam has a wide one too: they share the way between them.
-    let squares = widths * widths;
-    let all_squares = squares.x + squares.y + squares.z + squares.w;
-    var by = vec3f(0.0);
-    var total = 1.0;
-    for (var left = sets; left != 0u; left &= left - 1u) {
-        let channel = firstTrailingBit(left);
-        let seam = sqrt(seams[channel] * seams[channel] + max(all_squares - squares[channel], 0.0));
-        let held = hold(away[channel], seam);
-        let weight = held / max(1.0 - held, 1e-7);
-        by += weight * (apply_affine(kept.motions[4u * head + channel], pos) - whole.pos);
-        total += weight;
+    if !is_one {
+        // Beside a body of wide seam one of a narrow seam has a wide one too: they share the way between them.
+        let squares = widths * widths;
+        let all_squares = squares.x + squares.y + squares.z + squares.w;
+        for (left = sets; left != 0u; left &= left - 1u) {
+            let channel = firstTrailingBit(left);
+            let seam = sqrt(seams[channel] * seams[channel] + max(all_squares - squares[channel], 0.0));
+            let held = hold(away[channel], seam);
+            let weight = held / max(1.0 - held, 1e-7);
+            by += weight * (apply_affine(kept.motions[4u * head + channel], pos) - whole.pos);
+            total += weight;
+        }
     }
     var source = whole.pos + by / total;
     let voxel = kept.spacing;
-    var is_free = false;
-    for (var turn = 0u; turn < 3u && !is_free; turn++) {
-        var here = 0.0;
+    var place = guarded(source, head, sets);
+    for (var turn = 0u; turn < 2u && place.is_in; turn++) {
+        // The way out is up the distance.
         var slope = vec3f(0.0);
-        // The place itself, then one along each axis. After two ways out there is no third.
-        var count = select(4u, 1u, turn == 2u);
-        for (var k = 0u; k < count; k++) {
-            let along = select(vec3f(0.0), vec3f(voxel), vec3u(1u, 2u, 3u) == vec3u(k));
-            let place = guarded(source + along, head, sets);
-            if k == 0u {
-                here = place.away;
-                is_free = !place.is_in;
-                count = select(count, 1u, is_free);
-            }
-            slope += along * (place.away - here);
+        for (var axis = 0u; axis < 3u; axis++) {
+            let along = select(vec3f(0.0), vec3f(voxel), vec3u(0u, 1u, 2u) == vec3u(axis));
+            let there = before_group(source + along, head);
+            slope += along * (distance_to_kept(there.pos, sets, 0.0, kept.exact_slab) - place.away);
         }
-        source += slope / max(length(slope), 1e-9) * (0.5 * voxel - here);
+        source += slope / max(length(slope), 1e-9) * (0.5 * voxel - place.away);
+        place = guarded(source, head, sets);
     }
-    return Mapped(source, select(-1.0, whole.continuity, is_free));
+    return Mapped(source, select(whole.continuity, -1.0, place.is_in));
 }
 
 /// The map of one group, with its constraint.

@@ -245,20 +245,16 @@ fn is_reached_by_rigid(head: u32, center: vec3f, half: vec3f) -> bool {
     if has_kept == 0u || kept.items[head].constraint != CONSTRAIN_RIGID {
         return false;
     }
-    var is_reached = false;
-    for (var channel = 0u; channel < 4u; channel++) {
-        let own = kept.items[head].gives_way_to & (1u << channel);
-        if own != 0u {
-            let box = moved_whole(head, channel, center, half);
-            // What stands there was brought by the templates before, from where is not known here.
-            if kept.items[head].before != 0u {
-                return true;
-            }
-            let least = distance_to_sets(distance_voxel(box[0]), own);
-            let seam = kept.seams[head][channel] + kept.distance_dims.w;
-            let reach = length(half) + seam + max(3.0 * kept.spacing, 1.5 * voxel_diagonal());
-            is_reached = is_reached || least <= reach;
-        }
+    // What stands there was brought by the templates before, from where is not known here.
+    var is_reached = kept.items[head].before != 0u;
+    // Over the sets alone that there are, as in march/constrain.wgsl.
+    for (var left = kept.items[head].gives_way_to; left != 0u && !is_reached; left &= left - 1u) {
+        let channel = firstTrailingBit(left);
+        let box = moved_whole(head, channel, center, half);
+        let least = distance_to_sets(distance_voxel(box[0]), 1u << channel);
+        let seam = kept.seams[head][channel] + kept.distance_dims.w;
+        let reach = length(half) + seam + max(3.0 * kept.spacing, 1.5 * voxel_diagonal());
+        is_reached = least <= reach;
     }
     return is_reached;
 }
@@ -272,12 +268,10 @@ fn group_done(walk: Walk) -> Walk {
         // From anywhere between where the templates and where the motions take it from, and pushed out of the segment.
         var low = next.at - next.half;
         var high = next.at + next.half;
-        for (var channel = 0u; channel < 4u; channel++) {
-            if (kept.items[walk.group].gives_way_to & (1u << channel)) != 0u {
-                let box = moved_whole(walk.group, channel, walk.at, walk.half);
-                low = min(low, box[0] - box[1]);
-                high = max(high, box[0] + box[1]);
-            }
+        for (var left = kept.items[walk.group].gives_way_to; left != 0u; left &= left - 1u) {
+            let box = moved_whole(walk.group, firstTrailingBit(left), walk.at, walk.half);
+            low = min(low, box[0] - box[1]);
+            high = max(high, box[0] + box[1]);
         }
         next.at = 0.5 * (low + high);
         next.half = 0.5 * (high - low) + 2.0 * kept.spacing;

@@ -171,6 +171,8 @@ fn constants_agree() {
         ("CONSTRAIN_DISPLACEMENT", gpu_types::CONSTRAIN_DISPLACEMENT),
         ("CONSTRAIN_COORDINATE", gpu_types::CONSTRAIN_COORDINATE),
         ("CONSTRAIN_RIGID", gpu_types::CONSTRAIN_RIGID),
+        ("CONSTRAIN_LATE", gpu_types::CONSTRAIN_LATE),
+        ("CONSTRAIN_MANY", gpu_types::CONSTRAIN_MANY),
     ]);
     let bodies = BTreeMap::from([
         ("BODY_LAYER", gpu_types::BODY_LAYER),

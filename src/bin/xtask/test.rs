@@ -35,7 +35,8 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         if names.iter().any(|name| name == "browser") {
             page::build()?;
         }
-        let mut outcomes: Vec<Outcome> = names.iter().map(|name| one(name, tests)).collect();
+        let plainly = |args: &[&str]| Ok(tests(args));
+        let mut outcomes: Vec<Outcome> = names.iter().map(|name| one(name, plainly)).collect();
         outcomes.push(all_ran(&not_run));
         return close(start, outcomes);
     }
@@ -46,7 +47,7 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         let page = scope.spawn(page::build_beside);
         let checked = check::check_rest();
         let what = "lint, document and compile the tests and what they test";
-        let compiled = run(what, &mut linted_tests(&["--no-run"]));
+        let compiled = linted_tests(&["--no-run"]).and_then(|mut command| run(what, &mut command));
         ((checked, compiled), page.join())
     });
     // Where something cannot be built, or a lint speaks, there is no use in waiting for the rest.
@@ -55,18 +56,18 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         return close(start, vec![checked, compiled, built]);
     }
     let mut outcomes = vec![checked];
-    outcomes.push(run("unit tests", &mut linted_tests(&["--lib"])));
+    outcomes.push(run("unit tests", &mut linted_tests(&["--lib"])?));
     outcomes.extend(BINARIES.map(|name| one(name, linted_tests)));
-    let examples = &mut linted_tests(&["--doc"]);
+    let examples = &mut linted_tests(&["--doc"])?;
     outcomes.push(run("examples in the documentation", examples));
     outcomes.push(all_ran(&not_run));
     close(start, outcomes)
 }
 
 /// Runs the tests of a binary, which is compiled as `tests` has cargo do it.
-fn one(name: &str, tests: fn(&[&str]) -> Command) -> Outcome {
+fn one(name: &str, tests: fn(&[&str]) -> Result<Command, String>) -> Outcome {
     let run_with = |what: &str, args: &[&str]| {
-        let mut command = tests(&["--test", name]);
+        let mut command = tests(&["--test", name])?;
         command.args(args);
         run(&format!("tests/{name}{what}"), &mut command)
     };
@@ -127,11 +128,10 @@ pub(crate) fn tests(args: &[&str]) -> Command {
 }
 
 /// The same, compiled with lints and docs.
-fn linted_tests(args: &[&str]) -> Command {
+fn linted_tests(args: &[&str]) -> Result<Command, String> {
     let mut command = tests(args);
-    // The program that runs has a file.
-    let _known = lint::beside(&mut command);
-    command
+    lint::beside(&mut command)?;
+    Ok(command)
 }
 
 /// All failures at the end, where they are seen.

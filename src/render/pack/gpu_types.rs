@@ -276,6 +276,11 @@ pub const CONSTRAIN_DISPLACEMENT: u32 = 1;
 pub const CONSTRAIN_COORDINATE: u32 = 2;
 /// [`KeptGroup::constraint`]: tissue moves as a whole.
 pub const CONSTRAIN_RIGID: u32 = 3;
+/// Bit of [`KeptTissue::constraints`](super::kept::KeptTissue::constraints): a group gives way to tissue that templates
+/// before it have moved.
+pub const CONSTRAIN_LATE: u32 = 4;
+/// Bit of the same: a group moves several segments, each as a whole.
+pub const CONSTRAIN_MANY: u32 = 5;
 
 /// What one template leaves alone.
 #[repr(C)]

@@ -1,8 +1,8 @@
 //! Kept tissue: which labels a document's templates leave alone.
 
 use super::gpu_types::{
-    CONSTRAIN_COORDINATE, CONSTRAIN_DISPLACEMENT, CONSTRAIN_NOTHING, CONSTRAIN_RIGID, KEEPS_DEEP,
-    KeptGroup, LabelSets, MAX_TEMPLATES,
+    CONSTRAIN_COORDINATE, CONSTRAIN_DISPLACEMENT, CONSTRAIN_LATE, CONSTRAIN_MANY,
+    CONSTRAIN_NOTHING, CONSTRAIN_RIGID, KEEPS_DEEP, KeptGroup, LabelSets, MAX_TEMPLATES,
 };
 use super::notice::RenderNotice;
 use crate::data::{Resources, Segment};
@@ -34,7 +34,8 @@ pub struct KeptTissue {
     /// What the pipeline constant `align_mode` has to be. 0: nothing is kept or gives way; 1: the list is one group;
     /// 2: the first templates of the list keep the same; 3: any.
     pub align_mode: u32,
-    /// How displacements give way, a bit for each `CONSTRAIN_` mode that occurs.
+    /// How displacements give way, a bit for each `CONSTRAIN_` mode that occurs, for [`CONSTRAIN_LATE`] and for
+    /// [`CONSTRAIN_MANY`].
     pub constraints: u32,
 }
 
@@ -179,6 +180,9 @@ impl KeptTissue {
                 CONSTRAIN_RIGID => head as u32,
                 _ => item.run,
             };
+            let is_many = item.constraint == CONSTRAIN_RIGID && item.gives_way_to.count_ones() > 1;
+            kept.constraints |= u32::from(item.before != 0) << CONSTRAIN_LATE
+                | u32::from(is_many) << CONSTRAIN_MANY;
         }
         kept
     }

@@ -14,7 +14,7 @@ pub(crate) struct RaycastKey {
     pub has_grid: bool,
     /// How kept tissue is found: 0 nothing is kept, 1 by one group, 2 by a chain, 3 by asking back.
     pub align_mode: u32,
-    /// How displacements give way to kept tissue, a bit for each `CONSTRAIN_` mode that occurs.
+    /// How displacements give way to kept tissue: see `KeptTissue::constraints`.
     pub constraints: u32,
     /// What says that tissue is kept: bit 0 its segment, bit 1 its depth.
     pub kept_by: u32,
