@@ -21,10 +21,11 @@ use chromiumoxide::cdp::browser_protocol::target::{
 };
 use chromiumoxide::page::ScreenshotParams;
 use futures::FutureExt as _;
+use std::collections::VecDeque;
 use std::future::Future;
 use std::panic::AssertUnwindSafe;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 use tokio::time::timeout;
 
@@ -103,6 +104,10 @@ where
     R: Future<Output = ()>,
 {
     let mut stage = alone();
+    QUESTIONS
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .clear();
     let server = Server::start(dist());
     let run = async {
         let running = stage.browser(gpu).await;
@@ -119,9 +124,39 @@ where
     };
     match timed(|| RUNTIME.block_on(run)) {
         Ok(Ok(())) => {}
-        Ok(Err(_elapsed)) => panic!("the test did not end within {} s", LIMIT.as_secs()),
+        Ok(Err(_elapsed)) => panic!(
+            "the test did not end within {} s. The last {LAST_QUESTIONS} questions to its pages: {}",
+            LIMIT.as_secs(),
+            asked_last()
+        ),
         Err(panic) => std::panic::resume_unwind(panic),
     }
+}
+
+/// What a test has asked its pages last, and when: a test that hangs is known by its questions.
+static QUESTIONS: Mutex<VecDeque<(Instant, String)>> = Mutex::new(VecDeque::new());
+/// As many of them are kept.
+const LAST_QUESTIONS: usize = 12;
+
+fn note_question(expression: &str) {
+    let mut questions = QUESTIONS.lock().unwrap_or_else(PoisonError::into_inner);
+    // One that is asked again and again while a test waits counts once, with the first time.
+    if questions.back().is_some_and(|(_, last)| last == expression) {
+        return;
+    }
+    questions.push_back((Instant::now(), expression.to_owned()));
+    if questions.len() > LAST_QUESTIONS {
+        questions.pop_front();
+    }
+}
+
+fn asked_last() -> String {
+    let questions = QUESTIONS.lock().unwrap_or_else(PoisonError::into_inner);
+    let lines = questions.iter().map(|(since, question)| {
+        let start: String = question.chars().take(120).collect();
+        format!("\n  {:.0} s ago: {start}", since.elapsed().as_secs_f32())
+    });
+    lines.collect()
 }
 
 /// The built page, which has to be newer than what it is built from.
@@ -318,6 +353,7 @@ impl Tab {
 
     /// Value of a JavaScript expression; a promise is awaited.
     pub(crate) async fn eval<T: serde::de::DeserializeOwned>(&self, expression: &str) -> T {
+        note_question(expression);
         let found = match self.page.evaluate_expression(expression).await {
             Ok(found) => found,
             // A program that has ended answers nothing any more; the reason is among its messages.

@@ -2,7 +2,7 @@
 //! picture is at. How soon controls answer is printed where `FABRICA_LONG` is set.
 
 use super::hand::{Control, click, controls, document, find, focus, strike, write};
-use super::harness::{Tab, with_browser};
+use super::harness::{Session, Tab, with_browser};
 use super::*;
 use chromiumoxide::cdp::browser_protocol::emulation::SetCpuThrottlingRateParams;
 use chromiumoxide::cdp::browser_protocol::input::DispatchMouseEventType;
@@ -134,28 +134,45 @@ fn a_slow_processor_loses_nothing() {
             .await;
         focus(&tab).await;
         tab.frames(3).await;
-        tab.eval::<bool>(ANSWER).await;
+        if is_long() {
+            let first = find(&tab, "1. Peel").await;
+            click(&tab, "1. Peel").await;
+            find(&tab, "Progress slider").await;
+            let seen = controls(&tab).await;
+            tab.page.close().await.expect("the tab closes");
+            return one_by_one(&session, &seen, first.middle()).await;
+        }
         click(&tab, "1. Peel").await;
         find(&tab, "Progress slider").await;
-        let throttle = SetCpuThrottlingRateParams::new(SLOWER);
-        tab.page.execute(throttle).await.expect("a slow processor");
-
-        if is_long() {
-            one_by_one(&tab).await;
-        } else {
-            click(&tab, "Hide 1. Peel").await;
-            // No more selected, as below.
-            click(&tab, "1. Peel").await;
-        }
+        slow_down(&tab).await;
+        click(&tab, "Hide 1. Peel").await;
+        // No more selected, as below.
+        click(&tab, "1. Peel").await;
         at_once(&tab).await;
         tab.assert_no_complaints().await;
     });
 }
 
-/// What changes the picture, and what does not; each is answered.
-async fn one_by_one(tab: &Tab) {
-    let seen = controls(tab).await;
-    let at = |name: &str, x: f64| named(&seen, name).corner(x, 0.5);
+async fn slow_down(tab: &Tab) {
+    let throttle = SetCpuThrottlingRateParams::new(SLOWER);
+    tab.page.execute(throttle).await.expect("a slow processor");
+}
+
+/// What changes the picture, and what does not; each is answered. The places of the controls, once the row at `first`
+/// is open, come from another tab: whoever asks for the list of controls has it made in every frame from then on, which
+/// takes part of the time that is measured here.
+async fn one_by_one(session: &Session, seen: &[Control], first: (f64, f64)) {
+    let tab = session
+        .refining_viewer(&format!("#{}", payload(LESSON)), SIZE)
+        .await;
+    focus(&tab).await;
+    tab.frames(3).await;
+    tab.eval::<bool>(ANSWER).await;
+    press_at(&tab, first).await;
+    tab.frames(3).await;
+    slow_down(&tab).await;
+    let tab = &tab;
+    let at = |name: &str, x: f64| named(seen, name).corner(x, 0.5);
     let progress = format!(
         "{DOCUMENT} return Math.abs((d.templates[0].params?.progress ?? 0.5) - 0.8) < 0.05"
     );
@@ -167,15 +184,18 @@ async fn one_by_one(tab: &Tab) {
     answered(tab, "hide", at("Hide 1. Peel", 0.5), &hidden).await;
     let step = "return window.fabrica.viewer.get_link().includes('&step=1')";
     answered(tab, "next step", at("Next step", 0.5), step).await;
+    let back = "return !window.fabrica.viewer.get_link().includes('&step=')";
+    answered(tab, "step back", at("Step before", 0.5), back).await;
+    // These ask for the list.
     let menu = "return window.fabrica.viewer.controls().includes('Save picture')";
     answered(tab, "menu", at("More", 0.5), menu).await;
     tab.picture("slow_menu").await;
-    let closed = "return !window.fabrica.viewer.controls().includes('Save picture')";
+    let closed = "const seen = window.fabrica.viewer.controls(); return seen !== '' && !seen.includes('Save picture')";
     answered(tab, "menu away", at("Picture", 0.05), closed).await;
     let text = "return window.fabrica.viewer.controls().includes('Show the title')";
     answered(tab, "panel", at("Panel: Text", 0.5), text).await;
-    let back = "return !window.fabrica.viewer.get_link().includes('&step=')";
-    answered(tab, "step back", at("Step before", 0.5), back).await;
+    at_once(tab).await;
+    tab.assert_no_complaints().await;
 }
 
 /// Everything at once, faster than any hand: no press waits for what came before it.
