@@ -2,7 +2,7 @@
 //! them. Nothing is skipped: a missing part fails with what to do about it.
 
 pub(crate) use super::running::Gpu;
-use super::running::{RUNTIME, Running, alone, timed};
+use super::running::{RUNTIME, Running, Stage, alone, timed};
 use super::server::Server;
 use base64::Engine as _;
 use chromiumoxide::Page;
@@ -25,12 +25,12 @@ use std::collections::VecDeque;
 use std::future::Future;
 use std::panic::AssertUnwindSafe;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 use tokio::time::timeout;
 
 /// No browser test may take longer; a hanging browser must not hold up everything after it.
-const LIMIT: Duration = Duration::from_secs(900);
+const LIMIT: Duration = Duration::from_secs(450);
 /// Closing what a test has opened may not take longer.
 const CLOSING: Duration = Duration::from_secs(10);
 /// Between two questions of what is waited for.
@@ -97,18 +97,35 @@ pub(crate) fn root() -> &'static Path {
 }
 
 /// Runs one test, alone, in a fresh context of the browser: no cookie, storage, permission or tab of another test.
+///
+/// A test that hangs is run once more, in a browser of its own: after some dozens of tests the software GPU of the
+/// shared one stops now and then. It is told, with what the test had asked, and `.ci/run` tells it again at its end.
 #[track_caller]
 pub(crate) fn with_browser<F, R>(gpu: Gpu, test: F)
+where
+    F: FnOnce(Session) -> R + Clone,
+    R: Future<Output = ()>,
+{
+    let mut stage = alone();
+    let outcome = timed(|| {
+        attempt(&mut stage, gpu, test.clone()).or_else(|hung| {
+            println!("hung once: {hung}");
+            attempt(&mut stage, gpu, test)
+        })
+    });
+    if let Err(hung) = outcome {
+        panic!("{hung}");
+    }
+}
+
+/// Runs a test once; the error tells that it does not end.
+fn attempt<F, R>(stage: &mut Stage, gpu: Gpu, test: F) -> Result<(), String>
 where
     F: FnOnce(Session) -> R,
     R: Future<Output = ()>,
 {
-    let mut stage = alone();
-    QUESTIONS
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .clear();
     let server = Server::start(dist());
+    questions().clear();
     let run = async {
         let running = stage.browser(gpu).await;
         let session = Session::start(&running, server).await;
@@ -122,13 +139,13 @@ where
         }
         outcome
     };
-    match timed(|| RUNTIME.block_on(run)) {
-        Ok(Ok(())) => {}
-        Ok(Err(_elapsed)) => panic!(
-            "the test did not end within {} s. The last {LAST_QUESTIONS} questions to its pages: {}",
+    match RUNTIME.block_on(run) {
+        Ok(Ok(())) => Ok(()),
+        Ok(Err(_elapsed)) => Err(format!(
+            "a test did not end within {} s; it asked its pages last:{}",
             LIMIT.as_secs(),
             asked_last()
-        ),
+        )),
         Err(panic) => std::panic::resume_unwind(panic),
     }
 }
@@ -138,8 +155,12 @@ static QUESTIONS: Mutex<VecDeque<(Instant, String)>> = Mutex::new(VecDeque::new(
 /// As many of them are kept.
 const LAST_QUESTIONS: usize = 12;
 
+fn questions() -> MutexGuard<'static, VecDeque<(Instant, String)>> {
+    QUESTIONS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 fn note_question(expression: &str) {
-    let mut questions = QUESTIONS.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut questions = questions();
     // One that is asked again and again while a test waits counts once, with the first time.
     if questions.back().is_some_and(|(_, last)| last == expression) {
         return;
@@ -150,8 +171,9 @@ fn note_question(expression: &str) {
     }
 }
 
+/// A line for each of them.
 fn asked_last() -> String {
-    let questions = QUESTIONS.lock().unwrap_or_else(PoisonError::into_inner);
+    let questions = questions();
     let lines = questions.iter().map(|(since, question)| {
         let start: String = question.chars().take(120).collect();
         format!("\n  {:.0} s ago: {start}", since.elapsed().as_secs_f32())
