@@ -16,7 +16,7 @@ fn map_step() -> f32 {
 fn material_at(pos: vec3f, mask: u32) -> Material {
     let count = min(templates.count, 32u);
     let every = select(0u, 0xffffffffu >> ((32u - count) & 31u), count > 0u);
-    if align_mode == 1u {
+    if align_mode == 1u || align_mode == 4u {
         return grouped(pos, mask & every);
     }
     if align_mode == 2u {

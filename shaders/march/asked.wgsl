@@ -19,10 +19,10 @@
 //
 //     x  kept? -> it stays      p = Tb(x)  kept? -> nothing     p = Tb-1(p)  kept? -> nothing    ...
 //
-// `align_mode` 1 is one group alone: two questions without a loop. 2 is the chain: one set, nothing below it. 3 is the
-// general case: a stack of open questions. A question is open in its first case (what does Oa-1 have at x itself) or in
-// its last (what does Oi-1 have at Ti(x)). An `add` group counts as one template and keeps what any of its members
-// keeps.
+// `align_mode` 1 is one group alone: two questions without a loop. 4 is the same where the group gives way to tissue
+// and keeps none: no question. 2 is the chain: one set, nothing below it. 3 is the general case: a stack of open
+// questions. A question is open in its first case (what does Oa-1 have at x itself) or in its last (what does Oi-1 have
+// at Ti(x)). An `add` group counts as one template and keeps what any of its members keeps.
 //
 // `Material.path` is the set of templates that moved what was found: the map along that path is smooth where the object
 // is, so that Jacobians and gradients of the continuity are taken along it.
@@ -40,13 +40,14 @@ fn below(mask: u32, level: u32) -> u32 {
     return mask & ~(0xffffffffu << level);
 }
 
-/// Align mode 1: the list is one group. Both questions are asked everywhere: devices that run both sides of every
-/// branch ask them anyhow, and have no loop to walk.
+/// Align modes 1 and 4: the list is one group. Both questions are asked everywhere: devices that run both sides of
+/// every branch ask them anyhow, and have no loop to walk.
 fn grouped(pos: vec3f, mask: u32) -> Material {
     let item = kept.items[0];
     let moved = group_map(pos, 0u, mask);
-    let stays = mask == 0u || is_kept(pos, item.keeps, item.depth);
-    let stands_elsewhere = is_kept(moved.pos, item.keeps, item.depth);
+    let keeps = align_mode == 1u;
+    let stays = mask == 0u || (keeps && is_kept(pos, item.keeps, item.depth));
+    let stands_elsewhere = keeps && is_kept(moved.pos, item.keeps, item.depth);
     let continuity = select(moved.continuity, -1.0, stands_elsewhere);
     return Material(select(moved.pos, pos, stays), select(continuity, 1.0, stays), select(mask, 0u, stays));
 }

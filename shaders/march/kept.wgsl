@@ -5,7 +5,8 @@
 //   subject/volume.wgsl|subject/surfaces.wgsl|subject/both.wgsl
 
 /// How a document keeps tissue. 0: it keeps none. 1: the list is one group. 2: the first templates of the list keep the
-/// same set or depth, the others keep nothing. 3: any other case. A pipeline constant.
+/// same set or depth, the others keep nothing. 3: any other case. 4: the list is one group that gives way to tissue,
+/// and none is kept. A pipeline constant.
 override align_mode: u32 = 3u;
 
 /// By what tissue is kept. Bit 0: by its segment; bit 1: by its depth under the outer surface; bit 2: some segments

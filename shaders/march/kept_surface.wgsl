@@ -6,6 +6,9 @@
 /// the gradient is reversed on one of the sides). `rest`: the point, rest space. `jacobian` takes a step in subject
 /// space to one in rest space.
 fn kept_surface(rest: vec3f, path: u32, jacobian: mat3x3f, to_eye: vec3f) -> KeptSurface {
+    if align_mode == 4u {
+        return KeptSurface(to_eye, 0.0, vec3f(0.0));
+    }
     var weight = 0.0;
     var keeps = 0u;
     var depth = 0.0;

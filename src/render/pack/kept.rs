@@ -32,7 +32,8 @@ pub struct KeptTissue {
     /// Names in `keep` that the subject has no segment for.
     pub unknown: Vec<String>,
     /// What the pipeline constant `align_mode` has to be. 0: nothing is kept or gives way; 1: the list is one group;
-    /// 2: the first templates of the list keep the same; 3: any.
+    /// 2: the first templates of the list keep the same; 3: any; 4: the list is one group that gives way and keeps
+    /// nothing.
     pub align_mode: u32,
     /// How displacements give way, a bit for each `CONSTRAIN_` mode that occurs, for [`CONSTRAIN_LATE`] and for
     /// [`CONSTRAIN_MANY`].
@@ -261,14 +262,12 @@ impl KeptTissue {
             .copied()
             .filter(|&i| self.items[i].keeps != 0)
             .collect();
-        self.align_mode = if keeping.is_empty() && self.constraints == 0 {
-            0
-        } else if heads.len() == 1 {
-            1
-        } else if keeping.iter().all(|&i| self.items[i].run == 0) {
-            2
-        } else {
-            3
+        self.align_mode = match heads.len() {
+            _ if keeping.is_empty() && self.constraints == 0 => 0,
+            1 if keeping.is_empty() => 4,
+            1 => 1,
+            _ if keeping.iter().all(|&i| self.items[i].run == 0) => 2,
+            _ => 3,
         };
     }
 
