@@ -330,6 +330,10 @@ fn shared_device() -> (WgpuSetupExisting, Gpu) {
             other => panic!("the harness makes its own device, not {other:?}"),
         };
         setup.device_descriptor = Arc::new(Gpu::device_descriptor);
+        // Each window would open and close OpenGL too, only to name it; windows in two threads that do so at once end
+        // in a panic of the driver's.
+        let backends = &mut setup.instance_descriptor.backends;
+        backends.remove(wgpu::Backends::GL);
         let options = eframe::egui_wgpu::RendererOptions::PREDICTABLE;
         let made = egui_kittest::wgpu::create_render_state(WgpuSetup::CreateNew(setup), options);
         let (device, queue, info) = (made.device, made.queue, made.adapter.get_info());
