@@ -19,9 +19,9 @@ const SIZE: (u32, u32) = (800, 760);
 const LESSON: &str = r#"{"fabrica":1,"title":"Slow","subject":{"builtin":"cube"},"templates":[{"kind":"peel","at":[0,0.2,0.2],"size":[0.6,0.5,0.4]}],"steps":[{"title":"one"},{"title":"two"},{"title":"three"}]}"#;
 
 /// `window.answer(condition)` waits until a condition holds after the next click, and tells milliseconds from its
-/// release: until the page began to deal with it, until the condition held, until a whole frame after that was handed
-/// to the graphics device, and until the device had done all of it. The condition is looked at after each event and
-/// frame.
+/// release: until the page began to deal with it, until the condition held, until the frame that shows it was handed to
+/// the graphics device, and until the device had done all of it. The condition is looked at after each event and frame:
+/// the viewer deals with a release in its event, and the next frame paints what came of it.
 const ANSWER: &str = r#"
 const soon = new MessageChannel();
 const ask = window.requestAnimationFrame;
@@ -30,7 +30,7 @@ window.requestAnimationFrame = (f) => ask.call(window, (t) => {
   const start = performance.now();
   f(t);
   busy += performance.now() - start;
-  soon.port2.postMessage(0);
+  soon.port2.postMessage(start);
 });
 const events = [];
 const observer = new PerformanceObserver((list) => events.push(...list.getEntries()));
@@ -43,14 +43,14 @@ for (const kind of ["pointerdown", "pointerup", "keydown"])
   }, true);
 window.answer = (condition) => new Promise((resolve) => {
   window.press = null;
-  let taken = 0, frame = 0;
-  soon.port1.onmessage = () => {
+  let taken = 0;
+  soon.port1.onmessage = ({ data: frame }) => {
     if (!window.press) return;
     const [since, begun] = window.press;
-    const viewer = window.fabrica.viewer;
     const now = performance.now();
-    if (!taken && condition()) [taken, frame] = [now, viewer.frame()];
-    if (!taken || viewer.frame() <= frame) return;
+    if (!taken && condition()) taken = now;
+    // A frame that began before the release may be told of after it.
+    if (!taken || frame < begun) return;
     soon.port1.onmessage = null;
     const frames = busy;
     window.devices.at(-1).queue.onSubmittedWorkDone().then(() => {
