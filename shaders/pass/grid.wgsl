@@ -247,7 +247,7 @@ fn is_reached_by_rigid(head: u32, center: vec3f, half: vec3f) -> bool {
     }
     // What stands there was brought by the templates before, from where is not known here.
     var is_reached = kept.items[head].before != 0u;
-    // Over the sets alone that there are, as in march/constrain.wgsl.
+    // Over the sets alone that there are: software rasterisers would run the body of a branch for all four.
     for (var left = kept.items[head].gives_way_to; left != 0u && !is_reached; left &= left - 1u) {
         let channel = firstTrailingBit(left);
         let box = moved_whole(head, channel, center, half);

@@ -98,8 +98,9 @@ pub(crate) fn root() -> &'static Path {
 
 /// Runs one test, alone, in a fresh context of the browser: no cookie, storage, permission or tab of another test.
 ///
-/// A test that hangs is run once more, in a browser of its own: after some dozens of tests the software GPU of the
-/// shared one stops now and then. It is told, with what the test had asked, and `.ci/run` tells it again at its end.
+/// A test that hangs is run once more, in a browser of its own: one was seen to, after some fifty others in the shared
+/// browser, for a reason that is not known. It is told, with what the test had asked, and `.ci/run` tells it again at
+/// its end.
 #[track_caller]
 pub(crate) fn with_browser<F, R>(gpu: Gpu, test: F)
 where

@@ -12,7 +12,7 @@ pub(crate) struct RaycastKey {
     pub has_labels: bool,
     /// The ray march leaps by the skip grid.
     pub has_grid: bool,
-    /// How kept tissue is found: 0 nothing is kept, 1 by one group, 2 by a chain, 3 by asking back.
+    /// How kept tissue is found: see `KeptTissue::align_mode`.
     pub align_mode: u32,
     /// How displacements give way to kept tissue: see `KeptTissue::constraints`.
     pub constraints: u32,
