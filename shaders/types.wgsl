@@ -399,6 +399,12 @@ struct Kept {
     parts: u32,
     /// 1 where a voxel of the distances is larger than one of the segments along some axis, else 0.
     is_coarse: u32,
+    /// Sets that end at the smooth surface of their shares, bit k for set k; others at the voxels of their labels.
+    shared_sets: u32,
+    /// 1 where no label belongs to two of the sets: their shares add up to that of what lies in any of them.
+    shares_add: u32,
+    /// Half of the longest side of a label voxel, subject units: so far the smooth surface may lie from the labels.
+    rim: f32,
     /// Sets of each label, four bits each, eight labels in a word.
     label_sets: array<vec4u, 10>,
     /// As in `Templates`, in the same order; only heads of groups count.
@@ -409,6 +415,25 @@ struct Kept {
     motions: array<Affine, 128>,
     /// How far around each segment that moves as a whole other tissue goes with it, subject units, per head and set.
     seams: array<vec4f, 32>,
+}
+
+/// One pass of the making of shares of kept tissue.
+struct SharesJob {
+    /// xyz: label voxels along each axis.
+    dims: vec4u,
+    /// Words of bits in a row of them, 32 voxels each.
+    words: u32,
+    /// Set that is worked on.
+    set_index: u32,
+    /// Bytes of a voxel in what is written, one for each set from 0 on: 1, 2 or 4.
+    channels: u32,
+    /// Words in a row of what is written.
+    row_words: u32,
+    /// First slice of this part, and slices in it.
+    first_slice: u32,
+    slice_count: u32,
+    /// Sets of kept tissue that each label belongs to, four bits each; packed as in `Kept`.
+    label_sets: array<vec4u, 10>,
 }
 
 /// One pass of the making of distances.
@@ -449,6 +474,8 @@ struct DistanceJob {
     part: u32,
     /// How many parts have a rank.
     part_count: u32,
+    /// Words in a row of crumbs, which belong to the sets (pass/shares.wgsl); 0: there are none.
+    crumb_words: u32,
     /// Sets of kept tissue that each label belongs to, four bits each; packed as in `Kept`.
     label_sets: array<vec4u, 10>,
 }

@@ -2,7 +2,7 @@
 // in for march/plain.wgsl, function by function. Exact but for interpolation where the map is smooth; within a texel of
 // a cut or of a rest end it mixes both sides, so it is for pictures that move.
 // Source: Correa, section 4.3 (displacement textures) and 6.2 (their error).
-// needs: types.wgsl bind/subject.wgsl bind/baked.wgsl displace/compose.wgsl march/interface.wgsl
+// needs: types.wgsl bind/subject.wgsl bind/baked.wgsl displace/compose.wgsl march/interface.wgsl subject/label.wgsl
 
 /// True if both sides of the surface of kept tissue take their normal from that surface.
 const KEEPS_TISSUE: bool = false;
@@ -33,4 +33,9 @@ fn map_along(pos: vec3f, path: u32) -> Mapped {
 /// No surface of kept tissue: weight 0.
 fn kept_surface(_rest: vec3f, _path: u32, _jacobian: mat3x3f, to_eye: vec3f) -> KeptSurface {
     return KeptSurface(to_eye, 0.0, vec3f(0.0));
+}
+
+/// Label of a point of rest space.
+fn label_here(rest: vec3f) -> u32 {
+    return nearest_label(rest);
 }

@@ -76,10 +76,17 @@ struct Guarded {
     away: f32,
 }
 
-/// How a point lies to some sets as the templates before a group have them.
-fn guarded(pos: vec3f, head: u32, sets: u32) -> Guarded {
+/// How a point lies to some sets as the templates before a group have them. `by_voxels`: sets end at the voxels of
+/// their labels, as segments that move as a whole do.
+fn guarded(pos: vec3f, head: u32, sets: u32, by_voxels: bool) -> Guarded {
     let there = before_group(pos, head);
-    let is_in = there.continuity >= 0.0 && is_kept(there.pos, sets, 0.0);
+    var is_in = false;
+    if by_voxels {
+        is_in = is_labelled(there.pos, sets);
+    } else {
+        is_in = is_kept(there.pos, sets, 0.0);
+    }
+    is_in = is_in && there.continuity >= 0.0;
     return Guarded(is_in, distance_to_kept(there.pos, sets, 0.0, kept.exact_slab));
 }
 
@@ -108,7 +115,7 @@ fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     loop {
         let channel = firstTrailingBit(left);
         let rigid = apply_affine(kept.motions[4u * head + channel], pos);
-        let place = guarded(rigid, head, 1u << channel);
+        let place = guarded(rigid, head, 1u << channel, true);
         if place.is_in {
             return Mapped(rigid, 1.0);
         }
@@ -143,7 +150,7 @@ fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     }
     var source = whole.pos + by / total;
     let voxel = kept.spacing;
-    var place = guarded(source, head, sets);
+    var place = guarded(source, head, sets, true);
     for (var turn = 0u; turn < 2u && place.is_in; turn++) {
         // The way out is up the distance.
         var slope = vec3f(0.0);
@@ -153,7 +160,7 @@ fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
             slope += along * (distance_to_kept(there.pos, sets, 0.0, kept.exact_slab) - place.away);
         }
         source += slope / max(length(slope), 1e-9) * (0.5 * voxel - place.away);
-        place = guarded(source, head, sets);
+        place = guarded(source, head, sets, true);
     }
     return Mapped(source, select(whole.continuity, -1.0, place.is_in));
 }
@@ -177,11 +184,12 @@ fn group_map(pos: vec3f, head: u32, bits: u32) -> Mapped {
         return whole;
     }
     let sets = kept.items[head].gives_way_to;
-    let place = guarded(pos, head, sets);
+    let place = guarded(pos, head, sets, false);
     if place.is_in {
         return Mapped(pos, 1.0);
     }
-    let away = max(place.away - kept.distance_dims.w, 0.0);
+    // The smooth surface lies up to half a voxel before the labels from which distances are taken: nothing moves at it.
+    let away = max(place.away - kept.distance_dims.w - kept.rim, 0.0);
     if (has_constraints & (1u << CONSTRAIN_COORDINATE)) != 0u {
         if mode == CONSTRAIN_COORDINATE {
             let part = min(away / max(kept.motions[4u * head].row0.x, 1e-6), 1.0);

@@ -1,7 +1,7 @@
 // The material at a point of the object in documents that keep no tissue: every template moves all tissue, so the
 // composed map alone determines the material. This file defines the same functions as march/align.wgsl and replaces
 // that file in the programs for such documents.
-// needs: types.wgsl displace/compose.wgsl march/interface.wgsl
+// needs: types.wgsl displace/compose.wgsl march/interface.wgsl subject/label.wgsl
 
 /// True if both sides of the surface of kept tissue take their normal from that surface.
 const KEEPS_TISSUE: bool = false;
@@ -31,4 +31,9 @@ fn map_along(pos: vec3f, path: u32) -> Mapped {
 /// Returns weight 0, since no document of this program has a surface of kept tissue.
 fn kept_surface(_rest: vec3f, _path: u32, _jacobian: mat3x3f, to_eye: vec3f) -> KeptSurface {
     return KeptSurface(to_eye, 0.0, vec3f(0.0));
+}
+
+/// Label of a point of rest space.
+fn label_here(rest: vec3f) -> u32 {
+    return nearest_label(rest);
 }

@@ -39,6 +39,9 @@
 /// The distances, four channels, in slabs (see `Kept`).
 @group(3) @binding(6) var distance_out: texture_storage_3d<rgba16float, write>;
 
+/// Bits of label voxels that belong to each set as its crumbs, as pass/shares.wgsl leaves them.
+@group(3) @binding(7) var<storage, read_write> crumbs: array<u32>;
+
 /// Stands for "none on this line"; its square is still finite.
 const FAR: f32 = 1e4;
 const FILLED: u32 = 0u;
@@ -85,12 +88,23 @@ fn part_of(voxel: vec3i, label: u32) -> u32 {
     return part;
 }
 
+/// True if a fine voxel is a crumb of the set that is worked on.
+fn is_crumb(voxel: vec3i) -> bool {
+    let size = textureDimensions(labels);
+    let at = label_voxel_of(voxel);
+    if job.crumb_words == 0u || any(at < vec3i(0)) || any(at >= vec3i(size)) {
+        return false;
+    }
+    let row = u32(at.y) + size.y * (u32(at.z) + size.z * job.channel);
+    return (crumbs[(u32(at.x) >> 5u) + job.crumb_words * row] & (1u << (u32(at.x) & 31u))) != 0u;
+}
+
 /// True if a fine voxel belongs to what distances are taken to.
 fn is_member(voxel: vec3i) -> bool {
     if job.channel < CHANNEL_OUTSIDE {
         let label = member_label(voxel);
         if label == NO_LABEL || job.part == 0u {
-            return label != NO_LABEL;
+            return label != NO_LABEL || is_crumb(voxel);
         }
         return part_of(voxel, label) == job.part;
     }

@@ -223,8 +223,9 @@ fn may_stay(i: u32, center: vec3f, half: vec3f) -> bool {
         return true;
     }
     // Nothing acts before: what stays is where it was at rest. Distances change by no more than the way; they are read
-    // at the nearest voxel and smoothed, three voxels in all, or more where voxels are far from cubes.
-    let reach = length(half) + max(3.0 * kept.spacing, 1.5 * voxel_diagonal());
+    // at the nearest voxel and smoothed, three voxels in all, or more where voxels are far from cubes. The smooth
+    // surface lies off the labels.
+    let reach = length(half) + max(3.0 * kept.spacing, 1.5 * voxel_diagonal()) + kept.rim;
     let voxel = distance_voxel(center);
     var least = distance_to_sets(voxel, item.keeps);
     if (item.keeps & KEEPS_DEEP) != 0u {

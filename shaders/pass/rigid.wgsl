@@ -64,8 +64,9 @@ const BLOCK_PLACES: u32 = 512u;
 const BLOCKS: f32 = 4.0;
 /// Starts of each lane: one of the lattice over the object, one of those about templates.
 const STARTS: u32 = 2u;
-/// From how many starts the place of a cell is looked for, the nearest first.
-const TRIES: u32 = 3u;
+/// From how many starts the place of a cell is looked for: the nearest, then the nearest of those that are moved
+/// another way. Where a cut parts the segment all of the nearest may be on the other side of it.
+const TRIES: u32 = 4u;
 /// Questions to the map at most on the way to a place, and how often a step is halved.
 const QUESTIONS: u32 = 48u;
 const HALVINGS: u32 = 7u;
@@ -531,18 +532,22 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
     // Neighbours are a lane's, so that each place is near the one before.
     let own = (count + 63u) / 64u;
     var last = still;
+    // The place of another cell, found where `last` led nowhere: as a rule on the other side of a cut.
+    var other = still;
     for (var k = select(count, lane * own, is_asked); k < min(count, (lane + 1u) * own); k++) {
         let index = vec3u(k % cells.x, (k / cells.x) % cells.y, k / (cells.x * cells.y));
         let at_sample = low + (vec3f(index) + 0.5) * cell;
-        let wanted = apply_affine(to_rest, at_sample);
-        let told = select(apply_affine(to_rest, floor(at_sample) + 0.5), wanted, has_shares);
+        // A place anywhere in a cell of several voxels: at a cut, rows of middles would all lie on one side.
+        let aside = select(vec3f(0.0), (evenly(k) - 0.5) * cell, has_shares);
+        let wanted = apply_affine(to_rest, at_sample + aside);
+        let told = apply_affine(to_rest, select(floor(at_sample) + 0.5, at_sample, has_shares));
         let away = distance_to_kept(told, sets, 0.0, exact);
         var share = select(0.0, 1.0, away < 0.0);
         if has_shares && abs(away) <= fade + kept.distance_dims.w {
             share = 0.0;
             for (var eighth = 0u; eighth < 8u; eighth++) {
-                let aside = (cell_of(eighth, 2u) - 0.5) * 0.5 * cell;
-                share += select(0.0, 0.125, is_kept(apply_affine(to_rest, at_sample + aside), sets, 0.0));
+                let corner = (cell_of(eighth, 2u) - 0.5) * 0.5 * cell;
+                share += select(0.0, 0.125, is_labelled(apply_affine(to_rest, at_sample + corner), sets));
             }
         }
         if share <= 0.0 {
@@ -551,18 +556,39 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
         var there = last;
         var is_found = false;
         var passed = -1.0;
-        for (var attempt = select(0u, 1u, last.is_new); attempt <= TRIES && !is_found; attempt++) {
-            if attempt > 0u {
+        // How the nearest start is moved, and by how much the others are moved otherwise at most.
+        var nearest_way = vec3f(0.0);
+        var most_apart = 0.0;
+        for (var attempt = select(0u, 2u, last.is_new); attempt < 2u + 2u * TRIES && !is_found; attempt++) {
+            if attempt == 1u {
+                there = other;
+                if other.is_new {
+                    continue;
+                }
+            }
+            if attempt > 1u {
+                if attempt == 2u + TRIES {
+                    passed = -1.0;
+                    for (var i = 0u; i < STARTS * 64u; i++) {
+                        let apart = distance(start_places[i].xyz - start_rests[i].xyz, nearest_way);
+                        most_apart = max(most_apart, select(0.0, apart, start_places[i].w > 0.0));
+                    }
+                }
                 // The nearest start that was not tried yet.
                 var least = NO_END;
                 for (var i = 0u; i < STARTS * 64u; i++) {
                     let way = distance(start_rests[i].xyz, wanted);
-                    if start_places[i].w > 0.0 && way > passed && way < least {
+                    let apart = distance(start_places[i].xyz - start_rests[i].xyz, nearest_way);
+                    let is_due = start_places[i].w > 0.0 && (attempt < 2u + TRIES || apart > 0.5 * most_apart);
+                    if is_due && way > passed && way < least {
                         least = way;
                         there = still;
                         there.pos = start_places[i].xyz;
                         there.rest = start_rests[i].xyz;
                     }
+                }
+                if attempt == 2u {
+                    nearest_way = there.pos - there.rest;
                 }
                 passed = least;
                 if least == NO_END {
@@ -571,6 +597,9 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
             }
             there = place_of(wanted, there, all_bits);
             is_found = is_place_of(wanted, there);
+            if is_found && attempt > 0u {
+                other = last;
+            }
         }
         if is_found {
             last = there;

@@ -14,15 +14,11 @@ const SLICE_MARK: f32 = 0.45;
 fn volume_from(mapped: Mapped) -> Here {
     let uvw = texture_from_rest(mapped.pos);
     let is_inside = is_in_subject(uvw);
-    let voxel = floor(apply_affine(subject.label_from_rest, mapped.pos) * subject.label_dims.xyz);
-    let has_label = subject.has_labels != 0u && all(voxel >= vec3f(0.0)) && all(voxel < subject.label_dims.xyz);
-    let last = vec3i(subject.label_dims.xyz) - 1;
-    let label = textureLoad(labels, clamp(vec3i(voxel), vec3i(0), last), 0).x;
     return Here(
         mapped.pos,
         texel_at(uvw),
         mapped.continuity,
-        select(0u, label, has_label),
+        label_here(mapped.pos),
         is_inside && mapped.continuity >= 0.0,
     );
 }

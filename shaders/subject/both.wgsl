@@ -1,6 +1,9 @@
 // What a volume with meshes beside it has at a place. Each kind of subject answers this in a file of its own.
 // needs: types.wgsl affine.wgsl bind/subject.wgsl subject/place.wgsl subject/mesh.wgsl
 
+/// True if a subject of this kind has label voxels.
+const HAS_LABEL_VOXELS: bool = true;
+
 /// The labels at a point of rest space that are still to be taken.
 struct Labels {
     /// That of the volume, or NO_LABEL.

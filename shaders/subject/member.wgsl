@@ -2,9 +2,14 @@
 // needs: types.wgsl affine.wgsl bind/subject.wgsl bind/distance_job.wgsl
 //   subject/volume.wgsl|subject/surfaces.wgsl|subject/both.wgsl
 
+/// The label voxel in which a fine voxel lies.
+fn label_voxel_of(voxel: vec3i) -> vec3i {
+    return vec3i(floor(apply_affine(job.label_from_voxel, vec3f(voxel)) + 0.5));
+}
+
 /// Label of a fine voxel.
 fn label_of(voxel: vec3i) -> u32 {
-    let at = vec3i(floor(apply_affine(job.label_from_voxel, vec3f(voxel)) + 0.5));
+    let at = label_voxel_of(voxel);
     let is_inside = all(at >= vec3i(0)) && all(at < vec3i(textureDimensions(labels)));
     return select(0u, textureLoad(labels, clamp(at, vec3i(0), vec3i(textureDimensions(labels)) - 1), 0).x, is_inside);
 }

@@ -1,6 +1,9 @@
 // What a subject of meshes alone has at a place. Each kind of subject answers this in a file of its own.
 // needs: subject/place.wgsl subject/mesh.wgsl
 
+/// True if a subject of this kind has label voxels.
+const HAS_LABEL_VOXELS: bool = false;
+
 /// The segments at a point of rest space that are still to be taken: a set, see subject/mesh.wgsl.
 alias Labels = vec4u;
 

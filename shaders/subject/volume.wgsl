@@ -1,6 +1,9 @@
 // What a subject that is a volume has at a place. Each kind of subject answers this in a file of its own.
 // needs: affine.wgsl bind/subject.wgsl subject/place.wgsl
 
+/// True if a subject of this kind has label voxels.
+const HAS_LABEL_VOXELS: bool = true;
+
 /// The labels at a point of rest space that are still to be taken: of a volume one at most.
 alias Labels = u32;
 

@@ -1,5 +1,6 @@
 use glam::{DVec3, UVec3, Vec3};
 
+use super::kept_labels::KeptLabels;
 use super::subject::Subject;
 use super::volume::Volume;
 
@@ -13,12 +14,13 @@ pub struct Material {
 }
 
 impl Subject {
-    /// What a scan has at a place of rest space; `None` where the subject ends, and everywhere in a mesh.
-    pub fn material_at(&self, pos_in_rest: Vec3) -> Option<Material> {
+    /// What a scan has at a place of rest space, with the segment that a picture which keeps this tissue has there;
+    /// `None` where the subject ends, and everywhere in a mesh.
+    pub fn material_at(&self, pos_in_rest: Vec3, kept: &KeptLabels) -> Option<Material> {
         match self {
             Self::Space(space) => Some(Material {
                 value: Some(value_at(&space.volume, pos_in_rest)?),
-                segment: segment_at(&space.volume, pos_in_rest),
+                segment: segment_at(&space.volume, pos_in_rest, kept),
             }),
             // What fills a mesh is up to a document.
             Self::Mesh(_) => None,
@@ -55,7 +57,7 @@ fn value_at(volume: &Volume, pos_in_rest: Vec3) -> Option<f32> {
 }
 
 /// Name of the segment of a volume at a place of rest space (its number if it has no name).
-fn segment_at(volume: &Volume, pos_in_rest: Vec3) -> Option<String> {
+fn segment_at(volume: &Volume, pos_in_rest: Vec3, kept: &KeptLabels) -> Option<String> {
     let labels = volume.segmentation.as_ref()?;
     // Labels may lie on their own grid; both lie in the scanner's space.
     let world = (volume.grid.world_from_voxel * volume.grid.subject_from_voxel().inverse())
@@ -64,17 +66,8 @@ fn segment_at(volume: &Volume, pos_in_rest: Vec3) -> Option<String> {
         .grid
         .world_from_voxel
         .inverse()
-        .transform_point3(world)
-        .round();
-    if voxel.cmplt(DVec3::ZERO).any() || voxel.cmpge(labels.grid.dims.as_dvec3()).any() {
-        return None;
-    }
-    let (v, dims) = (voxel.as_u64vec3(), labels.grid.dims.as_u64vec3());
-    let index = v.x + dims.x * (v.y + dims.y * v.z);
-    let label = labels.labels.get(index as usize).copied().unwrap_or(0);
-    if label == 0 {
-        return None;
-    }
+        .transform_point3(world);
+    let label = kept.label_at(labels, voxel).filter(|label| *label != 0)?;
     let segment = labels.segments.iter().find(|s| s.label == u16::from(label));
     Some(segment.map_or_else(|| label.to_string(), |segment| segment.name.clone()))
 }

@@ -8,7 +8,6 @@ use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
 use crate::render::device::programs::SubjectShader;
 use crate::render::pack::frame::longest_step;
-use crate::render::pack::kept::KeptTissue;
 use crate::render::pack::notice::RenderNotice;
 use crate::render::pack::raycast_key::{Finds, RaycastKey};
 use crate::render::pack::stamps::MadeFrom;
@@ -65,6 +64,7 @@ impl Drop for Scene {
     fn drop(&mut self) {
         let views = [
             &self.kept_textures.view,
+            &self.kept_textures.shares.view,
             &self.bodies.view,
             &self.look.view,
             &self.objects.view,
@@ -236,7 +236,7 @@ impl Scene {
             is_baked: false,
             align_mode: kept.map_or(0, |kept| kept.align_mode),
             constraints: kept.map_or(0, |kept| kept.constraints),
-            kept_by: kept.map_or(0, KeptTissue::kept_by),
+            kept_by: kept.map_or(0, |kept| self.kept_textures.kept_by(kept)),
             has_bodies: self.inputs.bodies.get().is_any(),
             has_objects: self.inputs.objects.get().items.count > 0,
             has_textures: self.has_textures || self.inputs.objects.get().has_textures(),
@@ -363,6 +363,7 @@ impl Bound<'_> {
                 entry(11, self.objects.uniform.as_entire_binding()),
                 entry(12, view(&self.objects.view)),
                 carvers,
+                entry(14, view(&self.kept_textures.shares.view)),
             ],
         })
     }

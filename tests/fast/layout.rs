@@ -60,13 +60,17 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Lattice { corner, cells, side, count, dispatch }
         KeptGroup { keeps, run, gives_way_to, constraint, depth, blend, longest, before, aligned }
         Kept {
-            distance_from_rest, distance_dims, spacing, slab_count, exact_slab, depth_slab, parts, is_coarse, label_sets,
-            items, motions, seams,
+            distance_from_rest, distance_dims, spacing, slab_count, exact_slab, depth_slab, parts, is_coarse, shared_sets,
+            shares_add, rim, label_sets, items, motions, seams,
         }
         DistanceJob {
             volume_from_voxel, fine, coarse, spacing, ratio, label_from_voxel, rest_from_voxel, half_box, half_ball,
             channel, threshold, reads_labels,
-            first_slice, slice_count, axis, slab, set_count, part, part_count, label_sets,
+            first_slice, slice_count, axis, slab, set_count, part, part_count, crumb_words,
+            label_sets,
+        }
+        SharesJob {
+            dims, words, set_index, channels, row_words, first_slice, slice_count, label_sets,
         }
         Bodies { items }
         GridTemplate {

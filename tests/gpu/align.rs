@@ -6,7 +6,9 @@ use crate::gpu::{builtin, gpu, studio_of};
 use crate::long::{is_long, long_or};
 use crate::reference::{Placed, as_reference};
 use crate::scatter::Random;
-use fabrica::data::{Grid, Resources, Segment, Segmentation, TimeSlices, Volume, Voxels, segment};
+use fabrica::data::{
+    Grid, KeptLabels, Resources, Segment, Segmentation, TimeSlices, Volume, Voxels, segment,
+};
 use fabrica::document::{
     Align, Constrain, ConstrainBy, Illustration, PlacedTemplate, TemplateKind, TemplateMode,
 };
@@ -62,6 +64,19 @@ impl<'a> Labels<'a> {
             .map(|i| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)));
         let mut around = corners.map(|c| self.at(rest + (c * 2.0 - 1.0) * BOUND));
         around.all(|l| l == label).then_some(label)
+    }
+
+    /// True if a place lies within the smooth surface about these labels, if all places within a fiftieth of a voxel
+    /// agree: a texture is read at one of 256 places between two voxels.
+    fn firmly_kept(&self, rest: DVec3, kept: &[u8]) -> Option<bool> {
+        let kept = KeptLabels::new(|label| u8::from(kept.contains(&label)));
+        let voxel = self.voxel_from_rest.transform_point3(rest);
+        let is_in = |at| kept.sets_at(self.volume, at) != 0;
+        let corner =
+            |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
+        let mut around = (0..8).map(|i| is_in(voxel + (corner(i) * 2.0 - 1.0) * 0.02));
+        let own = is_in(voxel);
+        around.all(|other| other == own).then_some(own)
     }
 
     pub(crate) fn number(&self, name: &str) -> u8 {
@@ -161,11 +176,7 @@ impl<'a> Reading<'a> {
     }
 
     fn is_kept(&self, group: &Group, rest: DVec3) -> Result<bool, Unsure> {
-        if !group.kept.is_empty()
-            && group
-                .kept
-                .contains(&self.labels.firm_at(rest).ok_or(Unsure)?)
-        {
+        if !group.kept.is_empty() && self.labels.firmly_kept(rest, &group.kept).ok_or(Unsure)? {
             return Ok(true);
         }
         let (Some(wanted), Some(depth)) = (group.depth, self.depths.at(rest)) else {
@@ -786,10 +797,10 @@ fn constraints_hold_on_every_grid() {
             for ((pos, sample), whole) in points.iter().zip(&found).zip(&whole) {
                 let (from, to) = (pos.as_dvec3(), sample.pos_in_rest.as_dvec3());
                 asked += 1;
-                let Some(here) = labels.firm_at(from) else {
+                let Some(is_kept) = labels.firmly_kept(from, &[number]) else {
                     continue;
                 };
-                if here == number {
+                if is_kept {
                     assert_eq!(sample.pos_in_rest, *pos, "kept tissue stays");
                     continue;
                 }
@@ -797,15 +808,15 @@ fn constraints_hold_on_every_grid() {
                 let (step, full) = (to - from, whole.pos_in_rest.as_dvec3() - from);
                 moved += usize::from(step.length() > 1e-3);
                 limited += usize::from(full.length() > way);
-                through += usize::from(labels.firm_at(from + full) == Some(number));
+                through += usize::from(labels.firmly_kept(from + full, &[number]) == Some(true));
                 assert!(
                     step.length() <= way + 1e-5,
                     "{round} {by:?}, 1 : 1 : {high}: {from} goes {} of {way}",
                     step.length()
                 );
                 assert_ne!(
-                    labels.firm_at(to),
-                    Some(number),
+                    labels.firmly_kept(to, &[number]),
+                    Some(true),
                     "{round}: {from} is drawn from kept tissue"
                 );
                 if by == ConstrainBy::Displacement && full.length() > 1e-4 {

@@ -132,6 +132,7 @@ fn the_longest_displacement_is_the_longest() {
     let studio = studio_of(gpu(), &volume, false);
     let bounds = volume.grid.subject_bounds();
     let keep = vec!["femur".to_owned()];
+    let probe = pollster::block_on(Probe::new(gpu())).expect("the probe program compiles");
     let rounds = long_or(200, 8);
     let mut random = Random(0x0b01_71cc);
     let kinds = [TemplateKind::Poke, TemplateKind::Wave];
@@ -176,6 +177,9 @@ fn the_longest_displacement_is_the_longest() {
             if longest < 0.01 {
                 continue;
             }
+            // A narrow one falls between the points.
+            let all = (&free, &Resources::default());
+            let longest = longest.max(longest_asked(&probe, all, bounds, &mut random));
             for i in 0..points.len() {
                 let (full, short, part) = (
                     way(&whole, i),

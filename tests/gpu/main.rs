@@ -15,6 +15,7 @@ mod fields;
 mod grid;
 mod icons;
 mod images;
+mod kept;
 mod kinds;
 mod load_memory;
 mod meshes;

@@ -113,36 +113,34 @@ impl Motion {
 }
 
 /// Where material is that was at a place: by steps along the map's inverse, in 64 bits, from its place at rest and from
-/// around.
+/// around, near and far: a door takes what is beside its cut far away.
 fn forward(list: &[Placed], rest: DVec3) -> Option<DVec3> {
     let map = |pos: DVec3| reference::map(list, pos).0;
-    let starts = [
-        DVec3::ZERO,
-        DVec3::X,
-        DVec3::Y,
-        DVec3::Z,
-        -DVec3::X,
-        -DVec3::Y,
-        -DVec3::Z,
-    ];
-    starts.iter().find_map(|start| {
-        let mut pos = rest + *start * 0.3;
-        for _ in 0..60 {
-            let off = rest - map(pos);
-            if off.length() < 1e-11 {
-                let is_there = reference::map(list, pos).1 >= 0.0;
-                return is_there.then_some(pos);
+    let sides = |i: i32| DVec3::new(f64::from(i % 3), f64::from(i / 3 % 3), f64::from(i / 9)) - 1.0;
+    let ways = [0.3, 0.15, 0.6];
+    let around = ways
+        .into_iter()
+        .flat_map(|way| (0..27).map(move |i| sides(i) * way));
+    std::iter::once(DVec3::ZERO)
+        .chain(around)
+        .find_map(|start| {
+            let mut pos = rest + start;
+            for _ in 0..60 {
+                let off = rest - map(pos);
+                if off.length() < 1e-11 {
+                    let is_there = reference::map(list, pos).1 >= 0.0;
+                    return is_there.then_some(pos);
+                }
+                let h = 1e-6;
+                let column = |axis: DVec3| (map(pos + axis * h) - map(pos - axis * h)) / (2.0 * h);
+                let slope = DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z));
+                if slope.determinant().abs() < 1e-6 {
+                    return None;
+                }
+                pos += (slope.inverse() * off).clamp_length_max(0.1);
             }
-            let h = 1e-6;
-            let column = |axis: DVec3| (map(pos + axis * h) - map(pos - axis * h)) / (2.0 * h);
-            let slope = DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z));
-            if slope.determinant().abs() < 1e-6 {
-                return None;
-            }
-            pos += (slope.inverse() * off).clamp_length_max(0.1);
-        }
-        None
-    })
+            None
+        })
 }
 
 /// Places of the tissue of a segment at rest: the middles of its voxels, or where these are few, those of cells in
@@ -178,7 +176,9 @@ fn tissue_of(volume: &Volume, number: u8) -> Vec<DVec3> {
 /// The least-squares motion of tissue, by a template alone.
 fn wanted_motion(free: &PlacedTemplate, tissue: &[DVec3]) -> Motion {
     let list = as_reference(std::slice::from_ref(free));
-    let some = tissue.iter().step_by(1 + tissue.len() / 12_000);
+    let some = tissue
+        .iter()
+        .step_by(1 + tissue.len() / long_or(120_000, 12_000));
     let pairs: Vec<(DVec3, DVec3)> = some
         .filter_map(|rest| match (free.kind, &free.params[..]) {
             // Too far away for steps from where it was.

@@ -46,6 +46,8 @@ pub enum ProgramId {
     Distance,
     /// Connected parts of kept tissue.
     Parts,
+    /// Shares of kept tissue.
+    Shares,
     /// Shares of the segments that are drawn as bodies.
     Bodies,
     /// The skip grid over the deformed space.
@@ -383,6 +385,7 @@ shader_files![
     "slice/volume.wgsl",
     "subject/both.wgsl",
     "subject/crossing.wgsl",
+    "subject/label.wgsl",
     "subject/mesh.wgsl",
     "subject/place.wgsl",
     "subject/surfaces.wgsl",
@@ -399,6 +402,7 @@ shader_files![
     "pass/raycast.wgsl",
     "pass/resolve.wgsl",
     "pass/rigid.wgsl",
+    "pass/shares.wgsl",
     "pass/slice.wgsl",
 ];
 
@@ -459,6 +463,19 @@ pub const PROGRAMS: &[Program] = &[
             ("count_parts", Stage::Compute),
             ("rank_parts", Stage::Compute),
             ("name_parts", Stage::Compute),
+        ],
+    },
+    Program {
+        id: ProgramId::Shares,
+        name: "shares",
+        pass: "pass/shares.wgsl",
+        stand_in: None,
+        entries: &[
+            ("mark_rest", Stage::Compute),
+            ("find_boxes", Stage::Compute),
+            ("fill_boxes", Stage::Compute),
+            ("find_crumbs", Stage::Compute),
+            ("write_shares", Stage::Compute),
         ],
     },
     Program {

@@ -124,6 +124,10 @@ pub(crate) fn object_groups(
         entry(0, scene.templates().as_entire_binding()),
         entry(5, kept_textures.uniform.as_entire_binding()),
         entry(6, wgpu::BindingResource::TextureView(&kept_textures.view)),
+        entry(
+            14,
+            wgpu::BindingResource::TextureView(&kept_textures.shares.view),
+        ),
     ];
     entries.extend(scene.held().entries());
     [group(1, &subject.kept_entries()), group(2, &entries)]

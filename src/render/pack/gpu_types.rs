@@ -332,8 +332,14 @@ pub struct Kept {
     pub parts: u32,
     /// 1 where a voxel of the distances is larger than one of the segments.
     pub is_coarse: u32,
+    /// Sets that end at the smooth surface of their shares, bit k for set k.
+    pub shared_sets: u32,
+    /// 1 where no label belongs to two of the sets.
+    pub shares_add: u32,
+    /// Half of the longest side of a label voxel, subject units.
+    pub rim: f32,
     /// To the next row of four.
-    pub padding: [u32; 2],
+    pub padding: [u32; 3],
     /// Sets of each label, four bits each.
     pub label_sets: LabelSets,
     /// What each template keeps, in the order of [`Templates::items`].
@@ -358,7 +364,10 @@ impl Kept {
         depth_slab: 0,
         parts: 0,
         is_coarse: 0,
-        padding: [0; 2],
+        shared_sets: 0,
+        shares_add: 0,
+        rim: 0.0,
+        padding: [0; 3],
         label_sets: [[0; 4]; 10],
         items: [KeptGroup {
             keeps: 0,
@@ -380,6 +389,30 @@ impl Kept {
 /// Sets of kept tissue that each label belongs to, four bits each, eight labels in a word: of the labels of a volume,
 /// and behind them of the segments of meshes beside it.
 pub type LabelSets = [[u32; 4]; 10];
+
+/// One pass of the making of shares of kept tissue.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct SharesJob {
+    /// xyz: label voxels along each axis.
+    pub dims: [u32; 4],
+    /// Words of bits in a row of them.
+    pub words: u32,
+    /// Set that is worked on.
+    pub set_index: u32,
+    /// Bytes of a voxel in what is written, one for each set: 1, 2 or 4.
+    pub channels: u32,
+    /// Words in a row of what is written.
+    pub row_words: u32,
+    /// First slice of this part.
+    pub first_slice: u32,
+    /// Slices in the part.
+    pub slice_count: u32,
+    /// To the next row of four.
+    pub padding: [u32; 2],
+    /// Sets of kept tissue that each label belongs to, packed as in [`Kept`].
+    pub label_sets: LabelSets,
+}
 
 /// One pass of the making of distances.
 #[repr(C)]
@@ -423,6 +456,10 @@ pub struct DistanceJob {
     pub part: u32,
     /// How many parts have a rank.
     pub part_count: u32,
+    /// Words in a row of crumbs; 0: there are none.
+    pub crumb_words: u32,
+    /// To the next row of four.
+    pub padding: [u32; 3],
     /// Sets of kept tissue that each label belongs to, packed as in [`Kept`].
     pub label_sets: LabelSets,
 }

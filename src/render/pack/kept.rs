@@ -5,7 +5,7 @@ use super::gpu_types::{
     CONSTRAIN_NOTHING, CONSTRAIN_RIGID, KEEPS_DEEP, KeptGroup, LabelSets, MAX_TEMPLATES,
 };
 use super::notice::RenderNotice;
-use crate::data::{Resources, Segment};
+use crate::data::{KeptLabels, Resources, Segment};
 use crate::document::{
     Align, Constrain, ConstrainBy, MAX_KEEP_SETS, PlacedTemplate, TemplateMode, keep_set, keep_sets,
 };
@@ -25,6 +25,11 @@ pub struct KeptTissue {
     /// Of each set, a bit for each of those that are connected parts of the same segments, itself among them; 0 for a
     /// set that is whole.
     pub parts: [u32; MAX_KEEP_SETS],
+    /// Sets that end at the smooth surface of their shares, a bit for each: those that alignments keep or displacements
+    /// give way to. What moves as a whole ends at its label voxels.
+    pub shared_sets: u32,
+    /// No label belongs to two of the sets.
+    pub shares_add: bool,
     /// Some template keeps what lies deep under the outer surface.
     pub keeps_deep: bool,
     /// Per enabled template, in order.
@@ -88,6 +93,8 @@ impl KeptTissue {
             label_sets: LabelSets::default(),
             set_count: 0,
             parts: [0; MAX_KEEP_SETS],
+            shared_sets: 0,
+            shares_add: true,
             keeps_deep: false,
             items: [KeptGroup::default(); MAX_TEMPLATES],
             unknown: Vec::new(),
@@ -175,6 +182,7 @@ impl KeptTissue {
         }
         kept.guard_late(&enabled);
         kept.find_runs(&enabled);
+        kept.find_shared();
         for (head, item) in kept.items.iter_mut().enumerate() {
             item.before = match item.constraint {
                 CONSTRAIN_NOTHING => 0,
@@ -186,6 +194,20 @@ impl KeptTissue {
                 | u32::from(is_many) << CONSTRAIN_MANY;
         }
         kept
+    }
+
+    /// Which labels of a volume belong to the sets that end at the smooth surface of their shares.
+    pub fn labels(
+        templates: &[PlacedTemplate],
+        resources: &Resources,
+        segments: &[Segment],
+    ) -> KeptLabels {
+        let kept = Self::of(templates, resources, segments, Aabb::UNIT);
+        let words = kept.label_sets.as_flattened();
+        KeptLabels::new(|label| {
+            let word = words[usize::from(label) / 8];
+            (word >> (4 * (label % 8)) & kept.shared_sets) as u8
+        })
     }
 
     /// Counts the sets, and divides what is left of [`MAX_KEEP_SETS`] among those whose connected parts move each by
@@ -237,6 +259,18 @@ impl KeptTissue {
                 item.keeps |= item.gives_way_to;
             }
         }
+    }
+
+    fn find_shared(&mut self) {
+        let sets_of = |item: &KeptGroup| match item.constraint {
+            CONSTRAIN_DISPLACEMENT | CONSTRAIN_COORDINATE => item.keeps | item.gives_way_to,
+            _ => item.keeps,
+        };
+        let shared = self.items.iter().fold(0, |sets, item| sets | sets_of(item));
+        self.shared_sets = shared & (KEEPS_DEEP - 1);
+        let words = self.label_sets.as_flattened().iter();
+        let mut of_labels = words.flat_map(|word| (0..8).map(move |i| word >> (4 * i) & 15));
+        self.shares_add = of_labels.all(|sets| (sets & shared).count_ones() <= 1);
     }
 
     fn find_runs(&mut self, enabled: &[&PlacedTemplate]) {

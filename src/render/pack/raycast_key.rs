@@ -16,7 +16,8 @@ pub(crate) struct RaycastKey {
     pub align_mode: u32,
     /// How displacements give way to kept tissue: see `KeptTissue::constraints`.
     pub constraints: u32,
-    /// What says that tissue is kept: bit 0 its segment, bit 1 its depth.
+    /// What says that tissue is kept: see `KeptTissue::kept_by`; bit 3: segments end at the smooth surface of their
+    /// shares.
     pub kept_by: u32,
     /// Opacity follows the gradient.
     pub has_edges: bool,

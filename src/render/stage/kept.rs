@@ -1,6 +1,7 @@
 //! How far every place is from kept tissue: textures of distances, made on the GPU.
 
 use super::parts::PartPrograms;
+use super::shares::{Crumbs, KeptShares, SharesPrograms};
 use crate::document::MAX_KEEP_SETS;
 use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::{submit_and_read, uniform_buffer};
@@ -45,6 +46,7 @@ const DARK_PART: f32 = 0.12;
 pub(crate) struct DistancePrograms {
     pipelines: Pipelines<SubjectShader, Arc<DistancePipelines>>,
     parts: PartPrograms,
+    shares: SharesPrograms,
 }
 
 #[derive(Debug)]
@@ -77,17 +79,19 @@ impl DistancePrograms {
 pub(crate) struct KeptTextures {
     pub uniform: wgpu::Buffer,
     pub view: wgpu::TextureView,
+    /// Shares of the sets.
+    pub shares: KeptShares,
     texture: wgpu::Texture,
     plan: Option<Plan>,
     made_for: Option<MadeFor>,
-    /// Stamp of the texture.
+    /// Stamp of the textures.
     pub stamp: Stamp,
     made_from: MadeFrom<2>,
 }
 
-/// What distances depend on: the stamp of the subject, the sets of each label, their number, which of them are
-/// connected parts, whether the depth is wanted, and whether exact distances are.
-type MadeFor = (Stamp, LabelSets, u32, [u32; MAX_KEEP_SETS], bool, bool);
+/// What distances and shares depend on: the stamp of the subject, the sets of each label, their number, which of them
+/// are connected parts, which end at a smooth surface, whether the depth is wanted, and whether exact distances are.
+type MadeFor = (Stamp, LabelSets, u32, [u32; MAX_KEEP_SETS], u32, bool, bool);
 
 /// Where distances are taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -166,6 +170,7 @@ impl KeptTextures {
                 mapped_at_creation: false,
             }),
             view: texture.create_view(&Default::default()),
+            shares: KeptShares::new(gpu),
             texture,
             plan: None,
             made_for: None,
@@ -192,6 +197,7 @@ impl KeptTextures {
                 kept.label_sets,
                 kept.set_count,
                 kept.parts,
+                kept.shared_sets,
                 kept.keeps_deep,
                 kept.constraints != 0,
             );
@@ -225,12 +231,25 @@ impl KeptTextures {
                 .map_or(0, |plan| u32::from(plan.ratio.max_element() > 1.0)),
             parts: (kept.parts.iter().enumerate())
                 .fold(0, |all, (set, parts)| all | parts << (4 * set)),
+            shared_sets: self.shares.sets,
+            shares_add: u32::from(kept.shares_add),
+            rim: match (&subject.label_voxels, self.shares.sets) {
+                (Some(labels), 1..) => 0.5 * labels.spacing.max_element(),
+                _ => 0.0,
+            },
             label_sets: kept.label_sets,
             items: kept.items,
             ..Kept::NONE
         };
         gpu.queue
             .write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+    }
+
+    /// What the pipeline constant `kept_by` has to be: that of the tissue, and bit 3 where segments end at the smooth
+    /// surface of their shares.
+    pub(crate) fn kept_by(&self, kept: &KeptTissue) -> u32 {
+        let has_shares = kept.shared_sets != 0 && self.shares.sets != 0;
+        kept.kept_by() | u32::from(has_shares) << 3
     }
 
     /// The distances, read back.
@@ -272,7 +291,10 @@ impl KeptTextures {
             self.stamp += 1;
             self.plan = Some(plan);
         }
-        let work = Work::new(gpu, pipelines, subject, &plan, &frame, kept, &self.view);
+        let (is_new, crumbs) = self.shares.make(gpu, &programs.shares, subject, kept);
+        self.stamp += u64::from(is_new);
+        let textures = (&self.view, crumbs);
+        let work = Work::new(gpu, pipelines, subject, &plan, &frame, kept, textures);
         for (set, parts) in (0..kept.set_count).zip(kept.parts) {
             if parts == 0 {
                 work.distances(set, 0);
@@ -408,6 +430,7 @@ struct Work<'a> {
     fields: wgpu::Buffer,
     smoothed: wgpu::Buffer,
     flood: wgpu::Buffer,
+    crumbs: wgpu::Buffer,
     slices: u32,
 }
 
@@ -419,7 +442,7 @@ impl<'a> Work<'a> {
         plan: &'a Plan,
         frame: &MeasuredFrame,
         kept: &KeptTissue,
-        view: &'a wgpu::TextureView,
+        (view, crumbs): (&'a wgpu::TextureView, Crumbs),
     ) -> Self {
         let buffer = |label, size: u64| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -457,6 +480,7 @@ impl<'a> Work<'a> {
                 threshold: threshold(subject),
                 reads_labels: u32::from(plan.reads_labels),
                 axis: 3,
+                crumb_words: crumbs.words,
                 label_sets: kept.label_sets,
                 ..DistanceJob::default()
             },
@@ -465,6 +489,7 @@ impl<'a> Work<'a> {
             fields: buffer("distances", 4 * plan.count() * channels),
             smoothed: buffer("distances smoothed", 4 * plan.count()),
             flood: buffer("outside", 4 * plan.count()),
+            crumbs: crumbs.bits,
             slices,
         }
     }
@@ -612,7 +637,7 @@ impl<'a> Work<'a> {
             job.first_slice = first;
             job.slice_count = slices;
             let mut encoder = self.encoder();
-            let bindings = [(1, &self.lines), (5, &self.flood)];
+            let bindings = [(1, &self.lines), (5, &self.flood), (7, &self.crumbs)];
             self.run(
                 &mut encoder,
                 &self.pipelines.along[0],

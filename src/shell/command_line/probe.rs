@@ -11,9 +11,9 @@ use super::error::CliError;
 use super::numbers::read_numbers;
 use super::opening::Opened;
 use super::subject::{report_drawing, subject_of};
-use crate::data::{Resources, Subject, VolumeLimits};
+use crate::data::{KeptLabels, Resources, Subject, VolumeLimits};
 use crate::document::{Align, Illustration, PlacedTemplate};
-use crate::render::{Fillings, Gpu, Probe, Sample, Studio};
+use crate::render::{Fillings, Gpu, KeptTissue, Probe, Sample, Studio};
 
 /// A scan is asked as it is, however large.
 pub(super) const WHOLE: VolumeLimits = VolumeLimits {
@@ -58,12 +58,20 @@ pub(super) fn probe(
     let samples = match &subject {
         Some(subject) if columns.object => {
             report_drawing(&illustration, &resources, subject);
-            let studio = Studio::new(&gpu, subject, false)?.with_resources(resources);
+            let studio = Studio::new(&gpu, subject, false)?.with_resources(resources.clone());
             pollster::block_on(studio.probe_object(&illustration, &positions))?
         }
-        _ => map_samples(&gpu, common, opened, (&illustration, resources), &positions)?,
+        _ => map_samples(
+            &gpu,
+            common,
+            opened,
+            (&illustration, resources.clone()),
+            &positions,
+        )?,
     };
-    let materials = subject.as_ref().map(|s| Materials::of(s, &illustration));
+    let materials = subject
+        .as_ref()
+        .map(|s| Materials::of(s, &illustration, &resources));
     let mut out = io::BufWriter::new(io::stdout().lock());
     for ([x, y, z], sample) in points.iter().zip(&samples) {
         let Sample {
@@ -122,13 +130,19 @@ pub(super) fn map_samples(
 /// What a subject has at places of rest space, as a document draws it.
 pub(super) struct Materials<'a> {
     subject: &'a Subject,
+    kept: KeptLabels,
     fillings: Option<Fillings<'a>>,
 }
 
 impl<'a> Materials<'a> {
-    pub(super) fn of(subject: &'a Subject, illustration: &Illustration) -> Self {
+    pub(super) fn of(
+        subject: &'a Subject,
+        illustration: &Illustration,
+        resources: &Resources,
+    ) -> Self {
         Self {
             subject,
+            kept: KeptTissue::labels(&illustration.templates, resources, subject.segments()),
             fillings: Fillings::of(subject, &illustration.look),
         }
     }
@@ -149,7 +163,7 @@ impl<'a> Materials<'a> {
             return Some((filling.depth.to_string(), filling.name));
         }
         self.subject.values()?;
-        let material = self.subject.material_at(place)?;
+        let material = self.subject.material_at(place, &self.kept)?;
         let value = material.value.map(|value| value.to_string());
         Some((
             value.unwrap_or_default(),

@@ -38,9 +38,9 @@ pub(super) fn rays(
     let here = std::mem::take(&mut resources.objects);
     let place = (common, opened.folder.as_path());
     resources.objects = objects_of(&illustration, Needed::All, here, place)?;
+    let materials = Materials::of(&subject, &illustration, &resources);
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
     let events = pollster::block_on(studio.events(&illustration, &asked))?;
-    let materials = Materials::of(&subject, &illustration);
     let name_of = |index: usize| {
         let named = illustration
             .objects
