@@ -17,10 +17,12 @@ mod objects;
 mod opening;
 mod output;
 mod probe;
+mod progress;
 mod rays;
 mod reading;
 mod render;
 mod run;
+mod stop;
 mod subject;
 mod templates;
 

@@ -1,5 +1,6 @@
 //! `fabrica render`: one picture, drawn without a window.
 
+use std::fs::File;
 use std::io;
 use std::path::Path;
 
@@ -8,9 +9,16 @@ use super::device::open_gpu;
 use super::error::CliError;
 use super::objects::{Needed, objects_of};
 use super::opening::Opened;
-use super::output::{notice, write_whole};
+use super::output::{WholeFile, notice, unwritten};
+use super::progress::Progress;
+use super::stop;
 use super::subject::{report_drawing, subject_of};
-use crate::render::{Studio, encode_png};
+use crate::app::Lettering;
+use crate::document::Background;
+use crate::render::{PngRows, RenderError, Rows, Studio, Taker};
+
+/// Dots per inch that a file may say.
+const DPI_RANGE: [f32; 2] = [1.0, 9600.0];
 
 /// What a picture is drawn on.
 pub(super) struct Paper {
@@ -20,6 +28,25 @@ pub(super) struct Paper {
     pub(super) samples: u32,
     /// With title, credit and labels.
     pub(super) lettering: bool,
+    /// Without a background.
+    pub(super) transparent: bool,
+    /// Dots per inch that it is printed with.
+    pub(super) dpi: Option<f32>,
+}
+
+impl Paper {
+    /// The dots per inch that the file says, brought into their range, which a notice names.
+    fn dpi(&self) -> Option<f32> {
+        let dpi = self.dpi?;
+        let [least, most] = DPI_RANGE;
+        let taken = dpi.clamp(least, most);
+        if taken != dpi {
+            notice(format!(
+                "--dpi {dpi} is out of range ({least} to {most}); {taken} is taken"
+            ));
+        }
+        Some(taken)
+    }
 }
 
 pub(super) fn render(
@@ -29,7 +56,11 @@ pub(super) fn render(
     moment: Moment,
     paper: Paper,
 ) -> Result<(), CliError> {
-    let (illustration, mut resources) = opened.illustration(moment, common)?;
+    let (mut illustration, mut resources) = opened.illustration(moment, common)?;
+    if paper.transparent {
+        illustration.look.background = Background::None;
+    }
+    let dpi = paper.dpi();
     // Found out before minutes of drawing, not after.
     let folder = output
         .parent()
@@ -51,22 +82,68 @@ pub(super) fn render(
     let place = (common, opened.folder.as_path());
     resources.objects = objects_of(&illustration, Needed::All, here, place)?;
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
-    let drawing = studio.render_image(&illustration, paper.size, paper.samples);
-    let mut image = pollster::block_on(drawing)?;
-    crate::app::mark(&mut image, &illustration, subject.mm_per_unit());
+    let places = match paper.lettering {
+        true => Some(pollster::block_on(crate::render::caption_places(
+            &studio,
+            &illustration,
+            paper.size,
+        ))?),
+        false => None,
+    };
     if paper.lettering {
-        let places = crate::render::caption_places(&studio, &illustration, paper.size);
-        let places = pollster::block_on(places)?;
         for (index, text) in illustration.unshaped_captions() {
             notice(format!(
                 "/labels/{index}/text: “{text}” cannot be shaped here: its letters stand unjoined and from the left; browsers set it rightly"
             ));
         }
-        let missing = crate::app::letter(&mut image, &illustration, &places);
-        if !missing.is_empty() {
-            notice(format!("no font here has the characters {missing}"));
-        }
     }
-    let bytes = encode_png(&image)?;
-    write_whole(output, &bytes)
+    let mm_per_unit = subject.mm_per_unit();
+    let lettering =
+        crate::app::lettering(&illustration, paper.size, mm_per_unit, places.as_deref());
+    if !lettering.missing().is_empty() {
+        notice(format!(
+            "no font here has the characters {}",
+            lettering.missing()
+        ));
+    }
+    stop::watch();
+    let file = WholeFile::create(output).map_err(|source| unwritten(output, source))?;
+    let out = file.writer().map_err(|source| unwritten(output, source))?;
+    let print = Print {
+        png: PngRows::new(out, paper.size, dpi)?,
+        lettering,
+        progress: Progress::start(),
+    };
+    let drawing = studio.render_rows(&illustration, paper.size, paper.samples, None, print);
+    let written = pollster::block_on(drawing).and_then(|print| print.png.finish());
+    written.map_err(|error| match error {
+        RenderError::Stopped => CliError::Stopped {
+            path: output.display().to_string(),
+        },
+        RenderError::Png(png::EncodingError::IoError(source)) => unwritten(output, source),
+        error => error.into(),
+    })?;
+    file.finish().map_err(|source| unwritten(output, source))
+}
+
+/// A picture on its way into a PNG file.
+struct Print {
+    png: PngRows<File>,
+    lettering: Lettering,
+    progress: Progress,
+}
+
+impl Taker for Print {
+    fn progress(&mut self, part: f32) -> Result<(), RenderError> {
+        if stop::is_wished() {
+            return Err(RenderError::Stopped);
+        }
+        self.progress.tell(part);
+        Ok(())
+    }
+
+    fn take(&mut self, mut rows: Rows) -> Result<(), RenderError> {
+        self.lettering.lay(rows.first, &mut rows.rgba);
+        self.png.write(&rows.rgba)
+    }
 }
