@@ -212,6 +212,94 @@ fn what_cannot_be_printed_is_refused_with_the_limit() {
     assert_eq!(files(folder.path()), [""; 0], "nothing is written");
 }
 
+/// The part of a text between two others.
+fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
+    let (_, rest) = text.split_once(from).expect(from);
+    rest.split_once(to).expect(to).0
+}
+
+/// An SVG file holds the picture without texts, its outlines as paths and its texts as texts.
+#[test]
+fn a_plate_keeps_its_lines_and_letters() {
+    let folder = folder_with_bar();
+    let document = r##"{"fabrica":1,"title":"Bar <1> & more","credit":"A. Author","subject":{"src":"bar.nii"},"look":{"transfer":[{"value":0,"opacity":0},{"value":100,"color":"#cc4433","opacity":1}],"background":"none","scale":true},"camera":{"distance":3},"labels":[{"at":[0.05,0.1,0.1],"text":"Left \"end\" <script>\u0007"}]}"##;
+    std::fs::write(folder.path().join("bar.json"), document).expect("a document");
+    let size = ["--size", "240x180", "--samples", "2"];
+    let draw = |name: &str, more: &[&str]| {
+        let args = [&["render", "bar.json", "-o", name], &size[..], more].concat();
+        fabrica_with(folder.path(), &args, b"").ok();
+        std::fs::read(folder.path().join(name)).expect("a file")
+    };
+    let svg = String::from_utf8(draw("plate.SVG", &["--dpi", "300"])).expect("text");
+    let head = between(&svg, "<svg", ">");
+    // 240 px at 300 dots per inch.
+    for part in ["width=\"20.320mm\"", "height=\"15.240mm\"", "0 0 240 180"] {
+        assert!(head.contains(part), "{part} in {head}");
+    }
+    assert_eq!(
+        between(&svg, "<title>", "</title>"),
+        "Bar &lt;1&gt; &amp; more"
+    );
+    let told = between(&svg, "<desc>", "</desc>");
+    assert!(told.len() > 40, "what is seen, in words: {told}");
+    let data = between(&svg, "data:image/png;base64,", "\"");
+    let engine = base64::engine::general_purpose::STANDARD;
+    let inside = base64::Engine::decode(&engine, data).expect("base64");
+    let inside = decode_png(&inside).expect("a PNG");
+    // The marks are in the plain picture, but no texts.
+    let unmarked = document.replace(r#","scale":true"#, "");
+    std::fs::write(folder.path().join("bar.json"), unmarked).expect("a document");
+    let plain = decode_png(&draw("plain.png", &[])).expect("a PNG");
+    assert!(inside == plain, "the picture without texts and marks");
+
+    let texts: Vec<&str> = svg.split("<text ").skip(1).collect();
+    let said: Vec<&str> = texts
+        .iter()
+        .map(|text| between(text, ">", "</text>"))
+        .collect();
+    assert_eq!(said[1], "Bar &lt;1&gt; &amp; more", "after the bar's");
+    assert_eq!(said[2], "A. Author");
+    assert_eq!(said[3..].join(""), "Left &quot;end&quot; &lt;script&gt;");
+    assert!(
+        !svg.contains("<script") && !svg.contains('\u{7}'),
+        "{said:?}"
+    );
+
+    let outlines = between(&svg, "id=\"outlines\"", "</g>");
+    let paths: Vec<&str> = outlines.split(" d=\"").skip(1).collect();
+    assert!(
+        paths
+            .iter()
+            .any(|path| between(path, "M", "\"").ends_with('z'))
+    );
+    let [mut low, mut high] = [[f32::MAX; 2], [f32::MIN; 2]];
+    for path in paths {
+        let path = path
+            .split('"')
+            .next()
+            .expect("a path")
+            .trim_end_matches('z');
+        for place in path.split(['M', 'L']).skip(1) {
+            for (axis, number) in place.split(' ').enumerate() {
+                let number: f32 = number.parse().expect("a number");
+                low[axis] = low[axis].min(number);
+                high[axis] = high[axis].max(number);
+            }
+        }
+    }
+    // The outline ends where the object does: a pixel for its own width of a step, half of one for the pixels.
+    let covered = (0..240 * 180).filter(|i| plain.rgba[4 * i + 3] > 127);
+    let places: Vec<[f32; 2]> = covered
+        .map(|i| [(i % 240) as f32, (i / 240) as f32])
+        .collect();
+    for axis in 0..2 {
+        let of = places.iter().map(|place| place[axis]);
+        let (first, last) = (of.clone().fold(f32::MAX, f32::min), of.fold(0.0, f32::max));
+        assert!((low[axis] - first).abs() <= 1.5, "{low:?} {first}");
+        assert!((high[axis] - last - 1.0).abs() <= 1.5, "{high:?} {last}");
+    }
+}
+
 /// A print that is asked to end leaves what was there before.
 #[cfg(unix)]
 #[test]

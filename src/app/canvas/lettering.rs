@@ -3,7 +3,10 @@
 //! as the background wants, with a halo of the other so that they read over tissue.
 
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Align, Color32, Context, FontId, Galley, Pos2, RawInput, Rect, TextFormat, Vec2, vec2};
+use egui::{
+    Align, Color32, Context, FontFamily, FontId, Galley, Pos2, RawInput, Rect, TextFormat, Vec2,
+    vec2,
+};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -30,7 +33,8 @@ const LEAST: f32 = 9.0;
 /// Distance from the edges, of the shorter side.
 const MARGIN: f32 = 0.035;
 /// Radius of the halo, of the letters' height.
-const HALO: f32 = 0.14;
+pub(super) const HALO: f32 = 0.14;
+pub(super) const HALO_OPACITY: f32 = 0.8;
 
 /// Sets a text with fonts that the program does not have, or returns `None`.
 pub(crate) type Setter<'a> = &'a dyn Fn(&TextToSet) -> Option<SetText>;
@@ -46,22 +50,24 @@ enum Laid {
 /// What is written into a picture of one size, laid out. It is laid over the picture's rows as they come.
 pub struct Lettering {
     size: [u32; 2],
-    ink: [u8; 3],
-    halo: [u8; 3],
+    pub(super) ink: [u8; 3],
+    pub(super) halo: [u8; 3],
     /// Each lies with its halo over those before.
-    layers: Vec<Layer>,
+    pub(super) layers: Vec<Layer>,
     missing: String,
 }
 
 /// What has one halo together.
-struct Layer {
+pub(super) struct Layer {
     /// Height of its letters, pixels.
-    letters_px: f32,
-    strokes: Vec<Stroke>,
+    pub letters_px: f32,
+    pub strokes: Vec<Stroke>,
+    /// Its texts as letters: what the stamps among the strokes say.
+    pub rows: Vec<TextRow>,
 }
 
 /// What covers pixels of the picture.
-enum Stroke {
+pub(super) enum Stroke {
     /// Pixels from a corner on, row by row, 0 to 255.
     Stamp {
         left: i64,
@@ -73,6 +79,16 @@ enum Stroke {
     Line { from: Pos2, to: Pos2, radius: f32 },
     /// A rectangle; pixels at its edges are covered by their part of it.
     Fill(Rect),
+}
+
+/// A row of text where it stands in a picture, pixels.
+pub(super) struct TextRow {
+    pub text: String,
+    /// The left end of its base line.
+    pub left: f32,
+    pub base: f32,
+    pub width: f32,
+    pub is_strong: bool,
 }
 
 /// How much of each pixel letters cover, 0 to 255, in some rows of a picture.
@@ -334,6 +350,7 @@ impl Layer {
         Self {
             letters_px,
             strokes: Vec::new(),
+            rows: Vec::new(),
         }
     }
 
@@ -354,7 +371,20 @@ impl Layer {
     fn write_own(&mut self, ctx: &Context, galley: &Galley, corner: Pos2) {
         let ppp = ctx.pixels_per_point();
         let atlas = ctx.fonts(|fonts| fonts.image());
+        let format = galley.job.sections.first().map(|section| &section.format);
+        let family = format.map(|format| &format.font_id.family);
+        let is_strong = family.is_some_and(|family| *family != FontFamily::Proportional);
         for row in &galley.rows {
+            if let (Some(first), Some(last)) = (row.glyphs.first(), row.glyphs.last()) {
+                let start = corner + (row.pos.to_vec2() + first.pos.to_vec2()) * ppp;
+                self.rows.push(TextRow {
+                    text: row.text(),
+                    left: start.x,
+                    base: start.y,
+                    width: (last.pos.x + last.advance_width - first.pos.x) * ppp,
+                    is_strong,
+                });
+            }
             for glyph in row.glyphs.iter().filter(|g| !g.uv_rect.is_nothing()) {
                 let at = (row.pos.to_vec2() + glyph.pos.to_vec2() + glyph.uv_rect.offset) * ppp;
                 let [from, to] = [glyph.uv_rect.min, glyph.uv_rect.max];
@@ -404,7 +434,7 @@ impl Layer {
             rgba,
             &mask.widened(radius, rows.clone()).coverage,
             halo,
-            0.8,
+            HALO_OPACITY,
         );
         let width = mask.size[0] as usize;
         let above = (rows.start - mask.rows.start) as usize * width;

@@ -52,7 +52,7 @@ pub(super) enum Command {
     Render {
         /// Document, link or payload to draw; - for a document on standard input.
         doc: String,
-        /// The PNG file to write.
+        /// The file to write: a PNG, or an SVG with texts and outlines as such if the name ends in .svg.
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
         /// Width and height, pixels: each up to 8192.

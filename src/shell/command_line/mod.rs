@@ -24,6 +24,7 @@ mod render;
 mod run;
 mod stop;
 mod subject;
+mod svg;
 mod templates;
 
 pub use reading::ReadingFlags;
