@@ -57,6 +57,8 @@ struct Frame {
     bounds_max: vec4f,
     /// Length of a step, subject units.
     step: f32,
+    /// Row of the whole picture that the target begins with.
+    first_row: f32,
 }
 
 /// Rays that are asked one by one: for each its origin and its unit direction, subject space.
@@ -243,7 +245,7 @@ struct Resolve {
     end: vec2f,
     /// Linear RGB of the background; alpha 1 if there is one, 0 transparent.
     background: vec4f,
-    /// 1 to write straight alpha instead of premultiplied.
+    /// 1 to write straight alpha instead of premultiplied, texel by texel.
     is_straight: u32,
 }
 

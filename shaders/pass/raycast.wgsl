@@ -8,10 +8,15 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
 
+/// Where in the whole picture the ray of a pixel of the target goes through, pixels.
+fn pixel_at(at: vec4f) -> vec2f {
+    return floor(at.xy) + vec2f(0.0, frame.first_row) + frame.jitter;
+}
+
 /// The picture, linear premultiplied.
 @fragment
 fn draw(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    let pixel = floor(at.xy) + frame.jitter;
+    let pixel = pixel_at(at);
     return march(ray_through(pixel), pixel).color;
 }
 
@@ -64,7 +69,7 @@ fn meet(@builtin(position) at: vec4f) -> @location(0) vec4f {
 /// there (0: none).
 @fragment
 fn identify(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    let pixel = floor(at.xy) + frame.jitter;
+    let pixel = pixel_at(at);
     let ray = ray_through(pixel);
     let found = march(ray, pixel);
     let tissue = tissue_of(found, ray.origin + ray.dir * found.surface_t, ray.dir);

@@ -24,11 +24,20 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
 
+/// What is accumulated at a pixel. A finished picture is taken texel by texel: a filter that is off by a rounding mixes
+/// in neighbours, and others where the picture is drawn in bands.
+fn found_at(at: vec2f) -> vec4f {
+    if resolve.is_straight == 1u {
+        return textureLoad(source, vec2i(at), 0);
+    }
+    let uv = min(at * resolve.scale, resolve.end);
+    return textureSampleLevel(source, source_sampler, uv, 0.0);
+}
+
 /// sRGB, premultiplied after encoding (what egui blends) or straight (what PNG holds).
 @fragment
 fn encode(@builtin(position) at: vec4f) -> @location(0) vec4f {
-    let uv = min(at.xy * resolve.scale, resolve.end);
-    let found = textureSampleLevel(source, source_sampler, uv, 0.0);
+    let found = found_at(at.xy);
     let alpha = clamp(found.a, 0.0, 1.0);
     if resolve.background.a > 0.5 {
         let object = roll_off(found.rgb / max(alpha, 1e-4)) * alpha;

@@ -54,7 +54,9 @@ mod window;
 mod window_title;
 
 #[cfg(feature = "app")]
-pub use self::canvas::lettering::{letter, mark};
+pub use self::canvas::lettering::{Lettering, lettering};
+#[cfg(feature = "app")]
+pub use self::canvas::vectors::escaped;
 #[cfg(feature = "app")]
 pub use self::picture::host::gpu_of;
 #[cfg(feature = "app")]

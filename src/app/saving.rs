@@ -1,6 +1,9 @@
 //! Saving a picture: drawn once more for a file while the window goes on, then given to the user.
 
-use crate::app::canvas::saved::{Saving, file_size};
+use std::rc::Rc;
+
+use crate::app::canvas::lettering::Lettering;
+use crate::app::canvas::saved::{SavedRows, Saving, file_size};
 use crate::app::picture::host::Picture;
 use crate::app::services::TextToSet;
 use crate::app::session::{Gravity, SaveFile};
@@ -9,12 +12,12 @@ use crate::app::words;
 
 impl App {
     /// Starts making the picture for a file.
-    pub(crate) fn start_saving(&mut self, pixels_per_point: f32) {
+    pub(crate) fn start_saving(&mut self, ctx: &egui::Context) {
         let Some(picture) = &mut self.picture else {
             return;
         };
         let illustration = self.session.shown_as_seen();
-        let shown_px = self.viewport.size_px(pixels_per_point);
+        let shown_px = self.viewport.size_px(ctx.pixels_per_point());
         let is_for_script = std::mem::take(&mut self.wants_shown_size);
         // A script asks for the picture as the window shows it, without lettering.
         let size_px = if is_for_script {
@@ -23,13 +26,23 @@ impl App {
             let (camera, longer_px) = (&illustration.camera, self.session.picture_px);
             file_size(shown_px, camera, picture.bounds(), longer_px)
         };
-        picture.start_file(&illustration, size_px);
-        let is_lettered = self.session.is_lettering && !is_for_script;
+        let lettering = (!is_for_script).then(|| {
+            let set = |text: &TextToSet| self.services.set_text(text);
+            let mut lettering = Lettering::new(&illustration, size_px);
+            let mm_per_unit = self.session.view.known_mm_per_unit();
+            lettering.mark(ctx, &illustration, mm_per_unit);
+            if self.session.is_lettering {
+                let places = self.viewport.caption_places();
+                lettering.letter((ctx, &set), &illustration, &places);
+            }
+            lettering
+        });
+        let dpi = (!is_for_script).then_some(self.session.picture_dpi as f32);
+        let progress = Rc::default();
+        let rows = SavedRows::new(size_px, dpi, lettering, Rc::clone(&progress));
+        picture.start_file(&illustration, size_px, (rows, progress), SavedRows::finish);
         self.saving = Some(Saving {
-            illustration,
             name: format!("{}.png", self.session.file_stem()),
-            captions: is_lettered.then(|| self.viewport.caption_places()),
-            mm_per_unit: self.session.view.known_mm_per_unit(),
             is_for_script,
         });
     }
@@ -48,13 +61,12 @@ impl App {
     }
 
     /// Hands the picture for a file over once it is drawn, and shows until then how far it is.
-    pub(crate) fn advance_saving(&mut self, ctx: &egui::Context) {
-        let image = self.picture.as_mut().and_then(Picture::poll_file);
-        if let Some(image) = image
+    pub(crate) fn advance_saving(&mut self) {
+        let bytes = self.picture.as_mut().and_then(Picture::poll_file);
+        if let Some(bytes) = bytes
             && let Some(saving) = self.saving.take()
         {
-            let set = |text: &TextToSet| self.services.set_text(text);
-            match image.and_then(|image| saving.encoded((ctx, &set), image)) {
+            match bytes {
                 Ok(bytes) => self.services.save_file(SaveFile {
                     name: saving.name,
                     mime: "image/png",

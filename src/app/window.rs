@@ -428,7 +428,7 @@ impl App {
                 Effect::Scale(factor) => {
                     ctx.set_zoom_factor((ctx.zoom_factor() * factor).clamp(0.6, 3.0));
                 }
-                Effect::SavePicture => self.start_saving(ui.pixels_per_point()),
+                Effect::SavePicture => self.start_saving(ui.ctx()),
                 Effect::StopSaving => self.stop_saving(),
                 // The rest is done at once.
                 _ => {}
@@ -600,7 +600,7 @@ impl App {
         }
         self.perform_in_window(ui);
         let ctx = ui.ctx();
-        self.advance_saving(ctx);
+        self.advance_saving();
         let is_held = ui.input(|i| i.pointer.any_down());
         let picture = self.picture.as_ref();
         self.preset_pictures

@@ -2,6 +2,7 @@
 
 mod aabb;
 mod bent;
+pub mod borders;
 mod color;
 pub mod columns;
 mod linear;

@@ -37,6 +37,7 @@ pub use draw::image::{Image, decode_png, encode_png};
 pub use draw::pick::{Meeting, PendingDepths, PendingEvents, PendingPick, Pick, RayEvent};
 pub use draw::probe::{Probe, Sample};
 pub use draw::renderer::{DrawState, Renderer};
+pub use draw::rows::{FileInMemory, MOST_PX, PngRows, Rows, Taker};
 pub use draw::slice::{MarkedValues, PendingSlice, SliceColors, SlicePlane, SliceTexel, SliceView};
 pub use draw::studio::{Studio, render_image};
 pub use pack::filling::{Filling, Fillings};

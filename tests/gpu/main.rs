@@ -20,6 +20,7 @@ mod kinds;
 mod load_memory;
 mod meshes;
 mod objects;
+mod print;
 mod probes;
 mod rigid;
 mod shells;

@@ -3,14 +3,18 @@
 //! as the background wants, with a halo of the other so that they read over tissue.
 
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Align, Color32, Context, FontId, Galley, Pos2, RawInput, Rect, TextFormat, Vec2, vec2};
+use egui::{
+    Align, Color32, Context, FontFamily, FontId, Galley, Pos2, RawInput, Rect, TextFormat, Vec2,
+    vec2,
+};
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::caption_layout::{self, is_dark};
 use crate::app::kit::theme;
 use crate::app::services::{SetText, TextToSet};
 use crate::document::{Background, Illustration, needs_shaping};
-use crate::render::{CaptionPlace, Image, Marks, View};
+use crate::render::{CaptionPlace, MOST_PX, Marks, View};
 
 /// Height of the title's letters, of the picture's shorter side, and of the credit's.
 const TITLE: f32 = 0.045;
@@ -29,7 +33,8 @@ const LEAST: f32 = 9.0;
 /// Distance from the edges, of the shorter side.
 const MARGIN: f32 = 0.035;
 /// Radius of the halo, of the letters' height.
-const HALO: f32 = 0.14;
+pub(super) const HALO: f32 = 0.14;
+pub(super) const HALO_OPACITY: f32 = 0.8;
 
 /// Sets a text with fonts that the program does not have, or returns `None`.
 pub(crate) type Setter<'a> = &'a dyn Fn(&TextToSet) -> Option<SetText>;
@@ -42,34 +47,89 @@ enum Laid {
     Set(SetText),
 }
 
-/// How much of each pixel letters cover, 0 to 255.
+/// What is written into a picture of one size, laid out. It is laid over the picture's rows as they come.
+pub struct Lettering {
+    size: [u32; 2],
+    pub(super) ink: [u8; 3],
+    pub(super) halo: [u8; 3],
+    /// Each lies with its halo over those before.
+    pub(super) layers: Vec<Layer>,
+    missing: String,
+}
+
+/// What has one halo together.
+pub(super) struct Layer {
+    /// Height of its letters, pixels.
+    pub letters_px: f32,
+    pub strokes: Vec<Stroke>,
+    /// Its texts as letters: what the stamps among the strokes say.
+    pub rows: Vec<TextRow>,
+}
+
+/// What covers pixels of the picture.
+pub(super) enum Stroke {
+    /// Pixels from a corner on, row by row, 0 to 255.
+    Stamp {
+        left: i64,
+        top: i64,
+        width: usize,
+        coverage: Vec<u8>,
+    },
+    /// A line with round ends; from a place to itself, a dot.
+    Line { from: Pos2, to: Pos2, radius: f32 },
+    /// A rectangle; pixels at its edges are covered by their part of it.
+    Fill(Rect),
+}
+
+/// A row of text where it stands in a picture, pixels.
+pub(super) struct TextRow {
+    pub text: String,
+    /// The left end of its base line.
+    pub left: f32,
+    pub base: f32,
+    pub width: f32,
+    pub is_strong: bool,
+}
+
+/// How much of each pixel letters cover, 0 to 255, in some rows of a picture.
 struct Mask {
-    size: [usize; 2],
+    /// Width and height of the picture.
+    size: [i64; 2],
+    /// The rows that it holds.
+    rows: Range<i64>,
     coverage: Vec<u8>,
 }
 
-/// Writes an illustration's title, credit and captions into its picture. `captions` holds the place of each caption.
-/// Returns the characters that no font at hand has.
-pub fn letter(image: &mut Image, illustration: &Illustration, captions: &[CaptionPlace]) -> String {
-    letter_with((&fonts(), &|_| None), image, illustration, captions)
-}
-
-/// Draws the scale bar and the letters of the patient's sides into an illustration's picture, where it wishes them.
-/// `mm_per_unit`: millimetres in one subject unit; without it there is no bar.
-pub fn mark(image: &mut Image, illustration: &Illustration, mm_per_unit: Option<f64>) {
-    if illustration.look.scale_bar || illustration.look.sides {
-        mark_with(&fonts(), image, illustration, mm_per_unit);
+/// What is written into a picture of an illustration, with the program's own fonts: the scale bar and the letters of
+/// the patient's sides where it wishes them, and title, credit and captions if `captions` tells the place of each
+/// caption. `mm_per_unit`: millimetres in one subject unit; without it there is no bar.
+pub fn lettering(
+    illustration: &Illustration,
+    size_px: [u32; 2],
+    mm_per_unit: Option<f64>,
+    captions: Option<&[CaptionPlace]>,
+) -> Lettering {
+    let mut lettering = Lettering::new(illustration, size_px);
+    if captions.is_some() || illustration.look.scale_bar || illustration.look.sides {
+        let fonts: (&Context, Setter<'_>) = (&fonts(), &|_| None);
+        lettering.mark(fonts.0, illustration, mm_per_unit);
+        if let Some(captions) = captions {
+            lettering.letter(fonts, illustration, captions);
+        }
     }
+    lettering
 }
 
 /// A context for writing, without a window.
 fn fonts() -> Context {
     let ctx = Context::default();
     theme::install(&ctx);
-    // Fonts are there from the first pass on.
-    ctx.run_ui(RawInput::default(), |_| {})
-        .textures_delta
-        .clear();
+    // Fonts are there from the first pass on. The letters of a large print want more room than a window gives.
+    let input = RawInput {
+        max_texture_side: Some(MOST_PX as usize),
+        ..RawInput::default()
+    };
+    ctx.run_ui(input, |_| {}).textures_delta.clear();
     ctx
 }
 
@@ -82,136 +142,160 @@ fn inks(background: Background) -> ([u8; 3], [u8; 3]) {
     }
 }
 
-/// Draws the marks like [`mark`], with the fonts of a window.
-pub(crate) fn mark_with(
-    ctx: &Context,
-    image: &mut Image,
-    illustration: &Illustration,
-    mm_per_unit: Option<f64>,
-) {
-    // Figures, units and single letters: every font has them.
-    let fonts: (&Context, Setter<'_>) = (ctx, &|_| None);
-    let marks = Marks::of(illustration, image.size, mm_per_unit);
-    let [width, height] = image.size.map(|side| side as f32);
-    let short = width.min(height);
-    let margin = MARGIN * short;
-    let letters = (MARK * short).max(LEAST);
-    let mut mask = Mask::new(image.size);
-    let middles = [
-        [0.0, 0.5 * height],
-        [width, 0.5 * height],
-        [0.5 * width, 0.0],
-        [0.5 * width, height],
-    ];
-    for (text, [x, y]) in marks.sides.iter().flatten().zip(middles) {
-        let (laid, size, _) = laid_out(fonts, text, theme::STRONG, letters, width, 1);
-        let edge = Vec2::splat(0.5 * margin);
-        let room = vec2(width, height) - size - edge;
-        let corner = Pos2::new(x, y) - 0.5 * size;
-        mask.write(ctx, &laid, corner.min(room.to_pos2()).max(edge.to_pos2()));
+impl Lettering {
+    /// Nothing yet.
+    pub(crate) fn new(illustration: &Illustration, size: [u32; 2]) -> Self {
+        let (ink, halo) = inks(illustration.look.background);
+        Self {
+            size,
+            ink,
+            halo,
+            layers: Vec::new(),
+            missing: String::new(),
+        }
     }
-    if let Some(bar) = marks.bar {
-        // Whole rows, so that it is crisp; its length is exact.
-        let foot = Pos2::new(width - margin, (height - margin).round());
-        let left = foot.x - bar.length_px;
-        let thick = (0.13 * letters).round().max(1.0);
-        let mut draw =
-            |from: [f32; 2], to: [f32; 2]| mask.fill(Rect::from_min_max(from.into(), to.into()));
-        draw([left, foot.y - thick], [foot.x, foot.y]);
-        // The ends stand up, inside of the length.
-        draw([left, foot.y - 4.0 * thick], [left + thick, foot.y]);
-        draw([foot.x - thick, foot.y - 4.0 * thick], [foot.x, foot.y]);
-        let (laid, size, _) = laid_out(fonts, &bar.text(), "", letters, width, 1);
-        let start = (0.5 * (left + foot.x - size.x)).min(foot.x - size.x);
-        mask.write(ctx, &laid, Pos2::new(start, foot.y - 2.0 * thick - size.y));
-    }
-    let (ink, halo) = inks(illustration.look.background);
-    mask.lay(image, letters, ink, halo);
-}
 
-/// Writes the texts like [`letter`], with the fonts of a window, which has more of them, and with those of a setter
-/// where the window's do not do.
-pub(crate) fn letter_with(
-    fonts: (&Context, Setter<'_>),
-    image: &mut Image,
-    illustration: &Illustration,
-    captions: &[CaptionPlace],
-) -> String {
-    let [width, height] = image.size.map(|side| side as f32);
-    let short = width.min(height);
-    let margin = MARGIN * short;
-    let (ink, halo) = inks(illustration.look.background);
-    let mut missing = String::new();
-    let mut free = Rect::from_min_size(Pos2::ZERO, vec2(width, height)).shrink(margin);
-    let mark = (MARK * short).max(LEAST);
-    let look = &illustration.look;
-    if look.sides {
-        free = free.shrink(mark);
+    /// Characters of the texts that no font at hand has.
+    pub fn missing(&self) -> &str {
+        &self.missing
     }
-    let texts = [
-        (&illustration.title, TITLE, theme::STRONG, false),
-        (&illustration.credit, CREDIT, "", true),
-    ];
-    for (text, part, family, is_at_foot) in texts {
-        if text.trim().is_empty() {
-            continue;
+
+    /// Writes over rows of the picture (sRGB with straight alpha), `first` the first of them.
+    pub fn lay(&self, first: u32, rgba: &mut [u8]) {
+        let width = self.size[0] as usize;
+        let count = rgba.len() / (4 * width.max(1));
+        let rows = i64::from(first)..i64::from(first) + count as i64;
+        for layer in &self.layers {
+            layer.lay(self.size, rows.clone(), rgba, (self.ink, self.halo));
         }
-        let letters = (part * short).max(LEAST);
-        let rows = 0.4 * height / (1.25 * letters);
-        let is_beside_bar = is_at_foot && look.scale_bar;
-        let room = free.width() * if is_beside_bar { BESIDE_BAR } else { 1.0 };
-        let rows = rows as usize;
-        let (laid, size, lacking) = laid_out(fonts, text, family, letters, room, rows);
-        missing += &lacking;
-        let mut at = free.left_top();
-        if is_at_foot {
-            at.y = free.bottom() - size.y;
-            free.max.y = at.y - margin;
-        } else {
-            free.min.y = at.y + size.y + margin;
+    }
+
+    /// The scale bar and the letters of the patient's sides, where the illustration wishes them.
+    pub(crate) fn mark(
+        &mut self,
+        ctx: &Context,
+        illustration: &Illustration,
+        mm_per_unit: Option<f64>,
+    ) {
+        // Figures, units and single letters: every font has them.
+        let fonts: (&Context, Setter<'_>) = (ctx, &|_| None);
+        let marks = Marks::of(illustration, self.size, mm_per_unit);
+        let [width, height] = self.size.map(|side| side as f32);
+        let short = width.min(height);
+        let margin = MARGIN * short;
+        let letters = (MARK * short).max(LEAST);
+        let mut layer = Layer::new(letters);
+        let middles = [
+            [0.0, 0.5 * height],
+            [width, 0.5 * height],
+            [0.5 * width, 0.0],
+            [0.5 * width, height],
+        ];
+        for (text, [x, y]) in marks.sides.iter().flatten().zip(middles) {
+            let (laid, size, _) = laid_out(fonts, text, theme::STRONG, letters, width, 1);
+            let edge = Vec2::splat(0.5 * margin);
+            let room = vec2(width, height) - size - edge;
+            let corner = Pos2::new(x, y) - 0.5 * size;
+            layer.write(ctx, &laid, corner.min(room.to_pos2()).max(edge.to_pos2()));
         }
-        let mut mask = Mask::new(image.size);
-        mask.write(fonts.0, &laid, at);
-        mask.lay(image, letters, ink, halo);
-    }
-    if look.scale_bar {
-        free.max.y = free.max.y.min(height - 2.0 * margin - BAR * mark);
-    }
-    let view = View::new(&illustration.camera, image.size);
-    let letters = (CAPTION * short).max(LEAST);
-    let mut mask = Mask::new(image.size);
-    let (mut points, mut texts) = (Vec::new(), Vec::new());
-    for (caption, place) in illustration.captions.iter().zip(captions) {
-        let seen = place.and_then(|(pos, hidden)| Some((view.pixel_from_subject(pos)?, hidden)));
-        let Some((at, is_hidden)) = seen.filter(|_| caption.is_drawn()) else {
-            continue;
-        };
-        let at = Pos2::new(at.x, at.y);
-        if !Rect::from_min_size(Pos2::ZERO, vec2(width, height)).contains(at) {
-            continue;
+        if let Some(bar) = marks.bar {
+            // Whole rows, so that it is crisp; its length is exact.
+            let foot = Pos2::new(width - margin, (height - margin).round());
+            let left = foot.x - bar.length_px;
+            let thick = (0.13 * letters).round().max(1.0);
+            let mut draw = |from: [f32; 2], to: [f32; 2]| {
+                layer.fill(Rect::from_min_max(from.into(), to.into()))
+            };
+            draw([left, foot.y - thick], [foot.x, foot.y]);
+            // The ends stand up, inside of the length.
+            draw([left, foot.y - 4.0 * thick], [left + thick, foot.y]);
+            draw([foot.x - thick, foot.y - 4.0 * thick], [foot.x, foot.y]);
+            let (laid, size, _) = laid_out(fonts, &bar.text(), "", letters, width, 1);
+            let start = (0.5 * (left + foot.x - size.x)).min(foot.x - size.x);
+            layer.write(ctx, &laid, Pos2::new(start, foot.y - 2.0 * thick - size.y));
         }
-        let room = CAPTION_WIDTH * width;
-        let rows = caption_layout::ROWS;
-        let (laid, size, lacking) = laid_out(fonts, &caption.text, "", letters, room, rows);
-        missing += &lacking;
-        points.push(at);
-        texts.push((laid, size, is_hidden));
+        self.layers.push(layer);
     }
-    let sizes: Vec<Vec2> = texts.iter().map(|(_, size, _)| *size).collect();
-    let places = caption_layout::arranged(&points, &sizes, 0.3 * letters, free);
-    for (((laid, _, is_hidden), at), rect) in texts.iter().zip(&points).zip(places) {
-        mask.write(fonts.0, laid, rect.min);
-        mask.line(
-            caption_layout::line_start(rect, *at, free.center().x, 0.3 * letters),
-            *at,
-            0.1 * letters,
-        );
-        mask.line(*at, *at, if *is_hidden { 0.12 } else { 0.26 } * letters);
+
+    /// Title, credit and captions; `captions` holds the place of each caption.
+    pub(crate) fn letter(
+        &mut self,
+        fonts: (&Context, Setter<'_>),
+        illustration: &Illustration,
+        captions: &[CaptionPlace],
+    ) {
+        let [width, height] = self.size.map(|side| side as f32);
+        let short = width.min(height);
+        let margin = MARGIN * short;
+        let mut free = Rect::from_min_size(Pos2::ZERO, vec2(width, height)).shrink(margin);
+        let mark = (MARK * short).max(LEAST);
+        let look = &illustration.look;
+        if look.sides {
+            free = free.shrink(mark);
+        }
+        let texts = [
+            (&illustration.title, TITLE, theme::STRONG, false),
+            (&illustration.credit, CREDIT, "", true),
+        ];
+        for (text, part, family, is_at_foot) in texts {
+            if text.trim().is_empty() {
+                continue;
+            }
+            let letters = (part * short).max(LEAST);
+            let rows = 0.4 * height / (1.25 * letters);
+            let is_beside_bar = is_at_foot && look.scale_bar;
+            let room = free.width() * if is_beside_bar { BESIDE_BAR } else { 1.0 };
+            let rows = rows as usize;
+            let (laid, size, lacking) = laid_out(fonts, text, family, letters, room, rows);
+            self.missing += &lacking;
+            let mut at = free.left_top();
+            if is_at_foot {
+                at.y = free.bottom() - size.y;
+                free.max.y = at.y - margin;
+            } else {
+                free.min.y = at.y + size.y + margin;
+            }
+            let mut layer = Layer::new(letters);
+            layer.write(fonts.0, &laid, at);
+            self.layers.push(layer);
+        }
+        if look.scale_bar {
+            free.max.y = free.max.y.min(height - 2.0 * margin - BAR * mark);
+        }
+        let view = View::new(&illustration.camera, self.size);
+        let letters = (CAPTION * short).max(LEAST);
+        let mut layer = Layer::new(letters);
+        let (mut points, mut texts) = (Vec::new(), Vec::new());
+        for (caption, place) in illustration.captions.iter().zip(captions) {
+            let seen =
+                place.and_then(|(pos, hidden)| Some((view.pixel_from_subject(pos)?, hidden)));
+            let Some((at, is_hidden)) = seen.filter(|_| caption.is_drawn()) else {
+                continue;
+            };
+            let at = Pos2::new(at.x, at.y);
+            if !Rect::from_min_size(Pos2::ZERO, vec2(width, height)).contains(at) {
+                continue;
+            }
+            let room = CAPTION_WIDTH * width;
+            let rows = caption_layout::ROWS;
+            let (laid, size, lacking) = laid_out(fonts, &caption.text, "", letters, room, rows);
+            self.missing += &lacking;
+            points.push(at);
+            texts.push((laid, size, is_hidden));
+        }
+        let sizes: Vec<Vec2> = texts.iter().map(|(_, size, _)| *size).collect();
+        let places = caption_layout::arranged(&points, &sizes, 0.3 * letters, free);
+        for (((laid, _, is_hidden), at), rect) in texts.iter().zip(&points).zip(places) {
+            layer.write(fonts.0, laid, rect.min);
+            layer.line(
+                caption_layout::line_start(rect, *at, free.center().x, 0.3 * letters),
+                *at,
+                0.1 * letters,
+            );
+            layer.line(*at, *at, if *is_hidden { 0.12 } else { 0.26 } * letters);
+        }
+        self.layers.push(layer);
     }
-    if !texts.is_empty() {
-        mask.lay(image, letters, ink, halo);
-    }
-    missing
 }
 
 /// Lays a text out, wrapped, with letters of a height in pixels. Returns the layout, its size in pixels, and the
@@ -261,119 +345,218 @@ fn laid_out(
     (Laid::Own(galley), size, missing)
 }
 
-impl Mask {
-    fn new(size: [u32; 2]) -> Self {
+impl Layer {
+    fn new(letters_px: f32) -> Self {
         Self {
-            size: size.map(|side| side as usize),
-            coverage: vec![0; size[0] as usize * size[1] as usize],
+            letters_px,
+            strokes: Vec::new(),
+            rows: Vec::new(),
         }
-    }
-
-    /// Lays the letters over the picture, by their coverage, with a halo around them.
-    fn lay(&self, image: &mut Image, letters_px: f32, ink: [u8; 3], halo: [u8; 3]) {
-        let wide = self.widened((HALO * letters_px).max(1.0));
-        blend(image, &wide, halo, 0.8);
-        blend(image, self, ink, 1.0);
     }
 
     /// Writes a text with its upper left corner at a pixel.
     fn write(&mut self, ctx: &Context, laid: &Laid, corner: Pos2) {
         match laid {
             Laid::Own(galley) => self.write_own(ctx, galley, corner),
-            Laid::Set(text) => self.write_set(text, corner),
+            Laid::Set(text) => self.strokes.push(Stroke::Stamp {
+                left: corner.x.round() as i64,
+                top: corner.y.round() as i64,
+                width: text.size[0].max(1) as usize,
+                coverage: text.coverage.clone(),
+            }),
         }
     }
 
-    fn write_set(&mut self, text: &SetText, corner: Pos2) {
-        let (left, top) = (corner.x.round() as i64, corner.y.round() as i64);
-        let width = text.size[0].max(1) as usize;
-        for (y, row) in (top..).zip(text.coverage.chunks(width)) {
-            for (x, coverage) in (left..).zip(row) {
-                self.cover(x, y, *coverage);
-            }
-        }
-    }
-
+    /// The pixels of the letters are taken at once: the window may put its letters elsewhere before they are laid.
     fn write_own(&mut self, ctx: &Context, galley: &Galley, corner: Pos2) {
         let ppp = ctx.pixels_per_point();
         let atlas = ctx.fonts(|fonts| fonts.image());
+        let format = galley.job.sections.first().map(|section| &section.format);
+        let family = format.map(|format| &format.font_id.family);
+        let is_strong = family.is_some_and(|family| *family != FontFamily::Proportional);
         for row in &galley.rows {
+            if let (Some(first), Some(last)) = (row.glyphs.first(), row.glyphs.last()) {
+                let start = corner + (row.pos.to_vec2() + first.pos.to_vec2()) * ppp;
+                self.rows.push(TextRow {
+                    text: row.text(),
+                    left: start.x,
+                    base: start.y,
+                    width: (last.pos.x + last.advance_width - first.pos.x) * ppp,
+                    is_strong,
+                });
+            }
             for glyph in row.glyphs.iter().filter(|g| !g.uv_rect.is_nothing()) {
                 let at = (row.pos.to_vec2() + glyph.pos.to_vec2() + glyph.uv_rect.offset) * ppp;
-                let left = (corner.x + at.x).round() as i64;
-                let top = (corner.y + at.y).round() as i64;
                 let [from, to] = [glyph.uv_rect.min, glyph.uv_rect.max];
-                for v in from[1]..to[1] {
-                    for u in from[0]..to[0] {
-                        let texel = atlas
-                            .pixels
-                            .get(usize::from(v) * atlas.size[0] + usize::from(u));
-                        let x = left + i64::from(u - from[0]);
-                        let y = top + i64::from(v - from[1]);
-                        self.cover(x, y, texel.map_or(0, Color32::a));
+                let texels = (from[1]..to[1]).flat_map(|v| {
+                    let start = usize::from(v) * atlas.size[0];
+                    (from[0]..to[0]).map(move |u| start + usize::from(u))
+                });
+                let coverage = texels.map(|texel| atlas.pixels.get(texel).map_or(0, Color32::a));
+                self.strokes.push(Stroke::Stamp {
+                    left: (corner.x + at.x).round() as i64,
+                    top: (corner.y + at.y).round() as i64,
+                    width: usize::from(to[0] - from[0]).max(1),
+                    coverage: coverage.collect(),
+                });
+            }
+        }
+    }
+
+    fn line(&mut self, from: Pos2, to: Pos2, radius_px: f32) {
+        let radius = radius_px.max(0.6);
+        self.strokes.push(Stroke::Line { from, to, radius });
+    }
+
+    fn fill(&mut self, rect: Rect) {
+        self.strokes.push(Stroke::Fill(rect));
+    }
+
+    /// Lays the letters over rows of a picture, by their coverage, with a halo around them.
+    fn lay(
+        &self,
+        size: [u32; 2],
+        rows: Range<i64>,
+        rgba: &mut [u8],
+        (ink, halo): ([u8; 3], [u8; 3]),
+    ) {
+        let radius = (HALO * self.letters_px).max(1.0);
+        // Letters above and below have their halo in these rows too.
+        let reach = radius.ceil() as i64;
+        let mut mask = Mask::new(size, rows.start - reach..rows.end + reach);
+        if !self.strokes.iter().any(|stroke| stroke.is_in(&mask.rows)) {
+            return;
+        }
+        for stroke in &self.strokes {
+            stroke.cover(&mut mask);
+        }
+        blend(
+            rgba,
+            &mask.widened(radius, rows.clone()).coverage,
+            halo,
+            HALO_OPACITY,
+        );
+        let width = mask.size[0] as usize;
+        let above = (rows.start - mask.rows.start) as usize * width;
+        blend(
+            rgba,
+            mask.coverage.get(above..).unwrap_or_default(),
+            ink,
+            1.0,
+        );
+    }
+}
+
+impl Stroke {
+    /// The rows of the picture that it covers something of lie in these.
+    fn rows(&self) -> Range<i64> {
+        let of = |top: f32, bottom: f32| top.floor() as i64..bottom.ceil() as i64 + 1;
+        match self {
+            Self::Stamp {
+                top,
+                width,
+                coverage,
+                ..
+            } => *top..*top + coverage.len().div_ceil(*width) as i64,
+            Self::Line { from, to, radius } => of(
+                from.y.min(to.y) - radius - 1.0,
+                from.y.max(to.y) + radius + 1.0,
+            ),
+            Self::Fill(rect) => of(rect.top(), rect.bottom()),
+        }
+    }
+
+    fn is_in(&self, rows: &Range<i64>) -> bool {
+        let own = self.rows();
+        own.start < rows.end && rows.start < own.end
+    }
+
+    /// Covers its pixels in the rows of a mask.
+    fn cover(&self, mask: &mut Mask) {
+        if !self.is_in(&mask.rows) {
+            return;
+        }
+        let whole = Rect::from_min_max(
+            Pos2::ZERO,
+            Pos2::new(mask.size[0] as f32, mask.size[1] as f32),
+        );
+        match self {
+            Self::Stamp {
+                left,
+                top,
+                width,
+                coverage,
+            } => {
+                for (y, row) in (*top..).zip(coverage.chunks(*width)) {
+                    for (x, coverage) in (*left..).zip(row) {
+                        mask.cover(x, y, *coverage);
                     }
                 }
             }
-        }
-    }
-
-    /// Draws a line with round ends; from a place to itself, a dot.
-    fn line(&mut self, from: Pos2, to: Pos2, radius_px: f32) {
-        let radius = radius_px.max(0.6);
-        let area = Rect::from_two_pos(from, to).expand(radius + 1.0);
-        let area = area.intersect(Rect::from_min_max(
-            Pos2::ZERO,
-            Pos2::new(self.size[0] as f32, self.size[1] as f32),
-        ));
-        if !area.is_positive() {
-            return;
-        }
-        let way = to - from;
-        for y in area.top() as i64..area.bottom().ceil() as i64 {
-            for x in area.left() as i64..area.right().ceil() as i64 {
-                let at = Pos2::new(x as f32 + 0.5, y as f32 + 0.5);
-                let t = (at - from).dot(way) / way.length_sq().max(1e-6);
-                let away = (from + way * t.clamp(0.0, 1.0) - at).length();
-                self.cover(x, y, ((radius + 0.5 - away).clamp(0.0, 1.0) * 255.0) as u8);
+            Self::Line { from, to, radius } => {
+                let area = Rect::from_two_pos(*from, *to).expand(radius + 1.0);
+                let way = *to - *from;
+                mask.cover_all(area.intersect(whole), |x, y| {
+                    let at = Pos2::new(x as f32 + 0.5, y as f32 + 0.5);
+                    let t = (at - *from).dot(way) / way.length_sq().max(1e-6);
+                    let away = (*from + way * t.clamp(0.0, 1.0) - at).length();
+                    (radius + 0.5 - away).clamp(0.0, 1.0)
+                });
+            }
+            Self::Fill(rect) => {
+                let rect = rect.intersect(whole);
+                let part = |from: f32, to: f32, at: i64| {
+                    (to.min(at as f32 + 1.0) - from.max(at as f32)).clamp(0.0, 1.0)
+                };
+                mask.cover_all(rect, |x, y| {
+                    part(rect.left(), rect.right(), x) * part(rect.top(), rect.bottom(), y)
+                });
             }
         }
     }
+}
 
-    /// Fills a rectangle; pixels at its edges by their part of it.
-    fn fill(&mut self, rect: Rect) {
-        let [width, height] = self.size.map(|side| side as f32);
-        let rect = rect.intersect(Rect::from_min_max(Pos2::ZERO, Pos2::new(width, height)));
-        if !rect.is_positive() {
+impl Mask {
+    /// Of those of the rows that the picture has.
+    fn new(size: [u32; 2], rows: Range<i64>) -> Self {
+        let size = size.map(i64::from);
+        let rows = rows.start.clamp(0, size[1])..rows.end.clamp(0, size[1]);
+        let count = (rows.end - rows.start).max(0);
+        Self {
+            size,
+            rows,
+            coverage: vec![0; (size[0] * count) as usize],
+        }
+    }
+
+    /// Covers the pixels of an area of the picture by the part, 0 to 1, that is told for each.
+    fn cover_all(&mut self, area: Rect, part: impl Fn(i64, i64) -> f32) {
+        if !area.is_positive() {
             return;
         }
-        let part = |from: f32, to: f32, at: i64| {
-            (to.min(at as f32 + 1.0) - from.max(at as f32)).clamp(0.0, 1.0)
-        };
-        for y in rect.top() as i64..rect.bottom().ceil() as i64 {
-            for x in rect.left() as i64..rect.right().ceil() as i64 {
-                let covered =
-                    part(rect.left(), rect.right(), x) * part(rect.top(), rect.bottom(), y);
-                self.cover(x, y, (covered * 255.0) as u8);
+        let top = (area.top() as i64).max(self.rows.start);
+        let bottom = (area.bottom().ceil() as i64).min(self.rows.end);
+        for y in top..bottom {
+            for x in area.left() as i64..area.right().ceil() as i64 {
+                self.cover(x, y, (part(x, y) * 255.0) as u8);
             }
         }
     }
 
     fn cover(&mut self, x: i64, y: i64, coverage: u8) {
-        let [width, height] = self.size.map(|side| side as i64);
-        if (0..width).contains(&x)
-            && (0..height).contains(&y)
-            && let Some(pixel) = self.coverage.get_mut((y * width + x) as usize)
+        if (0..self.size[0]).contains(&x)
+            && self.rows.contains(&y)
+            && let Some(pixel) = self
+                .coverage
+                .get_mut(((y - self.rows.start) * self.size[0] + x) as usize)
         {
             *pixel = (*pixel).max(coverage);
         }
     }
 
-    /// Letters made wider all around, fading out.
-    fn widened(&self, radius: f32) -> Self {
-        let mut wide = Self {
-            size: self.size,
-            coverage: vec![0; self.coverage.len()],
-        };
+    /// Letters made wider all around, fading out, in some of the rows.
+    fn widened(&self, radius: f32, rows: Range<i64>) -> Self {
+        let mut wide = Self::new(self.size.map(|side| side as u32), rows);
         let reach = radius.ceil() as i64;
         let mut brush = Vec::new();
         for dy in -reach..=reach {
@@ -385,22 +568,39 @@ impl Mask {
                 }
             }
         }
-        let width = self.size[0].max(1);
-        let covered = self.coverage.iter().enumerate().filter(|(_, c)| **c > 0);
-        for (index, coverage) in covered {
-            let (x, y) = ((index % width) as i64, (index / width) as i64);
+        let width = self.size[0].max(1) as usize;
+        let count = self.coverage.len() / width;
+        for (index, coverage) in self.coverage.iter().enumerate() {
+            if *coverage == 0 {
+                continue;
+            }
+            let (x, y) = (index % width, index / width);
+            let (left, top) = (x as i64, self.rows.start + y as i64);
+            // Amid others that are covered as much it adds nothing but itself: wherever its brush reaches, that of
+            // one of them reaches with more weight.
+            let is_inside = x > 0
+                && y > 0
+                && x + 1 < width
+                && y + 1 < count
+                && [index - 1, index + 1, index - width, index + width]
+                    .iter()
+                    .all(|beside| self.coverage[*beside] >= *coverage);
+            if is_inside {
+                wide.cover(left, top, *coverage);
+                continue;
+            }
             for &(dx, dy, weight) in &brush {
-                wide.cover(x + dx, y + dy, (f32::from(*coverage) * weight) as u8);
+                wide.cover(left + dx, top + dy, (f32::from(*coverage) * weight) as u8);
             }
         }
         wide
     }
 }
 
-/// Lays a colour over the picture where the mask covers it. Straight alpha, in sRGB as everything that is drawn over
-/// it.
-fn blend(image: &mut Image, mask: &Mask, color: [u8; 3], opacity: f32) {
-    for (pixel, coverage) in image.rgba.chunks_exact_mut(4).zip(&mask.coverage) {
+/// Lays a colour over rows of a picture where they are covered. Straight alpha, in sRGB as everything that is drawn
+/// over it.
+fn blend(rgba: &mut [u8], coverage: &[u8], color: [u8; 3], opacity: f32) {
+    for (pixel, coverage) in rgba.chunks_exact_mut(4).zip(coverage) {
         if *coverage == 0 {
             continue;
         }
@@ -419,6 +619,7 @@ fn blend(image: &mut Image, mask: &Mask, color: [u8; 3], opacity: f32) {
 mod tests {
     use super::*;
     use crate::document::Document;
+    use crate::render::Image;
 
     fn lettered(json: &str, size: [u32; 2], pixel: [u8; 4]) -> (Image, String) {
         let document = Document::from_json(json).expect("a document");
@@ -427,8 +628,13 @@ mod tests {
             size,
             rgba: pixel.repeat(count),
         };
-        let missing = letter(&mut image, document.illustration(), &[]);
-        (image, missing)
+        let lettering = lettering(document.illustration(), size, None, Some(&[]));
+        lettering.lay(0, &mut image.rgba);
+        (image, lettering.missing().to_owned())
+    }
+
+    fn marked(image: &mut Image, shown: &Illustration, mm_per_unit: Option<f64>) {
+        lettering(shown, image.size, mm_per_unit, None).lay(0, &mut image.rgba);
     }
 
     fn dark_pixels(image: &Image, rows: std::ops::Range<usize>) -> usize {
@@ -499,7 +705,7 @@ mod tests {
                 size,
                 rgba: vec![255; 4 * size[0] as usize * size[1] as usize],
             };
-            mark(&mut image, shown, Some(mm_per_unit));
+            marked(&mut image, shown, Some(mm_per_unit));
             let rows = 0..size[1] as usize;
             let found = rows.map(|row| longest_run(&image, row)).max().unwrap_or(0);
             // Two places in the plane of the target, as far apart as the bar says.
@@ -521,7 +727,7 @@ mod tests {
             size: [40, 30],
             rgba: vec![255; 4800],
         };
-        mark(&mut image, plain.illustration(), None);
+        marked(&mut image, plain.illustration(), None);
         assert!(
             image.rgba.iter().all(|byte| *byte == 255),
             "nobody knows its size"
@@ -537,7 +743,7 @@ mod tests {
             size: [600, 400],
             rgba: vec![255; 960_000],
         };
-        mark(&mut image, document.illustration(), None);
+        marked(&mut image, document.illustration(), None);
         let dark = |x: std::ops::Range<usize>, y: std::ops::Range<usize>| {
             let pixels = y.flat_map(|y| x.clone().map(move |x| y * size[0] + x));
             pixels.filter(|pixel| image.rgba[4 * pixel] < 120).count()
@@ -557,7 +763,7 @@ mod tests {
                 size,
                 rgba: vec![255; 4 * count],
             };
-            mark(&mut image, document.illustration(), Some(1.0));
+            marked(&mut image, document.illustration(), Some(1.0));
         }
     }
 
@@ -571,6 +777,68 @@ mod tests {
                 missing.contains('颅'),
                 "what is missing is named: {missing}"
             );
+        }
+    }
+
+    /// All that can be written, laid over the whole picture and over bands of it.
+    #[test]
+    fn bands_are_lettered_like_the_whole() {
+        let json = r#"{"fabrica":1,"title":"Craniotomy","credit":"A. Author","look":{"scale":true,"sides":true,"background":"none"},"labels":[{"at":[0,0,0.1],"text":"Parietal bone"},{"at":[0.2,0,-0.1],"text":"Dura mater, opened and turned down"}]}"#;
+        let document = Document::from_json(json).expect("a document");
+        let shown = document.illustration();
+        let places: Vec<CaptionPlace> = shown
+            .captions
+            .iter()
+            .map(|caption| Some((caption.at, false)))
+            .collect();
+        let size = [320, 250];
+        let lettering = lettering(shown, size, Some(180.0), Some(&places));
+        let count = (size[0] * size[1]) as usize;
+        let ground: Vec<u8> = (0..4 * count).map(|i| (i * 31 % 256) as u8).collect();
+        let mut whole = ground.clone();
+        lettering.lay(0, &mut whole);
+        let changed = whole
+            .chunks(4)
+            .zip(ground.chunks(4))
+            .filter(|(a, b)| a != b);
+        assert!(changed.count() > 4000, "texts, lines, marks, halos");
+        for rows in [1, 7, 64, 249] {
+            let mut bands = ground.clone();
+            let stride = 4 * size[0] as usize * rows;
+            for (first, band) in (0..).step_by(rows).zip(bands.chunks_mut(stride)) {
+                lettering.lay(first, band);
+            }
+            assert!(bands == whole, "bands of {rows} rows");
+        }
+    }
+
+    /// What is skipped inside of letters adds nothing.
+    #[test]
+    fn halos_are_those_of_all_pixels() {
+        let size = [60, 40];
+        let mut mask = Mask::new(size, 0..40);
+        for y in 0..40 {
+            for x in 0..60 {
+                let away = (((x - 20) * (x - 20) + (y - 18) * (y - 18)) as f32).sqrt();
+                mask.cover(x, y, ((11.0 - away).clamp(0.0, 1.0) * 255.0) as u8);
+                mask.cover(x, y, if x > 40 && y % 9 == 3 { 130 } else { 0 });
+            }
+        }
+        let radius = 5.3;
+        let wide = mask.widened(radius, 0..40);
+        for y in 0..40_i64 {
+            for x in 0..60_i64 {
+                let all = (0..40_i64).flat_map(|v| (0..60_i64).map(move |u| (u, v)));
+                let weights = all.map(|(u, v)| {
+                    let (dx, dy) = (x - u, y - v);
+                    let distance = ((dx * dx + dy * dy) as f32).sqrt();
+                    let weight = (1.0 - distance / (radius + 1.0)).clamp(0.0, 1.0).sqrt();
+                    (f32::from(mask.coverage[(v * 60 + u) as usize]) * weight) as u8
+                });
+                let wanted = weights.max().unwrap_or(0);
+                let found = wide.coverage[(y * 60 + x) as usize];
+                assert_eq!(found, wanted, "{x}, {y}");
+            }
         }
     }
 }

@@ -24,5 +24,6 @@ pub(crate) mod snap;
 pub(crate) mod steps;
 pub(crate) mod title;
 pub(crate) mod tools;
+pub(crate) mod vectors;
 pub(crate) mod view_bar;
 pub(crate) mod viewport;

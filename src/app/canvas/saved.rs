@@ -1,46 +1,72 @@
 //! A picture on its way into a file: as it was when it was asked for, in its own frame, with its texts.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use glam::Vec2;
 
-use super::lettering::{self, Setter};
-use crate::document::{Camera, Illustration};
+use super::lettering::Lettering;
+use crate::document::Camera;
 use crate::math::Aabb;
-use crate::render::{CaptionPlace, Image, RenderError, View, encode_png};
+use crate::render::{FileInMemory, MOST_PX, PngRows, RenderError, Rows, Taker, View};
 
-/// Pixels along the longer side of a saved picture at least, where none are asked for, and along either side at most.
+/// Pixels along the longer side of a saved picture at least, where none are asked for.
 const LEAST_PX: f32 = 2000.0;
-const MOST_PX: u32 = 4096;
 /// Free room around the object in a frame that was made lower, of the object's height.
 const MARGIN: f32 = 0.06;
 
-/// A picture on its way into a file, as it was when it was asked for.
+/// A picture on its way into a file.
 pub(crate) struct Saving {
-    /// The illustration with its camera.
-    pub illustration: Illustration,
     /// Name of the file.
     pub name: String,
-    /// The texts that are written into the picture, and where the captions are; none: no text is.
-    pub captions: Option<Vec<CaptionPlace>>,
-    /// Millimetres in one subject unit, if known.
-    pub mm_per_unit: Option<f64>,
     /// Asked for by a script, which waits for the picture.
     pub is_for_script: bool,
 }
 
-impl Saving {
-    /// The PNG of the drawn picture, lettered where that is wished, with the fonts of the window and of a setter.
-    pub(crate) fn encoded(
-        &self,
-        (ctx, set): (&egui::Context, Setter<'_>),
-        mut image: Image,
-    ) -> Result<Vec<u8>, RenderError> {
-        if !self.is_for_script {
-            lettering::mark_with(ctx, &mut image, &self.illustration, self.mm_per_unit);
+/// The rows of a picture on their way into a PNG file, written over as they come.
+pub(crate) struct SavedRows {
+    png: PngRows<FileInMemory>,
+    file: FileInMemory,
+    lettering: Option<Lettering>,
+    /// How much of the picture is drawn, 0 to 1.
+    progress: Rc<Cell<f32>>,
+}
+
+impl SavedRows {
+    /// Begins the file of a picture of this size, printed with so many dots per inch if that is known.
+    pub(crate) fn new(
+        size_px: [u32; 2],
+        dpi: Option<f32>,
+        lettering: Option<Lettering>,
+        progress: Rc<Cell<f32>>,
+    ) -> Result<Self, RenderError> {
+        let file = FileInMemory::default();
+        Ok(Self {
+            png: PngRows::new(file.clone(), size_px, dpi)?,
+            file,
+            lettering,
+            progress,
+        })
+    }
+
+    /// The bytes of the file, once all rows are there.
+    pub(crate) fn finish(self) -> Result<Vec<u8>, RenderError> {
+        self.png.finish()?;
+        Ok(self.file.take())
+    }
+}
+
+impl Taker for SavedRows {
+    fn progress(&mut self, part: f32) -> Result<(), RenderError> {
+        self.progress.set(part);
+        Ok(())
+    }
+
+    fn take(&mut self, mut rows: Rows) -> Result<(), RenderError> {
+        if let Some(lettering) = &self.lettering {
+            lettering.lay(rows.first, &mut rows.rgba);
         }
-        if let Some(places) = &self.captions {
-            lettering::letter_with((ctx, set), &mut image, &self.illustration, places);
-        }
-        encode_png(&image)
+        self.png.write(&rows.rgba)
     }
 }
 
@@ -95,7 +121,7 @@ mod tests {
         assert_eq!([asked(1000), asked(4000)], [[1000, 500], [4000, 2000]]);
         assert_eq!(
             asked(u32::MAX),
-            [4096, 4096],
+            [MOST_PX; 2],
             "no more than a device may have"
         );
     }

@@ -13,7 +13,15 @@ use crate::describe::Snippet;
 use crate::link::{DENSE_QR, LONGEST_QR, Qr};
 
 /// Sizes of saved pictures that are offered: pixels along the longer side.
-const SIZES: [(u32, &str); 3] = [(1000, "1000"), (2000, "2000"), (4000, "4000")];
+const SIZES: [(u32, &str); 4] = [
+    (1000, "1000"),
+    (2000, "2000"),
+    (4000, "4000"),
+    (8000, "8000"),
+];
+/// Dots per inch that are offered.
+const DPI: [(u32, &str); 3] = [(150, "150"), (300, "300"), (600, "600")];
+const CM_PER_INCH: f32 = 2.54;
 /// Points along the side of the QR code.
 const CODE: f32 = 220.0;
 
@@ -129,6 +137,14 @@ fn inside(
     sizes.extend(SIZES.map(|(px, text)| (Some(px), text)));
     if let Some(size) = widget::segmented(ui, w().size, &sizes, session.picture_px) {
         commands.push(Command::SetPictureSize(size));
+    }
+    ui.label(w().dpi);
+    if let Some(dpi) = widget::segmented(ui, w().dpi, &DPI, session.picture_dpi) {
+        commands.push(Command::SetPictureDpi(dpi));
+    }
+    if let Some(px) = session.picture_px {
+        let cm = px as f32 / session.picture_dpi as f32 * CM_PER_INCH;
+        ui.label(fill(w().printed, &[&format!("{cm:.1}")]));
     }
     let mut is_lettering = session.is_lettering;
     if ui

@@ -16,12 +16,13 @@ use crate::document::{Background, Camera, Illustration};
 use crate::math::Aabb;
 use crate::render::{
     Clock, DrawState, FollowedCaptions, Gpu, Image, PendingPick, PendingSlice, Pick, RenderError,
-    RenderNotice, Renderer, SlicePlane, SliceView, SubjectInfo, View,
+    RenderNotice, Renderer, SlicePlane, SliceView, SubjectInfo, Taker, View,
 };
 
 /// A picture for a file, in the making.
 struct FileJob {
-    picture: Pending<Result<Image, RenderError>>,
+    /// The bytes of the file.
+    picture: Pending<Result<Vec<u8>, RenderError>>,
     /// How much of it is drawn, 0 to 1.
     progress: Rc<Cell<f32>>,
 }
@@ -318,17 +319,21 @@ impl Picture {
         followed.update(&mut self.renderer, shown, size_px, is_done)
     }
 
-    /// Starts drawing the picture once more for a file, in place of one that is being drawn.
-    pub(crate) fn start_file(&mut self, illustration: &Illustration, size_px: [u32; 2]) {
-        let progress = Rc::new(Cell::new(0.0));
-        let told = Rc::clone(&progress);
-        let picture =
-            self.renderer
-                .render_image(illustration, size_px, FILE_SAMPLES, move |part| {
-                    told.set(part)
-                });
+    /// Starts drawing the picture once more for a file, in place of one that is being drawn. `rows` takes it, tells its
+    /// progress, and becomes the bytes of the file by `finish`.
+    pub(crate) fn start_file<T: Taker + 'static>(
+        &mut self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        (rows, progress): (Result<T, RenderError>, Rc<Cell<f32>>),
+        finish: fn(T) -> Result<Vec<u8>, RenderError>,
+    ) {
+        let drawing = rows.map(|rows| {
+            let (renderer, samples) = (&self.renderer, FILE_SAMPLES);
+            renderer.render_rows(illustration, size_px, samples, rows)
+        });
         self.file = Some(FileJob {
-            picture: Box::pin(picture),
+            picture: Box::pin(async move { finish(drawing?.await?) }),
             progress,
         });
     }
@@ -343,11 +348,11 @@ impl Picture {
         Box::pin(renderer.render_image(illustration, size_px, samples, |_| {}))
     }
 
-    /// The picture for a file once it is there.
-    pub(crate) fn poll_file(&mut self) -> Option<Result<Image, RenderError>> {
-        let image = poll_once(&mut self.file.as_mut()?.picture)?;
+    /// The bytes of the picture's file once they are there.
+    pub(crate) fn poll_file(&mut self) -> Option<Result<Vec<u8>, RenderError>> {
+        let bytes = poll_once(&mut self.file.as_mut()?.picture)?;
         self.file = None;
-        Some(image)
+        Some(bytes)
     }
 
     /// How much of the picture for a file is drawn, 0 to 1; none while none is asked for.

@@ -157,6 +157,8 @@ pub enum Command {
     SaveDocument,
     /// Saved pictures get so many pixels along their longer side from now on; `None`: as many as suit the window.
     SetPictureSize(Option<u32>),
+    /// Saved pictures say from now on that they are printed with so many dots per inch.
+    SetPictureDpi(u32),
     /// Saves the picture as a PNG.
     SavePicture,
     /// Stops making the picture for a file.

@@ -142,6 +142,7 @@ impl Session {
             Command::CopyLink => self.copy_link(),
             Command::SaveDocument => self.save_document(),
             Command::SetPictureSize(longer_px) => self.picture_px = longer_px,
+            Command::SetPictureDpi(dpi) => self.picture_dpi = dpi,
             Command::SavePicture => self.effect(Effect::SavePicture),
             Command::StopSaving => self.effect(Effect::StopSaving),
             Command::CancelLoad => {

@@ -202,6 +202,8 @@ pub struct Session {
     pub is_lettering: bool,
     /// Pixels along the longer side of saved pictures; `None`: as many as suit the window.
     pub picture_px: Option<u32>,
+    /// Dots per inch that saved pictures are printed with.
+    pub picture_dpi: u32,
     /// The title stands over the picture.
     pub has_title: bool,
     /// Handles go in steps.
@@ -278,6 +280,7 @@ impl Session {
             unshaped: 0,
             is_lettering: false,
             picture_px: None,
+            picture_dpi: 300,
             has_title: false,
             is_snapping: false,
             is_alone: false,

@@ -22,6 +22,8 @@ words! {
         plain_hint: "HTML without scripts and frames: title, text, steps, what the picture shows, and the link", "HTML ohne Skripte und Rahmen: Titel, Text, Schritte, was das Bild zeigt, und der Link", "HTML sin scripts ni marcos: título, texto, pasos, lo que muestra la imagen y el enlace", "不含脚本和框架的 HTML：标题、说明、步骤、图像内容和链接";
         files: "As files", "Als Dateien", "Como archivos", "作为文件";
         size: "Pixels along the longer side", "Pixel an der längeren Seite", "Píxeles del lado más largo", "长边像素数";
+        dpi: "Dots per inch in print", "Punkte pro Zoll im Druck", "Puntos por pulgada al imprimir", "打印时每英寸点数";
+        printed: "In print the longer side has {0} cm.", "Im Druck hat die längere Seite {0} cm.", "Impreso, el lado más largo mide {0} cm.", "打印时长边为 {0} 厘米。";
         automatic: "Automatic", "Automatisch", "Automático", "自动";
         on_clipboard: "The HTML is on the clipboard", "Das HTML ist in der Zwischenablage", "El HTML está en el portapapeles", "HTML 已在剪贴板中";
     }

@@ -55,6 +55,9 @@ pub enum RenderError {
         /// The longest side that this device draws, pixels.
         max: u32,
     },
+    /// Whoever asked for the picture stopped it.
+    #[error("the picture was stopped")]
+    Stopped,
     /// The PNG encoder failed.
     #[error("PNG: {0}")]
     Png(#[from] png::EncodingError),

@@ -1,6 +1,6 @@
 //! Which segment each pixel of a picture shows.
 
-use super::picture::PictureJob;
+use super::picture::{Band, PictureJob};
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
 use crate::render::device::textures::{PICK_FORMAT, Target, read_texture, row_pitch};
@@ -29,9 +29,13 @@ pub(super) async fn identify(job: &PictureJob) -> Result<Sighting, RenderError> 
     let target = Target::new(gpu, "segments", job.size, PICK_FORMAT);
     job.march(
         &target.view,
+        Band {
+            first: 0,
+            size: job.size,
+        },
         (job.scene.key_for(Finds::Segments), None),
         0,
-        |_| {},
+        |_| Ok(()),
     )
     .await?;
     let width = job.size[0] as usize;

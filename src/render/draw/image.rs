@@ -4,6 +4,8 @@ use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::textures::{read_texture, row_pitch};
 
+const METERS_PER_INCH: f32 = 0.0254;
+
 /// A finished picture in main memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
@@ -19,14 +21,31 @@ pub struct Image {
 /// [`RenderError::Png`].
 pub fn encode_png(image: &Image) -> Result<Vec<u8>, RenderError> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, image.size[0], image.size[1]);
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    let mut writer = encoder.write_header()?;
+    let mut writer = png_encoder(&mut bytes, image.size, None).write_header()?;
     writer.write_image_data(&image.rgba)?;
     writer.finish()?;
     Ok(bytes)
+}
+
+/// An encoder of a PNG file of a picture (sRGB with straight alpha) that is printed with so many dots per inch.
+pub(super) fn png_encoder<W: std::io::Write>(
+    out: W,
+    [width, height]: [u32; 2],
+    dpi: Option<f32>,
+) -> png::Encoder<'static, W> {
+    let mut encoder = png::Encoder::new(out, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_pixel_dims(dpi.map(|dpi| {
+        let per_meter = (dpi / METERS_PER_INCH).round() as u32;
+        png::PixelDimensions {
+            xppu: per_meter,
+            yppu: per_meter,
+            unit: png::Unit::Meter,
+        }
+    }));
+    encoder
 }
 
 /// The picture of a PNG file, with 8 bits per channel.

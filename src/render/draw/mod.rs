@@ -16,6 +16,7 @@ pub(crate) mod quality;
 pub(crate) mod raycast;
 pub(crate) mod renderer;
 pub(crate) mod resolve;
+pub(crate) mod rows;
 pub(crate) mod slice;
 pub(crate) mod studio;
 pub(crate) mod targets;

@@ -6,6 +6,7 @@ use super::pace::{Pace, Work};
 use super::passes::Passes;
 use super::pick::{PendingDepths, PendingPick, PickScene};
 use super::quality::{WholePicture, least_scale, samples, steady_scale};
+use super::rows::Taker;
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
@@ -570,6 +571,28 @@ impl Renderer {
             .as_ref()
             .map(|studio| studio.clone().with_resources(self.resources.clone()))
             .map(|studio| studio.render_with_progress(illustration, size_px, samples, on_progress));
+        async move {
+            match started {
+                Some(picture) => picture.await,
+                None => Err(RenderError::NoSubject),
+            }
+        }
+    }
+
+    /// A finished picture as in [`Renderer::render_image`], handed over by rows from the top: see
+    /// [`Studio::render_rows`].
+    pub fn render_rows<T: Taker + 'static>(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        samples: u32,
+        taker: T,
+    ) -> impl Future<Output = Result<T, RenderError>> + 'static + use<T> {
+        let resources = self.resources.clone();
+        let started = self.studio.as_ref().map(|studio| {
+            let studio = studio.clone().with_resources(resources);
+            studio.render_rows(illustration, size_px, samples, None, taker)
+        });
         async move {
             match started {
                 Some(picture) => picture.await,

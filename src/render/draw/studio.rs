@@ -7,6 +7,7 @@ use super::passes::Passes;
 use super::pick::{Pick, PickScene, RayEvent};
 use super::picture::PictureJob;
 use super::probe::Sample;
+use super::rows::{Taker, band_rows};
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use crate::data::{Resources, Segment, Subject};
 use crate::document::Illustration;
@@ -104,6 +105,7 @@ impl Studio {
             passes: Arc::clone(&self.passes),
             subject: Arc::clone(&self.subject),
             size,
+            band_rows: band_rows(size[0]),
         })
     }
 
@@ -143,6 +145,29 @@ impl Studio {
     ) -> impl Future<Output = Result<Image, RenderError>> + 'static + use<P> {
         let job = self.picture(illustration, size_px);
         async move { job?.draw(samples.max(1), on_progress).await }
+    }
+
+    /// Draws one picture from the top and hands its rows over as they are done; gives the taker back. No more than some
+    /// rows are in memory at once, `rows_at_once` or as many as are drawn well. The pixels are those of
+    /// [`Studio::render_image`], to the bit. The future owns what it needs.
+    ///
+    /// # Errors
+    /// As [`Studio::render_image`], and what the taker returns.
+    pub fn render_rows<T: Taker + 'static>(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        samples: u32,
+        rows_at_once: Option<u32>,
+        mut taker: T,
+    ) -> impl Future<Output = Result<T, RenderError>> + 'static + use<T> {
+        let job = self.picture(illustration, size_px);
+        async move {
+            let mut job = job?;
+            job.band_rows = rows_at_once.unwrap_or(job.band_rows);
+            job.draw_rows(samples.max(1), &mut taker).await?;
+            Ok(taker)
+        }
     }
 
     /// Draws one picture from the baked map, with so many texels along its longest side, as the viewer does

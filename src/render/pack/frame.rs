@@ -52,6 +52,7 @@ pub(crate) fn frame_of(
         bounds_min: min.extend(0.0).to_array(),
         bounds_max: max.extend(0.0).to_array(),
         step,
-        padding: [0; 3],
+        first_row: 0.0,
+        padding: [0; 2],
     }
 }

@@ -486,8 +486,10 @@ pub struct Frame {
     pub bounds_max: [f32; 4],
     /// Length of a step, subject units.
     pub step: f32,
+    /// Row of the whole picture that the target begins with.
+    pub first_row: f32,
     /// To the end of the row.
-    pub padding: [u32; 3],
+    pub padding: [u32; 2],
 }
 
 /// How many rays one uniform buffer holds.

@@ -6,6 +6,7 @@ use clap::{Parser, Subcommand};
 
 use super::reading::ReadingFlags;
 use crate::describe::Lang;
+use crate::render::MOST_PX;
 
 /// Opens CT and MRI scans the way a medical illustrator would.
 ///
@@ -51,10 +52,10 @@ pub(super) enum Command {
     Render {
         /// Document, link or payload to draw; - for a document on standard input.
         doc: String,
-        /// The PNG file to write.
+        /// The file to write: a PNG, or an SVG with texts and outlines as such if the name ends in .svg.
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
-        /// Width and height, pixels.
+        /// Width and height, pixels: each up to 8192.
         #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = parse_size)]
         size: [u32; 2],
         #[command(flatten)]
@@ -65,6 +66,12 @@ pub(super) enum Command {
         /// Writes title, credit and labels into the picture.
         #[arg(long)]
         lettering: bool,
+        /// Draws on no background, whatever the document says.
+        #[arg(long)]
+        transparent: bool,
+        /// Dots per inch that the picture is printed with, which the file says.
+        #[arg(long, value_name = "N", value_parser = parse_dpi)]
+        dpi: Option<f32>,
     },
     /// Says where the material at a point comes from: reads x,y,z lines, prints x,y,z,sx,sy,sz,a lines.
     Probe {
@@ -166,13 +173,20 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
         text.trim()
             .parse::<u32>()
             .ok()
-            .filter(|side| (1..=32_768).contains(side))
+            .filter(|side| (1..=MOST_PX).contains(side))
     };
     text.split_once(['x', 'X', '×'])
         .and_then(|(width, height)| Some([side(width)?, side(height)?]))
         .ok_or_else(|| {
-            "expected width and height such as 1024x768, each from 1 to 32768".to_owned()
+            format!("expected width and height such as 1024x768, each from 1 to {MOST_PX}")
         })
+}
+
+fn parse_dpi(text: &str) -> Result<f32, String> {
+    match text.trim().parse::<f32>() {
+        Ok(dpi) if dpi.is_finite() => Ok(dpi),
+        _ => Err("expected a number of dots per inch, such as 300".to_owned()),
+    }
 }
 
 fn parse_lang(text: &str) -> Result<Lang, String> {

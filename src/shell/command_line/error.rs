@@ -42,6 +42,8 @@ pub(super) enum CliError {
     Render(#[from] RenderError),
     #[error("{path}: {source}; nothing was written")]
     Write { path: String, source: io::Error },
+    #[error("{path}: stopped; nothing was written")]
+    Stopped { path: String },
     #[error("{path}, line {line}: expected {expected}, found “{found}”")]
     Numbers {
         path: String,

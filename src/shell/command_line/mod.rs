@@ -17,11 +17,14 @@ mod objects;
 mod opening;
 mod output;
 mod probe;
+mod progress;
 mod rays;
 mod reading;
 mod render;
 mod run;
+mod stop;
 mod subject;
+mod svg;
 mod templates;
 
 pub use reading::ReadingFlags;

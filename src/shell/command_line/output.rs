@@ -1,8 +1,9 @@
 //! What commands print and write.
 
 use std::fmt;
+use std::fs::File;
 use std::io::{self, Write as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::error::CliError;
 
@@ -38,23 +39,60 @@ pub(super) fn shortened(text: &str) -> String {
     }
 }
 
-/// Writes beside the file first, so that none is ever left half-written.
+/// A file that is whole or not there: it is written beside its place and moved there at the end. Dropped before, it is
+/// gone.
+pub(super) struct WholeFile {
+    path: PathBuf,
+    part: PathBuf,
+    file: File,
+}
+
+impl WholeFile {
+    /// Begins the file of a path.
+    pub(super) fn create(path: &Path) -> io::Result<Self> {
+        let mut name = path.file_name().unwrap_or_default().to_os_string();
+        name.push(format!(".{}.part", std::process::id()));
+        let part = path.with_file_name(name);
+        Ok(Self {
+            path: path.to_path_buf(),
+            file: File::create(&part)?,
+            part,
+        })
+    }
+
+    /// What is written into it.
+    pub(super) fn writer(&self) -> io::Result<File> {
+        self.file.try_clone()
+    }
+
+    /// Puts it in its place.
+    pub(super) fn finish(self) -> io::Result<()> {
+        self.file.sync_all()?;
+        std::fs::rename(&self.part, &self.path)
+    }
+}
+
+impl Drop for WholeFile {
+    fn drop(&mut self) {
+        // Gone already if it is in its place.
+        let _gone = std::fs::remove_file(&self.part);
+    }
+}
+
+/// The error of a file that could not be written.
+pub(super) fn unwritten(path: &Path, source: io::Error) -> CliError {
+    CliError::Write {
+        path: path.display().to_string(),
+        source,
+    }
+}
+
+/// Writes a file that is whole or not there.
 pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
-    name.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(name);
     let write = || -> io::Result<()> {
-        let mut file = std::fs::File::create(&part)?;
-        file.write_all(bytes)?;
-        file.sync_all()?;
-        std::fs::rename(&part, path)
+        let file = WholeFile::create(path)?;
+        file.writer()?.write_all(bytes)?;
+        file.finish()
     };
-    write().map_err(|source| {
-        // It may never have been made.
-        let _gone = std::fs::remove_file(&part);
-        CliError::Write {
-            path: path.display().to_string(),
-            source,
-        }
-    })
+    write().map_err(|source| unwritten(path, source))
 }

@@ -71,11 +71,15 @@ fn execute(args: Args) -> Result<(), CliError> {
             moment,
             samples,
             lettering,
+            transparent,
+            dpi,
         } => {
             let paper = Paper {
                 size,
                 samples,
                 lettering,
+                transparent,
+                dpi,
             };
             render(common, &open(&doc)?, &output, moment, paper)
         }
