@@ -167,7 +167,10 @@ mod tests {
     fn bands_are_whole_tiles() {
         for width in [1, 64, 1000, 4096, 8192, u32::MAX] {
             let rows = band_rows(width);
-            assert!(rows >= TILE && rows.is_multiple_of(TILE), "{rows} rows of {width}");
+            assert!(
+                rows >= TILE && rows.is_multiple_of(TILE),
+                "{rows} rows of {width}"
+            );
         }
         assert_eq!(band_rows(8192), 128);
     }
