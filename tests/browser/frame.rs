@@ -160,10 +160,7 @@ fn without_workers_the_page_does_their_work() {
             other.add("told.js", b"window.told = []; for (const name of ['ready', 'error']) addEventListener(name, (event) => told.push([name, event.detail])); window.warned = []; const warn = console.warn; console.warn = (...words) => { warned.push(words.join(' ')); warn.apply(console, words); };".to_vec());
             let tab = session.open("").await;
             tab.resize(400, 400).await;
-            tab.page
-                .goto(format!("{}/strict.html", other.address()))
-                .await
-                .expect("the page loads");
+            tab.go(&format!("{}/strict.html", other.address())).await;
             tab.wait_until("told.length > 0", 240).await;
             let told: serde_json::Value = tab.eval("told").await;
             assert_eq!(told[0][0], "ready", "{subject}: {told}");

@@ -19,6 +19,7 @@ use chromiumoxide::cdp::browser_protocol::page::CaptureScreenshotFormat;
 use chromiumoxide::cdp::browser_protocol::target::{
     CreateBrowserContextParams, CreateTargetParams,
 };
+use chromiumoxide::error::CdpError;
 use chromiumoxide::page::ScreenshotParams;
 use futures::FutureExt as _;
 use std::collections::VecDeque;
@@ -369,9 +370,21 @@ impl Tab {
         added.expect("a script for the next page");
     }
 
-    /// Leads the tab to an address.
-    async fn go(&self, address: &str) {
-        self.page.goto(address).await.expect("the page loads");
+    /// Leads the tab to an address. The connection gives up on a page that has not loaded after half a minute, as where
+    /// it works in its main thread on a busy machine; such a page is waited for here.
+    pub(crate) async fn go(&self, address: &str) {
+        match self.page.goto(address).await {
+            Ok(_) => {}
+            Err(CdpError::Timeout) => {
+                println!("{address}: loads for more than half a minute");
+                let place = address.split('#').next().unwrap_or_default();
+                let has_loaded = format!(
+                    "document.readyState === 'complete' && location.href.startsWith('{place}')"
+                );
+                self.wait_until(&has_loaded, 200).await;
+            }
+            Err(error) => panic!("{address}: {error}"),
+        }
     }
 
     /// Value of a JavaScript expression; a promise is awaited.
