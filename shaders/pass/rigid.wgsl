@@ -537,20 +537,29 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
     for (var k = select(count, lane * own, is_asked); k < min(count, (lane + 1u) * own); k++) {
         let index = vec3u(k % cells.x, (k / cells.x) % cells.y, k / (cells.x * cells.y));
         let at_sample = low + (vec3f(index) + 0.5) * cell;
-        let wanted = apply_affine(to_rest, at_sample);
-        let told = select(apply_affine(to_rest, floor(at_sample) + 0.5), wanted, has_shares);
+        // A place anywhere in a cell of several voxels: a cut would have a whole layer of middles on one side.
+        var aside = select(vec3f(0.0), (evenly(k) - 0.5) * cell, has_shares);
+        let told = apply_affine(to_rest, select(floor(at_sample) + 0.5, at_sample, has_shares));
         let away = distance_to_kept(told, sets, 0.0, exact);
         var share = select(0.0, 1.0, away < 0.0);
         if has_shares && abs(away) <= fade + kept.distance_dims.w {
             share = 0.0;
+            var middle_of_share = vec3f(0.0);
             for (var eighth = 0u; eighth < 8u; eighth++) {
-                let aside = (cell_of(eighth, 2u) - 0.5) * 0.5 * cell;
-                share += select(0.0, 0.125, is_labelled(apply_affine(to_rest, at_sample + aside), sets));
+                let corner = (cell_of(eighth, 2u) - 0.5) * 0.5 * cell;
+                let part = select(0.0, 0.125, is_labelled(apply_affine(to_rest, at_sample + corner), sets));
+                share += part;
+                middle_of_share += part * corner;
+            }
+            // About the middle of what is in it.
+            if share < 1.0 {
+                aside = 0.5 * aside + middle_of_share / max(share, 0.125);
             }
         }
         if share <= 0.0 {
             continue;
         }
+        let wanted = apply_affine(to_rest, at_sample + aside);
         var there = last;
         var is_found = false;
         var passed = -1.0;
