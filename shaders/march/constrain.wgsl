@@ -17,7 +17,8 @@
 // |p - x| = min(|D|, d(x) / h) <= d(x), and the ball of radius d(x) about x holds nothing of the kept set. Along a
 // displacement of one direction u in that zone the map has the slope 1 + (u . grad d) / h >= 1 - 1/h > 0: it does not
 // fold, as eq. 5.15 may where |D| is its maximum. `d` is the distance as it is stored less what linear interpolation
-// between its samples may add (`kept.distance_dims.w`).
+// between its samples may add (`kept.distance_dims.w`), and less what the smooth surface of the set may lie before the
+// labels (`kept.rim`).
 // needs: types.wgsl affine.wgsl kinds.wgsl bind/templates.wgsl bind/kept.wgsl displace/frame.wgsl displace/compose.wgsl
 //   march/kept.wgsl
 

@@ -13,7 +13,7 @@ fn kept_surface(rest: vec3f, path: u32, jacobian: mat3x3f, to_eye: vec3f) -> Kep
     var keeps = 0u;
     var depth = 0.0;
     var is_kept_side = false;
-    // Half a voxel either way is the same surface: labels are nearest, distances smooth.
+    // A voxel either way is the same surface: shares and distances are smoothed each in a way of its own.
     let slack = kept.spacing;
     let count = select(min(templates.count, 32u), 1u, align_mode == 1u);
     for (var i = 0u; i < count; i++) {
@@ -26,7 +26,7 @@ fn kept_surface(rest: vec3f, path: u32, jacobian: mat3x3f, to_eye: vec3f) -> Kep
         let away = distance_to_kept(rest, item.aligned, item.depth, 0u);
         let has_moved = (path & group) != 0u;
         let is_on_side = select(away <= slack, away >= -slack, has_moved);
-        // Within the stairs of the labels it is the surface itself.
+        // So near it is the surface itself.
         let near = 1.0 - max(abs(away) - slack, 0.0) / max(item.blend, slack);
         if is_on_side && near > weight {
             weight = near;

@@ -968,22 +968,28 @@ pub(crate) fn ball(center: DVec3, radius: f64) -> Volume {
 
 /// A volume of nothing but balls of one segment, of so many voxels along each side.
 pub(crate) fn balls(side: u32, balls: &[(DVec3, f64)]) -> Volume {
+    let label_of = |voxel: UVec3| {
+        let at = (voxel.as_dvec3() + 0.5) / f64::from(side) - 0.5;
+        let mut balls = balls.iter();
+        u8::from(balls.any(|(center, radius)| at.distance(*center) < *radius))
+    };
+    labelled_block(side, label_of, &["ball"])
+}
+
+/// A volume of one value, of so many voxels along each side, with labels by their indices, and names of the labels from
+/// 1 on.
+pub(crate) fn labelled_block(side: u32, label_of: impl Fn(UVec3) -> u8, names: &[&str]) -> Volume {
     let grid = Grid {
         dims: UVec3::splat(side),
         world_from_voxel: DAffine3::IDENTITY,
     };
-    let place = |i: u32| {
-        let voxel = UVec3::new(i % side, i / side % side, i / (side * side)).as_dvec3();
-        (voxel + 0.5) / f64::from(side) - 0.5
-    };
-    let is_in = |at: DVec3| {
-        balls
-            .iter()
-            .any(|(center, radius)| at.distance(*center) < *radius)
-    };
-    let labels: Vec<u8> = (0..side.pow(3))
-        .map(|i| u8::from(is_in(place(i))))
-        .collect();
+    let voxel = |i: u32| UVec3::new(i % side, i / side % side, i / (side * side));
+    let labels: Vec<u8> = (0..side.pow(3)).map(|i| label_of(voxel(i))).collect();
+    let segments = (1..).zip(names).map(|(label, name)| Segment {
+        label,
+        name: (*name).to_owned(),
+        color_srgb: None,
+    });
     Volume {
         has_size: true,
         grid,
@@ -994,11 +1000,7 @@ pub(crate) fn balls(side: u32, balls: &[(DVec3, f64)]) -> Volume {
         segmentation: Some(Segmentation {
             grid,
             labels,
-            segments: vec![Segment {
-                label: 1,
-                name: "ball".to_owned(),
-                color_srgb: None,
-            }],
+            segments: segments.collect(),
         }),
     }
 }

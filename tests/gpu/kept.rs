@@ -1,16 +1,16 @@
 //! What is kept ends at a smooth surface through the border of its labels: how exactly, that nothing thin is lost, and
 //! that picture and probe have the same border.
 
-use crate::align::{giving_way, probe};
+use crate::align::{giving_way, labelled_block, probe};
 use crate::gpu::{gpu, studio_of};
 use crate::scatter::Random;
-use fabrica::data::{Grid, KeptLabels, Segment, Segmentation, Volume, Voxels};
+use fabrica::data::{KeptLabels, Segmentation, Volume};
 use fabrica::document::{
     Align, ConstrainBy, Illustration, ParamValue, PlacedTemplate, TemplateKind,
 };
 use fabrica::math::Placement;
 use fabrica::render::Studio;
-use glam::{DAffine3, DVec3, IVec3, Quat, UVec3, Vec3};
+use glam::{DVec3, IVec3, Quat, UVec3, Vec3};
 
 /// Voxels along each side of the volumes here, unless a test has its own.
 const SIDE: u32 = 48;
@@ -18,34 +18,10 @@ const SIDE: u32 = 48;
 /// Number and name of what is kept.
 const KEPT: u8 = 1;
 
-/// A block of one value; `is_kept` by the middle of a voxel.
+/// A block of one value; `is_kept` by the index of a voxel.
 fn block(side: u32, is_kept: impl Fn(UVec3) -> bool) -> Volume {
-    let grid = Grid {
-        dims: UVec3::splat(side),
-        world_from_voxel: DAffine3::IDENTITY,
-    };
-    let voxel = |i: u32| UVec3::new(i % side, i / side % side, i / (side * side));
-    let labels: Vec<u8> = (0..side.pow(3))
-        .map(|i| if is_kept(voxel(i)) { KEPT } else { 2 })
-        .collect();
-    let segment = |label: u8, name: &str| Segment {
-        label: label.into(),
-        name: name.to_owned(),
-        color_srgb: None,
-    };
-    Volume {
-        has_size: true,
-        grid,
-        voxels: Voxels::U8(vec![200; labels.len()]),
-        slope: 1.0,
-        intercept: 0.0,
-        value_range: [0.0, 200.0],
-        segmentation: Some(Segmentation {
-            grid,
-            labels,
-            segments: vec![segment(KEPT, "kept"), segment(2, "rest")],
-        }),
-    }
+    let label_of = |voxel| if is_kept(voxel) { KEPT } else { 2 };
+    labelled_block(side, label_of, &["kept", "rest"])
 }
 
 /// Label voxels, from the middle of the first, of a place of rest space in a block of so many along each side.

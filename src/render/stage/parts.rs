@@ -64,7 +64,7 @@ impl PartPrograms {
             dispatch(gpu, &mut encoder, pipeline, &entries, tissue, groups);
         };
         let all = [x, y, z].map(|n| n.div_ceil(4));
-        run(&pipelines.mark, 0, &[(1, ranks)], Some(&tissue), all);
+        run(&pipelines.mark, 0, &[(1, ranks)], Some(&tissue[..]), all);
         for _ in 0..ROUNDS {
             for (axis, across) in [[y, z], [x, z], [x, y]].into_iter().enumerate() {
                 let [width, height] = across.map(|n| n.div_ceil(8));
@@ -94,20 +94,20 @@ fn label_entries(subject: &SubjectTextures) -> Vec<wgpu::BindGroupEntry<'_>> {
 }
 
 /// One pass; `tissue` is bound as group 1 where the pass asks for labels.
-fn dispatch(
+pub(super) fn dispatch(
     gpu: &Gpu,
     encoder: &mut wgpu::CommandEncoder,
     pipeline: &wgpu::ComputePipeline,
     entries: &[wgpu::BindGroupEntry<'_>],
-    tissue: Option<&Vec<wgpu::BindGroupEntry<'_>>>,
+    tissue: Option<&[wgpu::BindGroupEntry<'_>]>,
     [x, y, z]: [u32; 3],
 ) {
     let mut pass = encoder.begin_compute_pass(&Default::default());
     pass.set_pipeline(pipeline);
-    let groups = tissue.map(|entries| (1, entries.as_slice()));
+    let groups = tissue.map(|entries| (1, entries));
     for (index, entries) in groups.into_iter().chain([(3, entries)]) {
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("parts"),
+            label: Some("kept tissue"),
             layout: &pipeline.get_bind_group_layout(index),
             entries,
         });

@@ -1,6 +1,7 @@
 //! Shares of kept tissue, made on the GPU: how much of each label voxel belongs to each set, so that what is kept ends
 //! at a smooth surface.
 
+use super::parts::dispatch;
 use crate::data::MOST_SHARED_VOXELS;
 use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::uniform_buffer;
@@ -246,29 +247,16 @@ impl<'a> Work<'a> {
         job: &SharesJob,
         buffers: &[(u32, &wgpu::Buffer)],
         reads_labels: bool,
-        [x, y, z]: [u32; 3],
+        groups: [u32; 3],
     ) {
-        let group = |index, entries: &[wgpu::BindGroupEntry<'_>]| {
-            self.gpu
-                .device
-                .create_bind_group(&wgpu::BindGroupDescriptor {
-                    label: Some("shares"),
-                    layout: &pipeline.get_bind_group_layout(index),
-                    entries,
-                })
-        };
         let job = uniform_buffer(self.gpu, "shares job", job);
         let mut entries = vec![entry(0, job.as_entire_binding())];
         let buffers = buffers.iter();
         entries.extend(buffers.map(|(at, buffer)| entry(*at, buffer.as_entire_binding())));
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(3, &group(3, &entries), &[]);
-        if reads_labels {
-            let view = wgpu::BindingResource::TextureView(&self.subject.label_view);
-            pass.set_bind_group(1, &group(1, &[entry(3, view)]), &[]);
-        }
-        pass.dispatch_workgroups(x, y, z);
+        let view = wgpu::BindingResource::TextureView(&self.subject.label_view);
+        let labels = [entry(3, view)];
+        let labels = reads_labels.then_some(&labels[..]);
+        dispatch(self.gpu, encoder, pipeline, &entries, labels, groups);
     }
 }
 
