@@ -42,6 +42,16 @@ fn object(map: &mut Map<String, Value>, keys: &'static [Key], kind: Option<Templ
 
 /// Strips the objects that a value holds.
 fn inside(value: &mut Value, holds: Kind, kind: Option<TemplateKind>) {
+    if let (Value::Object(map), Kind::Style(of)) = (&mut *value, holds) {
+        object(map, of, kind);
+        // A preset that nothing is changed of is its name.
+        if map.len() == 1
+            && let Some(preset) = map.remove("preset")
+        {
+            *value = preset;
+        }
+        return;
+    }
     match (value, holds) {
         (Value::Object(map), Kind::Object(of) | Kind::OneOrMore { of, .. }) => {
             object(map, of, kind);
@@ -82,9 +92,12 @@ fn is_default(value: &Value, kind: Kind) -> bool {
         Kind::Name(names) => value.as_str() == names.first().copied(),
         Kind::Background => value.as_str() == Some("#ffffff"),
         Kind::Transfer(_) | Kind::Window => value.as_str() == Some("auto"),
+        Kind::Style(_) => value.as_str() == Some("none") || is_empty_object(value),
         Kind::Flag { default } => value == &Value::Bool(default),
         Kind::Whole => is_number(value, 0.0),
-        Kind::Number { default, .. } => is_number(value, default as f32),
+        Kind::Number { default, .. } | Kind::Count { default, .. } => {
+            is_number(value, default as f32)
+        }
         Kind::Vector { default, .. } => is_numbers(value, &default.map(|v| v as f32)),
         Kind::Rotation => is_numbers(value, &IDENTITY),
         Kind::Pairs { .. }

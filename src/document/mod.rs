@@ -73,13 +73,14 @@ pub use limits::{
 };
 pub use model::{
     Align, Background, BodyKind, Camera, Caption, CleanStep, Constrain, ConstrainBy, Control,
-    ControlPoint, ControlPoints, ControlRange, Curve, FieldRef, FoundObject, Illustration, Layer,
-    Look, MAX_PARAM_FLOATS, MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, NotCarving,
-    ObjectPlacement, ObjectRef, ObjectSource, OpacityMode, PRESETS, ParamKind, ParamSpec,
-    ParamValue, PlacedTemplate, Preset, PresetSubject, RawVoxels, Reading, Recipe, RecipeSource,
-    SceneObject, SegmentLook, SegmentSurface, SegmentsRef, Step, Stroke, SubjectBox, SubjectRef,
-    SurfaceChange, SurfaceLook, TemplateData, TemplateKind, TemplateMode, TemplateSpec, Transfer,
-    TransferPoint, Window, keep_set, keep_sets, needs_shaping, preset, presets,
+    ControlPoint, ControlPoints, ControlRange, Curve, FieldRef, FoundObject, Ghost, GhostBy, Hatch,
+    HatchBy, Illustration, Layer, Look, MAX_PARAM_FLOATS, MeshAxes, MeshParts, MeshReading,
+    MeshRef, MeshUnits, NotCarving, ObjectPlacement, ObjectRef, ObjectSource, OpacityMode, Outline,
+    PRESETS, ParamKind, ParamSpec, ParamValue, PlacedTemplate, Preset, PresetSubject, RawVoxels,
+    Reading, Recipe, RecipeSource, STYLE_PRESETS, SceneObject, SegmentLook, SegmentSurface,
+    SegmentsRef, Step, Stipple, Stroke, Style, StylePreset, SubjectBox, SubjectRef, SurfaceChange,
+    SurfaceLook, TemplateData, TemplateKind, TemplateMode, TemplateSpec, Tone, Transfer,
+    TransferPoint, Window, keep_set, keep_sets, needs_shaping, preset, presets, style_preset,
 };
 pub use text::{DocumentError, Notice, NoticeKind, pointer};
 pub use tree::Document;

@@ -1,6 +1,6 @@
 //! The reference of the document format, rendered from the schema and the catalogue into `reference.md`.
 
-use super::model::{ParamKind, ParamSpec, TemplateKind, presets};
+use super::model::{ParamKind, ParamSpec, StylePreset, TemplateKind, presets};
 use super::schema::{Key, Kind, LeftOut, visit};
 use super::text::json::{number, number_text};
 use crate::displace::Holds;
@@ -100,10 +100,12 @@ fn values(kind: Kind) -> String {
             let names: Vec<&str> = presets().iter().map(|preset| preset.name).collect();
             format!("`auto`, {}, or a list of points", listed(&names))
         }
+        Kind::Style(_) => format!("{}, or an object", listed(&StylePreset::NAMES)),
         Kind::Window => "`auto`, or the lowest and the highest value".to_owned(),
         Kind::Flag { .. } => "true or false".to_owned(),
         Kind::Whole => "whole number from 0".to_owned(),
         Kind::Number { min, max, .. } => format!("number, {}", range(min, max)),
+        Kind::Count { min, max, .. } => format!("whole number, {}", range(min, max)),
         Kind::Range => "`[lowest]` or `[lowest, highest]`".to_owned(),
         Kind::Box => "six numbers, mm, RAS+: least x, y, z, greatest x, y, z".to_owned(),
         Kind::Vector { min, max, .. } => format!("three numbers, each {}", range(min, max)),
@@ -141,9 +143,10 @@ fn default(kind: Kind) -> Option<String> {
         Kind::Name(names) => format!("`{}`", names.first()?),
         Kind::Background => "`#ffffff`".to_owned(),
         Kind::Transfer(_) | Kind::Window => "`auto`".to_owned(),
+        Kind::Style(_) => "`none`".to_owned(),
         Kind::Flag { default } => default.to_string(),
         Kind::Whole => "0".to_owned(),
-        Kind::Number { default, .. } => text(default),
+        Kind::Number { default, .. } | Kind::Count { default, .. } => text(default),
         Kind::Vector { default, .. } => format!("`[{}]`", default.map(text).join(", ")),
         Kind::Rotation => "`[0, 0, 0, 1]`".to_owned(),
         _ => return None,

@@ -14,9 +14,9 @@ use super::limits::{
     MIN_BALL_MM,
 };
 use super::model::{
-    Align, BodyKind, Camera, ConstrainBy, Layer, MeshAxes, MeshParts, MeshReading, MeshUnits,
-    ObjectPlacement, OpacityMode, ParamKind, RawVoxels, SceneObject, Step, SurfaceLook,
-    TemplateKind, TemplateMode,
+    Align, BodyKind, Camera, ConstrainBy, GhostBy, HatchBy, Layer, MeshAxes, MeshParts,
+    MeshReading, MeshUnits, ObjectPlacement, OpacityMode, ParamKind, RawVoxels, SceneObject, Step,
+    Style, StylePreset, SurfaceLook, TemplateKind, TemplateMode, Tone,
 };
 use super::text::{json, pointer};
 use crate::displace::Holds;
@@ -93,6 +93,8 @@ pub(crate) enum Kind {
     Background,
     /// `auto` (the default), the name of a preset, or a list of points with these keys.
     Transfer(&'static [Key]),
+    /// `none` (the default), the name of a preset, or an object with these keys.
+    Style(&'static [Key]),
     /// `auto` (the default) or the lowest and the highest value.
     Window,
     /// A JSON boolean.
@@ -109,6 +111,15 @@ pub(crate) enum Kind {
         /// Lowest value; smaller ones are raised to this.
         min: f64,
         /// Highest value; larger ones are lowered to this.
+        max: f64,
+    },
+    /// A whole number in a closed range; others are rounded.
+    Count {
+        /// The value of a missing key.
+        default: f64,
+        /// Lowest value.
+        min: f64,
+        /// Highest value.
         max: f64,
     },
     /// One number, a lower end, or two, the ends of a range.
@@ -486,6 +497,64 @@ pub(crate) const LOOK: &[Key] = &[
     key(630, "background", Kind::Background, "behind the object; `none` is transparent"),
     key(632, "scale", Kind::Flag { default: false }, "true: a scale bar in millimetres stands in the picture. It holds in the plane through the camera's target that faces the eye, and is left out where nobody knows how large the subject is"),
     key(634, "sides", Kind::Flag { default: false }, "true: letters of the patient's sides (R, L, A, P, S, I) stand at the edges of the picture"),
+    key(636, "style", Kind::Style(STYLE), "how an illustrator would draw it: the name of a preset, or an object whose keys change one. Widths and distances are thousandths of the shorter side of the picture. Numbers and colours ease from step to step, also from preset to preset"),
+];
+
+/// Keys of `/look/style`.
+#[rustfmt::skip]
+pub(crate) const STYLE: &[Key] = &[
+    key(750, "preset", Kind::Name(&StylePreset::NAMES), "the preset that the other keys change; what they leave out is as in the preset"),
+    key(752, "outline", Kind::Object(OUTLINE), "lines around what is seen, and along its creases").optional(),
+    key(754, "tone", Kind::Object(TONE), "shading from a warm colour in the light to a cool one in the shade").optional(),
+    key(756, "hatch", Kind::Object(HATCH), "strokes in the shade").optional(),
+    key(758, "stipple", Kind::Object(STIPPLE), "dots in the shade").optional(),
+    key(760, "ghost", Kind::Object(GHOST), "tissue that what lies behind it is seen through, while its rims stay").optional(),
+];
+
+/// How strongly a part of a style is drawn.
+const STRENGTH: Kind = number(0.0, 0.0, 1.0);
+
+/// Keys of `/look/style/outline`.
+#[rustfmt::skip]
+pub(crate) const OUTLINE: &[Key] = &[
+    key(BY_NAME, "width", number(plain(Style::PLAIN.outline.width), 0.0, 20.0), "width of a line, thousandths of the shorter side of the picture; without it the preset's, and 2 where that has no lines").optional(),
+    key(520, "color", Kind::Color, "colour of the lines; without it the preset's, else `#1a1a1a`").optional(),
+    key(762, "creases", number(plain(Style::PLAIN.outline.creases), 0.0, 1.0), "how readily a crease gets a line: at 0 there are outlines alone; without it the preset's, else 0.5").optional(),
+];
+
+/// Keys of `/look/style/tone`.
+#[rustfmt::skip]
+pub(crate) const TONE: &[Key] = &[
+    key(764, "levels", Kind::Count { default: 0.0, min: 0.0, max: Tone::MAX_LEVELS as f64 }, "number of steps between light and shade; 0 is smooth, 1 counts as 2; without it the preset's, else 0").optional(),
+    key(766, "warm", Kind::Color, "colour in the light; without it the preset's, else `#f3d9b8`").optional(),
+    key(768, "cool", Kind::Color, "colour in the shade; without it the preset's, else `#3b4f6b`").optional(),
+    key(BY_NAME, "strength", STRENGTH, "how far it stands in the stead of plain shading; without it the preset's, and 1 where that has no tone").optional(),
+];
+
+/// Keys of `/look/style/hatch`.
+#[rustfmt::skip]
+pub(crate) const HATCH: &[Key] = &[
+    key(380, "spacing", number(plain(Style::PLAIN.hatch.spacing), 2.0, 50.0), "from one stroke to the next, thousandths of the shorter side of the picture; without it the preset's, else 6").optional(),
+    key(BY_NAME, "width", number(plain(Style::PLAIN.hatch.width), 0.2, 20.0), "width of a stroke, thousandths of the shorter side of the picture; without it the preset's, else 1").optional(),
+    key(470, "by", Kind::Name(&HatchBy::NAMES), "what the strokes follow: the direction in which the surface bends most, or the long axis of what is drawn; without it the preset's, else `curvature`").optional(),
+    key(520, "color", Kind::Color, "colour of the strokes; without it the preset's, else `#1a1a1a`").optional(),
+    key(BY_NAME, "strength", STRENGTH, "opacity of the strokes; without it the preset's, and 1 where that has none").optional(),
+];
+
+/// Keys of `/look/style/stipple`.
+#[rustfmt::skip]
+pub(crate) const STIPPLE: &[Key] = &[
+    key(380, "spacing", number(plain(Style::PLAIN.stipple.spacing), 2.0, 50.0), "from one dot to the next, thousandths of the shorter side of the picture; without it the preset's, else 5").optional(),
+    key(340, "size", number(plain(Style::PLAIN.stipple.size), 0.2, 20.0), "diameter of a dot, thousandths of the shorter side of the picture; without it the preset's, else 1.5").optional(),
+    key(520, "color", Kind::Color, "colour of the dots; without it the preset's, else `#1a1a1a`").optional(),
+    key(BY_NAME, "strength", STRENGTH, "opacity of the dots; without it the preset's, and 1 where that has none").optional(),
+];
+
+/// Keys of `/look/style/ghost`.
+#[rustfmt::skip]
+pub(crate) const GHOST: &[Key] = &[
+    key(470, "by", Kind::Name(&GhostBy::NAMES), "which tissue it is: surfaces, the more the straighter they face the eye, or what lies in front of a cut; without it the preset's, else `facing`").optional(),
+    key(BY_NAME, "strength", STRENGTH, "how clear it becomes; without it the preset's, and 0.5 where that has none").optional(),
 ];
 
 /// Keys of a point in `/look/transfer`.
@@ -587,6 +656,7 @@ impl Kind {
             | Self::FirstOf { of, .. }
             | Self::OneOrMore { of, .. }
             | Self::Looks(of)
+            | Self::Style(of)
             | Self::Transfer(of) => of,
             _ => &[],
         }
@@ -607,6 +677,7 @@ impl Kind {
             | Self::OneOrMore { .. }
             | Self::Labels
             | Self::Looks(_)
+            | Self::Style(_)
             | Self::Params
             | Self::Set => json!({}),
             _ => return None,
@@ -620,9 +691,12 @@ impl Kind {
             Self::Name(names) => json!(names.first()?),
             Self::Background => json!("#ffffff"),
             Self::Transfer(_) | Self::Window => json!("auto"),
+            Self::Style(_) => json!("none"),
             Self::Flag { default } => json!(default),
             Self::Whole => json!(0),
-            Self::Number { default, .. } => Value::Number(json::number(default)),
+            Self::Number { default, .. } | Self::Count { default, .. } => {
+                Value::Number(json::number(default))
+            }
             other => return other.container(),
         })
     }
@@ -652,7 +726,7 @@ pub(crate) fn default_at(path: &[String], kind: Option<TemplateKind>) -> Option<
             return key.kind.container().filter(|_| key.is_made);
         };
         match key.kind {
-            Kind::Object(of) | Kind::OneOrMore { of, .. } => keys = of,
+            Kind::Object(of) | Kind::OneOrMore { of, .. } | Kind::Style(of) => keys = of,
             Kind::List { of, .. } | Kind::FirstOf { of, .. } => {
                 keys = of;
                 path.next();
@@ -703,8 +777,10 @@ pub(crate) fn scalar_at(path: &[String], kind: Option<TemplateKind>) -> Option<S
         let rest = path.as_slice();
         match key.kind {
             Kind::Flag { default } if rest.is_empty() => return Some(Scalar::Flag(default)),
-            Kind::Number { default, min, max } if rest.is_empty() => {
-                let is_whole = false;
+            Kind::Number { default, min, max } | Kind::Count { default, min, max }
+                if rest.is_empty() =>
+            {
+                let is_whole = matches!(key.kind, Kind::Count { .. });
                 return Some(Scalar::Number {
                     default,
                     min,
@@ -713,7 +789,7 @@ pub(crate) fn scalar_at(path: &[String], kind: Option<TemplateKind>) -> Option<S
                 });
             }
             Kind::Vector { default, min, max } => return component(rest, default, min, max),
-            Kind::Object(of) => keys = of,
+            Kind::Object(of) | Kind::Style(of) => keys = of,
             Kind::List { of, .. } => {
                 keys = of;
                 pointer::index(path.next()?)?;
@@ -809,7 +885,9 @@ pub(crate) fn visit(visit: &mut impl FnMut(&str, Option<Holds>, &'static [Key]))
             let at = pointer::join(at, key.name);
             let entry = pointer::join(&at, "*");
             match key.kind {
-                Kind::Object(of) | Kind::OneOrMore { of, .. } => inside(&at, None, visit, of),
+                Kind::Object(of) | Kind::OneOrMore { of, .. } | Kind::Style(of) => {
+                    inside(&at, None, visit, of);
+                }
                 Kind::List { of, .. }
                 | Kind::FirstOf { of, .. }
                 | Kind::Looks(of)

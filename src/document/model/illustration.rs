@@ -5,6 +5,7 @@ use super::mesh::MeshRef;
 use super::object::{ObjectSource, SceneObject};
 use super::recipe::Recipe;
 use super::script::needs_shaping;
+use super::style::Style;
 use super::subject::{SegmentsRef, SubjectRef};
 use super::surface::SurfaceLook;
 use super::template::PlacedTemplate;
@@ -79,6 +80,8 @@ impl Illustration {
                 gradient: 0.0,
                 segments: Vec::new(),
                 surface: SurfaceLook::DOCUMENT_DEFAULT,
+                style: Style::PLAIN,
+                style_preset: None,
                 background: Background::Color([255; 3]),
                 scale_bar: false,
                 sides: false,

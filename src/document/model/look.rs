@@ -1,5 +1,6 @@
 //! Colours, opacity and background.
 
+use super::style::Style;
 use super::surface::{SurfaceChange, SurfaceLook};
 
 /// Colours, opacity and background.
@@ -20,6 +21,10 @@ pub struct Look {
     pub segments: Vec<SegmentLook>,
     /// How meshes are drawn whose segments do not say.
     pub surface: SurfaceLook,
+    /// How an illustrator would draw it: the preset, with what the document changes of it.
+    pub style: Style,
+    /// Name of the preset that [`Look::style`] starts from; `None`: nothing is drawn but what the document says.
+    pub style_preset: Option<&'static str>,
     /// The background behind the object.
     pub background: Background,
     /// A scale bar stands in the picture.

@@ -28,6 +28,7 @@ impl Reader {
         let gradient = self.number(object, "gradient")?;
         let segments = self.segment_looks(&object.child("segments")?)?;
         let surface = self.surface(object, subject)?;
+        let (preset, style) = self.style(object)?;
         let background = match object.text("background")? {
             Some("none") => Background::None,
             _ => Background::Color(
@@ -43,6 +44,8 @@ impl Reader {
             gradient,
             segments,
             surface,
+            style,
+            style_preset: preset.map(|preset| preset.name),
             background,
             scale_bar: object.flag("scale")?,
             sides: object.flag("sides")?,

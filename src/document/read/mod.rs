@@ -9,6 +9,7 @@ mod mesh;
 mod object;
 mod reader;
 mod recipe;
+mod style;
 mod subject;
 mod surface;
 mod template;

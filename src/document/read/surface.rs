@@ -6,7 +6,7 @@ use crate::document::model::{BodyKind, Layer, SubjectRef, SurfaceChange, Surface
 use crate::document::text::DocumentError;
 
 /// What a notice says in place of a colour that is none.
-const DEFAULT: &str = "the default";
+pub(super) const DEFAULT: &str = "the default";
 
 impl Reader {
     /// The keys of `look`. Without `layers` those of the subject itself count.

@@ -4,6 +4,7 @@ mod curves;
 mod lessons;
 mod recipes;
 mod recording;
+mod styles;
 mod surfaces;
 
 use super::*;
@@ -63,7 +64,7 @@ fn every_default_is_left_out_and_filled_in() {
             "kind": spec.name, "name": "", "at": [0, 0, 0], "rotate": [0, 0, 0, 1], "size": [0.5, 0.5, 0.5], "enabled": true,
             "mode": "compose", "align": { "to": "axis", "depth": 0.02, "thickness": 0.01 }, "params": params }],
             "subject": { "builtin": "head" }, "labels": [], "steps": [], "camera": { "target": [0, 0, 0], "rotate": [0, 0, 0, 1], "distance": 2.5, "fov": 30 },
-            "look": { "transfer": "auto", "window": "auto", "opacity": "constancy", "gradient": 0, "segments": {}, "background": "#ffffff", "scale": false, "sides": false } }));
+            "look": { "transfer": "auto", "window": "auto", "opacity": "constancy", "gradient": 0, "segments": {}, "background": "#ffffff", "scale": false, "sides": false, "style": "none" } }));
         let bare = document(json!({ "fabrica": 1, "templates": [{ "kind": spec.name }] }));
         assert_eq!(written, bare, "of {}", spec.name);
         assert_eq!(
