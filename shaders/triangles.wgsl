@@ -1,5 +1,5 @@
 // Lines against triangles and boxes, and what the texels of a triangle hold.
-// needs: srgb.wgsl
+// needs: srgb.wgsl octahedron.wgsl
 
 /// Texels in a row of a texture of triangles.
 const MESH_ROW: u32 = 4096u;
@@ -51,13 +51,6 @@ fn part_in_box(start: vec3f, inverse_way: vec3f, low: vec3f, high: vec3f, most: 
 fn inverse_of(way: vec3f) -> vec3f {
     let least = vec3f(1e-20);
     return 1.0 / select(way, select(-least, least, way >= vec3f(0.0)), abs(way) < least);
-}
-
-/// A unit vector from its place on the unfolded octahedron (Cigolle et al. 2014).
-fn from_octahedron(at: vec2f) -> vec3f {
-    let up = 1.0 - abs(at.x) - abs(at.y);
-    let fold = max(-up, 0.0);
-    return normalize(vec3f(at + select(vec2f(fold), vec2f(-fold), at >= vec2f(0.0)), up));
 }
 
 /// Linear RGB at a point of a triangle of these weights, from the packed sRGB colours of its corners.

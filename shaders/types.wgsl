@@ -121,6 +121,8 @@ struct Look {
     opacity_mode: u32,
     /// How much opacity follows the steepness of the value, 0 to 1.
     edges: f32,
+    /// The part of its opacity that tissue keeps where it is a ghost, 0 to 1.
+    ghost: f32,
 }
 
 /// How one segment of a mesh is drawn (spec/surfaces.md, "What a body is").
@@ -236,6 +238,46 @@ struct Baked {
     /// The first slab of those that are being made.
     first_slab: u32,
 }
+
+/// An illustrator's look, in pixels of the picture that is drawn (pass/style.wgsl).
+struct Style {
+    /// Linear RGB.
+    outline_color: vec4f,
+    warm: vec4f,
+    cool: vec4f,
+    hatch_color: vec4f,
+    stipple_color: vec4f,
+    /// xyz: the long axis of each segment, rest space, unit; of 0 that of the whole subject.
+    axes: array<vec4f, 256>,
+    /// Width of outlines, pixels; 0 for none.
+    outline_px: f32,
+    /// Normals that are turned against each other by more than the angle of this cosine make a crease.
+    crease_cosine: f32,
+    /// Number of flat tones; 0 for smooth ones.
+    levels: f32,
+    /// How far the colours of the tissue give way to those of the tone, 0 to 1.
+    tone: f32,
+    /// Between strokes and their least width, pixels; how much of the tone they make, 0 to 1.
+    hatch_spacing_px: f32,
+    hatch_width_px: f32,
+    hatch: f32,
+    /// One of the constants HATCH_.
+    hatch_by: u32,
+    /// Between dots and their least diameter, pixels; how much of the tone they make, 0 to 1.
+    stipple_spacing_px: f32,
+    stipple_size_px: f32,
+    stipple: f32,
+    /// How far tissue far from all templates fades, 0 to 1.
+    vignette: f32,
+    /// Length of the subject's finest detail, subject units: what is flatter makes no outline.
+    detail: f32,
+    /// Row of the whole picture that the traced pixels begin with.
+    first_row: u32,
+}
+
+/// What strokes follow.
+const HATCH_CURVATURE: u32 = 0u;
+const HATCH_AXIS: u32 = 1u;
 
 /// From the accumulated picture to the one that is shown.
 struct Resolve {

@@ -12,6 +12,18 @@ fn map_step() -> f32 {
     return 0.0005;
 }
 
+/// True if a template keeps the material that was at a point of rest space.
+fn is_kept_by_any(rest: vec3f) -> bool {
+    var keeps = 0u;
+    var depth = 1e4;
+    for (var i = 0u; i < min(templates.count, MAX_TEMPLATES); i++) {
+        keeps |= kept.items[i].keeps;
+        let is_deep = (kept.items[i].keeps & KEEPS_DEEP) != 0u;
+        depth = select(depth, min(depth, kept.items[i].depth), is_deep);
+    }
+    return is_kept(rest, keeps, depth);
+}
+
 /// What the object has at a point of subject space. Bit i of `mask`: template i may reach it.
 fn material_at(pos: vec3f, mask: u32) -> Material {
     let count = min(templates.count, 32u);

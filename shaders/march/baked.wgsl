@@ -12,6 +12,11 @@ fn map_step() -> f32 {
     return baked.map_step;
 }
 
+/// True if a template keeps the material that was at a point of rest space.
+fn is_kept_by_any(_rest: vec3f) -> bool {
+    return false;
+}
+
 /// What the object has at a point of subject space. Cells that no template reaches are exact.
 fn object_from_subject(pos: vec3f, mask: u32) -> Mapped {
     let found = textureSampleLevel(baked_map, linear_sampler, (pos - baked.origin_min.xyz) * baked.per_unit.xyz, 0.0);

@@ -74,6 +74,14 @@ fn take_other(ray: Ray, on_ray: ptr<function, ObjectsMet>, layers: ptr<function,
     return (*layers).items[next];
 }
 
+/// Segment (0: none) that a picture shows where a ray found its surface.
+fn shown_segment(found: Marched, pos: vec3f) -> u32 {
+    if found.surface_what != MET_VOLUME {
+        return subject.labels_before + found.segment;
+    }
+    return segment_behind(pos, found.surface_normal);
+}
+
 /// Label (0: none) and value of what a ray found; of a mesh its segment's label and the depth under its surface.
 fn tissue_of(found: Marched, pos: vec3f, dir: vec3f) -> vec2f {
     if found.surface_what == MET_OBJECT {

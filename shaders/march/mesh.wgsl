@@ -10,7 +10,8 @@
 // Source: Correa, sections 7.4 and 7.5.2 (adaptive sampling), with triangles in the place of a sampled field.
 // Differs from the source: one rule for the deformed part and the rest, exact edges, no blending at borders.
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/compose.wgsl
-//   march/overrides.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl march/jacobian.wgsl march/surface.wgsl
+//   march/overrides.wgsl march/ghost.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl march/jacobian.wgsl
+//   march/surface.wgsl
 //   march/marched.wgsl march/gathered.wgsl march/textures.wgsl subject/mesh.wgsl subject/crossing.wgsl
 //   march/filling.wgsl
 //   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
@@ -612,5 +613,9 @@ fn seen_of(ray: Ray, met: Met) -> Seen {
     let look_here = look_of(ray, met);
     let normal_in_view = apply_transposed(frame.subject_from_view, look_here.normal);
     let light = shade_surface(look_here.albedo, normal_in_view, -ray.dir_in_view, look_here.gloss);
-    return Seen(event_of(met, look_here), look_here.normal, light, look_here.opacity, 0.0);
+    var opacity = look_here.opacity;
+    if has_ghost != 0u {
+        opacity *= ghost_keeps(1.0, look_here.normal, -ray.dir);
+    }
+    return Seen(event_of(met, look_here), look_here.normal, light, opacity, 0.0);
 }

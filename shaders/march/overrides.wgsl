@@ -7,6 +7,8 @@ override has_labels: u32 = 1u;
 override has_grid: u32 = 1u;
 /// 1 if opacity follows the gradient.
 override has_edges: u32 = 0u;
+/// 1 if tissue is drawn as a ghost.
+override has_ghost: u32 = 0u;
 /// 1 if segments are drawn as bodies of their own.
 override has_bodies: u32 = 0u;
 /// 1 if objects stand in the scene.

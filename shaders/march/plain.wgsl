@@ -23,6 +23,11 @@ fn material_at(pos: vec3f, mask: u32) -> Material {
     return Material(mapped.pos, mapped.continuity, mask);
 }
 
+/// True if a template keeps the material that was at a point of rest space.
+fn is_kept_by_any(_rest: vec3f) -> bool {
+    return false;
+}
+
 /// The map by the templates of `path` alone. This map is smooth wherever exactly these templates moved the material.
 fn map_along(pos: vec3f, path: u32) -> Mapped {
     return rest_from_subject(pos, path);

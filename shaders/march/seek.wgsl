@@ -1,8 +1,7 @@
 // The march of a ray through the deformed space. The march leaps over empty cells and takes samples elsewhere; the map
 // determines the length of each step (Correa, section 7.5.2, adaptive sampling).
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/grid.wgsl displace/compose.wgsl march/overrides.wgsl
-// march/ray.wgsl
-//   march/opacity.wgsl march/sample.wgsl
+//   march/ray.wgsl march/view.wgsl march/opacity.wgsl march/sample.wgsl
 
 /// A ray through a point of the picture; constant while the ray is marched.
 struct Ray {
@@ -36,12 +35,6 @@ struct Walk {
     /// Distance from the eye at which the ray leaves the grid cell of the sample at `t`; if that cell is empty, the
     /// distance at which the ray leaves the empty cells around that cell.
     t_cell: f32,
-}
-
-/// Direction from the eye through a point of the picture (pixels, origin top left): unit, view space.
-fn dir_in_view_of(pixel: vec2f) -> vec3f {
-    let ndc = (pixel / frame.size_px) * 2.0 - 1.0;
-    return normalize(vec3f(ndc.x * frame.lens.x, -ndc.y * frame.lens.y, -1.0));
 }
 
 /// The ray through a point of the picture.

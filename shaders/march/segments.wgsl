@@ -35,6 +35,24 @@ fn weight_around(around: Around, i: i32) -> f32 {
     return around.weights[i % 3].x * around.weights[(i / 3) % 3].y * around.weights[i / 9].z;
 }
 
+/// Label of the segment that most of what is around a point belongs to; 0 where none is. Its borders are smooth, where
+/// those of the nearest voxel are stairs. By the majority vote of Boyer and Moore (1991), with weights: voxels of no
+/// segment do not vote, since half of the voxels around a surface are air.
+fn segment_around(pos: vec3f) -> u32 {
+    let around = around_at(pos);
+    var leader = 0u;
+    var lead = 0.0;
+    for (var i = 0; i < 27; i++) {
+        let label = label_around(around, i);
+        let weight = select(weight_around(around, i), 0.0, label == 0u || subject.has_labels == 0u);
+        let is_ours = label == leader;
+        let is_new = !is_ours && weight > lead;
+        lead = select(abs(lead - weight), lead + weight, is_ours);
+        leader = select(leader, label, is_new);
+    }
+    return leader;
+}
+
 /// Colour of the segments around a point, linear RGB, premultiplied by how much of it is known (alpha).
 fn tint_at(pos: vec3f) -> vec4f {
     let around = around_at(pos);

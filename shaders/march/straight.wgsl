@@ -32,6 +32,11 @@ fn take_other(ray: Ray, on_ray: ptr<function, ObjectsMet>, _layers: ptr<function
     return seen_object(ray, (*on_ray).items[next]);
 }
 
+/// Segment (0: none) that a picture shows where a ray found its surface.
+fn shown_segment(found: Marched, pos: vec3f) -> u32 {
+    return segment_behind(pos, found.surface_normal);
+}
+
 /// Segment (0: none) and value of what a ray found.
 fn tissue_of(found: Marched, pos: vec3f, dir: vec3f) -> vec2f {
     if found.surface_what == MET_OBJECT {

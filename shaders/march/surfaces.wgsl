@@ -73,6 +73,11 @@ fn march(asked: Ray, pixel: vec2f) -> Marched {
     return gathered.found;
 }
 
+/// Segment (0: none) that a picture shows where a ray found its surface.
+fn shown_segment(found: Marched, _pos: vec3f) -> u32 {
+    return found.segment;
+}
+
 /// Segment (0: none) of what a ray found, and its depth under the surface.
 fn tissue_of(found: Marched, _pos: vec3f, _dir: vec3f) -> vec2f {
     if found.surface_what == MET_OBJECT {

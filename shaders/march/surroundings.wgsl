@@ -25,8 +25,9 @@ fn pixel_noise(pixel: vec2f) -> f32 {
 
 /// Opacity of a sample in a test of light. Edges are found by the gradient at rest, without the deformation.
 fn shading_opacity(found: Sample) -> f32 {
+    let opacity = select(found.opacity * look.ghost, found.opacity, has_ghost == 0u);
     if has_edges == 0u {
-        return found.opacity;
+        return opacity;
     }
     var gain = 0.0;
     var left = select(0u, 1u, found.opacity > VISIBLE);
@@ -37,7 +38,7 @@ fn shading_opacity(found: Sample) -> f32 {
             gain = mix(gain, 1.0, body_weight(body_at(found.pos)));
         }
     }
-    return found.opacity * gain;
+    return opacity * gain;
 }
 
 /// A tap of the surroundings.

@@ -1,6 +1,14 @@
 // The tissue of a volume under the surface that a ray has found.
-// needs: types.wgsl bind/subject.wgsl subject/place.wgsl march/sample.wgsl
+// needs: types.wgsl bind/subject.wgsl subject/place.wgsl march/sample.wgsl march/segments.wgsl
 //   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
+
+/// How far behind a surface its segment is looked for, in voxels.
+const BEHIND_SURFACE: f32 = 0.75;
+
+/// Segment (0: none) of the tissue that a surface with this normal bounds.
+fn segment_behind(pos: vec3f, normal: vec3f) -> u32 {
+    return segment_around(map_point(pos - normal * (BEHIND_SURFACE * subject.detail), 0xffffffffu).pos);
+}
 
 /// Segment (0: none) and value a little deeper along a ray than its surface, on which half of the voxels are air.
 fn tissue_under(pos: vec3f, dir: vec3f) -> vec2f {

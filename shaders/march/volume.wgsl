@@ -9,7 +9,7 @@
 // Written for devices that run both sides of every branch (software rasterisers): work is put behind loops that end
 // early, not behind `if`; work that is done once per ray (occlusion, shadow) comes after the loop.
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/look.wgsl displace/compose.wgsl
-//   march/overrides.wgsl march/value.wgsl march/opacity.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl
+//   march/overrides.wgsl march/value.wgsl march/opacity.wgsl march/ghost.wgsl march/bodies.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl
 //   march/refine.wgsl march/jacobian.wgsl march/surface.wgsl march/edges.wgsl march/color.wgsl march/surroundings.wgsl
 //   march/marched.wgsl march/gathered.wgsl march/objects.wgsl march/straight.wgsl|march/layers.wgsl
 //   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
@@ -35,6 +35,15 @@ fn taken_by_surroundings(pixel: vec2f, gathered: Gathered, pos: vec3f) -> vec3f 
     let noise = pixel_noise(floor(pixel));
     let key_dir = apply_linear(frame.subject_from_view, KEY_DIR);
     return taken_from(gathered.light, surroundings_of(above, normal, key_dir, noise));
+}
+
+/// The part of its opacity that tissue of a scan keeps as a ghost.
+fn ghost_share(edge: Sample, surface: Surface, to_eye: vec3f) -> f32 {
+    let keeps = ghost_keeps(surface.surfaceness, surface.normal, to_eye);
+    if has_bodies == 0u {
+        return keeps;
+    }
+    return mix(keeps, 1.0, body_weight(body_at(edge.pos)));
 }
 
 /// A stretch of a ray between two samples: opaque as at the first up to the crossing, as at the second behind it.
@@ -79,7 +88,12 @@ fn march(asked: Ray, pixel: vec2f) -> Marched {
         let cut = cut_at(uvw, map, -ray.dir);
         let surface = surface_at(edge, uvw, map, cut, -ray.dir);
 
-        let gains = gains_of(gain_before, walk.here, crossing, map, surface, cut);
+        var gains = gains_of(gain_before, walk.here, crossing, map, surface, cut);
+        if has_ghost != 0u {
+            let keeps = select(ghost_share(edge, surface, -ray.dir), 1.0, is_kept_by_any(edge.pos));
+            gains.behind *= keeps;
+            gains.here *= keeps;
+        }
         let exponent = opacity_exponent(map.jacobian, ray.dir);
         let stretch = Stretch(
             crossing.t_edge,

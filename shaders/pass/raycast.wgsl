@@ -1,6 +1,7 @@
 // The picture: marches the deformed space along each pixel's ray (march/volume.wgsl, march/mesh.wgsl). Fragment
 // shaders, uniform buffers and sampled textures only, so that WebGL2 could follow.
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/rays.wgsl march/seek.wgsl march/volume.wgsl|march/surfaces.wgsl
+//   style/words.wgsl
 
 /// One triangle that covers everything.
 @vertex
@@ -18,6 +19,43 @@ fn pixel_at(at: vec4f) -> vec2f {
 fn draw(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let pixel = pixel_at(at);
     return march(ray_through(pixel), pixel).color;
+}
+
+/// A pixel of the picture, and what it shows: see style/traced.wgsl.
+struct Traced {
+    @location(0) color: vec4f,
+    @location(1) place: vec4f,
+    @location(2) surface: vec2u,
+}
+
+/// Objects are numbered behind the labels of segments, those of meshes beside a volume among them.
+const FIRST_OBJECT: u32 = 512u;
+
+/// How bright a colour is.
+fn luminance(color: vec3f) -> f32 {
+    return dot(color, vec3f(0.2126, 0.7152, 0.0722));
+}
+
+/// The picture, linear premultiplied, and what its pixels show, for pass/style.wgsl: of see-through tissue where the
+/// ray's surface is.
+@fragment
+fn trace(@builtin(position) at: vec4f) -> Traced {
+    let pixel = pixel_at(at);
+    let ray = ray_through(pixel);
+    let found = march(ray, pixel);
+    let is_object = found.surface_what == MET_OBJECT;
+    let pos = ray.origin + ray.dir * found.surface_t;
+    let segment = select(shown_segment(found, pos), FIRST_OBJECT - 1u + found.segment, is_object);
+    let normal = apply_transposed(frame.subject_from_view, found.surface_normal);
+    let own = luminance(found.event.albedo) * max(found.color.w, 1e-3);
+    let light = select(luminance(found.color.rgb) / max(own, 1e-4), 1.0, found.event.what == MET_NOTHING);
+    let is_found = found.surface_t >= 0.0;
+    let facing = select(vec3f(0.0, 0.0, 1.0), normal, is_found);
+    return Traced(
+        found.color,
+        vec4f(found.surface_rest, found.surface_t),
+        surface_words(facing, select(0u, segment, is_found), light),
+    );
 }
 
 /// Rays of one `AskedRays`.

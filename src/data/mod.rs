@@ -10,6 +10,7 @@
 //! [`segment`] finds the segments that the recipes of a document describe, and joins them with the segments of label
 //! volumes; a [`Site`] tells where a segment lies.
 
+mod axes;
 mod ball;
 mod builder;
 mod field;
@@ -33,6 +34,7 @@ mod surface;
 mod time_slices;
 mod volume;
 
+pub use axes::long_axes;
 pub use builder::{BuildError, VolumeBuilder};
 pub use field::{FieldSamples, SampledField};
 pub use frame::SubjectFrame;

@@ -1,7 +1,7 @@
 //! Everything that is ready to be drawn: an illustration on a subject, on the GPU.
 
 use crate::data::Resources;
-use crate::document::Illustration;
+use crate::document::{Illustration, Style};
 use crate::math::Aabb;
 use crate::render::device::bindings::entry;
 use crate::render::device::gpu::Gpu;
@@ -240,8 +240,12 @@ impl Scene {
             has_bodies: self.inputs.bodies.get().is_any(),
             has_objects: self.inputs.objects.get().items.count > 0,
             has_textures: self.has_textures || self.inputs.objects.get().has_textures(),
+            has_ghost: table.is_some_and(|table| table.ghost < 1.0),
             has_edges: table.is_some_and(|table| table.gradient > 0.0),
-            finds: Finds::Picture,
+            finds: match self.style() {
+                Some(_) => Finds::Traced,
+                None => Finds::Picture,
+            },
         }
     }
 
@@ -261,6 +265,11 @@ impl Scene {
     /// Linear RGB; w: 1 if there is a background.
     pub(crate) fn background(&self) -> [f32; 4] {
         *self.inputs.background.get()
+    }
+
+    /// The illustrator's look, if there is one to draw.
+    pub(crate) fn style(&self) -> Option<&Style> {
+        Some(self.inputs.style.get()).filter(|style| !style.is_plain())
     }
 
     /// The uniform of the templates.

@@ -51,9 +51,14 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         MeshLook { segments, layers, has_shells, has_filled }
         SceneObject { object_from_subject, color, inside, opacity, gloss, nodes_at, triangles_at, node_count, textures_at }
         SceneObjects { items, count }
-        Look { table_scale, table_offset, tint, specular, opacity_mode, edges }
+        Look { table_scale, table_offset, tint, specular, opacity_mode, edges, ghost }
         Grid { origin_min, cell_size, cells, is_used }
         Baked { origin_min, per_unit, texels, map_step, first_slab }
+        Style {
+            outline_color, warm, cool, hatch_color, stipple_color, axes, outline_px, crease_cosine, levels, tone,
+            hatch_spacing_px, hatch_width_px, hatch, hatch_by, stipple_spacing_px, stipple_size_px, stipple, vignette,
+            detail, first_row,
+        }
         Resolve { scale, end, background, is_straight }
         Slice {
             subject_from_pixel, background, grey_scale, grey_offset, mode, samples, marked, marked_from, marked_to,

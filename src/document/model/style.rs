@@ -28,8 +28,7 @@ pub struct Outline {
     pub creases: f32,
 }
 
-/// Shading from a warm colour in the light to a cool one in the shade (Gooch et al., SIGGRAPH 1998), smooth or in
-/// steps.
+/// Shading in flat steps, and from a warm colour in the light to a cool one in the shade (Gooch et al., SIGGRAPH 1998).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tone {
     /// Number of steps, 2 to 5; 0 is smooth.
@@ -38,11 +37,11 @@ pub struct Tone {
     pub warm_srgb: [u8; 3],
     /// Colour in the shade, sRGB bytes.
     pub cool_srgb: [u8; 3],
-    /// How far it stands in the stead of plain shading, 0 (not at all) to 1.
+    /// How far the two colours stand in the stead of those of the tissue, 0 (not at all) to 1.
     pub strength: f32,
 }
 
-/// Strokes over the shaded parts of surfaces.
+/// Strokes over the shaded parts of surfaces; strokes brighter than what they lie on draw the lit parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hatch {
     /// From one stroke to the next, thousandths of the picture's shorter side, 2 to 50.
@@ -53,7 +52,7 @@ pub struct Hatch {
     pub by: HatchBy,
     /// sRGB bytes.
     pub color_srgb: [u8; 3],
-    /// Opacity of the strokes, 0 (none) to 1.
+    /// How much of the tone the strokes make, 0 (none) to 1.
     pub strength: f32,
 }
 
@@ -66,7 +65,7 @@ pub enum HatchBy {
     Axis,
 }
 
-/// Dots over the shaded parts of surfaces.
+/// Dots over the shaded parts of surfaces; dots brighter than what they lie on draw the lit parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stipple {
     /// From one dot to the next, thousandths of the picture's shorter side, 2 to 50.
@@ -75,7 +74,7 @@ pub struct Stipple {
     pub size: f32,
     /// sRGB bytes.
     pub color_srgb: [u8; 3],
-    /// Opacity of the dots, 0 (none) to 1.
+    /// How much of the tone the dots make, 0 (none) to 1.
     pub strength: f32,
 }
 
@@ -93,7 +92,7 @@ pub struct Ghost {
 pub enum GhostBy {
     /// Surfaces, the more the straighter they face the eye.
     Facing,
-    /// What lies in front of a cut.
+    /// All tissue, the more the farther it is from the boxes of the templates: a vignette around what was opened.
     Cut,
 }
 
@@ -140,7 +139,7 @@ impl Style {
             self.stipple.strength,
             self.ghost.strength,
         ];
-        amounts.iter().all(|amount| *amount <= 0.0)
+        amounts.iter().all(|amount| *amount <= 0.0) && self.tone.levels == 0
     }
 }
 

@@ -21,6 +21,8 @@ enum Holds {
     Uniform,
     /// Numbers that are interpolated.
     Texture(wgpu::TextureViewDimension),
+    /// Numbers that are taken as they are.
+    Exact(wgpu::TextureViewDimension),
     /// Whole numbers, which are not interpolated.
     Numbers(wgpu::TextureViewDimension),
     Sampler,
@@ -68,6 +70,13 @@ const RAYS: Group = &[Holds::Uniform];
 pub(crate) const RAYS_BINDING: u32 = 2;
 /// The accumulated picture and how it is read.
 const RESOLVE: Group = &[Holds::Uniform, Holds::Texture(D2), Holds::Sampler];
+/// The style, and what each pixel shows: its colour, its place, its surface.
+const STYLE: Group = &[
+    Holds::Uniform,
+    Holds::Texture(D2),
+    Holds::Exact(D2),
+    Holds::Numbers(D2),
+];
 const SLICE: Group = &[Holds::Uniform];
 
 /// The layouts of all groups, and the sampler that goes with them. Built once per device.
@@ -85,6 +94,8 @@ pub(crate) struct Layouts {
     pub rays: wgpu::BindGroupLayout,
     /// Group 3 of the pass from the accumulated picture to the one that is shown.
     pub resolve: wgpu::BindGroupLayout,
+    /// Group 3 of the pass that draws a style.
+    pub style: wgpu::BindGroupLayout,
     /// Group 3 of slices.
     pub slice: wgpu::BindGroupLayout,
     /// Stands for a group that a pass does not bind.
@@ -102,6 +113,7 @@ impl Layouts {
             baked: group_layout(gpu, "baked", BAKED),
             rays: group_layout_from(gpu, "rays", RAYS_BINDING, RAYS),
             resolve: group_layout(gpu, "resolve", RESOLVE),
+            style: group_layout(gpu, "style", STYLE),
             slice: group_layout(gpu, "slice", SLICE),
             empty: group_layout(gpu, "empty", &[]),
             linear_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
@@ -166,6 +178,10 @@ impl Holds {
             Self::Texture(dimension) => texture(
                 dimension,
                 wgpu::TextureSampleType::Float { filterable: true },
+            ),
+            Self::Exact(dimension) => texture(
+                dimension,
+                wgpu::TextureSampleType::Float { filterable: false },
             ),
             Self::Numbers(dimension) => texture(dimension, wgpu::TextureSampleType::Uint),
             Self::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),

@@ -12,7 +12,8 @@ pub(crate) struct PipelineParts<'a> {
     pub module: &'a wgpu::ShaderModule,
     pub entry: &'a str,
     pub constants: &'a [(&'a str, f64)],
-    pub format: wgpu::TextureFormat,
+    /// Formats of the targets, in the order of their locations.
+    pub formats: &'a [wgpu::TextureFormat],
     pub blend: Option<wgpu::BlendState>,
 }
 
@@ -21,6 +22,14 @@ pub(crate) fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::Ren
         constants: parts.constants,
         ..Default::default()
     };
+    let target = |format: &wgpu::TextureFormat| {
+        Some(wgpu::ColorTargetState {
+            format: *format,
+            blend: parts.blend,
+            write_mask: wgpu::ColorWrites::ALL,
+        })
+    };
+    let targets: Vec<_> = parts.formats.iter().map(target).collect();
     gpu.device
         .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(parts.label),
@@ -38,34 +47,36 @@ pub(crate) fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::Ren
                 module: parts.module,
                 entry_point: Some(parts.entry),
                 compilation_options: options,
-                targets: &[Some(wgpu::ColorTargetState {
-                    format: parts.format,
-                    blend: parts.blend,
-                    write_mask: wgpu::ColorWrites::ALL,
-                })],
+                targets: &targets,
             }),
             multiview_mask: None,
             cache: None,
         })
 }
 
-/// Starts to draw over what a target holds.
+/// Starts to draw over what targets hold.
 pub(crate) fn render_pass<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     label: &str,
-    target: &wgpu::TextureView,
+    targets: &[&wgpu::TextureView],
 ) -> wgpu::RenderPass<'e> {
+    let attachments: Vec<_> = targets
+        .iter()
+        .map(|view| {
+            Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Load,
+                    store: wgpu::StoreOp::Store,
+                },
+            })
+        })
+        .collect();
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(label),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: target,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Load,
-                store: wgpu::StoreOp::Store,
-            },
-        })],
+        color_attachments: &attachments,
         ..Default::default()
     })
 }

@@ -64,6 +64,8 @@ pub enum ProgramId {
     Slice,
     /// Slices, where tissue is kept.
     SliceAligned,
+    /// An illustrator's look over a traced picture.
+    Style,
     /// From the accumulated picture to the one that is shown.
     Resolve,
 }
@@ -295,6 +297,7 @@ static KINDS: LazyLock<ShaderFile> = LazyLock::new(|| ShaderFile {
 shader_files![
     "affine.wgsl",
     "objects.wgsl",
+    "octahedron.wgsl",
     "srgb.wgsl",
     "textures.wgsl",
     "triangles.wgsl",
@@ -349,6 +352,7 @@ shader_files![
     "march/edges.wgsl",
     "march/filling.wgsl",
     "march/gathered.wgsl",
+    "march/ghost.wgsl",
     "march/interface.wgsl",
     "march/jacobian.wgsl",
     "march/kept.wgsl",
@@ -374,6 +378,7 @@ shader_files![
     "march/textures.wgsl",
     "march/under.wgsl",
     "march/value.wgsl",
+    "march/view.wgsl",
     "march/volume.wgsl",
     "march/whole.wgsl",
     "slice/both.wgsl",
@@ -404,6 +409,13 @@ shader_files![
     "pass/rigid.wgsl",
     "pass/shares.wgsl",
     "pass/slice.wgsl",
+    "pass/style.wgsl",
+    "style/directions.wgsl",
+    "style/outlines.wgsl",
+    "style/strokes.wgsl",
+    "style/traced.wgsl",
+    "style/vignette.wgsl",
+    "style/words.wgsl",
 ];
 
 /// Every program. The number of programs does not depend on the document.
@@ -505,6 +517,7 @@ pub const PROGRAMS: &[Program] = &[
         entries: &[
             ("cover", Stage::Vertex),
             ("draw", Stage::Fragment),
+            ("trace", Stage::Fragment),
             ("pick", Stage::Fragment),
             ("identify", Stage::Fragment),
             ("meet", Stage::Fragment),
@@ -525,6 +538,7 @@ pub const PROGRAMS: &[Program] = &[
         entries: &[
             ("cover", Stage::Vertex),
             ("draw", Stage::Fragment),
+            ("trace", Stage::Fragment),
             ("pick", Stage::Fragment),
             ("identify", Stage::Fragment),
             ("meet", Stage::Fragment),
@@ -538,6 +552,7 @@ pub const PROGRAMS: &[Program] = &[
         entries: &[
             ("cover", Stage::Vertex),
             ("draw", Stage::Fragment),
+            ("trace", Stage::Fragment),
             ("pick", Stage::Fragment),
             ("identify", Stage::Fragment),
             ("meet", Stage::Fragment),
@@ -564,6 +579,13 @@ pub const PROGRAMS: &[Program] = &[
             ("draw", Stage::Fragment),
             ("read", Stage::Fragment),
         ],
+    },
+    Program {
+        id: ProgramId::Style,
+        name: "style",
+        pass: "pass/style.wgsl",
+        stand_in: None,
+        entries: &[("cover", Stage::Vertex), ("draw_style", Stage::Fragment)],
     },
     Program {
         id: ProgramId::Resolve,

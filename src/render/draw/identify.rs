@@ -28,7 +28,7 @@ pub(super) async fn identify(job: &PictureJob) -> Result<Sighting, RenderError> 
     let gpu = &job.gpu;
     let target = Target::new(gpu, "segments", job.size, PICK_FORMAT);
     job.march(
-        &target.view,
+        &[&target.view],
         Band {
             first: 0,
             size: job.size,

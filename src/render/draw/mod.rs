@@ -19,5 +19,7 @@ pub(crate) mod resolve;
 pub(crate) mod rows;
 pub(crate) mod slice;
 pub(crate) mod studio;
+pub(crate) mod style;
 pub(crate) mod targets;
 pub(crate) mod tiles;
+pub(crate) mod traced;

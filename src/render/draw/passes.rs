@@ -3,6 +3,7 @@ use super::object::ObjectProbes;
 use super::raycast::RaycastPasses;
 use super::resolve::ResolvePass;
 use super::slice::SlicePasses;
+use super::style::StylePass;
 use crate::data::Resources;
 use crate::document::Illustration;
 use crate::render::device::gpu::Gpu;
@@ -18,6 +19,7 @@ pub(crate) struct Passes {
     pub layouts: Layouts,
     pub stages: StagePrograms,
     pub raycast: RaycastPasses,
+    pub style: StylePass,
     pub resolve: ResolvePass,
     pub slices: SlicePasses,
     pub follower: Follower,
@@ -35,6 +37,7 @@ impl Passes {
         Self {
             stages: StagePrograms::new(gpu),
             raycast: RaycastPasses::new(gpu, &layouts),
+            style: StylePass::default(),
             resolve: ResolvePass::new(gpu, &layouts),
             slices: SlicePasses::new(gpu, &layouts),
             follower: Follower::default(),

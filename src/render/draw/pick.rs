@@ -214,7 +214,7 @@ impl PickScene<'_> {
             encode_march(
                 &mut encoder,
                 &March {
-                    target: &target.view,
+                    targets: &[&target.view],
                     pipeline: &pipeline,
                     frame: &frame,
                     subject: &self.subject.bind_group,

@@ -2,15 +2,18 @@ use super::image::{Image, read_picture};
 use super::passes::Passes;
 use super::raycast::{March, encode_march, frame_group};
 use super::rows::{MOST_PX, Rows, Taker};
+use super::style::Styled;
 use super::tiles::tiles_of;
+use super::traced::Traced;
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::readback::WorkDone;
 use crate::render::device::textures::{LINEAR_FORMAT, OUTPUT_FORMAT, Target};
 use crate::render::pack::frame::frame_of;
-use crate::render::pack::gpu_types::{Frame, Resolve};
+use crate::render::pack::gpu_types::{Frame, Resolve, Style};
 use crate::render::pack::raycast_key::RaycastKey;
+use crate::render::pack::style::{style_margin, style_uniform};
 use crate::render::pack::view::View;
 use crate::render::scene::Scene;
 use crate::render::subject::textures::SubjectTextures;
@@ -21,6 +24,11 @@ const BATCH_TILES: usize = 64;
 /// The same on a software GPU with nobody else to wait for it. Lavapipe 22.3 loses 2.4 MiB with every batch: 600 MiB
 /// with the smaller ones of a picture of 8,192 × 8,192 pixels.
 const SOFTWARE_BATCH_TILES: usize = 256;
+
+/// The weight of sample `index`, so that the target holds the mean of all so far.
+fn sample_weight(index: u32) -> f32 {
+    1.0 / (index + 1) as f32
+}
 
 /// Everything for one picture, so that drawing it borrows nothing.
 pub(crate) struct PictureJob {
@@ -44,6 +52,18 @@ pub(super) struct Band {
     pub size: [u32; 2],
 }
 
+impl Band {
+    /// With so many rows more on either side, as far as there are any in a picture of this height.
+    fn with_margin(self, margin: u32, height: u32) -> Self {
+        let first = self.first.saturating_sub(margin);
+        let end = (self.first + self.size[1] + margin).min(height);
+        Self {
+            first,
+            size: [self.size[0], end - first],
+        }
+    }
+}
+
 impl PictureJob {
     /// Fails if a picture of this size cannot be drawn on this device.
     pub(crate) fn check_size(gpu: &Gpu, size: [u32; 2]) -> Result<(), RenderError> {
@@ -64,23 +84,28 @@ impl PictureJob {
             .bake(&self.gpu, &mut self.scene, texels_along, u32::MAX);
     }
 
-    /// Marches one ray for each pixel of a band into the top of the target: sample `index`, which is mixed into those
+    /// The uniform of a sample for targets that begin with this row of the picture.
+    fn frame(&self, first_row: u32, index: u32) -> Frame {
+        let detail = self.subject.frame.detail;
+        Frame {
+            first_row: first_row as f32,
+            ..frame_of(&self.view, &self.view, self.scene.bounds(), detail, index)
+        }
+    }
+
+    /// Marches one ray for each pixel of a band into the top of the targets: sample `index`, which is mixed into those
     /// before. `key` tells the program, `baked` is the group of the baked map if that program reads it. `on_batch`
     /// hears how many pixels each batch had, and may stop it.
     pub(super) async fn march(
         &self,
-        target: &wgpu::TextureView,
+        targets: &[&wgpu::TextureView],
         band: Band,
         (key, baked): (RaycastKey, Option<&wgpu::BindGroup>),
         index: u32,
         mut on_batch: impl FnMut(u64) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let pipeline = self.passes.raycast.pipeline(&self.gpu, key);
-        let detail = self.subject.frame.detail;
-        let frame = Frame {
-            first_row: band.first as f32,
-            ..frame_of(&self.view, &self.view, self.scene.bounds(), detail, index)
-        };
+        let frame = self.frame(band.first, index);
         let frame_group = frame_group(&self.gpu, &self.passes.layouts, &frame);
         let batch_tiles = match self.gpu.is_software() && self.gpu.waits() {
             true => SOFTWARE_BATCH_TILES,
@@ -91,7 +116,7 @@ impl PictureJob {
             encode_march(
                 &mut encoder,
                 &March {
-                    target,
+                    targets,
                     pipeline: &pipeline,
                     frame: &frame_group,
                     subject: &self.subject.bind_group,
@@ -99,7 +124,7 @@ impl PictureJob {
                     pass: baked,
                     viewport: band.size,
                     tiles: batch,
-                    weight: 1.0 / (index + 1) as f32,
+                    weight: sample_weight(index),
                 },
             );
             self.gpu.queue.submit([encoder.finish()]);
@@ -108,6 +133,32 @@ impl PictureJob {
             on_batch(batch.iter().map(|tile| u64::from(tile[2] * tile[3])).sum())?;
         }
         Ok(())
+    }
+
+    /// Mixes a sample of a band, which was traced before, into the samples before: with its style.
+    fn draw_style(
+        &self,
+        band: Band,
+        index: u32,
+        target: &wgpu::TextureView,
+        traced: &Traced,
+        style: Style,
+    ) {
+        let (gpu, layouts) = (&self.gpu, &self.passes.layouts);
+        let mut encoder = encoder(gpu);
+        let styled = Styled {
+            target,
+            traced,
+            style,
+            frame: &frame_group(gpu, layouts, &self.frame(band.first, index)),
+            scene: &self.scene.bindings,
+            size: band.size,
+            weight: sample_weight(index),
+        };
+        self.passes
+            .style
+            .encode(gpu, layouts, &mut encoder, &styled);
+        gpu.queue.submit([encoder.finish()]);
     }
 
     /// Draws it, from the start each time, band by band from the top, and hands each band over once it is done: no more
@@ -129,18 +180,40 @@ impl PictureJob {
             None => self.scene.key(),
         };
         let group = baked.map(|baked| &baked.group);
-        let (mut drawn, all) = (0, f64::from(width) * f64::from(height) * f64::from(samples));
-        for first in (0..height).step_by(rows as usize) {
-            let band = Band {
-                first,
-                size: [width, rows.min(height - first)],
-            };
+        let bands = (0..height).step_by(rows as usize).map(|first| Band {
+            first,
+            size: [width, rows.min(height - first)],
+        });
+        let style = self.scene.style();
+        let margin = style.map_or(0, |style| style_margin(style, self.size));
+        let traced = style.map(|_| Traced::new(&self.gpu, [width, rows + 2 * margin]));
+        let marched = |band: &Band| band.with_margin(margin, height);
+        let all_rows: u32 = bands.clone().map(|band| marched(&band).size[1]).sum();
+        let all = f64::from(width) * f64::from(all_rows) * f64::from(samples);
+        let mut drawn = 0;
+        for band in bands {
+            let first = band.first;
             for index in 0..samples {
-                self.march(&linear.view, band, (key, group), index, |pixels| {
+                let views = traced.as_ref().map(Traced::views);
+                let plain = [&linear.view];
+                let targets = views.as_ref().map_or(plain.as_slice(), |views| views);
+                let marched = marched(&band);
+                self.march(targets, marched, (key, group), index, |pixels| {
                     drawn += pixels;
                     taker.progress((drawn as f64 / all) as f32)
                 })
                 .await?;
+                if let (Some(style), Some(traced)) = (style, &traced) {
+                    let seen = (&self.subject.axes, self.subject.frame.detail);
+                    let size_px = self.view.size_px.to_array();
+                    self.draw_style(
+                        band,
+                        index,
+                        &linear.view,
+                        traced,
+                        style_uniform(style, size_px, seen, marched.first),
+                    );
+                }
             }
             let mut encoder = encoder(&self.gpu);
             let resolve = Resolve {

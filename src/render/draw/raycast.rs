@@ -1,5 +1,6 @@
 //! The ray march: the pass that draws the picture, or finds what lies under one pixel.
 
+use super::traced::Traced;
 use crate::render::device::bindings::entry;
 use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::gpu::Gpu;
@@ -48,6 +49,7 @@ impl RaycastPasses {
             ("has_labels", number(key.has_labels)),
             ("has_grid", number(key.has_grid)),
             ("has_edges", number(key.has_edges)),
+            ("has_ghost", number(key.has_ghost)),
             ("has_bodies", number(key.has_bodies)),
             key.textures_constant(false),
             ("has_objects", number(key.has_objects)),
@@ -65,15 +67,16 @@ impl RaycastPasses {
         let module = self.modules.get((program, key.subject, kinds), make);
         let layout = match key.finds {
             Finds::Pick | Finds::Event => &self.asked_layout,
-            Finds::Picture | Finds::Segments if key.is_baked => &self.baked_layout,
-            Finds::Picture | Finds::Segments => &self.layout,
+            _ if key.is_baked => &self.baked_layout,
+            Finds::Picture | Finds::Traced | Finds::Segments => &self.layout,
         };
         // Sample k, from 0, has the weight 1/(k + 1), so that the target holds the mean of all samples so far.
-        let (entry, format, blend) = match key.finds {
-            Finds::Picture => ("draw", LINEAR_FORMAT, Some(MEAN)),
-            Finds::Pick => ("pick", PICK_FORMAT, None),
-            Finds::Segments => ("identify", PICK_FORMAT, None),
-            Finds::Event => ("meet", PICK_FORMAT, None),
+        let (entry, formats, blend): (_, &[_], _) = match key.finds {
+            Finds::Picture => ("draw", &[LINEAR_FORMAT], Some(MEAN)),
+            Finds::Traced => ("trace", &Traced::FORMATS, None),
+            Finds::Pick => ("pick", &[PICK_FORMAT], None),
+            Finds::Segments => ("identify", &[PICK_FORMAT], None),
+            Finds::Event => ("meet", &[PICK_FORMAT], None),
         };
         let parts = PipelineParts {
             label: "raycast",
@@ -81,7 +84,7 @@ impl RaycastPasses {
             module: &module,
             entry,
             constants: &constants,
-            format,
+            formats,
             blend,
         };
         render_pipeline(gpu, &parts)
@@ -94,7 +97,8 @@ const MEAN_PART: wgpu::BlendComponent = wgpu::BlendComponent {
     operation: wgpu::BlendOperation::Add,
 };
 
-const MEAN: wgpu::BlendState = wgpu::BlendState {
+/// What is drawn, with the weight of the blend constant, over what is there.
+pub(crate) const MEAN: wgpu::BlendState = wgpu::BlendState {
     color: MEAN_PART,
     alpha: MEAN_PART,
 };
@@ -134,9 +138,20 @@ pub(crate) fn rays_group(gpu: &Gpu, layouts: &Layouts, rays: &[(Vec3, Vec3)]) ->
     })
 }
 
+/// The blend constant of [`MEAN`] for this weight against what the target holds: 1 overwrites.
+pub(crate) fn blend_constant(weight: f32) -> wgpu::Color {
+    let weight = f64::from(weight);
+    wgpu::Color {
+        r: weight,
+        g: weight,
+        b: weight,
+        a: weight,
+    }
+}
+
 /// One ray march pass.
 pub(crate) struct March<'a> {
-    pub target: &'a wgpu::TextureView,
+    pub targets: &'a [&'a wgpu::TextureView],
     pub pipeline: &'a wgpu::RenderPipeline,
     pub frame: &'a wgpu::BindGroup,
     pub subject: &'a wgpu::BindGroup,
@@ -167,7 +182,7 @@ fn begin_march<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     march: &March<'_>,
 ) -> wgpu::RenderPass<'e> {
-    let mut pass = render_pass(encoder, "raycast", march.target);
+    let mut pass = render_pass(encoder, "raycast", march.targets);
     pass.set_pipeline(march.pipeline);
     pass.set_bind_group(0, march.frame, &[]);
     pass.set_bind_group(1, march.subject, &[]);
@@ -175,13 +190,7 @@ fn begin_march<'e>(
     if let Some(group) = march.pass {
         pass.set_bind_group(3, group, &[]);
     }
-    let weight = f64::from(march.weight);
-    pass.set_blend_constant(wgpu::Color {
-        r: weight,
-        g: weight,
-        b: weight,
-        a: weight,
-    });
+    pass.set_blend_constant(blend_constant(march.weight));
     let [width, height] = march.viewport.map(|side| side as f32);
     pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
     pass

@@ -652,8 +652,7 @@ impl Renderer {
     /// frees such things late unless it is told. All of it is made anew where something is drawn.
     pub fn destroy_own(&mut self) {
         if let Some(targets) = self.targets.take() {
-            targets.linear.texture.destroy();
-            targets.output.texture.destroy();
+            targets.destroy();
         }
         self.scene = None;
         (self.stage, self.under_way) = (Stage::Stale, None);
@@ -820,6 +819,7 @@ impl Renderer {
             ],
             end: [(small_width - 0.5) / width, (small_height - 0.5) / height],
             shown: &[[0, 0, targets.size[0], targets.size[1]]],
+            ends_sample: true,
         };
         targets.draw(studio, scene, &shot);
         scene.drawn_generation = self.generation;
@@ -849,6 +849,7 @@ impl Renderer {
             end += 1;
         }
         let tiles = targets.tiles.get(first..end).unwrap_or_default();
+        let ends_sample = end >= targets.tiles.len();
         let view = View::new(&illustration.camera, targets.size);
         let detail = studio.subject.frame.detail;
         let frame = frame_of(&view, &view, scene.bounds(), detail, sample);
@@ -863,9 +864,9 @@ impl Renderer {
             scale: [1.0 / width, 1.0 / height],
             end: [1.0; 2],
             shown: tiles,
+            ends_sample,
         };
         targets.draw(studio, scene, &shot);
-        let ends_sample = end >= targets.tiles.len();
         self.stage = if end < targets.tiles.len() {
             Stage::Refining { sample, tile: end }
         } else if sample + 1 < self.samples() {

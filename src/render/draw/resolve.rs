@@ -21,7 +21,7 @@ impl ResolvePass {
             module: &module(gpu, ProgramId::Resolve, ALL_KINDS),
             entry: "encode",
             constants: &[],
-            format: OUTPUT_FORMAT,
+            formats: &[OUTPUT_FORMAT],
             blend: None,
         };
         Self(render_pipeline(gpu, &parts))
@@ -47,7 +47,7 @@ impl ResolvePass {
                 entry(2, wgpu::BindingResource::Sampler(&layouts.linear_sampler)),
             ],
         });
-        let mut pass = render_pass(encoder, "resolve", target);
+        let mut pass = render_pass(encoder, "resolve", &[target]);
         pass.set_pipeline(&self.0);
         pass.set_bind_group(3, &group, &[]);
         for &[x, y, w, h] in tiles {

@@ -14,7 +14,7 @@ use crate::render::device::textures::{
 };
 use crate::render::pack::gpu_types::{Affine, SLICE_COLORS, SLICE_GREY, SLICE_MARKED, Slice};
 use crate::render::pack::look::linear_color;
-use crate::render::pack::raycast_key::RaycastKey;
+use crate::render::pack::raycast_key::{Finds, RaycastKey};
 use crate::render::scene::Scene;
 use crate::render::subject::textures::SubjectTextures;
 use glam::{Vec2, Vec3};
@@ -184,7 +184,7 @@ impl SlicePasses {
             module: &module,
             entry,
             constants: &constants,
-            format,
+            formats: &[format],
             blend: None,
         };
         render_pipeline(gpu, &parts)
@@ -208,7 +208,7 @@ impl SliceScene<'_> {
         is_read: bool,
     ) {
         let key = SliceKey {
-            drawn: self.scene.key(),
+            drawn: self.scene.key_for(Finds::Picture),
             is_read,
         };
         let pipeline = self.passes.pipeline(self.gpu, key);
@@ -221,7 +221,7 @@ impl SliceScene<'_> {
                 layout: &self.passes.layout,
                 entries: &[entry(0, buffer.as_entire_binding())],
             });
-        let mut pass = render_pass(encoder, "slice", target);
+        let mut pass = render_pass(encoder, "slice", &[target]);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(1, &self.subject.bind_group, &[]);
         pass.set_bind_group(2, &self.scene.bindings, &[]);

@@ -2,13 +2,17 @@
 
 use super::raycast::{March, encode_march, frame_group};
 use super::studio::Studio;
+use super::style::Styled;
 use super::tiles::tiles_of;
+use super::traced::Traced;
 use crate::render::device::bindings::encoder;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::textures::{LINEAR_FORMAT, OUTPUT_FORMAT, Target};
 use crate::render::pack::gpu_types::{Frame, Resolve};
 use crate::render::pack::raycast_key::RaycastKey;
+use crate::render::pack::style::style_uniform;
 use crate::render::scene::Scene;
+use std::cell::OnceCell;
 
 /// Most pixels of a drawn picture. A screen with more pixels shows a smaller picture, enlarged. A 4K screen has fewer
 /// pixels than this limit.
@@ -20,6 +24,8 @@ pub(crate) struct Targets {
     pub size: [u32; 2],
     pub linear: Target,
     pub output: Target,
+    /// What the pixels show, once a style wants to know it.
+    traced: OnceCell<Traced>,
     /// Tiles that cover the picture, in the order in which they are drawn.
     pub tiles: Vec<[u32; 4]>,
 }
@@ -43,6 +49,8 @@ pub(crate) struct Shot<'a> {
     pub end: [f32; 2],
     /// Tiles of the shown picture that are drawn.
     pub shown: &'a [[u32; 4]],
+    /// These are the last tiles of a sample. A style, which looks at the pixels around each, is drawn only then.
+    pub ends_sample: bool,
 }
 
 impl Targets {
@@ -51,7 +59,17 @@ impl Targets {
             size,
             linear: Target::new(gpu, "linear", size, LINEAR_FORMAT),
             output: Target::new(gpu, "output", size, OUTPUT_FORMAT),
+            traced: OnceCell::new(),
             tiles: tiles_of(size),
+        }
+    }
+
+    /// Gives the memory of the pictures back. A browser would do so late.
+    pub(crate) fn destroy(self) {
+        self.linear.texture.destroy();
+        self.output.texture.destroy();
+        if let Some(traced) = self.traced.get() {
+            traced.destroy();
         }
     }
 
@@ -59,12 +77,19 @@ impl Targets {
     pub(crate) fn draw(&self, studio: &Studio, scene: &Scene, shot: &Shot<'_>) {
         let (gpu, passes) = (&studio.gpu, &studio.passes);
         let mut encoder = encoder(gpu);
+        let frame = frame_group(gpu, &passes.layouts, &shot.frame);
+        let traced = scene.style().map(|style| {
+            let traced = self.traced.get_or_init(|| Traced::new(gpu, self.size));
+            (style, traced)
+        });
+        let plain = [&self.linear.view];
+        let views = traced.map(|(_, traced)| traced.views());
         encode_march(
             &mut encoder,
             &March {
-                target: &self.linear.view,
+                targets: views.as_ref().map_or(&plain, |views| views.as_slice()),
                 pipeline: &passes.raycast.pipeline(gpu, shot.key),
-                frame: &frame_group(gpu, &passes.layouts, &shot.frame),
+                frame: &frame,
                 subject: &studio.subject.bind_group,
                 scene: &scene.bindings,
                 pass: shot.baked,
@@ -73,6 +98,26 @@ impl Targets {
                 weight: shot.weight,
             },
         );
+        let whole = [[0, 0, self.size[0], self.size[1]]];
+        let mut shown = shot.shown;
+        if let Some((style, traced)) = traced {
+            shown = if shot.ends_sample { &whole } else { &[] };
+            if shot.ends_sample {
+                let seen = (&studio.subject.axes, studio.subject.frame.detail);
+                let styled = Styled {
+                    target: &self.linear.view,
+                    traced,
+                    style: style_uniform(style, shot.frame.size_px, seen, 0),
+                    frame: &frame,
+                    scene: &scene.bindings,
+                    size: shot.viewport,
+                    weight: shot.weight,
+                };
+                passes
+                    .style
+                    .encode(gpu, &passes.layouts, &mut encoder, &styled);
+            }
+        }
         let resolve = Resolve {
             scale: shot.scale,
             end: shot.end,
@@ -85,7 +130,7 @@ impl Targets {
             &mut encoder,
             &resolve,
             [&self.linear.view, &self.output.view],
-            shot.shown,
+            shown,
         );
         gpu.queue.submit([encoder.finish()]);
     }

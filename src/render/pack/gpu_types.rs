@@ -679,6 +679,8 @@ pub struct Look {
     pub opacity_mode: u32,
     /// How much opacity follows the gradient, 0 to 1.
     pub edges: f32,
+    /// The part of its opacity that tissue keeps where it is a ghost, 0 to 1.
+    pub ghost: f32,
 }
 
 /// Segments drawn as bodies of their own.
@@ -743,6 +745,59 @@ pub struct Baked {
     /// To the end of the row.
     pub padding: [u32; 2],
 }
+
+/// An illustrator's look, in pixels of the picture that is drawn.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Style {
+    /// Linear RGB, as the next four.
+    pub outline_color: [f32; 4],
+    /// Colour in the light.
+    pub warm: [f32; 4],
+    /// Colour in the shade.
+    pub cool: [f32; 4],
+    /// Colour of strokes.
+    pub hatch_color: [f32; 4],
+    /// Colour of dots.
+    pub stipple_color: [f32; 4],
+    /// xyz: the long axis of each segment, rest space, unit; of 0 that of the whole subject.
+    pub axes: [[f32; 4]; 256],
+    /// Width of outlines, pixels; 0 for none.
+    pub outline_px: f32,
+    /// Normals that are turned against each other by more than the angle of this cosine make a crease.
+    pub crease_cosine: f32,
+    /// Number of flat tones; 0 for smooth ones.
+    pub levels: f32,
+    /// How far the colours of the tissue give way to those of the tone, 0 to 1.
+    pub tone: f32,
+    /// Between strokes, pixels.
+    pub hatch_spacing_px: f32,
+    /// Least width of strokes, pixels.
+    pub hatch_width_px: f32,
+    /// How much of the tone strokes make, 0 to 1.
+    pub hatch: f32,
+    /// One of the constants `HATCH_`.
+    pub hatch_by: u32,
+    /// Between dots, pixels.
+    pub stipple_spacing_px: f32,
+    /// Least diameter of dots, pixels.
+    pub stipple_size_px: f32,
+    /// How much of the tone dots make, 0 to 1.
+    pub stipple: f32,
+    /// How far tissue far from all templates fades, 0 to 1.
+    pub vignette: f32,
+    /// Length of the subject's finest detail, subject units: what is flatter makes no outline.
+    pub detail: f32,
+    /// Row of the whole picture that the traced pixels begin with.
+    pub first_row: u32,
+    /// To the end of the row.
+    pub padding: [u32; 2],
+}
+
+/// Strokes follow the direction in which the surface bends most.
+pub const HATCH_CURVATURE: u32 = 0;
+/// Strokes follow the long axis of the segment.
+pub const HATCH_AXIS: u32 = 1;
 
 /// From the accumulated picture to the one that is shown.
 #[repr(C)]

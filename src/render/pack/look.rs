@@ -1,8 +1,8 @@
 use super::gpu_types::{self, OPACITY_CONSTANCY, OPACITY_MASS, OPACITY_NONE};
 use super::values::SubjectInfo;
 use crate::document::{
-    Background, Look, OpacityMode, Preset, PresetSubject, SubjectRef, Transfer, TransferPoint,
-    Window, preset,
+    Background, Ghost, GhostBy, Look, OpacityMode, Preset, PresetSubject, SubjectRef, Transfer,
+    TransferPoint, Window, preset,
 };
 use crate::math::linear_from_srgb;
 use glam::Vec3;
@@ -24,6 +24,8 @@ pub struct TransferTable {
     pub specular: f32,
     /// How much opacity follows the steepness of the value, 0 to 1.
     pub gradient: f32,
+    /// The part of its opacity that tissue keeps where it is a ghost, 0 to 1.
+    pub ghost: f32,
 }
 
 /// Linear RGB from sRGB bytes.
@@ -86,6 +88,7 @@ impl TransferTable {
         };
         Self {
             gradient: look.gradient,
+            ghost: ghost_keeps(look.style.ghost),
             ..table
         }
     }
@@ -114,6 +117,7 @@ impl TransferTable {
             tint,
             specular,
             gradient: 0.0,
+            ghost: 1.0,
         }
     }
 
@@ -159,7 +163,17 @@ impl TransferTable {
                 OpacityMode::None => OPACITY_NONE,
             },
             edges: self.gradient,
+            ghost: self.ghost,
         }
+    }
+}
+
+/// The part of its opacity that tissue keeps as a ghost. Opacity counts for a hundredth of a subject unit, of which
+/// there are many on a ray: half a ghost keeps an eighth.
+fn ghost_keeps(ghost: Ghost) -> f32 {
+    match ghost.by {
+        GhostBy::Facing => (1.0 - ghost.strength).powi(3),
+        GhostBy::Cut => 1.0,
     }
 }
 

@@ -12,6 +12,7 @@ pub(crate) mod notice;
 pub(crate) mod objects;
 pub(crate) mod raycast_key;
 pub(crate) mod stamps;
+pub(crate) mod style;
 pub(crate) mod triangles;
 pub(crate) mod values;
 pub(crate) mod view;

@@ -21,6 +21,8 @@ pub(crate) struct RaycastKey {
     pub kept_by: u32,
     /// Opacity follows the gradient.
     pub has_edges: bool,
+    /// Tissue is drawn as a ghost.
+    pub has_ghost: bool,
     /// Segments are drawn as bodies of their own.
     pub has_bodies: bool,
     /// Objects stand in the scene.
@@ -38,6 +40,8 @@ pub(crate) struct RaycastKey {
 pub(crate) enum Finds {
     /// The colour of each pixel.
     Picture,
+    /// The colour of each pixel and what the pixel shows, for a style.
+    Traced,
     /// Everything about the surface under one pixel.
     Pick,
     /// The segment under each pixel.
@@ -55,7 +59,8 @@ impl RaycastKey {
     /// The pipeline constant `has_textures` of march/overrides.wgsl: rays that are asked one by one take pictures as
     /// they are, and so does a slice, whose lines have one colour for each triangle.
     pub(crate) fn textures_constant(&self, is_slice: bool) -> (&'static str, f64) {
-        let is_picture = matches!(self.finds, Finds::Picture | Finds::Segments) && !is_slice;
+        let is_picture =
+            matches!(self.finds, Finds::Picture | Finds::Traced | Finds::Segments) && !is_slice;
         let value = match (self.has_textures, is_picture) {
             (false, _) => 0.0,
             (true, false) => 1.0,

@@ -2,7 +2,7 @@
 
 use super::held::HeldData;
 use crate::data::Resources;
-use crate::document::{Illustration, OpacityMode, PlacedTemplate};
+use crate::document::{Illustration, OpacityMode, PlacedTemplate, Style};
 use crate::math::Aabb;
 use crate::placed::deformed_bounds;
 use crate::render::device::programs::SubjectShader;
@@ -37,6 +37,8 @@ pub(crate) struct Inputs {
     pub objects: Stamped<DrawnObjects>,
     /// The transfer function and how opacity follows the deformation; `None` before the first update.
     pub look: Stamped<Option<(TransferTable, OpacityMode)>>,
+    /// An illustrator's look, [`Style::PLAIN`] for none.
+    pub style: Stamped<Style>,
     /// Linear RGB; w: 1 if there is a background.
     pub background: Stamped<[f32; 4]>,
     bounds_from: MadeFrom<4>,
@@ -58,6 +60,7 @@ impl Inputs {
             mesh_look: Stamped::default(),
             objects: Stamped::default(),
             look: Stamped::default(),
+            style: Stamped::new(Style::PLAIN),
             background: Stamped::default(),
             bounds_from: MadeFrom::default(),
             noticed: Vec::new(),
@@ -105,6 +108,7 @@ impl Inputs {
         self.objects.set(objects);
         let table = TransferTable::new(look, &illustration.subject, &subject.info);
         self.look.set(Some((table, look.opacity)));
+        self.style.set(look.style);
         self.background.set(background_uniform(look.background));
     }
 
@@ -119,6 +123,7 @@ impl Inputs {
             self.mesh_look.stamp(),
             self.objects.stamp(),
             self.look.stamp(),
+            self.style.stamp(),
             self.background.stamp(),
         ]
         .iter()

@@ -5,7 +5,7 @@ use super::textures::{
     Bound, HeldView, MESH_ROW, MeshTextures, SubjectTextures, VoxelFrame, label_texture,
     mesh_texture, next_stamp,
 };
-use crate::data::{Surface, SurfaceField};
+use crate::data::{Surface, SurfaceField, long_axes};
 use crate::math::Aabb;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -241,6 +241,7 @@ impl MeshTextures {
             voxels: VoxelFrame::new(field.dims, field.rest_from_voxel),
             label_voxels: Some(VoxelFrame::new(own.dims, field.rest_from_inner_voxel())),
             foot_axis: 2,
+            axes: long_axes(segmentation, &field.rest_from_inner_voxel()),
             mesh_segments: surface.segments.clone(),
             segments,
         }

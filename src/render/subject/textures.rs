@@ -55,6 +55,8 @@ pub(crate) struct SubjectTextures {
     pub label_voxels: Option<VoxelFrame>,
     /// Axis of `voxels` that runs from foot to head.
     pub foot_axis: u32,
+    /// The long axes of its segments, rest space: see [`crate::data::long_axes`].
+    pub axes: [Vec3; 256],
     /// Named segments of the subject.
     pub segments: Vec<Segment>,
     /// What the segments of meshes are; none of a volume.

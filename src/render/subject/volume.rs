@@ -4,7 +4,9 @@ use super::bricks::{BRICK, Bricks, WideBricks, labels_in_bricks};
 use super::textures::{
     Bound, HeldView, MeshTextures, SubjectTextures, VoxelFrame, label_texture, next_stamp,
 };
-use crate::data::{FIRST_MESH_LABEL, Segmentation, Volume, called_as_in, with_mesh_segments};
+use crate::data::{
+    FIRST_MESH_LABEL, Segmentation, Volume, called_as_in, long_axes, with_mesh_segments,
+};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
@@ -12,7 +14,7 @@ use crate::render::device::programs::SubjectShader;
 use crate::render::device::textures::write_slices;
 use crate::render::pack::gpu_types::Subject;
 use crate::render::pack::values::{SubjectInfo, span};
-use glam::{Affine3A, DAffine3, UVec3};
+use glam::{Affine3A, DAffine3, UVec3, Vec3};
 use std::sync::Arc;
 
 /// Bytes converted and handed to the GPU at a time: small enough that a frame is not missed.
@@ -127,6 +129,9 @@ pub(crate) fn assemble(
         label_voxels: labels
             .map(|l| VoxelFrame::new(l.grid.dims, subject_from_world * l.grid.world_from_voxel)),
         foot_axis: foot_axis as u32,
+        axes: labels.map_or([Vec3::Z; 256], |labels| {
+            long_axes(labels, &(subject_from_world * labels.grid.world_from_voxel))
+        }),
         mesh_segments,
         segments,
         bind_group: bound.bind_group,

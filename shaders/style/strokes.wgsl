@@ -1,0 +1,180 @@
+// Strokes and dots that make the tone: they lie on the tissue at rest and ride along with every displacement.
+//
+// A stroke is where the surface meets one of a family of parallel planes of rest space. Families with several normals
+// stand ready; each pixel takes those two that follow its direction best. Where the picture needs more strokes of a
+// family or fewer, every second one fades in or out (as tonal art maps do), so that they keep to the tissue while the
+// camera moves.
+// needs: types.wgsl style/traced.wgsl style/directions.wgsl
+
+/// Normals of the families of planes.
+const FAMILIES: u32 = 9u;
+/// Strokes that would lie nearer to each other, pixels, become an even tone.
+const LEAST_SPACING: f32 = 3.0;
+/// Part of the surface that strokes of one direction cover at most; beyond it others cross them.
+const MOST_ALONE: f32 = 0.42;
+
+fn family_normal(index: u32) -> vec3f {
+    var all = array<vec3f, FAMILIES>(
+        vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), vec3f(0.0, 0.0, 1.0),
+        vec3f(0.7071, 0.7071, 0.0), vec3f(0.7071, -0.7071, 0.0), vec3f(0.7071, 0.0, 0.7071),
+        vec3f(0.7071, 0.0, -0.7071), vec3f(0.0, 0.7071, 0.7071), vec3f(0.0, 0.7071, -0.7071),
+    );
+    return all[index];
+}
+
+/// The two families that follow a direction best, and the share of the first.
+struct Families {
+    first: vec3f,
+    second: vec3f,
+    share: f32,
+}
+
+/// The families whose strokes lie across `across` on a surface.
+fn families_for(normal: vec3f, across: vec3f) -> Families {
+    var found = Families(across, across, 1.0);
+    var best = -1.0;
+    var next = -1.0;
+    for (var k = 0u; k < FAMILIES; k++) {
+        let family = family_normal(k);
+        let in_plane = family - normal * dot(family, normal);
+        let size = dot(in_plane, in_plane);
+        let toward = dot(in_plane, across);
+        let score = toward * toward / max(size, 1e-6) * smoothstep(0.05, 0.4, size);
+        if score > best {
+            next = best;
+            found.second = found.first;
+            best = score;
+            found.first = family;
+        } else if score > next {
+            next = score;
+            found.second = family;
+        }
+    }
+    found.share = 0.5 + 0.5 * smoothstep(0.0, 0.15, best - next);
+    return found;
+}
+
+/// How much of a pixel strokes cover, 0 to 1. `phase` is the place across the strokes and `slope` its change from pixel
+/// to pixel. `duty` is the part that they cover, `spacing_px` between them at most, `width_px` their least width:
+/// thinner ones are paler.
+fn stripes(phase: f32, slope: f32, duty: f32, spacing_px: f32, width_px: f32) -> f32 {
+    let level = log2(max(spacing_px * slope, 1e-12));
+    let period = exp2(floor(level));
+    let fine = 1.0 - fract(level);
+    let place = phase / period;
+    let nearest = round(place);
+    let is_odd = (i32(nearest) & 1) != 0;
+    // Full widths, in periods.
+    let even_width = 2.0 * duty / (1.0 + fine);
+    let width = select(even_width, even_width * fine, is_odd);
+    let per_pixel = slope / period;
+    let drawn_width = max(width, min(width_px, 0.5 * spacing_px) * per_pixel);
+    let ink = clamp((0.5 * drawn_width - abs(place - nearest)) / max(per_pixel, 1e-12) + 0.5, 0.0, 1.0);
+    let pale = width / max(drawn_width, 1e-12);
+    // Strokes finer than the pixels are seen as their mean.
+    return mix(duty, ink * pale, smoothstep(LEAST_SPACING - 1.0, LEAST_SPACING + 1.0, spacing_px));
+}
+
+/// How much strokes of a family cover.
+fn family_stripes(around: Patch, family: vec3f, duty: f32) -> f32 {
+    let slope = length(vec2f(dot(around.right, family), dot(around.down, family)));
+    return stripes(dot(around.rest, family), slope, duty, style.hatch_spacing_px, style.hatch_width_px);
+}
+
+/// How much strokes across a direction cover.
+fn strokes_across(around: Patch, across: vec3f, duty: f32) -> f32 {
+    let families = families_for(around.normal, across);
+    let first = family_stripes(around, families.first, duty * families.share);
+    let second = family_stripes(around, families.second, duty * (1.0 - families.share));
+    return 1.0 - (1.0 - first) * (1.0 - second);
+}
+
+/// How much of a pixel hatching covers where it is to make this part dark. Segments differ in the direction of their
+/// strokes, and in their kind: lines, broken lines, crossed lines.
+fn hatching_at(pixel: vec2i, here: Shown, dark: f32) -> f32 {
+    let around = patch_at(pixel, here, f32(here.segment % 3u) * 1.0471976);
+    if !around.is_known {
+        return dark;
+    }
+    let kind = (here.segment / 3u) % 3u;
+    let alone = select(min(dark, MOST_ALONE), 1.0 - sqrt(max(1.0 - dark, 0.0)), kind == 2u);
+    let crossed = 1.0 - (1.0 - dark) / (1.0 - alone);
+    var strokes = 0.0;
+    if kind == 1u {
+        // Broken: gaps of a quarter, made up for by the width.
+        let slope = length(vec2f(dot(around.right, around.along), dot(around.down, around.along)));
+        let families = families_for(around.normal, around.along);
+        let gap_slope = length(vec2f(dot(around.right, families.first), dot(around.down, families.first)));
+        let on = stripes(dot(around.rest, families.first), gap_slope, 0.75, 3.0 * style.hatch_spacing_px, 0.0);
+        strokes = strokes_across(around, around.across, min(alone / 0.75, 1.0)) * select(0.75, on, slope > 0.0);
+    } else {
+        strokes = strokes_across(around, around.across, alone);
+    }
+    let others = strokes_across(around, around.along, crossed);
+    return 1.0 - (1.0 - strokes) * (1.0 - others);
+}
+
+/// Even numbers out of a place, 0 to 1 (PCG by Jarzynski and Olano 2020).
+fn noise_of(place: vec2f) -> vec3f {
+    var v = vec3u(bitcast<vec2u>(place + 0.0), 0x9e3779b9u) * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> vec3u(16u);
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    return vec3f(v >> vec3u(8u)) / 16777216.0;
+}
+
+/// How much of a pixel dots cover where they are to make this part dark. The dots stand on a lattice of the coordinate
+/// plane that the surface faces most, each beside its place; three of four fade where the picture needs fewer.
+fn dots_at(pixel: vec2i, here: Shown, dark: f32) -> f32 {
+    let around = patch_at(pixel, here, 0.0);
+    if !around.is_known {
+        return dark;
+    }
+    let facing = abs(around.normal);
+    let is_x = facing.x >= max(facing.y, facing.z);
+    let is_y = !is_x && facing.y >= facing.z;
+    let on_x = mat3x2f(vec2f(0.0, 0.0), vec2f(1.0, 0.0), vec2f(0.0, 1.0));
+    let on_y = mat3x2f(vec2f(0.0, 1.0), vec2f(0.0, 0.0), vec2f(1.0, 0.0));
+    let on_z = mat3x2f(vec2f(1.0, 0.0), vec2f(0.0, 1.0), vec2f(0.0, 0.0));
+    var at = on_z * around.rest;
+    var right = on_z * around.right;
+    var down = on_z * around.down;
+    if is_x {
+        at = on_x * around.rest;
+        right = on_x * around.right;
+        down = on_x * around.down;
+    } else if is_y {
+        at = on_y * around.rest;
+        right = on_y * around.right;
+        down = on_y * around.down;
+    }
+    // Area of a pixel on the plane.
+    let area = abs(right.x * down.y - right.y * down.x);
+    let level = log2(max(style.stipple_spacing_px * sqrt(area), 1e-12));
+    let cell = exp2(floor(level));
+    let coarse = fract(level);
+    let fine = 1.0 - coarse;
+    let dots = 0.25 * (1.0 + 3.0 * fine);
+    let per_pixel = sqrt(area) / cell;
+    // The least dot, in cells; lighter tones have fewer of it, darker ones larger dots.
+    let least = 0.5 * min(style.stipple_size_px, 0.6 * style.stipple_spacing_px) * per_pixel;
+    let full = dots * 3.1415927 * least * least;
+    let kept = min(dark / full, 1.0);
+    let radius = select(sqrt(dark / (dots * 3.1415927)), least, kept < 1.0);
+    let place = at / cell;
+    var ink = 0.0;
+    for (var k = 0u; k < 9u; k++) {
+        let lattice = round(place) + vec2f(f32(k % 3u) - 1.0, f32(k / 3u) - 1.0);
+        let noise = noise_of(lattice * cell);
+        let is_coarse = all((vec2i(lattice) & vec2i(1)) == vec2i(0));
+        let beside = (noise.xy - 0.5) * (0.4 * (1.0 + coarse));
+        let size = radius * select(fine, 1.0, is_coarse) * smoothstep(0.0, 0.1, kept + 0.1 - noise.z);
+        let off = length(place - lattice - beside);
+        ink = max(ink, clamp((size - off) / max(per_pixel, 1e-12) + 0.5, 0.0, 1.0) * step(1e-4, size));
+    }
+    return mix(dark, ink, smoothstep(LEAST_SPACING - 1.0, LEAST_SPACING + 1.0, style.stipple_spacing_px));
+}
