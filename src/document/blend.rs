@@ -1,9 +1,9 @@
 //! The way between two states of a document.
 
 use super::model::{
-    Align, Background, Curve, Illustration, Layer, ParamKind, ParamValue, PlacedTemplate,
-    SceneObject, SegmentLook, SurfaceChange, SurfaceLook, TemplateData, Transfer, TransferPoint,
-    Window, join_objects,
+    Align, Background, Curve, Ghost, Hatch, Illustration, Layer, Outline, ParamKind, ParamValue,
+    PlacedTemplate, SceneObject, SegmentLook, Stipple, Style, SurfaceChange, SurfaceLook,
+    TemplateData, Tone, Transfer, TransferPoint, Window, join_objects,
 };
 use crate::math::mix_srgb;
 use glam::Quat;
@@ -41,6 +41,7 @@ pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illu
     }
     blend_segments(start, end, &mut out.look.segments, part);
     blend_surface(&start.look.surface, &mut out.look.surface, part);
+    out.look.style = blend_style(&start.look.style, &end.look.style, part);
     for object in &mut out.objects {
         let mut before = start.objects.iter();
         if let Some(before) = before.find(|before| before.index == object.index) {
@@ -121,6 +122,72 @@ fn blend_template(start: &PlacedTemplate, out: &mut PlacedTemplate, part: f32) {
         }
         _ => {}
     }
+}
+
+/// A style on its way. A part that one of both does not draw grows or goes as the other draws it.
+fn blend_style(start: &Style, end: &Style, part: f32) -> Style {
+    if part >= 1.0 {
+        return *end;
+    }
+    let mix = |a: f32, b: f32| a + (b - a) * part;
+    let mix_color = |a, b| mix_srgb(a, b, part);
+    let [a, b] = both_ends(start.outline, end.outline, |outline| &mut outline.width);
+    let outline = Outline {
+        width: mix(a.width, b.width),
+        color_srgb: mix_color(a.color_srgb, b.color_srgb),
+        creases: mix(a.creases, b.creases),
+    };
+    let [a, b] = both_ends(start.tone, end.tone, |tone| &mut tone.strength);
+    let tone = Tone {
+        levels: b.levels,
+        warm_srgb: mix_color(a.warm_srgb, b.warm_srgb),
+        cool_srgb: mix_color(a.cool_srgb, b.cool_srgb),
+        strength: mix(a.strength, b.strength),
+    };
+    let [a, b] = both_ends(start.hatch, end.hatch, |hatch| &mut hatch.strength);
+    let hatch = Hatch {
+        spacing: mix(a.spacing, b.spacing),
+        width: mix(a.width, b.width),
+        by: b.by,
+        color_srgb: mix_color(a.color_srgb, b.color_srgb),
+        strength: mix(a.strength, b.strength),
+    };
+    let [a, b] = both_ends(start.stipple, end.stipple, |stipple| &mut stipple.strength);
+    let stipple = Stipple {
+        spacing: mix(a.spacing, b.spacing),
+        size: mix(a.size, b.size),
+        color_srgb: mix_color(a.color_srgb, b.color_srgb),
+        strength: mix(a.strength, b.strength),
+    };
+    let [a, b] = both_ends(start.ghost, end.ghost, |ghost| &mut ghost.strength);
+    let ghost = Ghost {
+        by: b.by,
+        strength: mix(a.strength, b.strength),
+    };
+    Style {
+        outline,
+        tone,
+        hatch,
+        stipple,
+        ghost,
+    }
+}
+
+/// Where a part of a style goes from and to. One that is not drawn, since its `amount` is 0, is taken as the other but
+/// for that.
+fn both_ends<T: Copy>(mut start: T, mut end: T, amount: impl Fn(&mut T) -> &mut f32) -> [T; 2] {
+    match (*amount(&mut start) > 0.0, *amount(&mut end) > 0.0) {
+        (true, false) => {
+            end = start;
+            *amount(&mut end) = 0.0;
+        }
+        (false, true) => {
+            start = end;
+            *amount(&mut start) = 0.0;
+        }
+        _ => {}
+    }
+    [start, end]
 }
 
 /// What the meshes' bodies are made of.

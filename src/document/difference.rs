@@ -2,7 +2,9 @@
 //! as the schema allows.
 
 use super::model::TemplateKind;
-use super::schema::{Key, Kind, LeftOut, ROOT, find, is_of_file, param_default, params_of};
+use super::schema::{
+    Key, Kind, LeftOut, ROOT, find, is_of_file, param_default, params_of, style_object,
+};
 use super::text::pointer::join;
 use serde_json::{Map, Value, json};
 
@@ -93,6 +95,9 @@ fn inside(
     match (old, new, holds) {
         (Value::Object(old), Value::Object(new), Kind::Object(of)) => {
             object(at, [old, new], of, kind, out)
+        }
+        (old, Value::Object(new), Kind::Style(of)) => {
+            object(at, [&style_object(old), new], of, kind, out)
         }
         (Value::Object(old), Value::Object(new), Kind::Params) => {
             let specs = kind.map_or(&[][..], |kind| kind.spec().params);

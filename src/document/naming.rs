@@ -88,6 +88,7 @@ impl Edit {
             Self::SetTransfer(_) | Self::SetPoints { .. } => "Change colours".to_owned(),
             Self::SetWindow(_) => "Change window".to_owned(),
             Self::SetOpacity(_) => "Change opacity mode".to_owned(),
+            Self::SetStyle(_) => "Change style".to_owned(),
             Self::SetBackground(_) => "Change background".to_owned(),
             Self::SetCamera(_) => "Turn the view".to_owned(),
             Self::SetTitle(_) => "Change title".to_owned(),

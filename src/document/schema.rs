@@ -865,6 +865,14 @@ pub(crate) fn list_with_fixed(path: &[String]) -> Option<(&'static str, &'static
     }
 }
 
+/// A style as an object: a text is the name of its preset.
+pub(crate) fn style_object(style: &Value) -> Map<String, Value> {
+    match style {
+        Value::Object(map) => map.clone(),
+        name => Map::from_iter([("preset".to_owned(), name.clone())]),
+    }
+}
+
 /// True if the JSON of an object of the scene takes its triangles from a file.
 pub(crate) fn is_of_file(object: &Map<String, Value>) -> bool {
     let has = |key| object.contains_key(key);

@@ -1,10 +1,10 @@
-//! `look.style`: presets, what a document changes of them, and values that are wrong.
+//! `look.style`: presets, what a document changes of them, steps, and values that are wrong.
 
 use super::{document, error, notices};
 use crate::document::{
-    Document, GhostBy, HatchBy, Look, STYLE_PRESETS, Style, plain_f64, style_preset,
+    Document, Edit, GhostBy, HatchBy, Look, STYLE_PRESETS, Style, plain_f64, style_preset,
 };
-use crate::math::hex;
+use crate::math::{hex, mix_srgb};
 use serde_json::{Value, json};
 
 fn with_style(style: Value) -> Document {
@@ -137,6 +137,99 @@ fn styles_are_written_byte_for_byte() {
     }
 }
 
+#[test]
+fn steps_set_parts_of_styles_and_make_what_is_missing() {
+    let at = |look: Value, set: Value| {
+        let document = document(json!({ "fabrica": 1, "look": look, "steps": [{ "set": set }] }));
+        assert_eq!(notices(&document), [""; 0]);
+        let state = document.at_step(1).expect("a step");
+        let style = state.get("/look/style").cloned();
+        (state.illustration().look.style, style.unwrap_or_default())
+    };
+    let (style, made) = at(json!({}), json!({ "/look/style/outline/width": 3 }));
+    assert_eq!(style.outline.width, 3.0);
+    assert_eq!(made, json!({ "outline": { "width": 3 } }));
+    let (style, made) = at(
+        json!({ "style": "ink" }),
+        json!({ "/look/style/outline/width": 3, "/look/style/ghost/by": "cut" }),
+    );
+    assert_eq!(style.hatch, style_preset("ink").expect("ink").style.hatch);
+    assert_eq!((style.outline.width, style.ghost.strength), (3.0, 0.5));
+    assert_eq!(
+        made,
+        json!({ "preset": "ink", "outline": { "width": 3 }, "ghost": { "by": "cut" } })
+    );
+    let (style, made) = at(
+        json!({ "style": { "preset": "ink", "outline": { "width": 3 } } }),
+        json!({ "/look/style/preset": "atlas" }),
+    );
+    assert_eq!((style.outline.width, style.outline.creases), (3.0, 0.4));
+    assert_eq!(
+        made,
+        json!({ "preset": "atlas", "outline": { "width": 3 } })
+    );
+    let (_, made) = at(
+        json!({ "style": "ink" }),
+        json!({ "/look/style/preset": "none" }),
+    );
+    assert_eq!(made, Value::Null);
+    let (_, made) = at(
+        json!({ "style": { "outline": {} } }),
+        json!({ "/look/style": "pencil" }),
+    );
+    assert_eq!(made, json!("pencil"));
+    let wrong =
+        json!({ "fabrica": 1, "steps": [{ "set": { "/look/style/hatch/spacing": "wide" } }] });
+    assert!(error(wrong).contains("/look/style/hatch/spacing: expected a number, found “wide”"));
+    let nowhere =
+        json!({ "fabrica": 1, "steps": [{ "set": { "/look/style/hatch/nothing/x": 1 } }] });
+    let told = notices(&document(nowhere));
+    assert!(told[0].ends_with("is not there; left out"), "{told:?}");
+}
+
+#[test]
+fn styles_ease() {
+    let way = |start: Value, end: Value| {
+        let document = document(json!({ "fabrica": 1, "look": { "style": start },
+            "steps": [{ "set": { "/look/style": end } }] }));
+        [0.0, 0.5, 1.0].map(|t| document.at_time(1, t).expect("a moment").look.style)
+    };
+    let near = |a: f32, b: f32| assert!((a - b).abs() < 1e-5, "{a} is not {b}");
+    let [ink, pencil] = ["ink", "pencil"].map(|name| style_preset(name).expect("one").style);
+    let [start, half, end] = way(json!("ink"), json!("pencil"));
+    near(half.outline.width, 1.6);
+    near(half.hatch.spacing, 4.25);
+    near(half.hatch.strength, 0.9);
+    let grey = mix_srgb(ink.hatch.color_srgb, pencil.hatch.color_srgb, 0.5);
+    assert_eq!(half.hatch.color_srgb, grey, "in linear light");
+    assert_eq!(half.hatch.by, HatchBy::Curvature, "a choice jumps");
+    let mut jumped = ink;
+    jumped.hatch.by = pencil.hatch.by;
+    assert_eq!((start, end), (jumped, pencil));
+    // What one side does not draw grows in the other's colours, or goes in them.
+    let part = json!({ "outline": { "width": 4, "color": "#ff0000", "creases": 1 }, "tone": { "levels": 3, "warm": "#00ff00" },
+        "ghost": { "by": "cut" } });
+    let [before, half, after] = way(json!("none"), part.clone());
+    near(before.outline.width, 0.0);
+    near(half.outline.width, 2.0);
+    near(half.ghost.strength, 0.25);
+    assert_eq!(
+        (half.outline.color_srgb, half.outline.creases),
+        ([255, 0, 0], 1.0)
+    );
+    assert_eq!(
+        (half.tone.levels, half.tone.warm_srgb, half.ghost.by),
+        (3, [0, 255, 0], GhostBy::Cut)
+    );
+    let [full, back, gone] = way(part, json!("none"));
+    assert_eq!(full, after);
+    assert_eq!(back, half);
+    assert_eq!(gone, Style::PLAIN);
+    let [_, half, _] = way(json!({ "stipple": { "size": 2 } }), json!("blueprint"));
+    assert_eq!((half.stipple.size, half.stipple.strength), (2.0, 0.5));
+    assert_eq!(half.hatch.by, HatchBy::Axis);
+}
+
 /// A wrong type, a number that is none, and a value out of range or unknown, for every key.
 #[test]
 fn hostile_styles_are_errors_or_named() {
@@ -246,6 +339,50 @@ fn hostile_styles_are_errors_or_named() {
         ["/look/style: this version does not know “crayon”; it is kept, none is drawn"]
     );
     assert!(look(&unknown).style.is_plain() && look(&unknown).style_preset.is_none());
+}
+
+#[test]
+fn styles_are_edited_and_recorded() {
+    let edit = |document: &Document, edit: Edit| edit.apply(document).expect("an edit");
+    let set = |key: &str, value: Value| Edit::Set {
+        pointer: format!("/look/style/{key}"),
+        value,
+        name: "Change style".to_owned(),
+    };
+    let style = |document: &Document| document.get("/look/style").cloned();
+    let bare = document(json!({ "fabrica": 1, "steps": [{}, {}] }));
+    let ink = edit(&bare, Edit::SetStyle(Some("ink")));
+    assert_eq!(style(&ink), Some(json!("ink")));
+    let changed = edit(&ink, set("outline/width", json!(3)));
+    let wanted = json!({ "preset": "ink", "outline": { "width": 3 } });
+    assert_eq!(style(&changed), Some(wanted));
+    assert_eq!(
+        style(&edit(&changed, Edit::SetStyle(Some("ink")))),
+        Some(json!("ink"))
+    );
+    assert_eq!(style(&edit(&changed, Edit::SetStyle(None))), None);
+    let at_step = |document: &Document, inner: Edit| {
+        let edit_of_step = Edit::AtStep {
+            step: 1,
+            edit: Box::new(inner),
+        };
+        let document = edit(document, edit_of_step);
+        document.get("/steps/0/set").cloned().expect("what it sets")
+    };
+    assert_eq!(
+        at_step(&ink, set("outline/width", json!(3))),
+        json!({ "/look/style/outline": { "width": 3 } })
+    );
+    assert_eq!(
+        at_step(&changed, set("outline/width", json!(4))),
+        json!({ "/look/style/outline/width": 4 })
+    );
+    for (preset, wanted) in [(Some("atlas"), "atlas"), (None, "none")] {
+        assert_eq!(
+            at_step(&changed, Edit::SetStyle(preset)),
+            json!({ "/look/style": wanted })
+        );
+    }
 }
 
 #[test]

@@ -205,6 +205,7 @@ impl Edit {
                 let name = OpacityMode::NAMES[*mode as usize];
                 set(root, "/look/opacity", json!(name))
             }
+            Self::SetStyle(preset) => set(root, "/look/style", json!(preset.unwrap_or("none"))),
             Self::SetBackground(background) => {
                 let name = match background {
                     Background::None => "none".to_owned(),

@@ -163,6 +163,8 @@ pub enum Edit {
     SetWindow(Window),
     /// Sets how opacity follows the deformation.
     SetOpacity(OpacityMode),
+    /// Draws in the style of a preset as it is, whatever the document changed before; `None` draws without a style.
+    SetStyle(Option<&'static str>),
     /// Sets the background behind the object.
     SetBackground(Background),
     /// Sets the view that the document opens with.
@@ -302,6 +304,7 @@ impl Edit {
             Self::SetTransfer(_) | Self::SetPoints { .. } => "/look/transfer".to_owned(),
             Self::SetWindow(_) => "/look/window".to_owned(),
             Self::SetOpacity(_) => "/look/opacity".to_owned(),
+            Self::SetStyle(_) => "/look/style".to_owned(),
             Self::SetBackground(_) => "/look/background".to_owned(),
             Self::SetCamera(_) => "/camera".to_owned(),
             Self::SetTitle(_) => "/title".to_owned(),

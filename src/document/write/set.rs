@@ -8,7 +8,7 @@ use crate::document::text::pointer::{index, keys, shortened};
 use serde_json::Value;
 
 /// Sets the value that a pointer points at. Objects, lists and vectors on the way that stand at their default are made;
-/// in a list the index after the last, or `-`, appends.
+/// in a list the index after the last, or `-`, appends. A style that is the name of its preset becomes an object.
 ///
 /// # Errors
 /// [`DocumentError::BadPointer`], [`DocumentError::NotFound`].
@@ -51,6 +51,9 @@ pub(crate) fn set(root: &mut Value, pointer: &str, new: Value) -> Result<(), Doc
             }
             _ => return Err(not_found()),
         };
+        if !is_last && value.is_string() && keys[..=depth] == ["look", "style"] {
+            *value = Value::Object(schema::style_object(value));
+        }
     }
     *value = new;
     Ok(())
