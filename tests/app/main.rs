@@ -17,6 +17,7 @@ mod screens;
 mod segment_files;
 mod share;
 mod steps;
+mod style;
 mod tissue;
 mod window;
 

@@ -265,6 +265,29 @@ pub(crate) fn heading(ui: &mut Ui, text: &str, trailing: impl FnOnce(&mut Ui)) {
     });
 }
 
+/// A heading whose section is folded at first: a button at its end opens and closes it. `id` tells it from others; the
+/// names are those of the button, for opening and for closing. True if the section is to be drawn.
+pub(crate) fn folded_heading(
+    ui: &mut Ui,
+    id: &'static str,
+    text: &str,
+    (unfold, fold): (&str, &str),
+) -> bool {
+    let id = egui::Id::unique(id);
+    let mut is_open = ui.data(|data| data.get_temp::<bool>(id).unwrap_or(false));
+    let (icon, name) = match is_open {
+        true => (Icon::ChevronDown, fold),
+        false => (Icon::ChevronRight, unfold),
+    };
+    heading(ui, text, |ui| {
+        if icon_button(ui, icon, name, true).clicked() {
+            is_open = !is_open;
+            ui.data_mut(|data| data.insert_temp(id, is_open));
+        }
+    });
+    is_open
+}
+
 /// A thin line across a panel with air around it.
 pub(crate) fn divider(ui: &mut Ui) {
     ui.add_space(6.0);

@@ -1,4 +1,4 @@
-//! Colours and light: preset, window, opacity, background.
+//! Colours and light: preset, window, opacity, background, style.
 
 use egui::{Ui, vec2};
 
@@ -8,6 +8,7 @@ use crate::app::kit::theme::{Palette, control_height};
 use crate::app::kit::widget::{self, Change, Named as _};
 use crate::app::panel::bodies;
 use crate::app::panel::presets::{self, Pictures};
+use crate::app::panel::style;
 use crate::app::panel::transfer::Editor;
 use crate::app::session::Command;
 use crate::app::session::Session;
@@ -55,6 +56,8 @@ pub(crate) fn ui(
     }
     background_ui(ui, look.background, commands);
     marks_ui(ui, look, commands);
+    widget::divider(ui);
+    style::ui(ui, look, commands);
 }
 
 /// How opacity follows the deformation and the steepness of the value.

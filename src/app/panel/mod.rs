@@ -24,6 +24,7 @@ pub(crate) mod share;
 pub(crate) mod shortcuts;
 pub(crate) mod steps;
 pub(crate) mod strip;
+mod style;
 pub(crate) mod templates;
 pub(crate) mod text;
 pub(crate) mod tissue;

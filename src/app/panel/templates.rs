@@ -1,6 +1,6 @@
 //! The list of placed templates and everything about the selected one: parameters, mode, placement.
 
-use egui::{DragAndDrop, Id, Label, Rect, Stroke, Ui, vec2};
+use egui::{DragAndDrop, Label, Rect, Stroke, Ui, vec2};
 
 use super::{carve, curve, kept, objects, points};
 use crate::app::kit::entry::{self, EntryRow, rotation_row, vec3};
@@ -378,25 +378,8 @@ fn param_ui(
 
 fn placement_ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>) {
     let placement = template.placement;
-    let id = Id::unique("placement is open");
-    let mut is_open = ui.data(|data| data.get_temp::<bool>(id).unwrap_or(false));
-    let icon = if is_open {
-        Icon::ChevronDown
-    } else {
-        Icon::ChevronRight
-    };
-    widget::heading(ui, w().placement, |ui| {
-        let name = if is_open {
-            w().fold_placement
-        } else {
-            w().unfold_placement
-        };
-        if widget::icon_button(ui, icon, name, true).clicked() {
-            is_open = !is_open;
-            ui.data_mut(|data| data.insert_temp(id, is_open));
-        }
-    });
-    if !is_open {
+    let names = (w().unfold_placement, w().fold_placement);
+    if !widget::folded_heading(ui, "placement is open", w().placement, names) {
         return;
     }
     let send = |change: Change<Placement>, commands: &mut Vec<Command>| {

@@ -3,7 +3,7 @@
 
 use super::view::SubjectFacts;
 use crate::data::RECIPE_COLORS_SRGB;
-use crate::document::{Illustration, Look, Recipe, Transfer, TransferPoint};
+use crate::document::{Illustration, Look, Recipe, Style, Transfer, TransferPoint};
 
 /// The values that a recipe takes, before its clean-up and wherever they lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,6 +73,8 @@ impl Taken {
             tint: Some(0.0),
             gradient: 0.0,
             segments: Vec::new(),
+            style: Style::PLAIN,
+            style_preset: None,
             ..seen.look
         };
         seen

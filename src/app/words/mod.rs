@@ -58,6 +58,7 @@ pub(crate) mod search;
 pub(crate) mod share;
 pub(crate) mod slices;
 pub(crate) mod steps;
+pub(crate) mod style;
 pub(crate) mod templates;
 #[cfg(test)]
 mod tests;

@@ -68,6 +68,18 @@ pub(crate) fn preset(name: &str, title: &'static str) -> &'static str {
     })
 }
 
+/// What a style is called, by its name and its English title.
+pub(crate) fn style_preset(name: &str, title: &'static str) -> &'static str {
+    of(match name {
+        "atlas" => [title, "Atlas", "Atlas", "图谱"],
+        "ink" => [title, "Tusche", "Tinta", "墨线"],
+        "pencil" => [title, "Bleistift", "Lápiz", "铅笔"],
+        "textbook" => [title, "Lehrbuch", "Libro de texto", "教科书"],
+        "blueprint" => [title, "Blaupause", "Cianotipo", "蓝图"],
+        _ => return title,
+    })
+}
+
 /// What a loader is at.
 pub(crate) fn stage(what: &str) -> String {
     let line = match what {
@@ -100,6 +112,7 @@ pub(crate) fn edit_title(name: &str) -> String {
             "Cambiar la barra de escala",
             "更改比例尺",
         ],
+        "Change style" => ["", "Stil ändern", "Cambiar el estilo", "更改风格"],
         "Change tint" => ["", "Tönung ändern", "Cambiar el tinte", "更改着色"],
         "Change window" => ["", "Fenster ändern", "Cambiar la ventana", "更改窗口"],
         "Change opacity mode" => [
@@ -299,6 +312,10 @@ mod tests {
                 "{}",
                 one.name
             );
+        }
+        for one in crate::document::STYLE_PRESETS {
+            let name = style_preset(one.name, one.title);
+            assert_ne!(name, one.title, "{}", one.name);
         }
         set_lang(Lang::English);
     }

@@ -29,6 +29,7 @@ fn lines() -> impl Iterator<Item = &'static Line> {
         share::LINES,
         slices::LINES,
         steps::LINES,
+        style::LINES,
         templates::LINES,
         text::LINES,
         tissue::LINES,

@@ -168,6 +168,11 @@ impl HatchBy {
     pub(crate) const ALL: [Self; 2] = [Self::Curvature, Self::Axis];
     /// Names in documents, in the order of [`Self::ALL`].
     pub(crate) const NAMES: [&'static str; 2] = ["curvature", "axis"];
+
+    /// The name in documents.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
 }
 
 impl Stipple {
@@ -185,4 +190,9 @@ impl GhostBy {
     pub(crate) const ALL: [Self; 2] = [Self::Facing, Self::Cut];
     /// Names in documents, in the order of [`Self::ALL`].
     pub(crate) const NAMES: [&'static str; 2] = ["facing", "cut"];
+
+    /// The name in documents.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
 }

@@ -36,11 +36,11 @@ fn written(style: &Style) -> Value {
         "outline": { "width": number(outline.width), "color": color(outline.color_srgb), "creases": number(outline.creases) },
         "tone": { "levels": tone.levels, "warm": color(tone.warm_srgb), "cool": color(tone.cool_srgb),
             "strength": number(tone.strength) },
-        "hatch": { "spacing": number(hatch.spacing), "width": number(hatch.width), "by": HatchBy::NAMES[hatch.by as usize],
+        "hatch": { "spacing": number(hatch.spacing), "width": number(hatch.width), "by": hatch.by.name(),
             "color": color(hatch.color_srgb), "strength": number(hatch.strength) },
         "stipple": { "spacing": number(stipple.spacing), "size": number(stipple.size),
             "color": color(stipple.color_srgb), "strength": number(stipple.strength) },
-        "ghost": { "by": GhostBy::NAMES[ghost.by as usize], "strength": number(ghost.strength) },
+        "ghost": { "by": ghost.by.name(), "strength": number(ghost.strength) },
     })
 }
 
