@@ -110,6 +110,10 @@ struct Subject {
 
 /// Transfer function, light and opacity.
 struct Look {
+    /// xyz: towards the key light, view space, unit.
+    key_dir: vec4f,
+    /// xyz: how far the key light wraps around, for red, green and blue: skin and fat let light through.
+    key_wrap: vec4f,
     /// Position in the table = table_scale * texel + table_offset, clamped.
     table_scale: f32,
     table_offset: f32,
@@ -123,6 +127,13 @@ struct Look {
     edges: f32,
     /// The part of its opacity that tissue keeps where it is a ghost, 0 to 1.
     ghost: f32,
+    /// How wide the lamp of the key light is, as a part of its distance.
+    lamp: f32,
+    /// How much of the key light something opaque takes, near a surface and far from it.
+    shade_near: f32,
+    shade_far: f32,
+    /// How much of the light from everywhere else occlusion takes, 0 to 1.
+    contact: f32,
 }
 
 /// How one segment of a mesh is drawn (spec/surfaces.md, "What a body is").

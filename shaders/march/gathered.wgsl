@@ -1,6 +1,6 @@
 // What a ray gathers on its way, whatever it meets: light from front to back, the ray's surface, and where the ray
 // turns more than half opaque.
-// needs: march/shade.wgsl march/marched.wgsl
+// needs: types.wgsl bind/look.wgsl march/shade.wgsl march/marched.wgsl
 
 /// Transmittance at which a ray ends: below half a level of 255.
 const OPAQUE: f32 = 0.002;
@@ -71,9 +71,12 @@ struct Surroundings {
     key_light: f32,
 }
 
+/// How much of the key light occlusion takes, as a part of what it takes from the other.
+const CONTACT_KEY: f32 = 0.3125;
+
 /// What shadow and occlusion take from light.
 fn taken_from(light: Lit, around: Surroundings) -> vec3f {
     let closed = 1.0 - around.openness;
     let lit = around.key_light;
-    return light.key * (1.0 - lit) + light.ambient * (0.8 * closed) + light.key * lit * (0.25 * closed);
+    return light.key * (1.0 - lit) + light.ambient * (look.contact * closed) + light.key * lit * (CONTACT_KEY * look.contact * closed);
 }

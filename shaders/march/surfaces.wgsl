@@ -15,7 +15,7 @@ fn cover_at(pos: vec3f, mask: u32) -> f32 {
 /// What shadow and occlusion take from the light of the ray's surface.
 fn taken_by_bodies(pixel: vec2f, pos: vec3f, normal: vec3f, light: Lit) -> vec3f {
     let noise = pixel_noise(floor(pixel));
-    let key_dir = apply_linear(frame.subject_from_view, KEY_DIR);
+    let key_dir = apply_linear(frame.subject_from_view, look.key_dir.xyz);
     var closed = 0.0;
     var weights = 0.0001;
     var lit = 1.0;

@@ -64,9 +64,16 @@ fn tap_at(k: u32, pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Tap 
     }
     // Closer together near the surface, where a shadow has its edge.
     let part = (f32(k - occlusion_taps) + 0.3 + 0.7 * fract(frame.first_step + noise)) / f32(shadow_taps);
-    let at = pos + normal * (1.5 * subject.detail) + key_dir * (0.006 + 0.30 * part * part);
+    var lamp = key_dir;
+    if has_lamp != 0u {
+        // Each tap goes to another place of the lamp: with the noise of pixels and samples the shadow is soft.
+        let turn = 6.2831853 * noise + frame.occlusion_turn + 2.39996323 * f32(k);
+        let beside = look.lamp * sqrt(fract(frame.first_step + noise + 0.618034 * f32(k)));
+        lamp += beside * vec3f(cos(turn), sin(turn), cos(1.7 * turn));
+    }
+    let at = pos + normal * (1.5 * subject.detail) + lamp * (0.006 + 0.30 * part * part);
     // Farther occluders dim less: a large soft lamp.
-    return Tap(at, 0.0, mix(0.62, 0.30, part));
+    return Tap(at, 0.0, mix(look.shade_near, look.shade_far, part));
 }
 
 /// Taps of the opacity in the deformed space around a surface.

@@ -9,8 +9,9 @@
 // Written for devices that run both sides of every branch (software rasterisers): work is put behind loops that end
 // early, not behind `if`; work that is done once per ray (occlusion, shadow) comes after the loop.
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/look.wgsl displace/compose.wgsl
-//   march/overrides.wgsl march/value.wgsl march/opacity.wgsl march/ghost.wgsl march/bodies.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl
-//   march/refine.wgsl march/jacobian.wgsl march/surface.wgsl march/edges.wgsl march/color.wgsl march/surroundings.wgsl
+//   march/overrides.wgsl march/value.wgsl march/opacity.wgsl march/ghost.wgsl march/bodies.wgsl march/shade.wgsl
+//   march/sample.wgsl march/seek.wgsl march/refine.wgsl march/jacobian.wgsl march/surface.wgsl march/edges.wgsl
+//   march/color.wgsl march/surroundings.wgsl
 //   march/marched.wgsl march/gathered.wgsl march/objects.wgsl march/straight.wgsl|march/layers.wgsl
 //   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
@@ -33,13 +34,14 @@ fn taken_by_surroundings(pixel: vec2f, gathered: Gathered, pos: vec3f) -> vec3f 
         above += normal * gathered.lift;
     }
     let noise = pixel_noise(floor(pixel));
-    let key_dir = apply_linear(frame.subject_from_view, KEY_DIR);
+    let key_dir = apply_linear(frame.subject_from_view, look.key_dir.xyz);
     return taken_from(gathered.light, surroundings_of(above, normal, key_dir, noise));
 }
 
 /// The part of its opacity that tissue of a scan keeps as a ghost.
 fn ghost_share(edge: Sample, surface: Surface, to_eye: vec3f) -> f32 {
-    let keeps = ghost_keeps(surface.surfaceness, surface.normal, to_eye);
+    let surfaceness = max(smoothstep(RIM_NONE, RIM_FULL, surface.steepness / max(look.table_scale, 1.0)), surface.cut_weight);
+    let keeps = ghost_keeps(surfaceness, surface.normal, to_eye);
     if has_bodies == 0u {
         return keeps;
     }

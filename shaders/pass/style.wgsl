@@ -1,7 +1,7 @@
 // An illustrator's look: outlines, tone, hatching and dots over a picture whose pixels tell what they show. One sample,
 // which is mixed into those before as without a style.
-// needs: types.wgsl affine.wgsl srgb.wgsl bind/frame.wgsl style/traced.wgsl style/outlines.wgsl style/directions.wgsl
-//   style/strokes.wgsl style/vignette.wgsl
+// needs: types.wgsl affine.wgsl srgb.wgsl bind/frame.wgsl bind/style.wgsl style/traced.wgsl style/outlines.wgsl
+//   style/directions.wgsl style/strokes.wgsl style/vignette.wgsl
 
 /// One triangle that covers everything.
 @vertex
@@ -42,6 +42,13 @@ fn ink_for(under: vec3f, ink: vec3f, grey: f32) -> f32 {
     return clamp((bare - wanted) / select(contrast, 1e-3, abs(contrast) < 1e-3), 0.0, 1.0);
 }
 
+/// A colour of which ink covers a part, linear. In greys as a file has them, so that strokes which are too fine for the
+/// pixels make the same tone as those that are seen.
+fn inked(under: vec3f, ink: vec3f, covered: f32) -> vec3f {
+    return linear_from_srgb(mix(srgb_from_linear(under), srgb_from_linear(ink), covered));
+}
+
+/// One sample of a pixel with its style, linear premultiplied.
 @fragment
 fn draw_style(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(at.xy) + vec2i(0, i32(frame.first_row));
@@ -55,11 +62,11 @@ fn draw_style(@builtin(position) at: vec4f) -> @location(0) vec4f {
         var drawn = toned(own, here);
         if style.hatch > 0.0 {
             let ink = hatching_at(pixel, here, style.hatch * ink_for(drawn, style.hatch_color.rgb, grey));
-            drawn = mix(drawn, style.hatch_color.rgb, ink);
+            drawn = inked(drawn, style.hatch_color.rgb, ink);
         }
         if style.stipple > 0.0 {
             let ink = dots_at(pixel, here, style.stipple * ink_for(drawn, style.stipple_color.rgb, grey));
-            drawn = mix(drawn, style.stipple_color.rgb, ink);
+            drawn = inked(drawn, style.stipple_color.rgb, ink);
         }
         color = vec4f(drawn * plain.a, plain.a);
     }

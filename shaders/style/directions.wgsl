@@ -1,6 +1,10 @@
 // Directions on the tissue that strokes follow: fields of the undeformed subject, so that strokes ride along with every
 // displacement. All vectors in rest space.
-// needs: types.wgsl bind/frame.wgsl style/traced.wgsl
+// needs: types.wgsl bind/frame.wgsl bind/style.wgsl style/traced.wgsl
+
+/// A bend so clear, over the length of four strokes' spacing, has as much say in the direction as the axis: on a ball
+/// no direction bends most, and what is measured there is noise.
+const FORMLESS: f32 = 0.25;
 
 /// The surface around a pixel, as it lay at rest.
 struct Patch {
@@ -92,9 +96,9 @@ fn patch_at(pixel: vec2i, here: Shown, turn: f32) -> Patch {
     if style.hatch_by == HATCH_CURVATURE {
         let reach = max(style.hatch_spacing_px, 4.0);
         let unit = max(length(found.right), length(found.down));
-        // Bends count over the length of a hand's breadth of strokes; where nothing bends the axis decides.
+        // Where nothing bends the axis decides.
         let bends = curvature_at(pixel, here.rest, mat3x3f(x, y, found.normal), reach, 6.0 * reach * unit);
-        doubled = bends * (4.0 * reach * unit) + 0.03 * tilt * vec2f(1.0, 0.0);
+        doubled = bends * (4.0 * reach * unit) + FORMLESS * tilt * vec2f(1.0, 0.0);
     }
     let angle = 0.5 * atan2(doubled.y, doubled.x) + turn;
     found.along = x * cos(angle) + y * sin(angle);

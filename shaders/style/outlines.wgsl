@@ -5,7 +5,7 @@
 //
 // Two places of one smooth surface lie near each other's tangent plane, however obliquely it is seen: on a ball a
 // pixel and one r pixels on are at most r/4 pixel lengths off it, up to its silhouette.
-// needs: types.wgsl bind/frame.wgsl style/traced.wgsl
+// needs: types.wgsl bind/frame.wgsl bind/style.wgsl style/traced.wgsl
 
 /// Directions in which a pixel looks for edges.
 const OUTLINE_WAYS: u32 = 8u;

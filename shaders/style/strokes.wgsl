@@ -4,7 +4,7 @@
 // stand ready; each pixel takes those two that follow its direction best. Where the picture needs more strokes of a
 // family or fewer, every second one fades in or out (as tonal art maps do), so that they keep to the tissue while the
 // camera moves.
-// needs: types.wgsl style/traced.wgsl style/directions.wgsl
+// needs: types.wgsl bind/style.wgsl style/traced.wgsl style/directions.wgsl
 
 /// Normals of the families of planes.
 const FAMILIES: u32 = 9u;
@@ -29,8 +29,14 @@ struct Families {
     share: f32,
 }
 
-/// The families whose strokes lie across `across` on a surface.
-fn families_for(normal: vec3f, across: vec3f) -> Families {
+/// No family.
+fn no_families() -> Families {
+    return Families(vec3f(0.0), vec3f(0.0), 1.0);
+}
+
+/// The families whose strokes lie across `across` on a surface, but for those that are taken: strokes of one family
+/// would not cross each other.
+fn families_for(normal: vec3f, across: vec3f, taken: Families) -> Families {
     var found = Families(across, across, 1.0);
     var best = -1.0;
     var next = -1.0;
@@ -39,7 +45,9 @@ fn families_for(normal: vec3f, across: vec3f) -> Families {
         let in_plane = family - normal * dot(family, normal);
         let size = dot(in_plane, in_plane);
         let toward = dot(in_plane, across);
-        let score = toward * toward / max(size, 1e-6) * smoothstep(0.05, 0.4, size);
+        let is_taken = max(dot(family, taken.first), dot(family, taken.second)) > 0.9;
+        let fits = toward * toward / max(size, 1e-6) * smoothstep(0.05, 0.4, size);
+        let score = select(fits, -2.0, is_taken);
         if score > best {
             next = best;
             found.second = found.first;
@@ -54,6 +62,14 @@ fn families_for(normal: vec3f, across: vec3f) -> Families {
     return found;
 }
 
+/// How much of a pixel a stroke covers whose middle is so far away. Strokes under the least width are paler. Lengths as
+/// parts of the way from stroke to stroke; `per_pixel` is that of a pixel.
+fn stroke(off: f32, width: f32, least: f32, per_pixel: f32) -> f32 {
+    let drawn = max(width, least);
+    let pale = width / max(drawn, 1e-12);
+    return pale * clamp((0.5 * drawn - off) / max(per_pixel, 1e-12) + 0.5, 0.0, 1.0);
+}
+
 /// How much of a pixel strokes cover, 0 to 1. `phase` is the place across the strokes and `slope` its change from pixel
 /// to pixel. `duty` is the part that they cover, `spacing_px` between them at most, `width_px` their least width:
 /// thinner ones are paler.
@@ -61,18 +77,17 @@ fn stripes(phase: f32, slope: f32, duty: f32, spacing_px: f32, width_px: f32) ->
     let level = log2(max(spacing_px * slope, 1e-12));
     let period = exp2(floor(level));
     let fine = 1.0 - fract(level);
+    // Strokes stand at whole places; the odd ones are finer, down to nothing.
     let place = phase / period;
-    let nearest = round(place);
-    let is_odd = (i32(nearest) & 1) != 0;
-    // Full widths, in periods.
-    let even_width = 2.0 * duty / (1.0 + fine);
-    let width = select(even_width, even_width * fine, is_odd);
+    let from_even = abs(place - 2.0 * round(0.5 * place));
+    let width = 2.0 * duty / (1.0 + fine);
     let per_pixel = slope / period;
-    let drawn_width = max(width, min(width_px, 0.5 * spacing_px) * per_pixel);
-    let ink = clamp((0.5 * drawn_width - abs(place - nearest)) / max(per_pixel, 1e-12) + 0.5, 0.0, 1.0);
-    let pale = width / max(drawn_width, 1e-12);
+    let least = min(width_px, 0.5 * spacing_px) * per_pixel;
+    let even = stroke(from_even, width, least, per_pixel);
+    let odd = stroke(1.0 - from_even, width * fine, least, per_pixel);
+    let ink = max(even, odd);
     // Strokes finer than the pixels are seen as their mean.
-    return mix(duty, ink * pale, smoothstep(LEAST_SPACING - 1.0, LEAST_SPACING + 1.0, spacing_px));
+    return mix(duty, ink, smoothstep(LEAST_SPACING - 1.0, LEAST_SPACING + 1.0, spacing_px));
 }
 
 /// How much strokes of a family cover.
@@ -81,11 +96,12 @@ fn family_stripes(around: Patch, family: vec3f, duty: f32) -> f32 {
     return stripes(dot(around.rest, family), slope, duty, style.hatch_spacing_px, style.hatch_width_px);
 }
 
-/// How much strokes across a direction cover.
-fn strokes_across(around: Patch, across: vec3f, duty: f32) -> f32 {
-    let families = families_for(around.normal, across);
-    let first = family_stripes(around, families.first, duty * families.share);
-    let second = family_stripes(around, families.second, duty * (1.0 - families.share));
+/// How much strokes of two families cover.
+fn strokes_of(around: Patch, families: Families, duty: f32) -> f32 {
+    // So that both together cover what one alone would.
+    let clear = max(1.0 - duty, 1e-3);
+    let first = family_stripes(around, families.first, 1.0 - pow(clear, families.share));
+    let second = family_stripes(around, families.second, 1.0 - pow(clear, 1.0 - families.share));
     return 1.0 - (1.0 - first) * (1.0 - second);
 }
 
@@ -99,18 +115,18 @@ fn hatching_at(pixel: vec2i, here: Shown, dark: f32) -> f32 {
     let kind = (here.segment / 3u) % 3u;
     let alone = select(min(dark, MOST_ALONE), 1.0 - sqrt(max(1.0 - dark, 0.0)), kind == 2u);
     let crossed = 1.0 - (1.0 - dark) / (1.0 - alone);
+    let ours = families_for(around.normal, around.across, no_families());
     var strokes = 0.0;
     if kind == 1u {
         // Broken: gaps of a quarter, made up for by the width.
-        let slope = length(vec2f(dot(around.right, around.along), dot(around.down, around.along)));
-        let families = families_for(around.normal, around.along);
-        let gap_slope = length(vec2f(dot(around.right, families.first), dot(around.down, families.first)));
-        let on = stripes(dot(around.rest, families.first), gap_slope, 0.75, 3.0 * style.hatch_spacing_px, 0.0);
-        strokes = strokes_across(around, around.across, min(alone / 0.75, 1.0)) * select(0.75, on, slope > 0.0);
+        let gaps = families_for(around.normal, around.along, ours).first;
+        let gap_slope = length(vec2f(dot(around.right, gaps), dot(around.down, gaps)));
+        let on = stripes(dot(around.rest, gaps), gap_slope, 0.75, 3.0 * style.hatch_spacing_px, 0.0);
+        strokes = strokes_of(around, ours, min(alone / 0.75, 1.0)) * on;
     } else {
-        strokes = strokes_across(around, around.across, alone);
+        strokes = strokes_of(around, ours, alone);
     }
-    let others = strokes_across(around, around.along, crossed);
+    let others = strokes_of(around, families_for(around.normal, around.along, ours), crossed);
     return 1.0 - (1.0 - strokes) * (1.0 - others);
 }
 
@@ -158,7 +174,8 @@ fn dots_at(pixel: vec2i, here: Shown, dark: f32) -> f32 {
     let cell = exp2(floor(level));
     let coarse = fract(level);
     let fine = 1.0 - coarse;
-    let dots = 0.25 * (1.0 + 3.0 * fine);
+    // Dots per cell, counted by their areas: three of four shrink.
+    let dots = 0.25 * (1.0 + 3.0 * fine * fine);
     let per_pixel = sqrt(area) / cell;
     // The least dot, in cells; lighter tones have fewer of it, darker ones larger dots.
     let least = 0.5 * min(style.stipple_size_px, 0.6 * style.stipple_spacing_px) * per_pixel;
@@ -171,7 +188,7 @@ fn dots_at(pixel: vec2i, here: Shown, dark: f32) -> f32 {
         let lattice = round(place) + vec2f(f32(k % 3u) - 1.0, f32(k / 3u) - 1.0);
         let noise = noise_of(lattice * cell);
         let is_coarse = all((vec2i(lattice) & vec2i(1)) == vec2i(0));
-        let beside = (noise.xy - 0.5) * (0.4 * (1.0 + coarse));
+        let beside = (noise.xy - 0.5) * (0.4 * (1.0 + coarse) * (1.0 - smoothstep(0.2, 0.7, dark)));
         let size = radius * select(fine, 1.0, is_coarse) * smoothstep(0.0, 0.1, kept + 0.1 - noise.z);
         let off = length(place - lattice - beside);
         ink = max(ink, clamp((size - off) / max(per_pixel, 1e-12) + 0.5, 0.0, 1.0) * step(1e-4, size));

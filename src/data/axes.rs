@@ -91,8 +91,8 @@ impl Moments {
             if size <= 0.0 {
                 return Vec3::Z;
             }
-            power = power * size.recip();
-            power = power * power;
+            power *= size.recip();
+            power *= power;
         }
         let axis = largest(&power).normalize_or(DVec3::Z);
         let along = axis.dot(spread * axis);

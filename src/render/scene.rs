@@ -240,6 +240,9 @@ impl Scene {
             has_bodies: self.inputs.bodies.get().is_any(),
             has_objects: self.inputs.objects.get().items.count > 0,
             has_textures: self.has_textures || self.inputs.objects.get().has_textures(),
+            has_lamp: table
+                .and_then(|table| table.light)
+                .is_some_and(|light| light.soft > 0.0),
             has_ghost: table.is_some_and(|table| table.ghost < 1.0),
             has_edges: table.is_some_and(|table| table.gradient > 0.0),
             finds: match self.style() {

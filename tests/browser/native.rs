@@ -156,6 +156,16 @@ fn besides() -> Vec<Case> {
             }),
         ),
         case(
+            "style",
+            &["/look/style"],
+            json!({
+                "subject": { "builtin": "bar" },
+                "templates": [{ "kind": "split", "at": [0, 0.1, 0], "size": [0.6, 0.6, 0.6] }],
+                "look": { "style": { "preset": "ink", "stipple": { "spacing": 12, "size": 4 }, "ghost": { "by": "cut", "strength": 0.6 } } },
+                "camera": { "rotate": [0.35, 0.2, 0.4, 0.82], "distance": 2 },
+            }),
+        ),
+        case(
             "edges",
             &["/look/gradient", "/templates/0", "/templates/1"],
             json!({

@@ -51,7 +51,10 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         MeshLook { segments, layers, has_shells, has_filled }
         SceneObject { object_from_subject, color, inside, opacity, gloss, nodes_at, triangles_at, node_count, textures_at }
         SceneObjects { items, count }
-        Look { table_scale, table_offset, tint, specular, opacity_mode, edges, ghost }
+        Look {
+            key_dir, key_wrap, table_scale, table_offset, tint, specular, opacity_mode, edges, ghost, lamp, shade_near,
+            shade_far, contact,
+        }
         Grid { origin_min, cell_size, cells, is_used }
         Baked { origin_min, per_unit, texels, map_step, first_slab }
         Style {
@@ -166,6 +169,8 @@ fn constants_agree() {
         ("OPACITY_CONSTANCY", gpu_types::OPACITY_CONSTANCY),
         ("OPACITY_MASS", gpu_types::OPACITY_MASS),
         ("OPACITY_NONE", gpu_types::OPACITY_NONE),
+        ("HATCH_CURVATURE", gpu_types::HATCH_CURVATURE),
+        ("HATCH_AXIS", gpu_types::HATCH_AXIS),
         ("SLICE_GREY", gpu_types::SLICE_GREY),
         ("SLICE_COLORS", gpu_types::SLICE_COLORS),
         ("SLICE_MARKED", gpu_types::SLICE_MARKED),

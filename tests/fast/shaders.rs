@@ -312,10 +312,11 @@ fn bindings_have_comments() {
 fn an_error_names_its_file_and_line() {
     let program = programs::ProgramId::Raycast.program();
     let text = Assembled::new(program, SubjectShader::Volume, ALL_KINDS);
-    let planted = "let half_dir = normalize(KEY_DIR + to_eye);";
-    let broken = text
-        .source
-        .replace(planted, "let half_dir = normalize(KEY_DIR + to_moon);");
+    let planted = "let half_dir = normalize(look.key_dir.xyz + to_eye);";
+    let broken = text.source.replace(
+        planted,
+        "let half_dir = normalize(look.key_dir.xyz + to_moon);",
+    );
     assert_ne!(broken, text.source, "the error is planted");
     let (line, _) = check(&broken).expect_err("an unknown name must not validate");
     let file = programs::file("march/shade.wgsl").expect("embedded");

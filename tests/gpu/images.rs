@@ -292,6 +292,41 @@ const SNAPSHOTS: &[(&str, &str, &str)] = &[
         "cube",
         r##", "look": { "opacity": "mass", "transfer": [{ "value": -500, "color": "#4060c0", "opacity": 0 }, { "value": 100, "color": "#c06040", "opacity": 0.05 }, { "value": 900, "color": "#ffe0a0", "opacity": 0.8 }] }, "templates": [{ "kind": "squeeze", "size": [1.2, 1.2, 1.2] }]"##,
     ),
+    (
+        "style/ink",
+        "head",
+        r##", "look": { "style": "ink" }, "templates": [{ "kind": "peel", "at": [0, 0.04, 0.31], "rotate": [0, 0, -0.7071, 0.7071], "size": [0.5, 0.5, 0.38], "params": { "progress": 0.7, "depth": 0.6, "radius": 0.12, "angle": 2.6 } }], "camera": { "rotate": [0.3177, -0.0704, -0.2047, 0.9231], "distance": 1.5, "target": [0, 0.05, 0.24] }"##,
+    ),
+    (
+        "style/atlas",
+        "tomato",
+        r##", "look": { "style": "atlas" }"##,
+    ),
+    (
+        "style/pencil",
+        "tomato",
+        r##", "look": { "style": "pencil" }, "templates": [{ "kind": "peel", "size": [0.8, 0.6, 0.8], "at": [0, 0, 0.2] }]"##,
+    ),
+    (
+        "style/textbook",
+        "head",
+        r##", "look": { "style": "textbook" }, "camera": { "rotate": [0.3177, -0.0704, -0.2047, 0.9231], "distance": 1.5, "target": [0, 0.05, 0.24] }"##,
+    ),
+    (
+        "style/blueprint",
+        "bar",
+        r##", "look": { "style": "blueprint", "background": "#1d4f91" }, "templates": [{ "kind": "twist", "size": [0.5, 0.5, 1] }]"##,
+    ),
+    (
+        "look/light",
+        "head",
+        r##", "look": { "light": { "from": [0.8, 0.3, 0.5], "soft": 0.9, "contact": 0.8, "skin": 0.7 } }, "templates": [{ "kind": "peel", "at": [0, 0.04, 0.31], "rotate": [0, 0, -0.7071, 0.7071], "size": [0.5, 0.5, 0.38], "params": { "progress": 0.7, "depth": 0.6, "radius": 0.12, "angle": 2.6 } }], "camera": { "rotate": [0.3177, -0.0704, -0.2047, 0.9231], "distance": 1.5, "target": [0, 0.05, 0.24] }"##,
+    ),
+    (
+        "style/stipple_and_vignette",
+        "bar",
+        r##", "look": { "style": { "tone": { "levels": 3 }, "stipple": { "spacing": 30, "size": 8 }, "ghost": { "by": "cut", "strength": 0.9 } } }, "templates": [{ "kind": "split", "at": [0, 0.1, 0.3], "size": [0.4, 0.6, 0.4] }]"##,
+    ),
 ];
 
 /// Opacity by the gradient (dissertation, section 6.2.5): even tissue is clear but for the faces of the scan and of

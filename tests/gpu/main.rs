@@ -26,6 +26,7 @@ mod rigid;
 mod shells;
 mod slices;
 mod splines;
+mod style;
 mod textures;
 
 #[path = "../reference/carved.rs"]

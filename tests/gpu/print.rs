@@ -68,8 +68,8 @@ fn in_bands(studio: &Studio, shown: &Illustration, samples: u32, rows: u32) -> I
     decode_png(&print.file.take()).expect("a PNG")
 }
 
-/// Alignment, bodies, haze, meshes, several samples and no background: the file of a print in bands holds the picture
-/// that is drawn in one piece.
+/// Alignment, bodies, haze, meshes, styles, several samples and no background: the file of a print in bands holds the
+/// picture that is drawn in one piece.
 #[test]
 fn bands_equal_the_whole_to_the_bit() {
     let bar = studio_of(software(), &builtin("bar", 48), true);
@@ -88,6 +88,12 @@ fn bands_equal_the_whole_to_the_bit() {
             r#""templates":[{"kind":"peel","size":[0.8,0.6,0.8],"at":[0,0,0.2],"align":{"to":"segment","keep":["core"]}}]"#,
         ),
         (&bar, 2, bodies),
+        (&bar, 2, r#""look":{"style":"ink"}"#),
+        (
+            &mesh,
+            2,
+            r#""look":{"background":"none","style":{"preset":"pencil","stipple":{},"ghost":{"by":"cut"}}},"templates":[{"kind":"split","size":[1,1.4,1.2],"at":[0,0.1,0.2]}]"#,
+        ),
         (
             &mesh,
             3,

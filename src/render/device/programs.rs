@@ -340,6 +340,7 @@ shader_files![
     "bind/baked.wgsl",
     "bind/rays.wgsl",
     "bind/slice.wgsl",
+    "bind/style.wgsl",
     "bind/kept.wgsl",
     "bind/distance_job.wgsl",
     "march/align.wgsl",

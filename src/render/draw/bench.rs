@@ -3,7 +3,7 @@ use super::studio::Studio;
 use crate::data::{Resources, Subject, Surface};
 use crate::document::{
     Align, BodyKind, Constrain, ConstrainBy, Document, Illustration, ObjectPlacement, ObjectSource,
-    PlacedTemplate, SceneObject, SubjectRef, TemplateKind,
+    PlacedTemplate, SceneObject, Style, SubjectRef, TemplateKind, style_preset,
 };
 use crate::math::Placement;
 use crate::render::device::error::RenderError;
@@ -139,6 +139,15 @@ const CONSTRAINED: [(&str, ConstrainBy); 2] = [
     ("peel, rigid", ConstrainBy::Rigid),
 ];
 
+/// Measured with the grid alone: one peel in each style.
+const STYLED: [(&str, &str); 5] = [
+    ("one peel, atlas", "atlas"),
+    ("one peel, ink", "ink"),
+    ("one peel, pencil", "pencil"),
+    ("one peel, textbook", "textbook"),
+    ("one peel, blueprint", "blueprint"),
+];
+
 /// What is drawn to be measured.
 struct Case {
     name: &'static str,
@@ -157,9 +166,9 @@ pub struct BenchMeshes {
 
 /// Times frames (one sample per pixel at rest quality, read back) of a subject, which documents name as `named`:
 /// undeformed, one peel, eight templates, a peel aligned to the surface and to segments, each with and without the
-/// grid; a peel that gives way to bone, and one of rigid bone; and, if there are `meshes`, of these. After a frame of
-/// each that warms up come the plan's rounds of a frame of each; the median counts. What is made once per edit, before
-/// a frame, is timed apart. `on_progress` hears how much is measured, 0 to 1.
+/// grid; a peel that gives way to bone, and one of rigid bone; one peel in each style; and, if there are `meshes`, of
+/// these. After a frame of each that warms up come the plan's rounds of a frame of each; the median counts. What is
+/// made once per edit, before a frame, is timed apart. `on_progress` hears how much is measured, 0 to 1.
 ///
 /// # Errors
 /// As [`Studio::render_image`].
@@ -185,6 +194,11 @@ pub async fn bench(
         name,
         studio: studio.clone(),
         illustration: constrained_case(named, by),
+    }));
+    cases.extend(STYLED.map(|(name, preset)| Case {
+        name,
+        studio: studio.clone(),
+        illustration: styled_case(named, preset),
     }));
     let (mut bytes, mut texture_bytes) = (None, 0);
     if let Some(meshes) = meshes {
@@ -292,6 +306,13 @@ fn mesh_cases(gpu: &Gpu, drawn: &Studio, meshes: &BenchMeshes) -> Result<Vec<Cas
         of("surface, eight templates", drawn, shown(8, BodyKind::Auto)),
         of("surface, 16 x", &finer, shown(0, BodyKind::Auto)),
     ])
+}
+
+/// One peel in a style.
+fn styled_case(named: &SubjectRef, preset: &str) -> Illustration {
+    let mut illustration = case(named, 1);
+    illustration.look.style = style_preset(preset).map_or(Style::PLAIN, |preset| preset.style);
+    illustration
 }
 
 /// The undeformed subject with a tool before its middle.

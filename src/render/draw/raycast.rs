@@ -50,6 +50,7 @@ impl RaycastPasses {
             ("has_grid", number(key.has_grid)),
             ("has_edges", number(key.has_edges)),
             ("has_ghost", number(key.has_ghost)),
+            ("has_lamp", number(key.has_lamp)),
             ("has_bodies", number(key.has_bodies)),
             key.textures_constant(false),
             ("has_objects", number(key.has_objects)),

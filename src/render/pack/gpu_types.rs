@@ -667,6 +667,10 @@ pub const BODY_FULL: u32 = 2;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Look {
+    /// xyz: towards the key light, view space, unit.
+    pub key_dir: [f32; 4],
+    /// xyz: how far the key light wraps around, for red, green and blue.
+    pub key_wrap: [f32; 4],
     /// Table position = `table_scale` · texel + `table_offset`.
     pub table_scale: f32,
     /// Table position of a texel of 0.
@@ -681,6 +685,16 @@ pub struct Look {
     pub edges: f32,
     /// The part of its opacity that tissue keeps where it is a ghost, 0 to 1.
     pub ghost: f32,
+    /// How wide the lamp of the key light is, as a part of its distance.
+    pub lamp: f32,
+    /// How much of the key light something opaque takes near a surface.
+    pub shade_near: f32,
+    /// How much of the key light something opaque takes far from a surface.
+    pub shade_far: f32,
+    /// How much of the light from everywhere else occlusion takes, 0 to 1.
+    pub contact: f32,
+    /// To the end of the row.
+    pub padding: u32,
 }
 
 /// Segments drawn as bodies of their own.

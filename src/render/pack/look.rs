@@ -1,8 +1,8 @@
 use super::gpu_types::{self, OPACITY_CONSTANCY, OPACITY_MASS, OPACITY_NONE};
 use super::values::SubjectInfo;
 use crate::document::{
-    Background, Ghost, GhostBy, Look, OpacityMode, Preset, PresetSubject, SubjectRef, Transfer,
-    TransferPoint, Window, preset,
+    Background, Ghost, GhostBy, Light, Look, OpacityMode, Preset, PresetSubject, SubjectRef,
+    Transfer, TransferPoint, Window, preset,
 };
 use crate::math::linear_from_srgb;
 use glam::Vec3;
@@ -26,6 +26,8 @@ pub struct TransferTable {
     pub gradient: f32,
     /// The part of its opacity that tissue keeps where it is a ghost, 0 to 1.
     pub ghost: f32,
+    /// Where the light comes from and how it falls; `None`: as where a document says nothing of it.
+    pub light: Option<Light>,
 }
 
 /// Linear RGB from sRGB bytes.
@@ -89,6 +91,7 @@ impl TransferTable {
         Self {
             gradient: look.gradient,
             ghost: ghost_keeps(look.style.ghost),
+            light: look.light,
             ..table
         }
     }
@@ -118,6 +121,7 @@ impl TransferTable {
             specular,
             gradient: 0.0,
             ghost: 1.0,
+            light: None,
         }
     }
 
@@ -164,7 +168,48 @@ impl TransferTable {
             },
             edges: self.gradient,
             ghost: self.ghost,
+            ..lit_by(self.light)
         }
+    }
+}
+
+/// Towards the key light of a document that says nothing of light, view space: left and above, so that relief reads as
+/// relief, since light from above is what eyes expect.
+const KEY_DIR: Vec3 = Vec3::new(-0.5, 0.62, 0.604);
+/// How far the key light wraps around: plaster would have 0, and under skin each colour goes its own way.
+const KEY_WRAP: f32 = 0.18;
+const SKIN_WRAP: Vec3 = Vec3::new(0.55, 0.2, 0.1);
+/// How much of the key light something opaque takes near a surface and far from it; with a lamp of its own, near it,
+/// and far from it for a small and for a large lamp.
+const SHADE: [f32; 2] = [0.62, 0.3];
+const LAMP_SHADE: [f32; 3] = [0.7, 0.65, 0.25];
+/// How wide the softest lamp is, as a part of its distance.
+const WIDEST_LAMP: f32 = 0.25;
+/// How much of the light occlusion takes at a contact of 0.5.
+const CONTACT: f32 = 0.8;
+
+/// The light, in the members of the uniform that tell of it.
+fn lit_by(light: Option<Light>) -> gpu_types::Look {
+    let lit = |dir: Vec3, wrap: Vec3| gpu_types::Look {
+        key_dir: dir.extend(0.0).to_array(),
+        key_wrap: wrap.extend(0.0).to_array(),
+        ..gpu_types::Look::default()
+    };
+    let Some(light) = light else {
+        return gpu_types::Look {
+            shade_near: SHADE[0],
+            shade_far: SHADE[1],
+            contact: CONTACT,
+            ..lit(KEY_DIR, Vec3::splat(KEY_WRAP))
+        };
+    };
+    let [near, far_small, far_large] = LAMP_SHADE;
+    gpu_types::Look {
+        lamp: WIDEST_LAMP * light.soft,
+        shade_near: near,
+        shade_far: far_small + (far_large - far_small) * light.soft,
+        contact: (2.0 * CONTACT * light.contact).min(1.0),
+        ..lit(light.from, KEY_WRAP + SKIN_WRAP * light.skin)
     }
 }
 

@@ -23,6 +23,8 @@ pub(crate) struct RaycastKey {
     pub has_edges: bool,
     /// Tissue is drawn as a ghost.
     pub has_ghost: bool,
+    /// The key light is a lamp of some width.
+    pub has_lamp: bool,
     /// Segments are drawn as bodies of their own.
     pub has_bodies: bool,
     /// Objects stand in the scene.
