@@ -9,7 +9,7 @@
 /// Normals of the families of planes.
 const FAMILIES: u32 = 9u;
 /// Strokes that would lie nearer to each other, pixels, become an even tone.
-const LEAST_SPACING: f32 = 3.0;
+const LEAST_SPACING: f32 = 2.6;
 /// Part of the surface that strokes of one direction cover at most; beyond it others cross them.
 const MOST_ALONE: f32 = 0.42;
 

@@ -44,7 +44,7 @@ pub const STYLE_PRESETS: &[StylePreset] = &[
             outline: outline(2.0, 0x111111, 0.7),
             tone: tone(1.0, 0, 0xffffff, 0xffffff),
             hatch: Hatch {
-                spacing: 5.0,
+                spacing: 7.5,
                 width: 1.2,
                 by: HatchBy::Axis,
                 color_srgb: rgb(0x111111),
@@ -60,7 +60,7 @@ pub const STYLE_PRESETS: &[StylePreset] = &[
             outline: outline(1.2, 0x4a4a4a, 0.5),
             tone: tone(1.0, 0, 0xf6f2ea, 0xc9c4ba),
             hatch: Hatch {
-                spacing: 3.5,
+                spacing: 6.0,
                 width: 0.9,
                 by: HatchBy::Curvature,
                 color_srgb: rgb(0x4a4a4a),
@@ -85,8 +85,8 @@ pub const STYLE_PRESETS: &[StylePreset] = &[
             outline: outline(1.6, 0xffffff, 0.6),
             tone: tone(1.0, 0, 0x1d4f91, 0x1d4f91),
             hatch: Hatch {
-                spacing: 6.0,
-                width: 0.8,
+                spacing: 8.0,
+                width: 1.0,
                 by: HatchBy::Axis,
                 color_srgb: rgb(0xcfe3ff),
                 strength: 0.7,
