@@ -1,12 +1,12 @@
 //! The way between two states of a document.
 
 use super::model::{
-    Align, Background, Curve, Ghost, Hatch, Illustration, Layer, Outline, ParamKind, ParamValue,
-    PlacedTemplate, SceneObject, SegmentLook, Stipple, Style, SurfaceChange, SurfaceLook,
-    TemplateData, Tone, Transfer, TransferPoint, Window, join_objects,
+    Align, Background, Curve, Ghost, Hatch, Illustration, Layer, Light, Outline, ParamKind,
+    ParamValue, PlacedTemplate, SceneObject, SegmentLook, Stipple, Style, SurfaceChange,
+    SurfaceLook, TemplateData, Tone, Transfer, TransferPoint, Window, join_objects,
 };
 use crate::math::mix_srgb;
-use glam::Quat;
+use glam::{Quat, Vec2, Vec3};
 
 /// The state between two others: `end`, with its numbers, vectors, colours and rotations `part` (0 to 1) of the way
 /// from `start`.
@@ -42,6 +42,7 @@ pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illu
     blend_segments(start, end, &mut out.look.segments, part);
     blend_surface(&start.look.surface, &mut out.look.surface, part);
     out.look.style = blend_style(&start.look.style, &end.look.style, part);
+    out.look.light = blend_light(start.look.light, end.look.light, part);
     for object in &mut out.objects {
         let mut before = start.objects.iter();
         if let Some(before) = before.find(|before| before.index == object.index) {
@@ -188,6 +189,39 @@ fn both_ends<T: Copy>(mut start: T, mut end: T, amount: impl Fn(&mut T) -> &mut 
         _ => {}
     }
     [start, end]
+}
+
+/// A light on its way from another. A light that comes from none is itself at once, and so is none.
+fn blend_light(start: Option<Light>, end: Option<Light>, part: f32) -> Option<Light> {
+    let (Some(a), Some(b)) = (start, end) else {
+        return end;
+    };
+    if part >= 1.0 {
+        return end;
+    }
+    let mix = |a: f32, b: f32| a + (b - a) * part;
+    Some(Light {
+        from: blend_from(a.from, b.from, part),
+        soft: mix(a.soft, b.soft),
+        contact: mix(a.contact, b.contact),
+        skin: mix(a.skin, b.skin),
+    })
+}
+
+/// The way between two directions of light: a straight line on the map of all directions whose middle is the one to
+/// the viewer, and on which the distance from the middle is the angle in radians. Light that goes from one side to the
+/// other passes the viewer so; the shortest way may lead through straight behind, from where no light may come.
+fn blend_from(start: Vec3, end: Vec3, part: f32) -> Vec3 {
+    if part <= 0.0 || start == end {
+        return start;
+    }
+    let on_map = |from: Vec3| -> Vec2 {
+        let aside = from.truncate();
+        aside.normalize_or_zero() * aside.length().atan2(from.z)
+    };
+    let place = on_map(start).lerp(on_map(end), part);
+    let angle = place.length();
+    (place.normalize_or_zero() * angle.sin()).extend(angle.cos())
 }
 
 /// What the meshes' bodies are made of.

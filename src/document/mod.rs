@@ -74,7 +74,7 @@ pub use limits::{
 pub use model::{
     Align, Background, BodyKind, Camera, Caption, CleanStep, Constrain, ConstrainBy, Control,
     ControlPoint, ControlPoints, ControlRange, Curve, FieldRef, FoundObject, Ghost, GhostBy, Hatch,
-    HatchBy, Illustration, Layer, Look, MAX_PARAM_FLOATS, MeshAxes, MeshParts, MeshReading,
+    HatchBy, Illustration, Layer, Light, Look, MAX_PARAM_FLOATS, MeshAxes, MeshParts, MeshReading,
     MeshRef, MeshUnits, NotCarving, ObjectPlacement, ObjectRef, ObjectSource, OpacityMode, Outline,
     PRESETS, ParamKind, ParamSpec, ParamValue, PlacedTemplate, Preset, PresetSubject, RawVoxels,
     Reading, Recipe, RecipeSource, STYLE_PRESETS, SceneObject, SegmentLook, SegmentSurface,

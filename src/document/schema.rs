@@ -14,7 +14,7 @@ use super::limits::{
     MIN_BALL_MM,
 };
 use super::model::{
-    Align, BodyKind, Camera, ConstrainBy, GhostBy, HatchBy, Layer, MeshAxes, MeshParts,
+    Align, BodyKind, Camera, ConstrainBy, GhostBy, HatchBy, Layer, Light, MeshAxes, MeshParts,
     MeshReading, MeshUnits, ObjectPlacement, OpacityMode, ParamKind, RawVoxels, SceneObject, Step,
     Style, StylePreset, SurfaceLook, TemplateKind, TemplateMode, Tone,
 };
@@ -498,6 +498,7 @@ pub(crate) const LOOK: &[Key] = &[
     key(632, "scale", Kind::Flag { default: false }, "true: a scale bar in millimetres stands in the picture. It holds in the plane through the camera's target that faces the eye, and is left out where nobody knows how large the subject is"),
     key(634, "sides", Kind::Flag { default: false }, "true: letters of the patient's sides (R, L, A, P, S, I) stand at the edges of the picture"),
     key(636, "style", Kind::Style(STYLE), "how an illustrator would draw it: the name of a preset, or an object whose keys change one. Widths and distances are thousandths of the shorter side of the picture. Numbers and colours ease from step to step, also from preset to preset"),
+    key(638, "light", Kind::Object(LIGHT), "where the light comes from and how it falls. An empty object is the light whose values are all at their default; without the key there is none, and the picture is lit as ever, from the upper left. Numbers ease from step to step").optional(),
 ];
 
 /// Keys of `/look/style`.
@@ -555,6 +556,16 @@ pub(crate) const STIPPLE: &[Key] = &[
 pub(crate) const GHOST: &[Key] = &[
     key(470, "by", Kind::Name(&GhostBy::NAMES), "which tissue it is: surfaces, the more the straighter they face the eye, or what lies in front of a cut; without it the preset's, else `facing`").optional(),
     key(BY_NAME, "strength", STRENGTH, "how clear it becomes; without it the preset's, and 0.5 where that has none").optional(),
+];
+
+/// Keys of `/look/light`. Segments are called `skin`: a place of its own would change the order in which these are
+/// written.
+#[rustfmt::skip]
+pub(crate) const LIGHT: &[Key] = &[
+    key(530, "from", Kind::Vector { default: Light::WRITTEN_FROM, min: -FAR, max: FAR }, "towards the key light in the camera's axes: right, up, to the viewer. The length does not count; without a direction, and within 2.5 degrees of straight from behind, it is the default"),
+    key(770, "soft", number(plain(Light::DOCUMENT_DEFAULT.soft), 0.0, 1.0), "how soft the shadow of the key light is"),
+    key(772, "contact", number(plain(Light::DOCUMENT_DEFAULT.contact), 0.0, 1.0), "how dark creases and cuts are where surfaces meet"),
+    key(BY_NAME, "skin", number(plain(Light::DOCUMENT_DEFAULT.skin), 0.0, 1.0), "how far light goes under the surface, as under skin; at 0 not at all"),
 ];
 
 /// Keys of a point in `/look/transfer`.

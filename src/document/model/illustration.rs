@@ -82,6 +82,7 @@ impl Illustration {
                 surface: SurfaceLook::DOCUMENT_DEFAULT,
                 style: Style::PLAIN,
                 style_preset: None,
+                light: None,
                 background: Background::Color([255; 3]),
                 scale_bar: false,
                 sides: false,

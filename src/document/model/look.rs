@@ -1,5 +1,6 @@
 //! Colours, opacity and background.
 
+use super::light::Light;
 use super::style::Style;
 use super::surface::{SurfaceChange, SurfaceLook};
 
@@ -25,6 +26,9 @@ pub struct Look {
     pub style: Style,
     /// Name of the preset that [`Look::style`] starts from; `None`: nothing is drawn but what the document says.
     pub style_preset: Option<&'static str>,
+    /// Where the light comes from and how it falls; `None`: the document does not say, and it is as ever, from the
+    /// upper left.
+    pub light: Option<Light>,
     /// The background behind the object.
     pub background: Background,
     /// A scale bar stands in the picture.

@@ -2,6 +2,7 @@
 
 mod curve;
 mod illustration;
+mod light;
 mod look;
 mod mesh;
 mod object;
@@ -20,6 +21,7 @@ pub use crate::displace::{
 };
 pub use curve::Curve;
 pub use illustration::{Camera, Caption, Control, ControlRange, Illustration, Step};
+pub use light::Light;
 pub use look::{
     Background, Look, OpacityMode, SegmentLook, SegmentSurface, Transfer, TransferPoint, Window,
 };

@@ -29,6 +29,7 @@ impl Reader {
         let segments = self.segment_looks(&object.child("segments")?)?;
         let surface = self.surface(object, subject)?;
         let (preset, style) = self.style(object)?;
+        let light = self.light(object)?;
         let background = match object.text("background")? {
             Some("none") => Background::None,
             _ => Background::Color(
@@ -46,6 +47,7 @@ impl Reader {
             surface,
             style,
             style_preset: preset.map(|preset| preset.name),
+            light,
             background,
             scale_bar: object.flag("scale")?,
             sides: object.flag("sides")?,

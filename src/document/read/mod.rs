@@ -4,6 +4,7 @@ mod control;
 mod curve;
 mod data;
 mod illustration;
+mod light;
 mod look;
 mod mesh;
 mod object;

@@ -111,15 +111,15 @@ impl Reader {
     }
 
     /// The object of a part, if the document gives one.
-    fn part<'a>(
+    pub(super) fn part<'a>(
         &mut self,
-        style: &Object<'a>,
+        whole: &Object<'a>,
         key: &str,
     ) -> Result<Option<Object<'a>>, DocumentError> {
-        if !style.map.contains_key(key) {
+        if !whole.map.contains_key(key) {
             return Ok(None);
         }
-        let part = style.child(key)?;
+        let part = whole.child(key)?;
         self.unknown_keys(&part);
         Ok(Some(part))
     }

@@ -2,6 +2,7 @@ mod carving;
 mod controls;
 mod curves;
 mod lessons;
+mod lights;
 mod recipes;
 mod recording;
 mod styles;
