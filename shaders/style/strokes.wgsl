@@ -29,7 +29,7 @@ struct Families {
     share: f32,
 }
 
-/// No family.
+/// Stands for strokes that take no family: its normals have no length.
 fn no_families() -> Families {
     return Families(vec3f(0.0), vec3f(0.0), 1.0);
 }
