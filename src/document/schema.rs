@@ -529,7 +529,7 @@ pub(crate) const TONE: &[Key] = &[
     key(764, "levels", Kind::Count { default: 0.0, min: 0.0, max: Tone::MAX_LEVELS as f64 }, "number of steps between light and shade; 0 is smooth, 1 counts as 2; without it the preset's, else 0").optional(),
     key(766, "warm", Kind::Color, "colour in the light; without it the preset's, else `#f3d9b8`").optional(),
     key(768, "cool", Kind::Color, "colour in the shade; without it the preset's, else `#3b4f6b`").optional(),
-    key(BY_NAME, "strength", STRENGTH, "how far it stands in the stead of plain shading; without it the preset's, and 1 where that has no tone").optional(),
+    key(BY_NAME, "strength", STRENGTH, "how far the two colours stand in the stead of the tissue's own; without it the preset's, and 1 where that has no tone").optional(),
 ];
 
 /// Keys of `/look/style/hatch`.
@@ -539,7 +539,7 @@ pub(crate) const HATCH: &[Key] = &[
     key(BY_NAME, "width", number(plain(Style::PLAIN.hatch.width), 0.2, 20.0), "width of a stroke, thousandths of the shorter side of the picture; without it the preset's, else 1").optional(),
     key(470, "by", Kind::Name(&HatchBy::NAMES), "what the strokes follow: the direction in which the surface bends most, or the long axis of what is drawn; without it the preset's, else `curvature`").optional(),
     key(520, "color", Kind::Color, "colour of the strokes; without it the preset's, else `#1a1a1a`").optional(),
-    key(BY_NAME, "strength", STRENGTH, "opacity of the strokes; without it the preset's, and 1 where that has none").optional(),
+    key(BY_NAME, "strength", STRENGTH, "how much of the tone the strokes make; without it the preset's, and 1 where that has none").optional(),
 ];
 
 /// Keys of `/look/style/stipple`.
@@ -548,13 +548,13 @@ pub(crate) const STIPPLE: &[Key] = &[
     key(380, "spacing", number(plain(Style::PLAIN.stipple.spacing), 2.0, 50.0), "from one dot to the next, thousandths of the shorter side of the picture; without it the preset's, else 5").optional(),
     key(340, "size", number(plain(Style::PLAIN.stipple.size), 0.2, 20.0), "diameter of a dot, thousandths of the shorter side of the picture; without it the preset's, else 1.5").optional(),
     key(520, "color", Kind::Color, "colour of the dots; without it the preset's, else `#1a1a1a`").optional(),
-    key(BY_NAME, "strength", STRENGTH, "opacity of the dots; without it the preset's, and 1 where that has none").optional(),
+    key(BY_NAME, "strength", STRENGTH, "how much of the tone the dots make; without it the preset's, and 1 where that has none").optional(),
 ];
 
 /// Keys of `/look/style/ghost`.
 #[rustfmt::skip]
 pub(crate) const GHOST: &[Key] = &[
-    key(470, "by", Kind::Name(&GhostBy::NAMES), "which tissue it is: surfaces, the more the straighter they face the eye, or what lies in front of a cut; without it the preset's, else `facing`").optional(),
+    key(470, "by", Kind::Name(&GhostBy::NAMES), "which tissue it is: surfaces, the more the straighter they face the eye, what templates keep left out, or everything, the more the farther it is from the boxes of the templates; without it the preset's, else `facing`").optional(),
     key(BY_NAME, "strength", STRENGTH, "how clear it becomes; without it the preset's, and 0.5 where that has none").optional(),
 ];
 

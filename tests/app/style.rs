@@ -102,7 +102,7 @@ fn a_style_of_ones_own_begins_with_what_is_turned_up() {
     assert_eq!(window.style_title(), "Own");
     window.type_into("Dot size", "2");
     window.type_into("Ghosting", "30");
-    window.click("Ghosted: Before cuts");
+    window.click("Ghosted: Far away");
     let wanted = json!({ "stipple": { "strength": 0.4, "size": 2 }, "ghost": { "by": "cut", "strength": 0.3 } });
     assert_eq!(window.written_style(), wanted);
 

@@ -62,7 +62,7 @@ words! {
         ghost_by_hint: "Which tissue becomes clear", "Welches Gewebe klar wird", "Qué tejido se aclara", "哪些组织变透明";
         facing: "Facing", "Zugewandt", "De frente", "正面";
         facing_hint: "Surfaces that face the eye", "Flächen, die dem Auge zugewandt sind", "Superficies que miran al ojo", "正对视线的表面";
-        cut: "Before cuts", "Vor Schnitten", "Ante cortes", "切口前";
-        cut_hint: "What lies in front of a cut", "Was vor einem Schnitt liegt", "Lo que está delante de un corte", "位于切口前方的部分";
+        cut: "Far away", "Entfernt", "Lejano", "远处";
+        cut_hint: "What is far from all templates", "Was fern von allen Vorlagen liegt", "Lo que está lejos de todas las plantillas", "远离所有模板的部分";
     }
 }

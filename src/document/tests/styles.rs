@@ -198,7 +198,7 @@ fn styles_ease() {
     let [ink, pencil] = ["ink", "pencil"].map(|name| style_preset(name).expect("one").style);
     let [start, half, end] = way(json!("ink"), json!("pencil"));
     near(half.outline.width, 1.6);
-    near(half.hatch.spacing, 4.25);
+    near(half.hatch.spacing, 6.75);
     near(half.hatch.strength, 0.9);
     let grey = mix_srgb(ink.hatch.color_srgb, pencil.hatch.color_srgb, 0.5);
     assert_eq!(half.hatch.color_srgb, grey, "in linear light");
