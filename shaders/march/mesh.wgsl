@@ -11,9 +11,8 @@
 // Differs from the source: one rule for the deformed part and the rest, exact edges, no blending at borders.
 // needs: types.wgsl affine.wgsl bind/frame.wgsl bind/subject.wgsl bind/mesh_look.wgsl displace/compose.wgsl
 //   march/overrides.wgsl march/ghost.wgsl march/shade.wgsl march/sample.wgsl march/seek.wgsl march/jacobian.wgsl
-//   march/surface.wgsl
-//   march/marched.wgsl march/gathered.wgsl march/textures.wgsl subject/mesh.wgsl subject/crossing.wgsl
-//   march/filling.wgsl
+//   march/surface.wgsl march/marched.wgsl march/gathered.wgsl march/textures.wgsl subject/mesh.wgsl
+//   subject/crossing.wgsl march/filling.wgsl
 //   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
 /// Surfaces that count on one ray (spec/surfaces.md, "What the object has at a point").

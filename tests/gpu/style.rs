@@ -338,7 +338,7 @@ fn ghosts_show_what_they_surround() {
     );
 }
 
-/// Every preset draws something of its own, and none changes what is covered.
+/// Every preset draws something of its own.
 #[test]
 fn presets_differ() {
     let studio = studio_of(software(), &builtin("bar", 48), true);
