@@ -17,17 +17,22 @@ struct Shown {
     light: f32,
 }
 
-/// The texel of a pixel of the whole picture; of the nearest one for pixels beside it.
+/// The pixel of the whole picture that is nearest to one beside it.
+fn nearest_pixel(pixel: vec2i) -> vec2i {
+    return clamp(pixel, vec2i(0), vec2i(frame.size_px) - 1);
+}
+
+/// The texel of a pixel of the whole picture.
 fn traced_texel(pixel: vec2i) -> vec2i {
-    return clamp(pixel, vec2i(0), vec2i(frame.size_px) - 1) - vec2i(0, i32(style.first_row));
+    return pixel - vec2i(0, i32(style.first_row));
 }
 
 /// What a pixel of the whole picture shows.
 fn shown_at(pixel: vec2i) -> Shown {
-    let texel = traced_texel(pixel);
+    let inside = nearest_pixel(pixel);
+    let texel = traced_texel(inside);
     let place = textureLoad(traced_place, texel, 0);
     let words = textureLoad(traced_surface, texel, 0);
-    let inside = clamp(pixel, vec2i(0), vec2i(frame.size_px) - 1);
     var shown: Shown;
     shown.t = place.w;
     shown.pos = dir_in_view_of(vec2f(inside) + frame.jitter) * place.w;
@@ -40,7 +45,7 @@ fn shown_at(pixel: vec2i) -> Shown {
 
 /// What a pixel shows of this place and no more.
 fn rest_at(pixel: vec2i) -> vec4f {
-    return textureLoad(traced_place, traced_texel(pixel), 0);
+    return textureLoad(traced_place, traced_texel(nearest_pixel(pixel)), 0);
 }
 
 /// Length of a pixel at a distance from the eye, subject units.

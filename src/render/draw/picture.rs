@@ -1,19 +1,20 @@
 use super::image::{Image, read_picture};
 use super::passes::Passes;
-use super::raycast::{March, encode_march, frame_group};
+use super::raycast::{March, encode_march, frame_group, sample_weight};
 use super::rows::{MOST_PX, Rows, Taker};
 use super::style::Styled;
 use super::tiles::tiles_of;
 use super::traced::Traced;
+use crate::document::Style;
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::readback::WorkDone;
 use crate::render::device::textures::{LINEAR_FORMAT, OUTPUT_FORMAT, Target};
 use crate::render::pack::frame::frame_of;
-use crate::render::pack::gpu_types::{Frame, Resolve, Style};
+use crate::render::pack::gpu_types::{Frame, Resolve};
 use crate::render::pack::raycast_key::RaycastKey;
-use crate::render::pack::style::{style_margin, style_uniform};
+use crate::render::pack::style::style_margin;
 use crate::render::pack::view::View;
 use crate::render::scene::Scene;
 use crate::render::subject::textures::SubjectTextures;
@@ -24,11 +25,6 @@ const BATCH_TILES: usize = 64;
 /// The same on a software GPU with nobody else to wait for it. Lavapipe 22.3 loses 2.4 MiB with every batch: 600 MiB
 /// with the smaller ones of a picture of 8,192 × 8,192 pixels.
 const SOFTWARE_BATCH_TILES: usize = 256;
-
-/// The weight of sample `index`, so that the target holds the mean of all so far.
-fn sample_weight(index: u32) -> f32 {
-    1.0 / (index + 1) as f32
-}
 
 /// Everything for one picture, so that drawing it borrows nothing.
 pub(crate) struct PictureJob {
@@ -135,14 +131,14 @@ impl PictureJob {
         Ok(())
     }
 
-    /// Mixes a sample of a band, which was traced before, into the samples before: with its style.
+    /// Mixes a sample of a band into the samples before: with this style, of what was traced from row `first_row` of
+    /// the picture on.
     fn draw_style(
         &self,
         band: Band,
         index: u32,
         target: &wgpu::TextureView,
-        traced: &Traced,
-        style: Style,
+        (traced, style, first_row): (&Traced, &Style, u32),
     ) {
         let (gpu, layouts) = (&self.gpu, &self.passes.layouts);
         let mut encoder = encoder(gpu);
@@ -150,6 +146,9 @@ impl PictureJob {
             target,
             traced,
             style,
+            subject: &self.subject,
+            size_px: self.view.size_px.to_array(),
+            first_row,
             frame: &frame_group(gpu, layouts, &self.frame(band.first, index)),
             scene: &self.scene.bindings,
             size: band.size,
@@ -204,15 +203,8 @@ impl PictureJob {
                 })
                 .await?;
                 if let (Some(style), Some(traced)) = (style, &traced) {
-                    let seen = (&self.subject.axes, self.subject.frame.detail);
-                    let size_px = self.view.size_px.to_array();
-                    self.draw_style(
-                        band,
-                        index,
-                        &linear.view,
-                        traced,
-                        style_uniform(style, size_px, seen, marched.first),
-                    );
+                    let parts = (traced, style, marched.first);
+                    self.draw_style(band, index, &linear.view, parts);
                 }
             }
             let mut encoder = encoder(&self.gpu);

@@ -71,7 +71,6 @@ impl RaycastPasses {
             _ if key.is_baked => &self.baked_layout,
             Finds::Picture | Finds::Traced | Finds::Segments => &self.layout,
         };
-        // Sample k, from 0, has the weight 1/(k + 1), so that the target holds the mean of all samples so far.
         let (entry, formats, blend): (_, &[_], _) = match key.finds {
             Finds::Picture => ("draw", &[LINEAR_FORMAT], Some(MEAN)),
             Finds::Traced => ("trace", &Traced::FORMATS, None),
@@ -137,6 +136,11 @@ pub(crate) fn rays_group(gpu: &Gpu, layouts: &Layouts, rays: &[(Vec3, Vec3)]) ->
         layout: &layouts.rays,
         entries: &[entry(RAYS_BINDING, buffer.as_entire_binding())],
     })
+}
+
+/// The weight of sample `index`, from 0, so that the target holds the mean of all so far.
+pub(crate) fn sample_weight(index: u32) -> f32 {
+    1.0 / (index + 1) as f32
 }
 
 /// The blend constant of [`MEAN`] for this weight against what the target holds: 1 overwrites.

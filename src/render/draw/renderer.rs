@@ -6,6 +6,7 @@ use super::pace::{Pace, Work};
 use super::passes::Passes;
 use super::pick::{PendingDepths, PendingPick, PickScene};
 use super::quality::{WholePicture, least_scale, samples, steady_scale};
+use super::raycast::sample_weight;
 use super::rows::Taker;
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
@@ -860,7 +861,7 @@ impl Renderer {
             baked: None,
             viewport: targets.size,
             tiles,
-            weight: 1.0 / (sample + 1) as f32,
+            weight: sample_weight(sample),
             scale: [1.0 / width, 1.0 / height],
             end: [1.0; 2],
             shown: tiles,

@@ -2,6 +2,7 @@
 
 use super::raycast::{MEAN, blend_constant};
 use super::traced::Traced;
+use crate::document::Style;
 use crate::render::device::bindings::entry;
 use crate::render::device::buffers::uniform_buffer;
 use crate::render::device::gpu::Gpu;
@@ -9,7 +10,8 @@ use crate::render::device::layouts::{Layouts, pipeline_layout};
 use crate::render::device::pipelines::{PipelineParts, Pipelines, render_pass, render_pipeline};
 use crate::render::device::programs::{ALL_KINDS, ProgramId, module};
 use crate::render::device::textures::LINEAR_FORMAT;
-use crate::render::pack::gpu_types::Style;
+use crate::render::pack::style::style_uniform;
+use crate::render::subject::textures::SubjectTextures;
 
 /// The pipeline, made when a document first has a style.
 #[derive(Debug, Default)]
@@ -20,7 +22,12 @@ pub(super) struct Styled<'a> {
     /// The picture that it is mixed into, from its top left corner.
     pub target: &'a wgpu::TextureView,
     pub traced: &'a Traced,
-    pub style: Style,
+    pub style: &'a Style,
+    pub subject: &'a SubjectTextures,
+    /// Width and height of the whole picture, pixels.
+    pub size_px: [f32; 2],
+    /// Row of the whole picture that the traced pixels begin with.
+    pub first_row: u32,
     /// Bind group 0, as for the march; its first row is that of the target.
     pub frame: &'a wgpu::BindGroup,
     /// Bind group 2: the scene.
@@ -58,7 +65,9 @@ impl StylePass {
             };
             render_pipeline(gpu, &parts)
         });
-        let buffer = uniform_buffer(gpu, "style", &styled.style);
+        let seen = (&styled.subject.axes, styled.subject.frame.detail);
+        let uniform = style_uniform(styled.style, styled.size_px, seen, styled.first_row);
+        let buffer = uniform_buffer(gpu, "style", &uniform);
         let [color, place, surface] = styled
             .traced
             .views()

@@ -10,7 +10,6 @@ use crate::render::device::gpu::Gpu;
 use crate::render::device::textures::{LINEAR_FORMAT, OUTPUT_FORMAT, Target};
 use crate::render::pack::gpu_types::{Frame, Resolve};
 use crate::render::pack::raycast_key::RaycastKey;
-use crate::render::pack::style::style_uniform;
 use crate::render::scene::Scene;
 use std::cell::OnceCell;
 
@@ -101,22 +100,26 @@ impl Targets {
         let whole = [[0, 0, self.size[0], self.size[1]]];
         let mut shown = shot.shown;
         if let Some((style, traced)) = traced {
-            shown = if shot.ends_sample { &whole } else { &[] };
-            if shot.ends_sample {
-                let seen = (&studio.subject.axes, studio.subject.frame.detail);
-                let styled = Styled {
-                    target: &self.linear.view,
-                    traced,
-                    style: style_uniform(style, shot.frame.size_px, seen, 0),
-                    frame: &frame,
-                    scene: &scene.bindings,
-                    size: shot.viewport,
-                    weight: shot.weight,
-                };
-                passes
-                    .style
-                    .encode(gpu, &passes.layouts, &mut encoder, &styled);
+            if !shot.ends_sample {
+                gpu.queue.submit([encoder.finish()]);
+                return;
             }
+            shown = &whole;
+            let styled = Styled {
+                target: &self.linear.view,
+                traced,
+                style,
+                subject: &studio.subject,
+                size_px: shot.frame.size_px,
+                first_row: 0,
+                frame: &frame,
+                scene: &scene.bindings,
+                size: shot.viewport,
+                weight: shot.weight,
+            };
+            passes
+                .style
+                .encode(gpu, &passes.layouts, &mut encoder, &styled);
         }
         let resolve = Resolve {
             scale: shot.scale,
