@@ -10,6 +10,7 @@
 //! | [`document`] | 2 | the illustration: plain data, edits, validity, undo |
 //! | [`link`] | 3 | document to URL fragment and back |
 //! | [`data`] | 3 | subjects: voxels, spacing, orientation, segments, statistics |
+//! | [`figure`] | 3 | flat pictures that bend: regions, outlines, meshes, the solve |
 //! | [`load`] | 4 | files in, subjects out |
 //! | [`subjects`] | 4 | the built-in subjects, generated |
 //! | [`placed`] | 4 | what a placed template reaches, where it is grabbed, its icon |
@@ -62,6 +63,7 @@ pub mod pictures;
 pub mod document;
 
 pub mod data;
+pub mod figure;
 pub mod link;
 
 pub mod describe;

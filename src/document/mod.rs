@@ -71,6 +71,7 @@ pub use limits::{
     MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES, MAX_STROKES,
     MAX_TEMPLATES, MIN_BALL_MM,
 };
+pub use model::figure;
 pub use model::{
     Align, Background, BodyKind, Camera, Caption, CleanStep, Constrain, ConstrainBy, Control,
     ControlPoint, ControlPoints, ControlRange, Curve, FieldRef, FoundObject, Ghost, GhostBy, Hatch,

@@ -1,6 +1,7 @@
 //! Plain types: what a document means. No JSON.
 
 mod curve;
+pub mod figure;
 mod illustration;
 mod light;
 mod look;

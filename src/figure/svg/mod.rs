@@ -1,0 +1,17 @@
+//! Drawings: the filled shapes of an SVG as regions, and bent drawings as SVG (spec/figures.md, "The source", "Regions",
+//! "Labels, steps, link, files out").
+//!
+//! usvg resolves styles, units, references and basic shapes; of its result only paths are used. It keeps coordinates in
+//! 32 bits; from there on they have 64.
+
+mod error;
+mod limits;
+mod paint;
+mod path;
+mod read;
+mod write;
+
+pub use error::SvgError;
+pub use path::{Outline, Segment};
+pub use read::{Drawing, Shape};
+pub use write::{Label, bent};
