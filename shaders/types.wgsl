@@ -300,6 +300,20 @@ struct Resolve {
     background: vec4f,
     /// 1 to write straight alpha instead of premultiplied, texel by texel.
     is_straight: u32,
+    /// 1 to leave bright light as it is: of a figure, whose colours no light has changed.
+    is_unlit: u32,
+}
+
+/// Where the plate of a figure lies (pass/sheet.wgsl).
+struct Sheet {
+    /// Half of its width and height, subject units.
+    half_size: vec2f,
+    /// Width and height, texels.
+    texels: vec2f,
+    /// Width and height of the used part of the target, pixels.
+    viewport: vec2f,
+    /// The plate and its smaller copies.
+    levels: u32,
 }
 
 /// A flat cut through the deformed object.

@@ -10,11 +10,11 @@
 //! | [`document`] | 2 | the illustration: plain data, edits, validity, undo |
 //! | [`link`] | 3 | document to URL fragment and back |
 //! | [`data`] | 3 | subjects: voxels, spacing, orientation, segments, statistics |
-//! | [`figure`] | 3 | flat pictures that bend: regions, outlines, meshes, the solve |
 //! | [`load`] | 4 | files in, subjects out |
 //! | [`subjects`] | 4 | the built-in subjects, generated |
 //! | [`placed`] | 4 | what a placed template reaches, where it is grabbed, its icon |
 //! | [`describe`] | 4 | a picture in words, for who cannot see it |
+//! | [`figure`] | 4 | flat pictures that bend: regions, outlines, meshes, the solve |
 //! | [`assets`] | 5 | what a document needs from outside, and what has come of it |
 //! | `render` | 5 | everything GPU |
 //! | `app` | 6 | the viewer's panels and commands |
@@ -28,7 +28,7 @@
 //!
 //! | word | means |
 //! |---|---|
-//! | subject | what is illustrated: a volume, with meshes beside it or not, or meshes alone |
+//! | subject | what is illustrated: a volume, with meshes beside it or not, meshes alone, or a figure |
 //! | volume | scalars on an oriented grid of voxels; never a subject in general |
 //! | segmentation | a volume of label numbers, with the segments that they stand for |
 //! | label | a number in a segmentation |
@@ -43,6 +43,8 @@
 //! | skip grid | the grid over the deformed space that lets rays leap over what is empty |
 //! | embed | `<fabrica-viewer>` in somebody's page |
 //! | figure | a 2D subject, drawn as a sheet of triangles; never an embed |
+//! | plate | the flat picture that a figure bends |
+//! | sheet | the triangles of a bent figure |
 //!
 //! # Imports
 //!
@@ -63,10 +65,10 @@ pub mod pictures;
 pub mod document;
 
 pub mod data;
-pub mod figure;
 pub mod link;
 
 pub mod describe;
+pub mod figure;
 pub mod load;
 pub mod placed;
 pub mod subjects;

@@ -18,6 +18,14 @@ fn roll_off(c: vec3f) -> vec3f {
     return min(c, vec3f(SHOULDER)) + (1.0 - SHOULDER) * (over / (1.0 + over));
 }
 
+/// The colour as it is shown, still linear.
+fn shown(c: vec3f) -> vec3f {
+    if resolve.is_unlit == 1u {
+        return c;
+    }
+    return roll_off(c);
+}
+
 /// One triangle that covers everything.
 @vertex
 fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -40,9 +48,9 @@ fn encode(@builtin(position) at: vec4f) -> @location(0) vec4f {
     let found = found_at(at.xy);
     let alpha = clamp(found.a, 0.0, 1.0);
     if resolve.background.a > 0.5 {
-        let object = roll_off(found.rgb / max(alpha, 1e-4)) * alpha;
+        let object = shown(found.rgb / max(alpha, 1e-4)) * alpha;
         return vec4f(srgb_from_linear(object + resolve.background.rgb * (1.0 - alpha)), 1.0);
     }
-    let color = srgb_from_linear(roll_off(found.rgb / max(alpha, 1e-4)));
+    let color = srgb_from_linear(shown(found.rgb / max(alpha, 1e-4)));
     return vec4f(select(color * alpha, color, resolve.is_straight == 1u), alpha);
 }

@@ -312,6 +312,7 @@ impl Assets {
             fields: self.field_samples(illustration, &mut news),
             objects: self.object_meshes(illustration),
             frame: self.subject.as_ref().map(Subject::frame),
+            sheet: None,
         };
         self.tell_of_thin(illustration, &resources, &mut news);
         (resources, news)

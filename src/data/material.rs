@@ -22,8 +22,8 @@ impl Subject {
                 value: Some(value_at(&space.volume, pos_in_rest)?),
                 segment: segment_at(&space.volume, pos_in_rest, kept),
             }),
-            // What fills a mesh is up to a document.
-            Self::Mesh(_) => None,
+            // What fills a mesh is up to a document, and so are the regions of a figure.
+            Self::Mesh(_) | Self::Figure(_) => None,
         }
     }
 }

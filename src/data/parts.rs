@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use super::plate::Plate;
 use super::surface::Surface;
 use super::volume::{Volume, Voxels};
 
@@ -19,6 +20,8 @@ pub enum SubjectPart {
     Labels(Vec<u8>),
     /// A mesh, whole.
     Surface(Arc<Surface>),
+    /// The picture of a figure, whole.
+    Plate(Arc<Plate>),
 }
 
 impl SubjectPart {

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use glam::{Quat, Vec3};
 
-use super::{Carver, FieldSamples, Segment, Segmentation, Subject, SubjectFrame, Surface};
+use super::{Carver, FieldSamples, Segment, Segmentation, Sheet, Subject, SubjectFrame, Surface};
 use crate::displace::Holds;
 use crate::document::{
     FoundObject, ObjectSource, ParamValue, PlacedTemplate, SceneObject, TemplateData,
@@ -27,6 +27,8 @@ pub struct Resources {
     pub objects: ObjectMeshes,
     /// Where the subject lies; of use where an object that a template carves by lies where its file says.
     pub frame: Option<SubjectFrame>,
+    /// The figure as its document bends it, once that is known.
+    pub sheet: Option<Sheet>,
 }
 
 /// Meshes of objects, by where each comes from.
@@ -169,5 +171,6 @@ impl PartialEq for Resources {
             && self.fields == other.fields
             && self.has_objects_of(other)
             && self.frame == other.frame
+            && both(&self.sheet, &other.sheet, Sheet::is_same)
     }
 }

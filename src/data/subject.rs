@@ -1,6 +1,7 @@
 use std::sync::Arc;
 
 use super::frame::SubjectFrame;
+use super::plate::Plate;
 use super::surface::Surface;
 use super::surface::SurfaceSegment;
 use super::volume::{Segment, Segmentation, Volume};
@@ -19,6 +20,8 @@ pub enum Subject {
     Space(Space),
     /// A mesh alone.
     Mesh(Arc<Surface>),
+    /// The picture of a figure. How it is divided and bent stands in the document.
+    Figure(Arc<Plate>),
 }
 
 /// A subject in space.
@@ -84,6 +87,7 @@ impl Subject {
         match self {
             Self::Space(space) => space.volume.grid.frame(),
             Self::Mesh(surface) => surface.frame,
+            Self::Figure(plate) => plate.frame(),
         }
     }
 
@@ -95,6 +99,7 @@ impl Subject {
                 volume.has_size.then(|| volume.grid.mm_per_unit())
             }
             Self::Mesh(surface) => Some(surface.frame.mm_per_unit),
+            Self::Figure(_) => None,
         }
     }
 
@@ -103,6 +108,7 @@ impl Subject {
         match self {
             Self::Space(space) => &space.segments,
             Self::Mesh(surface) => &surface.segmentation.segments,
+            Self::Figure(_) => &[],
         }
     }
 
@@ -111,6 +117,7 @@ impl Subject {
         match self {
             Self::Space(space) => space.meshes.as_ref(),
             Self::Mesh(surface) => Some(surface),
+            Self::Figure(_) => None,
         }
     }
 
@@ -120,14 +127,23 @@ impl Subject {
             Self::Space(space) => (space.meshes.as_ref())
                 .map_or_else(Vec::new, |surface| called_as_in(&space.segments, surface)),
             Self::Mesh(surface) => surface.segments.clone(),
+            Self::Figure(_) => Vec::new(),
         }
     }
 
-    /// The same subject with these meshes beside its volume; a subject of meshes alone stays as it is.
+    /// The picture of the figure, if the subject is one.
+    pub fn plate(&self) -> Option<&Arc<Plate>> {
+        match self {
+            Self::Figure(plate) => Some(plate),
+            Self::Space(_) | Self::Mesh(_) => None,
+        }
+    }
+
+    /// The same subject with these meshes beside its volume; a subject without a volume stays as it is.
     pub fn with_meshes(self, meshes: Option<Arc<Surface>>) -> Self {
         match self {
             Self::Space(space) => Self::Space(Space::new(space.volume, meshes)),
-            mesh @ Self::Mesh(_) => mesh,
+            other => other,
         }
     }
 
@@ -136,6 +152,7 @@ impl Subject {
         match self {
             Self::Space(space) => space.volume.segmentation.as_ref(),
             Self::Mesh(surface) => Some(&surface.segmentation),
+            Self::Figure(_) => None,
         }
     }
 
@@ -144,7 +161,7 @@ impl Subject {
     pub fn values(&self) -> Option<&Arc<Volume>> {
         match self {
             Self::Space(space) => Some(&space.volume),
-            Self::Mesh(_) => None,
+            Self::Mesh(_) | Self::Figure(_) => None,
         }
     }
 
@@ -156,7 +173,7 @@ impl Subject {
                 Arc::make_mut(&mut space.volume).segmentation = segmentation;
                 Self::Space(Space::new(space.volume, space.meshes))
             }
-            mesh @ Self::Mesh(_) => mesh,
+            other => other,
         }
     }
 
@@ -183,7 +200,8 @@ impl Subject {
                 Arc::ptr_eq(&a.volume, &b.volume) && meshes
             }
             (Self::Mesh(a), Self::Mesh(b)) => Arc::ptr_eq(a, b),
-            (Self::Space(_), Self::Mesh(_)) | (Self::Mesh(_), Self::Space(_)) => false,
+            (Self::Figure(a), Self::Figure(b)) => Arc::ptr_eq(a, b),
+            (Self::Space(_) | Self::Mesh(_) | Self::Figure(_), _) => false,
         }
     }
 }
@@ -197,6 +215,12 @@ impl From<Arc<Volume>> for Subject {
 impl From<Arc<Surface>> for Subject {
     fn from(surface: Arc<Surface>) -> Self {
         Self::Mesh(surface)
+    }
+}
+
+impl From<Plate> for Subject {
+    fn from(plate: Plate) -> Self {
+        Self::Figure(Arc::new(plate))
     }
 }
 

@@ -1,5 +1,6 @@
 use super::builder::{BuildError, VolumeBuilder};
 use super::parts::{SubjectPart, SubjectSink};
+use super::plate::Plate;
 use super::statistics::Histogram;
 use super::subject::Subject;
 use super::surface::Surface;
@@ -10,6 +11,7 @@ use std::sync::Arc;
 pub struct SubjectBuilder {
     volume: Option<VolumeBuilder>,
     surface: Option<Arc<Surface>>,
+    plate: Option<Arc<Plate>>,
 }
 
 impl SubjectBuilder {
@@ -25,6 +27,9 @@ impl SubjectBuilder {
     pub fn finish(self) -> Option<Result<(Subject, Option<Histogram>), BuildError>> {
         if let Some(surface) = self.surface {
             return Some(Ok((Subject::from(surface), None)));
+        }
+        if let Some(plate) = self.plate {
+            return Some(Ok((Subject::Figure(plate), None)));
         }
         let whole = self.volume?.finish_with_histogram();
         Some(whole.map(|(volume, histogram)| (Subject::from(volume), Some(histogram))))
@@ -42,6 +47,7 @@ impl SubjectSink for SubjectBuilder {
                 self.volume = Some(builder);
             }
             SubjectPart::Surface(surface) => self.surface = Some(surface),
+            SubjectPart::Plate(plate) => self.plate = Some(plate),
             SubjectPart::Scalars(_) | SubjectPart::Labels(_) => {
                 if let Some(volume) = &mut self.volume {
                     volume.take(part)?;

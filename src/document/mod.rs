@@ -65,23 +65,24 @@ pub use carry::carried_templates;
 pub use history::{History, Outlook};
 pub use lesson::Lesson;
 pub use limits::{
-    BUILTIN_SUBJECTS, DEFAULT_SUBJECT, FORMAT, MAX_ALT, MAX_BALL_MM, MAX_BYTES, MAX_CARVERS,
-    MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CONTROLS, MAX_CURVE, MAX_CUT, MAX_DEPTH, MAX_FIELDS,
-    MAX_KEEP_SETS, MAX_LABEL_FILES, MAX_LABELS, MAX_LAYERS, MAX_MESHES, MAX_OBJECTS, MAX_POINTS,
-    MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES, MAX_STROKES,
+    BUILTIN_SUBJECTS, DEFAULT_SUBJECT, DRAWN_FIGURES, FORMAT, MAX_ALT, MAX_BALL_MM, MAX_BYTES,
+    MAX_CARVERS, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CONTROLS, MAX_CURVE, MAX_CUT, MAX_DEPTH,
+    MAX_FIELDS, MAX_KEEP_SETS, MAX_LABEL_FILES, MAX_LABELS, MAX_LAYERS, MAX_MESHES, MAX_OBJECTS,
+    MAX_POINTS, MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES, MAX_STROKES,
     MAX_TEMPLATES, MIN_BALL_MM,
 };
 pub use model::figure;
 pub use model::{
     Align, Background, BodyKind, Camera, Caption, CleanStep, Constrain, ConstrainBy, Control,
-    ControlPoint, ControlPoints, ControlRange, Curve, FieldRef, FoundObject, Ghost, GhostBy, Hatch,
-    HatchBy, Illustration, Layer, Light, Look, MAX_PARAM_FLOATS, MeshAxes, MeshParts, MeshReading,
-    MeshRef, MeshUnits, NotCarving, ObjectPlacement, ObjectRef, ObjectSource, OpacityMode, Outline,
-    PRESETS, ParamKind, ParamSpec, ParamValue, PlacedTemplate, Preset, PresetSubject, RawVoxels,
-    Reading, Recipe, RecipeSource, STYLE_PRESETS, SceneObject, SegmentLook, SegmentSurface,
-    SegmentsRef, Step, Stipple, Stroke, Style, StylePreset, SubjectBox, SubjectRef, SurfaceChange,
-    SurfaceLook, TemplateData, TemplateKind, TemplateMode, TemplateSpec, Tone, Transfer,
-    TransferPoint, Window, keep_set, keep_sets, needs_shaping, preset, presets, style_preset,
+    ControlPoint, ControlPoints, ControlRange, Curve, FIGURE_FRONT, FieldRef, FoundObject, Ghost,
+    GhostBy, Hatch, HatchBy, Illustration, Layer, Light, Look, MAX_PARAM_FLOATS, MeshAxes,
+    MeshParts, MeshReading, MeshRef, MeshUnits, NotCarving, ObjectPlacement, ObjectRef,
+    ObjectSource, OpacityMode, Outline, PRESETS, ParamKind, ParamSpec, ParamValue, PlacedTemplate,
+    Preset, PresetSubject, RawVoxels, Reading, Recipe, RecipeSource, STYLE_PRESETS, SceneObject,
+    SegmentLook, SegmentSurface, SegmentsRef, Step, Stipple, Stroke, Style, StylePreset,
+    SubjectBox, SubjectRef, SurfaceChange, SurfaceLook, TemplateData, TemplateKind, TemplateMode,
+    TemplateSpec, Tone, Transfer, TransferPoint, Window, keep_set, keep_sets, needs_shaping,
+    preset, presets, style_preset,
 };
 pub use text::{DocumentError, Notice, NoticeKind, pointer};
 pub use tree::Document;

@@ -11,8 +11,8 @@ const LOOSE: &str = " (elastic)";
 /// A posed figure as JSON, for other programs (spec/figures.md, "Labels, steps, link, files out"): mesh, regions, what
 /// handles hold, and where vertices go. Points are at rest, but for `positions` and `to`; vertices are named by their
 /// number in `vertices`, in the context's `triangles` too.
-pub fn exported(rig: &Rig<'_>, figure: &Figure, posed: &Posed) -> Value {
-    let mesh = rig.mesh;
+pub fn exported(rig: &Rig, figure: &Figure, posed: &Posed) -> Value {
+    let mesh = &rig.mesh;
     let (regions, of_triangles) = regions(rig, figure);
     let triangles: Vec<Value> = mesh
         .triangles
@@ -83,8 +83,8 @@ fn rigidity_value(rigidity: Rigidity) -> Value {
 
 /// The regions in the order of the list, the rest, and those of rigid parts that count as elastic; and the region of
 /// each triangle.
-fn regions(rig: &Rig<'_>, figure: &Figure) -> (Vec<Value>, Vec<usize>) {
-    let mesh = rig.mesh;
+fn regions(rig: &Rig, figure: &Figure) -> (Vec<Value>, Vec<usize>) {
+    let mesh = &rig.mesh;
     let mut regions = Vec::new();
     for tissue in &mesh.tissues {
         let rigidity = match tissue.part {
@@ -128,7 +128,7 @@ fn kind_name(kind: GripKind) -> &'static str {
 }
 
 /// What each handle would hold alone and what it does; fixed regions and the outside of `only` last.
-fn handles(rig: &Rig<'_>, figure: &Figure, base: &[DVec2]) -> Value {
+fn handles(rig: &Rig, figure: &Figure, base: &[DVec2]) -> Value {
     let mut found = Vec::new();
     for grip in &rig.pose.holding.grips {
         let at = grip.anchors.first().map_or(DVec2::ZERO, |anchor| anchor.at);
@@ -164,7 +164,7 @@ fn put_targets(value: &mut Value, targets: &[(DVec2, f64, f64)]) {
     value["scales"] = targets.iter().map(|(.., scale)| json!(scale)).collect();
 }
 
-fn contours(rig: &Rig<'_>, figure: &Figure) -> Value {
+fn contours(rig: &Rig, figure: &Figure) -> Value {
     let of = |(number, vertices, targets): (usize, Vec<u32>, Vec<(DVec2, f64, f64)>)| {
         let mut value = json!({ "region": figure.contours[number].region, "vertices": vertices });
         put_targets(&mut value, &targets);
@@ -173,7 +173,7 @@ fn contours(rig: &Rig<'_>, figure: &Figure) -> Value {
     rig.contour_targets(figure).into_iter().map(of).collect()
 }
 
-fn context(rig: &Rig<'_>, figure: &Figure) -> Value {
+fn context(rig: &Rig, figure: &Figure) -> Value {
     let (Some(sheet), Some(context)) = (rig.context(), &figure.context) else {
         return Value::Null;
     };

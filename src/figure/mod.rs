@@ -1,4 +1,4 @@
-//! Layer 3: flat pictures that bend (Chen, Liang, Maciejewski, Ebert, *Shape Context Preserving Deformation of 2D
+//! Layer 4: flat pictures that bend (Chen, Liang, Maciejewski, Ebert, *Shape Context Preserving Deformation of 2D
 //! Anatomical Illustrations*; the contract is spec/figures.md).
 //!
 //! The regions of a document's figure ([`crate::document::figure`]) become sets of pixels ([`regions`]), their
@@ -26,7 +26,7 @@
 //!     ..Figure::default()
 //! };
 //! let mut notices = Vec::new();
-//! let mesh = Mesh::new(&canvas, &figure, &mut notices, &mut unwatched).expect("nobody stops it");
+//! let mesh = std::sync::Arc::new(Mesh::new(&canvas, &figure, &mut notices, &mut unwatched).expect("nobody stops it"));
 //! let posed = Rig::new(&mesh, &figure, &mut notices).posed(&figure, &mut notices);
 //! let tip = fabrica::figure::probe::forward(&mesh, &posed.places, dvec2(0.4, 0.0)).place;
 //! assert!((tip - dvec2(0.4, 0.2)).length() < 1e-6);
@@ -34,20 +34,30 @@
 //! ```
 
 mod behind;
+mod bender;
 mod complex;
+pub mod drawn;
 mod export;
 pub mod mesh;
 mod notice;
+mod original;
 mod outlines;
 mod plane;
 pub mod probe;
 mod progress;
+mod read;
 pub mod regions;
 pub mod solve;
 pub mod svg;
 
 pub use behind::smooth_colors;
+pub use bender::{Bender, Bent, Solved};
 pub use export::{exported, propagation_name, rotations_name};
 pub use notice::Notice;
+pub use original::Original;
 pub use plane::{Plane, reduced_size};
 pub use progress::{Progress, unwatched};
+pub use read::{
+    DRAWN_SIDE, FigureFile, PlateError, ReadPlate, builtin_plate, plate_of_drawing,
+    plate_of_picture, read_plate,
+};

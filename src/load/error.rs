@@ -157,6 +157,14 @@ pub enum LoadError {
         /// What was expected, what was found, and where, with the name of the file.
         message: String,
     },
+    /// A file that gave no figure.
+    #[error("{message} ({name})")]
+    Figure {
+        /// Name of the file, as given.
+        name: String,
+        /// What was expected, what was found, and where.
+        message: String,
+    },
     /// The user stopped it, or the receiver gave up.
     #[error("stopped before the file was read")]
     Cancelled,

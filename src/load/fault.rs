@@ -65,6 +65,7 @@ impl LoadError {
             | Self::Refused { .. }
             | Self::Cancelled
             | Self::Mesh { .. }
+            | Self::Figure { .. }
             | Self::NotField { .. }
             | Self::NotLabels { .. } => return None,
         })

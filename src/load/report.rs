@@ -114,6 +114,11 @@ pub enum Warning {
         /// What was done, or what is left aside.
         what: String,
     },
+    /// What of a figure is drawn otherwise than its file has it, or is left aside.
+    Figure {
+        /// In words.
+        what: String,
+    },
     /// Label names in the file could not be understood.
     LabelNames,
     /// Segments on several layers: only the first layer is shown.
@@ -180,7 +185,7 @@ impl fmt::Display for Warning {
                 write!(f, "{count} voxels belong to several segments; the last is shown")
             }
             Self::Repaired { field, what } => write!(f, "{field}: {what}"),
-            Self::Mesh { what } => f.write_str(what),
+            Self::Mesh { what } | Self::Figure { what } => f.write_str(what),
             Self::LabelNames => f.write_str("the names of the labels could not be read"),
             Self::Layers { count } => write!(
                 f,

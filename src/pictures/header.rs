@@ -35,6 +35,11 @@ pub struct PictureHeader {
     pub kind: PictureKind,
     /// Width and height, pixels, as stored: no orientation is followed.
     pub size: [u32; 2],
+    /// Numbers of a pixel: 1 grey, 2 grey and alpha, 3 red, green and blue (or of a palette, or of a JPEG's YCbCr), 4 with
+    /// alpha, or of inks.
+    pub channels: u8,
+    /// Bits of each of them.
+    pub bits: u8,
 }
 
 impl PictureHeader {
@@ -43,11 +48,10 @@ impl PictureHeader {
     /// # Errors
     /// [`PictureError`]: no picture, one of a kind that is not read, or one beyond the limits.
     pub fn of(bytes: &[u8]) -> Result<Self, PictureError> {
-        let (kind, size) = if let Some(rest) = bytes.strip_prefix(PNG) {
-            let size = png_size(rest).ok_or(PictureError::Broken("PNG"))?;
-            (PictureKind::Png, size)
+        let header = if let Some(rest) = bytes.strip_prefix(PNG) {
+            png_header(rest).ok_or(PictureError::Broken("PNG"))?
         } else if let Some(rest) = bytes.strip_prefix(JPEG) {
-            (PictureKind::Jpeg, jpeg_size(rest)?)
+            jpeg_header(rest)?
         } else {
             return Err(PictureError::Unknown);
         };
@@ -55,6 +59,7 @@ impl PictureHeader {
             let bytes = bytes.len() as u64;
             return Err(PictureError::LargeFile { bytes });
         }
+        let size = header.size;
         let [width, height] = size;
         if width == 0 || height == 0 {
             return Err(PictureError::Empty);
@@ -63,20 +68,43 @@ impl PictureHeader {
         if width.max(height) > MAX_SIDE || count > MAX_PIXELS {
             return Err(PictureError::TooLarge { size });
         }
-        Ok(Self { kind, size })
+        Ok(header)
+    }
+
+    /// What the numbers of a pixel are, in words.
+    pub fn channel_names(&self) -> &'static str {
+        match (self.kind, self.channels) {
+            (_, 1) => "gray",
+            (_, 2) => "gray, alpha",
+            (PictureKind::Png, 4) => "red, green, blue, alpha",
+            (PictureKind::Jpeg, 4) => "inks",
+            _ => "red, green, blue",
+        }
     }
 }
 
-/// Width and height by the first chunk of a PNG.
-fn png_size(rest: &[u8]) -> Option<[u32; 2]> {
+/// What the first chunk of a PNG says.
+fn png_header(rest: &[u8]) -> Option<PictureHeader> {
     let number = |at: usize| Some(u32::from_be_bytes(rest.get(at..at + 4)?.try_into().ok()?));
-    (rest.get(4..8)? == b"IHDR").then_some([number(8)?, number(12)?])
+    let header = PictureHeader {
+        kind: PictureKind::Png,
+        size: [number(8)?, number(12)?],
+        bits: *rest.get(16)?,
+        channels: match *rest.get(17)? {
+            0 => 1,
+            4 => 2,
+            6 => 4,
+            // Colours, and those of a palette.
+            _ => 3,
+        },
+    };
+    (rest.get(4..8)? == b"IHDR").then_some(header)
 }
 
-/// Width and height by the frame header of a JPEG, of a kind that is read, with no more scans than are read.
-fn jpeg_size(mut rest: &[u8]) -> Result<[u32; 2], PictureError> {
+/// What the frame header of a JPEG says, of a kind that is read, with no more scans than are read.
+fn jpeg_header(mut rest: &[u8]) -> Result<PictureHeader, PictureError> {
     const BROKEN: PictureError = PictureError::Broken("JPEG");
-    let mut size = None;
+    let mut header = None;
     let mut scans = 0;
     loop {
         // Behind a scan follow its packed pixels, in which no marker but those of restarts occurs.
@@ -91,7 +119,7 @@ fn jpeg_size(mut rest: &[u8]) -> Result<[u32; 2], PictureError> {
         };
         // A file may end without the mark of its end.
         let Some(at) = at else {
-            return size.ok_or(BROKEN);
+            return header.ok_or(BROKEN);
         };
         let marker = rest[at];
         rest = &rest[at + 1..];
@@ -101,12 +129,17 @@ fn jpeg_size(mut rest: &[u8]) -> Result<[u32; 2], PictureError> {
         };
         match marker {
             0x01 | 0xd0..=0xd8 => continue,
-            0xd9 => return size.ok_or(BROKEN),
+            0xd9 => return header.ok_or(BROKEN),
             0xc0..=0xc2 => {
                 if rest.get(2) != Some(&8) {
                     return Err(PictureError::Unsupported("a JPEG of other than 8 bits"));
                 }
-                size = Some([word(5)?, word(3)?]);
+                header = Some(PictureHeader {
+                    kind: PictureKind::Jpeg,
+                    size: [word(5)?, word(3)?],
+                    bits: 8,
+                    channels: *rest.get(7).ok_or(BROKEN)?,
+                });
             }
             // Tables, of which those for arithmetic coding come with frames that are refused.
             0xc4 | 0xc8 | 0xcc => {}
@@ -117,7 +150,7 @@ fn jpeg_size(mut rest: &[u8]) -> Result<[u32; 2], PictureError> {
             }
             0xda => {
                 scans += 1;
-                if size.is_none() {
+                if header.is_none() {
                     return Err(BROKEN);
                 }
                 if scans > MAX_SCANS {
@@ -129,7 +162,7 @@ fn jpeg_size(mut rest: &[u8]) -> Result<[u32; 2], PictureError> {
         let length = word(0)?.max(2) as usize;
         match rest.get(length..) {
             Some(after) => rest = after,
-            None if size.is_some() => return size.ok_or(BROKEN),
+            None if header.is_some() => return header.ok_or(BROKEN),
             None => return Err(BROKEN),
         }
     }

@@ -20,6 +20,7 @@ use crate::render::stage::look::LookTable;
 use crate::render::stage::objects::ObjectTextures;
 use crate::render::stage::programs::StagePrograms;
 use crate::render::stage::rigid::RigidMotions;
+use crate::render::stage::sheet::SheetBuffers;
 use crate::render::stage::skip_grid::{GridInput, SkipGrid};
 use crate::render::stage::templates::TemplateBuffer;
 use crate::render::subject::textures::SubjectTextures;
@@ -51,6 +52,8 @@ pub(crate) struct Scene {
     bodies: BodyTextures,
     look: LookTable,
     objects: ObjectTextures,
+    /// The bent figure, if the subject is one.
+    sheet: Option<SheetBuffers>,
     grid: Option<SkipGrid>,
     /// Bound where there is no skip grid.
     no_grid: (wgpu::Buffer, wgpu::TextureView),
@@ -86,6 +89,9 @@ impl Drop for Scene {
             buffer.destroy();
         }
         self.held.destroy();
+        if let Some(sheet) = &self.sheet {
+            sheet.destroy();
+        }
         if let Some(grid) = &self.grid {
             grid.destroy();
         }
@@ -133,6 +139,7 @@ impl Scene {
             bodies,
             look,
             objects,
+            sheet: None,
             grid,
             no_grid,
             baked: None,
@@ -155,7 +162,16 @@ impl Scene {
         subject: &SubjectTextures,
         (illustration, resources): (&Illustration, &Resources),
     ) -> bool {
+        let flat;
+        let illustration = match subject.plate {
+            Some(_) => {
+                flat = illustration.flat();
+                &flat
+            }
+            None => illustration,
+        };
         self.inputs.update(illustration, resources, subject);
+        let has_other_sheet = self.update_sheet(gpu, subject, resources);
         self.has_segments = subject.info.has_segments;
         self.has_textures = subject.texture_bytes() > 0;
         self.subject = subject.shader;
@@ -204,7 +220,35 @@ impl Scene {
             self.bindings = self.bound().group(gpu, layouts);
         }
         let revision = self.inputs.revision();
-        std::mem::replace(&mut self.revision, revision) != revision
+        let is_other = std::mem::replace(&mut self.revision, revision) != revision;
+        is_other || has_other_sheet
+    }
+
+    /// Takes over a figure that is bent in another way. True if it is.
+    fn update_sheet(
+        &mut self,
+        gpu: &Gpu,
+        subject: &SubjectTextures,
+        resources: &Resources,
+    ) -> bool {
+        let wanted = resources.sheet.as_ref().filter(|_| subject.plate.is_some());
+        let is_there = match (&self.sheet, wanted) {
+            (Some(there), Some(wanted)) => there.sheet.is_same(wanted),
+            (there, wanted) => there.is_none() && wanted.is_none(),
+        };
+        if is_there {
+            return false;
+        }
+        if let Some(there) = self.sheet.take() {
+            there.destroy();
+        }
+        self.sheet = wanted.map(|sheet| SheetBuffers::new(gpu, sheet));
+        true
+    }
+
+    /// The bent figure, if the subject is one and the way in which it is bent is known.
+    pub(crate) fn sheet(&self) -> Option<&SheetBuffers> {
+        self.sheet.as_ref()
     }
 
     fn bound(&self) -> Bound<'_> {
@@ -262,7 +306,10 @@ impl Scene {
 
     /// Box of the deformed object, subject space.
     pub(crate) fn bounds(&self) -> Aabb {
-        *self.inputs.bounds.get()
+        match &self.sheet {
+            Some(sheet) => sheet.sheet.bounds(),
+            None => *self.inputs.bounds.get(),
+        }
     }
 
     /// Linear RGB; w: 1 if there is a background.

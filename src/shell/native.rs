@@ -9,9 +9,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use super::command_line::ReadingFlags;
+use super::figures::read_file;
 use super::files::{Folder, Picked, local, mesh_set};
 use super::loading::{make_subject, read_segments, resolutions, take_segmentations, wanted_file};
-use super::meshes::{make_mesh, read_file};
+use super::meshes::make_mesh;
 use crate::app::{App, LinkChange, Message, SaveFile, SavedTo, Services, Shipped, Start, Ticket};
 use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;

@@ -62,7 +62,8 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
             hatch_spacing_px, hatch_width_px, hatch, hatch_by, stipple_spacing_px, stipple_size_px, stipple, vignette,
             detail, first_row,
         }
-        Resolve { scale, end, background, is_straight }
+        Resolve { scale, end, background, is_straight, is_unlit }
+        Sheet { half_size, texels, viewport, levels }
         Slice {
             subject_from_pixel, background, grey_scale, grey_offset, mode, samples, marked, marked_from, marked_to,
         }

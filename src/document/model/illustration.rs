@@ -1,5 +1,6 @@
 //! The whole illustration: what a document means once its defaults are filled in.
 
+use super::figure::Figure;
 use super::look::{Background, Look, OpacityMode, Transfer, Window};
 use super::mesh::MeshRef;
 use super::object::{ObjectSource, SceneObject};
@@ -42,6 +43,9 @@ pub struct Illustration {
     /// Templates in the order in which they act, switched off ones included. Unknown kinds are left out; a notice names
     /// each.
     pub templates: Vec<PlacedTemplate>,
+    /// How a figure is divided and bent; `None` is a figure as it is ([`Figure::default`]), whether the document has
+    /// the key or not.
+    pub figure: Option<Figure>,
     /// Transfer function, opacity, light and background.
     pub look: Look,
     /// The view that the document opens with.
@@ -72,6 +76,7 @@ impl Illustration {
             recipes: Vec::new(),
             objects: Vec::new(),
             templates: Vec::new(),
+            figure: None,
             look: Look {
                 transfer: Transfer::Auto,
                 window: Window::Auto,
@@ -114,6 +119,46 @@ impl Illustration {
         self.templates.iter().any(is_it)
     }
 
+    /// True if the document tells that its subject is a figure: by a built-in figure, or by a `figure` beside a file.
+    pub fn is_of_figure(&self) -> bool {
+        let is_figure = self.subject.is_figure();
+        is_figure.unwrap_or(self.figure.is_some())
+    }
+
+    /// This illustration once it is known that its subject is a figure: seen from the front of its plane. One whose
+    /// document tells that is as it is.
+    pub fn of_figure(self) -> Self {
+        if self.is_of_figure() {
+            return self;
+        }
+        let camera = Camera {
+            rotate: self.camera.rotate * FIGURE_FRONT,
+            ..self.camera
+        };
+        Self {
+            figure: Some(Figure::default()),
+            camera,
+            ..self
+        }
+    }
+
+    /// The illustration of a figure: without what only subjects in space are drawn with.
+    pub fn flat(&self) -> Self {
+        let default = Self::document_default().look;
+        Self {
+            objects: Vec::new(),
+            templates: Vec::new(),
+            recipes: Vec::new(),
+            look: Look {
+                background: self.look.background,
+                scale_bar: self.look.scale_bar,
+                sides: self.look.sides,
+                ..default
+            },
+            ..self.clone()
+        }
+    }
+
     /// The object of a name: the first, if there are several.
     pub fn object(&self, name: &str) -> Option<&SceneObject> {
         self.objects.iter().find(|object| object.name == name)
@@ -130,6 +175,15 @@ impl Illustration {
             .map(|(index, caption)| (index, caption.text.trim()))
     }
 }
+
+/// Turns the camera of a subject in space that is not turned to that of a figure that is not turned: it looks from +z
+/// towards -z, +y is up, and +x to the right. Half a turn about the axis between y and z.
+pub const FIGURE_FRONT: Quat = Quat::from_xyzw(
+    0.0,
+    std::f32::consts::FRAC_1_SQRT_2,
+    std::f32::consts::FRAC_1_SQRT_2,
+    0.0,
+);
 
 /// A perspective camera that looks at a target.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -21,7 +21,7 @@ pub use crate::displace::{
     TemplateSpec,
 };
 pub use curve::Curve;
-pub use illustration::{Camera, Caption, Control, ControlRange, Illustration, Step};
+pub use illustration::{Camera, Caption, Control, ControlRange, FIGURE_FRONT, Illustration, Step};
 pub use light::Light;
 pub use look::{
     Background, Look, OpacityMode, SegmentLook, SegmentSurface, Transfer, TransferPoint, Window,

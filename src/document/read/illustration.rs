@@ -107,6 +107,7 @@ impl Reader {
             steps.push(self.step(&object?)?);
         }
         Ok(Illustration {
+            figure: None,
             title: root.string("title")?,
             legend: root.string("caption")?,
             alt: self.limited_text(&root, "alt")?,

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use super::context::ContextSheet;
@@ -15,19 +17,20 @@ use crate::figure::mesh::Mesh;
 use crate::figure::notice::Notice;
 
 /// A figure that can be bent: its mesh with all that does not depend on where handles go. Matrices are factored here,
-/// once for the mesh, the rigidities, what handles hold and the context's points and strength; a drag needs none.
+/// once for the mesh, the rigidities, what handles hold and the context's points and strength; a drag needs none. Cheap
+/// to clone.
 #[derive(Clone, Debug)]
-pub struct Rig<'m> {
-    pub(crate) mesh: &'m Mesh,
+pub struct Rig {
+    pub(crate) mesh: Arc<Mesh>,
     /// Contours and likeness, if there are any.
-    pub(crate) shape: Option<Shape>,
-    pub(crate) pose: Stage,
+    pub(crate) shape: Option<Arc<Shape>>,
+    pub(crate) pose: Arc<Stage>,
 }
 
 /// The stage in which regions take other outlines, and the context other proportions.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
-    pub(crate) stage: Stage,
+    pub(crate) stage: Arc<Stage>,
     /// Per contour that is used its number in the document and the vertices of its outline.
     pub(crate) outlines: Vec<(usize, Vec<u32>)>,
 }
@@ -49,10 +52,10 @@ pub struct Posed {
 
 /// A pose that follows handles while they are dragged. Each frame goes on from the last one's turns.
 #[derive(Clone, Debug)]
-pub struct Drag<'r> {
-    rig: &'r Rig<'r>,
+pub struct Drag {
+    rig: Rig,
     base: Vec<DVec2>,
-    state: State<'r>,
+    state: State,
 }
 
 /// Where a vertex is taken, with its turn and scale.
@@ -62,10 +65,10 @@ fn aimed(target: &Target) -> Aimed {
     (target.place, target.turn, libm::exp(target.log_scale))
 }
 
-impl<'m> Rig<'m> {
+impl Rig {
     /// Finds what handles hold and factors the matrices. The figure comes from a document that was read,
     /// and the mesh is made of its regions.
-    pub fn new(mesh: &'m Mesh, figure: &Figure, notices: &mut Vec<Notice>) -> Self {
+    pub fn new(mesh: &Arc<Mesh>, figure: &Figure, notices: &mut Vec<Notice>) -> Self {
         let parts = Parts::new(mesh, figure, &[], notices);
         let holding = Holding::new(mesh, &parts, figure, notices);
         let context = ContextSheet::new(mesh, figure, notices);
@@ -73,22 +76,32 @@ impl<'m> Rig<'m> {
         let keeps = figure.context.as_ref().is_some_and(|context| context.keep);
         let context = context.filter(|_| keeps);
         Self {
-            pose: Stage::new(
+            pose: Arc::new(Stage::new(
                 mesh,
                 parts,
                 holding,
                 context,
                 figure.propagation,
                 figure.reach,
-            ),
-            mesh,
-            shape,
+            )),
+            mesh: Arc::clone(mesh),
+            shape: shape.map(Arc::new),
         }
+    }
+
+    /// The mesh that it bends.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
     }
 
     /// The pose that a figure's handles make: turns are found to the end. The figure may differ from the one that the
     /// rig was made for in where handles go, and in amounts.
     pub fn posed(&self, figure: &Figure, notices: &mut Vec<Notice>) -> Posed {
+        self.settled(figure, notices).0
+    }
+
+    /// As [`Rig::posed`], with the pose from which a drag goes on.
+    pub fn settled(&self, figure: &Figure, notices: &mut Vec<Notice>) -> (Posed, Drag) {
         let (base, shape_found) = self.base(figure);
         let moved = self.moved(figure, &base, notices);
         let mut state = self.propagated(&base, &moved);
@@ -100,13 +113,15 @@ impl<'m> Rig<'m> {
         if folded > 0 {
             notices.push(Notice::Folded { count: folded });
         }
-        Posed {
+        let posed = Posed {
             context_found: state.context_found().or(shape_found),
-            places: state.places,
-            base,
+            places: state.places.clone(),
+            base: base.clone(),
             rounds,
             folded,
-        }
+        };
+        let rig = self.clone();
+        (posed, Drag { rig, base, state })
     }
 
     /// Where a figure's handles take what they hold.
@@ -117,7 +132,7 @@ impl<'m> Rig<'m> {
         notices: &mut Vec<Notice>,
     ) -> Moved {
         Moved::new(
-            self.mesh,
+            &self.mesh,
             &self.pose.parts,
             &self.pose.holding,
             figure,
@@ -127,7 +142,7 @@ impl<'m> Rig<'m> {
     }
 
     /// The pose with turns as they spread from the handles.
-    fn propagated<'s>(&'s self, base: &[DVec2], moved: &Moved) -> State<'s> {
+    fn propagated(&self, base: &[DVec2], moved: &Moved) -> State {
         let kept = self
             .pose
             .context
@@ -140,7 +155,7 @@ impl<'m> Rig<'m> {
     /// context in it.
     fn base(&self, figure: &Figure) -> (Vec<DVec2>, Option<[f64; 2]>) {
         match &self.shape {
-            Some(shape) => shape.shaped(self.mesh, figure),
+            Some(shape) => shape.shaped(&self.mesh, figure),
             None => (self.mesh.vertices.clone(), None),
         }
     }
@@ -155,11 +170,11 @@ impl<'m> Rig<'m> {
     }
 
     /// Begins to follow handles, from where they are.
-    pub fn drag(&'m self, figure: &Figure) -> Drag<'m> {
+    pub fn drag(&self, figure: &Figure) -> Drag {
         let (base, _) = self.base(figure);
         let moved = self.moved(figure, &base, &mut Vec::new());
         Drag {
-            rig: self,
+            rig: self.clone(),
             state: self.propagated(&base, &moved),
             base,
         }
@@ -182,8 +197,8 @@ impl<'m> Rig<'m> {
         figure: &Figure,
         base: &[DVec2],
     ) -> Option<(DVec2, Vec<Aimed>)> {
-        let line = line_of(self.mesh, grip, figure, base)?;
-        let first = grip.anchors.first()?.carried(self.mesh, base);
+        let line = line_of(&self.mesh, grip, figure, base)?;
+        let first = grip.anchors.first()?.carried(&self.mesh, base);
         let target = |vertex: &u32| aimed(&line.target(base[*vertex as usize]));
         Some((
             line.target(first).place,
@@ -238,7 +253,7 @@ impl<'m> Rig<'m> {
     }
 }
 
-impl Drag<'_> {
+impl Drag {
     /// Goes to where a figure's handles are, with so many rounds.
     pub fn follow(&mut self, figure: &Figure, rounds: u32) {
         let moved = self.rig.moved(figure, &self.base, &mut Vec::new());
@@ -305,7 +320,14 @@ impl Shape {
         let holding = Holding::shared_out(mesh, &parts, outlines.iter().map(grip).collect());
         let context = context.filter(|_| has_likeness).cloned();
         Some(Self {
-            stage: Stage::new(mesh, parts, holding, context, figure.propagation, 0.0),
+            stage: Arc::new(Stage::new(
+                mesh,
+                parts,
+                holding,
+                context,
+                figure.propagation,
+                0.0,
+            )),
             outlines,
         })
     }

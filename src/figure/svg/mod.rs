@@ -8,10 +8,12 @@ mod error;
 mod limits;
 mod paint;
 mod path;
+mod raster;
 mod read;
 mod write;
 
 pub use error::SvgError;
 pub use path::{Outline, Segment};
+pub use raster::{MAX_DRAWN_SIDE, drawn_picture};
 pub use read::{Drawing, Shape};
 pub use write::{Label, bent};

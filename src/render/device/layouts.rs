@@ -78,6 +78,8 @@ const STYLE: Group = &[
     Holds::Numbers(D2),
 ];
 const SLICE: Group = &[Holds::Uniform];
+/// Where the plate of a figure lies, and its pixels.
+const SHEET: Group = &[Holds::Uniform, Holds::Exact(D2)];
 
 /// The layouts of all groups, and the sampler that goes with them. Built once per device.
 #[derive(Debug)]
@@ -96,6 +98,8 @@ pub(crate) struct Layouts {
     pub resolve: wgpu::BindGroupLayout,
     /// Group 3 of the pass that draws a style.
     pub style: wgpu::BindGroupLayout,
+    /// Group 3 of the pass that draws a figure.
+    pub sheet: wgpu::BindGroupLayout,
     /// Group 3 of slices.
     pub slice: wgpu::BindGroupLayout,
     /// Stands for a group that a pass does not bind.
@@ -107,13 +111,14 @@ pub(crate) struct Layouts {
 impl Layouts {
     pub(crate) fn new(gpu: &Gpu) -> Self {
         Self {
-            frame: group_layout(gpu, "frame", FRAME),
+            frame: group_layout_from(gpu, "frame", 0, FRAME, PLACED),
             subject: group_layout(gpu, "subject", SUBJECT),
             scene: group_layout(gpu, "scene", SCENE),
             baked: group_layout(gpu, "baked", BAKED),
-            rays: group_layout_from(gpu, "rays", RAYS_BINDING, RAYS),
+            rays: group_layout_from(gpu, "rays", RAYS_BINDING, RAYS, DRAWN),
             resolve: group_layout(gpu, "resolve", RESOLVE),
             style: group_layout(gpu, "style", STYLE),
+            sheet: group_layout_from(gpu, "sheet", 0, SHEET, PLACED),
             slice: group_layout(gpu, "slice", SLICE),
             empty: group_layout(gpu, "empty", &[]),
             linear_sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
@@ -141,16 +146,27 @@ pub(crate) fn pipeline_layout(
         })
 }
 
+/// Bound where pixels are coloured.
+const DRAWN: wgpu::ShaderStages = wgpu::ShaderStages::FRAGMENT;
+/// Bound where corners of triangles are placed too.
+const PLACED: wgpu::ShaderStages = wgpu::ShaderStages::VERTEX_FRAGMENT;
+
 fn group_layout(gpu: &Gpu, label: &str, group: Group) -> wgpu::BindGroupLayout {
-    group_layout_from(gpu, label, 0, group)
+    group_layout_from(gpu, label, 0, group, DRAWN)
 }
 
-fn group_layout_from(gpu: &Gpu, label: &str, first: u32, group: Group) -> wgpu::BindGroupLayout {
+fn group_layout_from(
+    gpu: &Gpu,
+    label: &str,
+    first: u32,
+    group: Group,
+    visibility: wgpu::ShaderStages,
+) -> wgpu::BindGroupLayout {
     let entries: Vec<_> = (first..)
         .zip(group)
         .map(|(binding, holds)| wgpu::BindGroupLayoutEntry {
             binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
+            visibility,
             ty: holds.binding_type(),
             count: None,
         })

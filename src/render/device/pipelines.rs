@@ -17,7 +17,37 @@ pub(crate) struct PipelineParts<'a> {
     pub blend: Option<wgpu::BlendState>,
 }
 
+/// Where corners of triangles come from, for a pipeline that draws triangles of its own.
+pub(crate) struct VertexParts<'a> {
+    /// The entry point that places a corner.
+    pub entry: &'a str,
+    /// Bytes from one corner to the next.
+    pub stride: u64,
+    /// What a corner holds.
+    pub attributes: &'a [wgpu::VertexAttribute],
+}
+
+/// A pipeline that draws over the whole target.
 pub(crate) fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
+    render_pipeline_of(gpu, parts, None)
+}
+
+/// A pipeline that draws triangles; without corners one that covers the whole target.
+pub(crate) fn render_pipeline_of(
+    gpu: &Gpu,
+    parts: &PipelineParts<'_>,
+    corners: Option<&VertexParts<'_>>,
+) -> wgpu::RenderPipeline {
+    let buffers: Vec<_> = corners
+        .iter()
+        .map(|corners| {
+            Some(wgpu::VertexBufferLayout {
+                array_stride: corners.stride,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: corners.attributes,
+            })
+        })
+        .collect();
     let options = wgpu::PipelineCompilationOptions {
         constants: parts.constants,
         ..Default::default()
@@ -36,9 +66,9 @@ pub(crate) fn render_pipeline(gpu: &Gpu, parts: &PipelineParts<'_>) -> wgpu::Ren
             layout: Some(parts.layout),
             vertex: wgpu::VertexState {
                 module: parts.module,
-                entry_point: Some("cover"),
+                entry_point: Some(corners.map_or("cover", |corners| corners.entry)),
                 compilation_options: options.clone(),
-                buffers: &[],
+                buffers: &buffers,
             },
             primitive: wgpu::PrimitiveState::default(),
             depth_stencil: None,

@@ -64,6 +64,8 @@ pub enum ProgramId {
     Slice,
     /// Slices, where tissue is kept.
     SliceAligned,
+    /// A bent figure.
+    Sheet,
     /// An illustrator's look over a traced picture.
     Style,
     /// From the accumulated picture to the one that is shown.
@@ -340,6 +342,7 @@ shader_files![
     "bind/baked.wgsl",
     "bind/rays.wgsl",
     "bind/slice.wgsl",
+    "bind/sheet.wgsl",
     "bind/style.wgsl",
     "bind/kept.wgsl",
     "bind/distance_job.wgsl",
@@ -410,6 +413,7 @@ shader_files![
     "pass/rigid.wgsl",
     "pass/shares.wgsl",
     "pass/slice.wgsl",
+    "pass/sheet.wgsl",
     "pass/style.wgsl",
     "style/directions.wgsl",
     "style/outlines.wgsl",
@@ -579,6 +583,18 @@ pub const PROGRAMS: &[Program] = &[
             ("cover", Stage::Vertex),
             ("draw", Stage::Fragment),
             ("read", Stage::Fragment),
+        ],
+    },
+    Program {
+        id: ProgramId::Sheet,
+        name: "sheet",
+        pass: "pass/sheet.wgsl",
+        stand_in: None,
+        entries: &[
+            ("place_corner", Stage::Vertex),
+            ("cover", Stage::Vertex),
+            ("draw_sheet", Stage::Fragment),
+            ("lay", Stage::Fragment),
         ],
     },
     Program {

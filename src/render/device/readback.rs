@@ -103,9 +103,13 @@ impl Future for Readback {
 type Reading<T> = dyn Fn(&[u8]) -> T + Send + Sync;
 
 /// What bytes mean that are on their way back from the GPU. Await it, or ask once per frame.
-pub struct Answer<T> {
-    reading: Readback,
-    read: Box<Reading<T>>,
+pub struct Answer<T>(AnswerState<T>);
+
+enum AnswerState<T> {
+    /// On its way.
+    Asked(Readback, Box<Reading<T>>),
+    /// Nobody had to be asked; `None` once it was handed out.
+    Known(Option<T>),
 }
 
 impl<T> Answer<T> {
@@ -114,34 +118,51 @@ impl<T> Answer<T> {
         reading: Readback,
         read: impl Fn(&[u8]) -> T + Send + Sync + 'static,
     ) -> Self {
-        Self {
-            reading,
-            read: Box::new(read),
-        }
+        Self(AnswerState::Asked(reading, Box::new(read)))
+    }
+
+    /// An answer for which the GPU is not asked.
+    pub(crate) fn known(answer: T) -> Self {
+        Self(AnswerState::Known(Some(answer)))
     }
 
     /// The answer if it has come; does not wait. Hands it out once.
     pub fn poll_now(&mut self) -> Option<Result<T, RenderError>> {
-        let bytes = self.reading.poll_now()?;
-        Some(bytes.map(|bytes| (self.read)(&bytes)))
+        match &mut self.0 {
+            AnswerState::Asked(reading, read) => {
+                let bytes = reading.poll_now()?;
+                Some(bytes.map(|bytes| read(&bytes)))
+            }
+            AnswerState::Known(answer) => answer.take().map(Ok),
+        }
     }
 }
 
-impl<T> Future for Answer<T> {
+impl<T: Unpin> Future for Answer<T> {
     type Output = Result<T, RenderError>;
 
     fn poll(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Self::Output> {
-        let bytes = Pin::new(&mut self.reading).poll(context);
-        bytes.map(|bytes| bytes.map(|bytes| (self.read)(&bytes)))
+        match &mut self.0 {
+            AnswerState::Asked(reading, read) => {
+                let bytes = Pin::new(reading).poll(context);
+                bytes.map(|bytes| bytes.map(|bytes| read(&bytes)))
+            }
+            AnswerState::Known(answer) => match answer.take() {
+                Some(answer) => Poll::Ready(Ok(answer)),
+                // A future that has given its answer is not polled again.
+                None => Poll::Pending,
+            },
+        }
     }
 }
 
 impl<T> std::fmt::Debug for Answer<T> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter
-            .debug_tuple("Answer")
-            .field(&self.reading)
-            .finish()
+        let mut shown = formatter.debug_tuple("Answer");
+        if let AnswerState::Asked(reading, _) = &self.0 {
+            shown.field(reading);
+        }
+        shown.finish()
     }
 }
 

@@ -50,6 +50,11 @@ impl Follower {
         scene: &Scene,
         points: &[Vec3],
     ) -> PendingPlaces {
+        if subject.plate.is_some() {
+            let sheet = scene.sheet().map(|buffers| &buffers.sheet);
+            let place = |point: &Vec3| sheet.and_then(|sheet| sheet.seen(*point));
+            return Answer::known(points.iter().map(place).collect());
+        }
         let key = scene.key();
         let made = || pipelines(gpu, &key, subject.shader);
         let [search, settle] = self.0.get(key, made);

@@ -5,6 +5,7 @@ use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
 use crate::render::device::textures::{PICK_FORMAT, Target, read_texture, row_pitch};
 use crate::render::pack::raycast_key::Finds;
+use glam::Vec2;
 
 /// What each pixel of a picture shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,6 +26,9 @@ const TEXEL: usize = 16;
 
 /// Marches one ray per pixel, through its middle, and reads back what each found.
 pub(super) async fn identify(job: &PictureJob) -> Result<Sighting, RenderError> {
+    if job.subject.plate.is_some() {
+        return Ok(identify_sheet(job));
+    }
     let gpu = &job.gpu;
     let target = Target::new(gpu, "segments", job.size, PICK_FORMAT);
     job.march(
@@ -61,4 +65,24 @@ pub(super) async fn identify(job: &PictureJob) -> Result<Sighting, RenderError> 
         size_px: job.size,
         labels: labels.collect(),
     })
+}
+
+/// What each pixel shows of a figure: labels count its regions from 1.
+fn identify_sheet(job: &PictureJob) -> Sighting {
+    let [width, height] = job.size;
+    let sheet = job.scene.sheet().map(|buffers| &buffers.sheet);
+    let label = |(column, row): (u32, u32)| {
+        let (origin, dir) = job
+            .view
+            .ray(Vec2::new(column as f32 + 0.5, row as f32 + 0.5));
+        let place = origin - origin.z / dir.z * dir;
+        let (triangle, _) = sheet?.back(place.truncate())?;
+        let region = sheet?.mesh.region_of.get(triangle)?;
+        Some(region + 1)
+    };
+    let pixels = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
+    Sighting {
+        size_px: job.size,
+        labels: pixels.map(label).collect(),
+    }
 }

@@ -17,6 +17,7 @@ pub(crate) mod raycast;
 pub(crate) mod renderer;
 pub(crate) mod resolve;
 pub(crate) mod rows;
+pub(crate) mod sheet;
 pub(crate) mod slice;
 pub(crate) mod studio;
 pub(crate) mod style;

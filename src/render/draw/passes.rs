@@ -2,6 +2,7 @@ use super::follow::Follower;
 use super::object::ObjectProbes;
 use super::raycast::RaycastPasses;
 use super::resolve::ResolvePass;
+use super::sheet::SheetPass;
 use super::slice::SlicePasses;
 use super::style::StylePass;
 use crate::data::Resources;
@@ -20,6 +21,7 @@ pub(crate) struct Passes {
     pub stages: StagePrograms,
     pub raycast: RaycastPasses,
     pub style: StylePass,
+    pub sheet: SheetPass,
     pub resolve: ResolvePass,
     pub slices: SlicePasses,
     pub follower: Follower,
@@ -38,6 +40,7 @@ impl Passes {
             stages: StagePrograms::new(gpu),
             raycast: RaycastPasses::new(gpu, &layouts),
             style: StylePass::default(),
+            sheet: SheetPass::default(),
             resolve: ResolvePass::new(gpu, &layouts),
             slices: SlicePasses::new(gpu, &layouts),
             follower: Follower::default(),

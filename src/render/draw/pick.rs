@@ -2,6 +2,7 @@
 
 use super::passes::Passes;
 use super::raycast::{March, encode_march, frame_group, rays_group};
+use crate::data::Sheet;
 use crate::render::device::bindings::encoder;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::readback::{Answer, Readback};
@@ -62,6 +63,41 @@ fn read_pick(bytes: &[u8], has_labels: bool, objects: &[usize]) -> Option<Pick> 
 fn numbered(number: f32, objects: &[usize]) -> Option<usize> {
     let drawn = (number as usize).checked_sub(1)?;
     objects.get(drawn).copied()
+}
+
+/// What a ray (origin, unit direction) meets of a figure, which lies in the plane z = 0.
+fn picked(sheet: &Option<&Sheet>, (origin, dir): (Vec3, Vec3)) -> Option<Pick> {
+    let depth = -origin.z / dir.z;
+    if !(depth.is_finite() && depth > 0.0) {
+        return None;
+    }
+    let place = origin + depth * dir;
+    let (_, at_rest) = (*sheet)?.back(place.truncate())?;
+    Some(Pick {
+        pos_in_subject: place.truncate().extend(0.0),
+        normal: Vec3::Z * origin.z.signum(),
+        pos_in_rest: at_rest.extend(0.0),
+        value: 0.0,
+        segment: None,
+        depth,
+        object: None,
+    })
+}
+
+/// Where a ray meets a figure.
+fn event(sheet: &Option<&Sheet>, ray: (Vec3, Vec3)) -> Option<RayEvent> {
+    let pick = picked(sheet, ray)?;
+    Some(RayEvent {
+        distance: pick.depth,
+        meeting: match pick.normal.z > 0.0 {
+            true => Meeting::Surface,
+            false => Meeting::Inside,
+        },
+        segment: None,
+        normal: pick.normal,
+        pos_in_rest: pick.pos_in_rest,
+        albedo: Vec3::ONE,
+    })
 }
 
 /// How far away the surface is under each of several pixels, on its way back. One item per pixel: the distance from the
@@ -172,6 +208,9 @@ pub(crate) struct PickScene<'a> {
 impl PickScene<'_> {
     /// Marches one ray and starts reading what it found.
     pub(crate) fn pick(&self, pixel: Vec2) -> PendingPick {
+        if let Some(sheet) = self.sheet() {
+            return Answer::known(picked(&sheet, self.view.ray(pixel)));
+        }
         let has_labels = self.subject.has_segments();
         let read = self.read(self.view, &[self.view.ray(pixel)], 4, Finds::Pick);
         let objects = self.scene.objects_drawn().to_vec();
@@ -182,6 +221,10 @@ impl PickScene<'_> {
     /// least one pixel, and no more than a texture has rows.
     pub(crate) fn depths(&self, pixels: &[Vec2]) -> PendingDepths {
         let rays: Vec<(Vec3, Vec3)> = pixels.iter().map(|pixel| self.view.ray(*pixel)).collect();
+        if let Some(sheet) = self.sheet() {
+            let depth = |ray: &(Vec3, Vec3)| picked(&sheet, *ray).map(|pick| pick.depth);
+            return Answer::known(rays.iter().map(depth).collect());
+        }
         let read = self.read(self.view, &rays, 1, Finds::Pick);
         Answer::new(read, read_depths)
     }
@@ -189,12 +232,21 @@ impl PickScene<'_> {
     /// Marches rays of subject space (origin, unit direction) and starts reading where each turns more than half
     /// opaque. There has to be at least one, and no more than a texture has rows.
     pub(crate) fn events(&self, rays: &[(Vec3, Vec3)]) -> PendingEvents {
+        if let Some(sheet) = self.sheet() {
+            return Answer::known(rays.iter().map(|ray| event(&sheet, *ray)).collect());
+        }
         let view = rays
             .first()
             .map_or(*self.view, |&(origin, dir)| View::along(origin, dir));
         let objects = self.scene.objects_drawn().to_vec();
         let read = self.read(&view, rays, 4, Finds::Event);
         Answer::new(read, move |bytes| read_events(bytes, &objects))
+    }
+
+    /// The bent figure, if the subject is one: nobody has to be asked about it.
+    fn sheet(&self) -> Option<Option<&Sheet>> {
+        let sheet = self.scene.sheet().map(|buffers| &buffers.sheet);
+        self.subject.plate.as_ref().map(|_| sheet)
     }
 
     /// The first `texels` of the four that are found, a row per ray. Steps are as fine as the view asks for.

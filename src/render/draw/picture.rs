@@ -2,6 +2,7 @@ use super::image::{Image, read_picture};
 use super::passes::Passes;
 use super::raycast::{March, encode_march, frame_group, sample_weight};
 use super::rows::{MOST_PX, Rows, Taker};
+use super::sheet::DrawnSheet;
 use super::style::Styled;
 use super::tiles::tiles_of;
 use super::traced::Traced;
@@ -17,6 +18,7 @@ use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::pack::style::style_margin;
 use crate::render::pack::view::View;
 use crate::render::scene::Scene;
+use crate::render::subject::plate::PlateTexture;
 use crate::render::subject::textures::SubjectTextures;
 use std::sync::Arc;
 
@@ -160,6 +162,30 @@ impl PictureJob {
         gpu.queue.submit([encoder.finish()]);
     }
 
+    /// Mixes a sample of a band of a figure into the samples before.
+    fn draw_sheet(
+        &self,
+        band: Band,
+        index: u32,
+        target: &wgpu::TextureView,
+        (layer, plate): (&Target, &PlateTexture),
+    ) {
+        let (gpu, layouts) = (&self.gpu, &self.passes.layouts);
+        let mut encoder = encoder(gpu);
+        let drawn = DrawnSheet {
+            target,
+            buffers: self.scene.sheet(),
+            plate,
+            frame: &frame_group(gpu, layouts, &self.frame(band.first, index)),
+            size: band.size,
+            tiles: &[[0, 0, band.size[0], band.size[1]]],
+            weight: sample_weight(index),
+        };
+        let pass = &self.passes.sheet;
+        pass.encode(gpu, layouts, &mut encoder, layer, &drawn);
+        gpu.queue.submit([encoder.finish()]);
+    }
+
     /// Draws it, from the start each time, band by band from the top, and hands each band over once it is done: no more
     /// than one is in memory, however large the picture is. Each pixel comes out the same to the bit whatever the
     /// bands' height is.
@@ -186,6 +212,8 @@ impl PictureJob {
         let style = self.scene.style();
         let margin = style.map_or(0, |style| style_margin(style, self.size));
         let traced = style.map(|_| Traced::new(&self.gpu, [width, rows + 2 * margin]));
+        let plate = self.subject.plate.as_ref();
+        let layer = plate.map(|_| Target::new(&self.gpu, "figure", band_size, LINEAR_FORMAT));
         let marched = |band: &Band| band.with_margin(margin, height);
         let all_rows: u32 = bands.clone().map(|band| marched(&band).size[1]).sum();
         let all = f64::from(width) * f64::from(all_rows) * f64::from(samples);
@@ -193,6 +221,14 @@ impl PictureJob {
         for band in bands {
             let first = band.first;
             for index in 0..samples {
+                if let (Some(plate), Some(layer)) = (plate, &layer) {
+                    self.draw_sheet(band, index, &linear.view, (layer, plate));
+                    WorkDone::start(&self.gpu).await?;
+                    self.gpu.check()?;
+                    drawn += u64::from(width * band.size[1]);
+                    taker.progress((drawn as f64 / all) as f32)?;
+                    continue;
+                }
                 let views = traced.as_ref().map(Traced::views);
                 let plain = [&linear.view];
                 let targets = views.as_ref().map_or(plain.as_slice(), |views| views);
@@ -213,7 +249,8 @@ impl PictureJob {
                 end: [1.0; 2],
                 background: self.scene.background(),
                 is_straight: 1,
-                padding: [0; 3],
+                is_unlit: u32::from(plate.is_some()),
+                padding: [0; 2],
             };
             self.passes.resolve.encode(
                 &self.gpu,

@@ -1,6 +1,7 @@
 //! The textures that a window's picture is drawn into.
 
 use super::raycast::{March, encode_march, frame_group};
+use super::sheet::DrawnSheet;
 use super::studio::Studio;
 use super::style::Styled;
 use super::tiles::tiles_of;
@@ -11,6 +12,7 @@ use crate::render::device::textures::{LINEAR_FORMAT, OUTPUT_FORMAT, Target};
 use crate::render::pack::gpu_types::{Frame, Resolve};
 use crate::render::pack::raycast_key::RaycastKey;
 use crate::render::scene::Scene;
+use crate::render::subject::plate::PlateTexture;
 use std::cell::OnceCell;
 
 /// Most pixels of a drawn picture. A screen with more pixels shows a smaller picture, enlarged. A 4K screen has fewer
@@ -25,6 +27,8 @@ pub(crate) struct Targets {
     pub output: Target,
     /// What the pixels show, once a style wants to know it.
     traced: OnceCell<Traced>,
+    /// One sample of a figure, once there is one.
+    layer: OnceCell<Target>,
     /// Tiles that cover the picture, in the order in which they are drawn.
     pub tiles: Vec<[u32; 4]>,
 }
@@ -59,6 +63,7 @@ impl Targets {
             linear: Target::new(gpu, "linear", size, LINEAR_FORMAT),
             output: Target::new(gpu, "output", size, OUTPUT_FORMAT),
             traced: OnceCell::new(),
+            layer: OnceCell::new(),
             tiles: tiles_of(size),
         }
     }
@@ -70,6 +75,9 @@ impl Targets {
         if let Some(traced) = self.traced.get() {
             traced.destroy();
         }
+        if let Some(layer) = self.layer.get() {
+            layer.texture.destroy();
+        }
     }
 
     /// Hands a drawing to the GPU.
@@ -77,6 +85,11 @@ impl Targets {
         let (gpu, passes) = (&studio.gpu, &studio.passes);
         let mut encoder = encoder(gpu);
         let frame = frame_group(gpu, &passes.layouts, &shot.frame);
+        if let Some(plate) = &studio.subject.plate {
+            self.draw_sheet(studio, scene, (shot, plate), (&mut encoder, &frame));
+            self.resolve(studio, scene, shot, shot.shown, encoder);
+            return;
+        }
         let traced = scene.style().map(|style| {
             let traced = self.traced.get_or_init(|| Traced::new(gpu, self.size));
             (style, traced)
@@ -121,10 +134,49 @@ impl Targets {
                 .style
                 .encode(gpu, &passes.layouts, &mut encoder, &styled);
         }
+        self.resolve(studio, scene, shot, shown, encoder);
+    }
+
+    /// Adds a sample of a figure; of one that has no sheet yet, an empty one.
+    fn draw_sheet(
+        &self,
+        studio: &Studio,
+        scene: &Scene,
+        (shot, plate): (&Shot<'_>, &PlateTexture),
+        (encoder, frame): (&mut wgpu::CommandEncoder, &wgpu::BindGroup),
+    ) {
+        let (gpu, passes) = (&studio.gpu, &studio.passes);
+        let make = || Target::new(gpu, "figure", self.size, LINEAR_FORMAT);
+        let layer = self.layer.get_or_init(make);
+        let drawn = DrawnSheet {
+            target: &self.linear.view,
+            buffers: scene.sheet(),
+            plate,
+            frame,
+            size: shot.viewport,
+            tiles: shot.tiles,
+            weight: shot.weight,
+        };
+        passes
+            .sheet
+            .encode(gpu, &passes.layouts, encoder, layer, &drawn);
+    }
+
+    /// Shows what is accumulated, and hands all to the GPU.
+    fn resolve(
+        &self,
+        studio: &Studio,
+        scene: &Scene,
+        shot: &Shot<'_>,
+        shown: &[[u32; 4]],
+        mut encoder: wgpu::CommandEncoder,
+    ) {
+        let (gpu, passes) = (&studio.gpu, &studio.passes);
         let resolve = Resolve {
             scale: shot.scale,
             end: shot.end,
             background: scene.background(),
+            is_unlit: u32::from(studio.subject.plate.is_some()),
             ..Default::default()
         };
         passes.resolve.encode(

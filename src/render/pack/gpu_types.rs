@@ -825,8 +825,38 @@ pub struct Resolve {
     pub background: [f32; 4],
     /// 1 for straight alpha.
     pub is_straight: u32,
+    /// 1 to leave bright light as it is.
+    pub is_unlit: u32,
     /// To the end of the row.
-    pub padding: [u32; 3],
+    pub padding: [u32; 2],
+}
+
+/// Where the plate of a figure lies.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Sheet {
+    /// Half of its width and height, subject units.
+    pub half_size: [f32; 2],
+    /// Width and height, texels.
+    pub texels: [f32; 2],
+    /// Width and height of the used part of the target, pixels.
+    pub viewport: [f32; 2],
+    /// The plate and its smaller copies.
+    pub levels: u32,
+    /// To the end of the row.
+    pub padding: u32,
+}
+
+/// A corner of a figure's triangles, as the vertex shader reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct SheetCorner {
+    /// Where it is at rest, subject space.
+    pub rest: [f32; 2],
+    /// Where it is, subject space.
+    pub place: [f32; 2],
+    /// Straight linear colour in place of the plate's; alpha 0: the plate's.
+    pub color: [f32; 4],
 }
 
 /// A flat cut through the deformed object.

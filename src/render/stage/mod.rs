@@ -11,5 +11,6 @@ pub(crate) mod parts;
 pub(crate) mod programs;
 pub(crate) mod rigid;
 pub(crate) mod shares;
+pub(crate) mod sheet;
 pub(crate) mod skip_grid;
 pub(crate) mod templates;

@@ -237,6 +237,7 @@ impl MeshTextures {
             volume_view,
             label_view,
             meshes: Some(Arc::new(self)),
+            plate: None,
             sampler: layouts.linear_sampler.clone(),
             voxels: VoxelFrame::new(field.dims, field.rest_from_voxel),
             label_voxels: Some(VoxelFrame::new(own.dims, field.rest_from_inner_voxel())),

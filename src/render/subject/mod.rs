@@ -2,6 +2,7 @@
 
 pub(crate) mod bricks;
 mod mesh;
+pub(crate) mod plate;
 mod reduce;
 pub(crate) mod textures;
 pub(crate) mod upload;

@@ -1,6 +1,7 @@
 //! A subject on the GPU in the form that every pass reads, whatever the kind of subject.
 
 use super::bricks::{Bricks, LabelSet, WideBricks};
+use super::plate::PlateTexture;
 use crate::data::{FIRST_MESH_LABEL, Segment, SubjectFrame, Surface, SurfaceSegment};
 use crate::math::Aabb;
 use crate::render::device::bindings::entry;
@@ -48,6 +49,8 @@ pub(crate) struct SubjectTextures {
     pub label_view: Arc<HeldView>,
     /// Its meshes, alone or beside a volume.
     pub meshes: Option<Arc<MeshTextures>>,
+    /// The picture of a figure.
+    pub plate: Option<PlateTexture>,
     pub sampler: wgpu::Sampler,
     /// Where the voxels of the scalars lie. On these voxels, or on `label_voxels`, distances to kept tissue are made.
     pub voxels: VoxelFrame,

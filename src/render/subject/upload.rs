@@ -2,6 +2,7 @@
 //! becomes [`SubjectTextures`].
 
 use super::mesh::MeshUpload;
+use super::plate::PlateTexture;
 use super::reduce::reduced_to_fit;
 use super::textures::{MeshTextures, SubjectTextures};
 use super::volume;
@@ -17,6 +18,8 @@ use std::sync::Arc;
 pub(crate) enum Upload {
     Volume(Box<VolumeUpload>),
     Mesh(Box<MeshUpload>),
+    /// A plate is handed over at once.
+    Figure(Box<PlateTexture>),
 }
 
 /// The subject as the device takes it: made coarser where it is too large, with the notice that says so.
@@ -35,7 +38,7 @@ pub(crate) fn fitting(
             }
             None => (subject.clone(), None),
         }),
-        Subject::Mesh(_) => Ok((subject.clone(), None)),
+        Subject::Mesh(_) | Subject::Figure(_) => Ok((subject.clone(), None)),
     }
 }
 
@@ -66,6 +69,7 @@ pub(crate) fn with_segmentation(
         }
         // The segments of a mesh are its parts.
         Subject::Mesh(surface) => Ok(MeshTextures::new(gpu, surface)?.alone(gpu, layouts)),
+        Subject::Figure(plate) => Ok(PlateTexture::new(gpu, plate)?.alone(gpu, layouts)),
     }
 }
 
@@ -82,6 +86,7 @@ impl Upload {
                 space.meshes.as_ref(),
             )?))),
             Subject::Mesh(surface) => Ok(Self::Mesh(Box::new(MeshUpload::new(gpu, surface)?))),
+            Subject::Figure(plate) => Ok(Self::Figure(Box::new(PlateTexture::new(gpu, plate)?))),
         }
     }
 
@@ -90,6 +95,7 @@ impl Upload {
         match self {
             Self::Volume(upload) => upload.progress(),
             Self::Mesh(upload) => upload.progress(),
+            Self::Figure(_) => 1.0,
         }
     }
 
@@ -98,6 +104,7 @@ impl Upload {
         match self {
             Self::Volume(upload) => upload.advance(gpu),
             Self::Mesh(upload) => upload.advance(gpu),
+            Self::Figure(_) => true,
         }
     }
 
@@ -106,6 +113,7 @@ impl Upload {
         match self {
             Self::Volume(upload) => upload.finish(gpu, layouts),
             Self::Mesh(upload) => upload.finish().alone(gpu, layouts),
+            Self::Figure(plate) => plate.alone(gpu, layouts),
         }
     }
 }

@@ -124,6 +124,7 @@ pub(crate) fn assemble(
         volume_view,
         label_view,
         meshes,
+        plate: None,
         sampler: layouts.linear_sampler.clone(),
         voxels: VoxelFrame::new(grid.dims, grid.subject_from_voxel()),
         label_voxels: labels

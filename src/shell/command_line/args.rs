@@ -22,7 +22,7 @@ pub(super) struct Args {
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Common {
-    /// A scan that takes the place of the document's subject.
+    /// A scan, a mesh or a picture that takes the place of the document's subject.
     #[arg(long, global = true, value_name = "FILE")]
     pub(super) subject: Option<PathBuf>,
     /// A displacement field that the document names by its hash; may be given several times.
@@ -86,6 +86,9 @@ pub(super) enum Command {
         /// Adds how deep under the surface of a mesh the material was, subject units; below 0 outside.
         #[arg(long)]
         depth: bool,
+        /// Reads places of a figure at rest instead, and says where they go.
+        #[arg(long, conflicts_with_all = ["depth", "rays"])]
+        forward: bool,
         /// Reads ox,oy,oz,dx,dy,dz lines instead, from FILE or standard input, and prints what each ray meets:
         /// ox,oy,oz,dx,dy,dz,t,x,y,z,nx,ny,nz,sx,sy,sz,what,segment,color.
         #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-",
@@ -105,6 +108,19 @@ pub(super) enum Command {
         /// Samples along the longest side.
         #[arg(long, value_name = "N", default_value_t = 128, value_parser = clap::value_parser!(u32).range(2..=512))]
         size: u32,
+        #[command(flatten)]
+        moment: Moment,
+    },
+    /// Writes a bent figure: its numbers, its shapes or its pixels.
+    ExportFigure {
+        /// Document, link or payload whose figure is written; - for a document on standard input.
+        doc: String,
+        /// The file to write: .json (mesh, handles, places), .svg (the shapes of a drawing, bent), or .png.
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+        /// Pixels along the longest side of a .png; without it those of the source, 2048 of a drawing.
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_PX)))]
+        size: Option<u32>,
         #[command(flatten)]
         moment: Moment,
     },
@@ -140,7 +156,8 @@ pub(super) enum Command {
     },
     /// Says what a data file holds.
     Info {
-        /// The data file: a scan (NIfTI, NRRD, MetaImage, DICOM) or a mesh (OBJ, STL, PLY, GLB).
+        /// The data file: a scan (NIfTI, NRRD, MetaImage, DICOM), a mesh (OBJ, STL, PLY, GLB), or a picture of a figure (PNG,
+        /// JPEG, SVG).
         file: PathBuf,
     },
     /// Lists the displacement templates with parameters, defaults and ranges.

@@ -27,6 +27,9 @@ pub(super) fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
     let (scan, surface) = match given {
         Subject::Mesh(surface) => (generate(SCAN)?, surface),
         scan @ Subject::Space(_) => (scan, built_in_mesh()?),
+        Subject::Figure(_) => {
+            return Err(CliError::Usage("figures are measured without --subject"));
+        }
     };
     let tool = generated(SceneObject::BUILTINS[0], false)?;
     let report = pollster::block_on(crate::render::bench(

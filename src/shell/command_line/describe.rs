@@ -6,6 +6,7 @@ use super::args::Common;
 use super::device::open_gpu;
 use super::error::CliError;
 use super::fields::fields_of;
+use super::figures::with_sheet;
 use super::objects::{Needed, objects_of};
 use super::opening::Opened;
 use super::output::{notice, print};
@@ -55,6 +56,8 @@ pub(super) fn describe(
         if told.is_empty() {
             report_drawing(shown, &resources, &subject);
         }
+        let (shown, resources) = with_sheet(shown.clone(), resources, &subject)?;
+        let shown = &shown;
         let studio = studio.clone().with_resources(resources);
         let sighting = pollster::block_on(studio.identify(shown, SIGHT_PX))?;
         let measured = Measured {

@@ -4,10 +4,14 @@ use std::path::Path;
 
 use super::args::Common;
 use super::error::CliError;
+use super::figures::describe_figure;
 use super::output::{notice, print};
 use super::reading::hint;
 
 pub(super) fn info(common: &Common, file: &Path) -> Result<(), CliError> {
+    if let Some(description) = describe_figure(file)? {
+        return print(&description);
+    }
     if let Some(description) = common.reading.describe_mesh(file)? {
         for aside in &description.report.aside {
             notice(aside);

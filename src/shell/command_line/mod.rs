@@ -10,6 +10,7 @@ mod device;
 mod error;
 mod export;
 mod fields;
+mod figures;
 mod info;
 mod link;
 mod numbers;

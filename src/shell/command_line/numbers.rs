@@ -8,6 +8,8 @@ use super::output::shortened;
 
 /// Longest line, bytes.
 const MAX_LINE: u64 = 4096;
+/// Numbers of a line that are looked at: more than any command takes.
+const MAX_NUMBERS: usize = 16;
 
 /// The numbers of each line of a file, or of standard input without one. Empty lines and those that begin with `#` are
 /// left out. `expected` says in words what each line holds.
@@ -18,22 +20,45 @@ pub(super) fn read_numbers<const N: usize>(
     path: Option<&Path>,
     expected: &'static str,
 ) -> Result<Vec<[f64; N]>, CliError> {
+    read_lines(path, expected, |numbers| numbers.try_into().ok())
+}
+
+/// As [`read_numbers`], of points in a plane: the third number of a line may be there and is left aside.
+///
+/// # Errors
+/// As [`read_numbers`].
+pub(super) fn read_flat_points(
+    path: Option<&Path>,
+    expected: &'static str,
+) -> Result<Vec<[f64; 2]>, CliError> {
+    read_lines(path, expected, |numbers| match numbers[..] {
+        [x, y] | [x, y, _] => Some([x, y]),
+        _ => None,
+    })
+}
+
+fn read_lines<T>(
+    path: Option<&Path>,
+    expected: &'static str,
+    of: impl Fn(Vec<f64>) -> Option<T>,
+) -> Result<Vec<T>, CliError> {
     let Some(path) = path else {
-        return numbers_of(io::stdin().lock(), "standard input", expected);
+        return lines_of(io::stdin().lock(), "standard input", expected, of);
     };
     let shown = path.display().to_string();
     let file = std::fs::File::open(path).map_err(|source| CliError::Read {
         path: shown.clone(),
         source,
     })?;
-    numbers_of(io::BufReader::new(file), &shown, expected)
+    lines_of(io::BufReader::new(file), &shown, expected, of)
 }
 
-fn numbers_of<const N: usize>(
+fn lines_of<T>(
     mut from: impl BufRead,
     path: &str,
     expected: &'static str,
-) -> Result<Vec<[f64; N]>, CliError> {
+    of: impl Fn(Vec<f64>) -> Option<T>,
+) -> Result<Vec<T>, CliError> {
     let mut all = Vec::new();
     let mut bytes = Vec::new();
     for line in 1.. {
@@ -53,7 +78,7 @@ fn numbers_of<const N: usize>(
         if text.is_empty() || text.starts_with('#') {
             continue;
         }
-        all.push(parse(text).ok_or_else(|| CliError::Numbers {
+        all.push(parse(text).and_then(&of).ok_or_else(|| CliError::Numbers {
             path: path.to_owned(),
             line,
             expected,
@@ -63,12 +88,11 @@ fn numbers_of<const N: usize>(
     Ok(all)
 }
 
-fn parse<const N: usize>(text: &str) -> Option<[f64; N]> {
+fn parse(text: &str) -> Option<Vec<f64>> {
     let numbers = text.split(',').map(|number| {
         let number = number.trim().parse::<f64>().ok()?;
         // The map is evaluated in 32 bits, which must hold it too.
         (number.is_finite() && (number as f32).is_finite()).then_some(number)
     });
-    let numbers: Option<Vec<f64>> = numbers.take(N + 1).collect();
-    numbers?.try_into().ok()
+    numbers.take(MAX_NUMBERS).collect()
 }

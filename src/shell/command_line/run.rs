@@ -9,6 +9,7 @@ use super::bench::bench;
 use super::describe::describe;
 use super::error::CliError;
 use super::export::export_field;
+use super::figures::{export_figure, may_be_figure, probe_figure};
 use super::info::info;
 use super::link::link;
 use super::opening::open;
@@ -88,6 +89,7 @@ fn execute(args: Args) -> Result<(), CliError> {
             points,
             object,
             depth,
+            forward,
             rays: asked,
             moment,
         } => {
@@ -107,6 +109,13 @@ fn execute(args: Args) -> Result<(), CliError> {
             if is_rays {
                 return rays(common, &opened, from.as_deref(), moment);
             }
+            let asked = (object, forward);
+            if !depth
+                && may_be_figure(&opened, common)
+                && probe_figure(common, &opened, from.as_deref(), asked, moment)?
+            {
+                return Ok(());
+            }
             let columns = Columns { object, depth };
             probe(common, &opened, from.as_deref(), columns, moment)
         }
@@ -119,6 +128,12 @@ fn execute(args: Args) -> Result<(), CliError> {
             let bytes = export_field(common, &open(&doc)?, moment, size)?;
             write_whole(&output, &bytes)
         }
+        Command::ExportFigure {
+            doc,
+            output,
+            size,
+            moment,
+        } => export_figure(common, &open(&doc)?, &output, moment, size),
         Command::Link { doc, page, qr } => {
             link(&open(&doc)?, &page.unwrap_or_default(), qr.as_deref())
         }

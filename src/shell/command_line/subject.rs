@@ -13,12 +13,13 @@ use crate::data::{
     BuildError, Mesh, Reducer, Resources, Subject, SubjectBuilder, SubjectPart, SubjectSink as _,
     Surface, TimeSlices, VolumeBuilder, VolumeLimits, segment,
 };
-use crate::document::{Illustration, Reading};
+use crate::document::{DRAWN_FIGURES, Illustration, Reading};
+use crate::figure::builtin_plate;
 use crate::load::{LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
 use crate::render::{KeptTissue, RenderNotice, lidded};
+use crate::shell::figures::read_any;
 use crate::shell::files::{Folder, local, mesh_set};
 use crate::shell::loading::hash_of;
-use crate::shell::meshes::read_any;
 use crate::subjects::{FINE_RESOLUTION, Generator, SubjectError, mesh};
 
 /// The subject of a document with its segments: those of its own file, those of label volumes that the document names
@@ -264,6 +265,10 @@ pub(super) fn surface_of(mesh: &Mesh) -> Result<Arc<Surface>, MissingSubject> {
 /// # Errors
 /// [`SubjectError::UnknownName`].
 pub(super) fn generate(name: &str) -> Result<Subject, MissingSubject> {
+    if DRAWN_FIGURES.contains(&name) {
+        let plate = builtin_plate(name).map_err(|error| SubjectError::Refused(error.to_string()));
+        return Ok(plate?.into());
+    }
     if let Some(mesh) = mesh(name) {
         return Ok(surface_of(&mesh)?.into());
     }

@@ -27,6 +27,8 @@ pub struct Region {
     pub behind: Behind,
     /// Whether it is no part of the figure (paper, a scale bar).
     pub hide: bool,
+    /// Keys that its document gives; the others of a region that the source has too are those of the source.
+    pub given: Vec<&'static str>,
 }
 
 impl Region {
@@ -45,7 +47,31 @@ impl Region {
             cut: false,
             behind: Behind::None,
             hide: false,
+            given: Vec::new(),
         }
+    }
+
+    /// This region laid over the source's own of the same name: what the document does not give is the source's.
+    pub fn over(&self, own: &Self) -> Self {
+        let mut laid = own.clone();
+        for key in &self.given {
+            match *key {
+                "from" => laid.from.clone_from(&self.from),
+                "grow" => laid.grow = self.grow,
+                "smooth" => laid.smooth = self.smooth,
+                "fill" => laid.fill = self.fill,
+                "least" => laid.least = self.least,
+                "rigidity" => laid.rigidity = self.rigidity,
+                "fixed" => laid.fixed = self.fixed,
+                "order" => laid.order = self.order,
+                "cut" => laid.cut = self.cut,
+                "behind" => laid.behind = self.behind,
+                "hide" => laid.hide = self.hide,
+                _ => {}
+            }
+        }
+        laid.given.clone_from(&self.given);
+        laid
     }
 
     /// Whether holes become part of it.

@@ -4,6 +4,8 @@ mod rounds;
 
 pub use rounds::{MAX_ROUNDS, TOLERANCE};
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use super::context::ContextSheet;
@@ -45,8 +47,8 @@ enum PartTurn {
 
 /// A deformation on its way to the least energy.
 #[derive(Clone, Debug)]
-pub(crate) struct State<'a> {
-    stage: &'a Stage,
+pub(crate) struct State {
+    stage: Arc<Stage>,
     /// The base shape.
     base: Vec<DVec2>,
     /// Per body its gradients in the base shape.
@@ -79,11 +81,11 @@ struct Kept {
     feedback: [DVec2; 2],
 }
 
-impl<'a> State<'a> {
+impl State {
     /// The deformation with turns as they spread from the handles, solved once. `kept` are the places that the context
     /// keeps, by its vertices.
     pub(crate) fn propagated(
-        stage: &'a Stage,
+        stage: &Arc<Stage>,
         base: &[DVec2],
         moved: &Moved,
         kept: Option<Vec<DVec2>>,
@@ -104,7 +106,7 @@ impl<'a> State<'a> {
             .collect();
         let rows = |body: &Body| stage.elements[body.triangle as usize].rows(base);
         let mut state = Self {
-            stage,
+            stage: Arc::clone(stage),
             base: base.to_vec(),
             base_rows: stage.bodies.iter().map(rows).collect(),
             places: moved.places.clone(),
@@ -161,7 +163,7 @@ impl<'a> State<'a> {
 
     /// Round (a): every triangle takes the turn that suits it best. Gives the energy then.
     fn turn_bodies(&mut self) -> f64 {
-        let stage = self.stage;
+        let stage = Arc::clone(&self.stage);
         let mut energy = 0.0;
         for (i, body) in stage.bodies.iter().enumerate() {
             let element = &stage.elements[body.triangle as usize];

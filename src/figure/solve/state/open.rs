@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use super::super::element::{Element, Rows, energy_of_turn, turned_about};
@@ -12,10 +14,10 @@ use crate::figure::complex::{arg, continued, polar};
 const SWEEPS: u32 = 4;
 
 /// What turns as a whole.
-impl State<'_> {
+impl State {
     /// Takes up rigid parts that nothing holds, with the mean turn and scale over their triangles.
     pub(super) fn open_parts(&mut self, mean: impl Fn(usize) -> [f64; 2]) {
-        let stage = self.stage;
+        let stage = Arc::clone(&self.stage);
         for (number, part) in (0_u32..).zip(&stage.parts.parts) {
             if stage.holding.part_holder[number as usize] != NONE {
                 continue;
@@ -73,7 +75,7 @@ impl State<'_> {
 
     /// Bodies and triangles of the context that have one of these vertices, or the turn of a part.
     pub(super) fn beside(&self, vertices: &[u32], part: u32) -> (Vec<u32>, Vec<u32>) {
-        let stage = self.stage;
+        let stage = Arc::clone(&self.stage);
         let at = |vertex: &u32| {
             let range = stage.body_starts[*vertex as usize] as usize
                 ..stage.body_starts[*vertex as usize + 1] as usize;
@@ -165,7 +167,7 @@ impl State<'_> {
 
     /// The energy as it depends on the angle of what turns as a whole.
     pub(super) fn energy_of(&self, i: usize) -> Trigonometric {
-        let (stage, open) = (self.stage, &self.open[i]);
+        let (stage, open) = (&self.stage, &self.open[i]);
         let mut energy = Trigonometric::default();
         let z = polar(open.scale, open.angle);
         let mut add =

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use super::super::context::ContextSheet;
@@ -7,7 +9,7 @@ use super::super::stage::Floating;
 use super::{Kept, State};
 
 /// Round (c): the Poisson equation (Chen et al., eq. 7 and 8).
-impl State<'_> {
+impl State {
     /// What the context's rows and responses are for the places that it keeps.
     pub(super) fn kept(&self, context: &ContextSheet, places: Vec<DVec2>) -> Kept {
         let rows = context.rows(&places);
@@ -68,7 +70,7 @@ impl State<'_> {
     /// Round (c): the places with the least energy for the turns as they are. What is solved for is the change, so that
     /// held places need no matrix of their own.
     pub(super) fn solve(&mut self) {
-        let stage = self.stage;
+        let stage = Arc::clone(&self.stage);
         let mut sides = vec![[0.0; 2]; stage.unknown_count()];
         for (i, body) in stage.bodies.iter().enumerate() {
             let element = &stage.elements[body.triangle as usize];
@@ -124,7 +126,7 @@ impl State<'_> {
     /// Puts the centroids of what floats where they are in the base shape.
     pub(super) fn center(&mut self) {
         let shifts = self.shifts(&self.places, Some(&self.base));
-        let stage = self.stage;
+        let stage = Arc::clone(&self.stage);
         for (floating, shift) in stage.floating.iter().zip(shifts) {
             floating
                 .shares

@@ -11,7 +11,7 @@ pub const MAX_ROUNDS: u32 = 300;
 pub const TOLERANCE: f64 = 1e-6;
 
 /// Rounds.
-impl State<'_> {
+impl State {
     /// All that rounds change, as numbers.
     pub(super) fn pack(&self) -> Vec<f64> {
         let mut packed = Vec::with_capacity(2 * self.places.len() + 3 * self.open.len() + 2);

@@ -1,0 +1,66 @@
+//! The flat picture of a figure, as it is drawn.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3, Vec3};
+
+use super::frame::SubjectFrame;
+use crate::math::Aabb;
+use crate::pictures::Picture;
+
+/// The picture of a figure: a plate, a photograph or a drawing that lies in the plane z = 0 of its subject space. Its
+/// middle is the origin, y is up, and its longest side is 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plate {
+    /// Width and height of the source: pixels, or units of a drawing's view box.
+    pub size: DVec2,
+    /// The pixels that are drawn: those of the source, of its smaller copy, or those that a drawing was drawn into.
+    pub picture: Picture,
+    /// What regions are found in.
+    pub origin: PlateOrigin,
+}
+
+/// Where the pixels of a plate come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlateOrigin {
+    /// From the file of a picture: regions are found in the pixels.
+    Pixels,
+    /// From an SVG, whose bytes these are: regions are found in its shapes.
+    Drawing(Arc<[u8]>),
+    /// From a drawing of the program, by its name.
+    Builtin(String),
+}
+
+impl Plate {
+    /// Half of the width and of the height, subject units: the plate reaches from minus this to this.
+    pub fn half_size(&self) -> DVec2 {
+        self.size / (2.0 * self.size.max_element())
+    }
+
+    /// Where the plate lies, and how fine it is.
+    pub fn frame(&self) -> SubjectFrame {
+        let half = self.half_size().as_vec2().extend(0.0);
+        let most = self.picture.size[0].max(self.picture.size[1]);
+        SubjectFrame {
+            bounds: Aabb {
+                min: -half,
+                max: half,
+            },
+            // A picture does not say how large what it shows is.
+            mm_per_unit: 1.0,
+            middle_mm: DVec3::ZERO,
+            detail: 1.0 / most.max(1) as f32,
+        }
+    }
+
+    /// The colour of the pixel that a point of subject space lies in, straight sRGB with alpha; `None` outside.
+    pub fn color_at(&self, place: Vec3) -> Option<[u8; 4]> {
+        let [width, height] = self.picture.size.map(f64::from);
+        let at = place.as_dvec3();
+        let part = DVec2::new(at.x, -at.y) / (2.0 * self.half_size()) + 0.5;
+        let (column, row) = ((part.x * width).floor(), (part.y * height).floor());
+        let is_inside = column >= 0.0 && row >= 0.0 && column < width && row < height;
+        let index = row as usize * self.picture.size[0] as usize + column as usize;
+        (self.picture.pixels.get(index).copied()).filter(|_| is_inside)
+    }
+}

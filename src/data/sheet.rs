@@ -1,0 +1,165 @@
+//! The triangles of a bent figure, as they are drawn.
+
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+
+use crate::math::Aabb;
+
+/// The triangles of a figure at rest. They stay the same while handles move.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SheetMesh {
+    /// Places of the vertices at rest, subject space.
+    pub rest: Vec<Vec2>,
+    /// Per vertex a colour in place of the plate's: straight linear RGB and 1; alpha 0 takes the plate's.
+    pub colors: Vec<[f32; 4]>,
+    /// Corners of the triangles, counter-clockwise at rest; of two that share a place the first is in front there.
+    pub triangles: Vec<[u32; 3]>,
+    /// Per triangle its region in `regions`.
+    pub region_of: Vec<u16>,
+    /// Names of the regions.
+    pub regions: Vec<String>,
+}
+
+/// A bent figure: where its vertices are, and which triangles are in front. Cheap to clone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    /// The triangles.
+    pub mesh: Arc<SheetMesh>,
+    /// Where the vertices are, subject space.
+    pub places: Arc<Vec<Vec2>>,
+    /// All triangles in the order of drawing, from behind to front.
+    pub order: Arc<Vec<u32>>,
+}
+
+/// Weights of a triangle's corners may be so much below 0 for a place to be in it: rounding must not open its edges.
+const EDGE: f32 = 1e-5;
+
+impl Sheet {
+    /// True if both are one thing in memory: nothing is compared.
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.mesh, &other.mesh)
+            && Arc::ptr_eq(&self.places, &other.places)
+            && Arc::ptr_eq(&self.order, &other.order)
+    }
+
+    /// Box of the bent figure, subject space.
+    pub fn bounds(&self) -> Aabb {
+        Aabb::from_points(self.places.iter().map(|place| place.extend(0.0)))
+    }
+
+    /// Where a place at rest is, subject space: `None` if the figure does not have it, or if something else is in front
+    /// of it there.
+    pub fn seen(&self, at_rest: Vec3) -> Option<Vec3> {
+        let (triangle, place) = self.forward(at_rest.truncate())?;
+        let (front, _) = self.back(place)?;
+        (front == triangle).then(|| place.extend(0.0))
+    }
+
+    /// The triangle in front that has a place at rest, and where that place is.
+    pub fn forward(&self, at_rest: Vec2) -> Option<(usize, Vec2)> {
+        let mut triangles = self.mesh.triangles.iter().enumerate();
+        triangles.find_map(|(triangle, _)| {
+            let weights = self.weights(triangle, &self.mesh.rest, at_rest)?;
+            Some((triangle, self.mixed(triangle, &self.places, weights)))
+        })
+    }
+
+    /// The triangle that is seen at a place of the bent figure, and which place at rest that is.
+    pub fn back(&self, place: Vec2) -> Option<(usize, Vec2)> {
+        let mut from_front = self.order.iter().rev();
+        from_front.find_map(|triangle| {
+            let triangle = *triangle as usize;
+            let weights = self.weights(triangle, &self.places, place)?;
+            Some((triangle, self.mixed(triangle, &self.mesh.rest, weights)))
+        })
+    }
+
+    /// Name of the region of a triangle; empty if there is no such triangle.
+    pub fn region(&self, triangle: usize) -> &str {
+        let region = self.mesh.region_of.get(triangle);
+        let name = region.and_then(|region| self.mesh.regions.get(usize::from(*region)));
+        name.map_or("", String::as_str)
+    }
+
+    fn corners(&self, triangle: usize, places: &[Vec2]) -> Option<[Vec2; 3]> {
+        let [a, b, c] = *self.mesh.triangles.get(triangle)?;
+        let place = |vertex: u32| places.get(vertex as usize).copied();
+        Some([place(a)?, place(b)?, place(c)?])
+    }
+
+    fn weights(&self, triangle: usize, places: &[Vec2], at: Vec2) -> Option<[f32; 3]> {
+        let [a, b, c] = self.corners(triangle, places)?;
+        let area = (b - a).perp_dot(c - a);
+        let [u, v] = [
+            (b - at).perp_dot(c - at) / area,
+            (c - at).perp_dot(a - at) / area,
+        ];
+        let weights = [u, v, 1.0 - u - v];
+        weights
+            .iter()
+            .all(|weight| *weight >= -EDGE)
+            .then_some(weights)
+    }
+
+    fn mixed(&self, triangle: usize, places: &[Vec2], weights: [f32; 3]) -> Vec2 {
+        let Some([a, b, c]) = self.corners(triangle, places) else {
+            return Vec2::ZERO;
+        };
+        weights[0] * a + weights[1] * b + weights[2] * c
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of two triangles at the left, and one triangle at the right that was brought over it.
+    fn sheet() -> Sheet {
+        let rest = [
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [1.0, 1.0],
+            [0.0, 1.0],
+            [2.0, 0.0],
+            [3.0, 0.0],
+            [2.0, 1.0],
+        ];
+        let rest: Vec<Vec2> = rest.map(Vec2::from_array).to_vec();
+        let mut places = rest.clone();
+        places[4..].iter_mut().for_each(|place| place.x -= 2.0);
+        Sheet {
+            mesh: Arc::new(SheetMesh {
+                colors: vec![[0.0; 4]; rest.len()],
+                rest,
+                triangles: vec![[0, 1, 2], [0, 2, 3], [4, 5, 6]],
+                region_of: vec![0, 0, 1],
+                regions: vec!["ground".to_owned(), "flap".to_owned()],
+            }),
+            places: Arc::new(places),
+            order: Arc::new(vec![0, 1, 2]),
+        }
+    }
+
+    #[test]
+    fn places_go_there_and_back() {
+        let sheet = sheet();
+        let at = Vec2::new(2.25, 0.25);
+        let (triangle, place) = sheet.forward(at).expect("it has the place");
+        assert_eq!((triangle, place), (2, Vec2::new(0.25, 0.25)));
+        assert_eq!(sheet.region(triangle), "flap");
+        assert_eq!(sheet.back(place), Some((2, at)));
+        assert_eq!(sheet.back(Vec2::new(2.5, 0.2)), None, "it has left");
+        assert_eq!(sheet.forward(Vec2::new(-0.1, 0.5)), None, "outside");
+    }
+
+    #[test]
+    fn what_is_covered_is_not_seen() {
+        let sheet = sheet();
+        assert_eq!(sheet.seen(Vec3::new(0.2, 0.3, 0.0)), None, "under the flap");
+        let free = Vec3::new(0.9, 0.8, 0.0);
+        assert_eq!(sheet.seen(free), Some(free));
+        let on_flap = Vec3::new(2.2, 0.3, 0.0);
+        assert!(sheet.seen(on_flap).is_some());
+    }
+}
