@@ -5,6 +5,9 @@ mod data;
 mod describe;
 #[path = "../../src/bin/xtask/examples.rs"]
 mod examples;
+#[path = "../reference/figure.rs"]
+mod figure_reference;
+mod figures;
 mod gallery;
 #[path = "../../src/bin/xtask/house.rs"]
 mod house;

@@ -15,6 +15,9 @@ use crate::figure::regions::{Canvas, Pixels, REST, RegionMap};
 const UNKNOWN: u8 = 254;
 /// The largest triangle is this many times the mean one that a detail means.
 const AREA_FACTOR: f64 = 1.3;
+/// No triangle has to be smaller than this, square pixels, however little is drawn: the outlines would have edges
+/// without end.
+const LEAST_AREA: f64 = 1.0 / 16.0;
 /// The longest edge of an outline, in square roots of the largest area.
 const EDGE_FACTOR: f64 = 1.5;
 /// How often the least size of parts may be doubled: then it is more than the largest map has pixels.
@@ -71,10 +74,11 @@ pub(crate) fn triangulate(
             .sum();
         let frame = Frame::new(&canvas.plane);
         let area = drawn as f64 * frame.aspect / f64::from(figure.detail) * AREA_FACTOR;
+        let area = area.max(LEAST_AREA);
         loop {
             let (points, edges) = outlines.network();
             let divided;
-            (mesh, divided) = frame.meshed(&points, &edges, EDGE_FACTOR * area.max(1e-6).sqrt());
+            (mesh, divided) = frame.meshed(&points, &edges, EDGE_FACTOR * area.sqrt());
             let wrong = label(&mut mesh, &divided);
             if wrong.is_empty() || !outlines.refine(wrong) {
                 break;

@@ -1,0 +1,11 @@
+//! Figures: regions, meshes, handles, the solve, and drawings.
+
+mod common;
+mod holding;
+mod limits;
+mod mesh;
+mod probe;
+mod reference;
+mod regions;
+mod solve;
+mod svg;
