@@ -61,7 +61,16 @@ pub(crate) const MAX_NOTICES: usize = 200;
 
 /// The subject of a document that names none.
 pub const DEFAULT_SUBJECT: &str = "head";
-/// The subjects that the program generates, or will generate in a later release.
+/// The figures that the program draws. Every built-in subject whose name begins like theirs is a figure
+/// ([`SubjectRef::is_drawn_figure`](super::SubjectRef::is_drawn_figure)).
+pub const DRAWN_FIGURES: [&str; 5] = [
+    "drawn-arm",
+    "drawn-foot",
+    "drawn-neck",
+    "drawn-heart",
+    "drawn-face",
+];
+/// The other subjects that the program generates, or will generate in a later release.
 pub const BUILTIN_SUBJECTS: [&str; 9] = [
     "apple",
     "bar",

@@ -65,7 +65,7 @@ pub use carry::carried_templates;
 pub use history::{History, Outlook};
 pub use lesson::Lesson;
 pub use limits::{
-    BUILTIN_SUBJECTS, DEFAULT_SUBJECT, FORMAT, MAX_ALT, MAX_BALL_MM, MAX_BYTES, MAX_CARVERS,
+    BUILTIN_SUBJECTS, DEFAULT_SUBJECT, DRAWN_FIGURES, FORMAT, MAX_ALT, MAX_BALL_MM, MAX_BYTES, MAX_CARVERS,
     MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CONTROLS, MAX_CURVE, MAX_CUT, MAX_DEPTH, MAX_FIELDS,
     MAX_KEEP_SETS, MAX_LABEL_FILES, MAX_LABELS, MAX_LAYERS, MAX_MESHES, MAX_OBJECTS, MAX_POINTS,
     MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES, MAX_STROKES,
@@ -83,10 +83,11 @@ pub use model::{
     SurfaceLook, TemplateData, TemplateKind, TemplateMode, TemplateSpec, Tone, Transfer,
     TransferPoint, Window, keep_set, keep_sets, needs_shaping, preset, presets, style_preset,
 };
+pub use read::figure_from_text;
 pub use text::{DocumentError, Notice, NoticeKind, pointer};
 pub use tree::Document;
 pub use turn::{DISTANCE_RANGE, axes, between, orbit, roll, zoom};
 pub use walk::Walk;
-pub use write::Edit;
+pub use write::{Edit, FigureList, figure_to_text};
 #[cfg(any(feature = "app", feature = "session"))]
 pub(crate) use write::color_text;

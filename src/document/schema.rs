@@ -13,6 +13,7 @@ use super::limits::{
     MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES, MAX_STROKES, MAX_TEMPLATES,
     MIN_BALL_MM,
 };
+use super::model::figure::{self, Propagation, Rest, Rotations};
 use super::model::{
     Align, BodyKind, Camera, ConstrainBy, GhostBy, HatchBy, Layer, Light, MeshAxes, MeshParts,
     MeshReading, MeshUnits, ObjectPlacement, OpacityMode, ParamKind, RawVoxels, SceneObject, Step,
@@ -41,6 +42,8 @@ pub(crate) struct Key {
     pub(crate) is_made: bool,
     /// True if no step may set the key or anything inside it.
     pub(crate) is_fixed: bool,
+    /// True if no step may set the key as a whole, nor an entry of its list, nor keys of an entry that the schema lacks.
+    pub(crate) is_whole: bool,
     /// One sentence for the reference. The programs do without these texts.
     #[cfg(test)]
     pub(crate) meaning: &'static str,
@@ -53,6 +56,8 @@ pub(crate) enum LeftOut {
     AtDefault,
     /// At its default, if no other key stands beside it.
     Alone,
+    /// At its default, and at 0 in a handle of a figure that holds no point: what turns only so far as it is told.
+    Turn,
     /// At its default, except in a `field`: without a placement its file says where the box lies.
     ExceptField,
     /// At its default, except in an object with a file: without a placement the file says where it lies.
@@ -113,6 +118,17 @@ pub(crate) enum Kind {
         /// Highest value; larger ones are lowered to this.
         max: f64,
     },
+    /// A number in a closed range, in full precision: another one that rounds to the default is not the default.
+    Exact {
+        /// The value of a missing key.
+        default: f64,
+        /// Lowest value.
+        min: f64,
+        /// Highest value.
+        max: f64,
+    },
+    /// An angle in radians, up to 4π either way, or null (the default): it is open.
+    Turn,
     /// A whole number in a closed range; others are rounded.
     Count {
         /// The value of a missing key.
@@ -135,6 +151,27 @@ pub(crate) enum Kind {
         /// Highest value of each number.
         max: f64,
     },
+    /// Two numbers of full precision, each in a closed range; the default is twice 0.
+    Point {
+        /// Greatest absolute value of a number.
+        max: f64,
+    },
+    /// A list of pairs of numbers of full precision; fewer than `least` and more than `most` are refused, but where the
+    /// key is left out at its default, no pair at all is the same as no key.
+    Points {
+        /// Number of entries at least.
+        least: usize,
+        /// Number of entries at most.
+        most: usize,
+        /// Greatest absolute value of a number.
+        max: f64,
+    },
+    /// One number for both axes, a list of two numbers, each 0.1 to 100, or `rigid`; the default is 1.
+    Rigidity,
+    /// `none` (the default), `smooth` or a colour.
+    Behind,
+    /// The id of an element of a drawing, or the number of a shape.
+    Shape,
     /// A unit quaternion x, y, z, w; the default is the identity.
     Rotation,
     /// A list of pairs of numbers, each in -10 to 10; more than `most` are not drawn.
@@ -208,6 +245,13 @@ pub(crate) const MAX_VALUE: f64 = f32::MAX as f64 / 4.0;
 /// Greatest coordinate of control points, cuts and curves, template units.
 pub(crate) const MAX_PAIR: f64 = 10.0;
 
+/// Greatest coordinate of points of another picture, which may have any unit.
+const MAX_LIKE: f64 = 1e9;
+/// Ends of the range of turns of a figure's handles: two full turns either way, radians.
+pub(crate) const MAX_TURN: f64 = 4.0 * std::f64::consts::PI;
+/// Range of rigidities.
+pub(crate) const RIGIDITY_RANGE: [f64; 2] = [0.1, 100.0];
+
 /// A key that is left out at its default, and made by a pointer to something inside.
 const fn key(order: u16, name: &'static str, kind: Kind, meaning: &'static str) -> Key {
     _ = meaning;
@@ -218,6 +262,7 @@ const fn key(order: u16, name: &'static str, kind: Kind, meaning: &'static str) 
         left_out: LeftOut::AtDefault,
         is_made: true,
         is_fixed: false,
+        is_whole: false,
         #[cfg(test)]
         meaning,
     }
@@ -248,6 +293,12 @@ impl Key {
         self
     }
 
+    /// This key, of which steps may set parts, but never the whole.
+    const fn whole(mut self) -> Self {
+        self.is_whole = true;
+        self
+    }
+
     /// This key, refused in steps.
     const fn fixed(mut self) -> Self {
         self.is_fixed = true;
@@ -257,6 +308,27 @@ impl Key {
 
 const fn number(default: f64, min: f64, max: f64) -> Kind {
     Kind::Number { default, min, max }
+}
+
+const fn exact(default: f64, min: f64, max: f64) -> Kind {
+    Kind::Exact { default, min, max }
+}
+
+const fn points(least: usize, most: usize) -> Kind {
+    Kind::Points {
+        least,
+        most,
+        max: FAR,
+    }
+}
+
+/// Points of another picture.
+const fn like(most: usize) -> Kind {
+    Kind::Points {
+        least: 3,
+        most,
+        max: MAX_LIKE,
+    }
 }
 
 const fn vector(default: glam::Vec3, min: f64, max: f64) -> Kind {
@@ -280,12 +352,97 @@ pub(crate) const ROOT: &[Key] = &[
     key(50, "lang", Kind::Text, "language of the texts, a BCP 47 tag such as `en`"),
     key(60, "subject", Kind::Object(SUBJECT), "what is illustrated").fixed(),
     key(65, "objects", Kind::List { of: OBJECT, most: MAX_OBJECTS, what: "objects" }, "tools and neighbours of the subject: never displaced, occluding and occluded at their true depth. Of several of one name the first counts where a name is asked for"),
+    key(67, "figure", Kind::Object(FIGURE), "how a figure (a plate, a photograph, a drawing) is divided into regions and bent by handles. Points are `[x, y]` in its plane at rest: origin in the middle of the picture, x to the right, y up, 1 is the picture's longest side; angles are radians, counter-clockwise; px are pixels of the map of regions. Numbers and lists of points of equal length ease from step to step").whole(),
     key(70, "templates", Kind::List { of: TEMPLATE, most: MAX_TEMPLATES, what: "templates" }, "deformations, in the order in which they act on the subject"),
     key(80, "look", Kind::Object(LOOK), "colours, opacity and background"),
     key(90, "camera", Kind::Object(CAMERA), "a perspective camera"),
     key(100, "labels", Kind::List { of: CAPTION, most: MAX_LABELS, what: "labels" }, "texts that follow the tissue that they are fastened to"),
     key(105, "controls", Kind::List { of: CONTROL, most: MAX_CONTROLS, what: "controls" }, "values that the readers of a lesson may move themselves").fixed(),
     key(110, "steps", Kind::List { of: STEP, most: MAX_STEPS, what: "steps" }, "the steps of a lesson; step 0 is the document itself, each further step changes the one before it").fixed(),
+];
+
+/// Keys of `/figure`.
+#[rustfmt::skip]
+pub(crate) const FIGURE: &[Key] = &[
+    key(BY_NAME, "regions", Kind::List { of: REGION, most: figure::MAX_REGIONS, what: "regions" }, "parts of the figure, from behind to front").whole(),
+    key(BY_NAME, "handles", Kind::List { of: HANDLE, most: figure::MAX_HANDLES, what: "handles" }, "what bends the figure: each holds a point, a region or a line"),
+    key(BY_NAME, "only", points(3, 64), "polygon: handles move nothing outside it, but for rigid parts that it crosses; without it they act everywhere"),
+    key(BY_NAME, "propagation", Kind::Name(&Propagation::NAMES), "how turns and scales spread from handles: as smoothly as rigidities allow, those of the nearest handle, or means of all, whose weights fall linearly or as a Gaussian from one to the other"),
+    key(BY_NAME, "reach", exact(0.0, 0.0, 2.0), "how far handles act; 0: everywhere"),
+    key(BY_NAME, "rotations", Kind::Name(&Rotations::NAMES), "`found`: each triangle takes the turn that suits it best; `propagated`: the turn that spreads from the handles"),
+    key(BY_NAME, "context", Kind::Object(CONTEXT), "points whose arrangement is kept, or taken from another picture; without points there is none"),
+    key(BY_NAME, "contours", Kind::List { of: CONTOUR, most: figure::MAX_CONTOURS, what: "contours" }, "outlines of regions that take the style of others"),
+    key(BY_NAME, "rest", Kind::Name(&Rest::NAMES), "what lies in no region: it bends with the figure, stays where it is, or is left out").fixed(),
+    key(BY_NAME, "detail", Kind::Count { default: figure::DEFAULT_DETAIL as f64, min: 500.0, max: 60_000.0 }, "triangles aimed at").fixed(),
+];
+
+/// Keys of an entry of `/figure/regions`.
+#[rustfmt::skip]
+pub(crate) const REGION: &[Key] = &[
+    key(250, "name", Kind::Text, "name of the region, unlike any other's and not `rest`; without it `region 1` and so on").fixed(),
+    key(530, "from", Kind::Object(SOURCE), "which pixels it takes; may be left out for a region of that name in a built-in figure or an SVG").optional().unmade().fixed(),
+    key(BY_NAME, "fill", Kind::Flag { default: true }, "true: holes become part of it; without it so, but with `hide` not").optional().fixed(),
+    key(BY_NAME, "grow", exact(0.0, -32.0, 32.0), "px that it is grown by; a negative number shrinks it").fixed(),
+    key(BY_NAME, "least", Kind::Count { default: 16.0, min: 0.0, max: 1e6 }, "parts of fewer px are left out").fixed(),
+    key(BY_NAME, "smooth", exact(1.5, 0.0, 32.0), "px over which its outline is smoothed").fixed(),
+    key(BY_NAME, "rigidity", Kind::Rigidity, "how strongly it resists, along the picture's x and y: 1 is fat, 10 is bone; `rigid`: each of its parts moves as a whole. Switches at the start of a passage"),
+    key(BY_NAME, "fixed", Kind::Flag { default: false }, "true: it stays where it is. Switches at the start of a passage"),
+    key(370, "order", exact(0.0, -100.0, 100.0), "place in the order of drawing; what has more is in front"),
+    key(BY_NAME, "cut", Kind::Flag { default: false }, "true: it is a sheet of its own that can leave what lies around it").fixed(),
+    key(BY_NAME, "behind", Kind::Behind, "what is seen where a `cut` region lay: a hole, soft tissue in colours interpolated from around it, or of one colour").fixed(),
+    key(BY_NAME, "hide", Kind::Flag { default: false }, "true: it is no part of the figure (paper, a scale bar)").fixed(),
+];
+
+/// Keys of a region's `from`: one of them each.
+#[rustfmt::skip]
+pub(crate) const SOURCE: &[Key] = &[
+    key(BY_NAME, "flood", Kind::Object(FLOOD), "pixels of like colour around points").optional(),
+    key(BY_NAME, "polygon", points(3, 512), "a polygon, filled by the non-zero rule").optional(),
+    key(BY_NAME, "path", Kind::Shape, "what is filled in an element of an SVG or below it").optional(),
+];
+
+/// Keys of a region's `from.flood`.
+#[rustfmt::skip]
+pub(crate) const FLOOD: &[Key] = &[
+    key(320, "at", points(1, 16), "where it begins; in all regions together at most 256 points").stays(),
+    key(BY_NAME, "tolerance", exact(24.0, 0.0, 255.0), "difference in any of red, green and blue (0 … 255) up to which a pixel is like the first"),
+    key(BY_NAME, "gap", exact(0.0, 0.0, 16.0), "px that unlike pixels are grown by before the flood, so that it does not leak through holes of an outline"),
+    key(BY_NAME, "connected", Kind::Flag { default: true }, "false: all like pixels are taken, wherever they lie"),
+];
+
+/// Keys of an entry of `/figure/handles`.
+#[rustfmt::skip]
+pub(crate) const HANDLE: &[Key] = &[
+    key(250, "name", Kind::Text, "the author's name for the handle"),
+    key(320, "at", Kind::Point { max: FAR }, "the point that it holds; a handle has one of `at`, `region` and `points`. Switches at the start of a passage").optional().unmade(),
+    key(BY_NAME, "region", Kind::Text, "name of the region that it holds. Switches at the start of a passage").optional(),
+    key(BY_NAME, "points", points(2, 32), "the line that it holds. Switches at the start of a passage").optional().unmade(),
+    key(460, "to", points(2, 32), "where the points of the line go, as many, in place of `move`, `turn` and `scale`").optional().unmade(),
+    key(BY_NAME, "radius", exact(0.01, 0.001, 0.2), "vertices within this of its point or line are held. Switches at the start of a passage"),
+    key(BY_NAME, "move", Kind::Point { max: 4.0 }, "how far it moves what it holds"),
+    key(BY_NAME, "turn", Kind::Turn, "by which angle it turns it; `null`: open for a point, which finds its turn itself, and 0 for a region or a line. A turn that is or becomes open switches at the start of a passage").leaves(LeftOut::Turn),
+    key(632, "scale", exact(1.0, 0.05, 20.0), "by which factor it scales it"),
+    key(420, "enabled", Kind::Flag { default: true }, "false: it is as if it were not there. Switches at the start of a passage"),
+];
+
+/// Keys of `/figure/context`.
+#[rustfmt::skip]
+pub(crate) const CONTEXT: &[Key] = &[
+    key(BY_NAME, "points", points(3, 64), "the points. Switches at the start of a passage"),
+    key(BY_NAME, "strength", exact(5.0, 0.0, 10.0), "how strongly they act: the rigidity of a sheet between them. Switches at the start of a passage"),
+    key(480, "keep", Kind::Flag { default: true }, "true: a pose keeps their arrangement"),
+    key(BY_NAME, "like", like(64), "the same points of another picture, as many, in any unit"),
+    key(410, "amount", exact(1.0, 0.0, 1.0), "how much of the other picture's arrangement is taken over"),
+];
+
+/// Keys of an entry of `/figure/contours`.
+#[rustfmt::skip]
+pub(crate) const CONTOUR: &[Key] = &[
+    key(BY_NAME, "region", Kind::Text, "name of the region whose outline it is"),
+    key(BY_NAME, "like", like(256), "the other outline, in any unit").stays(),
+    key(410, "amount", exact(1.0, 0.0, 1.0), "how much of it is taken over"),
+    key(BY_NAME, "mirror", Kind::Flag { default: false }, "true: the other outline is mirrored in x first"),
+    key(480, "keep", points(0, 16), "places of the outline that stay"),
 ];
 
 /// Keys of `/subject`.
@@ -677,10 +834,12 @@ impl Kind {
     fn container(self) -> Option<Value> {
         Some(match self {
             Self::Vector { default, .. } => Value::from(default.map(json::number).to_vec()),
+            Self::Point { .. } => json!([0, 0]),
             Self::Rotation => json!([0, 0, 0, 1]),
             Self::List { .. }
             | Self::FirstOf { .. }
             | Self::Pairs { .. }
+            | Self::Points { .. }
             | Self::Vectors { .. }
             | Self::Path { .. }
             | Self::Segments => json!([]),
@@ -705,9 +864,12 @@ impl Kind {
             Self::Style(_) => json!("none"),
             Self::Flag { default } => json!(default),
             Self::Whole => json!(0),
-            Self::Number { default, .. } | Self::Count { default, .. } => {
-                Value::Number(json::number(default))
-            }
+            Self::Number { default, .. }
+            | Self::Count { default, .. }
+            | Self::Exact { default, .. } => Value::Number(json::number(default)),
+            Self::Turn => Value::Null,
+            Self::Rigidity => json!(1),
+            Self::Behind => json!("none"),
             other => return other.container(),
         })
     }
@@ -788,7 +950,9 @@ pub(crate) fn scalar_at(path: &[String], kind: Option<TemplateKind>) -> Option<S
         let rest = path.as_slice();
         match key.kind {
             Kind::Flag { default } if rest.is_empty() => return Some(Scalar::Flag(default)),
-            Kind::Number { default, min, max } | Kind::Count { default, min, max }
+            Kind::Number { default, min, max }
+            | Kind::Count { default, min, max }
+            | Kind::Exact { default, min, max }
                 if rest.is_empty() =>
             {
                 let is_whole = matches!(key.kind, Kind::Count { .. });
@@ -799,7 +963,16 @@ pub(crate) fn scalar_at(path: &[String], kind: Option<TemplateKind>) -> Option<S
                     is_whole,
                 });
             }
-            Kind::Vector { default, min, max } => return component(rest, default, min, max),
+            Kind::Vector { default, min, max } => return component(rest, &default, min, max),
+            Kind::Point { max } => return component(rest, &[0.0; 2], -max, max),
+            Kind::Turn if rest.is_empty() => {
+                return Some(Scalar::Number {
+                    default: 0.0,
+                    min: -MAX_TURN,
+                    max: MAX_TURN,
+                    is_whole: false,
+                });
+            }
             Kind::Object(of) | Kind::Style(of) => keys = of,
             Kind::List { of, .. } => {
                 keys = of;
@@ -829,13 +1002,13 @@ fn param_scalar(kind: TemplateKind, rest: &[String]) -> Option<Scalar> {
         }
         ParamKind::Vector {
             default, min, max, ..
-        } => component(rest, default.map(plain_f64), plain_f64(min), plain_f64(max)),
+        } => component(rest, &default.map(plain_f64), plain_f64(min), plain_f64(max)),
         _ => None,
     }
 }
 
-/// One of three numbers.
-fn component(rest: &[String], default: [f64; 3], min: f64, max: f64) -> Option<Scalar> {
+/// One of several numbers.
+fn component(rest: &[String], default: &[f64], min: f64, max: f64) -> Option<Scalar> {
     let [index] = rest else {
         return None;
     };
@@ -851,18 +1024,28 @@ fn component(rest: &[String], default: [f64; 3], min: f64, max: f64) -> Option<S
 pub(crate) fn is_fixed(path: &[String]) -> bool {
     let mut path = path.iter();
     let mut keys = ROOT;
-    while let Some(key) = path.next().and_then(|name| find(keys, name)) {
-        if key.is_fixed {
+    // True in an entry of a list that steps may not set as a whole.
+    let mut is_part = false;
+    while let Some(name) = path.next() {
+        let Some(key) = find(keys, name) else {
+            return is_part;
+        };
+        let is_whole = |rest: &[String]| key.is_whole && rest.is_empty();
+        if key.is_fixed || is_whole(path.as_slice()) {
             return true;
         }
         keys = match key.kind {
             Kind::Object(of) => of,
             Kind::List { of, .. } => {
                 path.next();
+                if is_whole(path.as_slice()) {
+                    return true;
+                }
                 of
             }
             _ => return false,
         };
+        is_part = key.is_whole && matches!(key.kind, Kind::List { .. });
     }
     false
 }

@@ -1,5 +1,6 @@
 //! The whole illustration: what a document means once its defaults are filled in.
 
+use super::figure::Figure;
 use super::look::{Background, Look, OpacityMode, Transfer, Window};
 use super::mesh::MeshRef;
 use super::object::{ObjectSource, SceneObject};
@@ -42,6 +43,9 @@ pub struct Illustration {
     /// Templates in the order in which they act, switched off ones included. Unknown kinds are left out; a notice names
     /// each.
     pub templates: Vec<PlacedTemplate>,
+    /// How a figure is divided and bent; `None` is a figure as it is ([`Figure::default`]), whether the document has
+    /// the key or not.
+    pub figure: Option<Figure>,
     /// Transfer function, opacity, light and background.
     pub look: Look,
     /// The view that the document opens with.
@@ -72,6 +76,7 @@ impl Illustration {
             recipes: Vec::new(),
             objects: Vec::new(),
             templates: Vec::new(),
+            figure: None,
             look: Look {
                 transfer: Transfer::Auto,
                 window: Window::Auto,
@@ -101,6 +106,27 @@ impl Illustration {
             SubjectRef::Meshes { meshes, .. } => meshes,
             _ => &self.meshes_beside,
         }
+    }
+
+    /// JSON pointers to what the document has, but what is not drawn of this subject: templates and the look of volumes
+    /// beside a figure, `figure` beside any other subject. The document itself names them in its notices where it
+    /// tells which it is ([`SubjectRef::is_figure`]); of a file, the program knows when it has its bytes.
+    pub fn left_beside(&self, is_figure: bool) -> Vec<&'static str> {
+        let look = &self.look;
+        let beside_figure = [
+            ("/templates", !self.templates.is_empty()),
+            ("/look/transfer", look.transfer != Transfer::Auto),
+            ("/look/window", look.window != Window::Auto),
+            ("/look/opacity", look.opacity != OpacityMode::Constancy),
+            ("/look/segments", !look.segments.is_empty()),
+        ];
+        let beside_others = [("/figure", self.figure.is_some())];
+        let beside: &[(&str, bool)] = match is_figure {
+            true => &beside_figure,
+            false => &beside_others,
+        };
+        let given = beside.iter().filter(|(_, is_given)| *is_given);
+        given.map(|(pointer, _)| *pointer).collect()
     }
 
     /// True if a template that is switched on carves by an object with these triangles.

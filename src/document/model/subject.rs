@@ -40,6 +40,20 @@ pub enum SubjectRef {
 }
 
 impl SubjectRef {
+    /// True for a built-in figure: its name begins with `drawn-`, whether this version knows it or not.
+    pub fn is_drawn_figure(&self) -> bool {
+        matches!(self, Self::Builtin { name } if name.starts_with("drawn-"))
+    }
+
+    /// Whether the subject is a figure, as far as the document tells: the bytes of a file decide for it, so there it is
+    /// `None`.
+    pub fn is_figure(&self) -> Option<bool> {
+        match self {
+            Self::Builtin { .. } | Self::Meshes { .. } => Some(self.is_drawn_figure()),
+            Self::Address { .. } | Self::Supplied { .. } => None,
+        }
+    }
+
     /// How its file is read; `None` for a built-in subject and for meshes alone, which have a reading each.
     pub fn reading(&self) -> Option<&Reading> {
         match self {

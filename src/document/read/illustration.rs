@@ -3,6 +3,7 @@
 use super::object::{Object, wrong};
 use super::reader::Reader;
 use crate::document::limits::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS};
+use crate::document::model::figure::Figure;
 use crate::document::model::{
     Camera, Caption, Illustration, PlacedTemplate, Step, TemplateData, join_objects, keep_sets,
 };
@@ -80,6 +81,7 @@ impl Reader {
                 limit: MAX_KEEP_SETS,
             });
         }
+        let figure = self.figure(&root.child("figure")?)?;
         let look = self.look(&root.child("look")?, &subject)?;
         let camera = self.camera(&root.child("camera")?)?;
         let mut captions = Vec::new();
@@ -106,7 +108,7 @@ impl Reader {
         for object in root.children("steps")? {
             steps.push(self.step(&object?)?);
         }
-        Ok(Illustration {
+        let illustration = Illustration {
             title: root.string("title")?,
             legend: root.string("caption")?,
             alt: self.limited_text(&root, "alt")?,
@@ -119,12 +121,20 @@ impl Reader {
             recipes,
             objects,
             templates,
+            figure: (figure != Figure::default()).then_some(figure),
             look,
             camera,
             captions,
             controls,
             steps,
-        })
+        };
+        if let Some(is_figure) = illustration.subject.is_figure() {
+            let what = ["a subject that is no figure", "a figure"][usize::from(is_figure)];
+            for pointer in illustration.left_beside(is_figure) {
+                self.note(pointer, NoticeKind::Beside { what });
+            }
+        }
+        Ok(illustration)
     }
 
     fn camera(&mut self, object: &Object<'_>) -> Result<Camera, DocumentError> {

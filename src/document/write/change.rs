@@ -313,6 +313,11 @@ impl Edit {
                 set(root, &join(&at, "enabled"), json!(value.enabled))
             }
             Self::RemoveCaption { caption } => take(root, "labels", *caption).map(|_| ()),
+            Self::AddToFigure { list, index, entry } => {
+                insert(root, list.key(), list.limit(), *index, entry.clone())
+            }
+            Self::RemoveFromFigure { list, index } => take(root, list.key(), *index).map(|_| ()),
+            Self::MoveInFigure { list, from, to } => reorder(root, list.key(), *from, *to),
             Self::All { .. }
             | Self::AtStep { .. }
             | Self::AddStep { .. }
