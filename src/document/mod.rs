@@ -65,10 +65,10 @@ pub use carry::carried_templates;
 pub use history::{History, Outlook};
 pub use lesson::Lesson;
 pub use limits::{
-    BUILTIN_SUBJECTS, DEFAULT_SUBJECT, DRAWN_FIGURES, FORMAT, MAX_ALT, MAX_BALL_MM, MAX_BYTES, MAX_CARVERS,
-    MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CONTROLS, MAX_CURVE, MAX_CUT, MAX_DEPTH, MAX_FIELDS,
-    MAX_KEEP_SETS, MAX_LABEL_FILES, MAX_LABELS, MAX_LAYERS, MAX_MESHES, MAX_OBJECTS, MAX_POINTS,
-    MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES, MAX_STROKES,
+    BUILTIN_SUBJECTS, DEFAULT_SUBJECT, DRAWN_FIGURES, FORMAT, MAX_ALT, MAX_BALL_MM, MAX_BYTES,
+    MAX_CARVERS, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CONTROLS, MAX_CURVE, MAX_CUT, MAX_DEPTH,
+    MAX_FIELDS, MAX_KEEP_SETS, MAX_LABEL_FILES, MAX_LABELS, MAX_LAYERS, MAX_MESHES, MAX_OBJECTS,
+    MAX_POINTS, MAX_RECIPES, MAX_SEEDS, MAX_SMOOTH_MM, MAX_STEPS, MAX_STROKE_PLACES, MAX_STROKES,
     MAX_TEMPLATES, MIN_BALL_MM,
 };
 pub use model::figure;
@@ -88,6 +88,6 @@ pub use text::{DocumentError, Notice, NoticeKind, pointer};
 pub use tree::Document;
 pub use turn::{DISTANCE_RANGE, axes, between, orbit, roll, zoom};
 pub use walk::Walk;
-pub use write::{Edit, FigureList, figure_to_text};
 #[cfg(any(feature = "app", feature = "session"))]
 pub(crate) use write::color_text;
+pub use write::{Edit, FigureList, figure_to_text};

@@ -1002,7 +1002,12 @@ fn param_scalar(kind: TemplateKind, rest: &[String]) -> Option<Scalar> {
         }
         ParamKind::Vector {
             default, min, max, ..
-        } => component(rest, &default.map(plain_f64), plain_f64(min), plain_f64(max)),
+        } => component(
+            rest,
+            &default.map(plain_f64),
+            plain_f64(min),
+            plain_f64(max),
+        ),
         _ => None,
     }
 }

@@ -1,6 +1,7 @@
 mod carving;
 mod controls;
 mod curves;
+mod figures;
 mod lessons;
 mod lights;
 mod recipes;
