@@ -4,6 +4,7 @@ mod curves;
 mod figures;
 mod lessons;
 mod lights;
+mod poses;
 mod recipes;
 mod recording;
 mod styles;
