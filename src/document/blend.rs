@@ -1,5 +1,9 @@
 //! The way between two states of a document.
 
+mod figure;
+
+use figure::blend_figure;
+
 use super::model::{
     Align, Background, Curve, Ghost, Hatch, Illustration, Layer, Light, Outline, ParamKind,
     ParamValue, PlacedTemplate, SceneObject, SegmentLook, Stipple, Style, SurfaceChange,
@@ -22,6 +26,7 @@ pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illu
             blend_template(before, template, part);
         }
     }
+    out.figure = blend_figure(start.figure.as_ref(), end.figure.as_ref(), part);
     out.look.background = match (start.look.background, end.look.background) {
         (Background::Color(a), Background::Color(b)) => Background::Color(mix_srgb(a, b, part)),
         (_, other) => other,

@@ -4,7 +4,7 @@ use super::limits::DEFAULT_SUBJECT;
 use super::model::{ParamKind, ParamSpec, TemplateKind};
 use super::schema::{Key, Kind, LeftOut, ROOT, is_of_file, params_of};
 use crate::displace::Holds;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 
 /// Leaves out the keys that stand at their default. The tree has been checked: a value of another shape than the schema
 /// says belongs to an unknown kind of template or is not read, and stays.
@@ -18,18 +18,22 @@ fn object(map: &mut Map<String, Value>, keys: &'static [Key], kind: Option<Templ
     let own_kind = own_kind.and_then(|key| map.get(key.name)?.as_str());
     let kind = kind.or(own_kind.and_then(TemplateKind::from_name));
     let is_of_file = is_of_file(map);
+    let has_from = map.contains_key("from");
+    let holds_no_point = !map.contains_key("at");
     for key in keys {
         let Some(value) = map.get_mut(key.name) else {
             continue;
         };
         inside(value, key.kind, kind);
         let is_left_out = match key.left_out {
-            LeftOut::AtDefault => true,
+            LeftOut::AtDefault | LeftOut::Turn => true,
             LeftOut::ExceptField => kind.is_none_or(|kind| kind.facts().holds != Holds::File),
             LeftOut::ExceptFile => !is_of_file,
+            LeftOut::OfSource => has_from,
             LeftOut::Alone | LeftOut::Never | LeftOut::Optional => false,
         };
-        if is_left_out && is_default(value, key.kind) {
+        let is_still = key.left_out == LeftOut::Turn && holds_no_point && is_exactly(value, 0.0);
+        if is_left_out && is_default(value, key.kind) || is_still {
             map.remove(key.name);
         }
     }
@@ -98,9 +102,15 @@ fn is_default(value: &Value, kind: Kind) -> bool {
         Kind::Number { default, .. } | Kind::Count { default, .. } => {
             is_number(value, default as f32)
         }
+        Kind::Exact { default, .. } => is_exactly(value, default),
+        Kind::Turn => value.is_null(),
+        Kind::Rigidity => is_exactly(value, 1.0) || value == &json!([1, 1]),
+        Kind::Behind => value.as_str() == Some("none"),
+        Kind::Point { .. } => value == &json!([0, 0]),
         Kind::Vector { default, .. } => is_numbers(value, &default.map(|v| v as f32)),
         Kind::Rotation => is_numbers(value, &IDENTITY),
         Kind::Pairs { .. }
+        | Kind::Points { .. }
         | Kind::Vectors { .. }
         | Kind::Path { .. }
         | Kind::Segments
@@ -116,6 +126,7 @@ fn is_default(value: &Value, kind: Kind) -> bool {
         | Kind::Template
         | Kind::Tool
         | Kind::Color
+        | Kind::Shape
         | Kind::Range
         | Kind::Box => false,
     }
@@ -138,6 +149,11 @@ fn is_param_default(value: &Value, spec: &ParamSpec) -> bool {
 /// What is drawn are 32-bit floats: a number that rounds to the default is the default.
 fn is_number(value: &Value, default: f32) -> bool {
     value.is_number() && value.as_f64().map(|v| v as f32) == Some(default)
+}
+
+/// Where 64-bit floats count.
+fn is_exactly(value: &Value, default: f64) -> bool {
+    value.is_number() && value.as_f64() == Some(default)
 }
 
 fn is_numbers(value: &Value, default: &[f32]) -> bool {

@@ -3,9 +3,9 @@
 
 use super::model::TemplateKind;
 use super::schema::{
-    Key, Kind, LeftOut, ROOT, find, is_of_file, param_default, params_of, style_object,
+    Key, Kind, LeftOut, ROOT, find, is_fixed, is_of_file, param_default, params_of, style_object,
 };
-use super::text::pointer::join;
+use super::text::pointer::{self, join};
 use serde_json::{Map, Value, json};
 
 /// The pointers and values that turn `old` into `new`, both in canonical form and without steps. A key that `new`
@@ -19,6 +19,8 @@ pub(super) fn difference(old: &Value, new: &Value) -> Vec<(String, Value)> {
         // A root key that has no default stays as it is.
         let _ = entry("", name, [old, new], key, None, &mut out);
     }
+    // What of a figure would have to be set as a whole, which no step may do, stays as it is.
+    out.retain(|(target, _)| !pointer::keys(target).is_ok_and(|keys| is_fixed(&keys)));
     out
 }
 
@@ -59,7 +61,8 @@ fn entry(
         LeftOut::Optional => true,
         LeftOut::ExceptField => kind.is_some_and(is_field),
         LeftOut::ExceptFile => is_of_file(new),
-        LeftOut::AtDefault | LeftOut::Alone | LeftOut::Never => false,
+        LeftOut::OfSource => !new.contains_key("from"),
+        LeftOut::AtDefault | LeftOut::Turn | LeftOut::Alone | LeftOut::Never => false,
     };
     if stays_away && after.is_none() {
         return Err(Gone);

@@ -84,10 +84,11 @@ pub use model::{
     TemplateSpec, Tone, Transfer, TransferPoint, Window, keep_set, keep_sets, needs_shaping,
     preset, presets, style_preset,
 };
+pub use read::figure_from_text;
 pub use text::{DocumentError, Notice, NoticeKind, pointer};
 pub use tree::Document;
 pub use turn::{DISTANCE_RANGE, axes, between, orbit, roll, zoom};
 pub use walk::Walk;
-pub use write::Edit;
 #[cfg(any(feature = "app", feature = "session"))]
 pub(crate) use write::color_text;
+pub use write::{Edit, FigureList, figure_to_text};

@@ -119,6 +119,9 @@ impl Edit {
             Self::AddCaption(_) => "Add label".to_owned(),
             Self::ReplaceCaption { .. } => "Change label".to_owned(),
             Self::RemoveCaption { .. } => "Remove label".to_owned(),
+            Self::AddToFigure { list, .. } => format!("Add {}", list.noun()),
+            Self::RemoveFromFigure { list, .. } => format!("Remove {}", list.noun()),
+            Self::MoveInFigure { list, .. } => format!("Reorder {}s", list.noun()),
             Self::AtStep { step, edit } => match document.at_step(*step) {
                 Ok(state) => edit.name(&state),
                 Err(_) => edit.name(document),

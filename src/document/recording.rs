@@ -9,7 +9,7 @@ use super::schema::is_fixed;
 use super::steps;
 use super::text::pointer::{self, join};
 use super::text::{DocumentError, json};
-use super::write::{Edit, insert, list, set, take};
+use super::write::{Edit, FigureList, insert, list, set, take};
 use serde_json::{Map, Value, json};
 
 /// Does an edit in a tree.
@@ -127,7 +127,7 @@ fn changed(state: &Value, edit: &Edit) -> Result<Value, DocumentError> {
     Ok(after)
 }
 
-/// True if an entry of `templates`, `labels` or `objects` is in a state and not switched off.
+/// True if an entry of `templates`, `labels`, `objects` or a figure's handles is in a state and not switched off.
 fn is_shown(state: &Value, entry: &str) -> bool {
     let entry = pointer::get(state, entry);
     entry.is_some_and(|entry| entry.get("enabled") != Some(&json!(false)))
@@ -162,6 +162,7 @@ fn at_step(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErr
         | Edit::AddMesh { .. }
         | Edit::RemoveMesh { .. }
         | Edit::MoveObject { .. }
+        | Edit::MoveInFigure { .. }
         | Edit::AtStep { .. }
         | Edit::AddStep { .. }
         | Edit::RemoveStep { .. }
@@ -175,7 +176,17 @@ fn at_step(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErr
         | Edit::DuplicateTemplate { .. }
         | Edit::AddObject { .. }
         | Edit::DuplicateObject { .. }
-        | Edit::AddCaption(_) => appear(root, step, edit),
+        | Edit::AddCaption(_)
+        | Edit::AddToFigure {
+            list: FigureList::Handles,
+            ..
+        } => appear(root, step, edit),
+        Edit::RemoveFromFigure {
+            list: FigureList::Handles,
+            index,
+        } => vanish(root, step, FigureList::Handles.key(), *index),
+        // All steps have the same regions and contours.
+        Edit::AddToFigure { .. } | Edit::RemoveFromFigure { .. } => apply(root, edit),
         Edit::RemoveTemplate { template } => vanish(root, step, "templates", *template),
         Edit::RemoveObject { object } => vanish(root, step, "objects", *object),
         Edit::RemoveCaption { caption } => vanish(root, step, "labels", *caption),
@@ -194,7 +205,7 @@ fn is_of_all_steps(target: &str) -> bool {
     KEYS.iter().any(|key| is_in(target, key)) || keys()
 }
 
-/// Adds templates, an object or a caption while a step is shown: they are switched off before it. A template grows in
+/// Adds templates, an object, a caption or a handle while a step is shown: they are switched off before it. A template grows in
 /// the passage to the step.
 fn appear(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentError> {
     let before = state(root, step)?;
@@ -202,10 +213,11 @@ fn appear(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErro
     let (key, limit) = match edit {
         Edit::AddCaption(_) => ("labels", MAX_LABELS),
         Edit::AddObject { .. } | Edit::DuplicateObject { .. } => ("objects", MAX_OBJECTS),
+        Edit::AddToFigure { list, .. } => (list.key(), list.limit()),
         _ => ("templates", MAX_TEMPLATES),
     };
     let entries = |state: &Value| -> Vec<Value> {
-        let list = state.get(key).and_then(Value::as_array);
+        let list = pointer::get(state, &format!("/{key}")).and_then(Value::as_array);
         list.cloned().unwrap_or_default()
     };
     let (before, after) = (entries(&before), entries(&after));
@@ -213,7 +225,8 @@ fn appear(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErro
     let index = match edit {
         Edit::AddTemplate { index, .. }
         | Edit::InsertTemplates { index, .. }
-        | Edit::AddObject { index, .. } => *index,
+        | Edit::AddObject { index, .. }
+        | Edit::AddToFigure { index, .. } => *index,
         Edit::DuplicateTemplate { template: i } | Edit::DuplicateObject { object: i } => i + 1,
         _ => usize::MAX,
     };
@@ -241,7 +254,7 @@ fn appear(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErro
     Ok(())
 }
 
-/// Removes a template, an object or a caption while a step is shown: it is switched off from there on. What no step
+/// Removes a template, an object, a caption or a handle while a step is shown: it is switched off from there on. What no step
 /// before shows is removed for good.
 fn vanish(
     root: &mut Value,

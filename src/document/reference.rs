@@ -65,12 +65,14 @@ fn object(page: &mut String, at: &str, holds: Option<Holds>, keys: &[Key]) {
             LeftOut::Never if !default.is_empty() => ", kept where it is written",
             LeftOut::ExceptField => ", kept where it is written in a `field`",
             LeftOut::ExceptFile => ", kept where it is written in an object with a file",
+            LeftOut::OfSource => ", kept where it is written in a region without `from`",
             LeftOut::Alone => ", left out where it stands alone",
             _ => "",
         };
-        let fixed = match key.is_fixed {
-            true => ". No step may set it",
-            false => "",
+        let fixed = match (key.is_fixed, key.is_whole) {
+            (true, _) => ". No step may set it",
+            (_, true) => ". No step may set it as a whole",
+            _ => "",
         };
         _ = writeln!(
             page,
@@ -90,7 +92,10 @@ fn values(kind: Kind) -> String {
         Kind::Limited { most } => format!("text, of which the first {most} characters count"),
         Kind::Address => "text, an address relative to the document or absolute".to_owned(),
         Kind::Hash => "SHA-256, 64 hexadecimal digits".to_owned(),
-        Kind::Builtin => listed(&super::BUILTIN_SUBJECTS),
+        Kind::Builtin => {
+            let figures = super::DRAWN_FIGURES;
+            format!("{}, {}", listed(&super::BUILTIN_SUBJECTS), listed(&figures))
+        }
         Kind::Tool => listed(&super::SceneObject::BUILTINS),
         Kind::Template => "the name of a kind (see below)".to_owned(),
         Kind::Name(names) => listed(names),
@@ -104,7 +109,22 @@ fn values(kind: Kind) -> String {
         Kind::Window => "`auto`, or the lowest and the highest value".to_owned(),
         Kind::Flag { .. } => "true or false".to_owned(),
         Kind::Whole => "whole number from 0".to_owned(),
-        Kind::Number { min, max, .. } => format!("number, {}", range(min, max)),
+        Kind::Number { min, max, .. } | Kind::Exact { min, max, .. } => {
+            format!("number, {}", range(min, max))
+        }
+        Kind::Turn => "number, -4π … 4π, or `null`".to_owned(),
+        Kind::Point { max } => format!("two numbers, each {}", range(-max, max)),
+        Kind::Points { least, most, max } => format!(
+            "list of {least} to {most} pairs of numbers, each {}",
+            range(-max, max)
+        ),
+        Kind::Rigidity => {
+            let [min, max] = super::schema::RIGIDITY_RANGE;
+            let range = range(min, max);
+            format!("number, {range}, a list of two such numbers, or `rigid`")
+        }
+        Kind::Behind => "`none`, `smooth`, `#rgb` or `#rrggbb`".to_owned(),
+        Kind::Shape => "text, its id, or a whole number from 0, that of a filled shape".to_owned(),
         Kind::Count { min, max, .. } => format!("whole number, {}", range(min, max)),
         Kind::Range => "`[lowest]` or `[lowest, highest]`".to_owned(),
         Kind::Box => "six numbers, mm, RAS+: least x, y, z, greatest x, y, z".to_owned(),
@@ -146,7 +166,13 @@ fn default(kind: Kind) -> Option<String> {
         Kind::Style(_) => "`none`".to_owned(),
         Kind::Flag { default } => default.to_string(),
         Kind::Whole => "0".to_owned(),
-        Kind::Number { default, .. } | Kind::Count { default, .. } => text(default),
+        Kind::Number { default, .. }
+        | Kind::Count { default, .. }
+        | Kind::Exact { default, .. } => text(default),
+        Kind::Turn => "`null`".to_owned(),
+        Kind::Point { .. } => "`[0, 0]`".to_owned(),
+        Kind::Rigidity => "1".to_owned(),
+        Kind::Behind => "`none`".to_owned(),
         Kind::Vector { default, .. } => format!("`[{}]`", default.map(text).join(", ")),
         Kind::Rotation => "`[0, 0, 0, 1]`".to_owned(),
         _ => return None,

@@ -7,6 +7,10 @@
 //!
 //! To add a key: one line here, its field in `model`, and the line that reads it in `read`.
 
+mod figure;
+
+pub(crate) use figure::FIGURE;
+
 use super::limits::{
     MAX_ALT, MAX_BALL_MM, MAX_CLEAN_MM, MAX_CLEAN_STEPS, MAX_CONTROLS, MAX_CURVE, MAX_CUT,
     MAX_LABEL_FILES, MAX_LABELS, MAX_LAYERS, MAX_MESHES, MAX_OBJECTS, MAX_POINTS, MAX_RECIPES,
@@ -41,6 +45,8 @@ pub(crate) struct Key {
     pub(crate) is_made: bool,
     /// True if no step may set the key or anything inside it.
     pub(crate) is_fixed: bool,
+    /// True if no step may set the key as a whole, nor an entry of its list, nor keys of an entry that the schema lacks.
+    pub(crate) is_whole: bool,
     /// One sentence for the reference. The programs do without these texts.
     #[cfg(test)]
     pub(crate) meaning: &'static str,
@@ -53,10 +59,15 @@ pub(crate) enum LeftOut {
     AtDefault,
     /// At its default, if no other key stands beside it.
     Alone,
+    /// At its default, and at 0 in a handle of a figure that holds no point: what turns only so far as it is told.
+    Turn,
     /// At its default, except in a `field`: without a placement its file says where the box lies.
     ExceptField,
     /// At its default, except in an object with a file: without a placement the file says where it lies.
     ExceptFile,
+    /// At its default, except in a region of a figure that has no `from`: there it changes what the source's own region
+    /// has.
+    OfSource,
     /// Never: it stays even at its default.
     Never,
     /// Never: a missing key means something else than any value.
@@ -113,6 +124,17 @@ pub(crate) enum Kind {
         /// Highest value; larger ones are lowered to this.
         max: f64,
     },
+    /// A number in a closed range, in full precision: another one that rounds to the default is not the default.
+    Exact {
+        /// The value of a missing key.
+        default: f64,
+        /// Lowest value.
+        min: f64,
+        /// Highest value.
+        max: f64,
+    },
+    /// An angle in radians, up to 4π either way, or null (the default): it is open.
+    Turn,
     /// A whole number in a closed range; others are rounded.
     Count {
         /// The value of a missing key.
@@ -135,6 +157,27 @@ pub(crate) enum Kind {
         /// Highest value of each number.
         max: f64,
     },
+    /// Two numbers of full precision, each in a closed range; the default is twice 0.
+    Point {
+        /// Greatest absolute value of a number.
+        max: f64,
+    },
+    /// A list of pairs of numbers of full precision; fewer than `least` and more than `most` are refused, but where the
+    /// key is left out at its default, no pair at all is the same as no key.
+    Points {
+        /// Number of entries at least.
+        least: usize,
+        /// Number of entries at most.
+        most: usize,
+        /// Greatest absolute value of a number.
+        max: f64,
+    },
+    /// One number for both axes, a list of two numbers, each 0.1 to 100, or `rigid`; the default is 1.
+    Rigidity,
+    /// `none` (the default), `smooth` or a colour.
+    Behind,
+    /// The id of an element of a drawing, or the number of a shape.
+    Shape,
     /// A unit quaternion x, y, z, w; the default is the identity.
     Rotation,
     /// A list of pairs of numbers, each in -10 to 10; more than `most` are not drawn.
@@ -208,6 +251,11 @@ pub(crate) const MAX_VALUE: f64 = f32::MAX as f64 / 4.0;
 /// Greatest coordinate of control points, cuts and curves, template units.
 pub(crate) const MAX_PAIR: f64 = 10.0;
 
+/// Ends of the range of turns of a figure's handles: two full turns either way, radians.
+pub(crate) const MAX_TURN: f64 = 4.0 * std::f64::consts::PI;
+/// Range of rigidities.
+pub(crate) const RIGIDITY_RANGE: [f64; 2] = [0.1, 100.0];
+
 /// A key that is left out at its default, and made by a pointer to something inside.
 const fn key(order: u16, name: &'static str, kind: Kind, meaning: &'static str) -> Key {
     _ = meaning;
@@ -218,6 +266,7 @@ const fn key(order: u16, name: &'static str, kind: Kind, meaning: &'static str) 
         left_out: LeftOut::AtDefault,
         is_made: true,
         is_fixed: false,
+        is_whole: false,
         #[cfg(test)]
         meaning,
     }
@@ -245,6 +294,12 @@ impl Key {
     /// This key, not made by a pointer to something inside.
     const fn unmade(mut self) -> Self {
         self.is_made = false;
+        self
+    }
+
+    /// This key, of which steps may set parts, but never the whole.
+    const fn whole(mut self) -> Self {
+        self.is_whole = true;
         self
     }
 
@@ -280,6 +335,7 @@ pub(crate) const ROOT: &[Key] = &[
     key(50, "lang", Kind::Text, "language of the texts, a BCP 47 tag such as `en`"),
     key(60, "subject", Kind::Object(SUBJECT), "what is illustrated").fixed(),
     key(65, "objects", Kind::List { of: OBJECT, most: MAX_OBJECTS, what: "objects" }, "tools and neighbours of the subject: never displaced, occluding and occluded at their true depth. Of several of one name the first counts where a name is asked for"),
+    key(67, "figure", Kind::Object(FIGURE), "how a figure (a plate, a photograph, a drawing) is divided into regions and bent by handles. Points are `[x, y]` in its plane at rest: origin in the middle of the picture, x to the right, y up, 1 is the picture's longest side; angles are radians, counter-clockwise; px are pixels of the map of regions. Numbers and lists of points of equal length ease from step to step").optional().whole(),
     key(70, "templates", Kind::List { of: TEMPLATE, most: MAX_TEMPLATES, what: "templates" }, "deformations, in the order in which they act on the subject"),
     key(80, "look", Kind::Object(LOOK), "colours, opacity and background"),
     key(90, "camera", Kind::Object(CAMERA), "a perspective camera"),
@@ -677,10 +733,12 @@ impl Kind {
     fn container(self) -> Option<Value> {
         Some(match self {
             Self::Vector { default, .. } => Value::from(default.map(json::number).to_vec()),
+            Self::Point { .. } => json!([0, 0]),
             Self::Rotation => json!([0, 0, 0, 1]),
             Self::List { .. }
             | Self::FirstOf { .. }
             | Self::Pairs { .. }
+            | Self::Points { .. }
             | Self::Vectors { .. }
             | Self::Path { .. }
             | Self::Segments => json!([]),
@@ -705,9 +763,12 @@ impl Kind {
             Self::Style(_) => json!("none"),
             Self::Flag { default } => json!(default),
             Self::Whole => json!(0),
-            Self::Number { default, .. } | Self::Count { default, .. } => {
-                Value::Number(json::number(default))
-            }
+            Self::Number { default, .. }
+            | Self::Count { default, .. }
+            | Self::Exact { default, .. } => Value::Number(json::number(default)),
+            Self::Turn => Value::Null,
+            Self::Rigidity => json!(1),
+            Self::Behind => json!("none"),
             other => return other.container(),
         })
     }
@@ -788,7 +849,9 @@ pub(crate) fn scalar_at(path: &[String], kind: Option<TemplateKind>) -> Option<S
         let rest = path.as_slice();
         match key.kind {
             Kind::Flag { default } if rest.is_empty() => return Some(Scalar::Flag(default)),
-            Kind::Number { default, min, max } | Kind::Count { default, min, max }
+            Kind::Number { default, min, max }
+            | Kind::Count { default, min, max }
+            | Kind::Exact { default, min, max }
                 if rest.is_empty() =>
             {
                 let is_whole = matches!(key.kind, Kind::Count { .. });
@@ -799,7 +862,16 @@ pub(crate) fn scalar_at(path: &[String], kind: Option<TemplateKind>) -> Option<S
                     is_whole,
                 });
             }
-            Kind::Vector { default, min, max } => return component(rest, default, min, max),
+            Kind::Vector { default, min, max } => return component(rest, &default, min, max),
+            Kind::Point { max } => return component(rest, &[0.0; 2], -max, max),
+            Kind::Turn if rest.is_empty() => {
+                return Some(Scalar::Number {
+                    default: 0.0,
+                    min: -MAX_TURN,
+                    max: MAX_TURN,
+                    is_whole: false,
+                });
+            }
             Kind::Object(of) | Kind::Style(of) => keys = of,
             Kind::List { of, .. } => {
                 keys = of;
@@ -829,13 +901,18 @@ fn param_scalar(kind: TemplateKind, rest: &[String]) -> Option<Scalar> {
         }
         ParamKind::Vector {
             default, min, max, ..
-        } => component(rest, default.map(plain_f64), plain_f64(min), plain_f64(max)),
+        } => component(
+            rest,
+            &default.map(plain_f64),
+            plain_f64(min),
+            plain_f64(max),
+        ),
         _ => None,
     }
 }
 
-/// One of three numbers.
-fn component(rest: &[String], default: [f64; 3], min: f64, max: f64) -> Option<Scalar> {
+/// One of several numbers.
+fn component(rest: &[String], default: &[f64], min: f64, max: f64) -> Option<Scalar> {
     let [index] = rest else {
         return None;
     };
@@ -851,18 +928,28 @@ fn component(rest: &[String], default: [f64; 3], min: f64, max: f64) -> Option<S
 pub(crate) fn is_fixed(path: &[String]) -> bool {
     let mut path = path.iter();
     let mut keys = ROOT;
-    while let Some(key) = path.next().and_then(|name| find(keys, name)) {
-        if key.is_fixed {
+    // True in an entry of a list that steps may not set as a whole.
+    let mut is_part = false;
+    while let Some(name) = path.next() {
+        let Some(key) = find(keys, name) else {
+            return is_part;
+        };
+        let is_whole = |rest: &[String]| key.is_whole && rest.is_empty();
+        if key.is_fixed || is_whole(path.as_slice()) {
             return true;
         }
         keys = match key.kind {
             Kind::Object(of) => of,
             Kind::List { of, .. } => {
                 path.next();
+                if is_whole(path.as_slice()) {
+                    return true;
+                }
                 of
             }
             _ => return false,
         };
+        is_part = key.is_whole && matches!(key.kind, Kind::List { .. });
     }
     false
 }

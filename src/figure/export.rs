@@ -3,7 +3,7 @@ use serde_json::{Map, Value, json};
 
 use super::mesh::Part;
 use super::solve::{GripKind, Posed, Rig};
-use crate::document::figure::{Figure, Propagation, Rigidity, Rotations};
+use crate::document::figure::{Figure, Rigidity};
 
 /// Rigid parts that count as elastic are listed as a region of this name, behind its own.
 const LOOSE: &str = " (elastic)";
@@ -29,9 +29,9 @@ pub fn exported(rig: &Rig, figure: &Figure, posed: &Posed) -> Value {
     put("regions", Value::Array(regions));
     put("handles", handles(rig, figure, &posed.base));
     put("contours", contours(rig, figure));
-    put("propagation", json!(propagation_name(figure.propagation)));
+    put("propagation", json!(figure.propagation.name()));
     put("reach", json!(figure.reach));
-    put("rotations", json!(rotations_name(figure.rotations)));
+    put("rotations", json!(figure.rotations.name()));
     put("context", context(rig, figure));
     put("positions", points(&posed.places));
     put("folded", json!(posed.folded));
@@ -45,24 +45,6 @@ pub fn exported(rig: &Rig, figure: &Figure, posed: &Posed) -> Value {
     put("rounds", json!(super::solve::MAX_ROUNDS));
     put("tolerance", json!(super::solve::TOLERANCE));
     Value::Object(out)
-}
-
-/// The word of a document for a propagation.
-pub fn propagation_name(propagation: Propagation) -> &'static str {
-    match propagation {
-        Propagation::Harmonic => "harmonic",
-        Propagation::Nearest => "nearest",
-        Propagation::Linear => "linear",
-        Propagation::Gaussian => "gaussian",
-    }
-}
-
-/// The word of a document for a kind of rotations.
-pub fn rotations_name(rotations: Rotations) -> &'static str {
-    match rotations {
-        Rotations::Found => "found",
-        Rotations::Propagated => "propagated",
-    }
 }
 
 fn point(at: DVec2) -> Value {

@@ -52,7 +52,7 @@ pub mod svg;
 
 pub use behind::smooth_colors;
 pub use bender::{Bender, Bent, Solved};
-pub use export::{exported, propagation_name, rotations_name};
+pub use export::exported;
 pub use notice::Notice;
 pub use original::Original;
 pub use plane::{Plane, reduced_size};

@@ -717,6 +717,80 @@ fn random_codes_with_right_checksums_are_answered() {
     println!("{documents} of 300 random codes are documents");
 }
 
+/// The built-in arm with six handles, four steps and six labels.
+fn bent_arm() -> Value {
+    let label = |x: f64, y: f64, text: &str| json!({ "at": [x, y, 0], "text": text });
+    json!({ "fabrica": 1, "title": "Flexion of the elbow", "subject": { "builtin": "drawn-arm" },
+        "figure": { "handles": [
+            { "region": "humerus" }, { "region": "ulna" }, { "region": "radius" }, { "region": "hand" },
+            { "name": "biceps", "at": [-0.0712, 0.0831], "radius": 0.03 }, { "name": "triceps", "at": [-0.0844, -0.0672], "radius": 0.03 }] },
+        "labels": [label(-0.21, 0.034, "Humerus"), label(0.187, -0.021, "Ulna"), label(0.193, 0.027, "Radius"),
+            label(-0.083, 0.081, "Biceps"), label(-0.094, -0.068, "Triceps"), label(-0.031, 0.043, "Brachialis")],
+        "steps": [
+            { "title": "Extension", "set": { "/figure/handles/1/turn": 0.12, "/figure/handles/2/turn": 0.12, "/figure/handles/3/turn": 0.15 } },
+            { "title": "30°", "set": { "/figure/handles/1/turn": 0.5236, "/figure/handles/1/move": [-0.0213, 0.0624],
+                "/figure/handles/2/turn": 0.5236, "/figure/handles/4/scale": 1.1 } },
+            { "title": "90°", "set": { "/figure/handles/1/turn": 1.5708, "/figure/handles/1/move": [-0.1427, 0.1532],
+                "/figure/handles/2/turn": 1.5708, "/figure/handles/4/scale": 1.25, "/figure/handles/5/scale": 0.92 } },
+            { "title": "Full flexion", "set": { "/figure/handles/1/turn": 2.4435, "/figure/handles/1/move": [-0.2618, 0.1209],
+                "/figure/handles/2/turn": 2.4435, "/figure/handles/3/turn": 0.35, "/figure/handles/4/scale": 1.4 } }] })
+}
+
+/// A plate of twelve flooded regions with six handles and five steps.
+fn flooded_plate() -> Value {
+    let names = [
+        "skin",
+        "tibia",
+        "fibula",
+        "talus",
+        "calcaneus",
+        "navicular",
+        "cuboid",
+        "cuneiforms",
+        "metatarsals",
+        "toes",
+        "Achilles tendon",
+        "plantar fascia",
+    ];
+    let regions = names.iter().enumerate().map(|(i, name)| {
+        let at = |k: usize| ((37 * i + 11 * k) % 97) as f64 / 97.0 - 0.5;
+        let round = |x: f64| (x * 1000.0).round() / 1000.0;
+        let mut region =
+            json!({ "name": name, "from": { "flood": { "at": [[round(at(0)), round(at(1))]] } } });
+        match i {
+            1..10 => region["rigidity"] = json!("rigid"),
+            0 => {}
+            _ => region["rigidity"] = json!(4),
+        }
+        if i % 3 == 0 {
+            region["from"]["flood"]["tolerance"] = json!(32);
+            region["from"]["flood"]["gap"] = json!(2);
+        }
+        region
+    });
+    let steps = (1..6).map(|i| {
+        let turn = |by: f64| (by * f64::from(i) * 1e4).round() / 1e4;
+        json!({ "title": format!("Dorsal flexion {}°", 5 * i), "set": {
+            "/figure/handles/1/turn": turn(0.0873), "/figure/handles/2/turn": turn(0.0611), "/figure/handles/4/move": [turn(-0.0042), turn(0.0093)] } })
+    });
+    json!({ "fabrica": 1, "title": "Foot", "subject": { "sha256": "7d793037a0760186574b0282f2f435e79c9a3d4f7e1b0c0a8e7a2f6f5e0d3c21", "name": "Foot" },
+        "figure": { "regions": regions.collect::<Vec<_>>(), "handles": [
+            { "region": "tibia" }, { "region": "talus" }, { "region": "calcaneus" }, { "region": "metatarsals" },
+            { "at": [0.314, -0.231] }, { "at": [-0.127, 0.382], "radius": 0.02 }] },
+        "steps": steps.collect::<Vec<_>>() })
+}
+
+#[test]
+fn links_of_figures_are_short() {
+    for (value, limit) in [(bent_arm(), 700), (flooded_plate(), 1200)] {
+        let document = document(value);
+        assert!(document.notices().is_empty(), "{:?}", document.notices());
+        let payload = link::encode(&document);
+        println!("{} of {limit} characters", payload.len());
+        assert!(payload.len() < limit, "{}", payload.len());
+    }
+}
+
 /// Every link that a release made, one per line: payload, tab, the document's canonical JSON. Lines are never deleted
 /// or changed. `FABRICA_BLESS=links` appends what the list below adds.
 #[test]
@@ -745,6 +819,17 @@ fn golden_links_open_for_ever() {
         "look": { "body": "solid", "thickness": 0.05, "inside": "#804030", "layers": [{ "depth": 0, "name": "rind", "color": "#b8433a" }, { "depth": 0.01, "name": "flesh",
         "color": "#f2e3b3", "grain": 0.1 }], "gloss": 0.2, "segments": { "talus": { "opacity": 0.4, "body": "hollow" } } },
         "steps": [{ "title": "In", "set": { "/objects/0/at": [0.1, 0.3, 0.05] } }] }));
+    wanted.push(bent_arm());
+    wanted.push(flooded_plate());
+    wanted.push(json!({ "fabrica": 1, "subject": { "src": "face.svg", "name": "Face" }, "figure": {
+        "regions": [{ "name": "jaw", "from": { "path": "jaw-2" }, "rigidity": "rigid", "order": 2, "cut": true, "behind": "smooth" },
+            { "name": "skin", "from": { "polygon": [[-0.5, -0.4], [0.5, -0.4], [0, 0.4]] }, "rigidity": [1, 4], "behind": "#e8c8b0", "fixed": true },
+            { "name": "paper", "from": { "flood": { "at": [[0.4, 0.4]], "connected": false } }, "fill": true, "hide": true }],
+        "handles": [{ "points": [[-0.1, 0], [0, 0.02], [0.1, 0]], "to": [[-0.1, 0.02], [0, 0], [0.1, 0.02]], "radius": 0.02 }],
+        "only": [[-0.5, -0.5], [0.5, -0.5], [0.5, 0], [-0.5, 0]], "propagation": "gaussian", "reach": 0.4, "rotations": "propagated",
+        "context": { "points": [[-0.1, 0.1], [0.1, 0.1], [0, -0.1]], "strength": 8, "like": [[0, 0], [80, 4], [38, 95]], "amount": 0.7 },
+        "contours": [{ "region": "jaw", "like": [[0, 0], [1, 0], [0.5, 0.7]], "mirror": true, "keep": [[0, 0.1]] }],
+        "rest": "drop", "detail": 9000 }, "steps": [{ "set": { "/figure/handles/0/to": [[-0.1, 0], [0, 0.03], [0.1, 0]], "/figure/context/amount": 1 } }] }));
     if std::env::var("FABRICA_BLESS").as_deref() == Ok("links") {
         for value in wanted.clone() {
             let document = document(value);

@@ -43,8 +43,7 @@ pub struct Illustration {
     /// Templates in the order in which they act, switched off ones included. Unknown kinds are left out; a notice names
     /// each.
     pub templates: Vec<PlacedTemplate>,
-    /// How a figure is divided and bent; `None` is a figure as it is ([`Figure::default`]), whether the document has
-    /// the key or not.
+    /// How a figure is divided and bent; `None` if the document has no such key.
     pub figure: Option<Figure>,
     /// Transfer function, opacity, light and background.
     pub look: Look,
@@ -108,6 +107,27 @@ impl Illustration {
         }
     }
 
+    /// JSON pointers to what the document has, but what is not drawn of this subject: templates and the look of volumes
+    /// beside a figure, `figure` beside any other subject. The document itself names them in its notices where it
+    /// tells which it is ([`SubjectRef::is_figure`]); of a file, the program knows when it has its bytes.
+    pub fn left_beside(&self, is_figure: bool) -> Vec<&'static str> {
+        let look = &self.look;
+        let beside_figure = [
+            ("/templates", !self.templates.is_empty()),
+            ("/look/transfer", look.transfer != Transfer::Auto),
+            ("/look/window", look.window != Window::Auto),
+            ("/look/opacity", look.opacity != OpacityMode::Constancy),
+            ("/look/segments", !look.segments.is_empty()),
+        ];
+        let beside_others = [("/figure", self.figure.is_some())];
+        let beside: &[(&str, bool)] = match is_figure {
+            true => &beside_figure,
+            false => &beside_others,
+        };
+        let given = beside.iter().filter(|(_, is_given)| *is_given);
+        given.map(|(pointer, _)| *pointer).collect()
+    }
+
     /// True if a template that is switched on carves by an object with these triangles.
     pub fn carves_by(&self, source: &ObjectSource) -> bool {
         let is_it = |template: &PlacedTemplate| {
@@ -117,6 +137,14 @@ impl Illustration {
                     .is_some_and(|found| found.source == *source)
         };
         self.templates.iter().any(is_it)
+    }
+
+    /// The turn of a camera as the document has it.
+    pub fn written_rotation(&self, rotate: Quat) -> Quat {
+        match self.is_of_figure() {
+            true => rotate * FIGURE_FRONT.inverse(),
+            false => rotate,
+        }
     }
 
     /// True if the document tells that its subject is a figure: by a built-in figure, or by a `figure` beside a file.

@@ -2,6 +2,9 @@
 
 use super::mesh::{MeshReading, MeshRef, SubjectBox};
 
+/// How the names of built-in figures begin.
+pub(in crate::document) const DRAWN: &str = "drawn-";
+
 /// The subject of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SubjectRef {
@@ -42,7 +45,7 @@ pub enum SubjectRef {
 impl SubjectRef {
     /// True for a built-in figure: its name begins with `drawn-`, whether this version knows it or not.
     pub fn is_drawn_figure(&self) -> bool {
-        matches!(self, Self::Builtin { name } if name.starts_with("drawn-"))
+        matches!(self, Self::Builtin { name } if name.starts_with(DRAWN))
     }
 
     /// Whether the subject is a figure, as far as the document tells: the bytes of a file decide for it, so there it is

@@ -4,7 +4,8 @@ use super::object::{Object, wrong};
 use super::reader::Reader;
 use crate::document::limits::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS};
 use crate::document::model::{
-    Camera, Caption, Illustration, PlacedTemplate, Step, TemplateData, join_objects, keep_sets,
+    Camera, Caption, FIGURE_FRONT, Illustration, PlacedTemplate, Step, TemplateData, join_objects,
+    keep_sets,
 };
 use crate::document::schema::ROOT;
 use crate::document::text::json::number_text;
@@ -80,6 +81,7 @@ impl Reader {
                 limit: MAX_KEEP_SETS,
             });
         }
+        let figure = self.figure(&root.child("figure")?)?;
         let look = self.look(&root.child("look")?, &subject)?;
         let camera = self.camera(&root.child("camera")?)?;
         let mut captions = Vec::new();
@@ -106,8 +108,7 @@ impl Reader {
         for object in root.children("steps")? {
             steps.push(self.step(&object?)?);
         }
-        Ok(Illustration {
-            figure: None,
+        let mut illustration = Illustration {
             title: root.string("title")?,
             legend: root.string("caption")?,
             alt: self.limited_text(&root, "alt")?,
@@ -120,12 +121,23 @@ impl Reader {
             recipes,
             objects,
             templates,
+            figure: root.map.contains_key("figure").then_some(figure),
             look,
             camera,
             captions,
             controls,
             steps,
-        })
+        };
+        if illustration.is_of_figure() {
+            illustration.camera.rotate *= FIGURE_FRONT;
+        }
+        if let Some(is_figure) = illustration.subject.is_figure() {
+            let what = ["a subject that is no figure", "a figure"][usize::from(is_figure)];
+            for pointer in illustration.left_beside(is_figure) {
+                self.note(pointer, NoticeKind::Beside { what });
+            }
+        }
+        Ok(illustration)
     }
 
     fn camera(&mut self, object: &Object<'_>) -> Result<Camera, DocumentError> {

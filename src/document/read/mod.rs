@@ -3,6 +3,7 @@
 mod control;
 mod curve;
 mod data;
+mod figure;
 mod illustration;
 mod light;
 mod look;
@@ -15,4 +16,5 @@ mod subject;
 mod surface;
 mod template;
 
+pub use figure::figure_from_text;
 pub(super) use illustration::resolve;

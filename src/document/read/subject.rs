@@ -2,7 +2,7 @@
 
 use super::object::{Object, wrong};
 use super::reader::Reader;
-use crate::document::limits::{BUILTIN_SUBJECTS, DEFAULT_SUBJECT};
+use crate::document::limits::{BUILTIN_SUBJECTS, DEFAULT_SUBJECT, DRAWN_FIGURES};
 use crate::document::model::{MeshRef, RawVoxels, Reading, SegmentsRef, SubjectRef};
 use crate::document::text::{DocumentError, NoticeKind, shortened};
 use serde_json::Value;
@@ -37,7 +37,7 @@ impl Reader {
         let sha256 = object.hash()?;
         let name = object.string("name")?;
         if let Some(builtin) = builtin {
-            if !BUILTIN_SUBJECTS.contains(&builtin) {
+            if !BUILTIN_SUBJECTS.contains(&builtin) && !DRAWN_FIGURES.contains(&builtin) {
                 self.note(
                     object.at("builtin"),
                     NoticeKind::UnknownSubject {

@@ -1,8 +1,10 @@
 mod carving;
 mod controls;
 mod curves;
+mod figures;
 mod lessons;
 mod lights;
+mod poses;
 mod recipes;
 mod recording;
 mod styles;

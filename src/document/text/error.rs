@@ -79,6 +79,36 @@ pub enum DocumentError {
         /// Number of entries that the list may have.
         limit: usize,
     },
+    /// Fewer entries than a list needs.
+    #[error("{pointer}: {found} {what}, at least {least} are needed")]
+    TooFew {
+        /// JSON pointer to the list.
+        pointer: String,
+        /// The entries' name, such as “points”.
+        what: &'static str,
+        /// Number of entries that the document has.
+        found: usize,
+        /// Number of entries that the list must have.
+        least: usize,
+    },
+    /// Two lists that go together are not equally long.
+    #[error("{pointer}: {found} points, but `points` has {expected}")]
+    UnequalLengths {
+        /// JSON pointer to the list that goes with `points`.
+        pointer: String,
+        /// Number of its entries.
+        found: usize,
+        /// Number of entries of `points`.
+        expected: usize,
+    },
+    /// A region has the name of one before it, or one that means something else.
+    #[error("{pointer}: “{name}” is taken; regions have names of their own")]
+    TakenName {
+        /// JSON pointer to the region's name, or to the region if it has none.
+        pointer: String,
+        /// The name, shortened.
+        name: String,
+    },
     /// Longer than a document may be.
     #[error("the document has {found} bytes, at most {limit} are allowed")]
     TooLarge {

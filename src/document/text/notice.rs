@@ -59,6 +59,11 @@ pub enum NoticeKind {
         /// The thing that is not drawn, in plain words.
         what: &'static str,
     },
+    /// A value that goes with another kind of subject.
+    Beside {
+        /// The subject beside which it is not drawn, in plain words.
+        what: &'static str,
+    },
     /// An object has the name of one before it, which counts where the name is asked for.
     SameName {
         /// What both are called.
@@ -151,6 +156,9 @@ impl fmt::Display for Notice {
             ),
             NoticeKind::NotDrawn { what } => {
                 write!(f, "{pointer}: {what} not drawn yet; kept")
+            }
+            NoticeKind::Beside { what } => {
+                write!(f, "{pointer}: beside {what} this is kept, not drawn")
             }
             NoticeKind::SameName { name } => write!(
                 f,

@@ -8,11 +8,13 @@ use super::value;
 use crate::displace::Holds;
 use crate::document::limits::{DEFAULT_SUBJECT, MAX_LABELS, MAX_OBJECTS, MAX_TEMPLATES};
 use crate::document::model::{
-    Align, Background, Constrain, ConstrainBy, MeshRef, OpacityMode, ParamKind, ParamValue,
-    Reading, SubjectBox, SubjectRef, TemplateKind, TemplateMode, Transfer, Window,
+    Align, Background, Camera, Constrain, ConstrainBy, DRAWN, FIGURE_FRONT, MeshRef, OpacityMode,
+    ParamKind, ParamValue, Reading, SubjectBox, SubjectRef, TemplateKind, TemplateMode, Transfer,
+    Window,
 };
 use crate::document::text::DocumentError;
 use crate::document::text::pointer::{self, join};
+use glam::Quat;
 use serde_json::{Value, json};
 
 impl Edit {
@@ -215,7 +217,11 @@ impl Edit {
             }
             Self::SetCamera(camera) => {
                 set(root, "/camera/target", vector(camera.target))?;
-                set(root, "/camera/rotate", rotation(camera.rotate))?;
+                set(
+                    root,
+                    "/camera/rotate",
+                    rotation(written_rotation(root, camera)),
+                )?;
                 set(root, "/camera/distance", rounded(camera.distance))?;
                 set(root, "/camera/fov", rounded(camera.fov_deg))
             }
@@ -313,6 +319,11 @@ impl Edit {
                 set(root, &join(&at, "enabled"), json!(value.enabled))
             }
             Self::RemoveCaption { caption } => take(root, "labels", *caption).map(|_| ()),
+            Self::AddToFigure { list, index, entry } => {
+                insert(root, list.key(), list.limit(), *index, entry.clone())
+            }
+            Self::RemoveFromFigure { list, index } => take(root, list.key(), *index).map(|_| ()),
+            Self::MoveInFigure { list, from, to } => reorder(root, list.key(), *from, *to),
             Self::All { .. }
             | Self::AtStep { .. }
             | Self::AddStep { .. }
@@ -326,6 +337,23 @@ impl Edit {
 }
 
 /// True if the document's subject is the file of `subject`.
+/// The turn of a camera as a document has it: a figure's camera is not turned where it looks at the figure from the
+/// front.
+fn written_rotation(root: &Value, camera: &Camera) -> Quat {
+    let subject = |key: &str| root.get("subject").and_then(|subject| subject.get(key));
+    let is_figure = match subject("builtin").and_then(Value::as_str) {
+        Some(name) => name.starts_with(DRAWN),
+        None => {
+            let has_file = subject("src").or(subject("sha256")).is_some();
+            has_file && root.get("figure").is_some()
+        }
+    };
+    match is_figure {
+        true => camera.rotate * FIGURE_FRONT.inverse(),
+        false => camera.rotate,
+    }
+}
+
 fn is_same_file(root: &Value, subject: &SubjectRef) -> bool {
     let text = |key| {
         pointer::get(root, &join("/subject", key))

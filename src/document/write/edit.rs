@@ -1,5 +1,6 @@
 //! Edits: what can be done to a document.
 
+use crate::document::model::figure;
 use crate::document::model::{
     Align, Background, Camera, Caption, Constrain, ControlPoints, Curve, MeshRef, ObjectPlacement,
     OpacityMode, ParamValue, SubjectBox, SubjectRef, TemplateKind, TemplateMode, Transfer,
@@ -237,10 +238,35 @@ pub enum Edit {
         /// Index of the caption in `labels`, from 0.
         caption: usize,
     },
+    /// Adds an entry to a list of the figure before the one of that index (or last). Pointers of steps follow.
+    AddToFigure {
+        /// The list.
+        list: FigureList,
+        /// Index of the new entry after the edit; larger than the number of entries means last.
+        index: usize,
+        /// The entry, as in a document.
+        entry: Value,
+    },
+    /// Removes an entry of a list of the figure. Pointers of steps to later entries follow.
+    RemoveFromFigure {
+        /// The list.
+        list: FigureList,
+        /// Index of the entry.
+        index: usize,
+    },
+    /// Changes the place of an entry in a list of the figure. Pointers of steps follow.
+    MoveInFigure {
+        /// The list.
+        list: FigureList,
+        /// Index of the entry.
+        from: usize,
+        /// Index of the entry after the edit.
+        to: usize,
+    },
     /// Does an edit while a step is shown. What it changes goes into what the step sets and holds from there on, until
-    /// another step sets it. A template or caption that it adds is switched off before the step, one that it removes is
-    /// switched off from the step on. Order and names of templates, the texts of the document and its subject are those
-    /// of all steps.
+    /// another step sets it. A template, caption or handle that it adds is switched off before the step, one that it
+    /// removes is switched off from the step on. Order and names of templates, the regions and contours of a figure,
+    /// the texts of the document and its subject are those of all steps.
     AtStep {
         /// The step that is shown; 0 is the document itself.
         step: usize,
@@ -272,6 +298,46 @@ pub enum Edit {
         /// Index of the step after the edit.
         to: usize,
     },
+}
+
+/// A list of a figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FigureList {
+    /// Its regions, from behind to front.
+    Regions,
+    /// Its handles.
+    Handles,
+    /// Outlines that take the style of others.
+    Contours,
+}
+
+impl FigureList {
+    /// Where the list stands in a document, without the first stroke of the pointer.
+    pub(crate) fn key(self) -> &'static str {
+        match self {
+            Self::Regions => "figure/regions",
+            Self::Handles => "figure/handles",
+            Self::Contours => "figure/contours",
+        }
+    }
+
+    /// Most entries of the list.
+    pub fn limit(self) -> usize {
+        match self {
+            Self::Regions => figure::MAX_REGIONS,
+            Self::Handles => figure::MAX_HANDLES,
+            Self::Contours => figure::MAX_CONTOURS,
+        }
+    }
+
+    /// What an entry is called.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Regions => "region",
+            Self::Handles => "handle",
+            Self::Contours => "contour",
+        }
+    }
 }
 
 impl Edit {
@@ -322,6 +388,9 @@ impl Edit {
             Self::AddCaption(_) => "/labels/-".to_owned(),
             Self::ReplaceCaption { caption, .. } => format!("/labels/{caption}"),
             Self::RemoveCaption { caption } => format!("/labels/{caption}/remove"),
+            Self::AddToFigure { list, index, .. } => format!("/{}/{index}/add", list.key()),
+            Self::RemoveFromFigure { list, index } => format!("/{}/{index}/remove", list.key()),
+            Self::MoveInFigure { list, from, to } => format!("/{}/{from}/to/{to}", list.key()),
             Self::AtStep { step, edit } => format!("/steps/{step}{}", edit.target()),
             Self::AddStep { index, .. } => format!("/steps/{index}/add"),
             Self::DuplicateStep { step } => format!("/steps/{step}/duplicate"),

@@ -1,19 +1,24 @@
 //! Entries of the document's lists: inserting, removing, moving. Pointers in steps and controls follow their entries.
 
 use crate::document::text::DocumentError;
-use crate::document::text::pointer::{self, join};
+use crate::document::text::pointer;
 use serde_json::{Value, json};
 
-/// A list of the document; created if the key is missing.
+/// A list of the document; created if the key is missing. `key` is `templates`, or `figure/handles` for a list inside.
 pub(crate) fn list<'a>(
     root: &'a mut Value,
     key: &'static str,
 ) -> Result<&'a mut Vec<Value>, DocumentError> {
     let not_found = || DocumentError::NotFound {
-        pointer: join("", key),
+        pointer: format!("/{key}"),
     };
-    let map = root.as_object_mut().ok_or_else(not_found)?;
-    let value = map.entry(key).or_insert_with(|| json!([]));
+    let mut value = root;
+    for (i, name) in key.split('/').enumerate() {
+        let map = value.as_object_mut().ok_or_else(not_found)?;
+        let is_last = i == key.matches('/').count();
+        let missing = || if is_last { json!([]) } else { json!({}) };
+        value = map.entry(name).or_insert_with(missing);
+    }
     value.as_array_mut().ok_or_else(not_found)
 }
 
@@ -28,8 +33,8 @@ pub(crate) fn insert(
     let items = list(root, key)?;
     if items.len() >= limit {
         return Err(DocumentError::TooMany {
-            pointer: join("", key),
-            what: key,
+            pointer: format!("/{key}"),
+            what: key.rsplit('/').next().unwrap_or(key),
             found: items.len() + 1,
             limit,
         });
@@ -93,17 +98,16 @@ pub(super) fn reorder(
 /// Rewrites the pointers in all steps and controls after entries of a list have moved: `moved` gives the new index of
 /// an old one, or `None` if the entry is gone, and its pointers with it.
 fn rewrite(root: &mut Value, key: &str, moved: impl Fn(usize) -> Option<usize>) {
+    let head = format!("/{key}/");
     let followed = |target: String| {
-        let keys = pointer::keys(&target).unwrap_or_default();
-        let index = match keys.as_slice() {
-            [first, second, ..] if first == key => pointer::index(second),
-            _ => None,
-        };
-        let Some(index) = index else {
+        let Some(rest) = target.strip_prefix(&head) else {
             return Some(target);
         };
-        let head = join(&join("", key), &moved(index)?.to_string());
-        Some(keys.iter().skip(2).fold(head, |p, key| join(&p, key)))
+        let (entry, inside) = rest.split_at(rest.find('/').unwrap_or(rest.len()));
+        let Some(index) = pointer::index(entry) else {
+            return Some(target);
+        };
+        Some(format!("{head}{}{inside}", moved(index)?))
     };
     if let Some(Value::Array(steps)) = root.get_mut("steps") {
         for step in steps {

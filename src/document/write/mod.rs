@@ -2,13 +2,15 @@
 
 mod change;
 mod edit;
+mod figure;
 pub(super) mod json;
 mod lists;
 mod number;
 mod set;
 mod value;
 
-pub use edit::Edit;
+pub use edit::{Edit, FigureList};
+pub use figure::figure_to_text;
 pub(super) use lists::{insert, list, take};
 #[cfg(any(feature = "app", feature = "session"))]
 pub(crate) use number::color_text;

@@ -4,8 +4,8 @@
 //! | paper | here |
 //! |---|---|
 //! | f, the deformed coordinates | `places` |
-//! | ∇φ, the gradients of hat functions | [`Element::gradients`] |
-//! | A, the area of a triangle | [`Element::area`] |
+//! | ∇φ, the gradients of hat functions | `Element::gradients` |
+//! | A, the area of a triangle | `Element::area` |
 //! | kˣ, kʸ, the rigidities | `Body::k2`, their squares |
 //! | w, the guidance field | `State::wanted` |
 //! | C, λ, u, the shape context | `ContextSheet`, its `lambda`, `Kept::rows` |

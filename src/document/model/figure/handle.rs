@@ -52,7 +52,8 @@ pub enum Hold {
 pub struct Move {
     /// How far, each -4 to 4.
     pub by: DVec2,
-    /// By which angle, -4π to 4π; none: open for a point, 0 for a region or a line.
+    /// By which angle, radians counter-clockwise, -4π to 4π; none: open for a point, 0 for a region or a line (which
+    /// a document gives as 0).
     pub turn: Option<f64>,
     /// By which factor, 0.05 to 20.
     pub scale: f64,
@@ -89,4 +90,28 @@ pub enum Rotations {
     Found,
     /// Each triangle has the turn that spreads from the handles: the paper's way.
     Propagated,
+}
+
+impl Propagation {
+    /// All of them; the first is the default.
+    pub const ALL: [Self; 4] = [Self::Harmonic, Self::Nearest, Self::Linear, Self::Gaussian];
+    /// Their names in documents, in the same order.
+    pub const NAMES: [&'static str; 4] = ["harmonic", "nearest", "linear", "gaussian"];
+
+    /// Its name in documents.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}
+
+impl Rotations {
+    /// All of them; the first is the default.
+    pub const ALL: [Self; 2] = [Self::Found, Self::Propagated];
+    /// Their names in documents, in the same order.
+    pub const NAMES: [&'static str; 2] = ["found", "propagated"];
+
+    /// Its name in documents.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
 }

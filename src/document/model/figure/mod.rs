@@ -14,6 +14,8 @@ use glam::DVec2;
 pub const MAX_REGIONS: usize = 64;
 /// Handles at most.
 pub const MAX_HANDLES: usize = 64;
+/// Contours at most.
+pub const MAX_CONTOURS: usize = 8;
 /// Points of all floods together at most.
 pub const MAX_FLOOD_POINTS: usize = 256;
 /// Triangles aimed at if a document does not say.

@@ -41,3 +41,15 @@ pub enum Rest {
     /// It is left out.
     Drop,
 }
+
+impl Rest {
+    /// All of them; the first is the default.
+    pub const ALL: [Self; 3] = [Self::Bend, Self::Keep, Self::Drop];
+    /// Their names in documents, in the same order.
+    pub const NAMES: [&'static str; 3] = ["bend", "keep", "drop"];
+
+    /// Its name in documents.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}

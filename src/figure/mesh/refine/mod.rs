@@ -115,7 +115,7 @@ pub(crate) fn refine(
             return Some(refinement.ends_well());
         }
         steps += 1;
-        if steps % STEPS == 0 && !progress(count as f32 / most as f32) {
+        if steps.is_multiple_of(STEPS) && !progress(count as f32 / most as f32) {
             return None;
         }
         if let Some(edge) = refinement.edges.pop_front() {
