@@ -3,13 +3,13 @@
 
 use std::collections::BTreeMap;
 
-use figure::figure::drawn::{CHILD_FACE, Drawn, FACE_POINTS, NAMES, OLD_FACE, drawn};
-use figure::figure::mesh::{Mesh, Part};
-use figure::figure::model::{Context, Figure, Rigidity, check};
-use figure::figure::regions::Canvas;
-use figure::figure::solve::Rig;
-use figure::figure::svg::Drawing;
-use figure::figure::{Plane, unwatched};
+use fabrica::figure::drawn::{CHILD_FACE, Drawn, FACE_POINTS, NAMES, OLD_FACE, drawn};
+use fabrica::figure::mesh::{Mesh, Part};
+use fabrica::document::figure::{Context, Figure, Rigidity};
+use fabrica::figure::regions::Canvas;
+use fabrica::figure::solve::Rig;
+use fabrica::figure::svg::Drawing;
+use fabrica::figure::{Plane, unwatched};
 use glam::{DVec2, dvec2};
 
 const REGIONS: [(&str, &[&str]); 5] = [
@@ -215,7 +215,7 @@ fn a_face_grows_old_and_young() {
             .context
             .iter()
             .flat_map(|context| &context.points)
-            .map(|at| figure::figure::probe::forward(&mesh, &posed.places, *at).place)
+            .map(|at| fabrica::figure::probe::forward(&mesh, &posed.places, *at).place)
             .collect();
         // How far the cheeks lie apart for the height of the face.
         assert_eq!(

@@ -1,6 +1,7 @@
 //! Figures: regions, meshes, handles, the solve, and drawings.
 
 mod common;
+mod drawn;
 mod holding;
 mod limits;
 mod mesh;
