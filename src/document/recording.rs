@@ -254,8 +254,8 @@ fn appear(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErro
     Ok(())
 }
 
-/// Removes a template, an object, a caption or a handle while a step is shown: it is switched off from there on. What no
-/// step before shows is removed for good.
+/// Removes a template, an object, a caption or a handle while a step is shown: it is switched off from there on. What
+/// no step before shows is removed for good.
 fn vanish(
     root: &mut Value,
     step: usize,
