@@ -1,14 +1,11 @@
 //! The way between two states of a document.
 
-mod figure;
-
-use figure::blend_figure;
-
 use super::model::{
     Align, Background, Curve, Ghost, Hatch, Illustration, Layer, Light, Outline, ParamKind,
     ParamValue, PlacedTemplate, SceneObject, SegmentLook, Stipple, Style, SurfaceChange,
     SurfaceLook, TemplateData, Tone, Transfer, TransferPoint, Window, join_objects,
 };
+use super::pose::blend_figure;
 use crate::math::mix_srgb;
 use glam::{Quat, Vec2, Vec3};
 

@@ -24,9 +24,9 @@
 //! # How the room is built
 //!
 //! Files import only from files before them: `limits` <- `model` (plain types, no JSON) and `text` (JSON, pointers,
-//! errors, notices) <- `schema` (every fixed key once) <- `read` and `write` <- `canonical`, `steps`, `blend` <-
-//! `difference` <- `recording`, `lesson`, `turn` <- `tree` <- `naming`, `walk`, `autoplay` <- `history`, `authoring`
-//! <- `carry`.
+//! errors, notices) <- `schema` (every fixed key once) <- `read` and `write` <- `pose` <- `canonical`, `steps`,
+//! `blend` <- `difference` <- `recording`, `lesson`, `turn` <- `tree` <- `naming`, `walk`, `autoplay` <- `history`,
+//! `authoring` <- `carry`.
 //!
 #![doc = include_str!("reference.md")]
 
@@ -41,6 +41,7 @@ mod lesson;
 mod limits;
 mod model;
 mod naming;
+mod pose;
 mod read;
 mod recording;
 #[cfg(test)]

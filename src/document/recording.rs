@@ -205,8 +205,8 @@ fn is_of_all_steps(target: &str) -> bool {
     KEYS.iter().any(|key| is_in(target, key)) || keys()
 }
 
-/// Adds templates, an object, a caption or a handle while a step is shown: they are switched off before it. A template grows in
-/// the passage to the step.
+/// Adds templates, an object, a caption or a handle while a step is shown: they are switched off before it. A template
+/// grows in the passage to the step.
 fn appear(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentError> {
     let before = state(root, step)?;
     let after = changed(&before, edit)?;
@@ -254,8 +254,8 @@ fn appear(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErro
     Ok(())
 }
 
-/// Removes a template, an object, a caption or a handle while a step is shown: it is switched off from there on. What no step
-/// before shows is removed for good.
+/// Removes a template, an object, a caption or a handle while a step is shown: it is switched off from there on. What
+/// no step before shows is removed for good.
 fn vanish(
     root: &mut Value,
     step: usize,

@@ -728,10 +728,10 @@ fn bent_arm() -> Value {
             label(-0.083, 0.081, "Biceps"), label(-0.094, -0.068, "Triceps"), label(-0.031, 0.043, "Brachialis")],
         "steps": [
             { "title": "Extension", "set": { "/figure/handles/1/turn": 0.12, "/figure/handles/2/turn": 0.12, "/figure/handles/3/turn": 0.15 } },
-            { "title": "30°", "set": { "/figure/handles/1/turn": 0.5236, "/figure/handles/1/move": [-0.0213, 0.0624],
-                "/figure/handles/2/turn": 0.5236, "/figure/handles/4/scale": 1.1 } },
-            { "title": "90°", "set": { "/figure/handles/1/turn": 1.5708, "/figure/handles/1/move": [-0.1427, 0.1532],
-                "/figure/handles/2/turn": 1.5708, "/figure/handles/4/scale": 1.25, "/figure/handles/5/scale": 0.92 } },
+            { "title": "31°", "set": { "/figure/handles/1/turn": 0.5411, "/figure/handles/1/move": [-0.0213, 0.0624],
+                "/figure/handles/2/turn": 0.5411, "/figure/handles/4/scale": 1.1 } },
+            { "title": "88°", "set": { "/figure/handles/1/turn": 1.5359, "/figure/handles/1/move": [-0.1427, 0.1532],
+                "/figure/handles/2/turn": 1.5359, "/figure/handles/4/scale": 1.25, "/figure/handles/5/scale": 0.92 } },
             { "title": "Full flexion", "set": { "/figure/handles/1/turn": 2.4435, "/figure/handles/1/move": [-0.2618, 0.1209],
                 "/figure/handles/2/turn": 2.4435, "/figure/handles/3/turn": 0.35, "/figure/handles/4/scale": 1.4 } }] })
 }

@@ -39,6 +39,7 @@ pub(crate) const ORDER: [(&str, &[&[&str]]); 3] = [
             &["model", "text"],
             &["schema.rs"],
             &["read", "write"],
+            &["pose.rs"],
             &["canonical.rs", "steps.rs", "blend.rs"],
             &["difference.rs"],
             &["recording.rs", "lesson.rs", "turn.rs"],

@@ -240,7 +240,7 @@ pub enum Edit {
     },
     /// Adds an entry to a list of the figure before the one of that index (or last). Pointers of steps follow.
     AddToFigure {
-        /// The list.
+        /// Which of the lists of `figure`.
         list: FigureList,
         /// Index of the new entry after the edit; larger than the number of entries means last.
         index: usize,
@@ -249,14 +249,14 @@ pub enum Edit {
     },
     /// Removes an entry of a list of the figure. Pointers of steps to later entries follow.
     RemoveFromFigure {
-        /// The list.
+        /// Which of the lists of `figure`.
         list: FigureList,
         /// Index of the entry.
         index: usize,
     },
     /// Changes the place of an entry in a list of the figure. Pointers of steps follow.
     MoveInFigure {
-        /// The list.
+        /// Which of the lists of `figure`.
         list: FigureList,
         /// Index of the entry.
         from: usize,
@@ -300,12 +300,12 @@ pub enum Edit {
     },
 }
 
-/// A list of a figure.
+/// What `figure` holds several of, in an order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FigureList {
-    /// Its regions, from behind to front.
+    /// Its parts, from behind to front.
     Regions,
-    /// Its handles.
+    /// What bends it.
     Handles,
     /// Outlines that take the style of others.
     Contours,

@@ -8,6 +8,7 @@ use fabrica::figure::Notice;
 use fabrica::figure::mesh::{Mesh, Part};
 use fabrica::figure::solve::{Posed, Rig};
 use glam::{DVec2, dvec2};
+use std::sync::Arc;
 
 const PROPAGATIONS: [Propagation; 4] = [
     Propagation::Harmonic,
@@ -16,7 +17,7 @@ const PROPAGATIONS: [Propagation; 4] = [
     Propagation::Gaussian,
 ];
 
-fn posed(mesh: &Mesh, figure: &Figure) -> (Posed, Vec<Notice>) {
+fn posed(mesh: &Arc<Mesh>, figure: &Figure) -> (Posed, Vec<Notice>) {
     let mut notices = Vec::new();
     let rig = Rig::new(mesh, figure, &mut notices);
     let posed = rig.posed(figure, &mut notices);

@@ -11,6 +11,7 @@ use fabrica::figure::svg::{Drawing, Label, Outline, SvgError, bent};
 use fabrica::figure::{Plane, unwatched};
 use glam::{DVec2, dvec2};
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::data::data_folder;
 
@@ -62,7 +63,7 @@ fn the_shapes_of_the_test_data_are_named() {
     }
 }
 
-fn map(drawing: &Drawing, figure: &Figure) -> (Plane, Mesh, Vec<Notice>) {
+fn map(drawing: &Drawing, figure: &Figure) -> (Plane, Arc<Mesh>, Vec<Notice>) {
     let plane = Plane::of_drawing(drawing.size);
     let canvas = Canvas {
         plane,
@@ -72,7 +73,7 @@ fn map(drawing: &Drawing, figure: &Figure) -> (Plane, Mesh, Vec<Notice>) {
     };
     let mut notices = Vec::new();
     let mesh = Mesh::new(&canvas, figure, &mut notices, &mut unwatched).expect("not stopped");
-    (plane, mesh, notices)
+    (plane, Arc::new(mesh), notices)
 }
 
 #[test]

@@ -5,7 +5,7 @@ use glam::DVec2;
 pub struct Handle {
     /// Its name, if it has one.
     pub name: Option<String>,
-    /// What it holds.
+    /// The point, region or line that moves with it.
     pub hold: Hold,
     /// Vertices within this of its point or line are held, 0.001 to 0.2.
     pub radius: f64,

@@ -136,7 +136,7 @@ impl Rigidity {
 /// What is seen where a cut region lay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Behind {
-    /// A hole.
+    /// Nothing: there is a hole.
     None,
     /// Soft tissue of this colour (sRGB).
     Color([u8; 3]),

@@ -4,7 +4,7 @@
 //! factored once: `rigidity`, `fixed`, `only`, what a handle holds and how far around, `enabled`, points and strength
 //! of the context. So is a turn that was open or becomes so, and whatever is no number.
 
-use crate::document::model::figure::{Context, Contour, Figure, Handle, Hold, Region};
+use super::model::figure::{Context, Contour, Figure, Handle, Hold, Region};
 use glam::DVec2;
 
 /// The figure between two others. A missing one is a figure as it is.
