@@ -78,8 +78,8 @@ fn plate_at(at: vec2f, dx: vec2f, dy: vec2f) -> vec4f {
     return sum / taps;
 }
 
-/// The colour of the sheet, linear premultiplied. Colours are those of the middle of the pixel in every sample, and only
-/// edges are softened by samples: an unbent plate stays as sharp as it is.
+/// The colour of the sheet, linear premultiplied. In every sample it is that of the middle of the pixel, and samples
+/// soften edges only: an unbent plate stays as sharp as it is.
 @fragment
 fn draw_sheet(corner: Corner) -> @location(0) vec4f {
     let at = vec2f(0.5 + 0.5 * corner.rest.x / sheet.half_size.x, 0.5 - 0.5 * corner.rest.y / sheet.half_size.y);

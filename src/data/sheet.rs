@@ -24,7 +24,7 @@ pub struct SheetMesh {
 /// A bent figure: where its vertices are, and which triangles are in front. Cheap to clone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
-    /// The triangles.
+    /// Vertices at rest and triangles.
     pub mesh: Arc<SheetMesh>,
     /// Where the vertices are, subject space.
     pub places: Arc<Vec<Vec2>>,

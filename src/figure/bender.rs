@@ -95,8 +95,8 @@ impl Bender {
         })
     }
 
-    /// The pose that follows a drag or a passage: with so many rounds from the last pose on. Where there is no last pose
-    /// with these regions and these held places, it is the pose at rest.
+    /// The pose that follows a drag or a passage: with so many rounds from the last pose on. Where there is no last
+    /// pose with these regions and these held places, it is the pose at rest.
     pub fn follow(
         &mut self,
         figure: &Figure,
@@ -187,8 +187,8 @@ impl Made {
     }
 }
 
-/// The mesh as it is drawn, and for each of its vertices the vertex of the mesh. What is drawn in colours of its own has
-/// vertices of its own.
+/// The mesh as it is drawn, and for each of its vertices the vertex of the mesh. What is drawn in colours of its own
+/// has vertices of its own.
 fn drawn_mesh(mesh: &Mesh, original: &Original, figure: &Figure) -> (SheetMesh, Vec<u32>) {
     let mut vertex_of: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
     let mut colors = vec![[0.0; 4]; mesh.vertices.len()];

@@ -8,7 +8,7 @@ pub enum Notice {
     UnknownRegion {
         /// JSON pointer of the name.
         pointer: String,
-        /// The name.
+        /// What it is called in the document.
         name: String,
     },
     /// Nothing is left of a region.
@@ -50,7 +50,7 @@ pub enum Notice {
     },
     /// Triangles that are turned over.
     Folded {
-        /// How many.
+        /// Number of triangles.
         count: usize,
     },
     /// Outlines with too many points; small parts were left out, and the rest was simplified.

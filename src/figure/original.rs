@@ -57,8 +57,8 @@ impl Original {
         &self.picture
     }
 
-    /// A document's figure with what it leaves to the source: regions of a drawing of the program, and regions that take
-    /// the shapes of their name.
+    /// A document's figure with what it leaves to the source: regions of a drawing of the program, and regions that
+    /// take the shapes of their name.
     pub fn completed(&self, figure: &Figure) -> Figure {
         let mut whole = figure.clone();
         whole.regions = self.regions.clone();

@@ -16,7 +16,7 @@ const SNIFF_BYTES: usize = 4096;
 pub enum FigureFile {
     /// A PNG or JPEG.
     Picture,
-    /// An SVG.
+    /// An SVG, of which shapes are drawn.
     Drawing,
 }
 
@@ -58,7 +58,7 @@ pub enum PlateError {
 /// A figure's file that was read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadPlate {
-    /// Its plate.
+    /// The picture, with what regions are found in.
     pub plate: Plate,
     /// What is drawn otherwise than the file has it, or is left aside, in words.
     pub asides: Vec<String>,

@@ -116,7 +116,7 @@ pub enum Warning {
     },
     /// What of a figure is drawn otherwise than its file has it, or is left aside.
     Figure {
-        /// In words.
+        /// What it is and what was done, in words.
         what: String,
     },
     /// Label names in the file could not be understood.

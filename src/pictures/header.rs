@@ -35,8 +35,8 @@ pub struct PictureHeader {
     pub kind: PictureKind,
     /// Width and height, pixels, as stored: no orientation is followed.
     pub size: [u32; 2],
-    /// Numbers of a pixel: 1 grey, 2 grey and alpha, 3 red, green and blue (or of a palette, or of a JPEG's YCbCr), 4 with
-    /// alpha, or of inks.
+    /// Numbers of a pixel: 1 grey, 2 grey and alpha, 3 red, green and blue (or of a palette, or of a JPEG's YCbCr), 4
+    /// with alpha, or of inks.
     pub channels: u8,
     /// Bits of each of them.
     pub bits: u8,

@@ -1,4 +1,5 @@
-//! The solve of figures, read a second time from the contract alone: dense, from the exported JSON, with other methods (energies are sampled, not differentiated; rounds are plain).
+//! The solve of figures, read a second time from the contract alone: dense, from the exported JSON, with other methods
+//! (energies are sampled, not differentiated; rounds are plain).
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -67,7 +68,7 @@ pub(crate) fn triples(value: &Value) -> Vec<[usize; 3]> {
 
 /// A triangle that gives way.
 #[derive(Clone)]
-struct Tri {
+pub(crate) struct Tri {
     v: [usize; 3],
     grad: [P; 3],
     area: f64,

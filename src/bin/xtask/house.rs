@@ -11,7 +11,7 @@ use std::path::Path;
 use super::imports::{self, Graph, Import, Source};
 
 /// Rooms with their layers: a room imports only rooms of lower layers.
-pub(crate) const ROOMS: [(&str, u32); 15] = [
+pub(crate) const ROOMS: [(&str, u32); 16] = [
     ("math", 0),
     ("pictures", 1),
     ("displace", 1),
@@ -19,6 +19,7 @@ pub(crate) const ROOMS: [(&str, u32); 15] = [
     ("link", 3),
     ("data", 3),
     ("load", 4),
+    ("figure", 4),
     ("subjects", 4),
     ("placed", 4),
     ("describe", 4),

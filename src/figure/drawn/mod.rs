@@ -2,8 +2,8 @@
 //! built-in figures").
 //!
 //! Each is an SVG of curves and gradients. The id of an element is the name of a region, letter for letter, with spaces
-//! where the name has them; what is drawn in the element moves with the region. Regions are listed from behind to front,
-//! as they are drawn.
+//! where the name has them; what is drawn in the element moves with the region. Regions are listed from behind to
+//! front, as they are drawn.
 //!
 //! ```
 //! use fabrica::figure::drawn::{NAMES, drawn};
@@ -30,7 +30,7 @@ pub const NAMES: [&str; 5] = [
 pub struct Drawn {
     /// What it shows, in one or two words.
     pub title: &'static str,
-    /// The drawing.
+    /// An SVG whose elements are named after the regions.
     pub svg: &'static str,
     /// Its regions, from behind to front.
     pub regions: Vec<Region>,
@@ -117,9 +117,9 @@ const NECK: [(&str, Rigidity, f64); 14] = [
     ("jaw", BONE, LINE),
 ];
 
-/// Blood in the chambers gives way, muscle less, valves and the great artery least. The valves lie behind the chambers in
-/// the list, though they are drawn before them: their rings are a region, their leaflets move with the chamber that they
-/// hang in, and a chamber's outline has no notches where a contour would be laid on it.
+/// Blood in the chambers gives way, muscle less, valves and the great artery least. The valves lie behind the chambers
+/// in the list, though they are drawn before them: their rings are a region, their leaflets move with the chamber that
+/// they hang in, and a chamber's outline has no notches where a contour would be laid on it.
 const HEART: [(&str, Rigidity, f64); 8] = [
     ("wall", soft(2.0), EDGE),
     ("aorta", soft(4.0), EDGE),
@@ -141,9 +141,9 @@ const FACE: [(&str, Rigidity, f64); 6] = [
     ("mouth", soft(1.5), LINE),
 ];
 
-/// The 16 points of `drawn-face` that a likeness moves, figure space: forehead, chin; then of the viewer's left and right
-/// side each cheek, jaw, outer and inner corner of the eye, lid under the brow, wing of the nose, corner of the mouth. They
-/// lie a little inside of outlines: a point pulls at one vertex, and on a line one would see it.
+/// The 16 points of `drawn-face` that a likeness moves, figure space: forehead, chin; then of the viewer's left and
+/// right side each cheek, jaw, outer and inner corner of the eye, lid under the brow, wing of the nose, corner of the
+/// mouth. They lie a little inside of outlines: a point pulls at one vertex, and on a line one would see it.
 pub const FACE_POINTS: [[f64; 2]; 16] = [
     [0.000, 0.247],
     [0.000, -0.324],

@@ -1,7 +1,7 @@
 use glam::DVec2;
 use robust::{Coord, incircle, orient2d};
 
-/// No triangle.
+/// Stands for a triangle where there is none.
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// A triangulation of a rectangle that is Delaunay but for fixed edges. Edge k of a triangle lies opposite its corner
@@ -9,7 +9,7 @@ pub(crate) const NONE: u32 = u32::MAX;
 pub(crate) struct Delaunay {
     /// All points; the rectangle's corners are the first four.
     pub(crate) points: Vec<DVec2>,
-    /// The triangles.
+    /// All triangles, those that are not drawn too.
     pub(crate) triangles: Vec<Triangle>,
     /// A triangle at each point.
     at_point: Vec<u32>,

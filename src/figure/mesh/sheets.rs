@@ -32,7 +32,7 @@ pub struct Mesh {
 pub struct Tissue {
     /// Name of the region; `rest`; or the region's name and ` (behind)`.
     pub name: String,
-    /// What it is.
+    /// The region, what lies behind one, or the rest.
     pub part: Part,
     /// Pixels of the map that are left to it.
     pub pixels: usize,

@@ -49,7 +49,7 @@ pub(crate) struct Edge {
     pub(crate) left: u8,
     /// Label to the right.
     pub(crate) right: u8,
-    /// The line it is of.
+    /// Index of the line that it is a part of.
     pub(crate) line: u32,
 }
 

@@ -7,7 +7,7 @@ pub(crate) const OUTSIDE: u8 = 255;
 pub(crate) struct Traced {
     /// Corners of pixels, column and row, line after line.
     points: Vec<[u16; 2]>,
-    /// The lines.
+    /// Lines between junctions, and closed ones.
     pub(crate) lines: Vec<TracedLine>,
 }
 

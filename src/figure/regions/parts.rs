@@ -47,8 +47,8 @@ impl Padded {
         (at / row - 1) * self.size[0] + at % row - 1
     }
 
-    /// Calls `visit` with the pixels of each part of equal values that has fewer than `below`, by its first pixel in the
-    /// order of rows, which is given first.
+    /// Calls `visit` with the pixels of each part of equal values that has fewer than `below`, by its first pixel in
+    /// the order of rows, which is given first.
     pub(crate) fn visit_parts(
         mut self,
         neighbours: Neighbours,

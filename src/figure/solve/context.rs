@@ -13,13 +13,13 @@ const FLAT: f64 = 1e-6;
 /// the points; built once for these.
 #[derive(Clone, Debug)]
 pub(crate) struct ContextSheet {
-    /// The vertices.
+    /// Vertices of the mesh that the points took.
     pub(crate) vertices: Vec<u32>,
     /// Per vertex the number of its point.
     pub(crate) points: Vec<usize>,
     /// Its triangles as they are among `vertices`.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Its triangles.
+    /// Triangles of the sheet over these vertices.
     pub(crate) elements: Vec<Element>,
     /// Square of the strength.
     pub(crate) lambda: f64,

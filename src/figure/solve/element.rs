@@ -6,7 +6,7 @@ use crate::figure::complex::mul;
 /// A triangle at rest with the gradients of its hat functions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Element {
-    /// Its vertices.
+    /// Numbers of its corners in the mesh.
     pub(crate) vertices: [u32; 3],
     /// Gradients of the hat functions at rest.
     pub(crate) gradients: [DVec2; 3],

@@ -18,8 +18,8 @@
 //! - The guidance is made of turns and scales per triangle only, not of gradients of vertices that were moved first.
 //! - Eq. 8 and 9 hold at once: f is linear in the context's similarity, so that a system of two equations replaces the
 //!   paper's iteration with a growing λ.
-//! - Ours: harmonic propagation, turns that are found (local and global rounds as in Sorkine and Alexa 2007, with Anderson
-//!   mixing), exactly rigid parts, open turns, lines.
+//! - Ours: harmonic propagation, turns that are found (local and global rounds as in Sorkine and Alexa 2007, with
+//!   Anderson mixing), exactly rigid parts, open turns, lines.
 
 mod anderson;
 mod context;

@@ -33,7 +33,7 @@ pub(crate) struct OpenPin {
     pub(crate) pivot: DVec2,
     /// Where the anchor is taken.
     pub(crate) place: DVec2,
-    /// Its scale.
+    /// The factor that it is scaled by.
     pub(crate) scale: f64,
     /// The turn that is guessed from other handles.
     pub(crate) turn: f64,

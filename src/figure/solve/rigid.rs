@@ -15,7 +15,8 @@ pub(crate) enum Stiffness {
     Soft([f64; 2]),
     /// It moves with a rigid part, which has all of its vertices.
     Inside(u32),
-    /// It is of a rigid part, but others have some of its vertices: it gives way like soft tissue, with its part's turn.
+    /// It is of a rigid part, but others have some of its vertices: it gives way like soft tissue, with its part's
+    /// turn.
     Border(u32),
 }
 

@@ -33,7 +33,7 @@ pub(crate) struct Floating {
 /// mesh, the rigidities, what handles hold and the context's points and strength.
 #[derive(Clone, Debug)]
 pub(crate) struct Stage {
-    /// All triangles.
+    /// Triangles of the mesh with their gradients.
     pub(crate) elements: Vec<Element>,
     pub(crate) parts: Parts,
     pub(crate) holding: Holding,

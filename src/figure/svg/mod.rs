@@ -1,5 +1,5 @@
-//! Drawings: the filled shapes of an SVG as regions, and bent drawings as SVG (spec/figures.md, "The source", "Regions",
-//! "Labels, steps, link, files out").
+//! Drawings: the filled shapes of an SVG as regions, and bent drawings as SVG (spec/figures.md, "The source",
+//! "Regions", "Labels, steps, link, files out").
 //!
 //! usvg resolves styles, units, references and basic shapes; of its result only paths are used. It keeps coordinates in
 //! 32 bits; from there on they have 64.

@@ -35,7 +35,7 @@ pub struct Shape {
     /// Ids of the element and of the groups that it is in, the outermost first; without those that have none.
     pub ids: Vec<String>,
     has_own_id: bool,
-    /// Its outline.
+    /// What is filled or stroked.
     pub outline: Outline,
     /// Whether it is filled, and by the even-odd rule.
     pub fill: Option<bool>,

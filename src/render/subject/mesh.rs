@@ -1,9 +1,10 @@
 //! Meshes on the GPU: their field, their segments on the field's voxels, and tree and triangles in one texture.
 
 use super::bricks::{BRICK, Bricks, LabelSet, labels_in_bricks};
+use super::held_view::HeldView;
 use super::textures::{
-    Bound, HeldView, MESH_ROW, MeshTextures, SubjectTextures, VoxelFrame, label_texture,
-    mesh_texture, next_stamp,
+    Bound, MESH_ROW, MeshTextures, SubjectTextures, VoxelFrame, label_texture, mesh_texture,
+    next_stamp,
 };
 use crate::data::{Surface, SurfaceField, long_axes};
 use crate::math::Aabb;

@@ -1,6 +1,8 @@
 //! The subject on the GPU: one file for each kind of subject.
 
 pub(crate) mod bricks;
+mod figure;
+mod held_view;
 mod mesh;
 pub(crate) mod plate;
 mod reduce;

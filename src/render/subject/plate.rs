@@ -1,16 +1,12 @@
 //! The picture of a figure on the GPU.
 
-use super::bricks::BrickBuilder;
-use super::textures::{HeldView, SubjectTextures, label_texture};
-use super::volume::assemble;
-use crate::data::{Grid, Plate, SubjectFrame, Volume, Voxels};
+use super::held_view::HeldView;
+use crate::data::{Plate, SubjectFrame};
 use crate::pictures::smaller_copies;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
-use crate::render::device::layouts::Layouts;
-use crate::render::device::textures::{extent, volume_texture};
-use crate::render::pack::values::SubjectInfo;
-use glam::{DAffine3, UVec3};
+use crate::render::device::textures::extent;
+use glam::UVec3;
 use std::sync::Arc;
 
 /// The pixels of a plate and their smaller copies.
@@ -23,7 +19,8 @@ pub(crate) struct PlateTexture {
     pub texels: [u32; 2],
     /// The texture and its smaller copies.
     pub levels: u32,
-    frame: SubjectFrame,
+    /// Where the plate lies, and how fine it is.
+    pub frame: SubjectFrame,
 }
 
 impl PlateTexture {
@@ -75,38 +72,5 @@ impl PlateTexture {
             levels: copies.len() as u32,
             frame: plate.frame(),
         })
-    }
-
-    /// A subject of this plate, around an empty voxel that stands in where passes bind a volume.
-    pub(crate) fn alone(self, gpu: &Gpu, layouts: &Layouts) -> SubjectTextures {
-        let volume = Volume {
-            has_size: false,
-            grid: Grid {
-                dims: UVec3::ONE,
-                world_from_voxel: DAffine3::IDENTITY,
-            },
-            voxels: Voxels::U8(vec![0]),
-            slope: 1.0,
-            intercept: 0.0,
-            value_range: [0.0, 1.0],
-            segmentation: None,
-        };
-        let values = volume_texture(
-            gpu,
-            "no values",
-            UVec3::ONE,
-            wgpu::TextureFormat::R16Float,
-            wgpu::TextureUsages::COPY_DST,
-        );
-        let views = [&values, &label_texture(gpu, UVec3::ONE)].map(HeldView::new);
-        let bricks = BrickBuilder::new(UVec3::ONE).bricks;
-        let info = SubjectInfo::of_no_values(false);
-        let empty = assemble(gpu, layouts, &volume, None, (views, None), bricks, info);
-        SubjectTextures {
-            frame: self.frame,
-            bounds: self.frame.bounds,
-            plate: Some(self),
-            ..empty
-        }
     }
 }

@@ -1,8 +1,9 @@
 //! A volume on the GPU: values, labels and their colours, and where they lie.
 
 use super::bricks::{BRICK, Bricks, WideBricks, labels_in_bricks};
+use super::held_view::HeldView;
 use super::textures::{
-    Bound, HeldView, MeshTextures, SubjectTextures, VoxelFrame, label_texture, next_stamp,
+    Bound, MeshTextures, SubjectTextures, VoxelFrame, label_texture, next_stamp,
 };
 use crate::data::{
     FIRST_MESH_LABEL, Segmentation, Volume, called_as_in, long_axes, with_mesh_segments,

@@ -1,5 +1,6 @@
 use super::bricks::BrickBuilder;
-use super::textures::{HeldView, MeshTextures, SubjectTextures, label_texture};
+use super::held_view::HeldView;
+use super::textures::{MeshTextures, SubjectTextures, label_texture};
 use super::volume::{SLAB_BYTES, assemble};
 use crate::data::{Surface, Volume, Voxels};
 use crate::render::device::error::RenderError;

@@ -156,8 +156,8 @@ pub(super) enum Command {
     },
     /// Says what a data file holds.
     Info {
-        /// The data file: a scan (NIfTI, NRRD, MetaImage, DICOM), a mesh (OBJ, STL, PLY, GLB), or a picture of a figure (PNG,
-        /// JPEG, SVG).
+        /// The data file: a scan (NIfTI, NRRD, MetaImage, DICOM), a mesh (OBJ, STL, PLY, GLB), or the picture of a
+        /// figure (PNG, JPEG, SVG).
         file: PathBuf,
     },
     /// Lists the displacement templates with parameters, defaults and ranges.

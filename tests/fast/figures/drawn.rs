@@ -1,5 +1,5 @@
-//! The built-in figures: what they are drawn with, that regions take what the table says, and that bones leave a joint's
-//! width.
+//! The built-in figures: what they are drawn with, that regions take what the table says, and that bones leave a
+//! joint's width.
 
 use std::collections::BTreeMap;
 

@@ -3,12 +3,10 @@
 use std::time::Instant;
 
 use super::common::*;
-use fabrica::document::figure::{
-    Context, Contour, Figure, Flood, Handle, Hold, Region, Rigidity, Source,
-};
+use fabrica::document::figure::{Figure, Flood, Handle, Region, Rigidity, Source};
 use fabrica::figure::Notice;
 use fabrica::figure::solve::Rig;
-use glam::{DVec2, dvec2};
+use glam::dvec2;
 
 #[test]
 fn crossing_and_empty_polygons_are_drawn_around() {

@@ -191,7 +191,7 @@ fn meshes_of_plates_keep_what_the_contract_says() {
     else {
         return;
     };
-    let bare = |name: &str| (picture(name), Figure::default());
+    let bare = |name: &str| (picture(&folder, name), Figure::default());
     for (name, (picture, figure)) in [
         ("elbow", elbow(&folder)),
         ("spine", spine(&folder)),
@@ -434,7 +434,7 @@ fn colours_behind_a_cut_region_are_interpolated() {
     };
     let (mesh, _) = mesh(&picture, &figure);
     let colors = fabrica::figure::smooth_colors(&mesh, &canvas(&picture).plane, &picture, 0);
-    let linear = |byte: u8| f64::from(figure::math::linear_from_srgb(byte));
+    let linear = |byte: u8| f64::from(fabrica::math::linear_from_srgb(byte));
     assert!(colors.len() > 30, "{} vertices", colors.len());
     for (vertex, [r, g, b]) in &colors {
         let x = mesh.vertices[*vertex as usize].x;

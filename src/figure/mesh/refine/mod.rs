@@ -17,7 +17,7 @@ const COS_LEAST_ANGLE: f64 = 0.906_307_787_036_65;
 const LEAST_LENGTH: f64 = 1.0 / 64.0;
 /// Steps from one word of progress to the next.
 const STEPS: u32 = 512;
-/// No point.
+/// Stands for a point where there is none.
 const NO_POINT: u32 = u32::MAX;
 
 /// What a refinement aims at.

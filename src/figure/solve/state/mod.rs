@@ -2,8 +2,6 @@ mod open;
 mod poisson;
 mod rounds;
 
-pub use rounds::{MAX_ROUNDS, TOLERANCE};
-
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -15,11 +13,16 @@ use super::moves::Moved;
 use super::stage::{Body, Stage};
 use crate::figure::complex::{arg, polar};
 
+/// Rounds at most, when rotations are found.
+pub const MAX_ROUNDS: u32 = 300;
+/// Rounds end when no vertex moves further in one, figure units.
+pub const TOLERANCE: f64 = 1e-6;
+
 /// Something that turns as a whole by an angle that is to be found: a rigid part that nothing holds, or what a point
 /// handle without a turn holds.
 #[derive(Clone, Debug)]
 pub(crate) struct Open {
-    /// Its vertices.
+    /// Vertices of the mesh that turn with it.
     pub(crate) vertices: Vec<u32>,
     /// What it turns about, in the base shape.
     pivot: DVec2,

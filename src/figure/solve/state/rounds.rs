@@ -3,12 +3,7 @@ use glam::DVec2;
 use super::super::anderson::Anderson;
 use super::super::factor::NONE;
 use super::super::moves::Moved;
-use super::State;
-
-/// Rounds at most, when rotations are found.
-pub const MAX_ROUNDS: u32 = 300;
-/// Rounds end when no vertex moves further in one, figure units.
-pub const TOLERANCE: f64 = 1e-6;
+use super::{MAX_ROUNDS, State, TOLERANCE};
 
 /// Rounds.
 impl State {
