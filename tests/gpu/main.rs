@@ -12,6 +12,7 @@ mod coarse;
 mod describe;
 mod exported;
 mod fields;
+mod figures;
 mod grid;
 mod icons;
 mod images;

@@ -111,7 +111,7 @@ fn execute(args: Args) -> Result<(), CliError> {
             }
             let asked = (object, forward);
             if !depth
-                && may_be_figure(&opened, common)
+                && (forward || may_be_figure(&opened, common))
                 && probe_figure(common, &opened, from.as_deref(), asked, moment)?
             {
                 return Ok(());
