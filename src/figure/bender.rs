@@ -21,6 +21,7 @@ use crate::math::linear_from_srgb;
 pub struct Bender {
     original: Original,
     made: Option<Made>,
+    factorisations: u32,
 }
 
 /// What belongs to one division into regions.
@@ -77,7 +78,13 @@ impl Bender {
         Ok(Self {
             original: Original::of(plate)?,
             made: None,
+            factorisations: 0,
         })
+    }
+
+    /// How often matrices were factored so far.
+    pub fn factorisations(&self) -> u32 {
+        self.factorisations
     }
 
     /// What the figure is made of.
@@ -133,6 +140,7 @@ impl Bender {
         let rigged = match made.rig.take().filter(|rig| rig.key == rig_key) {
             Some(rigged) => rigged,
             None => {
+                self.factorisations += 1;
                 let mut notices = Vec::new();
                 Rigged {
                     key: rig_key,

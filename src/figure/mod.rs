@@ -34,6 +34,7 @@
 //! ```
 
 mod behind;
+mod bench;
 mod bender;
 mod complex;
 pub mod drawn;
@@ -51,6 +52,7 @@ pub mod solve;
 pub mod svg;
 
 pub use behind::smooth_colors;
+pub use bench::{FigureRow, bench_figures};
 pub use bender::{Bender, Bent, Solved};
 pub use export::exported;
 pub use notice::Notice;

@@ -3,7 +3,9 @@ use std::sync::Arc;
 use super::plane::reduced_size;
 use super::svg::{Drawing, SvgError};
 use crate::data::{Plate, PlateOrigin};
-use crate::pictures::{Picture, PictureError, PictureHeader, decode, reduced};
+use crate::pictures::{
+    Picture, PictureError, PictureHeader, decode, orientation, reduced, upright,
+};
 use glam::dvec2;
 
 /// Pixels along the longest side of what a drawing is drawn into.
@@ -72,14 +74,17 @@ pub fn read_plate(bytes: &[u8]) -> Result<ReadPlate, PlateError> {
     match FigureFile::of(bytes) {
         Some(FigureFile::Picture) => {
             PictureHeader::of(bytes)?;
-            Ok(plate_of_picture(decode(bytes)?))
+            Ok(plate_of_picture(upright(
+                decode(bytes)?,
+                orientation(bytes),
+            )))
         }
         Some(FigureFile::Drawing) => Ok(plate_of_drawing(bytes)?),
         None => Err(PlateError::Unknown(beginning(bytes))),
     }
 }
 
-/// The plate of a picture: of its own pixels, or of the smaller copy that is drawn where it is large.
+/// The plate of a picture that stands upright: of its own pixels, or of the smaller copy that is drawn where it is large.
 pub fn plate_of_picture(picture: Picture) -> ReadPlate {
     let size = picture.size;
     let mut asides = Vec::new();

@@ -89,11 +89,11 @@ fn png_header(rest: &[u8]) -> Option<PictureHeader> {
     let header = PictureHeader {
         kind: PictureKind::Png,
         size: [number(8)?, number(12)?],
-        bits: *rest.get(16)?,
-        channels: match *rest.get(17)? {
-            0 => 1,
-            4 => 2,
-            6 => 4,
+        bits: rest.get(16).copied().unwrap_or(8),
+        channels: match rest.get(17) {
+            Some(0) => 1,
+            Some(4) => 2,
+            Some(6) => 4,
             // Colours, and those of a palette.
             _ => 3,
         },

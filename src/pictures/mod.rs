@@ -21,6 +21,7 @@ mod decode;
 mod error;
 mod header;
 mod limits;
+mod orientation;
 mod picture;
 mod reduce;
 
@@ -28,5 +29,6 @@ pub use decode::decode;
 pub use error::PictureError;
 pub use header::{PictureHeader, PictureKind};
 pub use limits::{MAX_FILE_BYTES, MAX_PIXELS, MAX_SIDE};
+pub use orientation::{orientation, upright};
 pub use picture::Picture;
 pub use reduce::{halved, reduced, smaller_copies};

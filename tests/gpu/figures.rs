@@ -230,9 +230,16 @@ fn no_ground_shows_through_a_bent_sheet() {
         let image = drawn(plate, &illustration, [160, 160], 1);
         for row in 0..160 {
             for column in 0..160 {
-                let at = |x: f32, y: f32| Vec2::new((x + 0.5) / 160.0 - 0.5, 0.5 - (y + 0.5) / 160.0);
+                let at =
+                    |x: f32, y: f32| Vec2::new((x + 0.5) / 160.0 - 0.5, 0.5 - (y + 0.5) / 160.0);
                 // Inside with all of its pixel, and where no fold lies.
-                let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (0.0, 0.0)];
+                let corners = [
+                    (-1.0, -1.0),
+                    (1.0, -1.0),
+                    (-1.0, 1.0),
+                    (1.0, 1.0),
+                    (0.0, 0.0),
+                ];
                 let is_inside = corners.iter().all(|(dx, dy)| {
                     let place = at(column as f32 + dx, row as f32 + dy);
                     sheet.back(place).is_some()
@@ -262,7 +269,9 @@ const ARM: &str = r#"{ "fabrica": 1, "subject": { "builtin": "drawn-arm" }, "fig
 
 fn columns(line: &str) -> Vec<f64> {
     let numbers = line.split(',').take(7);
-    numbers.map(|number| number.parse().expect("a number")).collect()
+    numbers
+        .map(|number| number.parse().expect("a number"))
+        .collect()
 }
 
 /// `probe` inverts `probe --forward`, but where something else lies before the place (must-show 11).
@@ -271,7 +280,13 @@ fn places_go_there_and_back() {
     let folder = in_folder(ARM);
     let mut random = Random(5);
     let points: Vec<String> = (0..1000)
-        .map(|_| format!("{},{}", 0.9 * random.unit() - 0.45, 0.6 * random.unit() - 0.3))
+        .map(|_| {
+            format!(
+                "{},{}",
+                0.9 * random.unit() - 0.45,
+                0.6 * random.unit() - 0.3
+            )
+        })
         .collect();
     let forward = ["probe", "d.json", "--forward", "--object"];
     let there = call(folder.path(), &forward, &points.join("\n")).ok();
@@ -279,11 +294,24 @@ fn places_go_there_and_back() {
         .out
         .lines()
         .filter(|line| columns(line)[6] > 0.0)
-        .map(|line| (columns(line), line.rsplit(',').next().unwrap_or_default().to_owned()))
+        .map(|line| {
+            (
+                columns(line),
+                line.rsplit(',').next().unwrap_or_default().to_owned(),
+            )
+        })
         .collect();
     assert!(moved.len() > 200, "{} places lie in the arm", moved.len());
-    let asked: Vec<String> = moved.iter().map(|(c, _)| format!("{},{},0", c[3], c[4])).collect();
-    let back = call(folder.path(), &["probe", "d.json", "--object"], &asked.join("\n")).ok();
+    let asked: Vec<String> = moved
+        .iter()
+        .map(|(c, _)| format!("{},{},0", c[3], c[4]))
+        .collect();
+    let back = call(
+        folder.path(),
+        &["probe", "d.json", "--object"],
+        &asked.join("\n"),
+    )
+    .ok();
     let mut off = 0;
     for ((from, region), line) in moved.iter().zip(back.out.lines()) {
         let to = columns(line);
@@ -324,15 +352,27 @@ fn figures_are_exported() {
         .iter()
         .filter_map(|region| region["name"].as_str())
         .collect();
-    assert!(names.contains(&"biceps") && names.last() == Some(&"rest"), "{names:?}");
+    assert!(
+        names.contains(&"biceps") && names.last() == Some(&"rest"),
+        "{names:?}"
+    );
     export("a.svg").ok();
     let svg = std::fs::read_to_string(path("a.svg")).expect("text");
     assert!(svg.starts_with("<svg "), "{}", &svg[..40]);
-    call(folder.path(), &["export-figure", "d.json", "-o", "a.png", "--size", "300"], "").ok();
+    call(
+        folder.path(),
+        &["export-figure", "d.json", "-o", "a.png", "--size", "300"],
+        "",
+    )
+    .ok();
     let png = decode(&std::fs::read(path("a.png")).expect("written")).expect("a PNG");
     assert_eq!(png.size[0].max(png.size[1]), 300);
     let wrong = export("a.txt");
-    assert!(wrong.err.contains("json, .svg or .png") || wrong.err.contains(".json"), "{}", wrong.err);
+    assert!(
+        wrong.err.contains("json, .svg or .png") || wrong.err.contains(".json"),
+        "{}",
+        wrong.err
+    );
     assert!(!path("a.txt").exists());
 }
 
@@ -340,14 +380,22 @@ fn figures_are_exported() {
 #[test]
 fn wrong_figures_are_refused_in_a_line() {
     let folder = in_folder(r#"{ "fabrica": 1, "subject": { "builtin": "bar" } }"#);
-    let bar = call(folder.path(), &["export-figure", "d.json", "-o", "x.json"], "");
+    let bar = call(
+        folder.path(),
+        &["export-figure", "d.json", "-o", "x.json"],
+        "",
+    );
     assert!(bar.err.contains("no figure"), "{}", bar.err);
     let bar = call(folder.path(), &["probe", "d.json", "--forward"], "0,0\n");
     assert!(bar.err.contains("--forward"), "{}", bar.err);
-    let rows: Vec<u8> = (0..20).flat_map(|_| [0].into_iter().chain([120; 60])).collect();
+    let rows: Vec<u8> = (0..20)
+        .flat_map(|_| [0].into_iter().chain([120; 60]))
+        .collect();
     let whole = png([20, 20], [8, 2, 0], &[], &rows);
     let huge = png([65_535, 65_535], [8, 2, 0], &[], &[]);
-    let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).expect("written");
+    let write = |name: &str, bytes: &[u8]| {
+        std::fs::write(folder.path().join(name), bytes).expect("written")
+    };
     write("whole.png", &whole);
     write("huge.png", &huge);
     write("cut.png", &whole[..whole.len() / 2]);
@@ -356,7 +404,11 @@ fn wrong_figures_are_refused_in_a_line() {
     let of = |file: &str, output: &str| {
         let json = format!(r#"{{ "fabrica": 1, "subject": {{ "src": "{file}" }} }}"#);
         write("d.json", json.as_bytes());
-        call(folder.path(), &["export-figure", "d.json", "-o", output], "")
+        call(
+            folder.path(),
+            &["export-figure", "d.json", "-o", output],
+            "",
+        )
     };
     of("whole.png", "whole.json").ok();
     let shapes = of("whole.png", "whole.svg");
@@ -393,12 +445,22 @@ fn real_plates_come_out_as_they_are() {
         let file = data.join("image2d").join(name);
         let shown = file.to_string_lossy();
         let info = call(folder.path(), &["info", &shown], "").ok();
-        assert!(info.out.contains(told) && info.out.contains("bits"), "{}", info.out);
+        assert!(
+            info.out.contains(told) && info.out.contains("bits"),
+            "{}",
+            info.out
+        );
         let json = format!(r#"{{ "fabrica": 1, "subject": {{ "src": "{shown}" }} }}"#);
         std::fs::write(folder.path().join("d.json"), json).expect("written");
-        call(folder.path(), &["export-figure", "d.json", "-o", "out.png"], "").ok();
+        call(
+            folder.path(),
+            &["export-figure", "d.json", "-o", "out.png"],
+            "",
+        )
+        .ok();
         let out = std::fs::read(folder.path().join("out.png")).expect("written");
-        let [source, out] = [std::fs::read(&file).expect("read"), out].map(|bytes| decode(&bytes).expect("a picture"));
+        let [source, out] = [std::fs::read(&file).expect("read"), out]
+            .map(|bytes| decode(&bytes).expect("a picture"));
         assert_eq!(source.size, out.size, "{name}");
         let over_white = |value: u8, alpha: u8| {
             let (value, alpha) = (u32::from(value), u32::from(alpha));
@@ -406,7 +468,9 @@ fn real_plates_come_out_as_they_are() {
         };
         for (from, to) in source.pixels.iter().zip(&out.pixels) {
             if from[3] == 0 || from[3] == 255 {
-                let off = (0..3).map(|c| over_white(from[c], from[3]).abs_diff(to[c])).max();
+                let off = (0..3)
+                    .map(|c| over_white(from[c], from[3]).abs_diff(to[c]))
+                    .max();
                 assert!(off <= Some(1), "{name}: {from:?} and {to:?}");
             }
         }
@@ -440,8 +504,15 @@ fn captions_go_with_their_tissue() {
     let illustration = from_edge_to_edge(0.5, &rest).of_figure();
     let sheet = bent(&trunk_and_limb(), &illustration);
     let on_limb = sheet.seen(Vec3::new(0.25, 0.0, 0.0)).expect("it is seen");
-    assert!((on_limb - Vec3::new(-0.2, 0.0, 0.0)).length() < 1e-3, "{on_limb}");
-    assert_eq!(sheet.seen(Vec3::new(-0.2, 0.0, 0.0)), None, "under the limb");
+    assert!(
+        (on_limb - Vec3::new(-0.2, 0.0, 0.0)).length() < 1e-3,
+        "{on_limb}"
+    );
+    assert_eq!(
+        sheet.seen(Vec3::new(-0.2, 0.0, 0.0)),
+        None,
+        "under the limb"
+    );
     assert_eq!(sheet.seen(Vec3::new(0.4, 0.2, 0.0)), None, "on the paper");
 }
 
@@ -449,7 +520,9 @@ fn captions_go_with_their_tissue() {
 #[test]
 fn nothing_is_made_of_nothing() {
     let svg = br#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 50"></svg>"#;
-    let plate = fabrica::figure::plate_of_drawing(svg).expect("an SVG").plate;
+    let plate = fabrica::figure::plate_of_drawing(svg)
+        .expect("an SVG")
+        .plate;
     let illustration = from_edge_to_edge(0.5, "").of_figure();
     let sheet = bent(&plate, &illustration);
     assert!(sheet.mesh.triangles.is_empty());

@@ -34,9 +34,8 @@ pub fn figure_from_text(text: &str) -> Result<Figure, DocumentError> {
 }
 
 /// Keys of a region that a source's own region has too.
-const REGION_KEYS: [&str; 11] = [
-    "from", "grow", "smooth", "fill", "least", "rigidity", "fixed", "order", "cut", "behind",
-    "hide",
+const REGION_KEYS: [&str; 10] = [
+    "grow", "smooth", "fill", "least", "rigidity", "fixed", "order", "cut", "behind", "hide",
 ];
 
 impl Reader {
@@ -114,6 +113,8 @@ impl Reader {
             true => self.source(&object.child("from")?)?,
             false => None,
         };
+        let is_given = |key: &&str| from.is_none() && object.map.contains_key(*key);
+        let given = REGION_KEYS.into_iter().filter(is_given).collect();
         Ok(Region {
             name,
             from,
@@ -127,11 +128,7 @@ impl Reader {
             cut: object.flag("cut")?,
             behind: self.behind(object)?,
             hide: object.flag("hide")?,
-            given: REGION_KEYS
-                .iter()
-                .copied()
-                .filter(|key| object.map.contains_key(*key))
-                .collect(),
+            given,
         })
     }
 

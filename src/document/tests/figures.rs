@@ -97,6 +97,7 @@ fn every_key_is_read() {
             cut: true,
             behind: Behind::Color([0xa0, 0xb0, 0xc0]),
             hide: true,
+            given: Vec::new(),
         }
     );
     let square = vec![DVec2::ZERO, DVec2::X, DVec2::ONE];
@@ -161,16 +162,20 @@ fn defaults_are_filled_in_and_left_out() {
         "detail": 6000 });
     for nothing in [json!({}), plain] {
         let document = with_figure(nothing);
-        assert_eq!(document, bare);
-        assert_eq!(document.illustration(), bare.illustration());
+        assert_eq!(
+            document.to_json_compact(),
+            r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{}}"#
+        );
+        let figure = document.illustration().figure.as_ref();
+        assert_eq!(figure, Some(&Figure::default()));
         assert_eq!(notices(&document), [""; 0]);
     }
     // Of each part what a short one means, and that a long one is written so.
     let cases = [
         (
-            json!({ "regions": [{ "name": "", "grow": 0, "smooth": 1.5, "least": 16, "rigidity": 1, "fixed": false, "order": 0,
-                "cut": false, "behind": "none", "hide": false }, { "rigidity": [1, 1.0] }] }),
-            r#"{"regions":[{},{}]}"#,
+            json!({ "regions": [{ "from": { "path": "a" }, "name": "", "grow": 0, "smooth": 1.5, "least": 16, "rigidity": 1, "fixed": false, "order": 0,
+                "cut": false, "behind": "none", "hide": false }, { "from": { "path": "b" }, "rigidity": [1, 1.0] }] }),
+            r#"{"regions":[{"from":{"path":"a"}},{"from":{"path":"b"}}]}"#,
         ),
         (
             json!({ "regions": [{ "from": { "flood": { "at": [[0, 0]], "tolerance": 24, "gap": 0, "connected": true } } }] }),
@@ -336,7 +341,10 @@ fn unknown_values_are_kept_and_the_default_is_drawn() {
     let figure = unknown.illustration().figure.clone().expect("a figure");
     let like = figure.contours[0].like.clone();
     let drawn = Figure {
-        regions: vec![Region::new("region 1")],
+        regions: vec![Region {
+            given: vec!["rigidity", "behind"],
+            ..Region::new("region 1")
+        }],
         handles: vec![Handle::pin(DVec2::ZERO, DVec2::ZERO)],
         contours: vec![Contour {
             region: String::new(),

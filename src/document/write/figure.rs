@@ -49,13 +49,37 @@ impl Figure {
 }
 
 impl Region {
-    /// The region as an entry of a figure's `regions`.
+    /// The region as an entry of a figure's `regions`. One without `from` has the keys that change what the source has.
     pub fn to_value(&self) -> Value {
-        let mut value = json!({
-            "name": self.name, "grow": exact(self.grow), "smooth": exact(self.smooth), "least": self.least,
-            "rigidity": rigidity(self.rigidity), "fixed": self.fixed, "order": exact(self.order), "cut": self.cut,
-            "behind": behind(self.behind), "hide": self.hide,
-        });
+        let mut value = json!({ "name": self.name });
+        let all = [
+            ("grow", exact(self.grow)),
+            ("smooth", exact(self.smooth)),
+            ("least", json!(self.least)),
+            ("rigidity", rigidity(self.rigidity)),
+            ("fixed", json!(self.fixed)),
+            ("order", exact(self.order)),
+            ("cut", json!(self.cut)),
+            ("behind", json!(behind(self.behind))),
+            ("hide", json!(self.hide)),
+        ];
+        let default = Self::new("");
+        let is_default = [
+            self.grow == default.grow,
+            self.smooth == default.smooth,
+            self.least == default.least,
+            self.rigidity == default.rigidity,
+            self.fixed == default.fixed,
+            self.order == default.order,
+            self.cut == default.cut,
+            self.behind == default.behind,
+            self.hide == default.hide,
+        ];
+        for ((key, own), is_default) in all.into_iter().zip(is_default) {
+            if self.from.is_some() || self.given.contains(&key) || !is_default {
+                value[key] = own;
+            }
+        }
         if let Some(from) = &self.from {
             value["from"] = source(from);
         }

@@ -11,6 +11,7 @@ use super::output::print;
 use super::subject::{generate, subject_of, surface_of};
 use crate::data::{Subject, Surface};
 use crate::document::{Document, SceneObject};
+use crate::figure::{FigureRow, bench_figures};
 use crate::render::{BenchMeshes, BenchPlan, system_clock};
 use crate::subjects::{SubjectError, mesh};
 
@@ -40,10 +41,15 @@ pub(super) fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
         system_clock,
         |_| {},
     ))?;
+    let figures =
+        bench_figures(system_clock).map_err(|error| CliError::Field(error.to_string()))?;
     if as_json {
-        return print(&format!("{:#}\n", report.to_json()));
+        let mut report = report.to_json();
+        report["figures"] = figures.iter().map(FigureRow::to_json).collect();
+        return print(&format!("{report:#}\n"));
     }
-    print(&report.to_string())
+    let figures = figures.iter().map(|row| format!("{row}\n"));
+    print(&(report.to_string() + &figures.collect::<String>()))
 }
 
 fn built_in_mesh() -> Result<Arc<Surface>, MissingSubject> {

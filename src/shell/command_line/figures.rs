@@ -21,7 +21,7 @@ use crate::figure::probe::{Seen, forward};
 use crate::figure::svg::{Drawing, Label, bent};
 use crate::figure::{Bender, FigureFile, Original, Solved, exported, unwatched};
 use crate::load::{LoadError, LoadReport};
-use crate::pictures::{PictureHeader, decode};
+use crate::pictures::{PictureHeader, decode, orientation, upright};
 use crate::render::{Studio, encode_png};
 use crate::shell::figures::{figure_bytes, figure_file};
 use crate::shell::files::Folder;
@@ -41,6 +41,7 @@ pub(super) fn with_sheet(
     let Some(plate) = subject.plate() else {
         return Ok((illustration, resources));
     };
+    report_beside(&illustration);
     let illustration = illustration.of_figure();
     let figure = illustration.figure.clone().unwrap_or_default();
     let mut bender = bender_of(plate)?;
@@ -50,6 +51,18 @@ pub(super) fn with_sheet(
         resources.sheet = Some(bent.sheet);
     }
     Ok((illustration, resources))
+}
+
+/// Names what is not drawn of a document whose file turns out to be that of a figure. Where the document tells that
+/// itself, it has named them.
+fn report_beside(illustration: &Illustration) {
+    if illustration.subject.is_figure().is_none() {
+        for pointer in illustration.left_beside(true) {
+            notice(format!(
+                "{pointer}: beside a figure this is kept, not drawn"
+            ));
+        }
+    }
 }
 
 fn bender_of(plate: &Plate) -> Result<Bender, CliError> {
@@ -71,6 +84,7 @@ impl Figure {
         let Some(plate) = subject.plate() else {
             return Ok(None);
         };
+        report_beside(&illustration);
         let illustration = illustration.of_figure();
         let mut bender = bender_of(plate)?;
         let figure = illustration.figure.clone().unwrap_or_default();
@@ -276,6 +290,7 @@ pub(super) fn describe_figure(file: &Path) -> Result<Option<String>, CliError> {
             let header = PictureHeader::of(&bytes).map_err(|error| failed(error.to_string()))?;
             // Read through, so that a damaged file is told.
             let picture = decode(&bytes).map_err(|error| failed(error.to_string()))?;
+            let picture = upright(picture, orientation(&bytes));
             let [width, height] = picture.size;
             if picture.is_of_inks {
                 notice("the picture mixes inks (CMYK); its colours are taken by inversion");

@@ -27,7 +27,7 @@ pub struct Region {
     pub behind: Behind,
     /// Whether it is no part of the figure (paper, a scale bar).
     pub hide: bool,
-    /// Keys that its document gives; the others of a region that the source has too are those of the source.
+    /// Of a region without `from` the keys that its document gives: the others are those of the source's own region.
     pub given: Vec<&'static str>,
 }
 
@@ -51,12 +51,15 @@ impl Region {
         }
     }
 
-    /// This region laid over the source's own of the same name: what the document does not give is the source's.
+    /// This region laid over the source's own of the same name: without `from`, what the document does not give is the
+    /// source's.
     pub fn over(&self, own: &Self) -> Self {
+        if self.from.is_some() {
+            return self.clone();
+        }
         let mut laid = own.clone();
         for key in &self.given {
             match *key {
-                "from" => laid.from.clone_from(&self.from),
                 "grow" => laid.grow = self.grow,
                 "smooth" => laid.smooth = self.smooth,
                 "fill" => laid.fill = self.fill,
