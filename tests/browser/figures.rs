@@ -163,13 +163,16 @@ fn an_embed_bends_a_figure_from_step_to_step() {
         let lesson = document.lesson().expect("steps");
         let at = |step: usize| lesson.at_step(step).expect("a step").clone();
         assert_alike(&before, &native(&at(0), plate(), size).await, "step 0");
-        let view: Vec<f32> = tab.eval("e0.view.rotate").await;
-        assert!(view[3].abs() > 0.999, "as the document has it: {view:?}");
         tab.eval::<bool>("(e0.next(), true)").await;
         rests_at(&tab, "e0", 1).await;
         let after = picture_of(&tab, "e0").await;
         assert!(difference(&before, &after, WHITE).mean > 1.0, "it is bent");
         assert_alike(&after, &native(&at(1), plate(), size).await, "step 1");
+        tab.eval::<bool>("(e0.reset(), true)").await;
+        let told = "told.findLast(([name]) => name === 'viewchange')";
+        tab.wait_until(&format!("{told} !== undefined"), 60).await;
+        let turn: Vec<f32> = tab.eval(&format!("{told}[2].view.rotate")).await;
+        assert!(turn[3].abs() > 0.999, "as the document has it: {turn:?}");
         let server = &session.server;
         assert_eq!(count(server, "fabrica_figures_bg.wasm"), 1);
         for part in ["subjects", "scans", "meshes", "pictures", "bg"] {
