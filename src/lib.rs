@@ -90,6 +90,7 @@ pub mod reader;
     feature = "part-subjects",
     feature = "part-scans",
     feature = "part-meshes",
-    feature = "part-pictures"
+    feature = "part-pictures",
+    feature = "part-figures"
 ))]
 pub mod shell;

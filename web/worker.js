@@ -25,8 +25,8 @@ self.onmessage = async ({ data }) => {
     const bindings = await load(data.part, data.module);
     if (!data.task) return;
     // A part that finds that a file is for another one names it.
-    const other = await bindings.run(data, load);
-    if (other) await (await load(other)).run({ ...data, part: other, module: undefined }, load);
+    let other = await bindings.run(data, load);
+    while (other) other = await (await load(other)).run({ ...data, part: other, module: undefined }, load);
   } catch (error) {
     // A part that was asked for early and could not be loaded fails its task, which is still to come.
     if (data.task) fail(error);

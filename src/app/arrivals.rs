@@ -41,6 +41,7 @@ impl App {
                     self.session.ask_for_fields(&host);
                     self.fields_elsewhere.push((host, want));
                 }
+                Message::Bent(answer) => self.bending.take(answer),
                 Message::Shipped { file, outcome } => match (file, outcome) {
                     (Shipped::Examples, outcome) => {
                         let outcome = outcome.as_deref().map_err(Clone::clone);
@@ -177,6 +178,7 @@ impl App {
         let load = self.session.load.clone();
         self.show_incoming();
         let is_step = self.session.load_done(sha256);
+        self.session.tell_figure();
         if let Some(load) = load {
             self.take_segmentations(&load.of, is_step);
         }

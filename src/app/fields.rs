@@ -6,7 +6,7 @@ use crate::app::session::{Gravity, Selection};
 use crate::app::window::App;
 use crate::app::words::{fill, messages};
 use crate::assets::{Data, ResourceNews, Role, Want};
-use crate::data::{Resources, Subject, with_mesh_segments};
+use crate::data::{Resources, Sheet, Subject, with_mesh_segments};
 use crate::document::{Edit, TemplateData};
 use crate::load::{FieldFile, FieldUse};
 use crate::math::round_to;
@@ -21,7 +21,8 @@ impl App {
                 self.fields_asked.push(want);
             }
         }
-        let (resources, news) = self.assets.resources(self.session.shown());
+        let (mut resources, news) = self.assets.resources(self.session.shown());
+        resources.sheet = self.bent();
         for news in news {
             match news {
                 ResourceNews::NoSegment { .. } | ResourceNews::TooThin { .. } => {
@@ -66,6 +67,28 @@ impl App {
         if has_meshes {
             self.tell_segments();
         }
+    }
+
+    /// Has the figure bent as the document has it; the newest sheet that there is.
+    fn bent(&mut self) -> Option<Sheet> {
+        let plate = self.assets.subject().and_then(Subject::plate);
+        let figure = self.session.shown().figure.as_ref();
+        let is_moving = self.session.is_passing();
+        if let Some(request) = self.bending.next(plate, figure, is_moving) {
+            self.services.bend(request);
+        }
+        for notice in self.bending.take_notices() {
+            self.session.notify(Gravity::Warning, notice, "");
+        }
+        self.bending.sheet().cloned()
+    }
+
+    /// True while the figure is not bent as the document has it.
+    pub(crate) fn is_bending(&self) -> bool {
+        let plate = self.assets.subject().and_then(Subject::plate);
+        let figure = self.session.shown().figure.as_ref();
+        self.bending
+            .is_behind(plate, figure, self.session.is_passing())
     }
 
     /// Tells the session which segments are shown: those of the scan, and those of the meshes beside it.

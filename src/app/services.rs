@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use crate::app::session::{LinkChange, SaveFile, Shipped, Ticket};
 use crate::app::words::{self, fill};
-use crate::assets::{LoadEvent, SegmentationsExpected, Want};
+use crate::assets::{BendAnswer, BendRequest, LoadEvent, SegmentationsExpected, Want};
 use crate::document::RawVoxels;
 use crate::load::FieldFile;
 
@@ -43,6 +43,10 @@ pub trait Services {
     /// Reads a displacement field; [`Message::Field`] follows, or [`Message::AskFieldHost`].
     fn load_field(&mut self, want: &Want) {
         _ = want;
+    }
+    /// Bends a figure; [`Message::Bent`] follows. Only one is asked for at a time.
+    fn bend(&mut self, request: BendRequest) {
+        _ = request;
     }
     /// Fetches a file that ships with the program; [`Message::Shipped`] follows.
     fn fetch_shipped(&mut self, file: Shipped);
@@ -190,6 +194,8 @@ pub enum Message {
         /// Name of the host.
         host: String,
     },
+    /// A figure is bent, or is not.
+    Bent(BendAnswer),
     /// A file that ships with the program has come, or has not.
     Shipped {
         /// The file that was asked for.

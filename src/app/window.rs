@@ -23,7 +23,7 @@ use crate::app::session::{
     STORED_PICTURE, STORED_SLOW, STORED_TITLE, Session, Sought, Ticket,
 };
 use crate::app::words::{self, Lang};
-use crate::assets::{Assets, SegmentationsExpected, TissueWork, Want};
+use crate::assets::{Assets, Bending, SegmentationsExpected, TissueWork, Want};
 use crate::data::{Resources, Site, SubjectBuilder, Surface};
 use crate::document::{Document, SegmentsRef};
 use crate::load::LabelFile;
@@ -81,6 +81,8 @@ pub struct App {
     pub(crate) incoming: SubjectBuilder,
     /// Files that documents wanted and that have arrived.
     pub(crate) assets: Assets,
+    /// The figure that is shown.
+    pub(crate) bending: Bending,
     /// The document, by its number, whose addresses `assets` knows.
     pub(crate) opened: u64,
     /// Fields that the shell was asked for.
@@ -208,6 +210,7 @@ impl App {
             is_narrow: false,
             incoming: SubjectBuilder::default(),
             assets: Assets::default(),
+            bending: Bending::default(),
             opened: 0,
             fields_asked: Vec::new(),
             fields_elsewhere: Vec::new(),
@@ -268,6 +271,7 @@ impl App {
             && !self.services.is_reading()
             && !self.tissue.is_behind(&self.assets, self.session.shown())
             && !self.wants_beside()
+            && !self.is_bending()
             && self.pending.is_empty()
             && self.session.library.listing != Listing::Asked
             && !self.viewport.is_waiting()

@@ -17,6 +17,7 @@
 //! # Ok::<(), fabrica::document::DocumentError>(())
 //! ```
 
+mod bend;
 mod events;
 mod naming;
 mod news;
@@ -24,6 +25,7 @@ mod store;
 mod tissue_work;
 mod want;
 
+pub use bend::{BendAnswer, BendRequest, Bending, FOLLOWING};
 pub use events::{LoadEvent, RawQuestion, SegmentationsExpected};
 pub use news::ResourceNews;
 pub use store::{Assets, Data};

@@ -89,7 +89,10 @@ pub fn describe(
     sentences.push(object(shown, lang));
     done(&operations, lang, &mut sentences);
     drawn(shown, lang, &mut sentences);
-    sentences.push(sentence(sides, has_patient(&shown.subject), lang));
+    // A figure is flat: it is seen from its front.
+    if !shown.is_of_figure() {
+        sentences.push(sentence(sides, has_patient(&shown.subject), lang));
+    }
     if let Some(sight) = &measured.sight {
         in_sight(sight, lang, &mut sentences);
     }

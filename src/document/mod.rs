@@ -82,8 +82,8 @@ pub use model::{
     Preset, PresetSubject, RawVoxels, Reading, Recipe, RecipeSource, STYLE_PRESETS, SceneObject,
     SegmentLook, SegmentSurface, SegmentsRef, Step, Stipple, Stroke, Style, StylePreset,
     SubjectBox, SubjectRef, SurfaceChange, SurfaceLook, TemplateData, TemplateKind, TemplateMode,
-    TemplateSpec, Tone, Transfer, TransferPoint, Window, keep_set, keep_sets, needs_shaping,
-    preset, presets, style_preset,
+    TemplateSpec, Tone, Transfer, TransferPoint, Window, is_drawn_name, keep_set, keep_sets,
+    needs_shaping, preset, presets, style_preset,
 };
 pub use read::figure_from_text;
 pub use text::{DocumentError, Notice, NoticeKind, pointer};

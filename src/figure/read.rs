@@ -39,6 +39,15 @@ impl FigureFile {
     }
 }
 
+/// Endings of the names of figures' files.
+const ENDINGS: [&str; 4] = [".png", ".jpg", ".jpeg", ".svg"];
+
+/// True if a name promises a figure; the file's bytes decide.
+pub fn is_figure_name(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    ENDINGS.iter().any(|ending| lower.ends_with(ending))
+}
+
 /// Why a file gave no figure.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]

@@ -5,6 +5,8 @@ use serde_json::{Value, json};
 
 use super::stock::Stock;
 use super::visit::Visit;
+use crate::assets::{BendAnswer, BendRequest, Bending};
+use crate::data::Resources;
 use crate::describe::{Lang, Measured, Sight, describe};
 use crate::document::Illustration;
 use crate::math::columns;
@@ -34,6 +36,10 @@ pub struct Picture {
     seen: Option<Box<Illustration>>,
     /// Revisions of the visit and of the stock that the renderer was given.
     given: (u64, u64),
+    /// The figure, where the subject is one.
+    bending: Bending,
+    /// What was said of the figure.
+    troubles: Vec<String>,
     size_px: [u32; 2],
     is_complete: bool,
 }
@@ -47,9 +53,39 @@ impl Picture {
             captions: FollowedCaptions::default(),
             seen: None,
             given: (0, 0),
+            bending: Bending::default(),
+            troubles: Vec::new(),
             size_px: [0, 0],
             is_complete: false,
         }
+    }
+
+    /// What the bender of the figure should be asked next, and counts as under way from now on.
+    pub fn next_bend(&mut self, stock: &Stock) -> Option<BendRequest> {
+        let plate = stock.plate();
+        if plate.is_some() {
+            self.visit.tell_figure();
+        }
+        let (visit, bending) = (&self.visit, &mut self.bending);
+        bending.next(plate, visit.shown().figure.as_ref(), visit.is_moving())
+    }
+
+    /// Takes the answer of the bender.
+    pub fn take_bent(&mut self, answer: BendAnswer) {
+        self.bending.take(answer);
+        self.troubles.extend(self.bending.take_notices());
+    }
+
+    /// True while the figure is not bent as the document has it.
+    pub fn is_bending(&self, stock: &Stock) -> bool {
+        let figure = self.visit.shown().figure.as_ref();
+        self.bending
+            .is_behind(stock.plate(), figure, self.visit.is_moving())
+    }
+
+    /// What was said of the figure, the newest last.
+    pub fn troubles(&self) -> &[String] {
+        &self.troubles
     }
 
     /// True while a frame is drawn whose captions are still being asked for. It is shown with them, so nothing that is
@@ -78,10 +114,18 @@ impl Picture {
             });
         }
         let stocked = (self.visit.revision(), stock.revision());
-        if self.given != stocked {
+        let sheet = self.bending.sheet();
+        let is_same_sheet = match (self.renderer.sheet(), sheet) {
+            (Some(drawn), Some(newest)) => drawn.is_same(newest),
+            (drawn, newest) => drawn.is_none() && newest.is_none(),
+        };
+        if self.given != stocked || !is_same_sheet {
             self.given = stocked;
-            self.renderer
-                .set_resources(stock.resources(self.visit.shown()));
+            let resources = Resources {
+                sheet: sheet.cloned(),
+                ..stock.resources(self.visit.shown())
+            };
+            self.renderer.set_resources(resources);
         }
         self.renderer.share_subject(stock.host());
         let seen = self.seen();
@@ -97,7 +141,8 @@ impl Picture {
         }
         self.seen = Some(Box::new(seen));
         self.size_px = self.renderer.output_size().unwrap_or(size_px);
-        let has_picture = state.has_picture && stock.host().subject_info().is_some();
+        let is_bent = stock.plate().is_none() || self.renderer.sheet().is_some();
+        let has_picture = state.has_picture && is_bent && stock.host().subject_info().is_some();
         self.is_complete = has_picture && state.is_done;
         let is_waiting = has_picture && self.follow();
         Ok(Drawn {

@@ -1,7 +1,9 @@
 //! The data of documents: a subject with its segments, on the GPU once for all pictures that show it.
 
+use std::sync::Arc;
+
 use crate::assets::{Assets, Data, LoadEvent, Role, Source, TissueWork, Want, Wanted};
-use crate::data::{Resources, Subject, SubjectBuilder, SubjectSink as _};
+use crate::data::{Plate, Resources, Subject, SubjectBuilder, SubjectSink as _};
 use crate::document::{Illustration, Recipe, SegmentsRef, SubjectRef};
 use crate::load::{FieldFile, LabelFile};
 use crate::render::{Clock, Gpu, RenderError, Renderer};
@@ -142,6 +144,11 @@ impl Stock {
         let mut missing = self.assets.missing(shown);
         missing.retain(|want| want.role == Role::Field && !self.assets.is_refused(want));
         missing
+    }
+
+    /// The plate of the figure, if the subject is one.
+    pub fn plate(&self) -> Option<&Arc<Plate>> {
+        self.assets.subject().and_then(Subject::plate)
     }
 
     /// Millimetres in one subject unit, once there is a subject.

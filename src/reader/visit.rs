@@ -1,13 +1,14 @@
 //! A document as one reader sees it.
 
+use std::f32::consts::PI;
 use std::sync::Arc;
 
 use glam::Vec2;
 use serde_json::{Value, json};
 
 use crate::document::{
-    Autoplay, Camera, Control, ControlRange, Document, DocumentError, Illustration, MAX_STEPS,
-    Turn, Walk, axes, orbit, zoom,
+    Autoplay, Camera, Control, ControlRange, Document, DocumentError, FIGURE_FRONT, Illustration,
+    MAX_STEPS, Turn, Walk, axes, orbit, zoom,
 };
 use crate::link;
 
@@ -234,8 +235,27 @@ impl Visit {
         self.moved_values();
     }
 
-    /// Turns the object under the hand: radians to the right and down.
+    /// The file has told that the subject is a figure, which the document did not: from now on it does.
+    pub fn tell_figure(&mut self) {
+        if self.document.illustration().is_of_figure() {
+            return;
+        }
+        let told = |document: &Document| document.with("/figure", json!({}));
+        let (Ok(lesson), Ok(document)) = (told(&self.lesson), told(&self.document)) else {
+            return;
+        };
+        self.walk = Walk::at(&document, self.walk.step());
+        (self.lesson, self.document) = (lesson, document);
+        self.camera.rotate *= FIGURE_FRONT;
+        self.moved_values();
+    }
+
+    /// Turns the object under the hand: radians to the right and down. A figure is flat, and is moved instead: by the
+    /// whole picture for half a turn.
     pub fn turn(&mut self, right: f32, down: f32) {
+        if self.document.illustration().is_of_figure() {
+            return self.shift(right / PI, down / PI);
+        }
         if right.is_finite() && down.is_finite() {
             orbit(&mut self.camera, Vec2::new(right, down));
             self.moved_camera();

@@ -19,6 +19,7 @@ mod wished;
 #[cfg(target_arch = "wasm32")]
 pub mod worker;
 
+pub mod bending;
 pub mod figures;
 pub mod loading;
 pub mod meshes;

@@ -2,21 +2,25 @@
 
 use std::collections::BTreeMap;
 use std::io::Read as _;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
+use super::bending::{Desk, make_figure};
 use super::command_line::ReadingFlags;
 use super::figures::read_file;
 use super::files::{Folder, Picked, local, mesh_set};
 use super::loading::{make_subject, read_segments, resolutions, take_segmentations, wanted_file};
 use super::meshes::make_mesh;
 use crate::app::{App, LinkChange, Message, SaveFile, SavedTo, Services, Shipped, Start, Ticket};
-use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
+use crate::assets::{
+    BendAnswer, BendRequest, LoadEvent, Role, SegmentationsExpected, Source, Want,
+};
 use crate::data::VolumeLimits;
-use crate::document::{Document, RawVoxels, Reading};
+use crate::document::{Document, RawVoxels, Reading, is_drawn_name};
 use crate::load::{is_field, mesh_among, read_field};
 use crate::render::Gpu;
 use crate::subjects::mesh_names;
@@ -174,6 +178,8 @@ struct NativeServices {
     labels: SegmentationsExpected,
     /// Fields that threads are reading.
     n_reading: usize,
+    /// Takes figures to be bent, once one was.
+    bends: Option<Sender<BendRequest>>,
 }
 
 impl NativeServices {
@@ -195,6 +201,7 @@ impl NativeServices {
             dropped: Vec::new(),
             labels: SegmentationsExpected::default(),
             n_reading: 0,
+            bends: None,
         }
     }
 
@@ -297,12 +304,16 @@ impl NativeServices {
 
     fn start_builtin(&mut self, name: String, want: &Want) -> Ticket {
         let carves = want.reading.carves;
+        let is_figure = want.role == Role::Subject && is_drawn_name(&name);
         let is_mesh = want.role == Role::Object || mesh_names().contains(&name.as_str());
         let (ticket, is_wanted) = self.new_ticket();
         let (sender, ctx, limits) = (self.sender.clone(), self.ctx.clone(), self.limits);
         std::thread::spawn(move || {
             let mut post =
                 |event: LoadEvent| post_while_wanted(&sender, &ctx, ticket, &is_wanted, event);
+            if is_figure {
+                return make_figure(&name, &mut post);
+            }
             match is_mesh {
                 true => make_mesh(&name, carves, &mut post),
                 false => make_subject(&name, &resolutions(limits), slabs_in_threads, &mut post),
@@ -421,6 +432,23 @@ fn post_while_wanted(
     true
 }
 
+/// Starts a thread that bends figures, as long as somebody can ask for it.
+fn start_bending(sender: Sender<Message>, ctx: egui::Context) -> Sender<BendRequest> {
+    let (asks, requests) = channel::<BendRequest>();
+    std::thread::spawn(move || {
+        let mut desk = Desk::default();
+        for request in requests {
+            let answer = catch_unwind(AssertUnwindSafe(|| desk.answer(request)));
+            let answer = answer.unwrap_or_else(|_| {
+                desk = Desk::default();
+                BendAnswer::Lost("a fault stopped the bending of the figure".to_owned())
+            });
+            send(&sender, &ctx, Message::Bent(answer));
+        }
+    });
+    asks
+}
+
 /// Makes the slabs of a generator in as many threads as there are cores, and hands them over in order.
 fn slabs_in_threads(
     generator: &Generator,
@@ -528,6 +556,7 @@ impl Services for NativeServices {
                 "Scans and illustrations",
                 &[
                     "nii", "gz", "hdr", "img", "nrrd", "nhdr", "mha", "mhd", "dcm", "raw", "json",
+                    "png", "jpg", "jpeg", "svg",
                 ],
             )
             .add_filter("All files", &["*"])
@@ -575,6 +604,18 @@ impl Services for NativeServices {
         match want.role {
             Role::Segments => self.start_segments(path),
             _ => self.start_file(path, true, want.reading.clone()),
+        }
+    }
+
+    fn bend(&mut self, request: BendRequest) {
+        let (sender, ctx) = (&self.sender, &self.ctx);
+        let bends = self
+            .bends
+            .get_or_insert_with(|| start_bending(sender.clone(), ctx.clone()));
+        if bends.send(request).is_err() {
+            self.bends = None;
+            let why = "the thread that bends figures is gone".to_owned();
+            self.send(Message::Bent(BendAnswer::Lost(why)));
         }
     }
 

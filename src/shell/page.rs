@@ -13,13 +13,13 @@ use super::loading::wanted_file;
 use super::texts::{self, Texts};
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
-use super::worker::run::{self, WorkerLoad};
+use super::worker::run::{self, BendWorker, WorkerLoad};
 use super::worker::task::{ScanTask, Task};
 use crate::app::{
     LinkChange, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, SetText, Shipped, TextOver,
     TextToSet, Ticket,
 };
-use crate::assets::{LoadEvent, SegmentationsExpected, Source, Want};
+use crate::assets::{BendAnswer, BendRequest, LoadEvent, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
 use crate::document::{RawVoxels, Reading};
 use crate::load::FieldFile;
@@ -44,6 +44,8 @@ pub(super) struct Page {
     messages: Vec<Message>,
     load: Option<(Ticket, WorkerLoad)>,
     next_ticket: u64,
+    /// Bends the figure that is shown, once there is one.
+    bender: Option<BendWorker>,
     /// Loads that wait for leave to fetch.
     asking: BTreeMap<Ticket, (String, Want)>,
     allowed_hosts: BTreeSet<String>,
@@ -83,6 +85,7 @@ impl Page {
             opening: None,
             n_reading: 0,
             next_ticket: 1,
+            bender: None,
             asking: BTreeMap::new(),
             allowed_hosts: BTreeSet::new(),
             known: BTreeMap::new(),
@@ -142,7 +145,7 @@ impl PageServices {
         let started = self.answered(task, move |services, answer| match answer {
             Answer::Event(event) => services.pass(ticket, event),
             Answer::Field(outcome) => services.take_field(None, Vec::new(), *outcome),
-            Answer::Module(..) => {}
+            Answer::Module(..) | Answer::Bent(_) => {}
         });
         match started {
             Ok(load) => self.0.borrow_mut().load = Some((ticket, load)),
@@ -222,7 +225,7 @@ impl PageServices {
                 drop(ended);
                 services.take_field(None, files.clone(), *outcome);
             }
-            Answer::Module(..) => {}
+            Answer::Module(..) | Answer::Bent(_) => {}
         });
         match started {
             Ok(load) => self.0.borrow_mut().opening = Some((ticket, load)),
@@ -488,6 +491,23 @@ impl Services for PageServices {
             }
         }
         ticket
+    }
+
+    fn bend(&mut self, request: BendRequest) {
+        let mut page = self.0.borrow_mut();
+        let worker = page.place.worker.clone();
+        let bender = page
+            .bender
+            .get_or_insert_with(|| BendWorker::new(worker.as_str().into()));
+        let weak = Rc::downgrade(&self.0);
+        let asked = bender.ask(request, move |answer| {
+            if let Some(page) = weak.upgrade() {
+                page.borrow_mut().send(Message::Bent(answer));
+            }
+        });
+        if let Err(error) = asked {
+            page.send(Message::Bent(BendAnswer::Lost(text_of(&error))));
+        }
     }
 
     fn fetch_shipped(&mut self, file: Shipped) {

@@ -17,9 +17,9 @@ use super::loading::wanted_file;
 use super::wished;
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
-use super::worker::run::{self, Maker, WorkerLoad};
+use super::worker::run::{self, BendWorker, Maker, WorkerLoad};
 use super::worker::task::{Part, ScanTask, Task};
-use crate::assets::{LoadEvent, Role, SegmentationsExpected, Source, Want};
+use crate::assets::{BendAnswer, LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::describe::{Lang, seen_from};
 use crate::link::{self, Qr};
 use crate::reader::{Picture, Stock, StockKey, Visit, outline, texts};
@@ -90,6 +90,8 @@ struct Shown {
     base: String,
     /// It has given its memory back since it was drawn.
     is_resting: bool,
+    /// Bends its figure, once it has one.
+    bender: Option<BendWorker>,
 }
 
 /// A stock and what is being fetched for it.
@@ -193,6 +195,7 @@ impl Reader {
             stock: 0,
             base,
             is_resting: false,
+            bender: None,
         };
         shown.stock = inner.stock_for(&shown.picture.visit, &shown.base);
         inner.shown.insert(id, shown);
@@ -305,6 +308,22 @@ impl Reader {
             true => shown.picture.visit.is_moving(),
             false => shown.picture.visit.advance(now, is_cut),
         };
+        if let Some(request) = shown.picture.next_bend(&stocked.stock) {
+            let worker = &inner.worker;
+            let bender = shown
+                .bender
+                .get_or_insert_with(|| BendWorker::new(worker.clone()));
+            let weak = Rc::downgrade(&self.inner);
+            let asked = bender.ask(request, move |answer| {
+                if let Some(inner) = weak.upgrade() {
+                    Inner::take_bent(&inner, id, answer);
+                }
+            });
+            if let Err(error) = asked {
+                let answer = BendAnswer::Lost(text_of(&error));
+                shown.picture.take_bent(answer);
+            }
+        }
         let size = [width.max(1), height.max(1)];
         let is_moving = is_moving || passes;
         let drawn = match shown
@@ -329,6 +348,7 @@ impl Reader {
         // A question about segments does not keep the subject from being whole.
         let asks_beside = stocked.asks.is_some() && stocked.stock.host().subject_info().is_some();
         let is_settled = asks_beside || stocked.stock.is_settled() && stocked.fields.is_empty();
+        let is_settled = is_settled && !shown.picture.is_bending(&stocked.stock);
         let has_drawn_all = drawn.is_done || stocked.stock.host().subject_info().is_none();
         if is_settled && drawn.is_done && !passes {
             flags |= IS_DONE;
@@ -354,7 +374,9 @@ impl Reader {
         let is_supplied = subject.supplied_sha256().is_some();
         let has_failed = stock.is_some_and(Stock::has_failed);
         let troubles = stock.map_or(&[][..], Stock::troubles);
-        let troubles: Vec<&str> = troubles.iter().map(|t| t.message.as_str()).collect();
+        let of_figure = shown.picture.troubles().iter().map(String::as_str);
+        let troubles = troubles.iter().map(|t| t.message.as_str());
+        let troubles: Vec<&str> = troubles.chain(of_figure).collect();
         let asks = stocked.and_then(|s| s.asks.as_ref());
         json!({
             "progress": stock.and_then(|stock| stock.loading()).map(|(_, fraction)| fraction),
@@ -483,9 +505,10 @@ impl Reader {
     pub fn view(&self, id: u32) -> String {
         self.with(id, |visit| {
             let camera = visit.camera();
+            let rotate = visit.shown().written_rotation(camera.rotate);
             json!({
                 "target": camera.target.to_array(),
-                "rotate": camera.rotate.to_array(),
+                "rotate": rotate.to_array(),
                 "distance": camera.distance,
                 "fov": camera.fov_deg,
             })
@@ -572,6 +595,10 @@ impl Reader {
     pub fn side(&self, id: u32, lang: &str) -> String {
         let lang = Lang::from_tag(lang).unwrap_or(Lang::English);
         self.with(id, |visit| {
+            // A figure is flat, and has no sides.
+            if visit.shown().is_of_figure() {
+                return String::new();
+            }
             seen_from(visit.camera().rotate, &visit.shown().subject, lang)
         })
     }
@@ -801,6 +828,18 @@ impl Inner {
             }
         }
         this.fetch_fields(inner);
+    }
+
+    /// The bender of a picture has answered.
+    fn take_bent(inner: &Rc<RefCell<Self>>, id: u32, answer: BendAnswer) {
+        let on_news = {
+            let mut inner = inner.borrow_mut();
+            if let Some(shown) = inner.shown.get_mut(&id) {
+                shown.picture.take_bent(answer);
+            }
+            inner.on_news.clone()
+        };
+        let _nobody_listens = on_news.call0(&JsValue::NULL);
     }
 
     fn way(&self, stock: u32, want: &Want) -> Way {

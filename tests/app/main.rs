@@ -7,6 +7,7 @@ mod canvas;
 mod captions;
 mod comfort;
 mod dropping;
+mod figures;
 mod library;
 mod looking;
 mod making;

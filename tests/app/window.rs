@@ -5,9 +5,11 @@
 use super::*;
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupExisting};
 use fabrica::app::{SetText, TextOver, TextToSet};
-use fabrica::assets::{Role, Source, Want};
+use fabrica::assets::{BendRequest, Role, Source, Want};
 use fabrica::load::{LabelSource, LoadReport, ReadOptions, read_label_file, read_subject};
 use fabrica::render::Gpu;
+use fabrica::shell::bending::{Desk, make_figure};
+use fabrica::shell::figures::read_figure;
 use std::sync::OnceLock;
 
 /// What the app asked of its surroundings.
@@ -59,6 +61,10 @@ pub(crate) struct Log {
     pub(crate) over: Vec<TextOver>,
     /// Those that they have set for pictures.
     pub(crate) set: RefCell<Vec<TextToSet>>,
+    /// Bends figures.
+    pub(crate) desk: Desk,
+    /// How often a figure was bent at rest, and how often it followed.
+    pub(crate) bends: [usize; 2],
 }
 
 impl Log {
@@ -103,6 +109,10 @@ impl Log {
                 self.queue.push(Message::Load { ticket, event });
                 None
             }),
+            _ if fabrica::figure::is_figure_name(name) => {
+                let sink = &mut Queue(self, ticket);
+                read_figure(&mut files, name, sink, &mut report).map(|()| report.sha256_hex())
+            }
             _ => {
                 let own = LabelSource::default();
                 let sink = &mut Queue(self, ticket);
@@ -177,6 +187,14 @@ impl Services for Fake {
                     log.queue.push(Message::Load { ticket, event });
                     Ok(())
                 }
+                _ if fabrica::document::is_drawn_name(name) => {
+                    let mut post = |event: LoadEvent| {
+                        log.queue.push(Message::Load { ticket, event });
+                        true
+                    };
+                    make_figure(name, &mut post);
+                    return ticket;
+                }
                 _ => fabrica::subjects::generate(name, resolution, &mut Queue(log, ticket)),
             };
             let event = match generated {
@@ -195,6 +213,12 @@ impl Services for Fake {
             log.read(src, want.role, ticket);
         }
         ticket
+    }
+    fn bend(&mut self, request: BendRequest) {
+        let log = &mut *self.0.borrow_mut();
+        log.bends[usize::from(request.rounds.is_some())] += 1;
+        let answer = log.desk.answer(request);
+        log.queue.push(Message::Bent(answer));
     }
     fn fetch_shipped(&mut self, file: fabrica::app::Shipped) {
         use fabrica::app::Shipped;

@@ -310,14 +310,18 @@ fn volume_of(name: &str, resolution: u32) -> Volume {
     builder.finish().expect("a whole volume")
 }
 
-async fn drawn(studio: &Studio, illustration: &Illustration, size: [u32; 2]) -> RgbaImage {
+pub(crate) async fn drawn(
+    studio: &Studio,
+    illustration: &Illustration,
+    size: [u32; 2],
+) -> RgbaImage {
     let image = studio.render_image(illustration, size, SAMPLES).await;
     let image = image.expect("a native picture");
     RgbaImage::from_raw(size[0], size[1], image.rgba).expect("whole")
 }
 
 /// The bytes of a PNG that a script promises.
-async fn promised(tab: &Tab, script: &str) -> RgbaImage {
+pub(crate) async fn promised(tab: &Tab, script: &str) -> RgbaImage {
     let script =
         format!("{script}.then(b => btoa(Array.from(b, c => String.fromCharCode(c)).join('')))");
     let png = from_base64(&tab.eval::<String>(&script).await);

@@ -14,7 +14,7 @@ struct Program {
 }
 
 /// The page itself, and the parts that it fetches when it first needs them.
-const PROGRAMS: [Program; 6] = [
+const PROGRAMS: [Program; 7] = [
     Program {
         name: "fabrica",
         sent: 1_650_000,
@@ -42,6 +42,11 @@ const PROGRAMS: [Program; 6] = [
     },
     Program {
         name: "fabrica_pictures",
+        sent: 572_000,
+        packed: 520_000,
+    },
+    Program {
+        name: "fabrica_figures",
         sent: 572_000,
         packed: 520_000,
     },

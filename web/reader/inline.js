@@ -24,8 +24,8 @@ export function run(message, port) {
     try {
       const program = await load(message.part);
       if (!message.task) return;
-      const other = await program.run({ ...message, scope }, load);
-      if (other) await (await load(other)).run({ ...message, part: other, module: undefined, scope }, load);
+      let other = await program.run({ ...message, scope }, load);
+      while (other) other = await (await load(other)).run({ ...message, part: other, module: undefined, scope }, load);
     } catch (error) {
       if (message.task) port.postMessage(["failed", "The part of the viewer that loads scans stopped because of a fault", String(error)]);
     }

@@ -81,7 +81,10 @@ pub(crate) fn corner_ui(
     let home = if is_low {
         rect.left_bottom() + vec2(12.0, -12.0) + 0.5 * button() * vec2(1.0, -1.0)
     } else {
-        commands.extend(orientation::ball_ui(ui, view, center));
+        // A figure has no sides to look from.
+        if !session.view.is_figure() {
+            commands.extend(orientation::ball_ui(ui, view, center));
+        }
         center + vec2(64.0, 47.0 - 0.5 * button())
     };
     let home = Rect::from_center_size(home, Vec2::splat(button()));
@@ -102,6 +105,9 @@ pub(crate) fn corner_ui(
             };
         Rect::from_center_size(center, Vec2::splat(button()))
     };
+    if seen.is_figure() {
+        return;
+    }
     let (text, is_on) = match seen.is_split {
         true => (w.hide, true),
         false => (w.show, false),

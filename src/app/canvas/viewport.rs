@@ -303,6 +303,9 @@ impl Viewport {
         if let Some(touch) = touch {
             camera::zoom(&mut camera, touch.zoom_delta);
             projection::pan(&mut camera, view, touch.translation_delta);
+            if session.view.is_figure() {
+                camera::roll(&mut camera, touch.rotation_delta);
+            }
         } else if response.dragged()
             && !self.gizmo.is_held()
             && !is_painting
@@ -313,10 +316,12 @@ impl Viewport {
             let is_pan = shift
                 || response.dragged_by(PointerButton::Secondary)
                 || response.dragged_by(PointerButton::Middle);
-            if is_pan {
-                projection::pan(&mut camera, view, delta);
-            } else if ui.input(|i| i.modifiers.alt) {
+            let is_roll = !is_pan && ui.input(|i| i.modifiers.alt);
+            if is_roll {
                 camera::roll(&mut camera, delta.x * ORBIT_PER_POINT);
+            } else if is_pan || session.view.is_figure() {
+                // A figure is flat, and nothing is to be seen from its sides.
+                projection::pan(&mut camera, view, delta);
             } else {
                 let turn = delta * ORBIT_PER_POINT;
                 camera::orbit(&mut camera, glam::vec2(turn.x, turn.y));

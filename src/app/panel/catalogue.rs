@@ -70,6 +70,11 @@ pub(crate) fn ui(
     focus: Option<Focus>,
     commands: &mut Vec<Command>,
 ) {
+    if session.view.is_figure() {
+        let weak = Palette::get(ui).weak;
+        ui.add(egui::Label::new(egui::RichText::new(w().figure).color(weak)).wrap());
+        return;
+    }
     let gap = 5.0;
     let columns = ((ui.available_width() + gap) / 64.0)
         .floor()

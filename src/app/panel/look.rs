@@ -56,6 +56,9 @@ pub(crate) fn ui(
     }
     background_ui(ui, look.background, commands);
     marks_ui(ui, look, commands);
+    if session.view.is_figure() {
+        return;
+    }
     widget::divider(ui);
     style::ui(ui, look, commands);
 }

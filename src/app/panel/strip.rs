@@ -161,7 +161,11 @@ impl Pictures {
         } else if let Some(state) = self.next().cloned() {
             let is_idle = picture.state.is_done && !picture.is_waiting();
             let is_still = !session.is_playing() && !is_held;
-            if is_idle && is_still && picture.state.has_picture {
+            if session.view.is_figure() {
+                // The renderer has the figure as one step bends it, and no other.
+                self.made.push((state, None));
+                self.find_places();
+            } else if is_idle && is_still && picture.state.has_picture {
                 let work = picture.start_small(&state, PICTURE_PX);
                 self.job = Some((state, work));
             }

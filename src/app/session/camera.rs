@@ -96,6 +96,13 @@ impl StandardView {
     }
 }
 
+/// Moves what is seen in the picture, to the right and down: parts of the picture's shorter side.
+pub fn shift(camera: &mut Camera, by: Vec2) {
+    let [right, up, _] = axes(camera.rotate);
+    let side = 2.0 * camera.distance * (0.5 * camera.fov_deg.to_radians()).tan();
+    camera.target += (up * by.y - right * by.x) * side;
+}
+
 /// [`Camera::rotate`] of the view from a direction, upright. From straight above or below the patient's right stays
 /// where it is in the view before.
 fn rotation_from(direction: Vec3, before: Quat) -> Quat {

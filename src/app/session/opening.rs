@@ -10,7 +10,7 @@ use super::ticket::Ticket;
 use crate::app::words::fill;
 use crate::app::words::messages::w;
 use crate::assets::{OtherFile, Want};
-use crate::document::{Document, Edit, Reading, SubjectRef};
+use crate::document::{Document, Edit, FIGURE_FRONT, Reading, SubjectRef};
 use crate::link;
 
 /// True if a subject that was asked for, or is shown, is that of the document.
@@ -219,6 +219,23 @@ impl Session {
             false => edit,
         };
         self.apply(&edit, false)
+    }
+
+    /// The document tells from now on that its subject is a figure, if it is one and the file alone told it: its camera
+    /// looks at the front of the plate. This is a part of the last step of undo.
+    pub fn tell_figure(&mut self) {
+        if !self.view.is_figure() || self.illustration().is_of_figure() {
+            return;
+        }
+        let edit = Edit::Set {
+            pointer: "/figure".to_owned(),
+            value: json!({}),
+            name: "Open a picture".to_owned(),
+        };
+        for camera in [&mut self.camera, &mut self.home] {
+            camera.rotate *= FIGURE_FRONT;
+        }
+        self.amend_document(&edit);
     }
 
     /// The change to another subject, but with the segments and recipes of the present one.

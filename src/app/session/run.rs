@@ -1,5 +1,7 @@
 //! Runs commands: each changes the session and may return effects.
 
+use std::f32::consts::PI;
+
 use glam::Vec2;
 
 use super::camera;
@@ -116,6 +118,7 @@ impl Session {
             Command::NudgeMain(by) if self.tool().ball().is_some() => self.resize_ball(by > 0.0),
             Command::NudgeMain(hundredths) => self.nudge_main(hundredths),
             Command::SetGizmo(mode) => self.gizmo = mode,
+            Command::View(_) if self.view.is_figure() => {}
             Command::View(view) => self.glide_to(Camera {
                 rotate: view.rotation(),
                 ..self.camera
@@ -124,7 +127,11 @@ impl Session {
             Command::MoveCamera(camera) => self.move_camera(camera),
             Command::Orbit(x, y) => {
                 let mut camera = self.camera;
-                camera::orbit(&mut camera, Vec2::new(x, y));
+                match self.view.is_figure() {
+                    // It is flat: what would turn it moves it. Half a turn is the whole picture.
+                    true => camera::shift(&mut camera, Vec2::new(x, y) / PI),
+                    false => camera::orbit(&mut camera, Vec2::new(x, y)),
+                }
                 self.move_camera(camera);
             }
             Command::Zoom(factor) => {
@@ -163,6 +170,7 @@ impl Session {
             }
             Command::UseMesh(answer) => self.use_mesh(answer),
             Command::Raw(command) => self.run_raw(command),
+            Command::See(See::ToggleSlices | See::ToggleGhost) if self.view.is_figure() => {}
             Command::See(see) => self.run_see(see),
             Command::Tissue(command) => self.run_tissue(command),
             Command::Library(command) => self.run_library(command),

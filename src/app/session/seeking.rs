@@ -9,6 +9,7 @@ use super::tissues::TissueCommand;
 use crate::app::words::search::has_words;
 use crate::app::words::{fill, in_sentence, kept, tissue};
 use crate::data::Site;
+use crate::document::Camera;
 
 impl Session {
     /// Puts the keyboard into the search over tissues and captions.
@@ -76,7 +77,13 @@ impl Session {
             return self.notify(Gravity::Info, text, "");
         };
         self.view.set_cross(site.middle);
-        self.glide_to(camera::turned_to(&self.camera, &site));
+        self.glide_to(match self.view.is_figure() {
+            true => Camera {
+                target: site.centroid,
+                ..self.camera
+            },
+            false => camera::turned_to(&self.camera, &site),
+        });
     }
 }
 

@@ -535,6 +535,17 @@ impl Session {
         self.applied(result, false)
     }
 
+    /// As [`Session::amend`], whatever step is shown.
+    pub(super) fn amend_document(&mut self, edit: &Edit) -> bool {
+        let result = self.history.amend(edit);
+        self.applied(result, false)
+    }
+
+    /// True if the figure that is shown changes from one frame to the next.
+    pub fn is_passing(&self) -> bool {
+        self.mode.is_moving()
+    }
+
     fn applied(&mut self, result: Result<bool, DocumentError>, is_drag: bool) -> bool {
         match result {
             Ok(_) => {

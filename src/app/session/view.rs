@@ -80,6 +80,8 @@ pub struct SubjectFacts {
     /// Its voxels; `None` if the subject has no values. Then windows, thresholds and recipes mean nothing, and panels
     /// do not offer them.
     pub scan: Option<ScanFacts>,
+    /// It is a figure: flat, and bent by handles.
+    pub is_figure: bool,
     /// Names of its segments by label.
     pub segments: BTreeMap<u16, String>,
     /// Names of its segments, each once, in the order of its file; labels that stand for an overlap are left out.
@@ -101,6 +103,7 @@ impl SubjectFacts {
                 value_range: volume.value_range,
                 modality: None,
             }),
+            is_figure: subject.plate().is_some(),
             segments: names_of(subject.segments()),
             tissues: each_once(subject.segments()),
         }
@@ -190,6 +193,9 @@ impl ViewState {
             self.cross = facts.bounds.center();
             self.measures.clear();
         }
+        if facts.is_figure {
+            (self.is_split, self.expanded, self.has_ghost) = (false, None, false);
+        }
         self.subject = Some(facts);
         self.subject_revision += 1;
         is_same_place
@@ -229,6 +235,11 @@ impl ViewState {
     pub fn known_mm_per_unit(&self) -> Option<f64> {
         let subject = self.subject.as_ref().filter(|subject| subject.has_size);
         subject.map(|subject| f64::from(subject.mm_per_unit))
+    }
+
+    /// True if a figure is shown: panels leave out what is about subjects in space.
+    pub fn is_figure(&self) -> bool {
+        (self.subject.as_ref()).is_some_and(|subject| subject.is_figure)
     }
 
     /// False if a subject is shown that has no values: panels leave out what is about values.

@@ -48,12 +48,13 @@ const PAGE: [(&str, Option<&str>, &[&str]); 3] = [
     ("lint, the reader", Some("reader"), &["fabrica_reader"]),
     (
         "lint, the parts that run in workers",
-        Some("part-subjects,part-scans,part-meshes,part-pictures"),
+        Some("part-subjects,part-scans,part-meshes,part-pictures,part-figures"),
         &[
             "fabrica_subjects",
             "fabrica_scans",
             "fabrica_meshes",
             "fabrica_pictures",
+            "fabrica_figures",
         ],
     ),
 ];

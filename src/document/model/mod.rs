@@ -34,7 +34,7 @@ pub use script::needs_shaping;
 pub use style::{Ghost, GhostBy, Hatch, HatchBy, Outline, Stipple, Style, Tone};
 pub use style_preset::{STYLE_PRESETS, StylePreset, style_preset};
 pub(in crate::document) use subject::DRAWN;
-pub use subject::{RawVoxels, Reading, SegmentsRef, SubjectRef};
+pub use subject::{RawVoxels, Reading, SegmentsRef, SubjectRef, is_drawn_name};
 pub use surface::{BodyKind, Layer, SurfaceChange, SurfaceLook};
 pub(in crate::document) use template::join_objects;
 pub use template::{

@@ -42,10 +42,15 @@ pub enum SubjectRef {
     },
 }
 
+/// True for the name of a built-in figure, whether this version knows it or not.
+pub fn is_drawn_name(name: &str) -> bool {
+    name.starts_with(DRAWN)
+}
+
 impl SubjectRef {
     /// True for a built-in figure: its name begins with `drawn-`, whether this version knows it or not.
     pub fn is_drawn_figure(&self) -> bool {
-        matches!(self, Self::Builtin { name } if name.starts_with(DRAWN))
+        matches!(self, Self::Builtin { name } if is_drawn_name(name))
     }
 
     /// Whether the subject is a figure, as far as the document tells: the bytes of a file decide for it, so there it is

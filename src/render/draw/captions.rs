@@ -4,6 +4,7 @@ use super::follow::PendingPlaces;
 use super::pick::PendingDepths;
 use super::renderer::Renderer;
 use super::studio::Studio;
+use crate::data::Sheet;
 use crate::document::{Camera, Caption, Illustration, PlacedTemplate, Recipe, SubjectRef};
 use crate::render::device::error::RenderError;
 use crate::render::pack::view::View;
@@ -22,18 +23,21 @@ struct Cause {
     recipes: Vec<Recipe>,
     segments: usize,
     templates: Vec<PlacedTemplate>,
+    /// The bent figure that the points lie in, if they lie in one.
+    sheet: Option<Sheet>,
     /// Points of tissue that are followed, rest space: one per caption; and whether that is drawn.
     points: Vec<Vec3>,
     drawn: Vec<bool>,
 }
 
 impl Cause {
-    fn of(shown: &Illustration, segments: usize) -> Self {
+    fn of(shown: &Illustration, segments: usize, sheet: Option<&Sheet>) -> Self {
         Self {
             subject: shown.subject.clone(),
             recipes: shown.recipes.clone(),
             segments,
             templates: shown.templates.clone(),
+            sheet: sheet.cloned(),
             points: shown.captions.iter().map(|caption| caption.at).collect(),
             drawn: shown
                 .captions
@@ -44,8 +48,13 @@ impl Cause {
     }
 
     /// True if [`Cause::of`] would give an equal value. Copies nothing, since this is asked in every frame.
-    fn is_of(&self, shown: &Illustration, segments: usize) -> bool {
-        self.segments == segments
+    fn is_of(&self, shown: &Illustration, segments: usize, sheet: Option<&Sheet>) -> bool {
+        let is_same_sheet = match (&self.sheet, sheet) {
+            (Some(own), Some(other)) => own.is_same(other),
+            (own, other) => own.is_none() && other.is_none(),
+        };
+        is_same_sheet
+            && self.segments == segments
             && self.subject == shown.subject
             && self.recipes == shown.recipes
             && self.templates == shown.templates
@@ -112,12 +121,13 @@ impl FollowedCaptions {
             return is_waiting;
         }
         let segments = renderer.segments().len();
-        let is_known = |cause: &Cause| cause.is_of(shown, segments);
+        let sheet = renderer.sheet().cloned();
+        let is_known = |cause: &Cause| cause.is_of(shown, segments, sheet.as_ref());
         if self.pending.is_some() {
             is_waiting = true;
         } else if !self.known.as_ref().is_some_and(is_known) {
-            let cause = Cause::of(shown, segments);
-            if cause.templates.iter().all(|t| !t.acting().enabled) {
+            let cause = Cause::of(shown, segments, sheet.as_ref());
+            if sheet.is_none() && cause.templates.iter().all(|t| !t.acting().enabled) {
                 self.places = cause.points.iter().copied().map(Some).collect();
                 self.known = Some(cause);
                 self.sight = None;

@@ -11,7 +11,7 @@ use super::rows::Taker;
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
-use crate::data::{Resources, Segment, Segmentation, Subject, Surface};
+use crate::data::{Resources, Segment, Segmentation, Sheet, Subject, Surface};
 use crate::document::{Camera, Illustration};
 use crate::math::Aabb;
 use crate::render::device::bindings::encoder;
@@ -273,10 +273,18 @@ impl Renderer {
     /// Draws illustrations with what has come of the files that they name, from the next [`Renderer::draw`] on: the
     /// samples of their fields and the meshes of their objects.
     pub fn set_resources(&mut self, resources: Resources) {
-        if resources.fields != self.resources.fields || !resources.has_objects_of(&self.resources) {
+        if resources.fields != self.resources.fields
+            || !resources.has_objects_of(&self.resources)
+            || !resources.has_sheet_of(&self.resources)
+        {
             self.touch();
         }
         self.resources = resources;
+    }
+
+    /// The bent figure that is drawn, if the subject is one.
+    pub fn sheet(&self) -> Option<&Sheet> {
+        self.resources.sheet.as_ref()
     }
 
     /// Looks from elsewhere than the illustration says, until that is set again.

@@ -1,6 +1,7 @@
 //! What a part posts to the page: an array that begins with a word. `["module", WebAssembly.Module]` comes first, if
 //! the page did not send the module; `["field", header as JSON, Float32Array]` or `["field", undefined, why not]` is
-//! the answer to a displacement field. The others are the events of a load: [`pieces`] of the subject, such as
+//! the answer to a displacement field; `["bent", places, order, notices as JSON, mesh]` or `["bent", undefined, why not]`
+//! that to a figure, its mesh left out where it is that of the answer before. The others are the events of a load: [`pieces`] of the subject, such as
 //! `["begin", header as JSON]` and `["scalars", typed array]`, `["surface-array", index, array]` for each array of a
 //! surface and then `["surface"]`, `["progress", fraction, what]`, `["coarse"]`,
 //! `["done", sha256 or null]`, `["notice", text]`, `["label-file", sha256, header as JSON, Uint8Array]`,
@@ -10,15 +11,15 @@
 
 use std::sync::Arc;
 
-use js_sys::{Array, ArrayBuffer, Float32Array, Reflect, Uint8Array};
+use js_sys::{Array, ArrayBuffer, Float32Array, Reflect, Uint8Array, Uint32Array};
 use serde_json::Value;
 use wasm_bindgen::prelude::*;
 
 use super::header::{field_of, json_of_field, json_of_labels, labels_of};
 use super::pieces;
 use super::task::{Part, reading_of, text_of_reading};
-use crate::assets::{LoadEvent, RawQuestion};
-use crate::data::{SubjectPart, SurfaceArrays};
+use crate::assets::{BendAnswer, LoadEvent, RawQuestion};
+use crate::data::{Sheet, SheetMesh, SubjectPart, SurfaceArrays};
 use crate::document::Reading;
 use crate::load::{FaultKind, FieldFile, FileFault, LabelFile};
 
@@ -31,6 +32,8 @@ pub enum Answer {
     Event(LoadEvent),
     /// The file is a displacement field, or should have been one and why it is not.
     Field(Box<Result<FieldFile, String>>),
+    /// A figure is bent, or is not.
+    Bent(BendAnswer),
 }
 
 /// The answers of one worker.
@@ -38,6 +41,8 @@ pub enum Answer {
 pub struct Answers {
     /// The arrays of a surface that have come.
     arrays: SurfaceArrays,
+    /// The triangles of the figure that was bent last.
+    mesh: Option<Arc<SheetMesh>>,
 }
 
 impl Answers {
@@ -61,6 +66,7 @@ impl Answers {
                 field.samples = samples.as_chunks::<4>().0.to_vec();
                 Some(Answer::Field(Box::new(Ok(field))))
             }
+            "bent" => Some(Answer::Bent(self.bent(message)?)),
             "surface-array" => {
                 let index = message.get(1).as_f64()? as u32;
                 pieces::put_array(&mut self.arrays, index, &message.get(2))?;
@@ -74,13 +80,34 @@ impl Answers {
             _ => event_of(message).map(Answer::Event),
         }
     }
+
+    fn bent(&mut self, message: &Array) -> Option<BendAnswer> {
+        if message.get(1).is_undefined() {
+            let why = message.get(2).as_string().unwrap_or_default();
+            return Some(BendAnswer::Failed(why));
+        }
+        if let Some(mesh) = pieces::unpacked_mesh(&message.get(4)) {
+            self.mesh = Some(Arc::new(mesh));
+        }
+        let notices: Value = serde_json::from_str(&message.get(3).as_string()?).ok()?;
+        let notices = notices.as_array()?.iter();
+        let notices = notices.map(|notice| notice.as_str().map(str::to_owned));
+        Some(BendAnswer::Bent {
+            sheet: Sheet {
+                mesh: Arc::clone(self.mesh.as_ref()?),
+                places: Arc::new(pieces::unpacked_places(&message.get(1))?),
+                order: Arc::new(message.get(2).dyn_ref::<Uint32Array>()?.to_vec()),
+            },
+            notices: notices.collect::<Option<_>>()?,
+        })
+    }
 }
 
 impl Answer {
     /// True for the last answer of the worker.
     pub fn is_last(&self) -> bool {
         match self {
-            Self::Module(..) => false,
+            Self::Module(..) | Self::Bent(_) => false,
             Self::Field(_) => true,
             Self::Event(event) => matches!(
                 event,
@@ -137,6 +164,30 @@ pub mod post {
                 None,
             ),
         }
+    }
+
+    /// Posts a figure that is bent, or why it is not. Its triangles go along where they are others than `known`.
+    ///
+    /// # Errors
+    /// If the page cannot take the message.
+    pub fn bent(answer: &BendAnswer, known: Option<&Arc<SheetMesh>>) -> Result<(), JsValue> {
+        let message = Array::of1(&"bent".into());
+        match answer {
+            BendAnswer::Bent { sheet, notices } => {
+                let places: &[f32] = bytemuck::cast_slice(&sheet.places);
+                message.push(&Float32Array::from(places));
+                message.push(&Uint32Array::from(sheet.order.as_slice()));
+                message.push(&serde_json::json!(notices).to_string().into());
+                if !known.is_some_and(|known| Arc::ptr_eq(known, &sheet.mesh)) {
+                    message.push(&pieces::packed_mesh(&sheet.mesh));
+                }
+            }
+            BendAnswer::Failed(why) | BendAnswer::Lost(why) => {
+                message.push(&JsValue::UNDEFINED);
+                message.push(&why.into());
+            }
+        }
+        send(&message, None)
     }
 
     /// Posts the events of a load. Samples are moved to the page, not copied.

@@ -1,17 +1,16 @@
 //! The part that reads meshes and prepares them to be drawn.
 
-use js_sys::{Array, Function, Promise, Reflect, Uint8Array};
+use js_sys::Function;
 use wasm_bindgen::prelude::*;
-use wasm_bindgen_futures::JsFuture;
 
 use super::answer::post;
 use super::blobs::{BlobFiles, fetch, name_of, not_fetched};
 use super::fault::{self, text_of};
 use super::task::{Part, ScanTask};
+use super::unpacking::unpacked;
 use crate::assets::LoadEvent;
 use crate::document::Reading;
 use crate::load::{LoadError, LoadReport, mesh_among, names_beside, read_meshes};
-use crate::pictures::Picture;
 use crate::shell::loading::{PostingSink, is_mesh_file};
 use crate::shell::meshes::{Carving, box_of, make_mesh, mesh_files};
 
@@ -135,22 +134,4 @@ async fn prepare(
     }
     let mut carving = Carving(sink);
     read.prepare(box_of(reading), carving.where_it(reading.carves), report)
-}
-
-/// Has a picture unpacked by the part that holds the decoders.
-async fn unpacked(packed: &[u8], load: &Function) -> Result<Picture, JsValue> {
-    let part: Promise = load
-        .call1(&JsValue::NULL, &Part::Pictures.name().into())?
-        .unchecked_into();
-    let part = JsFuture::from(part).await?;
-    let decode: Function = Reflect::get(&part, &"decode".into())?.unchecked_into();
-    let found = decode.call1(&part, &Uint8Array::from(packed))?;
-    let found: Array = found.dyn_into()?;
-    let side = |index: u32| found.get(index).as_f64().unwrap_or_default() as u32;
-    let pixels: Uint8Array = found.get(3).dyn_into()?;
-    Ok(Picture {
-        size: [side(0), side(1)],
-        pixels: pixels.to_vec().as_chunks().0.to_vec(),
-        is_of_inks: found.get(2).is_truthy(),
-    })
 }

@@ -1,10 +1,10 @@
 //! What the page leaves to Web Workers. Each part is a program of its own, with its own module, which is fetched when
 //! the page first needs it: one makes the built-in subjects, one reads scans and holds their decoders, one reads meshes
-//! and prepares them, and one holds the decoders of pictures.
+//! and prepares them, one reads figures and bends them, and one holds the decoders of pictures.
 //!
 //! `web/worker.js` loads the part that the first message names, and hands it a [`task`]. What the part posts back is an
 //! [`answer`]. A part that finds that a file is for another one names that, and the worker goes on with it. One worker
-//! does one task; to cancel it is to end it. A part that panics ends its worker, and the page
+//! does one task; to cancel it is to end it. Only a worker that bends a figure does one task after the other. A part that panics ends its worker, and the page
 //! goes on with a message.
 
 pub mod answer;
@@ -16,8 +16,14 @@ pub mod task;
 #[cfg(feature = "reader")]
 pub mod run;
 
-#[cfg(any(feature = "part-scans", feature = "part-meshes"))]
+#[cfg(any(
+    feature = "part-scans",
+    feature = "part-meshes",
+    feature = "part-figures"
+))]
 mod blobs;
+#[cfg(feature = "part-figures")]
+pub mod figures;
 #[cfg(feature = "part-meshes")]
 pub mod meshes;
 #[cfg(feature = "part-pictures")]
@@ -26,3 +32,5 @@ pub mod pictures;
 pub mod scans;
 #[cfg(feature = "part-subjects")]
 pub mod subjects;
+#[cfg(any(feature = "part-meshes", feature = "part-figures"))]
+mod unpacking;

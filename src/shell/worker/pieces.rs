@@ -1,12 +1,16 @@
 //! Pieces of a subject in messages: a word for the kind of the piece, and what it holds. A new piece is one more arm in
 //! each of the two functions here; what is heavy in it travels as a typed array, which is moved and not copied.
 
-use js_sys::{Float32Array, Float64Array, Int16Array, Uint8Array, Uint16Array, Uint32Array};
+use std::sync::Arc;
+
+use glam::{DVec2, Vec2};
+use js_sys::{Array, Float32Array, Float64Array, Int16Array, Uint8Array, Uint16Array, Uint32Array};
 use serde_json::Value;
 use wasm_bindgen::prelude::*;
 
 use super::header::{json_of, volume_of};
-use crate::data::{SubjectPart, Surface, SurfaceArrays, Voxels};
+use crate::data::{Plate, PlateOrigin, SheetMesh, SubjectPart, Surface, SurfaceArrays, Voxels};
+use crate::pictures::Picture;
 
 /// The word of a piece, and what it holds.
 ///
@@ -17,6 +21,7 @@ pub fn packed(part: SubjectPart) -> Result<(&'static str, JsValue), JsValue> {
         SubjectPart::Volume(header) => ("begin", json_of(&header).to_string().into()),
         SubjectPart::Scalars(voxels) => ("scalars", array_of(&voxels)),
         SubjectPart::Labels(labels) => ("labels", Uint8Array::from(labels.as_slice()).into()),
+        SubjectPart::Plate(plate) => ("plate", packed_plate(&plate)),
         SubjectPart::Surface(_) => return Err("a surface travels in arrays".into()),
     })
 }
@@ -27,8 +32,86 @@ pub fn unpacked(word: &str, held: &JsValue) -> Option<SubjectPart> {
         "begin" => SubjectPart::header(volume_of(&json(held)?)?),
         "scalars" => SubjectPart::Scalars(voxels_of(held)?),
         "labels" => SubjectPart::Labels(held.dyn_ref::<Uint8Array>()?.to_vec()),
+        "plate" => SubjectPart::Plate(Arc::new(unpacked_plate(held)?)),
         _ => return None,
     })
+}
+
+/// A plate: width and height of its source, those of its picture, the pixels, and the bytes or the name of its drawing.
+pub fn packed_plate(plate: &Plate) -> JsValue {
+    let [width, height] = plate.picture.size;
+    let numbers = [
+        plate.size.x,
+        plate.size.y,
+        f64::from(width),
+        f64::from(height),
+    ];
+    let origin = match &plate.origin {
+        PlateOrigin::Pixels => JsValue::UNDEFINED,
+        PlateOrigin::Drawing(bytes) => Uint8Array::from(&**bytes).into(),
+        PlateOrigin::Builtin(name) => name.into(),
+    };
+    let pixels = Uint8Array::from(plate.picture.pixels.as_flattened());
+    Array::of3(&Float64Array::from(numbers.as_slice()), &pixels, &origin).into()
+}
+
+/// A plate from [`packed_plate`]; `None` if it is none.
+pub fn unpacked_plate(held: &JsValue) -> Option<Plate> {
+    let held: &Array = held.dyn_ref()?;
+    let numbers = held.get(0).dyn_ref::<Float64Array>()?.to_vec();
+    let [width, height, columns, rows] = numbers.try_into().ok()?;
+    let pixels = held.get(1).dyn_ref::<Uint8Array>()?.to_vec();
+    let origin = held.get(2);
+    let origin = match (origin.as_string(), origin.dyn_ref::<Uint8Array>()) {
+        (Some(name), _) => PlateOrigin::Builtin(name),
+        (None, Some(bytes)) => PlateOrigin::Drawing(Arc::from(bytes.to_vec())),
+        (None, None) => PlateOrigin::Pixels,
+    };
+    Some(Plate {
+        size: DVec2::new(width, height),
+        picture: Picture {
+            size: [columns as u32, rows as u32],
+            pixels: pixels.as_chunks().0.to_vec(),
+            is_of_inks: false,
+        },
+        origin,
+    })
+}
+
+/// The triangles of a sheet: places at rest, colours, corners, regions of the triangles, and the names of those.
+pub fn packed_mesh(mesh: &SheetMesh) -> JsValue {
+    Array::of5(
+        &Float32Array::from(bytemuck::cast_slice(&mesh.rest)),
+        &Float32Array::from(mesh.colors.as_flattened()),
+        &Uint32Array::from(mesh.triangles.as_flattened()),
+        &Uint16Array::from(mesh.region_of.as_slice()),
+        &serde_json::json!(mesh.regions).to_string().into(),
+    )
+    .into()
+}
+
+/// The triangles of a sheet from [`packed_mesh`]; `None` if it is none.
+pub fn unpacked_mesh(held: &JsValue) -> Option<SheetMesh> {
+    let held: &Array = held.dyn_ref()?;
+    let colors = held.get(1).dyn_ref::<Float32Array>()?.to_vec();
+    let triangles = held.get(2).dyn_ref::<Uint32Array>()?.to_vec();
+    let regions = json(&held.get(4))?;
+    let regions = regions.as_array()?.iter();
+    let regions = regions.map(|name| name.as_str().map(str::to_owned));
+    Some(SheetMesh {
+        rest: unpacked_places(&held.get(0))?,
+        colors: colors.as_chunks().0.to_vec(),
+        triangles: triangles.as_chunks().0.to_vec(),
+        region_of: held.get(3).dyn_ref::<Uint16Array>()?.to_vec(),
+        regions: regions.collect::<Option<_>>()?,
+    })
+}
+
+/// Places of a plane, from an array of their coordinates.
+pub fn unpacked_places(held: &JsValue) -> Option<Vec<Vec2>> {
+    let numbers = held.dyn_ref::<Float32Array>()?.to_vec();
+    let pairs = numbers.as_chunks::<2>().0.iter();
+    Some(pairs.map(|pair| Vec2::from_array(*pair)).collect())
 }
 
 /// How many arrays a surface has.

@@ -1,6 +1,6 @@
 //! In the page: starts workers, hands them tasks, takes their answers.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -11,7 +11,7 @@ use web_sys::{MessageEvent, Worker, WorkerOptions, WorkerType};
 
 use super::answer::{Answer, Answers};
 use super::task::{Part, ScanTask, Task};
-use crate::assets::LoadEvent;
+use crate::assets::{BendAnswer, BendRequest, LoadEvent};
 use crate::data::{BuildError, Subject, SubjectBuilder, SubjectSink as _, VolumeLimits};
 use crate::load::FieldFile;
 
@@ -22,6 +22,8 @@ thread_local! {
     static WAITING: RefCell<Vec<(Part, Worker)>> = const { RefCell::new(Vec::new()) };
     /// Address of worker.js, as the last viewer was given it.
     static KNOWN_ADDRESS: RefCell<String> = const { RefCell::new(String::new()) };
+    /// How many benders of figures there have been.
+    static BENDERS: Cell<u32> = const { Cell::new(0) };
 }
 
 /// Takes a worker that was started early and has loaded a part, or is loading it.
@@ -144,6 +146,60 @@ pub fn start(
         _on_message: on_message,
         _on_error: on_error,
     })
+}
+
+/// The bender of one picture's figure: a worker of its own, from the first request until it is dropped.
+pub struct BendWorker {
+    maker: Maker,
+    /// Tells it from others, where all stand in the page itself.
+    number: u32,
+    load: Rc<RefCell<Option<WorkerLoad>>>,
+}
+
+impl BendWorker {
+    /// A bender whose worker is made with the first request.
+    pub fn new(maker: Maker) -> Self {
+        Self {
+            maker,
+            number: BENDERS.replace(BENDERS.get() + 1),
+            load: Rc::default(),
+        }
+    }
+
+    /// Asks; `on_answer` of the request that had to start the worker is called with the answers to all.
+    ///
+    /// # Errors
+    /// If the browser starts no workers.
+    pub fn ask(
+        &mut self,
+        request: BendRequest,
+        mut on_answer: impl FnMut(BendAnswer) + 'static,
+    ) -> Result<(), JsValue> {
+        let task = Task::Bend(self.number, request);
+        if let Some(load) = &*self.load.borrow() {
+            // The worker has its module.
+            let message = task.message(UNLIMITED, &JsValue::TRUE)?;
+            return load.worker.post_message(&message);
+        }
+        let ended = Rc::downgrade(&self.load);
+        let load = start(&self.maker, &task, UNLIMITED, move |answer| match answer {
+            Answer::Bent(answer) => on_answer(answer),
+            Answer::Event(LoadEvent::Failed {
+                message, details, ..
+            }) => {
+                // The closure that runs here goes with it, so it is only put out of use.
+                if let Some(load) = ended.upgrade() {
+                    let gone = load.borrow_mut().take();
+                    wasm_bindgen_futures::spawn_local(async move { drop(gone) });
+                }
+                let why = [message, details].join(": ");
+                on_answer(BendAnswer::Lost(why));
+            }
+            _ => {}
+        })?;
+        *self.load.borrow_mut() = Some(load);
+        Ok(())
+    }
 }
 
 /// Does a task to its last answer.

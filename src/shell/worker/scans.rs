@@ -11,6 +11,7 @@ use crate::assets::{LoadEvent, SegmentationsExpected};
 use crate::data::VolumeLimits;
 use crate::document::Reading;
 use crate::load::{is_field, main_name, read_field};
+use crate::shell::figures::figure_file;
 use crate::shell::loading::{is_mesh_file, read_scan_file, read_segments, take_segmentations};
 
 /// Called once when the part has been loaded.
@@ -75,13 +76,16 @@ async fn post_field(name: String, file: Blob) -> Result<(), JsValue> {
     post::field(&read_field(&mut files, &name).map_err(|error| error.to_string()))
 }
 
-/// Reads a scan; the name of the part that reads meshes if it is one.
+/// Reads a scan; the name of the part that reads meshes or figures if it is one.
 fn read(
     files: &mut BlobFiles,
     name: &str,
     limits: VolumeLimits,
     reading: &Reading,
 ) -> Result<Option<String>, JsValue> {
+    if reading.raw.is_none() && figure_file(files, name).is_ok_and(|file| file.is_some()) {
+        return Ok(Some(Part::Figures.name().to_owned()));
+    }
     if is_mesh_file(files, name, reading).unwrap_or(false) {
         return Ok(Some(Part::Meshes.name().to_owned()));
     }

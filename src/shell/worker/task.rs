@@ -4,7 +4,11 @@
 //!   coarse volume comes first, then the fine one),
 //! - for the readers of scans and of meshes `builtin` (of a mesh) and `carves`, `files` (pairs of name and `Blob`),
 //!   `address`, or `field` (a pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label
-//!   volumes), `has_scan` and `may_be_field`.
+//!   volumes), `has_scan` and `may_be_field`,
+//! - for the bender of figures `figure` (a text), `bender` (a number: each has one plate), `rounds`, and `plate` where it
+//!   is to be another one from now on.
+
+use std::sync::Arc;
 
 use glam::DVec3;
 use js_sys::{Array, Object, Reflect};
@@ -12,11 +16,14 @@ use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 use web_sys::Blob;
 
-use crate::assets::SegmentationsExpected;
+use super::pieces;
+use crate::assets::{BendRequest, SegmentationsExpected};
 use crate::data::VolumeLimits;
 use crate::document::{
     MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, RawVoxels, Reading, SubjectBox,
+    figure_from_text, figure_to_text, is_drawn_name,
 };
+use crate::figure::is_figure_name;
 use crate::load::{are_mesh_names, is_mesh_name};
 use crate::subjects::mesh_names;
 
@@ -31,6 +38,8 @@ pub enum Part {
     Meshes,
     /// Unpacks pictures, for other parts.
     Pictures,
+    /// Reads figures and bends them.
+    Figures,
 }
 
 impl Part {
@@ -41,12 +50,16 @@ impl Part {
             Self::Scans => "scans",
             Self::Meshes => "meshes",
             Self::Pictures => "pictures",
+            Self::Figures => "figures",
         }
     }
 
     /// The part that reads what lies at an address, by its name. If it is something else, the part says so.
     pub fn of_address(address: &str) -> Self {
         let path = address.split(['?', '#']).next().unwrap_or_default();
+        if is_figure_name(path) {
+            return Self::Figures;
+        }
         match is_mesh_name(path) {
             true => Self::Meshes,
             false => Self::Scans,
@@ -55,9 +68,14 @@ impl Part {
 
     /// The part of this name.
     pub fn of_name(name: &str) -> Option<Self> {
-        [Self::Subjects, Self::Scans, Self::Meshes, Self::Pictures]
-            .into_iter()
-            .find(|part| part.name() == name)
+        const ALL: [Part; 5] = [
+            Part::Subjects,
+            Part::Scans,
+            Part::Meshes,
+            Part::Pictures,
+            Part::Figures,
+        ];
+        ALL.into_iter().find(|part| part.name() == name)
     }
 }
 
@@ -68,6 +86,8 @@ pub enum Task {
     Subject(String, Option<u32>),
     /// Read files: a scan, meshes, labels or a displacement field.
     Scan(ScanTask),
+    /// Bend a figure, by the bender of this number.
+    Bend(u32, BendRequest),
 }
 
 /// What the parts that read files are to do.
@@ -108,10 +128,17 @@ impl Task {
     /// The program that does it, as far as names tell; a part that finds otherwise hands the task on.
     pub fn part(&self) -> Part {
         match self {
+            Self::Bend(..) => Part::Figures,
+            Self::Subject(name, _) if is_drawn_name(name) => Part::Figures,
             Self::Subject(name, _) if mesh_names().contains(&name.as_str()) => Part::Meshes,
             Self::Subject(..) => Part::Subjects,
             Self::Scan(ScanTask::Mesh(..)) => Part::Meshes,
             Self::Scan(ScanTask::Files { files, .. }) => {
+                if let [(name, _)] = files.as_slice()
+                    && is_figure_name(name)
+                {
+                    return Part::Figures;
+                }
                 match are_mesh_names(files.iter().map(|(name, _)| name.as_str())) {
                     true => Part::Meshes,
                     false => Part::Scans,
@@ -139,6 +166,14 @@ impl Task {
         set("max_dim", &limits.max_dim.into())?;
         set("max_voxels", &(limits.max_voxels as f64).into())?;
         match self {
+            Self::Bend(bender, request) => {
+                set("bender", &(*bender).into())?;
+                set("figure", &figure_to_text(&request.figure).into())?;
+                set("rounds", &request.rounds.into())?;
+                if let Some(plate) = &request.plate {
+                    set("plate", &pieces::packed_plate(plate))?;
+                }
+            }
             Self::Subject(name, resolution) => {
                 set("builtin", &name.into())?;
                 set("resolution", &(*resolution).into())?;
@@ -220,6 +255,25 @@ impl ScanTask {
             may_be_field: get("may_be_field")?.is_truthy(),
         })
     }
+}
+
+/// What a message asks the bender of a number for; `None` if it is another task.
+///
+/// # Errors
+/// If the message is no object, or has no figure that can be read.
+pub fn bend_of(message: &JsValue) -> Result<Option<(u32, BendRequest)>, JsValue> {
+    let get = |key: &str| Reflect::get(message, &key.into());
+    let Some(text) = get("figure")?.as_string() else {
+        return Ok(None);
+    };
+    let figure = figure_from_text(&text).map_err(|error| JsValue::from(error.to_string()))?;
+    let request = BendRequest {
+        plate: pieces::unpacked_plate(&get("plate")?).map(Arc::new),
+        figure,
+        rounds: get("rounds")?.as_f64().map(|rounds| rounds as u32),
+    };
+    let bender = get("bender")?.as_f64().unwrap_or_default() as u32;
+    Ok(Some((bender, request)))
 }
 
 /// The limits of the device that a message gives.

@@ -1,0 +1,283 @@
+//! What to ask of whoever bends figures: that takes up to a second, so it is done in a thread or a worker, which may be
+//! behind what is to be shown.
+
+use std::sync::Arc;
+
+use crate::data::{Plate, Sheet};
+use crate::document::figure::Figure;
+
+/// Rounds by which a pose follows while something moves: more would hold up the next one.
+pub const FOLLOWING: u32 = 4;
+
+/// What a bender is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BendRequest {
+    /// The plate that is bent from now on; `None`: that of the request before.
+    pub plate: Option<Arc<Plate>>,
+    /// How it is divided and bent.
+    pub figure: Figure,
+    /// With so many rounds from the last pose on; `None`: at rest, turns found to the end.
+    pub rounds: Option<u32>,
+}
+
+/// What a bender answers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BendAnswer {
+    /// The figure as it is bent.
+    Bent {
+        /// What is drawn. Its mesh is that of the answer before unless regions have changed.
+        sheet: Sheet,
+        /// What should be said of the pose at rest.
+        notices: Vec<String>,
+    },
+    /// There is none, and why.
+    Failed(String),
+    /// The bender is gone, with the plate that it had, and why.
+    Lost(String),
+}
+
+/// A pose that was asked for.
+#[derive(Clone, Debug, PartialEq)]
+struct Asked {
+    figure: Figure,
+    is_at_rest: bool,
+}
+
+/// The figure of one picture: what is asked of its bender, and the newest sheet. At most one request is under way; what
+/// is wanted when its answer comes is asked for next, so that of several wishes only the newest is granted.
+#[derive(Debug, Default)]
+pub struct Bending {
+    /// The plate that is shown.
+    plate: Option<Arc<Plate>>,
+    /// The bender has it.
+    has_plate: bool,
+    under_way: Option<Asked>,
+    /// The answer under way is of a plate that nobody wants any more.
+    is_outdated: bool,
+    /// What the sheet shows.
+    shown: Option<Asked>,
+    sheet: Option<Sheet>,
+    notices: Vec<String>,
+    /// What was said of the pose at rest before: it is not said again.
+    told: Vec<String>,
+    failure: Option<String>,
+}
+
+impl Bending {
+    /// What should be asked next, and counts as under way from now on: the pose that follows while something moves, else
+    /// that at rest. `None` while an answer is awaited, and where the sheet is what is wanted. Without a plate
+    /// everything is forgotten.
+    pub fn next(
+        &mut self,
+        plate: Option<&Arc<Plate>>,
+        figure: Option<&Figure>,
+        is_moving: bool,
+    ) -> Option<BendRequest> {
+        let Some(plate) = plate else {
+            self.forget();
+            return None;
+        };
+        let is_same = |known: &Arc<Plate>| Arc::ptr_eq(known, plate);
+        if !self.plate.as_ref().is_some_and(is_same) {
+            self.forget();
+            self.plate = Some(Arc::clone(plate));
+        }
+        if self.under_way.is_some() || !self.wants(figure, is_moving) {
+            return None;
+        }
+        let brings_plate = !std::mem::replace(&mut self.has_plate, true);
+        let figure = figure.cloned().unwrap_or_default();
+        // There is nothing to follow before the first pose.
+        let is_at_rest = !is_moving || self.sheet.is_none();
+        self.under_way = Some(Asked {
+            figure: figure.clone(),
+            is_at_rest,
+        });
+        Some(BendRequest {
+            plate: brings_plate.then(|| Arc::clone(plate)),
+            figure,
+            rounds: (!is_at_rest).then_some(FOLLOWING),
+        })
+    }
+
+    fn forget(&mut self) {
+        let is_outdated = self.under_way.is_some();
+        *self = Self {
+            under_way: self.under_way.take(),
+            is_outdated,
+            ..Self::default()
+        };
+    }
+
+    /// True if the sheet is not what is wanted.
+    fn wants(&self, figure: Option<&Figure>, is_moving: bool) -> bool {
+        let Some(shown) = &self.shown else {
+            return true;
+        };
+        let is_it = match figure {
+            Some(figure) => shown.figure == *figure,
+            None => shown.figure == Figure::default(),
+        };
+        !is_it || !(shown.is_at_rest || is_moving)
+    }
+
+    /// Takes the answer to the request under way.
+    pub fn take(&mut self, answer: BendAnswer) {
+        let asked = self.under_way.take();
+        self.has_plate &= !matches!(answer, BendAnswer::Lost(_));
+        if std::mem::take(&mut self.is_outdated) {
+            return;
+        }
+        let is_at_rest = asked.as_ref().is_some_and(|asked| asked.is_at_rest);
+        self.shown = asked;
+        match answer {
+            BendAnswer::Bent { sheet, notices } => {
+                self.sheet = Some(sheet);
+                self.failure = None;
+                if is_at_rest && notices != self.told {
+                    let told = &self.told;
+                    let new = notices.iter().filter(|notice| !told.contains(notice));
+                    self.notices.extend(new.cloned());
+                    self.told = notices;
+                }
+            }
+            BendAnswer::Failed(why) | BendAnswer::Lost(why) => {
+                if self.failure.as_ref() != Some(&why) {
+                    self.notices.push(why.clone());
+                }
+                self.failure = Some(why);
+            }
+        }
+    }
+
+    /// The newest sheet.
+    pub fn sheet(&self) -> Option<&Sheet> {
+        self.sheet.as_ref()
+    }
+
+    /// True if the plate has to be bent before the picture is what the document says.
+    pub fn is_behind(
+        &self,
+        plate: Option<&Arc<Plate>>,
+        figure: Option<&Figure>,
+        is_moving: bool,
+    ) -> bool {
+        let Some(plate) = plate else {
+            return false;
+        };
+        let is_same = |known: &Arc<Plate>| Arc::ptr_eq(known, plate);
+        let is_new = !self.plate.as_ref().is_some_and(is_same);
+        is_new || self.under_way.is_some() || self.wants(figure, is_moving)
+    }
+
+    /// What should be said of the figure; each is returned once.
+    pub fn take_notices(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notices)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::{PlateOrigin, SheetMesh};
+    use crate::pictures::Picture;
+    use glam::DVec2;
+
+    fn plate() -> Arc<Plate> {
+        Arc::new(Plate {
+            size: DVec2::ONE,
+            picture: Picture {
+                size: [1, 1],
+                pixels: vec![[0; 4]],
+                is_of_inks: false,
+            },
+            origin: PlateOrigin::Pixels,
+        })
+    }
+
+    fn figure(detail: u32) -> Figure {
+        Figure {
+            detail,
+            ..Figure::default()
+        }
+    }
+
+    fn bent(notices: &[&str]) -> BendAnswer {
+        BendAnswer::Bent {
+            sheet: Sheet {
+                mesh: Arc::new(SheetMesh::default()),
+                places: Arc::default(),
+                order: Arc::default(),
+            },
+            notices: notices.iter().map(|&notice| notice.to_owned()).collect(),
+        }
+    }
+
+    #[test]
+    fn one_is_under_way_and_the_newest_is_next() {
+        let (plate, mut bending) = (plate(), Bending::default());
+        let first = bending.next(Some(&plate), None, false).expect("it is new");
+        assert!(first.plate.is_some() && first.rounds.is_none());
+        for detail in [600, 700, 800] {
+            let next = bending.next(Some(&plate), Some(&figure(detail)), true);
+            assert_eq!(next, None, "one is under way");
+        }
+        bending.take(bent(&[]));
+        let next = bending.next(Some(&plate), Some(&figure(800)), true);
+        let next = next.expect("another figure");
+        assert_eq!((next.plate, next.rounds), (None, Some(FOLLOWING)));
+        assert_eq!(next.figure, figure(800));
+        bending.take(bent(&[]));
+        assert_eq!(bending.next(Some(&plate), Some(&figure(800)), true), None);
+        let at_rest = bending.next(Some(&plate), Some(&figure(800)), false);
+        assert_eq!(at_rest.expect("it stands still").rounds, None);
+        assert!(bending.is_behind(Some(&plate), Some(&figure(800)), false));
+        bending.take(bent(&[]));
+        assert_eq!(bending.next(Some(&plate), Some(&figure(800)), false), None);
+        assert!(!bending.is_behind(Some(&plate), Some(&figure(800)), false));
+    }
+
+    #[test]
+    fn an_answer_about_another_plate_is_dropped() {
+        let (old, new, mut bending) = (plate(), plate(), Bending::default());
+        assert!(bending.next(Some(&old), None, false).is_some());
+        assert_eq!(bending.next(Some(&new), None, false), None, "under way");
+        assert!(bending.is_behind(Some(&new), None, false));
+        bending.take(bent(&["of the old one"]));
+        assert!(bending.sheet().is_none() && bending.take_notices().is_empty());
+        let next = bending.next(Some(&new), None, false).expect("it is new");
+        assert!(next.plate.is_some_and(|plate| Arc::ptr_eq(&plate, &new)));
+        bending.take(bent(&[]));
+        assert!(bending.sheet().is_some());
+        // A subject of another kind: nothing is bent, and nothing is kept.
+        assert_eq!(bending.next(None, None, false), None);
+        assert!(bending.sheet().is_none() && !bending.is_behind(None, None, false));
+    }
+
+    #[test]
+    fn notices_and_failures_are_told_once() {
+        let (plate, mut bending) = (plate(), Bending::default());
+        let mut ask = |bending: &mut Bending, detail, answer| {
+            assert!(
+                bending
+                    .next(Some(&plate), Some(&figure(detail)), false)
+                    .is_some()
+            );
+            bending.take(answer);
+            bending.take_notices()
+        };
+        assert_eq!(ask(&mut bending, 600, bent(&["a"])), ["a"]);
+        assert!(ask(&mut bending, 700, bent(&["a"])).is_empty());
+        assert_eq!(ask(&mut bending, 800, bent(&["a", "b"])), ["b"]);
+        let failed = || BendAnswer::Failed("no".to_owned());
+        assert_eq!(ask(&mut bending, 900, failed()), ["no"]);
+        assert!(ask(&mut bending, 1000, failed()).is_empty());
+        assert!(bending.sheet().is_some(), "the last one stays");
+        // A bender that is gone is not asked for the same again; the next one gets the plate.
+        let lost = BendAnswer::Lost("gone".to_owned());
+        assert_eq!(ask(&mut bending, 1100, lost), ["gone"]);
+        assert_eq!(bending.next(Some(&plate), Some(&figure(1100)), false), None);
+        let again = bending.next(Some(&plate), Some(&figure(1200)), false);
+        assert!(again.is_some_and(|request| request.plate.is_some()));
+    }
+}

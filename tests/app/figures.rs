@@ -1,0 +1,122 @@
+//! Figures: drawings and pictures that are bent, seen flat.
+
+use super::*;
+use fabrica::app::{Command, See};
+use fabrica::document::FIGURE_FRONT;
+
+/// An arm whose hand is turned by a step.
+const ARM: &str = r#"{ "fabrica": 1, "subject": { "builtin": "drawn-arm" },
+    "figure": { "detail": 1500, "handles": [{ "region": "humerus" }, { "region": "hand", "move": [0, 0] }] },
+    "labels": [{ "at": [0.3, 0.05, 0], "text": "Somewhere" }],
+    "steps": [{ "set": { "/figure/handles/1/move": [0.05, 0.12] }, "seconds": 1 }] }"#;
+
+impl Window {
+    /// The picture in the middle, without what floats over its edges.
+    fn middle(&mut self) -> image::RgbaImage {
+        let center = self.picture_center();
+        self.pixels(egui::Rect::from_center_size(center, vec2(300.0, 260.0)))
+    }
+}
+
+/// How many pixels are of another colour than the one in the corner.
+fn drawn(picture: &image::RgbaImage) -> usize {
+    let ground = picture.get_pixel(0, 0);
+    picture.pixels().filter(|pixel| *pixel != ground).count()
+}
+
+fn apart(a: &image::RgbaImage, b: &image::RgbaImage) -> usize {
+    let pairs = a.pixels().zip(b.pixels());
+    pairs.filter(|(a, b)| a != b).count()
+}
+
+#[test]
+fn a_figure_is_drawn_and_moved_but_never_turned_away() {
+    let mut window = Window::open(DESK, ARM);
+    window.look("figure");
+    let before = window.middle();
+    assert!(drawn(&before) > before.pixels().len() / 20, "it is drawn");
+    let center = window.picture_center();
+    let seen = |window: &Window| window.document().illustration().camera;
+    let front = seen(&window);
+    assert_eq!(front.rotate, FIGURE_FRONT);
+    window.drag(center, vec2(60.0, 20.0));
+    let moved = seen(&window);
+    assert!(moved.rotate.dot(front.rotate).abs() > 0.999_99, "{moved:?}");
+    let by = moved.target - front.target;
+    assert!(by.x < -0.01 && by.y > 0.005 && by.z.abs() < 1e-5, "{by}");
+    assert!(apart(&before, &window.middle()) > 100, "it has moved");
+    // Keys that turn others move it; what only subjects in space have does nothing.
+    window.run_command(Command::Orbit(0.3, 0.0));
+    for view in fabrica::app::StandardView::ALL {
+        window.run_command(Command::View(view));
+    }
+    window.run_command(Command::See(See::ToggleSlices));
+    window.run_command(Command::See(See::ToggleGhost));
+    window.settle();
+    let after = seen(&window);
+    assert!(after.rotate.dot(front.rotate).abs() > 0.999_99, "{after:?}");
+    assert!(after.target.x < moved.target.x, "moved to the right");
+    // In its place in the panel stands a sentence.
+    let text = "A figure is bent by handles; they stand in its document.";
+    assert!(window.harness.query_by_label(text).is_some());
+    for panel in [
+        "Panel: Tissues",
+        "Panel: Look",
+        "Panel: Text",
+        "Panel: Templates",
+    ] {
+        window.click(panel);
+        window.settle();
+    }
+}
+
+#[test]
+fn a_step_bends_it_from_frame_to_frame() {
+    let mut window = Window::open(DESK, ARM);
+    let before = window.middle();
+    assert_eq!(window.log.0.borrow().bends, [1, 0]);
+    window.run_command(Command::GoToStep(1));
+    window.steps(60);
+    window.settle();
+    let [at_rest, followed] = window.log.0.borrow().bends;
+    assert!(followed >= 2, "it follows: {followed}");
+    assert!((2..6).contains(&at_rest), "and comes to rest: {at_rest}");
+    window.look("figure_bent");
+    assert!(apart(&before, &window.middle()) > 100, "it is bent");
+    window.run_command(Command::GoToStep(0));
+    window.steps(60);
+    window.settle();
+    assert!(apart(&before, &window.middle()) < 20, "as it was");
+}
+
+/// A picture file that is opened begins a document that tells that it is a figure.
+#[test]
+fn a_picture_that_is_opened_is_a_figure() {
+    let mut window = Window::open(DESK, CUBE);
+    let svg = br##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 30"><rect id="r" x="5" y="5" width="30" height="20" fill="#c04020"/></svg>"##;
+    {
+        let log = &mut *window.log.0.borrow_mut();
+        log.files.push(("plate.svg".to_owned(), svg.to_vec()));
+        log.next_ticket += 1;
+        let ticket = Ticket(log.next_ticket);
+        log.file_starts(ticket);
+        log.read("plate.svg", fabrica::assets::Role::Subject, ticket);
+    }
+    window.settle();
+    let document = window.document();
+    assert!(document.get("/figure").is_some(), "{}", document.to_json());
+    let illustration = document.illustration();
+    assert!(illustration.is_of_figure());
+    assert_eq!(illustration.camera.rotate, FIGURE_FRONT);
+    assert_eq!(document.get("/camera/rotate"), None, "seen from its front");
+    let picture = window.middle();
+    let red = picture.pixels().filter(|p| p.0[0] > 150 && p.0[1] < 100);
+    assert!(red.count() > 200, "it is drawn");
+    window.undo();
+    window.settle();
+    let subject = &window.document().illustration().subject.clone();
+    assert!(
+        matches!(subject, SubjectRef::Builtin { name } if name == "cube"),
+        "{subject:?}"
+    );
+}

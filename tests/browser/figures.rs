@@ -1,0 +1,183 @@
+//! Figures in the page and in embeds: their part is fetched when one is shown, and their pictures are those of the native
+//! program.
+
+use super::embed::{open_coarse, picture_of, ready, rests_at};
+use super::native::{drawn, promised};
+use super::parts::count;
+use super::*;
+use fabrica::data::{Resources, Subject};
+use fabrica::document::Illustration;
+use fabrica::figure::{Bender, ReadPlate, builtin_plate, read_plate, unwatched};
+use image::RgbaImage;
+
+/// An arm whose hand is moved by a step.
+const ARM: &str = r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{"detail":1500,"handles":[{"region":"humerus"},{"region":"hand","move":[0.02,0.03]}]},"steps":[{"set":{"/figure/handles/1/move":[0.05,0.12]},"seconds":1}]}"#;
+/// A picture that is bent at one corner.
+const PLATE: &str = r#"{"fabrica":1,"subject":{"src":"plate.png"},"figure":{"detail":800,"handles":[{"at":[-0.4,-0.2]},{"at":[0.3,0.2],"move":[0.05,0.1]}]}}"#;
+
+/// What the native program draws of an illustration.
+async fn native(shown: &Illustration, plate: fabrica::data::Plate, size: [u32; 2]) -> RgbaImage {
+    let gpu = Gpu::open(&GpuOptions::default()).await.expect("a device");
+    let mut bender = Bender::new(&plate).expect("a good plate");
+    let figure = shown.figure.clone().unwrap_or_default();
+    let bent = bender.bent(&figure, &mut unwatched).expect("not stopped");
+    let studio = Studio::new(&gpu, &Subject::from(plate), false).expect("it fits");
+    let studio = studio.with_resources(Resources {
+        sheet: Some(bent.sheet),
+        ..Resources::default()
+    });
+    drawn(&studio, shown, size).await
+}
+
+fn illustration(json: &str) -> Illustration {
+    let document = Document::from_json(json).expect("a good document");
+    document.illustration().clone()
+}
+
+/// A plate of stripes and a disc.
+fn plate_png() -> Vec<u8> {
+    let picture = RgbaImage::from_fn(120, 80, |x, y| {
+        let is_disc = (x as i32 - 60).pow(2) + (y as i32 - 40).pow(2) < 900;
+        let stripe = if (x / 10) % 2 == 0 { 200 } else { 120 };
+        image::Rgba(if is_disc {
+            [190, 60, 50, 255]
+        } else {
+            [stripe, stripe, 90, 255]
+        })
+    });
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    picture
+        .write_to(&mut bytes, image::ImageFormat::Png)
+        .expect("a PNG");
+    bytes.into_inner()
+}
+
+/// Mean difference from the native program's picture, 255ths, at most: in pictures as small as these a plate of 2,048
+/// pixels is read from copies sixteen times smaller, where two software devices differ by up to 30 at lines. One that is
+/// bent in another way differs by several times as much.
+const NEAR: f64 = 6.0;
+
+/// The same figure at rest, without its handles.
+fn unbent(shown: &Illustration) -> Illustration {
+    let mut unbent = shown.clone();
+    if let Some(figure) = &mut unbent.figure {
+        figure.handles.clear();
+    }
+    unbent
+}
+
+fn assert_alike(page: &RgbaImage, native: &RgbaImage, name: &str) {
+    let found = difference(page, native, WHITE);
+    let folder = harness::root().join("target/e2e/compared");
+    std::fs::create_dir_all(&folder).expect("a folder for pictures");
+    for (side, picture) in [("page", page), ("native", native)] {
+        let path = folder.join(format!("figure_{name}_{side}.png"));
+        picture.save(path).expect("saved");
+    }
+    println!("{name}: {found:?}");
+    assert!(found.count > 1000, "{name} is drawn: {found:?}");
+    assert!(found.mean < NEAR, "{name}: {found:?}");
+}
+
+/// The page draws a drawing of the program as the command line does, and fetches the part for it once; a file's picture
+/// takes the decoders besides.
+#[test]
+fn a_page_draws_figures_as_the_native_program_does() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let link = payload(ARM);
+        let tab = session.coarse_viewer(&format!("#{link}"), PAGE).await;
+        tab.settled().await;
+        let server = &session.server;
+        assert_eq!(count(server, "fabrica_figures_bg.wasm"), 1);
+        for part in ["subjects", "scans", "meshes", "pictures"] {
+            assert_eq!(count(server, &format!("fabrica_{part}")), 0, "no {part}");
+        }
+        let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+        let plate = builtin_plate("drawn-arm").expect("it is built in");
+        let size = page.dimensions().into();
+        let shown = illustration(ARM);
+        let plain = native(&unbent(&shown), plate.clone(), size).await;
+        assert_alike(&page, &native(&shown, plate, size).await, "arm");
+        let apart = difference(&page, &plain, WHITE);
+        assert!(apart.mean > 2.0 * NEAR, "the pose is seen: {apart:?}");
+        tab.assert_no_complaints().await;
+
+        session.server.add("plate.png", plate_png());
+        let link = payload(PLATE);
+        let tab = session.coarse_viewer(&format!("#{link}"), PAGE).await;
+        tab.settled().await;
+        for part in ["subjects", "scans", "meshes"] {
+            assert_eq!(count(server, &format!("fabrica_{part}")), 0, "no {part}");
+        }
+        assert!(count(server, "fabrica_pictures_bg.wasm") > 0);
+        let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+        let ReadPlate { plate, .. } = read_plate(&plate_png()).expect("a PNG");
+        let size = page.dimensions().into();
+        assert_alike(
+            &page,
+            &native(&illustration(PLATE), plate, size).await,
+            "plate",
+        );
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// A picture that is dropped on the page begins a document that tells that it is a figure.
+#[test]
+fn a_dropped_picture_is_a_figure() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.server.add("plate.png", plate_png());
+        // By another name its bytes tell what it is.
+        session.server.add("plate.nii", plate_png());
+        for name in ["plate.png", "plate.nii"] {
+            let tab = session
+                .coarse_viewer(&format!("#{}", payload(PLAIN)), PAGE)
+                .await;
+            tab.settled().await;
+            drop_files(&tab, &[name]).await;
+            tab.wait_until(
+                "JSON.parse(window.fabrica.viewer.get_document()).figure !== undefined",
+                120,
+            )
+            .await;
+            tab.settled().await;
+            let picture = object_part(&tab.picture("figure_dropped").await);
+            assert!(drawn_pixels(&picture) > 2000, "{name} is drawn");
+            tab.assert_no_complaints().await;
+        }
+    });
+}
+
+/// An embed shows a figure and plays its steps with the reader and the part for figures alone.
+#[test]
+fn an_embed_bends_a_figure_from_step_to_step() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let embed = format!("controls src=\"#{}\">", payload(ARM));
+        let tab = open_coarse(&session, &[embed], "", (320, 500)).await;
+        ready(&tab, 1).await;
+        rests_at(&tab, "e0", 0).await;
+        let before = picture_of(&tab, "e0").await;
+        let size = before.dimensions().into();
+        let plate = || builtin_plate("drawn-arm").expect("it is built in");
+        let document = Document::from_json(ARM).expect("a good document");
+        let lesson = document.lesson().expect("steps");
+        let at = |step: usize| lesson.at_step(step).expect("a step").clone();
+        assert_alike(&before, &native(&at(0), plate(), size).await, "step 0");
+        tab.eval::<bool>("(e0.next(), true)").await;
+        rests_at(&tab, "e0", 1).await;
+        let after = picture_of(&tab, "e0").await;
+        assert!(difference(&before, &after, WHITE).mean > 1.0, "it is bent");
+        assert_alike(&after, &native(&at(1), plate(), size).await, "step 1");
+        tab.eval::<bool>("(e0.reset(), true)").await;
+        let told = "told.findLast(([name]) => name === 'viewchange')";
+        tab.wait_until(&format!("{told} !== undefined"), 60).await;
+        let turn: Vec<f32> = tab.eval(&format!("{told}[2].view.rotate")).await;
+        assert!(turn[3].abs() > 0.999, "as the document has it: {turn:?}");
+        let server = &session.server;
+        assert_eq!(count(server, "fabrica_figures_bg.wasm"), 1);
+        for part in ["subjects", "scans", "meshes", "pictures", "bg"] {
+            assert_eq!(count(server, &format!("fabrica_{part}")), 0, "no {part}");
+        }
+        tab.assert_no_complaints().await;
+    });
+}
