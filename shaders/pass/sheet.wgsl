@@ -63,7 +63,8 @@ fn plate_at(at: vec2f, dx: vec2f, dy: vec2f) -> vec4f {
     let shorter = abs(dx.x * dy.y - dx.y * dy.x) / longer;
     let taps = clamp(ceil(longer / max(shorter, 1e-6) - 0.01), 1.0, MOST_TAPS);
     let last = f32(sheet.levels - 1u);
-    let level = clamp(log2(max(longer / taps, 1.0)), 0.0, last);
+    // No finer than the shorter way, so that nothing jumps where one tap more is taken.
+    let level = clamp(log2(max(max(longer / taps, shorter), 1.0)), 0.0, last);
     let fine = u32(level);
     let part = level - f32(fine);
     var sum = vec4f(0.0);

@@ -257,7 +257,7 @@ mod tests {
     #[test]
     fn notices_and_failures_are_told_once() {
         let (plate, mut bending) = (plate(), Bending::default());
-        let mut ask = |bending: &mut Bending, detail, answer| {
+        let ask = |bending: &mut Bending, detail, answer| {
             assert!(
                 bending
                     .next(Some(&plate), Some(&figure(detail)), false)

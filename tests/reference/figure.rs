@@ -1,6 +1,11 @@
 //! The solve of figures, read a second time from the contract alone: dense, from the exported JSON, with other methods
 //! (energies are sampled, not differentiated; rounds are plain).
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "formulas are read by their indices"
+)]
+
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use serde_json::Value;

@@ -770,6 +770,7 @@ fn figures_cross_to_a_worker_in_full_precision() {
         regions: vec![Region {
             rigidity: Rigidity::Elastic([third, third.sqrt()]),
             order: f64::MIN_POSITIVE,
+            given: vec!["rigidity", "order"],
             ..Region::new("ä \"quoted\" / ~")
         }],
         handles: vec![

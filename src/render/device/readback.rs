@@ -107,7 +107,7 @@ pub struct Answer<T>(AnswerState<T>);
 
 enum AnswerState<T> {
     /// On its way.
-    Asked(Readback, Box<Reading<T>>),
+    Asked(Box<Readback>, Box<Reading<T>>),
     /// Nobody had to be asked; `None` once it was handed out.
     Known(Option<T>),
 }
@@ -118,7 +118,7 @@ impl<T> Answer<T> {
         reading: Readback,
         read: impl Fn(&[u8]) -> T + Send + Sync + 'static,
     ) -> Self {
-        Self(AnswerState::Asked(reading, Box::new(read)))
+        Self(AnswerState::Asked(Box::new(reading), Box::new(read)))
     }
 
     /// An answer for which the GPU is not asked.
@@ -144,7 +144,7 @@ impl<T: Unpin> Future for Answer<T> {
     fn poll(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Self::Output> {
         match &mut self.0 {
             AnswerState::Asked(reading, read) => {
-                let bytes = Pin::new(reading).poll(context);
+                let bytes = Pin::new(&mut **reading).poll(context);
                 bytes.map(|bytes| bytes.map(|bytes| read(&bytes)))
             }
             AnswerState::Known(answer) => match answer.take() {
