@@ -64,8 +64,8 @@ pub struct Bending {
 }
 
 impl Bending {
-    /// What should be asked next, and counts as under way from now on: the pose that follows while something moves, else
-    /// that at rest. `None` while an answer is awaited, and where the sheet is what is wanted. Without a plate
+    /// What should be asked next, and counts as under way from now on: the pose that follows while something moves,
+    /// else that at rest. `None` while an answer is awaited, and where the sheet is what is wanted. Without a plate
     /// everything is forgotten.
     pub fn next(
         &mut self,

@@ -93,7 +93,8 @@ pub fn read_plate(bytes: &[u8]) -> Result<ReadPlate, PlateError> {
     }
 }
 
-/// The plate of a picture that stands upright: of its own pixels, or of the smaller copy that is drawn where it is large.
+/// The plate of a picture that stands upright: of its own pixels, or of the smaller copy that is drawn where it is
+/// large.
 pub fn plate_of_picture(picture: Picture) -> ReadPlate {
     let size = picture.size;
     let mut asides = Vec::new();

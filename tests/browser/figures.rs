@@ -1,5 +1,5 @@
-//! Figures in the page and in embeds: their part is fetched when one is shown, and their pictures are those of the native
-//! program.
+//! Figures in the page and in embeds: their part is fetched when one is shown, and their pictures are those of the
+//! native program.
 
 use super::embed::{open_coarse, picture_of, ready, rests_at};
 use super::native::{drawn, promised};
@@ -53,8 +53,8 @@ fn plate_png() -> Vec<u8> {
 }
 
 /// Mean difference from the native program's picture, 255ths, at most: in pictures as small as these a plate of 2,048
-/// pixels is read from copies sixteen times smaller, where two software devices differ by up to 30 at lines. One that is
-/// bent in another way differs by several times as much.
+/// pixels is read from copies sixteen times smaller, where two software devices differ by up to 30 at lines. One that
+/// is bent in another way differs by several times as much.
 const NEAR: f64 = 6.0;
 
 /// The same figure at rest, without its handles.

@@ -5,8 +5,8 @@
 //! - for the readers of scans and of meshes `builtin` (of a mesh) and `carves`, `files` (pairs of name and `Blob`),
 //!   `address`, or `field` (a pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label
 //!   volumes), `has_scan` and `may_be_field`,
-//! - for the bender of figures `figure` (a text), `bender` (a number: each has one plate), `rounds`, and `plate` where it
-//!   is to be another one from now on.
+//! - for the bender of figures `figure` (a text), `bender` (a number: each has one plate), `rounds`, and `plate` where
+//!   it is to be another one from now on.
 
 use std::sync::Arc;
 
