@@ -9,6 +9,9 @@ use crate::document::figure::Figure;
 /// Rounds by which a pose follows while something moves: more would hold up the next one.
 pub const FOLLOWING: u32 = 4;
 
+/// What is said of one plate at most: poses of a lesson that plays for hours may differ in their notices.
+const MOST_TOLD: usize = 50;
+
 /// What a bender is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BendRequest {
@@ -58,7 +61,7 @@ pub struct Bending {
     shown: Option<Asked>,
     sheet: Option<Sheet>,
     notices: Vec<String>,
-    /// What was said of the pose at rest before: it is not said again.
+    /// What was said of poses at rest before: it is not said again.
     told: Vec<String>,
     failure: Option<String>,
 }
@@ -134,11 +137,11 @@ impl Bending {
             BendAnswer::Bent { sheet, notices } => {
                 self.sheet = Some(sheet);
                 self.failure = None;
-                if is_at_rest && notices != self.told {
-                    let told = &self.told;
-                    let new = notices.iter().filter(|notice| !told.contains(notice));
-                    self.notices.extend(new.cloned());
-                    self.told = notices;
+                for notice in notices {
+                    if is_at_rest && self.told.len() < MOST_TOLD && !self.told.contains(&notice) {
+                        self.notices.push(notice.clone());
+                        self.told.push(notice);
+                    }
                 }
             }
             BendAnswer::Failed(why) | BendAnswer::Lost(why) => {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
+use super::volume::Segment;
 use crate::math::Aabb;
 
 /// The triangles of a figure at rest. They stay the same while handles move.
@@ -32,6 +33,8 @@ pub struct Sheet {
     pub order: Arc<Vec<u32>>,
 }
 
+/// Places at rest nearer to each other than this are one, subject units.
+const SAME: f32 = 1e-4;
 /// Weights of a triangle's corners may be so much below 0 for a place to be in it: rounding must not open its edges.
 const EDGE: f32 = 1e-5;
 
@@ -43,6 +46,17 @@ impl Sheet {
             && Arc::ptr_eq(&self.order, &other.order)
     }
 
+    /// The regions as segments, whose labels count them from 1.
+    pub fn segments(&self) -> Vec<Segment> {
+        let regions = (1..).zip(&self.mesh.regions);
+        let segments = regions.map(|(label, name)| Segment {
+            label,
+            name: name.clone(),
+            color_srgb: None,
+        });
+        segments.collect()
+    }
+
     /// Box of the bent figure, subject space.
     pub fn bounds(&self) -> Aabb {
         Aabb::from_points(self.places.iter().map(|place| place.extend(0.0)))
@@ -52,8 +66,10 @@ impl Sheet {
     /// of it there.
     pub fn seen(&self, at_rest: Vec3) -> Option<Vec3> {
         let (triangle, place) = self.forward(at_rest.truncate())?;
-        let (front, _) = self.back(place)?;
-        (front == triangle).then(|| place.extend(0.0))
+        let (front, seen) = self.back(place)?;
+        // On an edge of two triangles either may be found.
+        let is_it = front == triangle || seen.distance(at_rest.truncate()) < SAME;
+        is_it.then(|| place.extend(0.0))
     }
 
     /// The triangle in front that has a place at rest, and where that place is.

@@ -95,9 +95,8 @@ impl Bender {
     /// The pose of a document's figure, turns found to the end; none if `progress` has stopped it.
     pub fn bent(&mut self, figure: &Figure, progress: &mut Progress<'_>) -> Option<Bent> {
         let solved = self.solved(figure, progress)?;
-        let places = &solved.posed.places;
         Some(Bent {
-            sheet: self.sheet(&solved.figure, places)?,
+            sheet: self.drawn(&solved)?,
             notices: solved.notices,
         })
     }
@@ -160,6 +159,11 @@ impl Bender {
             posed,
             notices,
         })
+    }
+
+    /// What is drawn of a pose that was the last to be solved.
+    pub fn drawn(&self, solved: &Solved) -> Option<Sheet> {
+        self.sheet(&solved.figure, &solved.posed.places)
     }
 
     /// What is drawn where the vertices of the last mesh have these places.
@@ -262,6 +266,7 @@ fn mesh_key(figure: &Figure) -> Figure {
         region.rigidity = Rigidity::SOFT;
         region.fixed = false;
         region.order = 0.0;
+        region.given.clear();
     }
     key
 }
@@ -270,7 +275,10 @@ fn mesh_key(figure: &Figure) -> Figure {
 fn rig_key(figure: &Figure) -> Figure {
     let mut key = figure.clone();
     key.rotations = Rotations::Found;
-    key.regions.iter_mut().for_each(|region| region.order = 0.0);
+    for region in &mut key.regions {
+        region.order = 0.0;
+        region.given.clear();
+    }
     for handle in &mut key.handles {
         handle.name = None;
         handle.motion.by = DVec2::ZERO;

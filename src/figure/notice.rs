@@ -76,23 +76,20 @@ impl fmt::Display for Notice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnknownRegion { pointer, name } => {
-                write!(
-                    f,
-                    "{pointer}: there is no region \"{name}\"; it is not used"
-                )
+                write!(f, "{pointer}: there is no region “{name}”; it is not used")
             }
-            Self::EmptyRegion { name } => write!(f, "nothing is left of the region \"{name}\""),
+            Self::EmptyRegion { name } => write!(f, "nothing is left of the region “{name}”"),
             Self::SelfCrossing { name } => {
-                write!(f, "the polygon of the region \"{name}\" crosses itself")
+                write!(f, "the polygon of the region “{name}” crosses itself")
             }
             Self::FloodWithoutPixels { name } => {
                 write!(
                     f,
-                    "the region \"{name}\" cannot be flooded in a drawing without pixels"
+                    "the region “{name}” cannot be flooded in a drawing without pixels"
                 )
             }
             Self::UnknownPath { name } => {
-                write!(f, "the file has no such shape for the region \"{name}\"")
+                write!(f, "the file has no such shape for the region “{name}”")
             }
             Self::HandleOutside { index } => write!(
                 f,
@@ -100,7 +97,7 @@ impl fmt::Display for Notice {
                 index + 1
             ),
             Self::ContextPoints { used: 0 } => {
-                write!(f, "the context's points lie on one line; it is not used")
+                write!(f, "the context's points lie on one line; they are not used")
             }
             Self::ContextPoints { used } => {
                 write!(
@@ -111,7 +108,7 @@ impl fmt::Display for Notice {
             Self::BoneMisfit { region, by } => {
                 write!(
                     f,
-                    "handles of a bone of \"{region}\" do not fit it; one is missed by {by:.3}"
+                    "handles of a bone of “{region}” do not fit it; one is missed by {by:.3}"
                 )
             }
             Self::Folded { count } => write!(f, "{count} triangles are turned over"),
@@ -130,7 +127,7 @@ impl fmt::Display for Notice {
             Self::OnlyCrossesRigid { region } => {
                 write!(
                     f,
-                    "a rigid part of \"{region}\" crosses the border of \"only\" and moves as a whole"
+                    "a rigid part of “{region}” crosses the border of “only” and moves as a whole"
                 )
             }
             Self::MeshLimit => write!(

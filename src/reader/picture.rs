@@ -250,7 +250,10 @@ impl Picture {
     pub fn describe(&self, stock: &Stock, lang: Lang) -> impl Future<Output = String> + 'static {
         let document = self.visit.document().clone();
         let step = self.visit.step();
-        let segments = stock.host().segments().to_vec();
+        let segments = match self.bending.sheet() {
+            Some(sheet) => sheet.segments(),
+            None => stock.host().segments().to_vec(),
+        };
         let mm_per_unit = stock.mm_per_unit();
         let turned = Some(self.visit.camera().rotate);
         let sighting = (self.is_complete).then(|| self.renderer.identify(&self.seen(), SIGHT_PX));

@@ -16,10 +16,12 @@ impl Desk {
     /// Does what is asked.
     pub fn answer(&mut self, request: BendRequest) -> BendAnswer {
         if let Some(plate) = request.plate {
-            self.bender = match Bender::new(&plate) {
-                Ok(bender) => Some(bender),
+            // One of another picture is of no use from now on.
+            self.bender = None;
+            match Bender::new(&plate) {
+                Ok(bender) => self.bender = Some(bender),
                 Err(error) => return BendAnswer::Failed(error.to_string()),
-            };
+            }
         }
         let Some(bender) = &mut self.bender else {
             return BendAnswer::Failed("there is no picture to bend".to_owned());

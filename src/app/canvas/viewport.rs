@@ -175,7 +175,10 @@ impl Viewport {
         } else {
             free
         };
-        orientation::edges_ui(&painter, &view, letters, free);
+        // A figure is seen from its front: no side of a patient is left or right of it.
+        if !session.view.is_figure() {
+            orientation::edges_ui(&painter, &view, letters, free);
+        }
         // Left of the buttons, where these have a column of their own.
         let foot = free.right_bottom() - vec2(view_bar::column_width(rect) + 14.0, 14.0);
         orientation::bar_ui(&painter, session, rect, letters, foot);

@@ -232,10 +232,13 @@ impl Session {
             value: json!({}),
             name: "Open a picture".to_owned(),
         };
-        for camera in [&mut self.camera, &mut self.home] {
-            camera.rotate *= FIGURE_FRONT;
-        }
         self.amend_document(&edit);
+        // Where the document could not be changed, its camera means what it meant.
+        if self.illustration().is_of_figure() {
+            for camera in [&mut self.camera, &mut self.home] {
+                camera.rotate *= FIGURE_FRONT;
+            }
+        }
     }
 
     /// The change to another subject, but with the segments and recipes of the present one.

@@ -170,6 +170,20 @@ impl Illustration {
         }
     }
 
+    /// This illustration once it is known that its subject lies in space: without a figure, and with the camera of a
+    /// document that has none.
+    pub fn of_space(self) -> Self {
+        let camera = Camera {
+            rotate: self.written_rotation(self.camera.rotate),
+            ..self.camera
+        };
+        Self {
+            figure: None,
+            camera,
+            ..self
+        }
+    }
+
     /// The illustration of a figure: without what only subjects in space are drawn with.
     pub fn flat(&self) -> Self {
         let default = Self::document_default().look;

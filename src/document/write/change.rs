@@ -336,7 +336,6 @@ impl Edit {
     }
 }
 
-/// True if the document's subject is the file of `subject`.
 /// The turn of a camera as a document has it: a figure's camera is not turned where it looks at the figure from the
 /// front.
 fn written_rotation(root: &Value, camera: &Camera) -> Quat {
@@ -354,6 +353,7 @@ fn written_rotation(root: &Value, camera: &Camera) -> Quat {
     }
 }
 
+/// True if the document's subject is the file of `subject`.
 fn is_same_file(root: &Value, subject: &SubjectRef) -> bool {
     let text = |key| {
         pointer::get(root, &join("/subject", key))

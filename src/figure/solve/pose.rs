@@ -54,7 +54,6 @@ pub struct Posed {
 #[derive(Clone, Debug)]
 pub struct Drag {
     rig: Rig,
-    base: Vec<DVec2>,
     state: State,
 }
 
@@ -116,12 +115,12 @@ impl Rig {
         let posed = Posed {
             context_found: state.context_found().or(shape_found),
             places: state.places.clone(),
-            base: base.clone(),
+            base,
             rounds,
             folded,
         };
         let rig = self.clone();
-        (posed, Drag { rig, base, state })
+        (posed, Drag { rig, state })
     }
 
     /// Where a figure's handles take what they hold.
@@ -176,7 +175,6 @@ impl Rig {
         Drag {
             rig: self.clone(),
             state: self.propagated(&base, &moved),
-            base,
         }
     }
 
@@ -254,13 +252,17 @@ impl Rig {
 }
 
 impl Drag {
-    /// Goes to where a figure's handles are, with so many rounds.
+    /// Goes to where a figure's handles are, and to the shape that it begins with, with so many rounds. Scales, and
+    /// turns that are not found, spread anew; turns that are found go on from those of the pose before.
     pub fn follow(&mut self, figure: &Figure, rounds: u32) {
-        let moved = self.rig.moved(figure, &self.base, &mut Vec::new());
-        self.state.follow(&moved);
+        let (base, _) = self.rig.base(figure);
+        let moved = self.rig.moved(figure, &base, &mut Vec::new());
+        let mut state = self.rig.propagated(&base, &moved);
         if figure.rotations == Rotations::Found {
-            self.state.relax(rounds);
+            state.go_on_from(&self.state);
+            state.relax(rounds);
         }
+        self.state = state;
     }
 
     /// Where each vertex is now.

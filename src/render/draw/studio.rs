@@ -225,6 +225,15 @@ impl Studio {
         }
     }
 
+    /// What the labels of [`Studio::identify`] stand for: the segments of the subject, or the regions of a figure.
+    pub fn sighted(&self) -> Vec<Segment> {
+        let sheet = self.resources.sheet.as_ref();
+        match sheet.filter(|_| self.subject.plate.is_some()) {
+            Some(sheet) => sheet.segments(),
+            None => self.segments().to_vec(),
+        }
+    }
+
     /// Named segments of the subject.
     pub fn segments(&self) -> &[Segment] {
         &self.subject.segments

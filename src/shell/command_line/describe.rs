@@ -61,7 +61,7 @@ pub(super) fn describe(
         let studio = studio.clone().with_resources(resources);
         let sighting = pollster::block_on(studio.identify(shown, SIGHT_PX))?;
         let measured = Measured {
-            sight: Some(Sight::count(sighting.labels, studio.segments())),
+            sight: Some(Sight::count(sighting.labels, &studio.sighted())),
             mm_per_unit: Some(subject.frame().mm_per_unit),
             turned: None,
         };

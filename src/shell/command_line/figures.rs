@@ -13,8 +13,9 @@ use super::numbers::read_flat_points;
 use super::opening::Opened;
 use super::output::{notice, write_whole};
 use super::probe::{WHOLE, quoted};
-use super::subject::subject_of;
-use crate::data::{Plate, Resources, Subject};
+use super::subject::{path_of, subject_of};
+use crate::assets::Want;
+use crate::data::{Plate, Resources, Sheet, Subject};
 use crate::document::{Camera, FIGURE_FRONT, Illustration};
 use crate::figure::mesh::Part;
 use crate::figure::probe::{Seen, forward};
@@ -39,7 +40,10 @@ pub(super) fn with_sheet(
     subject: &Subject,
 ) -> Result<(Illustration, Resources), CliError> {
     let Some(plate) = subject.plate() else {
-        return Ok((illustration, resources));
+        if illustration.subject.is_figure().is_none() && illustration.figure.is_some() {
+            notice("/figure: beside a subject that is no figure this is kept, not drawn");
+        }
+        return Ok((illustration.of_space(), resources));
     };
     report_beside(&illustration);
     let illustration = illustration.of_figure();
@@ -75,30 +79,29 @@ struct Figure {
     plate: Arc<Plate>,
     original: Original,
     solved: Solved,
+    /// What is drawn.
+    sheet: Option<Sheet>,
 }
 
 impl Figure {
-    fn of(common: &Common, opened: &Opened, moment: Moment) -> Result<Option<Self>, CliError> {
+    fn of(common: &Common, opened: &Opened, moment: Moment) -> Result<Self, CliError> {
         let (illustration, _) = opened.illustration(moment, common)?;
         let subject = subject_of(&illustration, common, &opened.folder, WHOLE)?;
-        let Some(plate) = subject.plate() else {
-            return Ok(None);
-        };
+        let plate = subject.plate().ok_or(NO_FIGURE)?;
         report_beside(&illustration);
         let illustration = illustration.of_figure();
         let mut bender = bender_of(plate)?;
         let figure = illustration.figure.clone().unwrap_or_default();
-        let solved = bender.solved(&figure, &mut unwatched);
-        let Some(solved) = solved else {
-            return Ok(None);
-        };
+        // Nobody stops it, so there is a pose.
+        let solved = bender.solved(&figure, &mut unwatched).ok_or(NO_FIGURE)?;
         solved.notices.iter().for_each(notice);
-        Ok(Some(Self {
+        Ok(Self {
             illustration,
             plate: Arc::clone(plate),
             original: bender.original().clone(),
+            sheet: bender.drawn(&solved),
             solved,
-        }))
+        })
     }
 }
 
@@ -117,7 +120,7 @@ pub(super) fn export_figure(
             "name a file that ends in .json, .svg or .png",
         ));
     }
-    let figure = Figure::of(common, opened, moment)?.ok_or(NO_FIGURE)?;
+    let figure = Figure::of(common, opened, moment)?;
     match ending.as_str() {
         "json" => {
             let solved = &figure.solved;
@@ -144,7 +147,9 @@ impl Figure {
         let label = |caption: &crate::document::Caption| {
             let at_rest = caption.at.truncate().as_dvec2();
             let place = forward(mesh, &solved.posed.places, at_rest);
-            let is_seen = seen.at(place.place).triangle == place.triangle;
+            let found = seen.at(place.place);
+            // On an edge of two triangles either may be found.
+            let is_seen = found.triangle == place.triangle || found.place.distance(at_rest) < 1e-4;
             (place.triangle.is_some() && is_seen).then(|| Label {
                 text: caption.text.trim().to_owned(),
                 at: place.place,
@@ -173,8 +178,10 @@ impl Figure {
         let mut illustration = self.illustration.clone();
         illustration.camera = straight(&self.plate);
         let subject = Subject::Figure(Arc::clone(&self.plate));
-        let resources = Resources::default();
-        let (illustration, resources) = with_sheet(illustration, resources, &subject)?;
+        let resources = Resources {
+            sheet: self.sheet.clone(),
+            ..Resources::default()
+        };
         let studio = Studio::new(&gpu, &subject, false)?.with_resources(resources);
         let image = pollster::block_on(studio.render_image(&illustration, size, SAMPLES))?;
         Ok(encode_png(&image)?)
@@ -199,27 +206,30 @@ fn straight(plate: &Plate) -> Camera {
     }
 }
 
-/// False where it is sure, without a look at any file, that the subject is no figure.
-pub(super) fn may_be_figure(opened: &Opened, common: &Common) -> bool {
-    common.subject.is_some() || opened.document.illustration().subject.is_figure() != Some(false)
+/// Whether the subject is a figure, by its name or by the first bytes of its file. A file that is not there is none.
+pub(super) fn is_figure(opened: &Opened, common: &Common) -> bool {
+    let subject = &opened.document.illustration().subject;
+    let path = match (&common.subject, subject.is_figure()) {
+        (Some(path), _) => path.clone(),
+        (None, Some(is_figure)) => return is_figure,
+        (None, None) => match path_of(&Want::subject(subject), common, &opened.folder) {
+            Some(path) => path,
+            None => return false,
+        },
+    };
+    let (mut folder, name) = Folder::of(&path);
+    figure_file(&mut folder, &name).is_ok_and(|file| file.is_some())
 }
 
-/// `fabrica probe` of a figure. False if the subject is none.
+/// `fabrica probe` of a figure.
 pub(super) fn probe_figure(
     common: &Common,
     opened: &Opened,
     points: Option<&Path>,
     (is_object, is_forward): (bool, bool),
     moment: Moment,
-) -> Result<bool, CliError> {
-    let Some(figure) = Figure::of(common, opened, moment)? else {
-        return match is_forward {
-            true => Err(CliError::Usage(
-                "--forward asks where places of a figure go, and this subject is none",
-            )),
-            false => Ok(false),
-        };
-    };
+) -> Result<(), CliError> {
+    let figure = Figure::of(common, opened, moment)?;
     let points = read_flat_points(points, "x,y or x,y,z, finite numbers")?;
     let solved = &figure.solved;
     let mesh = solved.rig.mesh();
@@ -249,8 +259,7 @@ pub(super) fn probe_figure(
         }
         writeln!(out).map_err(CliError::Output)?;
     }
-    out.flush().map_err(CliError::Output)?;
-    Ok(true)
+    out.flush().map_err(CliError::Output)
 }
 
 impl Figure {

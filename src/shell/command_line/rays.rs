@@ -8,6 +8,7 @@ use glam::{DVec3, Vec3};
 use super::args::{Common, Moment};
 use super::device::open_gpu;
 use super::error::CliError;
+use super::figures::with_sheet;
 use super::numbers::read_numbers;
 use super::objects::{Needed, objects_of};
 use super::opening::Opened;
@@ -38,6 +39,7 @@ pub(super) fn rays(
     let here = std::mem::take(&mut resources.objects);
     let place = (common, opened.folder.as_path());
     resources.objects = objects_of(&illustration, Needed::All, here, place)?;
+    let (illustration, resources) = with_sheet(illustration, resources, &subject)?;
     let materials = Materials::of(&subject, &illustration, &resources);
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
     let events = pollster::block_on(studio.events(&illustration, &asked))?;

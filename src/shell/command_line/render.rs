@@ -153,7 +153,7 @@ fn told(
 ) -> Result<String, CliError> {
     let sighting = pollster::block_on(studio.identify(shown, SIGHT_PX))?;
     let measured = Measured {
-        sight: Some(Sight::count(sighting.labels, studio.segments())),
+        sight: Some(Sight::count(sighting.labels, &studio.sighted())),
         mm_per_unit,
         turned: None,
     };

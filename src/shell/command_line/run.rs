@@ -9,7 +9,7 @@ use super::bench::bench;
 use super::describe::describe;
 use super::error::CliError;
 use super::export::export_field;
-use super::figures::{export_figure, may_be_figure, probe_figure};
+use super::figures::{export_figure, is_figure, probe_figure};
 use super::info::info;
 use super::link::link;
 use super::opening::open;
@@ -109,12 +109,14 @@ fn execute(args: Args) -> Result<(), CliError> {
             if is_rays {
                 return rays(common, &opened, from.as_deref(), moment);
             }
-            let asked = (object, forward);
-            if !depth
-                && (forward || may_be_figure(&opened, common))
-                && probe_figure(common, &opened, from.as_deref(), asked, moment)?
-            {
-                return Ok(());
+            if !depth && is_figure(&opened, common) {
+                let asked = (object, forward);
+                return probe_figure(common, &opened, from.as_deref(), asked, moment);
+            }
+            if forward {
+                return Err(CliError::Usage(
+                    "--forward asks where places of a figure go, and this subject is none",
+                ));
             }
             let columns = Columns { object, depth };
             probe(common, &opened, from.as_deref(), columns, moment)

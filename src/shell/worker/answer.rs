@@ -66,7 +66,11 @@ impl Answers {
                 field.samples = samples.as_chunks::<4>().0.to_vec();
                 Some(Answer::Field(Box::new(Ok(field))))
             }
-            "bent" => Some(Answer::Bent(self.bent(message)?)),
+            "bent" => {
+                // One that is not understood must not be waited for.
+                let lost = || BendAnswer::Lost("the figure was not bent".to_owned());
+                Some(Answer::Bent(self.bent(message).unwrap_or_else(lost)))
+            }
             "surface-array" => {
                 let index = message.get(1).as_f64()? as u32;
                 pieces::put_array(&mut self.arrays, index, &message.get(2))?;

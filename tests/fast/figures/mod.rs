@@ -2,6 +2,7 @@
 
 mod common;
 mod drawn;
+mod follow;
 mod holding;
 mod limits;
 mod mesh;

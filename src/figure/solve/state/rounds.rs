@@ -1,8 +1,6 @@
 use glam::DVec2;
 
 use super::super::anderson::Anderson;
-use super::super::factor::NONE;
-use super::super::moves::Moved;
 use super::{MAX_ROUNDS, State, TOLERANCE};
 
 /// Rounds.
@@ -80,19 +78,12 @@ impl State {
         MAX_ROUNDS
     }
 
-    /// Takes handles elsewhere, with the turns as they are, and solves once.
-    pub(crate) fn follow(&mut self, moved: &Moved) {
-        for (vertex, holder) in self.stage.holding.holder.iter().enumerate() {
-            if *holder != NONE {
-                self.places[vertex] = moved.places[vertex];
-            }
+    /// Takes over the turns of a pose before, of the same parts and handles, and solves once.
+    pub(crate) fn go_on_from(&mut self, before: &Self) {
+        self.turns.clone_from(&before.turns);
+        for (open, before) in self.open.iter_mut().zip(&before.open) {
+            open.angle = before.angle;
         }
-        for open in self.open.iter_mut().filter(|open| open.grip != NONE) {
-            if let Some(pin) = moved.open.iter().find(|pin| pin.grip == open.grip) {
-                (open.place, open.scale) = (pin.place, pin.scale);
-            }
-        }
-        self.find_part_turns(moved);
         self.turn_places();
         self.solve();
         self.turn_places();
