@@ -590,13 +590,13 @@ fn the_window_and_the_picture_bear_the_title() {
 #[test]
 fn a_file_that_is_no_scan_is_called_what_it_is() {
     let log = Fake::default();
-    let json = r#"{ "fabrica": 1, "subject": { "src": "photo.png" } }"#;
-    log.0.borrow_mut().files = vec![("photo.png".to_owned(), b"\x89PNG\r\n\x1a\n".to_vec())];
+    let json = r#"{ "fabrica": 1, "subject": { "src": "photo.gif" } }"#;
+    log.0.borrow_mut().files = vec![("photo.gif".to_owned(), b"GIF89a\x01\0\x01\0".to_vec())];
     let mut window = Window::open_with(DESK, egui::Theme::Light, log, Some(json));
-    let line = "photo.png is an image, not a scan";
+    let line = "photo.gif is an image, not a scan";
     assert!(window.harness.query_by_label(line).is_some());
     window.click("Details");
-    let technical = window.harness.query_by_label_contains("PNG picture");
+    let technical = window.harness.query_by_label_contains("not a volume file");
     assert!(technical.is_some(), "the technical words are a button away");
     window.look("no_scan");
 }

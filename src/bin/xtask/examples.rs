@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fabrica::document::{Document, SubjectRef};
+use fabrica::document::{DRAWN_FIGURES, Document, SubjectRef};
 use fabrica::subjects;
 
 /// Width and height of an example's picture, pixels: twice its width in points on a small window.
@@ -42,7 +42,8 @@ pub(crate) fn documents(root: &Path) -> Result<Vec<(String, Document)>, String> 
 pub(crate) fn examples(root: &Path) -> Result<Vec<(String, Document)>, String> {
     const FIRST: [&str; 4] = ["head", "torso", "knee", "hand"];
     let mut examples = documents(root)?;
-    let names: Vec<&str> = FIRST.iter().copied().chain(subjects::all_names()).collect();
+    let anatomy = FIRST.into_iter().chain(DRAWN_FIGURES);
+    let names: Vec<&str> = anatomy.chain(subjects::all_names()).collect();
     examples.sort_by_key(|(_, document)| match &document.illustration().subject {
         SubjectRef::Builtin { name } => names.iter().position(|other| other == name),
         SubjectRef::Address { .. } | SubjectRef::Supplied { .. } | SubjectRef::Meshes { .. } => {

@@ -67,22 +67,52 @@ pub(super) async fn identify(job: &PictureJob) -> Result<Sighting, RenderError> 
     })
 }
 
-/// What each pixel shows of a figure: labels count its regions from 1.
+/// What each pixel shows of a figure, in its middle: labels count its regions from 1. Its triangles are laid down from
+/// behind to front, so that the time hangs on the pixels that each covers.
 fn identify_sheet(job: &PictureJob) -> Sighting {
     let [width, height] = job.size;
+    let mut labels = vec![None; width as usize * height as usize];
     let sheet = job.scene.sheet().map(|buffers| &buffers.sheet);
-    let label = |(column, row): (u32, u32)| {
-        let (origin, dir) = job
-            .view
-            .ray(Vec2::new(column as f32 + 0.5, row as f32 + 0.5));
-        let place = origin - origin.z / dir.z * dir;
-        let (triangle, _) = sheet?.back(place.truncate())?;
-        let region = sheet?.mesh.region_of.get(triangle)?;
-        Some(region + 1)
-    };
-    let pixels = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
-    Sighting {
+    let sighting = |labels| Sighting {
         size_px: job.size,
-        labels: pixels.map(label).collect(),
+        labels,
+    };
+    let Some(sheet) = sheet else {
+        return sighting(labels);
+    };
+    let pixel = |place: &Vec2| job.view.pixel_from_subject(place.extend(0.0));
+    let pixels: Vec<Option<Vec2>> = sheet.places.iter().map(pixel).collect();
+    let corner = |vertex: u32| pixels.get(vertex as usize).copied().flatten();
+    let last = Vec2::new(width as f32, height as f32) - 1.0;
+    for triangle in sheet.order.iter().map(|triangle| *triangle as usize) {
+        let corners = sheet.mesh.triangles.get(triangle);
+        let region = sheet.mesh.region_of.get(triangle);
+        let (Some([a, b, c]), Some(region)) = (corners.map(|t| t.map(corner)), region) else {
+            continue;
+        };
+        let (Some(a), Some(b), Some(c)) = (a, b, c) else {
+            continue;
+        };
+        let area = (b - a).perp_dot(c - a);
+        let low = (a.min(b).min(c) - 0.5).ceil().max(Vec2::ZERO);
+        let high = (a.max(b).max(c) - 0.5).floor().min(last);
+        if area == 0.0 || low.cmpgt(high).any() {
+            continue;
+        }
+        for row in low.y as u32..=high.y as u32 {
+            for column in low.x as u32..=high.x as u32 {
+                let at = Vec2::new(column as f32, row as f32) + 0.5;
+                let parts = [
+                    (b - at).perp_dot(c - at) / area,
+                    (c - at).perp_dot(a - at) / area,
+                    (a - at).perp_dot(b - at) / area,
+                ];
+                let index = row as usize * width as usize + column as usize;
+                if parts.iter().all(|part| *part >= 0.0) {
+                    labels[index] = Some(region + 1);
+                }
+            }
+        }
     }
+    sighting(labels)
 }
