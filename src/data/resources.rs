@@ -141,14 +141,6 @@ impl Resources {
                 .all(|((a, mesh), (b, theirs))| a == b && Arc::ptr_eq(mesh, theirs))
     }
 
-    /// True if both have one sheet, or none.
-    pub fn has_sheet_of(&self, other: &Self) -> bool {
-        match (&self.sheet, &other.sheet) {
-            (Some(own), Some(theirs)) => own.is_same(theirs),
-            (own, theirs) => own.is_none() && theirs.is_none(),
-        }
-    }
-
     /// The label volume of the subject's own file, under the author's names.
     pub fn own_segmentation(&self) -> Option<Cow<'_, Segmentation>> {
         let own = self.subject.as_ref()?.values()?.segmentation.as_ref()?;
@@ -179,6 +171,6 @@ impl PartialEq for Resources {
             && self.fields == other.fields
             && self.has_objects_of(other)
             && self.frame == other.frame
-            && self.has_sheet_of(other)
+            && Sheet::are_same(self.sheet.as_ref(), other.sheet.as_ref())
     }
 }

@@ -46,6 +46,14 @@ impl Sheet {
             && Arc::ptr_eq(&self.order, &other.order)
     }
 
+    /// True if both are one sheet, or none.
+    pub fn are_same(one: Option<&Self>, other: Option<&Self>) -> bool {
+        match (one, other) {
+            (Some(one), Some(other)) => one.is_same(other),
+            (one, other) => one.is_none() && other.is_none(),
+        }
+    }
+
     /// The regions as segments, whose labels count them from 1.
     pub fn segments(&self) -> Vec<Segment> {
         let regions = (1..).zip(&self.mesh.regions);

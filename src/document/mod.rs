@@ -88,7 +88,7 @@ pub use model::{
 pub use read::figure_from_text;
 pub use text::{DocumentError, Notice, NoticeKind, pointer};
 pub use tree::Document;
-pub use turn::{DISTANCE_RANGE, axes, between, orbit, roll, zoom};
+pub use turn::{DISTANCE_RANGE, axes, between, orbit, roll, shift, zoom};
 pub use walk::Walk;
 #[cfg(any(feature = "app", feature = "session"))]
 pub(crate) use write::color_text;

@@ -29,6 +29,13 @@ pub fn orbit(camera: &mut Camera, delta: Vec2) {
     camera.rotate = turned.normalize();
 }
 
+/// Moves what is seen in the picture: parts of the picture's shorter side to the right and down.
+pub fn shift(camera: &mut Camera, by: Vec2) {
+    let [right, up, _] = axes(camera.rotate);
+    let side = 2.0 * camera.distance * (0.5 * camera.fov_deg.to_radians()).tan();
+    camera.target += (up * by.y - right * by.x) * side;
+}
+
 /// Rolls the camera about its line of sight, radians, clockwise picture for positive.
 pub fn roll(camera: &mut Camera, angle: f32) {
     camera.rotate = (camera.rotate * Quat::from_rotation_y(angle)).normalize();

@@ -60,6 +60,6 @@ pub use original::Original;
 pub use plane::{Plane, reduced_size};
 pub use progress::{Progress, unwatched};
 pub use read::{
-    DRAWN_SIDE, FigureFile, PlateError, ReadPlate, builtin_plate, is_figure_name, plate_of_drawing,
-    plate_of_picture, read_plate,
+    FigureFile, PlateError, ReadPlate, SNIFF_BYTES, builtin_plate, is_figure_name,
+    plate_of_drawing, plate_of_picture, read_plate,
 };

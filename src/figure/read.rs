@@ -9,9 +9,9 @@ use crate::pictures::{
 use glam::dvec2;
 
 /// Pixels along the longest side of what a drawing is drawn into.
-pub const DRAWN_SIDE: u32 = 2048;
-/// Bytes in which an SVG has to begin.
-const SNIFF_BYTES: usize = 4096;
+const DRAWN_SIDE: u32 = 2048;
+/// Bytes by which the file of a figure is known: those in which an SVG has to begin.
+pub const SNIFF_BYTES: usize = 4096;
 
 /// What the file of a figure is, by its bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::stock::Stock;
 use super::visit::Visit;
 use crate::assets::{BendAnswer, BendRequest, Bending};
-use crate::data::Resources;
+use crate::data::{Resources, Sheet};
 use crate::describe::{Lang, Measured, Sight, describe};
 use crate::document::Illustration;
 use crate::math::columns;
@@ -115,11 +115,7 @@ impl Picture {
         }
         let stocked = (self.visit.revision(), stock.revision());
         let sheet = self.bending.sheet();
-        let is_same_sheet = match (self.renderer.sheet(), sheet) {
-            (Some(drawn), Some(newest)) => drawn.is_same(newest),
-            (drawn, newest) => drawn.is_none() && newest.is_none(),
-        };
-        if self.given != stocked || !is_same_sheet {
+        if self.given != stocked || !Sheet::are_same(self.renderer.sheet(), sheet) {
             self.given = stocked;
             let resources = Resources {
                 sheet: sheet.cloned(),

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::document::{
     Autoplay, Camera, Control, ControlRange, Document, DocumentError, FIGURE_FRONT, Illustration,
-    MAX_STEPS, Turn, Walk, axes, orbit, zoom,
+    MAX_STEPS, Turn, Walk, orbit, shift, zoom,
 };
 use crate::link;
 
@@ -274,10 +274,8 @@ impl Visit {
             return;
         }
         let camera = &mut self.camera;
-        let [to_right, up, _] = axes(camera.rotate);
-        let side = 2.0 * camera.distance * (0.5 * camera.fov_deg.to_radians()).tan();
-        let target = camera.target + (up * down - to_right * right) * side;
-        camera.target = target.clamp(
+        shift(camera, Vec2::new(right, down));
+        camera.target = camera.target.clamp(
             glam::Vec3::splat(-FARTHEST_TARGET),
             glam::Vec3::splat(FARTHEST_TARGET),
         );

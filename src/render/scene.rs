@@ -1,6 +1,6 @@
 //! Everything that is ready to be drawn: an illustration on a subject, on the GPU.
 
-use crate::data::Resources;
+use crate::data::{Resources, Sheet};
 use crate::document::{Illustration, Style};
 use crate::math::Aabb;
 use crate::render::device::bindings::entry;
@@ -232,11 +232,8 @@ impl Scene {
         resources: &Resources,
     ) -> bool {
         let wanted = resources.sheet.as_ref().filter(|_| subject.plate.is_some());
-        let is_there = match (&self.sheet, wanted) {
-            (Some(there), Some(wanted)) => there.sheet.is_same(wanted),
-            (there, wanted) => there.is_none() && wanted.is_none(),
-        };
-        if is_there {
+        let there = self.sheet.as_ref().map(|there| &there.sheet);
+        if Sheet::are_same(there, wanted) {
             return false;
         }
         if let Some(there) = self.sheet.take() {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use sha2::{Digest as _, Sha256};
 
 use crate::data::{SubjectPart, SubjectSink};
-use crate::figure::{FigureFile, ReadPlate, read_plate};
+use crate::figure::{FigureFile, ReadPlate, SNIFF_BYTES, read_plate};
 use crate::load::{FileSet, LoadError, LoadReport, Warning};
 use crate::pictures::MAX_FILE_BYTES;
 #[cfg(not(target_arch = "wasm32"))]
@@ -16,9 +16,6 @@ use crate::{
     shell::loading::{Post, PostingSink},
 };
 
-/// Bytes by which the file of a figure is known.
-const SNIFF_BYTES: u64 = 4096;
-
 /// What a file is, if it is that of a figure.
 ///
 /// # Errors
@@ -27,7 +24,7 @@ pub fn figure_file(files: &mut dyn FileSet, name: &str) -> Result<Option<FigureF
     if !files.can_reopen() {
         return Ok(None);
     }
-    Ok(FigureFile::of(&bytes_of(files, name, SNIFF_BYTES)?))
+    Ok(FigureFile::of(&bytes_of(files, name, SNIFF_BYTES as u64)?))
 }
 
 /// The bytes of a figure's file. The report gets their hash.

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use fabrica::data::{Plate, Resources, Sheet, Subject};
 use fabrica::document::{Document, Illustration};
+use fabrica::figure::drawn::drawn as drawing_of;
+use fabrica::figure::svg::Drawing;
 use fabrica::figure::{Bender, builtin_plate, plate_of_picture, unwatched};
 use fabrica::pictures::{Picture, decode};
 use fabrica::render::{Image, Studio};
@@ -362,6 +364,12 @@ fn figures_are_exported() {
     export("a.svg").ok();
     let svg = std::fs::read_to_string(path("a.svg")).expect("text");
     assert!(svg.starts_with("<svg "), "{}", &svg[..40]);
+    let [bent, own] = [svg.as_str(), drawing_of("drawn-arm").expect("built in").svg]
+        .map(|text| Drawing::read(text.as_bytes()).expect("an SVG"));
+    assert_eq!(bent.shapes.len(), own.shapes.len(), "the same shapes");
+    let moved = bent.shapes.iter().zip(&own.shapes);
+    let moved = moved.filter(|(bent, own)| bent.outline != own.outline);
+    assert!(moved.count() > 20, "those of the hand have moved");
     call(
         folder.path(),
         &["export-figure", "d.json", "-o", "a.png", "--size", "300"],

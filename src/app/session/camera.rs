@@ -7,7 +7,7 @@ use glam::{Quat, Vec2, Vec3};
 use crate::data::Site;
 use crate::document::{Camera, DISTANCE_RANGE};
 
-pub use crate::document::{axes, between, orbit, roll, zoom};
+pub use crate::document::{axes, between, orbit, roll, shift, zoom};
 
 /// A part of the subject whose centroid lies nearer to the middle has no side of its own: subject units, and a share of
 /// how far the part reaches.
@@ -94,13 +94,6 @@ impl StandardView {
             Self::Bottom => Quat::from_rotation_x(-FRAC_PI_2),
         }
     }
-}
-
-/// Moves what is seen in the picture, to the right and down: parts of the picture's shorter side.
-pub fn shift(camera: &mut Camera, by: Vec2) {
-    let [right, up, _] = axes(camera.rotate);
-    let side = 2.0 * camera.distance * (0.5 * camera.fov_deg.to_radians()).tan();
-    camera.target += (up * by.y - right * by.x) * side;
 }
 
 /// [`Camera::rotate`] of the view from a direction, upright. From straight above or below the patient's right stays

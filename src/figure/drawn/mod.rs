@@ -6,24 +6,16 @@
 //! front, as they are drawn.
 //!
 //! ```
-//! use fabrica::figure::drawn::{NAMES, drawn};
+//! use fabrica::document::DRAWN_FIGURES;
+//! use fabrica::figure::drawn::drawn;
 //! let arm = drawn("drawn-arm").expect("a built-in figure");
 //! assert_eq!(arm.title, "Arm");
 //! assert!(arm.regions.iter().any(|region| region.name == "humerus"));
-//! assert!(NAMES.iter().all(|name| drawn(name).is_some()));
+//! assert!(DRAWN_FIGURES.iter().all(|name| drawn(name).is_some()));
 //! assert!(drawn("arm").is_none(), "the names begin with drawn-");
 //! ```
 
 use crate::document::figure::{Region, Rigidity, Source};
-
-/// Names of the built-in figures.
-pub const NAMES: [&str; 5] = [
-    "drawn-arm",
-    "drawn-foot",
-    "drawn-neck",
-    "drawn-heart",
-    "drawn-face",
-];
 
 /// A built-in figure.
 #[derive(Clone, Debug, PartialEq)]

@@ -31,16 +31,9 @@ impl Delaunay {
         let mut made = Vec::new();
         let mut tries = 0;
         while let Some((a, b)) = crossing.pop_front() {
-            let Some((t, edge)) = self.edge_between(a, b) else {
+            let Some((t, edge, [p, q])) = self.facing(a, b) else {
                 continue;
             };
-            let Some((u, position)) = self.across(t, edge) else {
-                continue;
-            };
-            let (p, q) = (
-                self.triangle(t).corners[edge],
-                self.triangle(u).corners[position],
-            );
             // Only a convex quadrilateral can be flipped.
             let is_convex = self.side(p, q, self.point(a)) * self.side(p, q, self.point(b)) < 0.0;
             tries += 1;
@@ -99,6 +92,18 @@ impl Delaunay {
         }
     }
 
+    /// The triangle left of an edge, its number of the edge, and the corners that face the edge from both sides; none
+    /// if there is no such edge, or nothing beyond it.
+    fn facing(&self, from: u32, to: u32) -> Option<(u32, usize, [u32; 2])> {
+        let (t, edge) = self.edge_between(from, to)?;
+        let (u, position) = self.across(t, edge)?;
+        let corners = [
+            self.triangle(t).corners[edge],
+            self.triangle(u).corners[position],
+        ];
+        Some((t, edge, corners))
+    }
+
     fn set_fixed(&mut self, from: u32, to: u32) {
         for (a, b) in [(from, to), (to, from)] {
             if let Some((t, edge)) = self.edge_between(a, b) {
@@ -114,20 +119,11 @@ impl Delaunay {
         while is_changed {
             is_changed = false;
             for pair in &mut edges {
-                let Some((t, edge)) = self.edge_between(pair.0, pair.1) else {
+                let Some((t, edge, [p, q])) = self.facing(pair.0, pair.1) else {
                     continue;
                 };
-                if self.triangle(t).fixed[edge] {
-                    continue;
-                }
-                let Some((u, position)) = self.across(t, edge) else {
-                    continue;
-                };
-                let (p, q) = (
-                    self.triangle(t).corners[edge],
-                    self.triangle(u).corners[position],
-                );
-                if self.is_in_circle(t, self.point(q)) {
+                let is_fixed = self.triangle(t).fixed[edge];
+                if !is_fixed && self.is_in_circle(t, self.point(q)) {
                     self.flip(t, edge);
                     *pair = (p, q);
                     is_changed = true;

@@ -168,16 +168,6 @@ impl Rig {
         (0..self.mesh.triangle_count()).filter(is_folded).count()
     }
 
-    /// Begins to follow handles, from where they are.
-    pub fn drag(&self, figure: &Figure) -> Drag {
-        let (base, _) = self.base(figure);
-        let moved = self.moved(figure, &base, &mut Vec::new());
-        Drag {
-            rig: self.clone(),
-            state: self.propagated(&base, &moved),
-        }
-    }
-
     /// The context's sheet, of the stage that uses it.
     pub(crate) fn context(&self) -> Option<&ContextSheet> {
         let of_shape = self

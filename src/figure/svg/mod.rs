@@ -14,6 +14,6 @@ mod write;
 
 pub use error::SvgError;
 pub use path::{Outline, Segment};
-pub use raster::{MAX_DRAWN_SIDE, drawn_picture};
+pub use raster::MAX_DRAWN_SIDE;
 pub use read::{Drawing, Shape};
 pub use write::{Label, bent};

@@ -10,15 +10,6 @@ use crate::pictures::Picture;
 /// Longest side of a drawn picture at most, pixels.
 pub const MAX_DRAWN_SIDE: u32 = 4096;
 
-/// Draws an SVG into a picture whose longest side has `longest` pixels (1 to [`MAX_DRAWN_SIDE`]; clamped). Nothing but
-/// the bytes is read.
-///
-/// # Errors
-/// [`SvgError`], as [`Drawing::read`] gives it.
-pub fn drawn_picture(bytes: &[u8], longest: u32) -> Result<Picture, SvgError> {
-    Drawing::read(bytes)?.picture(longest)
-}
-
 impl Drawing {
     /// The drawing as pixels, on clear ground; the longest side has `longest` pixels (1 to [`MAX_DRAWN_SIDE`];
     /// clamped), the other is rounded and has at least one. What is drawn is what regions are made of and what
@@ -208,6 +199,10 @@ mod tests {
       <path fill="url(#g)" d="M20 0H30V20H20Z"/>
       <g opacity="0.5"><path fill="#ff0000" d="M30 0H40V10H30Z"/></g>
       <path fill="none" stroke="#102030" stroke-width="4" d="M30 15H40"/></svg>"##;
+
+    fn drawn_picture(bytes: &[u8], longest: u32) -> Result<Picture, SvgError> {
+        Drawing::read(bytes)?.picture(longest)
+    }
 
     #[test]
     fn named_pixels_have_the_colours_that_the_drawing_says() {

@@ -49,11 +49,7 @@ impl Cause {
 
     /// True if [`Cause::of`] would give an equal value. Copies nothing, since this is asked in every frame.
     fn is_of(&self, shown: &Illustration, segments: usize, sheet: Option<&Sheet>) -> bool {
-        let is_same_sheet = match (&self.sheet, sheet) {
-            (Some(own), Some(other)) => own.is_same(other),
-            (own, other) => own.is_none() && other.is_none(),
-        };
-        is_same_sheet
+        Sheet::are_same(self.sheet.as_ref(), sheet)
             && self.segments == segments
             && self.subject == shown.subject
             && self.recipes == shown.recipes

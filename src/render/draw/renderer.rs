@@ -275,7 +275,7 @@ impl Renderer {
     pub fn set_resources(&mut self, resources: Resources) {
         if resources.fields != self.resources.fields
             || !resources.has_objects_of(&self.resources)
-            || !resources.has_sheet_of(&self.resources)
+            || !Sheet::are_same(resources.sheet.as_ref(), self.sheet())
         {
             self.touch();
         }

@@ -42,6 +42,7 @@ pub(super) fn describe(
     let subject = subject_of(first, common, &opened.folder, gpu.volume_limits())?;
     let studio = Studio::new(&gpu, &subject, true)?;
     let mut told: Vec<Description> = Vec::new();
+    let mut bender = None;
     for step in steps {
         let at_step = document.at_step(step).map_err(CliError::Step)?;
         for line in at_step.notices() {
@@ -56,7 +57,7 @@ pub(super) fn describe(
         if told.is_empty() {
             report_drawing(shown, &resources, &subject);
         }
-        let (shown, resources) = with_sheet(shown.clone(), resources, &subject)?;
+        let (shown, resources) = with_sheet(&mut bender, shown.clone(), resources, &subject)?;
         let shown = &shown;
         let studio = studio.clone().with_resources(resources);
         let sighting = pollster::block_on(studio.identify(shown, SIGHT_PX))?;

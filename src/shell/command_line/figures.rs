@@ -33,8 +33,9 @@ const SAMPLES: u32 = 16;
 const DRAWING_PX: u32 = 2048;
 
 /// Bends the figure of a subject, if it is one, for what draws it: the illustration as a figure is seen, and the sheet
-/// among the resources.
+/// among the resources. `bender` is made for the first picture of a subject and kept for those after it.
 pub(super) fn with_sheet(
+    bender: &mut Option<Bender>,
     illustration: Illustration,
     mut resources: Resources,
     subject: &Subject,
@@ -48,7 +49,10 @@ pub(super) fn with_sheet(
     report_beside(&illustration);
     let illustration = illustration.of_figure();
     let figure = illustration.figure.clone().unwrap_or_default();
-    let mut bender = bender_of(plate)?;
+    let bender = match bender {
+        Some(bender) => bender,
+        None => bender.insert(bender_of(plate)?),
+    };
     // Nobody stops it, so there is a sheet.
     if let Some(bent) = bender.bent(&figure, &mut unwatched) {
         bent.notices.iter().for_each(notice);

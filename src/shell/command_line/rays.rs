@@ -39,7 +39,7 @@ pub(super) fn rays(
     let here = std::mem::take(&mut resources.objects);
     let place = (common, opened.folder.as_path());
     resources.objects = objects_of(&illustration, Needed::All, here, place)?;
-    let (illustration, resources) = with_sheet(illustration, resources, &subject)?;
+    let (illustration, resources) = with_sheet(&mut None, illustration, resources, &subject)?;
     let materials = Materials::of(&subject, &illustration, &resources);
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
     let events = pollster::block_on(studio.events(&illustration, &asked))?;

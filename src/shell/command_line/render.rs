@@ -87,7 +87,7 @@ pub(super) fn render(
     let here = std::mem::take(&mut resources.objects);
     let place = (common, opened.folder.as_path());
     resources.objects = objects_of(&illustration, Needed::All, here, place)?;
-    let (illustration, resources) = with_sheet(illustration, resources, &subject)?;
+    let (illustration, resources) = with_sheet(&mut None, illustration, resources, &subject)?;
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
     let is_lettered = paper.lettering || is_svg(output);
     let places = match is_lettered {

@@ -3,8 +3,9 @@
 
 use std::collections::BTreeMap;
 
+use fabrica::document::DRAWN_FIGURES;
 use fabrica::document::figure::{Context, Figure, Rigidity};
-use fabrica::figure::drawn::{CHILD_FACE, Drawn, FACE_POINTS, NAMES, OLD_FACE, drawn};
+use fabrica::figure::drawn::{CHILD_FACE, Drawn, FACE_POINTS, OLD_FACE, drawn};
 use fabrica::figure::mesh::{Mesh, Part};
 use fabrica::figure::regions::Canvas;
 use fabrica::figure::solve::Rig;
@@ -104,7 +105,7 @@ fn figure(drawn: &Drawn) -> Figure {
 
 #[test]
 fn they_have_the_regions_of_the_contract() {
-    assert_eq!(REGIONS.map(|(name, _)| name), NAMES, "all of them");
+    assert_eq!(REGIONS.map(|(name, _)| name), DRAWN_FIGURES, "all of them");
     for (name, wanted) in REGIONS {
         let drawn = drawn(name).expect("built in");
         let mut found: Vec<&str> = drawn
@@ -139,7 +140,7 @@ fn they_have_the_regions_of_the_contract() {
 
 #[test]
 fn they_are_drawn_with_curves_only() {
-    for name in NAMES {
+    for name in DRAWN_FIGURES {
         let svg = drawn(name).expect("built in").svg;
         assert!(svg.len() < 40_000, "{name}: {} bytes", svg.len());
         let drawing = Drawing::read(svg.as_bytes()).expect("a drawing");
@@ -165,7 +166,7 @@ fn they_are_drawn_with_curves_only() {
 
 #[test]
 fn no_two_bones_touch() {
-    for name in NAMES {
+    for name in DRAWN_FIGURES {
         let drawn = drawn(name).expect("built in");
         let figure = figure(&drawn);
         let mesh = mesh(&drawn, &figure);
