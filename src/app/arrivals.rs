@@ -1,5 +1,7 @@
 //! Takes in everything that the shell hands over: opened files, loads piece by piece, answers to requests.
 
+use std::sync::Arc;
+
 use crate::app::picture::host::Picture;
 use crate::app::services::{Message, SavedTo};
 use crate::app::session::{Gravity, Load, LoadOf, Shipped, Taken};
@@ -111,6 +113,8 @@ impl App {
                     load.what = what;
                 }
             }
+            // Of a scan nothing can be taken over.
+            LoadEvent::Coarse if self.is_reference() => {}
             LoadEvent::Coarse => {
                 self.show_incoming();
                 if let Some(load) = &mut self.session.load {
@@ -130,6 +134,9 @@ impl App {
             LoadEvent::AskRaw(question) => self.session.ask_raw(question),
             LoadEvent::LabelFile(file) => self.incoming_labels.push(*file),
             LoadEvent::Done { sha256 } => {
+                if self.is_reference() {
+                    return self.end_reference();
+                }
                 let load = self.session.load.clone();
                 let other = load
                     .as_ref()
@@ -169,6 +176,25 @@ impl App {
                 self.session.load_ended();
                 self.session
                     .notify(Gravity::Info, words::messages::w().loading_stopped, "");
+            }
+        }
+    }
+
+    fn is_reference(&self) -> bool {
+        let load = self.session.load.as_ref();
+        load.is_some_and(|load| load.of == LoadOf::Reference)
+    }
+
+    /// A picture has come of which places are to be taken over.
+    fn end_reference(&mut self) {
+        let whole = std::mem::take(&mut self.incoming).finish();
+        self.session.load_ended();
+        let subject = whole.and_then(Result::ok).map(|(subject, _)| subject);
+        match subject.as_ref().and_then(Subject::plate) {
+            Some(plate) => self.session.set_reference(Arc::clone(plate)),
+            None => {
+                let text = words::figure::w().no_picture;
+                self.session.notify(Gravity::Error, text, "");
             }
         }
     }

@@ -1,5 +1,7 @@
 //! Displacement fields that a document names, and what has come of all its files.
 
+use std::sync::Arc;
+
 use serde_json::json;
 
 use crate::app::session::{Gravity, Selection};
@@ -80,15 +82,23 @@ impl App {
         for notice in self.bending.take_notices() {
             self.session.notify(Gravity::Warning, notice, "");
         }
-        self.bending.sheet().cloned()
+        let sheet = match self.session.has_less_motion {
+            true => self.bending.sheet().cloned(),
+            false => self.bending.eased(self.session.now),
+        };
+        let view = &mut self.session.view.figure;
+        view.sheet.clone_from(&sheet);
+        view.regions = Arc::clone(self.bending.regions());
+        sheet
     }
 
     /// True while the figure is not bent as the document has it.
     pub(crate) fn is_bending(&self) -> bool {
         let plate = self.assets.subject().and_then(Subject::plate);
         let figure = self.session.shown().figure.as_ref();
-        self.bending
-            .is_behind(plate, figure, self.session.is_passing())
+        let is_easing = self.bending.is_easing() && !self.session.has_less_motion;
+        let is_passing = self.session.is_passing();
+        is_easing || self.bending.is_behind(plate, figure, is_passing)
     }
 
     /// Tells the session which segments are shown: those of the scan, and those of the meshes beside it.

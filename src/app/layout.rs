@@ -64,7 +64,7 @@ impl App {
                         ui.set_max_width(ui.available_width() - 8.0);
                         let w = words::bar::w();
                         let tabs = [
-                            (Tab::Templates, w.templates),
+                            (Tab::Templates, self.making_name()),
                             (Tab::Tissues, w.tissues),
                             (Tab::Look, w.look),
                             (Tab::Text, w.text),
@@ -87,6 +87,14 @@ impl App {
             self.session.end_tissues();
         }
         self.picture_ui(ui, commands);
+    }
+
+    /// What the panel of templates is called: with a figure it holds regions and handles.
+    fn making_name(&self) -> &'static str {
+        match self.session.view.is_figure() {
+            true => words::figure::w().tab,
+            false => words::bar::w().templates,
+        }
     }
 
     /// The picture under the bar, and drawers over it.
@@ -229,7 +237,7 @@ impl App {
         let w = words::bar::w();
         let tabs = [
             (Tab::Add, Icon::Plus, w.add),
-            (Tab::Templates, Icon::Layers, w.templates),
+            (Tab::Templates, Icon::Layers, self.making_name()),
             (Tab::Tissues, Icon::Tissue, w.tissues),
             (Tab::Look, Icon::Look, w.look),
             (Tab::Text, Icon::Text, w.text),

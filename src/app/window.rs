@@ -11,9 +11,10 @@ use crate::app::canvas::steps;
 use crate::app::canvas::viewport::{self, Viewport};
 use crate::app::kit::theme;
 use crate::app::kit::{slow_click, widget};
+use crate::app::panel::figure::reference::ReferencePicture;
 use crate::app::panel::{
-    catalogue, dropped, frames, kept, keys, library, notice, presets, raw, share, shortcuts, strip,
-    transfer,
+    catalogue, dropped, figure, frames, kept, keys, library, notice, presets, raw, share,
+    shortcuts, strip, transfer,
 };
 use crate::app::picture::host::Picture;
 use crate::app::picture::small::OpenPicture;
@@ -83,6 +84,8 @@ pub struct App {
     pub(crate) assets: Assets,
     /// The figure that is shown.
     pub(crate) bending: Bending,
+    /// The picture beside the figure, of which places are taken over.
+    reference: ReferencePicture,
     /// The document, by its number, whose addresses `assets` knows.
     pub(crate) opened: u64,
     /// Fields that the shell was asked for.
@@ -211,6 +214,7 @@ impl App {
             incoming: SubjectBuilder::default(),
             assets: Assets::default(),
             bending: Bending::default(),
+            reference: ReferencePicture::default(),
             opened: 0,
             fields_asked: Vec::new(),
             fields_elsewhere: Vec::new(),
@@ -451,7 +455,7 @@ impl App {
         self.session.is_reading = self.services.is_reading();
         self.follow_resources();
         self.advance_tissue(ui);
-        if self.session.advance(now) {
+        if self.session.advance(now) || self.bending.is_easing() {
             ui.ctx().request_repaint();
         }
         for file in viewport::dropped(ui) {
@@ -490,6 +494,8 @@ impl App {
             library::ui(ui, &self.session, &mut self.example_pictures, &mut commands);
         }
         frames::ui(ui, &self.session, &mut commands);
+        let reference = &mut self.reference;
+        figure::reference::ui(ui, &self.session, reference, &mut commands);
         raw::ui(ui, &self.session, &mut commands);
         dropped::ui(ui, &self.session, &mut commands);
 
@@ -498,6 +504,10 @@ impl App {
             && !ui.ctx().text_edit_focused()
             && commands.is_empty()
         {
+            if self.session.is_passing() {
+                // A figure that followed a handle comes to rest.
+                ui.ctx().request_repaint();
+            }
             self.session.end_drag();
         }
         // The field was there to take it in this frame.

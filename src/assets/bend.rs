@@ -4,10 +4,13 @@
 use std::sync::Arc;
 
 use crate::data::{Plate, Sheet};
-use crate::document::figure::Figure;
+use crate::document::figure::{Figure, Region};
 
 /// Rounds by which a pose follows while something moves: more would hold up the next one.
 pub const FOLLOWING: u32 = 4;
+
+/// Seconds in which a figure that followed a hand or a passage comes to the pose at rest.
+const EASING: f64 = 0.2;
 
 /// What is said of one plate at most: poses of a lesson that plays for hours may differ in their notices.
 const MOST_TOLD: usize = 50;
@@ -30,6 +33,8 @@ pub enum BendAnswer {
     Bent {
         /// What is drawn. Its mesh is that of the answer before unless regions have changed.
         sheet: Sheet,
+        /// The figure's regions with what its source adds, from behind to front; `None`: those of the answer before.
+        regions: Option<Vec<Region>>,
         /// What should be said of the pose at rest.
         notices: Vec<String>,
     },
@@ -46,6 +51,14 @@ struct Asked {
     is_at_rest: bool,
 }
 
+/// A figure on its way from the pose that followed to that at rest.
+#[derive(Clone, Debug)]
+struct Easing {
+    from: Sheet,
+    /// When it was first shown, seconds.
+    since: Option<f64>,
+}
+
 /// The figure of one picture: what is asked of its bender, and the newest sheet. At most one request is under way; what
 /// is wanted when its answer comes is asked for next, so that of several wishes only the newest is granted.
 #[derive(Debug, Default)]
@@ -60,6 +73,8 @@ pub struct Bending {
     /// What the sheet shows.
     shown: Option<Asked>,
     sheet: Option<Sheet>,
+    easing: Option<Easing>,
+    regions: Arc<Vec<Region>>,
     notices: Vec<String>,
     /// What was said of poses at rest before: it is not said again.
     told: Vec<String>,
@@ -132,10 +147,20 @@ impl Bending {
             return;
         }
         let is_at_rest = asked.as_ref().is_some_and(|asked| asked.is_at_rest);
-        self.shown = asked;
+        let before = std::mem::replace(&mut self.shown, asked);
         match answer {
-            BendAnswer::Bent { sheet, notices } => {
+            BendAnswer::Bent {
+                sheet,
+                regions,
+                notices,
+            } => {
+                let followed = before.as_ref().is_some_and(|asked| !asked.is_at_rest);
+                let old = self.sheet.take().filter(|_| followed && is_at_rest);
+                self.easing = old.map(|from| Easing { from, since: None });
                 self.sheet = Some(sheet);
+                if let Some(regions) = regions {
+                    self.regions = Arc::new(regions);
+                }
                 self.failure = None;
                 for notice in notices {
                     if is_at_rest && self.told.len() < MOST_TOLD && !self.told.contains(&notice) {
@@ -156,6 +181,37 @@ impl Bending {
     /// The newest sheet.
     pub fn sheet(&self) -> Option<&Sheet> {
         self.sheet.as_ref()
+    }
+
+    /// The sheet as it is to be seen at a time, seconds: on its way to the pose at rest where it followed something.
+    pub fn eased(&mut self, now: f64) -> Option<Sheet> {
+        let sheet = self.sheet.clone()?;
+        let Some(easing) = &mut self.easing else {
+            return Some(sheet);
+        };
+        let since = *easing.since.get_or_insert(now);
+        let part = ((now - since) / EASING) as f32;
+        let is_one = Arc::ptr_eq(&easing.from.mesh, &sheet.mesh);
+        if !(0.0..1.0).contains(&part) || !is_one {
+            self.easing = None;
+            return Some(sheet);
+        }
+        let pairs = easing.from.places.iter().zip(&*sheet.places);
+        let places = pairs.map(|(from, to)| from.lerp(*to, part)).collect();
+        Some(Sheet {
+            places: Arc::new(places),
+            ..sheet
+        })
+    }
+
+    /// True while the sheet is on its way to the pose at rest.
+    pub fn is_easing(&self) -> bool {
+        self.easing.is_some()
+    }
+
+    /// The figure's regions with what its source adds, from behind to front, as of the last pose at rest.
+    pub fn regions(&self) -> &Arc<Vec<Region>> {
+        &self.regions
     }
 
     /// True if the plate has to be bent before the picture is what the document says.
@@ -195,6 +251,7 @@ mod tests {
                 is_of_inks: false,
             },
             origin: PlateOrigin::Pixels,
+            shapes: Vec::new(),
         })
     }
 
@@ -211,7 +268,9 @@ mod tests {
                 mesh: Arc::new(SheetMesh::default()),
                 places: Arc::default(),
                 order: Arc::default(),
+                base: None,
             },
+            regions: None,
             notices: notices.iter().map(|&notice| notice.to_owned()).collect(),
         }
     }
@@ -282,5 +341,39 @@ mod tests {
         assert_eq!(bending.next(Some(&plate), Some(&figure(1100)), false), None);
         let again = bending.next(Some(&plate), Some(&figure(1200)), false);
         assert!(again.is_some_and(|request| request.plate.is_some()));
+    }
+
+    #[test]
+    fn what_followed_comes_to_rest_in_a_while() {
+        let at = |x: f32, mesh: &Arc<SheetMesh>| BendAnswer::Bent {
+            sheet: Sheet {
+                mesh: Arc::clone(mesh),
+                places: Arc::new(vec![glam::Vec2::X * x]),
+                order: Arc::default(),
+                base: None,
+            },
+            regions: None,
+            notices: Vec::new(),
+        };
+        let (plate, mesh, mut bending) = (plate(), Arc::default(), Bending::default());
+        let ask = |bending: &mut Bending, detail, is_moving, x, mesh: &Arc<SheetMesh>| {
+            let asked = bending.next(Some(&plate), Some(&figure(detail)), is_moving);
+            assert!(asked.is_some(), "{detail}");
+            bending.take(at(x, mesh));
+        };
+        let x = |bending: &mut Bending, now| bending.eased(now).expect("a sheet").places[0].x;
+        ask(&mut bending, 600, false, 0.0, &mesh);
+        assert!(!bending.is_easing(), "nothing was followed");
+        ask(&mut bending, 700, true, 1.0, &mesh);
+        assert_eq!(x(&mut bending, 3.0), 1.0, "it follows at once");
+        ask(&mut bending, 700, false, 2.0, &mesh);
+        assert_eq!(x(&mut bending, 5.0), 1.0);
+        assert!((x(&mut bending, 5.1) - 1.5).abs() < 1e-4 && bending.is_easing());
+        assert_eq!(x(&mut bending, 5.2), 2.0);
+        assert!(!bending.is_easing());
+        // Another mesh has other vertices.
+        ask(&mut bending, 800, true, 1.0, &mesh);
+        ask(&mut bending, 800, false, 2.0, &Arc::default());
+        assert_eq!(x(&mut bending, 6.0), 2.0);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::frame::SubjectFrame;
 use crate::math::Aabb;
@@ -18,6 +18,39 @@ pub struct Plate {
     pub picture: Picture,
     /// What regions are found in.
     pub origin: PlateOrigin,
+    /// The filled shapes of an SVG from a file, from behind to front, as far as they can be pointed at.
+    pub shapes: Vec<PlateShape>,
+}
+
+/// A filled shape of a drawing, so that a click can find it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlateShape {
+    /// By which a region takes it: its id, or where that is no single shape's its number among the filled ones.
+    pub path: String,
+    /// Its outlines, closed, subject space.
+    pub lines: Vec<Vec<Vec2>>,
+    /// It is filled by the even-odd rule, not the non-zero one.
+    pub is_even_odd: bool,
+}
+
+impl PlateShape {
+    /// True if the shape fills a place of subject space.
+    pub fn fills(&self, at: Vec2) -> bool {
+        let mut turns = 0;
+        for line in &self.lines {
+            for (i, from) in line.iter().enumerate() {
+                let to = line[(i + 1) % line.len()];
+                let is_up = from.y <= at.y && to.y > at.y;
+                let is_down = to.y <= at.y && from.y > at.y;
+                let side = (to - *from).perp_dot(at - *from);
+                turns += i32::from(is_up && side > 0.0) - i32::from(is_down && side < 0.0);
+            }
+        }
+        match self.is_even_odd {
+            true => turns % 2 != 0,
+            false => turns != 0,
+        }
+    }
 }
 
 /// Where the pixels of a plate come from.
@@ -51,6 +84,16 @@ impl Plate {
             middle_mm: DVec3::ZERO,
             detail: 1.0 / most.max(1) as f32,
         }
+    }
+
+    /// True if regions are found in the pixels, not in shapes.
+    pub fn has_pixels(&self) -> bool {
+        self.origin == PlateOrigin::Pixels
+    }
+
+    /// The shape of a drawing that is seen at a place of subject space, as it is at rest.
+    pub fn shape_at(&self, at: Vec2) -> Option<&PlateShape> {
+        self.shapes.iter().rev().find(|shape| shape.fills(at))
     }
 
     /// The colour of the pixel that a point of subject space lies in, straight sRGB with alpha; `None` outside.

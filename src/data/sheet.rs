@@ -31,6 +31,8 @@ pub struct Sheet {
     pub places: Arc<Vec<Vec2>>,
     /// All triangles in the order of drawing, from behind to front.
     pub order: Arc<Vec<u32>>,
+    /// Where the vertices are before handles move them, subject space; `None`: where they are at rest.
+    pub base: Option<Arc<Vec<Vec2>>>,
 }
 
 /// Places at rest nearer to each other than this are one, subject units.
@@ -87,6 +89,51 @@ impl Sheet {
             let weights = self.weights(triangle, &self.mesh.rest, at_rest)?;
             Some((triangle, self.mixed(triangle, &self.places, weights)))
         })
+    }
+
+    /// Where a place at rest is before handles move it: contours and a likeness may have carried it. A place that the
+    /// figure does not have stays.
+    pub fn before_handles(&self, at_rest: Vec2) -> Vec2 {
+        let base = self.base.as_ref();
+        let moved = base
+            .zip(self.forward(at_rest))
+            .and_then(|(base, (triangle, _))| {
+                let weights = self.weights(triangle, &self.mesh.rest, at_rest)?;
+                Some(self.mixed(triangle, base, weights))
+            });
+        moved.unwrap_or(at_rest)
+    }
+
+    /// The turn (radians, counter-clockwise) and the scale that a triangle has taken from before handles moved it.
+    pub fn motion_of(&self, triangle: usize) -> Option<(f32, f32)> {
+        let base = self.base.as_ref().map_or(&self.mesh.rest, |base| base);
+        let [a, b, c] = self.corners(triangle, base)?;
+        let [p, q, r] = self.corners(triangle, &self.places)?;
+        let (from, to) = ([b - a, c - a], [q - p, r - p]);
+        let area = from[0].perp_dot(from[1]);
+        if area.abs() <= f32::MIN_POSITIVE {
+            return None;
+        }
+        // Columns of the triangle's linear map.
+        let x = (to[0] * from[1].y - to[1] * from[0].y) / area;
+        let y = (to[1] * from[0].x - to[0] * from[1].x) / area;
+        let turn = (x.y - y.x).atan2(x.x + y.y);
+        Some((turn, x.perp_dot(y).abs().sqrt()))
+    }
+
+    /// The middle of a region at rest, by area; `None` if no triangle belongs to it.
+    pub fn middle_of(&self, region: &str) -> Option<Vec2> {
+        let (mut sum, mut all) = (Vec2::ZERO, 0.0);
+        for triangle in 0..self.mesh.triangles.len() {
+            if self.region(triangle) == region
+                && let Some([a, b, c]) = self.corners(triangle, &self.mesh.rest)
+            {
+                let area = (b - a).perp_dot(c - a);
+                sum += (a + b + c) * (area / 3.0);
+                all += area;
+            }
+        }
+        (all > 0.0).then(|| sum / all)
     }
 
     /// The triangle that is seen at a place of the bent figure, and which place at rest that is.
@@ -162,7 +209,28 @@ mod tests {
             }),
             places: Arc::new(places),
             order: Arc::new(vec![0, 1, 2]),
+            base: None,
         }
+    }
+
+    #[test]
+    fn motions_and_middles_are_those_of_the_triangles() {
+        let mut sheet = sheet();
+        let middle = sheet.middle_of("ground").expect("it is there");
+        assert!(middle.distance(Vec2::splat(0.5)) < 1e-6, "{middle}");
+        assert_eq!(sheet.middle_of("none"), None);
+        // The flap is turned by a quarter and doubled.
+        let turned = [[0.0, 0.0], [0.0, 2.0], [-2.0, 0.0]].map(Vec2::from_array);
+        Arc::make_mut(&mut sheet.places)[4..].copy_from_slice(&turned);
+        let (turn, scale) = sheet.motion_of(2).expect("it has an area");
+        assert!((turn - std::f32::consts::FRAC_PI_2).abs() < 1e-6 && (scale - 2.0).abs() < 1e-6);
+        // What another outline has carried away was there before handles moved it.
+        let at = Vec2::new(0.2, 0.1);
+        assert_eq!(sheet.before_handles(at), at);
+        let base = sheet.mesh.rest.iter().map(|place| *place + Vec2::Y);
+        sheet.base = Some(Arc::new(base.collect()));
+        assert!(sheet.before_handles(at).distance(at + Vec2::Y) < 1e-6);
+        assert_eq!(sheet.before_handles(Vec2::splat(9.0)), Vec2::splat(9.0));
     }
 
     #[test]

@@ -117,6 +117,11 @@ impl History {
         Ok(changed)
     }
 
+    /// True while a drag goes on that has changed something.
+    pub fn is_in_drag(&self) -> bool {
+        self.drag.is_some()
+    }
+
     /// Ends a drag: the next one is undone by itself.
     pub fn end_drag(&mut self) {
         self.drag = None;

@@ -12,7 +12,7 @@ use super::progress::Progress;
 use super::solve::{Drag, Posed, Rig};
 use super::svg::SvgError;
 use crate::data::{Plate, Sheet, SheetMesh};
-use crate::document::figure::{Behind, Figure, Hold, Rigidity, Rotations};
+use crate::document::figure::{Behind, Figure, Hold, Region, Rigidity, Rotations};
 use crate::math::linear_from_srgb;
 
 /// Bends the figure of a plate. It keeps what does not change from one pose to the next: the mesh as long as regions
@@ -52,6 +52,8 @@ struct Rigged {
 pub struct Bent {
     /// What is drawn.
     pub sheet: Sheet,
+    /// The figure's regions with what the source adds, from behind to front.
+    pub regions: Vec<Region>,
     /// Everything that should be said of it. While it is dragged nothing is.
     pub notices: Vec<Notice>,
 }
@@ -97,6 +99,7 @@ impl Bender {
         let solved = self.solved(figure, progress)?;
         Some(Bent {
             sheet: self.drawn(&solved)?,
+            regions: solved.figure.regions,
             notices: solved.notices,
         })
     }
@@ -118,9 +121,10 @@ impl Bender {
             return self.bent(figure, progress);
         };
         drag.follow(&whole, rounds);
-        let places = drag.places().to_vec();
+        let (places, base) = (drag.places().to_vec(), drag.base().map(<[DVec2]>::to_vec));
         Some(Bent {
-            sheet: self.sheet(&whole, &places)?,
+            sheet: self.sheet(&whole, &places, base.as_deref())?,
+            regions: whole.regions,
             notices: Vec::new(),
         })
     }
@@ -163,16 +167,21 @@ impl Bender {
 
     /// What is drawn of a pose that was the last to be solved.
     pub fn drawn(&self, solved: &Solved) -> Option<Sheet> {
-        self.sheet(&solved.figure, &solved.posed.places)
+        let base = solved.rig.has_shape().then_some(&*solved.posed.base);
+        self.sheet(&solved.figure, &solved.posed.places, base)
     }
 
-    /// What is drawn where the vertices of the last mesh have these places.
-    fn sheet(&self, figure: &Figure, places: &[DVec2]) -> Option<Sheet> {
+    /// What is drawn where the vertices of the last mesh have these places, and had those before handles moved them.
+    fn sheet(&self, figure: &Figure, places: &[DVec2], base: Option<&[DVec2]>) -> Option<Sheet> {
         let made = self.made.as_ref()?;
-        let place = |vertex: &u32| places[*vertex as usize].as_vec2();
+        let drawn = |places: &[DVec2]| -> Arc<Vec<Vec2>> {
+            let place = |vertex: &u32| places[*vertex as usize].as_vec2();
+            Arc::new(made.vertex_of.iter().map(place).collect())
+        };
         Some(Sheet {
             mesh: Arc::clone(&made.sheet),
-            places: Arc::new(made.vertex_of.iter().map(place).collect()),
+            places: drawn(places),
+            base: base.map(drawn),
             order: Arc::new(drawing_order(&made.mesh, figure, places)),
         })
     }

@@ -117,6 +117,7 @@ pub fn plate_of_picture(picture: Picture) -> ReadPlate {
         size: dvec2(f64::from(size[0]), f64::from(size[1])),
         picture,
         origin: PlateOrigin::Pixels,
+        shapes: Vec::new(),
     };
     ReadPlate { plate, asides }
 }
@@ -140,6 +141,7 @@ pub fn plate_of_drawing(bytes: &[u8]) -> Result<ReadPlate, SvgError> {
         size: drawing.size,
         picture: drawing.picture(DRAWN_SIDE)?,
         origin: PlateOrigin::Drawing(Arc::from(bytes)),
+        shapes: drawing.pointed(),
     };
     Ok(ReadPlate { plate, asides })
 }
@@ -153,6 +155,7 @@ pub fn builtin_plate(name: &str) -> Result<Plate, PlateError> {
     let drawn = drawn.ok_or_else(|| PlateError::UnknownName(name.chars().take(40).collect()))?;
     Ok(Plate {
         origin: PlateOrigin::Builtin(name.to_owned()),
+        shapes: Vec::new(),
         ..plate_of_drawing(drawn.svg.as_bytes())?.plate
     })
 }

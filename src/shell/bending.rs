@@ -33,6 +33,7 @@ impl Desk {
         match bent {
             Some(bent) => BendAnswer::Bent {
                 sheet: bent.sheet,
+                regions: request.rounds.is_none().then_some(bent.regions),
                 notices: bent.notices.iter().map(ToString::to_string).collect(),
             },
             None => BendAnswer::Failed("the figure was not bent".to_owned()),

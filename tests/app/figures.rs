@@ -56,14 +56,14 @@ fn a_figure_is_drawn_and_moved_but_never_turned_away() {
     let after = seen(&window);
     assert!(after.rotate.dot(front.rotate).abs() > 0.999_99, "{after:?}");
     assert!(after.target.x < moved.target.x, "moved to the right");
-    // In its place in the panel stands a sentence.
-    let text = "A figure is bent by handles; they stand in its document.";
-    assert!(window.harness.query_by_label(text).is_some());
+    // In the place of templates stand the tools of a figure.
+    assert!(window.harness.query_by_label("Outline").is_some());
+    assert!(window.harness.query_by_label("Peel").is_none());
     for panel in [
         "Panel: Tissues",
         "Panel: Look",
         "Panel: Text",
-        "Panel: Templates",
+        "Panel: Figure",
     ] {
         window.click(panel);
         window.settle();
@@ -119,4 +119,73 @@ fn a_picture_that_is_opened_is_a_figure() {
         matches!(subject, SubjectRef::Builtin { name } if name == "cube"),
         "{subject:?}"
     );
+}
+
+/// Where a place of the figure's plane is seen in the window.
+fn spot(window: &Window, x: f32, y: f32) -> Pos2 {
+    let camera = window.document().illustration().camera;
+    let rect = window.harness.get_by_role(Role::Image).rect();
+    let half = (0.5 * camera.fov_deg.to_radians()).tan() * camera.distance;
+    let scale = 0.5 * rect.width().min(rect.height()) / half;
+    let at = vec2(x - camera.target.x, camera.target.y - y) * scale;
+    rect.center() + at
+}
+
+fn handles(window: &Window) -> Vec<fabrica::document::figure::Handle> {
+    let document = window.document();
+    let figure = document.illustration().figure.clone();
+    figure.map_or_else(Vec::new, |figure| figure.handles)
+}
+
+/// Pins are set by clicks and dragged, by the hand and by keys; the figure follows, and one drag is one step of undo.
+#[test]
+fn pins_are_set_and_dragged() {
+    let mut window = Window::open(
+        DESK,
+        r#"{ "fabrica": 1, "subject": { "builtin": "drawn-arm" }, "figure": { "detail": 1500 } }"#,
+    );
+    window.click("Pin");
+    window.settle();
+    for (x, y) in [(-0.25, 0.05), (-0.15, -0.2), (0.36, -0.08)] {
+        let at = spot(&window, x, y);
+        window.click_at(at);
+        window.settle();
+    }
+    window.look("figure_pins");
+    let set = handles(&window);
+    assert_eq!(set.len(), 3, "{}", window.document().to_json());
+    window.press(Key::Escape);
+    window.settle();
+    let bends = window.log.0.borrow().bends;
+    let at = spot(&window, 0.36, -0.08);
+    window.drag_on(at, vec2(-20.0, -60.0), 6);
+    window.settle();
+    window.look("figure_dragged");
+    let moved = handles(&window)[2].motion.by;
+    assert!(moved.y > 0.03 && moved.x < 0.0, "{moved}");
+    let after = window.log.0.borrow().bends;
+    assert!(
+        after[1] > bends[1],
+        "it follows the hand: {bends:?} {after:?}"
+    );
+    assert!(after[0] > bends[0], "and comes to rest");
+    assert!(window.harness.query_by_label("Turn of Pin 3").is_some());
+    window.undo();
+    window.settle();
+    assert_eq!(handles(&window)[2].motion.by, glam::DVec2::ZERO);
+    // By keys: the next pin, a bit to the left, turned, put back, taken away.
+    window.harness.get_by_label("Pin 2").focus();
+    window.settle();
+    window.press(Key::ArrowLeft);
+    window.settle();
+    assert!(handles(&window)[1].motion.by.x < -0.001);
+    window.press(Key::Delete);
+    window.settle();
+    assert_eq!(handles(&window).len(), 2);
+    // With all overlays it can still be read.
+    for overlay in ["Rigidity", "Mesh", "Vertices"] {
+        window.click(overlay);
+    }
+    window.settle();
+    window.look("figure_overlays");
 }

@@ -3,7 +3,7 @@
 use egui::{Shape, Stroke, Ui};
 use glam::{Vec2 as Flat, Vec3};
 
-use super::points::{Dot, Moved, handle};
+use super::points::{Dot, Moved, handle, is_hot};
 use super::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;
 use crate::app::session::Command;
@@ -53,15 +53,16 @@ pub(crate) fn ui(
     let [normal, out] = [Vec3::Y, Vec3::Z].map(|axis| placement.rotate * axis);
     let is_edge_on = normal.dot(view.back()).abs() < EDGE_ON;
     let plane = if is_edge_on { view.back() } else { normal };
-    let mut is_hot = false;
+    let mut is_over = false;
     for (i, point) in curve.points.iter().enumerate() {
         let pos = place(*point);
         let Some(spot) = view.ui_from_subject(pos) else {
             continue;
         };
         let name = fill(w().point, &[&(i + 1)]);
-        let (hot, moved) = handle(ui, view, spot, (pos, plane), &Dot::full(&name, ink::HANDLE));
-        is_hot |= hot;
+        let (response, moved) =
+            handle(ui, view, spot, (pos, plane), &Dot::full(&name, ink::HANDLE));
+        is_over |= is_hot(&response);
         let mut new = curve.clone();
         match moved {
             Some(Moved::To(to)) => {
@@ -86,5 +87,5 @@ pub(crate) fn ui(
             None => {}
         }
     }
-    is_hot
+    is_over
 }

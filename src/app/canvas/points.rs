@@ -4,7 +4,7 @@
 //! A point is a ring where the tissue was and a dot where it goes. Dragging the dot takes the tissue along, the ring
 //! stays. The dot of a point that the map misses is hollow: light inside.
 
-use egui::{Key, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo};
+use egui::{Key, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo};
 use glam::{Vec2 as Flat, Vec3};
 
 use crate::app::canvas::projection::Projection;
@@ -76,20 +76,20 @@ pub(crate) fn ui(
         .collect();
     painter.add(Shape::line(cut.clone(), Stroke::new(4.0, ink::HALO_DARK)));
     painter.add(Shape::line(cut, Stroke::new(2.0, ink::HANDLE)));
-    let mut is_hot = false;
+    let mut is_over = false;
     let mut changed: Option<ControlPoints> = None;
     for (i, place) in points.cut.iter().enumerate() {
         let q = place.extend(0.5);
         let name = fill(w().cut_place, &[&(i + 1)]);
         let Some(spot) = to_ui(q) else { continue };
-        let (hot, moved) = handle(
+        let (response, moved) = handle(
             ui,
             view,
             spot,
             (template.subject_from_template(q), view.back()),
             &Dot::full(&name, ink::HANDLE),
         );
-        is_hot |= hot;
+        is_over |= is_hot(&response);
         if let Some(Moved::To(pos)) = moved {
             let to = within(template.template_from_subject(pos));
             let mut new = points.clone();
@@ -116,14 +116,13 @@ pub(crate) fn ui(
         let name = fill(w().point, &[&(i + 1)]);
         let lack = missed.iter().find(|missed| missed.point == i);
         let told = lack.map(|lack| fill(w().missed, &[&(i + 1), &format!("{:.3}", lack.by)]));
-        let dot = Dot {
-            told: told.as_deref().unwrap_or(&name),
-            is_hollow: lack.is_some(),
-            ..Dot::full(&name, ink::X)
+        let dot = match &told {
+            Some(told) => Dot::hollow(&name, told, ink::X),
+            None => Dot::full(&name, ink::X),
         };
         let plane = (template.subject_from_template(point.at), view.back());
-        let (hot, moved) = handle(ui, view, to, plane, &dot);
-        is_hot |= hot;
+        let (response, moved) = handle(ui, view, to, plane, &dot);
+        is_over |= is_hot(&response);
         let mut new = points.clone();
         match moved {
             Some(Moved::To(pos)) => {
@@ -141,7 +140,7 @@ pub(crate) fn ui(
             None => {}
         }
     }
-    if !is_hot
+    if !is_over
         && let Some(pos) = double_click
         && points.points.len() < MAX_POINTS
         && let Some(pos) = view.on_plane(pos, placement.at, view.back())
@@ -156,7 +155,7 @@ pub(crate) fn ui(
     if let Some(new) = changed {
         commands.push(Command::Drag(set(template, new)));
     }
-    is_hot
+    is_over
 }
 
 pub(crate) enum Moved {
@@ -185,6 +184,15 @@ impl<'a> Dot<'a> {
             is_hollow: false,
         }
     }
+
+    /// A hollow dot of which more is told than its name.
+    pub(crate) fn hollow(name: &'a str, told: &'a str, color: egui::Color32) -> Self {
+        Self {
+            told,
+            is_hollow: true,
+            ..Self::full(name, color)
+        }
+    }
 }
 
 /// One dot: dragged in a plane (a point of it and its normal), moved by the arrow keys, taken away by Delete.
@@ -194,7 +202,7 @@ pub(crate) fn handle(
     spot: egui::Pos2,
     (pos, normal): (Vec3, Vec3),
     dot: &Dot<'_>,
-) -> (bool, Option<Moved>) {
+) -> (Response, Option<Moved>) {
     let id = ui.scope_id().with(("rbf", dot.name));
     let response = ui.interact(
         Rect::from_center_size(spot, Vec2::splat(2.0 * REACH)),
@@ -208,9 +216,8 @@ pub(crate) fn handle(
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
-    let is_hot = response.hovered() || response.dragged();
     let painter = ui.painter_at(view.rect);
-    let color = if is_hot || response.has_focus() {
+    let color = if is_hot(&response) || response.has_focus() {
         ink::HOT
     } else {
         dot.color
@@ -245,11 +252,16 @@ pub(crate) fn handle(
             }
         }
         if pressed(Key::Delete) || pressed(Key::Backspace) {
-            return (is_hot, Some(Moved::Removed));
+            return (response, Some(Moved::Removed));
         }
     }
     let moved = (by != Vec2::ZERO)
         .then(|| view.on_plane(spot + by, pos, normal))
         .flatten();
-    (is_hot, moved.map(Moved::To))
+    (response, moved.map(Moved::To))
+}
+
+/// True if a dot is under the pointer or held.
+pub(crate) fn is_hot(response: &Response) -> bool {
+    response.hovered() || response.dragged()
 }

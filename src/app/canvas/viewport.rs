@@ -9,6 +9,7 @@ use glam::Vec3;
 
 use super::ball::{self, PictureBall};
 use super::captions::Followed;
+use super::figure::FigureCanvas;
 use super::gizmo::Gizmo;
 use super::held::Held;
 use super::measure::Distances;
@@ -71,6 +72,7 @@ pub(crate) struct Viewport {
     has_failed: bool,
     captions: Followed,
     ball: PictureBall,
+    figure: FigureCanvas,
     /// The picture still shows another object than the document's, and is drawn faintly.
     pub(crate) is_earlier: bool,
 }
@@ -201,7 +203,12 @@ impl Viewport {
                 self.ball.paint(ui, &response, &view, session);
                 ball::bar_ui(ui, bars, session, erases, commands);
             }
-            Tool::Look | Tool::Seed(_) | Tool::Measure(_) | Tool::Level => {
+            Tool::Look | Tool::Figure(_) if session.view.is_figure() => {
+                self.gizmo.release();
+                self.figure
+                    .ui(ui, (&response, bars), &view, session, commands);
+            }
+            Tool::Look | Tool::Seed(_) | Tool::Measure(_) | Tool::Level | Tool::Figure(_) => {
                 self.templates_ui(ui, (&response, bars), &view, session, commands);
             }
         }
@@ -214,7 +221,10 @@ impl Viewport {
             commands.push(Command::Select(None));
         }
         self.seen_ui(ui, rect, &view, session, commands);
-        if session.tool().placing().is_none() && session.tool().ball().is_none() {
+        if session.tool().placing().is_none()
+            && session.tool().ball().is_none()
+            && !session.view.is_figure()
+        {
             // The right button or a long press. A finger that opened the menu no longer drags a handle.
             let menu = response.context_menu(|ui| template_menu::ui(ui, session, commands));
             if menu.is_some() {
@@ -298,8 +308,9 @@ impl Viewport {
         session: &Session,
     ) -> Camera {
         let mut camera = session.camera;
-        let is_painting = session.tool().ball().is_some()
-            && ui.input(|i| !i.pointer.secondary_down() && !i.pointer.middle_down());
+        let is_painting = FigureCanvas::takes_drags(session, ui)
+            || session.tool().ball().is_some()
+                && ui.input(|i| !i.pointer.secondary_down() && !i.pointer.middle_down());
         let touch = ui
             .input(|i| i.multi_touch())
             .filter(|touch| view.rect.contains(touch.center_pos));
@@ -520,7 +531,11 @@ impl Viewport {
                 let places = slow_click::places(ui, response).into_iter();
                 commands.extend(places.map(|pos| Command::UseToolAt(pixel(pos))));
             }
-            Some(at) if session.tool() != Tool::Look && response.clicked() => {
+            Some(at)
+                if session.tool() != Tool::Look
+                    && session.tool().for_figure().is_none()
+                    && response.clicked() =>
+            {
                 commands.push(Command::UseToolAt(at));
             }
             Some(at) if session.tool() == Tool::Look && response.double_clicked() && is_free => {

@@ -51,6 +51,10 @@ pub(crate) enum Icon {
     Stop,
     Brush,
     Eraser,
+    Pin,
+    Bend,
+    Marks,
+    Drop,
 }
 
 /// A piece of an icon, on the grid of 24.
@@ -73,6 +77,23 @@ impl Icon {
     fn parts(self) -> &'static [Part] {
         use Part::{Arc, Circle, Dot, Half, Line, Ring};
         match self {
+            Self::Pin => &[Circle(12.0, 8.0, 4.5), Line(&[(12.0, 12.5), (12.0, 21.0)])],
+            Self::Bend => &[
+                Line(&[(4.0, 18.0), (10.0, 8.0), (20.0, 6.0)]),
+                Dot(4.0, 18.0, 2.0),
+                Dot(10.0, 8.0, 2.0),
+                Dot(20.0, 6.0, 2.0),
+            ],
+            Self::Marks => &[
+                Dot(6.0, 7.0, 2.0),
+                Dot(18.0, 7.0, 2.0),
+                Dot(12.0, 18.0, 2.0),
+                Ring(&[(6.0, 7.0), (18.0, 7.0), (12.0, 18.0)]),
+            ],
+            Self::Drop => &[
+                Arc(12.0, 15.0, 5.5, -30.0, 210.0),
+                Line(&[(7.2, 12.2), (12.0, 3.5), (16.8, 12.2)]),
+            ],
             Self::Undo => &[
                 Line(&[(8.5, 5.0), (4.0, 9.5), (8.5, 14.0)]),
                 Line(&[(4.0, 9.5), (14.5, 9.5)]),

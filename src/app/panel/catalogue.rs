@@ -7,6 +7,7 @@ use egui::{
     Align2, Context, CornerRadius, FontId, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2,
 };
 
+use super::figure;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::sheet::Sheet;
 use crate::app::kit::theme::{self, Palette};
@@ -71,9 +72,7 @@ pub(crate) fn ui(
     commands: &mut Vec<Command>,
 ) {
     if session.view.is_figure() {
-        let weak = Palette::get(ui).weak;
-        ui.add(egui::Label::new(egui::RichText::new(w().figure).color(weak)).wrap());
-        return;
+        return figure::tools_ui(ui, session, commands);
     }
     let gap = 5.0;
     let columns = ((ui.available_width() + gap) / 64.0)

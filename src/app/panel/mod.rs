@@ -7,6 +7,7 @@ pub(crate) mod catalogue;
 pub(crate) mod controls;
 pub(crate) mod curve;
 pub(crate) mod dropped;
+pub(crate) mod figure;
 pub(crate) mod frames;
 pub(crate) mod kept;
 pub(crate) mod keys;

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::camera::StandardView;
+use super::figure::FigureCommand;
 use super::files::RawCommand;
 use super::found::Found;
 use super::library::LibraryCommand;
@@ -32,6 +33,8 @@ pub enum Command {
     StartPlacing(TemplateKind),
     /// Uses the active tool on what the middle of the picture shows.
     PlaceInMiddle,
+    /// Makes, selects or moves something of a figure.
+    Figure(FigureCommand),
     /// Starts or ends setting a caption.
     ToggleCaptioning,
     /// Uses the active tool at a pixel of the picture.

@@ -18,6 +18,7 @@
 //! | `session` | the state itself |
 //! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw` | what can be done with it |
 //! | `steps`, `playing` | recording the steps of a lesson, and playing them |
+//! | `figure` | making a figure: its regions and handles |
 //! | `making`, `painting` | what can be done with tissues |
 //! | `seeking` | the search for a structure by name |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
@@ -30,6 +31,7 @@ mod clock;
 mod command;
 mod dropped;
 mod effect;
+pub mod figure;
 mod files;
 mod found;
 mod grouping;

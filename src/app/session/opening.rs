@@ -106,7 +106,11 @@ impl Session {
 
     /// A file that the user opened is on its way and will be the subject.
     pub fn file_started(&mut self, ticket: Ticket) {
-        self.load = Some(Load::new(ticket, "Reading", LoadOf::File));
+        let of = match std::mem::take(&mut self.view.figure.wants_reference) {
+            true => LoadOf::Reference,
+            false => LoadOf::File,
+        };
+        self.load = Some(Load::new(ticket, "Reading", of));
     }
 
     /// A file is on its way that takes the place of the document's subject, which is not asked for then.
@@ -129,7 +133,7 @@ impl Session {
         let is_answer = match load.of {
             LoadOf::Subject => true,
             LoadOf::File => self.waits_for_file() && subject.supplied_sha256().is_some(),
-            LoadOf::Instead | LoadOf::Beside(_) => false,
+            LoadOf::Instead | LoadOf::Reference | LoadOf::Beside(_) => false,
         };
         let check = Want::subject(subject).check(found);
         check.err().filter(|_| is_answer)

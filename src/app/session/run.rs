@@ -36,6 +36,8 @@ impl Session {
     /// A message tells why where something cannot be done.
     pub fn run(&mut self, command: Command, now: f64) -> Vec<Effect> {
         self.now = now;
+        // Whoever does something else has not chosen a picture.
+        self.view.figure.wants_reference = false;
         match command {
             Command::Undo => self.undo_or_redo(true),
             Command::Redo => self.undo_or_redo(false),
@@ -55,6 +57,7 @@ impl Session {
             Command::WalkStep(forward) => self.walk_step(forward),
             Command::StartPlacing(kind) => self.start_placing(kind),
             Command::PlaceInMiddle => self.use_tool_in_middle(),
+            Command::Figure(command) => self.run_figure(command),
             Command::ToggleCaptioning => self.toggle_captioning(),
             Command::UseToolAt(pixel) => self.use_tool_at(pixel),
             Command::LookAtPixel(pixel) => {
@@ -116,6 +119,9 @@ impl Session {
             Command::ShiftSelected(by) => self.shift_selected(by),
             // The keys are those of the ball while it is in hand.
             Command::NudgeMain(by) if self.tool().ball().is_some() => self.resize_ball(by > 0.0),
+            Command::NudgeMain(hundredths) if self.view.is_figure() => {
+                self.turn_of_figure(hundredths);
+            }
             Command::NudgeMain(hundredths) => self.nudge_main(hundredths),
             Command::SetGizmo(mode) => self.gizmo = mode,
             Command::View(_) if self.view.is_figure() => {}
@@ -262,6 +268,8 @@ impl Session {
             self.library.is_open = false;
         } else if matches!(self.tool, Tool::Measure(Some(_))) {
             self.take_tool(Tool::Measure(None));
+        } else if !self.view.figure.draft.is_empty() {
+            self.view.figure.draft.clear();
         } else if self.tool != Tool::Look {
             self.take_tool(Tool::Look);
         } else if self.leave_making() {
@@ -279,6 +287,7 @@ impl Session {
         } else {
             self.selection = Selection::Nothing;
             self.tissues.selected = None;
+            self.view.figure.let_go();
         }
     }
 

@@ -21,6 +21,9 @@ impl Session {
 
     /// Selects the next one of all templates and then all objects, or the one before.
     pub(super) fn select_next(&mut self, forward: bool) {
+        if self.view.is_figure() {
+            return self.next_of_figure(forward);
+        }
         let templates = self.template_count();
         let count = templates + self.object_count();
         if count == 0 {
@@ -42,6 +45,9 @@ impl Session {
 
     /// Removes what is selected, and selects what comes in its place.
     pub(super) fn delete_selected(&mut self) {
+        if self.view.is_figure() {
+            return self.delete_of_figure();
+        }
         // At a step it may stay in the list, switched off: then nothing is selected.
         let next = |index: usize, before: usize, after: usize| {
             let last = after.checked_sub(1).filter(|_| after < before);
@@ -83,6 +89,9 @@ impl Session {
 
     /// Shows or hides what is selected.
     pub(super) fn toggle_selected(&mut self) {
+        if self.view.is_figure() {
+            return self.toggle_of_figure();
+        }
         let edit = if let Some(template) = self.selected_template() {
             Edit::SetEnabled {
                 template: template.index,
@@ -98,6 +107,9 @@ impl Session {
 
     /// Moves what is selected in its list by so many places. The selection goes with it.
     pub(super) fn shift_selected(&mut self, by: i8) {
+        if self.view.is_figure() {
+            return self.shift_of_figure(by);
+        }
         let moved = |from: usize, count: usize| {
             let to = from.saturating_add_signed(isize::from(by));
             Some(to).filter(|to| *to != from && *to < count)

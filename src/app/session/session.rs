@@ -40,6 +40,8 @@ pub enum LoadOf {
     File,
     /// A file that takes the place of the document's subject, whichever that is.
     Instead,
+    /// A picture of which landmarks or outlines are taken over: nothing else of it is kept.
+    Reference,
     /// A label volume or the mesh of an object that the document names: the subject stays.
     Beside(Box<Want>),
 }
@@ -441,6 +443,7 @@ impl Session {
     pub(super) fn go(&mut self, step: usize, is_cut: bool) {
         self.glide = None;
         self.selection = Selection::Nothing;
+        self.view.figure.let_go();
         if self.tool.is_for_authors() {
             self.take_tool(Tool::Look);
         }
@@ -541,9 +544,9 @@ impl Session {
         self.applied(result, false)
     }
 
-    /// True if the figure that is shown changes from one frame to the next.
+    /// True if the figure that is shown changes from one frame to the next: in a passage, and while a handle is dragged.
     pub fn is_passing(&self) -> bool {
-        self.mode.is_moving()
+        self.mode.is_moving() || (self.view.is_figure() && self.history.is_in_drag())
     }
 
     fn applied(&mut self, result: Result<bool, DocumentError>, is_drag: bool) -> bool {
@@ -575,6 +578,9 @@ impl Session {
         if is_gone {
             self.selection = Selection::Nothing;
         }
+        let listed = self.shown().figure.as_ref();
+        let count = listed.map_or(0, |figure| figure.handles.len());
+        self.view.figure.handles.retain(|index| *index < count);
         self.touch_link(change);
     }
 

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::figure::FigureTool;
 use crate::document::TemplateKind;
 
 /// The tool in the author's hand.
@@ -27,6 +28,8 @@ pub enum Tool {
     Measure(Option<Vec3>),
     /// Drags over slices widen and raise the window of values.
     Level,
+    /// Clicks make handles and regions of a figure.
+    Figure(FigureTool),
 }
 
 impl Tool {
@@ -53,6 +56,14 @@ impl Tool {
         matches!(self, Self::Level)
     }
 
+    /// The tool that makes handles and regions of a figure, if it is one.
+    pub fn for_figure(self) -> Option<FigureTool> {
+        match self {
+            Self::Figure(tool) => Some(tool),
+            _ => None,
+        }
+    }
+
     /// True if the tool works on a tissue.
     pub fn is_for_tissue(self) -> bool {
         matches!(self, Self::Seed(_) | Self::Paint { .. })
@@ -73,6 +84,6 @@ impl Tool {
 
     /// True if the tool changes the document, so that it cannot be used in a lesson.
     pub fn is_for_authors(self) -> bool {
-        self.is_for_tissue() || self.wants_place()
+        self.is_for_tissue() || self.wants_place() || self.for_figure().is_some()
     }
 }

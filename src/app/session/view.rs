@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec3};
 
+use super::figure::FigureView;
 use super::measures::Measures;
 use crate::data::{Segment, Subject, SubjectFrame};
 use crate::document::ObjectSource;
@@ -178,6 +179,8 @@ pub struct ViewState {
     pub subject_revision: u64,
     /// The frames of the meshes of objects that have come, by where each comes from.
     pub object_frames: Vec<(ObjectSource, SubjectFrame)>,
+    /// The figure that is shown, as it is made.
+    pub figure: FigureView,
 }
 
 impl ViewState {
@@ -196,6 +199,7 @@ impl ViewState {
         if facts.is_figure {
             (self.is_split, self.expanded, self.has_ghost) = (false, None, false);
         }
+        self.figure.set_plate(subject.plate().cloned());
         self.subject = Some(facts);
         self.subject_revision += 1;
         is_same_place

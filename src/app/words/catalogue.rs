@@ -8,7 +8,6 @@ words! {
         carve: "Carve and shape", "Schnitzen und formen", "Tallar y dar forma", "雕刻与塑形";
         bend: "Bend", "Biegen", "Doblar", "弯曲";
         place: "Place {0}", "{0} platzieren", "Colocar {0}", "放置{0}";
-        figure: "A figure is bent by handles; they stand in its document.", "Eine Figur wird an Griffen gebogen; sie stehen in ihrem Dokument.", "Una figura se dobla con asas; están en su documento.", "平面图由控制柄弯曲；控制柄写在其文档中。";
         full: "A document holds at most 32 templates.", "Ein Dokument fasst höchstens 32 Vorlagen.", "Un documento admite como máximo 32 plantillas.", "一个文档最多包含 32 个模板。";
     }
 }

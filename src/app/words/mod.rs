@@ -43,6 +43,7 @@ pub(crate) mod controls;
 pub(crate) mod curve;
 pub(crate) mod facts;
 pub(crate) mod faults;
+pub(crate) mod figure;
 pub(crate) mod files;
 pub(crate) mod kept;
 pub(crate) mod keys;

@@ -1,7 +1,8 @@
 //! Names that lower rooms give in English: subjects, presets, steps of undo, the work of a loader. A name that
 //! is not known here stays English.
 
-use super::{Lang, bar, capitalized, fill, kinds, lang, of};
+use super::{Lang, bar, capitalized, figure, fill, kinds, lang, of};
+use crate::document::figure::{Handle, Hold};
 use crate::document::{PlacedTemplate, SubjectRef, TemplateKind};
 
 words! {
@@ -166,6 +167,26 @@ pub(crate) fn edit_title(name: &str) -> String {
         "Add object" => ["", "Gegenstand hinzufügen", "Añadir objeto", "添加物体"],
         "Add step" => ["", "Schritt hinzufügen", "Añadir paso", "添加步骤"],
         "Remove step" => ["", "Schritt entfernen", "Quitar paso", "移除步骤"],
+        "Add handle" => ["", "Griff hinzufügen", "Añadir asa", "添加控制柄"],
+        "Change handle" => ["", "Griff ändern", "Cambiar el asa", "更改控制柄"],
+        "Move handles" => ["", "Griffe ziehen", "Mover asas", "移动控制柄"],
+        "Turn handles" => ["", "Griffe drehen", "Girar asas", "旋转控制柄"],
+        "Put handles back" => ["", "Griffe zurück", "Asas en reposo", "控制柄复位"],
+        "Remove handle" => ["", "Griff löschen", "Quitar el asa", "移除控制柄"],
+        "Add region" => ["", "Bereich hinzufügen", "Añadir región", "添加区域"],
+        "Change region" => ["", "Bereich ändern", "Cambiar la región", "更改区域"],
+        "Remove region" => ["", "Bereich löschen", "Quitar la región", "移除区域"],
+        "Reorder regions" => [
+            "",
+            "Bereiche umordnen",
+            "Reordenar regiones",
+            "调整区域顺序",
+        ],
+        "Add contour" => ["", "Umriss übernehmen", "Tomar contorno", "采用轮廓"],
+        "Remove contour" => ["", "Umriss entfernen", "Quitar contorno", "移除轮廓"],
+        "Take all shapes" => ["", "Alle Formen", "Todas las formas", "全部形状"],
+        "Add landmark" => ["", "Landmarke hinzufügen", "Añadir punto", "添加标志点"],
+        "Change figure" => ["", "Figur ändern", "Cambiar la figura", "更改图形"],
         "Reorder steps" => ["", "Schritte umordnen", "Reordenar pasos", "调整步骤顺序"],
         _ => [""; Lang::COUNT],
     };
@@ -242,6 +263,17 @@ pub(crate) fn subject_title(subject_ref: &SubjectRef) -> String {
             [one] => or(&one.name, bar::w().own_surface),
             _ => bar::w().own_surfaces.to_owned(),
         },
+    }
+}
+
+/// The author's name for a handle of a figure, else its kind and number.
+pub(crate) fn handle(index: usize, handle: &Handle) -> String {
+    let w = figure::w();
+    match (&handle.name, &handle.hold) {
+        (Some(name), _) if !name.is_empty() => name.clone(),
+        (_, Hold::Region(region)) => region.clone(),
+        (_, Hold::Point(_)) => fill(w.pin_n, &[&(index + 1)]),
+        (_, Hold::Line { .. }) => fill(w.line_n, &[&(index + 1)]),
     }
 }
 

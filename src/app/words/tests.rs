@@ -13,6 +13,7 @@ fn lines() -> impl Iterator<Item = &'static Line> {
         controls::LINES,
         faults::LINES,
         facts::LINES,
+        figure::LINES,
         files::LINES,
         kept::LINES,
         keys::LINES,

@@ -88,6 +88,11 @@ impl Rig {
         }
     }
 
+    /// True if contours or a likeness change the shape before handles move it.
+    pub fn has_shape(&self) -> bool {
+        self.shape.is_some()
+    }
+
     /// The mesh that it bends.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
@@ -258,6 +263,11 @@ impl Drag {
     /// Where each vertex is now.
     pub fn places(&self) -> &[DVec2] {
         &self.state.places
+    }
+
+    /// Where each vertex is after the shape stage; `None` if there is none.
+    pub fn base(&self) -> Option<&[DVec2]> {
+        self.rig.has_shape().then(|| self.state.base())
     }
 }
 

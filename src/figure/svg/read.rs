@@ -1,4 +1,4 @@
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DAffine2, DMat2, DVec2, dvec2};
 use usvg::tiny_skia_path::PathSegment;
@@ -7,6 +7,7 @@ use super::error::SvgError;
 use super::limits::{MAX_ELEMENTS, check_elements, check_nesting, xml_error};
 use super::paint::{Look, affine, look};
 use super::path::{Outline, Segment};
+use crate::data::PlateShape;
 use crate::figure::outlines::distance_squared;
 use crate::figure::plane::Plane;
 use crate::figure::regions::{Fill, Mask, add_filled};
@@ -15,6 +16,10 @@ use crate::figure::regions::{Fill, Mask, add_filled};
 const MAX_BYTES: usize = 8 << 20;
 /// Curves are divided so that they are missed by at most this, pixels of the map.
 const TOLERANCE: f64 = 1.0 / 16.0;
+/// By how much the curves of a shape may be missed where it is pointed at, subject units.
+const POINTED_TOLERANCE: f64 = 1e-3;
+/// Points of all shapes that can be pointed at: beyond that a drawing has no parts that one would click.
+const MOST_POINTED: usize = 200_000;
 
 /// The shapes of an SVG. Coordinates are in units of its view box, from its upper left corner, y down.
 #[derive(Clone, Debug)]
@@ -180,6 +185,38 @@ impl Drawing {
             .filter(|(i, _)| Some(*i) == number)
             .map(|(_, shape)| shape)
             .collect()
+    }
+
+    /// The filled shapes as a click finds them, in the plane of a figure.
+    pub fn pointed(&self) -> Vec<PlateShape> {
+        let longest = self.size.max_element();
+        let to_plane = |at: DVec2| {
+            let place = (at - 0.5 * self.size) / longest;
+            dvec2(place.x, -place.y)
+        };
+        let mut count_of_id: BTreeMap<&str, u32> = BTreeMap::new();
+        for id in self.filled().flat_map(|(_, shape)| &shape.ids) {
+            *count_of_id.entry(id).or_default() += 1;
+        }
+        let mut left = MOST_POINTED;
+        let mut shapes = Vec::new();
+        for (number, shape) in self.filled() {
+            let lines = shape.outline.mapped(to_plane).flattened(POINTED_TOLERANCE);
+            let count = lines.iter().map(Vec::len).sum::<usize>();
+            let Some(rest) = left.checked_sub(count) else {
+                break;
+            };
+            left = rest;
+            let own_id = shape.id().filter(|id| count_of_id.get(id) == Some(&1));
+            shapes.push(PlateShape {
+                path: own_id.map_or_else(|| number.to_string(), str::to_owned),
+                lines: (lines.iter())
+                    .map(|line| line.iter().map(|at| at.as_vec2()).collect())
+                    .collect(),
+                is_even_odd: shape.fill == Some(true),
+            });
+        }
+        shapes
     }
 
     /// What a region takes by a path, in map space; none if there is no such element or shape.

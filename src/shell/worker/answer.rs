@@ -1,7 +1,8 @@
 //! What a part posts to the page: an array that begins with a word. `["module", WebAssembly.Module]` comes first, if
 //! the page did not send the module; `["field", header as JSON, Float32Array]` or `["field", undefined, why not]` is
-//! the answer to a displacement field; `["bent", places, order, notices as JSON, mesh]` or `["bent", undefined, why
-//! not]` that to a figure, its mesh left out where it is that of the answer before. The others are the events of a
+//! the answer to a displacement field; `["bent", places, order, notices as JSON, mesh, places before handles
+//! move them, regions as JSON]` or `["bent", undefined, why
+//! not]` that to a figure, its mesh undefined where it is that of the answer before. The others are the events of a
 //! load: [`pieces`] of the subject, such as `["begin", header as JSON]` and `["scalars", typed array]`,
 //! `["surface-array", index, array]` for each array of a surface and then `["surface"]`, `["progress", fraction,
 //! what]`, `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`, `["label-file", sha256, header as JSON,
@@ -11,6 +12,7 @@
 
 use std::sync::Arc;
 
+use glam::Vec2;
 use js_sys::{Array, ArrayBuffer, Float32Array, Reflect, Uint8Array, Uint32Array};
 use serde_json::Value;
 use wasm_bindgen::prelude::*;
@@ -20,7 +22,8 @@ use super::pieces;
 use super::task::{Part, reading_of, text_of_reading};
 use crate::assets::{BendAnswer, LoadEvent, RawQuestion};
 use crate::data::{Sheet, SheetMesh, SubjectPart, SurfaceArrays};
-use crate::document::Reading;
+use crate::document::figure::Figure;
+use crate::document::{Reading, figure_from_text, figure_to_text};
 use crate::load::{FaultKind, FieldFile, FileFault, LabelFile};
 
 /// What the page gets from a part.
@@ -101,6 +104,11 @@ impl Answers {
                 mesh: Arc::clone(self.mesh.as_ref()?),
                 places: Arc::new(pieces::unpacked_places(&message.get(1))?),
                 order: Arc::new(message.get(2).dyn_ref::<Uint32Array>()?.to_vec()),
+                base: pieces::unpacked_places(&message.get(5)).map(Arc::new),
+            },
+            regions: match message.get(6).as_string() {
+                Some(text) => Some(figure_from_text(&text).ok()?.regions),
+                None => None,
             },
             notices: notices.collect::<Option<_>>()?,
         })
@@ -177,13 +185,29 @@ pub mod post {
     pub fn bent(answer: &BendAnswer, known: Option<&Arc<SheetMesh>>) -> Result<(), JsValue> {
         let message = Array::of1(&"bent".into());
         match answer {
-            BendAnswer::Bent { sheet, notices } => {
-                let places: &[f32] = bytemuck::cast_slice(&sheet.places);
-                message.push(&Float32Array::from(places));
+            BendAnswer::Bent {
+                sheet,
+                regions,
+                notices,
+            } => {
+                let packed = |places: &[Vec2]| Float32Array::from(bytemuck::cast_slice(places));
+                message.push(&packed(&sheet.places));
                 message.push(&Uint32Array::from(sheet.order.as_slice()));
                 message.push(&serde_json::json!(notices).to_string().into());
-                if !known.is_some_and(|known| Arc::ptr_eq(known, &sheet.mesh)) {
-                    message.push(&pieces::packed_mesh(&sheet.mesh));
+                message.push(&match known {
+                    Some(known) if Arc::ptr_eq(known, &sheet.mesh) => JsValue::UNDEFINED,
+                    _ => pieces::packed_mesh(&sheet.mesh),
+                });
+                message.push(&match &sheet.base {
+                    Some(base) => packed(base).into(),
+                    None => JsValue::UNDEFINED,
+                });
+                if let Some(regions) = regions {
+                    let figure = Figure {
+                        regions: regions.clone(),
+                        ..Figure::default()
+                    };
+                    message.push(&figure_to_text(&figure).into());
                 }
             }
             BendAnswer::Failed(why) | BendAnswer::Lost(why) => {

@@ -5,11 +5,13 @@ use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
 use js_sys::{Array, Float32Array, Float64Array, Int16Array, Uint8Array, Uint16Array, Uint32Array};
-use serde_json::Value;
+use serde_json::{Value, json as value};
 use wasm_bindgen::prelude::*;
 
 use super::header::{json_of, volume_of};
-use crate::data::{Plate, PlateOrigin, SheetMesh, SubjectPart, Surface, SurfaceArrays, Voxels};
+use crate::data::{
+    Plate, PlateOrigin, PlateShape, SheetMesh, SubjectPart, Surface, SurfaceArrays, Voxels,
+};
 use crate::pictures::Picture;
 
 /// The word of a piece, and what it holds.
@@ -52,7 +54,48 @@ pub fn packed_plate(plate: &Plate) -> JsValue {
         PlateOrigin::Builtin(name) => name.into(),
     };
     let pixels = Uint8Array::from(plate.picture.pixels.as_flattened());
-    Array::of3(&Float64Array::from(numbers.as_slice()), &pixels, &origin).into()
+    let numbers = Float64Array::from(numbers.as_slice());
+    Array::of4(&numbers, &pixels, &origin, &packed_shapes(&plate.shapes)).into()
+}
+
+/// The shapes of a drawing: their paths and rules and how many points each line has, then all points.
+fn packed_shapes(shapes: &[PlateShape]) -> JsValue {
+    let heads: Vec<Value> = (shapes.iter())
+        .map(|shape| {
+            let counts: Vec<usize> = shape.lines.iter().map(Vec::len).collect();
+            value!([shape.path, shape.is_even_odd, counts])
+        })
+        .collect();
+    let all = shapes.iter().flat_map(|shape| shape.lines.iter().flatten());
+    let points: Vec<Vec2> = all.copied().collect();
+    Array::of2(
+        &value!(heads).to_string().into(),
+        &Float32Array::from(bytemuck::cast_slice(&points)),
+    )
+    .into()
+}
+
+/// The shapes of a drawing from [`packed_shapes`]; `None` if it is none.
+fn unpacked_shapes(held: &JsValue) -> Option<Vec<PlateShape>> {
+    let held: &Array = held.dyn_ref()?;
+    let heads = json(&held.get(0))?;
+    let points = unpacked_places(&held.get(1))?;
+    let mut points = points.as_slice();
+    let shape = |head: &Value| {
+        let line = |count: &Value| {
+            let (line, rest) = points.split_at_checked(count.as_u64()? as usize)?;
+            points = rest;
+            Some(line.to_vec())
+        };
+        Some(PlateShape {
+            path: head.get(0)?.as_str()?.to_owned(),
+            is_even_odd: head.get(1)?.as_bool()?,
+            lines: (head.get(2)?.as_array()?.iter())
+                .map(line)
+                .collect::<Option<_>>()?,
+        })
+    };
+    heads.as_array()?.iter().map(shape).collect()
 }
 
 /// A plate from [`packed_plate`]; `None` if it is none.
@@ -75,6 +118,7 @@ pub fn unpacked_plate(held: &JsValue) -> Option<Plate> {
             is_of_inks: false,
         },
         origin,
+        shapes: unpacked_shapes(&held.get(3))?,
     })
 }
 
@@ -85,7 +129,7 @@ pub fn packed_mesh(mesh: &SheetMesh) -> JsValue {
         &Float32Array::from(mesh.colors.as_flattened()),
         &Uint32Array::from(mesh.triangles.as_flattened()),
         &Uint16Array::from(mesh.region_of.as_slice()),
-        &serde_json::json!(mesh.regions).to_string().into(),
+        &value!(mesh.regions).to_string().into(),
     )
     .into()
 }

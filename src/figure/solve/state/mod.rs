@@ -187,6 +187,11 @@ impl State {
         energy
     }
 
+    /// The base shape.
+    pub(crate) fn base(&self) -> &[DVec2] {
+        &self.base
+    }
+
     /// Turn and scale of the context.
     pub(crate) fn context_found(&self) -> Option<[f64; 2]> {
         self.kept
