@@ -444,7 +444,7 @@ const CONSTRAIN_COORDINATE: u32 = 2u;
 const CONSTRAIN_RIGID: u32 = 3u;
 /// Bit of the pipeline constant `has_constraints`: a group gives way to tissue that templates before it have moved.
 const CONSTRAIN_LATE: u32 = 4u;
-/// Bit of the same: a group moves several segments, each as a whole.
+/// Bit of the same: a group moves other segments as a whole than set 0 alone.
 const CONSTRAIN_MANY: u32 = 5u;
 
 /// Kept tissue of a document.

@@ -29,3 +29,25 @@ export function startPart(part, make = () => new Worker(WORKER, { type: "module"
     return null;
   }
 }
+
+/** Built-in subjects that are volumes. */
+const VOLUMES = ["bar", "cube", "tomato", "piggybank", "head", "hand", "torso", "knee"];
+
+/**
+ * The part that the subject of a document needs, as far as its JSON tells without the viewer; else null, and the viewer tells.
+ * `base` is what relative addresses are relative to.
+ */
+export function partOf(json, base) {
+  let subject;
+  try {
+    subject = JSON.parse(json).subject ?? { builtin: "head" };
+  } catch {
+    return null;
+  }
+  if (VOLUMES.includes(subject?.builtin)) return "subjects";
+  if (typeof subject?.src !== "string" || subject.builtin !== undefined || !URL.canParse(subject.src, base)) return null;
+  const { origin, pathname } = new URL(subject.src, base);
+  if (origin !== self.origin) return null;
+  if (/\.(nii|nii\.gz|nrrd|nhdr)$/i.test(pathname)) return "scans";
+  return /\.(stl|ply|obj|gltf|glb)$/i.test(pathname) ? "meshes" : null;
+}

@@ -1,7 +1,7 @@
 // Starts the viewer on the page's canvas, and says in plain words what is the matter where it cannot.
 // No logic lives here that is worth a unit test: decisions are made in src/shell/web.rs.
 
-import { WORKER, startPart } from "./parts.js";
+import { WORKER, partOf, startPart } from "./parts.js";
 import { Texts } from "./texts.js";
 
 const element = (id) => document.getElementById(id);
@@ -69,10 +69,25 @@ function showsTheHead() {
   }
 }
 
+/** The part that a document beside the page needs, which the address names; null where only the viewer can tell. */
+async function partOfDocument() {
+  const name = location.hash.length > 1 ? null : new URLSearchParams(location.search).get("doc");
+  if (name === null || !URL.canParse(name, location.href)) return null;
+  const address = new URL(name, location.href);
+  if (address.origin !== location.origin) return null;
+  try {
+    const response = await fetch(address);
+    return response.ok ? partOf(await response.text(), address.href) : null;
+  } catch {
+    return null;
+  }
+}
+
 async function main() {
   let fabrica;
   let program;
   let early = navigator.gpu && showsTheHead() ? startPart("subjects") : null;
+  const named = navigator.gpu && !early ? partOfDocument().then((part) => part && startPart(part)) : null;
   try {
     fabrica = await import("./fabrica.js");
     program = await fabrica.default({ module_or_path: new URL("./fabrica_bg.wasm", import.meta.url) });
@@ -86,8 +101,9 @@ async function main() {
     return;
   }
   if (!early && navigator.gpu) {
-    const part = fabrica.part_of_address();
-    early = part ? startPart(part) : null;
+    early = await named;
+    const part = early ? null : fabrica.part_of_address();
+    early ??= part ? startPart(part) : null;
   }
   const keep = "Nothing is lost: the illustration is in this page's address.";
   let adapter = null;

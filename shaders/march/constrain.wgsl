@@ -91,6 +91,19 @@ fn guarded(pos: vec3f, head: u32, sets: u32, by_voxels: bool) -> Guarded {
     return Guarded(is_in, distance_to_kept(there.pos, sets, 0.0, kept.exact_slab));
 }
 
+/// True if what the templates before a group have at a point is of one of the sets, which end at their voxels.
+fn is_of_bodies(pos: vec3f, head: u32, sets: u32) -> bool {
+    let there = before_group(pos, head);
+    return is_labelled(there.pos, sets) && there.continuity >= 0.0;
+}
+
+/// How far from a body a point lies, for the seam around it: by as much as distances may be too long they count little,
+/// so that there is no step where the segment ends.
+fn way_to_body(place: Guarded) -> f32 {
+    let told = max(place.away, 0.0);
+    return told * told / (told + max(kept.distance_dims.w, 1e-6));
+}
+
 /// How firmly a body holds tissue that lies `away` from it: 1 at its surface, to 0 at the end of its seam, where it
 /// lets go without a crease.
 fn hold(away: f32, seam: f32) -> f32 {
@@ -107,40 +120,36 @@ fn hold(away: f32, seam: f32) -> f32 {
 fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     let sets = kept.items[head].gives_way_to;
     let seams = kept.seams[head];
-    let is_one = (has_constraints & (1u << CONSTRAIN_MANY)) == 0u;
-    var away = vec4f(0.0);
-    var widths = vec4f(0.0);
     var by = vec3f(0.0);
     var total = 1.0;
-    var left = sets;
-    loop {
-        let channel = firstTrailingBit(left);
-        let rigid = apply_affine(kept.motions[4u * head + channel], pos);
-        let place = guarded(rigid, head, 1u << channel, true);
+    if (has_constraints & (1u << CONSTRAIN_MANY)) == 0u {
+        // The number of the set stands here: software rasterisers read a uniform lane by lane at a place that they do
+        // not know.
+        let rigid = apply_affine(kept.motions[4u * head], pos);
+        let place = guarded(rigid, head, 1u, true);
         if place.is_in {
             return Mapped(rigid, 1.0);
         }
-        // By as much as distances may be too long they count little: no step where the segment ends.
-        let told = max(place.away, 0.0);
-        let far = told * told / (told + max(kept.distance_dims.w, 1e-6));
-        let held = hold(far, seams[channel]);
-        if is_one {
-            total = 1.0 / max(1.0 - held, 1e-7);
-            by = held * total * (rigid - whole.pos);
-            break;
+        let held = hold(way_to_body(place), seams.x);
+        total = 1.0 / max(1.0 - held, 1e-7);
+        by = held * total * (rigid - whole.pos);
+    } else {
+        var away = vec4f(0.0);
+        var widths = vec4f(0.0);
+        for (var left = sets; left != 0u; left &= left - 1u) {
+            let channel = firstTrailingBit(left);
+            let rigid = apply_affine(kept.motions[4u * head + channel], pos);
+            let place = guarded(rigid, head, 1u << channel, true);
+            if place.is_in {
+                return Mapped(rigid, 1.0);
+            }
+            away[channel] = way_to_body(place);
+            widths[channel] = seams[channel] * hold(away[channel], seams[channel]);
         }
-        away[channel] = far;
-        widths[channel] = seams[channel] * held;
-        left &= left - 1u;
-        if left == 0u {
-            break;
-        }
-    }
-    if !is_one {
         // Beside a body of wide seam one of a narrow seam has a wide one too: they share the way between them.
         let squares = widths * widths;
         let all_squares = squares.x + squares.y + squares.z + squares.w;
-        for (left = sets; left != 0u; left &= left - 1u) {
+        for (var left = sets; left != 0u; left &= left - 1u) {
             let channel = firstTrailingBit(left);
             let seam = sqrt(seams[channel] * seams[channel] + max(all_squares - squares[channel], 0.0));
             let held = hold(away[channel], seam);
@@ -151,19 +160,22 @@ fn moved_as_a_whole(pos: vec3f, head: u32, whole: Mapped) -> Mapped {
     }
     var source = whole.pos + by / total;
     let voxel = kept.spacing;
-    var place = guarded(source, head, sets, true);
-    for (var turn = 0u; turn < 2u && place.is_in; turn++) {
+    var is_in = is_of_bodies(source, head, sets);
+    // Distances are read on the way out alone, in a loop whose turns are not known before: one of two turns becomes
+    // branches, which software rasterisers run everywhere.
+    for (var turns = select(0u, 2u, is_in); turns > 0u; turns = select(0u, turns - 1u, is_in)) {
+        let away = distance_to_kept(before_group(source, head).pos, sets, 0.0, kept.exact_slab);
         // The way out is up the distance.
         var slope = vec3f(0.0);
         for (var axis = 0u; axis < 3u; axis++) {
             let along = select(vec3f(0.0), vec3f(voxel), vec3u(0u, 1u, 2u) == vec3u(axis));
             let there = before_group(source + along, head);
-            slope += along * (distance_to_kept(there.pos, sets, 0.0, kept.exact_slab) - place.away);
+            slope += along * (distance_to_kept(there.pos, sets, 0.0, kept.exact_slab) - away);
         }
-        source += slope / max(length(slope), 1e-9) * (0.5 * voxel - place.away);
-        place = guarded(source, head, sets, true);
+        source += slope / max(length(slope), 1e-9) * (0.5 * voxel - away);
+        is_in = is_of_bodies(source, head, sets);
     }
-    return Mapped(source, select(whole.continuity, -1.0, place.is_in));
+    return Mapped(source, select(whole.continuity, -1.0, is_in));
 }
 
 /// The map of one group, with its constraint.

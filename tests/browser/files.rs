@@ -42,6 +42,50 @@ fn dropped_scan_is_drawn() {
     });
 }
 
+/// Pixels that DICOM files have packed are unpacked in the page: by JPEG 2000 and JPEG-LS the same slice as without,
+/// and one by JPEG.
+#[test]
+fn packed_slices_are_drawn() {
+    let Some(data) = data_folder("packed_slices_are_drawn") else {
+        return;
+    };
+    with_browser(BrowserGpu::Software, |session| async move {
+        let mut plain = None;
+        for name in [
+            "MR_small",
+            "MR_small_jp2klossless",
+            "MR_small_jpeg_ls_lossless",
+            "SC_rgb_jpeg_dcmtk",
+        ] {
+            let file = format!("{name}.dcm");
+            let bytes = std::fs::read(data.join("dicom/single").join(&file)).expect("a slice");
+            session.server.add(&file, bytes);
+            // A slice lies flat: it is seen from above.
+            let link = payload(&format!(
+                r#"{{"fabrica":1,"subject":{{"src":"{file}"}},"camera":{{"rotate":[-0.5,0,0,0.866]}}}}"#
+            ));
+            let tab = session.coarse_viewer(&format!("#{link}"), PAGE).await;
+            let is_drawn = |page: &image::RgbaImage| drawn_pixels(&object_part(page)) > 1000;
+            tab.drawn(name, is_drawn).await;
+            tab.settled().await;
+            let picture = object_part(&tab.picture(name).await);
+            tab.assert_no_complaints().await;
+            tab.page.close().await.expect("the tab closes");
+            let Some(plain) = &plain else {
+                plain = Some(picture);
+                continue;
+            };
+            let found = difference(plain, &picture, WHITE);
+            println!("{name}: {found:?} from the slice without packing");
+            // JPEG 2000 is off by one stored unit in some voxels (tests/fast/load_dicom.rs).
+            match name.starts_with("MR_small") {
+                true => assert!(found.mean < 1.0, "{name}: {found:?}"),
+                false => assert!(found.mean > 3.0, "{name} is another slice: {found:?}"),
+            }
+        }
+    });
+}
+
 /// A document from another host waits for a tap on a message that names the host.
 #[test]
 fn foreign_document_waits_for_a_tap() {

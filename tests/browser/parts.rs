@@ -126,6 +126,52 @@ fn a_link_to_a_scan_fetches_no_maker_of_subjects() {
     });
 }
 
+/// What a document beside the page needs is fetched while the programs of the page and of an embed are on their way.
+#[test]
+fn parts_for_a_document_come_beside_the_viewer() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let server = &session.server;
+        server.add("ball.nrrd", small_scan());
+        let lesson = br#"{"fabrica":1,"title":"early","subject":{"src":"ball.nrrd"}}"#;
+        server.add("lesson.json", lesson.to_vec());
+        let host = "<!doctype html><script>addEventListener('ready', () => (window.isReady = true));</script><script type=module src=fabrica-viewer.js></script><fabrica-viewer src=lesson.json></fabrica-viewer>";
+        server.add("host.html", host.as_bytes().to_vec());
+        let title = "JSON.parse(window.fabrica?.viewer?.get_document() || '{}').title";
+        let page = format!("{title} === 'early'");
+        let page = ("?doc=lesson.json", "fabrica_bg.wasm", page);
+        let embed = "window.isReady === true".to_owned();
+        let embed = ("host.html", "fabrica_reader_bg.wasm", embed);
+        for (i, (path, program, is_open)) in [page, embed].into_iter().enumerate() {
+            server.hold(program, true);
+            let tab = session.open_coarse(path, PAGE).await;
+            let start = std::time::Instant::now();
+            while count(server, "fabrica_scans_bg.wasm") == i {
+                assert!(
+                    start.elapsed().as_secs() < 60,
+                    "{path}: {:?}",
+                    programs(server)
+                );
+                hand::pause(30).await;
+            }
+            server.hold(program, false);
+            tab.wait_until(&is_open, 60).await;
+            if i == 0 {
+                tab.settled().await;
+            }
+            let asked = count(server, "fabrica_scans_bg.wasm");
+            assert_eq!(
+                asked,
+                i + 1,
+                "{path}: the part is lent: {:?}",
+                programs(server)
+            );
+            assert_eq!(count(server, "fabrica_subjects"), 0, "{path}");
+            tab.assert_no_complaints().await;
+            tab.page.close().await.expect("the tab closes");
+        }
+    });
+}
+
 /// A real panic in a part: the program as it is shipped, in a browser that says that a file's piece has more bytes than
 /// this machine can hold. The viewer tells it in words with the panic's own beside them, and the next scan is read.
 #[test]

@@ -2,7 +2,8 @@
 
 import { Captions } from "./captions.js";
 import { Controls } from "./controls.js";
-import { bindings, seconds, theEngine } from "./engine.js";
+import { partOf } from "../parts.js";
+import { askEarly, bindings, seconds, theEngine } from "./engine.js";
 import { Hands } from "./hands.js";
 import { Marks } from "./marks.js";
 import { STYLE } from "./style.js";
@@ -298,6 +299,7 @@ export class Embed {
         if (isStale()) return;
         source.text = await fetchText(base, source.address);
       }
+      askEarly(partOf(source.text, base));
       const { outline_of: outlineOf } = await reading;
       const outline = JSON.parse(outlineOf(source.text, base));
       if (isStale()) return;

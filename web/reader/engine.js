@@ -34,6 +34,23 @@ export function bindings() {
   return program;
 }
 
+/** A part that was asked for before there is an engine. */
+let asked = null;
+
+/** Asks for a part while the reader's program is still on its way. Parts of an engine that runs are asked for by itself. */
+export function askEarly(part) {
+  if (part && !engine) asked ??= startPart(part, () => new Background());
+}
+
+/** Takes the part that was asked for, or asks for it now. */
+function takeEarly(part) {
+  const early = asked;
+  asked = null;
+  if (early?.part === part) return early;
+  early?.worker.terminate();
+  return part ? startPart(part, () => new Background()) : null;
+}
+
 let engine;
 /**
  * The page's engine: started by the first picture, ended with the last. `part` is the part of the program that the first one's
@@ -54,11 +71,10 @@ export async function theEngine(part) {
 
 async function start(part) {
   const { Reader } = await bindings();
-  const make = () => new Background();
-  const early = part ? startPart(part, make) : null;
+  const early = takeEarly(part);
   const made = new Engine();
   try {
-    made.reader = await Reader.start(make, () => made.hear());
+    made.reader = await Reader.start(() => new Background(), () => made.hear());
   } catch (error) {
     early?.worker.terminate();
     throw error;

@@ -279,7 +279,7 @@ pub const CONSTRAIN_RIGID: u32 = 3;
 /// Bit of [`KeptTissue::constraints`](super::kept::KeptTissue::constraints): a group gives way to tissue that templates
 /// before it have moved.
 pub const CONSTRAIN_LATE: u32 = 4;
-/// Bit of the same: a group moves several segments, each as a whole.
+/// Bit of the same: a group moves other segments as a whole than set 0 alone.
 pub const CONSTRAIN_MANY: u32 = 5;
 
 /// What one template leaves alone.

@@ -189,7 +189,7 @@ impl KeptTissue {
                 CONSTRAIN_RIGID => head as u32,
                 _ => item.run,
             };
-            let is_many = item.constraint == CONSTRAIN_RIGID && item.gives_way_to.count_ones() > 1;
+            let is_many = item.constraint == CONSTRAIN_RIGID && item.gives_way_to != 1;
             kept.constraints |= u32::from(item.before != 0) << CONSTRAIN_LATE
                 | u32::from(is_many) << CONSTRAIN_MANY;
         }
