@@ -159,6 +159,8 @@ fn pins_are_set_and_dragged() {
     let bends = window.log.0.borrow().bends;
     let at = spot(&window, 0.36, -0.08);
     window.drag_on(at, vec2(-20.0, -60.0), 6);
+    window.look("figure_followed");
+    window.harness.drop_at(at + vec2(-20.0, -60.0));
     window.settle();
     window.look("figure_dragged");
     let moved = handles(&window)[2].motion.by;
@@ -169,7 +171,7 @@ fn pins_are_set_and_dragged() {
         "it follows the hand: {bends:?} {after:?}"
     );
     assert!(after[0] > bends[0], "and comes to rest");
-    assert!(window.harness.query_by_label("Turn of Pin 3").is_some());
+    assert!(window.harness.query_by_label("Turn of Pin 3: Found by itself").is_some());
     window.undo();
     window.settle();
     assert_eq!(handles(&window)[2].motion.by, glam::DVec2::ZERO);

@@ -544,7 +544,7 @@ impl Session {
         self.applied(result, false)
     }
 
-    /// True if the figure that is shown changes from one frame to the next: in a passage, and while a handle is dragged.
+    /// True if the figure that is shown changes from frame to frame: in a passage, and while a handle is dragged.
     pub fn is_passing(&self) -> bool {
         self.mode.is_moving() || (self.view.is_figure() && self.history.is_in_drag())
     }

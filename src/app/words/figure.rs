@@ -37,7 +37,7 @@ words! {
         behind: "Further back", "Weiter nach hinten", "Más atrás", "后移";
         front: "Further in front", "Weiter nach vorn", "Más adelante", "前移";
         delete_region: "Delete the region", "Bereich löschen", "Eliminar la región", "删除区域";
-        hold: "Move as a whole", "Als Ganzes bewegen", "Mover entera", "整体移动";
+        hold: "Move by a handle", "An einem Griff bewegen", "Mover con un asa", "用控制柄移动";
         material: "Material", "Material", "Material", "材质";
         material_hint: "How strongly the region resists bending", "Wie stark der Bereich dem Biegen widersteht", "Cuánto resiste la región a doblarse", "区域抵抗弯曲的程度";
         bone: "Bone: rigid", "Knochen: starr", "Hueso: rígido", "骨：刚性";

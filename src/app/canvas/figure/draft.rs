@@ -1,6 +1,6 @@
 use egui::{Pos2, Rect, Response, Shape, Stroke, Ui};
 
-use super::{place, seen};
+use super::plane::{place, seen};
 use crate::app::canvas::projection::Projection;
 use crate::app::canvas::tools::head_bar;
 use crate::app::kit::icon::Icon;

@@ -1,7 +1,7 @@
 use egui::{Pos2, Response, Shape, Stroke, Ui};
 use glam::{Vec2, Vec3};
 
-use super::seen;
+use super::plane::seen;
 use crate::app::canvas::points::{Dot, Moved, handle, is_hot};
 use crate::app::canvas::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;

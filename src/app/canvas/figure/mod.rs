@@ -5,9 +5,9 @@ mod draft;
 mod handles;
 mod hatching;
 mod overlays;
+mod plane;
 
-use egui::{Pos2, Rect, Response, Ui};
-use glam::{Vec2, Vec3};
+use egui::{Rect, Response, Ui};
 
 use self::draft::Hand;
 use self::overlays::Borders;
@@ -19,17 +19,6 @@ use crate::app::session::{Command, Session};
 pub(crate) struct FigureCanvas {
     borders: Option<Borders>,
     hand: Hand,
-}
-
-/// Where a place of the figure's plane is seen.
-fn seen(view: &Projection, at: Vec2) -> Option<Pos2> {
-    view.ui_from_subject(at.extend(0.0))
-}
-
-/// The place of the figure's plane under a place of the window.
-fn place(view: &Projection, pos: Pos2) -> Option<Vec2> {
-    let place = view.on_plane(pos, Vec3::ZERO, Vec3::Z)?;
-    Some(place.truncate())
 }
 
 impl FigureCanvas {

@@ -5,7 +5,7 @@ use egui::{Color32, Painter, Pos2, Stroke};
 use glam::Vec2;
 
 use super::hatching;
-use super::seen;
+use super::plane::seen;
 use crate::app::canvas::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;
 use crate::app::session::Session;

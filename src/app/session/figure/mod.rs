@@ -2,8 +2,10 @@
 //! them. Places are those of the figure's plane: at rest as in the source, bent as they are seen.
 
 mod edits;
+mod handles;
 mod place;
 mod refer;
+mod regions;
 mod run;
 mod state;
 #[cfg(test)]

@@ -3,6 +3,9 @@ use glam::{DVec2, Vec2};
 use super::state::FigureView;
 use crate::document::figure::{Handle, Hold};
 
+/// Less than this is no move, subject units.
+pub(super) const NO_MOVE: f32 = 1e-4;
+
 /// Where the place that a handle holds is before handles move it: a pin's point, a region's middle, a line's first
 /// point. `None` while the figure is not bent yet, or has no such region.
 fn anchor(view: &FigureView, handle: &Handle) -> Option<DVec2> {

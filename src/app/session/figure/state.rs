@@ -36,7 +36,7 @@ pub enum Overlay {
     Outlines,
     /// Rigidity, as hatching.
     Rigidity,
-    /// The triangles.
+    /// Edges of all triangles.
     Mesh,
     /// Pins, lines and their rings.
     Handles,
@@ -68,7 +68,7 @@ pub enum Takes {
 /// Another picture beside the figure, of which places are taken over: only they go into the document.
 #[derive(Clone, Debug)]
 pub struct Reference {
-    /// The picture.
+    /// Its pixels are shown and never kept.
     pub plate: Arc<Plate>,
     /// What is taken over.
     pub takes: Takes,
