@@ -171,7 +171,12 @@ fn pins_are_set_and_dragged() {
         "it follows the hand: {bends:?} {after:?}"
     );
     assert!(after[0] > bends[0], "and comes to rest");
-    assert!(window.harness.query_by_label("Turn of Pin 3: Found by itself").is_some());
+    assert!(
+        window
+            .harness
+            .query_by_label("Turn of Pin 3: Found by itself")
+            .is_some()
+    );
     window.undo();
     window.settle();
     assert_eq!(handles(&window)[2].motion.by, glam::DVec2::ZERO);

@@ -74,7 +74,7 @@ pub fn region_edit(session: &Session, name: &str, key: &str, value: Value) -> Ed
 }
 
 /// Sets the rigidity of a region.
-pub(in crate::app) fn rigidity_edit(session: &Session, name: &str, rigidity: Rigidity) -> Edit {
+pub fn rigidity_edit(session: &Session, name: &str, rigidity: Rigidity) -> Edit {
     region_edit(session, name, "rigidity", rigidity_value(rigidity))
 }
 

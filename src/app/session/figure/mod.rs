@@ -11,8 +11,7 @@ mod state;
 #[cfg(test)]
 mod tests;
 
-pub(in crate::app) use self::edits::rigidity_edit;
-pub use self::edits::{HandleKey, figure_edit, handle_edit, region_edit};
+pub use self::edits::{HandleKey, figure_edit, handle_edit, region_edit, rigidity_edit};
 pub use self::place::{handle_motion, handle_place, line_places};
 pub use self::state::{
     FigureCommand, FigureTool, FigureView, Overlay, Reference, ReferenceCommand, Takes,

@@ -44,7 +44,7 @@ impl Session {
     }
 
     /// Another picture has come, of which places are to be taken over.
-    pub(in crate::app) fn set_reference(&mut self, plate: Arc<Plate>) {
+    pub fn set_reference(&mut self, plate: Arc<Plate>) {
         let takes = match self.view.figure.region.is_some() {
             true => Takes::Outline,
             false => Takes::Landmarks,
