@@ -181,7 +181,7 @@ fn pins_are_set_and_dragged() {
     window.settle();
     assert_eq!(handles(&window)[2].motion.by, glam::DVec2::ZERO);
     // By keys: the next pin, a bit to the left, turned, put back, taken away.
-    window.harness.get_by_label("Pin 2").focus();
+    window.harness.get_by_label("Pin 2 in the picture").focus();
     window.settle();
     window.press(Key::ArrowLeft);
     window.settle();

@@ -2,7 +2,9 @@
 //! native program.
 
 use super::embed::{open_coarse, picture_of, ready, rests_at};
-use super::hand::{CTRL, Touch, changed, click, find, focus, mark, press, press_with};
+use super::hand::{
+    CTRL, Control, Touch, changed, click, controls, find, focus, mark, press, press_with,
+};
 use super::harness::Tab;
 use super::native::{drawn, promised};
 use super::parts::count;
@@ -245,7 +247,12 @@ fn a_plate_is_divided_and_bent_by_hand() {
         // The disc is made of bone.
         click(&tab, "region 1").await;
         mark(&tab, "figure").await;
-        click(&tab, "Material").await;
+        tab.settled().await;
+        // The row's label has the same name.
+        let is_combo = |control: &Control| control.name == "Material" && control.role == "ComboBox";
+        let combo = controls(&tab).await.into_iter().find(is_combo);
+        let (x, y) = combo.expect("a choice of materials").middle();
+        tab.click(x, y).await;
         click(&tab, "Bone: rigid").await;
         let figure = changed(&tab, "figure").await;
         assert_eq!(figure["regions"][0]["rigidity"], "rigid", "{figure}");
@@ -259,7 +266,7 @@ fn a_plate_is_divided_and_bent_by_hand() {
         }
         press(&tab, "Escape").await;
         mark(&tab, "figure").await;
-        let from = find(&tab, "Pin 3").await.middle();
+        let from = find(&tab, "Pin 3 in the picture").await.middle();
         tab.drag(from, (from.0 - 10.0, from.1 - 40.0), 6).await;
         let figure = changed(&tab, "figure").await;
         let by = &figure["handles"][2]["move"];
@@ -324,7 +331,7 @@ fn pins_are_set_by_fingers_and_by_keys() {
             tab.settled().await;
         }
         mark(&tab, "figure").await;
-        let (x, y) = find(&tab, "Pin 2").await.middle();
+        let (x, y) = find(&tab, "Pin 2 in the picture").await.middle();
         touch.swipe(&[[(x, y), (x - 5.0, y - 60.0)]]).await;
         let figure = changed(&tab, "figure").await;
         let by = &figure["handles"][1]["move"];

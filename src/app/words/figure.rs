@@ -77,6 +77,7 @@ words! {
         handles: "Handles", "Griffe", "Asas", "控制柄";
         pin_n: "Pin {0}", "Nadel {0}", "Alfiler {0}", "图钉 {0}";
         line_n: "Line {0}", "Linie {0}", "Línea {0}", "线 {0}";
+        spot: "{0} in the picture", "{0} im Bild", "{0} en la imagen", "图中的{0}";
         line_point: "{0}, point {1}", "{0}, Punkt {1}", "{0}, punto {1}", "{0}，点 {1}";
         holds: "Holds {0}", "Hält {0}", "Sujeta {0}", "固定{0}";
         all_back: "All back to rest", "Alle zurück", "Todas en reposo", "全部复位";

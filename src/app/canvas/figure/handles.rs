@@ -79,7 +79,8 @@ impl One<'_> {
         let Some(at) = handle_place(&self.session.view.figure, self.handle) else {
             return;
         };
-        let name = names::handle(self.index, self.handle);
+        // Its row in the panel has the plain name.
+        let name = fill(w().spot, &[&names::handle(self.index, self.handle)]);
         if let Some(Moved::To(to)) = self.dot(at, &name) {
             let by = to.truncate() - at;
             self.send(FigureCommand::MoveHandles(self.index, by));
