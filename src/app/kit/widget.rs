@@ -541,7 +541,8 @@ impl NumberRow<'_> {
             ));
             // Controls report what they round away as a change. The slider does so in every frame, and must not hide
             // what was typed into the field.
-            let tolerance = 0.5 * 0.1_f64.powi(self.decimals as i32);
+            // A value right between two that are shown is rounded away too.
+            let tolerance = 0.501 * 0.1_f64.powi(self.decimals as i32);
             let is_new = |change: &Change<f64>| (change.value() - self.value).abs() > tolerance;
             result = change(&slider, value)
                 .filter(is_new)
