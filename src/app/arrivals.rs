@@ -188,6 +188,7 @@ impl App {
     /// A picture has come of which places are to be taken over.
     fn end_reference(&mut self) {
         let whole = std::mem::take(&mut self.incoming).finish();
+        self.drop_incoming();
         self.session.load_ended();
         let subject = whole.and_then(Result::ok).map(|(subject, _)| subject);
         match subject.as_ref().and_then(Subject::plate) {

@@ -82,10 +82,10 @@ impl App {
         for notice in self.bending.take_notices() {
             self.session.notify(Gravity::Warning, notice, "");
         }
-        let sheet = match self.session.has_less_motion {
-            true => self.bending.sheet().cloned(),
-            false => self.bending.eased(self.session.now),
-        };
+        if self.session.has_less_motion {
+            self.bending.end_easing();
+        }
+        let sheet = self.bending.eased(self.session.now);
         let view = &mut self.session.view.figure;
         view.sheet.clone_from(&sheet);
         view.regions = Arc::clone(self.bending.regions());
@@ -96,9 +96,8 @@ impl App {
     pub(crate) fn is_bending(&self) -> bool {
         let plate = self.assets.subject().and_then(Subject::plate);
         let figure = self.session.shown().figure.as_ref();
-        let is_easing = self.bending.is_easing() && !self.session.has_less_motion;
         let is_passing = self.session.is_passing();
-        is_easing || self.bending.is_behind(plate, figure, is_passing)
+        self.bending.is_easing() || self.bending.is_behind(plate, figure, is_passing)
     }
 
     /// Tells the session which segments are shown: those of the scan, and those of the meshes beside it.

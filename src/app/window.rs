@@ -520,7 +520,7 @@ impl App {
             self.perform(effects);
         }
         let tool = self.session.tool();
-        if (tool.wants_place() || tool.for_figure().is_some()) && tool != before {
+        if tool.wants_place() && tool != before {
             // The next Enter places it; it does not press the button again that started it.
             let picture_id = self.picture_id(ui);
             ui.memory_mut(|memory| {
@@ -589,8 +589,7 @@ impl App {
             if is_sheet_open && !matches!(shortcut.command, Command::ToggleKeys | Command::Escape) {
                 continue;
             }
-            let tool = self.session.tool();
-            let is_placing = tool.wants_place() || tool.for_figure().is_some();
+            let is_placing = self.session.tool().wants_place();
             if key == egui::Key::Enter && !is_placing {
                 continue;
             }

@@ -204,6 +204,11 @@ impl Bending {
         })
     }
 
+    /// The sheet is that of the pose at rest at once.
+    pub fn end_easing(&mut self) {
+        self.easing = None;
+    }
+
     /// True while the sheet is on its way to the pose at rest.
     pub fn is_easing(&self) -> bool {
         self.easing.is_some()

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::frame::SubjectFrame;
-use crate::math::Aabb;
+use crate::math::{Aabb, winding};
 use crate::pictures::Picture;
 
 /// The picture of a figure: a plate, a photograph or a drawing that lies in the plane z = 0 of its subject space. Its
@@ -36,16 +36,11 @@ pub struct PlateShape {
 impl PlateShape {
     /// True if the shape fills a place of subject space.
     pub fn fills(&self, at: Vec2) -> bool {
-        let mut turns = 0;
-        for line in &self.lines {
-            for (i, from) in line.iter().enumerate() {
-                let to = line[(i + 1) % line.len()];
-                let is_up = from.y <= at.y && to.y > at.y;
-                let is_down = to.y <= at.y && from.y > at.y;
-                let side = (to - *from).perp_dot(at - *from);
-                turns += i32::from(is_up && side > 0.0) - i32::from(is_down && side < 0.0);
-            }
-        }
+        let around = |line: &Vec<Vec2>| {
+            let places = line.iter().map(|place| place.as_dvec2());
+            winding(places, at.as_dvec2())
+        };
+        let turns: i32 = self.lines.iter().map(around).sum();
         match self.is_even_odd {
             true => turns % 2 != 0,
             false => turns != 0,

@@ -94,14 +94,13 @@ impl Sheet {
     /// Where a place at rest is before handles move it: contours and a likeness may have carried it. A place that the
     /// figure does not have stays.
     pub fn before_handles(&self, at_rest: Vec2) -> Vec2 {
-        let base = self.base.as_ref();
-        let moved = base
-            .zip(self.forward(at_rest))
-            .and_then(|(base, (triangle, _))| {
-                let weights = self.weights(triangle, &self.mesh.rest, at_rest)?;
-                Some(self.mixed(triangle, base, weights))
-            });
-        moved.unwrap_or(at_rest)
+        let moved = || {
+            let base = self.base.as_ref()?;
+            let (triangle, _) = self.forward(at_rest)?;
+            let weights = self.weights(triangle, &self.mesh.rest, at_rest)?;
+            Some(self.mixed(triangle, base, weights))
+        };
+        moved().unwrap_or(at_rest)
     }
 
     /// The turn (radians, counter-clockwise) and the scale that a triangle has taken from before handles moved it.

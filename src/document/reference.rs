@@ -119,7 +119,7 @@ fn values(kind: Kind) -> String {
             range(-max, max)
         ),
         Kind::Rigidity => {
-            let [min, max] = super::schema::RIGIDITY_RANGE;
+            let [min, max] = super::model::figure::RIGIDITY_RANGE;
             let range = range(min, max);
             format!("number, {range}, a list of two such numbers, or `rigid`")
         }

@@ -14,7 +14,9 @@ use super::limits::{
     MIN_BALL_MM,
 };
 use super::model::figure::{
-    DEFAULT_DETAIL, MAX_CONTOURS, MAX_HANDLES, MAX_REGIONS, Propagation, Rest, Rotations,
+    DEFAULT_DETAIL, MAX_CONTOURS, MAX_FLOOD_SEEDS, MAX_HANDLES, MAX_LANDMARKS, MAX_LINE, MAX_MOVE,
+    MAX_ONLY, MAX_OUTLINE, MAX_POLYGON, MAX_REGIONS, MAX_TURN, Propagation, Rest, Rotations,
+    SCALE_RANGE,
 };
 use super::model::{
     Align, BodyKind, Camera, ConstrainBy, GhostBy, HatchBy, Layer, Light, MeshAxes, MeshParts,
@@ -251,11 +253,6 @@ pub(crate) const MAX_VALUE: f64 = f32::MAX as f64 / 4.0;
 /// Greatest coordinate of control points, cuts and curves, template units.
 pub(crate) const MAX_PAIR: f64 = 10.0;
 
-/// Ends of the range of turns of a figure's handles: two full turns either way, radians.
-pub(crate) const MAX_TURN: f64 = 4.0 * std::f64::consts::PI;
-/// Least and greatest rigidity that a region may have.
-pub(crate) const RIGIDITY_RANGE: [f64; 2] = [0.1, 100.0];
-
 /// A key that is left out at its default, and made by a pointer to something inside.
 const fn key(order: u16, name: &'static str, kind: Kind, meaning: &'static str) -> Key {
     _ = meaning;
@@ -373,7 +370,7 @@ const fn like(most: usize) -> Kind {
 pub(crate) const FIGURE: &[Key] = &[
     key(BY_NAME, "regions", Kind::List { of: REGION, most: MAX_REGIONS, what: "regions" }, "parts of the figure, from behind to front").whole(),
     key(BY_NAME, "handles", Kind::List { of: HANDLE, most: MAX_HANDLES, what: "handles" }, "what bends the figure: each holds a point, a region or a line"),
-    key(BY_NAME, "only", points(3, 64), "polygon: handles move nothing outside it, but for rigid parts that it crosses; without it they act everywhere"),
+    key(BY_NAME, "only", points(3, MAX_ONLY), "polygon: handles move nothing outside it, but for rigid parts that it crosses; without it they act everywhere"),
     key(BY_NAME, "propagation", Kind::Name(&Propagation::NAMES), "how turns and scales spread from handles: as smoothly as rigidities allow, those of the nearest handle, or means of all, whose weights fall linearly or as a Gaussian from one to the other"),
     key(BY_NAME, "reach", exact(0.0, 0.0, 2.0), "how far handles act; 0: everywhere"),
     key(BY_NAME, "rotations", Kind::Name(&Rotations::NAMES), "`found`: each triangle takes the turn that suits it best; `propagated`: the turn that spreads from the handles"),
@@ -404,14 +401,14 @@ const REGION: &[Key] = &[
 #[rustfmt::skip]
 const SOURCE: &[Key] = &[
     key(BY_NAME, "flood", Kind::Object(FLOOD), "pixels of like colour around points").optional(),
-    key(BY_NAME, "polygon", points(3, 512), "a polygon, filled by the non-zero rule").optional(),
+    key(BY_NAME, "polygon", points(3, MAX_POLYGON), "a polygon, filled by the non-zero rule").optional(),
     key(BY_NAME, "path", Kind::Shape, "what is filled in an element of an SVG or below it").optional(),
 ];
 
 /// Keys of a region's `from.flood`.
 #[rustfmt::skip]
 const FLOOD: &[Key] = &[
-    key(320, "at", points(1, 16), "where it begins; in all regions together at most 256 points").stays(),
+    key(320, "at", points(1, MAX_FLOOD_SEEDS), "where it begins; in all regions together at most 256 points").stays(),
     key(BY_NAME, "tolerance", exact(24.0, 0.0, 255.0), "difference in any of red, green and blue (0 … 255) up to which a pixel is like the first"),
     key(BY_NAME, "gap", exact(0.0, 0.0, 16.0), "px that unlike pixels are grown by before the flood, so that it does not leak through holes of an outline"),
     key(BY_NAME, "connected", Kind::Flag { default: true }, "false: all like pixels are taken, wherever they lie"),
@@ -423,22 +420,22 @@ const HANDLE: &[Key] = &[
     key(250, "name", Kind::Text, "the author's name for the handle"),
     key(320, "at", Kind::Point { max: FAR }, "the point that it holds; a handle has one of `at`, `region` and `points`. Switches at the start of a passage").optional().unmade(),
     key(BY_NAME, "region", Kind::Text, "name of the region that it holds. Switches at the start of a passage").optional(),
-    key(BY_NAME, "points", points(2, 32), "the line that it holds. Switches at the start of a passage").optional().unmade(),
-    key(460, "to", points(2, 32), "where the points of the line go, as many, in place of `move`, `turn` and `scale`").optional().unmade(),
+    key(BY_NAME, "points", points(2, MAX_LINE), "the line that it holds. Switches at the start of a passage").optional().unmade(),
+    key(460, "to", points(2, MAX_LINE), "where the points of the line go, as many, in place of `move`, `turn` and `scale`").optional().unmade(),
     key(BY_NAME, "radius", exact(0.01, 0.001, 0.2), "vertices within this of its point or line are held. Switches at the start of a passage"),
-    key(BY_NAME, "move", Kind::Point { max: 4.0 }, "how far it moves what it holds"),
+    key(BY_NAME, "move", Kind::Point { max: MAX_MOVE }, "how far it moves what it holds"),
     key(BY_NAME, "turn", Kind::Turn, "by which angle it turns it; `null`: open for a point, which finds its turn itself, and 0 for a region or a line. A turn that is or becomes open switches at the start of a passage").leaves(LeftOut::Turn),
-    key(632, "scale", exact(1.0, 0.05, 20.0), "by which factor it scales it"),
+    key(632, "scale", exact(1.0, SCALE_RANGE[0], SCALE_RANGE[1]), "by which factor it scales it"),
     key(420, "enabled", Kind::Flag { default: true }, "false: it is as if it were not there. Switches at the start of a passage"),
 ];
 
 /// Keys of `/figure/context`.
 #[rustfmt::skip]
 const CONTEXT: &[Key] = &[
-    key(BY_NAME, "points", points(3, 64), "the points. Switches at the start of a passage"),
+    key(BY_NAME, "points", points(3, MAX_LANDMARKS), "the points. Switches at the start of a passage"),
     key(BY_NAME, "strength", exact(5.0, 0.0, 10.0), "how strongly they act: the rigidity of a sheet between them. Switches at the start of a passage"),
     key(480, "keep", Kind::Flag { default: true }, "true: a pose keeps their arrangement"),
-    key(BY_NAME, "like", like(64), "the same points of another picture, as many, in any unit"),
+    key(BY_NAME, "like", like(MAX_LANDMARKS), "the same points of another picture, as many, in any unit"),
     key(410, "amount", exact(1.0, 0.0, 1.0), "how much of the other picture's arrangement is taken over"),
 ];
 
@@ -446,7 +443,7 @@ const CONTEXT: &[Key] = &[
 #[rustfmt::skip]
 const CONTOUR: &[Key] = &[
     key(BY_NAME, "region", Kind::Text, "name of the region whose outline it is"),
-    key(BY_NAME, "like", like(256), "the other outline, in any unit").stays(),
+    key(BY_NAME, "like", like(MAX_OUTLINE), "the other outline, in any unit").stays(),
     key(410, "amount", exact(1.0, 0.0, 1.0), "how much of it is taken over"),
     key(BY_NAME, "mirror", Kind::Flag { default: false }, "true: the other outline is mirrored in x first"),
     key(480, "keep", points(0, 16), "places of the outline that stay"),

@@ -2,6 +2,8 @@
 
 use glam::Vec2;
 
+use super::polyline::simplified;
+
 /// A line and the areas beside it keep this distance at most when corners are taken away, cells: below what one sees.
 const TOLERANCE: f32 = 0.5;
 /// Areas of fewer cells are specks: they count as what lies beside most of them.
@@ -185,7 +187,7 @@ fn smoothed(corners: &[Vec2], is_ring: bool) -> Vec<Vec2> {
             return corners.to_vec();
         };
         let points: Vec<Vec2> = [*first].into_iter().chain(middles).chain([*last]).collect();
-        return simplified(&points);
+        return simplified(&points, TOLERANCE);
     }
     // A ring is cut in two: at its first place, and at the one that is farthest from it.
     let mut points: Vec<Vec2> = middles.collect();
@@ -196,43 +198,11 @@ fn smoothed(corners: &[Vec2], is_ring: bool) -> Vec<Vec2> {
     let away = |i: &usize| points[*i].distance_squared(start);
     let far = (0..points.len()).max_by(|a, b| away(a).total_cmp(&away(b)));
     let far = far.unwrap_or(0);
-    let mut kept = simplified(&points[..=far]);
+    let mut kept = simplified(&points[..=far], TOLERANCE);
     kept.pop();
-    kept.extend(simplified(&points[far..]));
+    kept.extend(simplified(&points[far..], TOLERANCE));
     kept.pop();
     kept
-}
-
-/// The places of a line without those that lie within [`TOLERANCE`] of the straight way between the others (Douglas and
-/// Peucker, 1973).
-fn simplified(points: &[Vec2]) -> Vec<Vec2> {
-    let mut is_kept = vec![false; points.len()];
-    let mut spans = vec![(0, points.len().saturating_sub(1))];
-    while let Some((from, to)) = spans.pop() {
-        for end in [from, to] {
-            if let Some(is_kept) = is_kept.get_mut(end) {
-                *is_kept = true;
-            }
-        }
-        let away = |i: usize| away_from(points[i], points[from], points[to]);
-        let farthest = (from + 1..to).map(|i| (away(i), i));
-        let farthest = farthest.max_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((_, at)) = farthest.filter(|(away, _)| *away > TOLERANCE) {
-            spans.extend([(from, at), (at, to)]);
-        }
-    }
-    let pairs = points.iter().zip(is_kept);
-    pairs
-        .filter(|(_, is_kept)| *is_kept)
-        .map(|(p, _)| *p)
-        .collect()
-}
-
-/// The distance of a place from the straight way between two others.
-fn away_from(pos: Vec2, from: Vec2, to: Vec2) -> f32 {
-    let way = to - from;
-    let t = (pos - from).dot(way) / way.length_squared().max(1e-12);
-    pos.distance(from + way * t.clamp(0.0, 1.0))
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ pub mod columns;
 mod linear;
 mod number;
 mod placement;
+mod polyline;
 pub mod space;
 
 pub use aabb::Aabb;
@@ -16,3 +17,4 @@ pub use color::{linear_from_srgb, mix_srgb, srgb_from_linear};
 pub(crate) use linear::Solver;
 pub use number::{hex, plain_f64, round_to};
 pub use placement::Placement;
+pub use polyline::{simplified, winding};

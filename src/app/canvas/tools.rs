@@ -35,7 +35,6 @@ pub(super) fn head_bar(ui: &mut Ui, rect: Rect, width: f32, id_salt: &str) -> (U
 pub(crate) fn bar_bottom(rect: Rect, session: &Session) -> Option<f32> {
     let has_bar = session.tool().wants_place()
         || session.tool().ball().is_some()
-        || session.tool().for_figure().is_some()
         || session.selected_template().is_some()
         || session.selected_object().is_some();
     has_bar.then(|| bar_rect(rect, 0.0).bottom())

@@ -531,11 +531,7 @@ impl Viewport {
                 let places = slow_click::places(ui, response).into_iter();
                 commands.extend(places.map(|pos| Command::UseToolAt(pixel(pos))));
             }
-            Some(at)
-                if session.tool() != Tool::Look
-                    && session.tool().for_figure().is_none()
-                    && response.clicked() =>
-            {
+            Some(at) if session.tool() != Tool::Look && response.clicked() => {
                 commands.push(Command::UseToolAt(at));
             }
             Some(at) if session.tool() == Tool::Look && response.double_clicked() && is_free => {

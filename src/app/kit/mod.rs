@@ -2,6 +2,7 @@
 
 pub(crate) mod dialog;
 pub(crate) mod entry;
+pub(crate) mod figure_tool;
 pub(crate) mod float;
 pub(crate) mod icon;
 pub(crate) mod menu;

@@ -51,13 +51,11 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let color = (surface.inside_srgb, OWN);
     if let Some(change) = entry::color_row(ui, names, color, w().inside_auto) {
         let name = "Change inside colour";
-        commands.push(widget::command(change.map(|color| match color {
-            Some(color) => set("inside", json!(color_text(color)), name),
-            None => Edit::Reset {
-                pointer: "/look/inside".to_owned(),
-                name: name.to_owned(),
-            },
-        })));
+        let edit = |color: Option<[u8; 3]>| {
+            let value = color.map(|color| json!(color_text(color)));
+            Edit::put("/look/inside".to_owned(), value, name.to_owned())
+        };
+        commands.push(widget::command(change.map(edit)));
     }
     let names = (w().gloss, w().gloss_hint);
     let default = SurfaceLook::DEFAULT_GLOSS;

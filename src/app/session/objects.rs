@@ -295,14 +295,7 @@ pub fn carve_by(template: usize, name: &str) -> Edit {
 pub fn object_edit(object: &SceneObject, key: &str, value: Option<Value>, what: &str) -> Edit {
     let pointer = format!("/objects/{}/{key}", object.index);
     let name = format!("Change {what} of {}", object.name);
-    match value {
-        Some(value) => Edit::Set {
-            pointer,
-            value,
-            name,
-        },
-        None => Edit::Reset { pointer, name },
-    }
+    Edit::put(pointer, value, name)
 }
 
 /// Shows or hides an object.

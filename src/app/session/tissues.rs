@@ -235,23 +235,14 @@ pub(super) fn free_name(wanted: &str, is_taken: impl Fn(&str) -> bool) -> String
 pub fn set_look(tissue: &str, look: Option<(f32, Option<[u8; 3]>)>) -> Edit {
     let pointer = pointer::join("/look/segments", tissue);
     let name = format!("Draw {tissue}");
-    match look {
-        None => Edit::Reset { pointer, name },
-        Some((opacity, color)) => {
-            let opacity = Value::from((f64::from(opacity) * 100.0).round() / 100.0);
-            let value = match color {
-                None => opacity,
-                Some(color) => {
-                    serde_json::json!({ "opacity": opacity, "color": color_text(color) })
-                }
-            };
-            Edit::Set {
-                pointer,
-                value,
-                name,
-            }
+    let value = look.map(|(opacity, color)| {
+        let opacity = Value::from((f64::from(opacity) * 100.0).round() / 100.0);
+        match color {
+            None => opacity,
+            Some(color) => serde_json::json!({ "opacity": opacity, "color": color_text(color) }),
         }
-    }
+    });
+    Edit::put(pointer, value, name)
 }
 
 /// Edits of what templates keep: `change` gives the new names where they change.

@@ -41,9 +41,10 @@ impl Tool {
         }
     }
 
-    /// True if the tool waits for one click, which the middle of the picture can stand in for: placing and captioning.
+    /// True if the tool waits for a click, which the middle of the picture can stand in for: placing, captioning, a tool
+    /// of a figure.
     pub fn wants_place(self) -> bool {
-        matches!(self, Self::Place(_) | Self::Caption)
+        matches!(self, Self::Place(_) | Self::Caption | Self::Figure(_))
     }
 
     /// True while clicks measure.
@@ -84,6 +85,6 @@ impl Tool {
 
     /// True if the tool changes the document, so that it cannot be used in a lesson.
     pub fn is_for_authors(self) -> bool {
-        self.is_for_tissue() || self.wants_place() || self.for_figure().is_some()
+        self.is_for_tissue() || self.wants_place()
     }
 }

@@ -4,10 +4,10 @@ use super::object::{Object, number, numbers, wrong};
 use super::reader::Reader;
 use crate::document::limits::MAX_BYTES;
 use crate::document::model::figure::{
-    Behind, Context, Contour, Figure, Flood, Handle, Hold, MAX_FLOOD_POINTS, Move, Propagation,
-    Region, Rest, Rigidity, Rotations, Source,
+    Behind, Context, Contour, Figure, Flood, Handle, Hold, MAX_FLOOD_POINTS, MAX_TURN, Move,
+    Propagation, RIGIDITY_RANGE, Region, Rest, Rigidity, Rotations, Source,
 };
-use crate::document::schema::{FIGURE, Kind, LeftOut, MAX_TURN, RIGIDITY_RANGE, find};
+use crate::document::schema::{FIGURE, Kind, LeftOut, find};
 use crate::document::text::pointer::join;
 use crate::document::text::{DocumentError, NoticeKind, json, shortened};
 use glam::DVec2;

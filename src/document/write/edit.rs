@@ -341,6 +341,18 @@ impl FigureList {
 }
 
 impl Edit {
+    /// Sets a value by JSON pointer, or without one puts the key back to its default. `name` is that in the menu.
+    pub fn put(pointer: String, value: Option<Value>, name: String) -> Self {
+        match value {
+            Some(value) => Self::Set {
+                pointer,
+                value,
+                name,
+            },
+            None => Self::Reset { pointer, name },
+        }
+    }
+
     /// Names what the edit changes: successive edits of one target in one drag are one step of the history.
     pub fn target(&self) -> String {
         match self {

@@ -6,6 +6,7 @@ use super::rigid::{Parts, Stiffness};
 use crate::document::figure::{Figure, Handle, Hold, Rest};
 use crate::figure::mesh::{Mesh, Part};
 use crate::figure::notice::Notice;
+use crate::math::winding;
 
 /// A handle in no triangle takes hold of the nearest vertex within this, figure units.
 const NEAR: f64 = 0.02;
@@ -351,7 +352,7 @@ impl Finder<'_> {
             .mesh
             .vertices
             .iter()
-            .map(|at| winding(only, *at) == 0)
+            .map(|at| winding(only.iter().copied(), *at) == 0)
             .collect();
         for part in &self.parts.parts {
             let count = part
@@ -376,18 +377,4 @@ impl Finder<'_> {
             part: None,
         }
     }
-}
-
-/// How often a closed polygon goes around a place, counter-clockwise.
-fn winding(polygon: &[DVec2], at: DVec2) -> i32 {
-    let ends = polygon.iter().zip(polygon.iter().cycle().skip(1));
-    let turn = |(a, b): (&DVec2, &DVec2)| {
-        let side = (*b - *a).perp_dot(at - *a);
-        match (a.y <= at.y, b.y <= at.y) {
-            (true, false) if side > 0.0 => 1,
-            (false, true) if side < 0.0 => -1,
-            _ => 0,
-        }
-    };
-    ends.map(turn).sum()
 }

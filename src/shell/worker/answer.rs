@@ -1,14 +1,13 @@
 //! What a part posts to the page: an array that begins with a word. `["module", WebAssembly.Module]` comes first, if
 //! the page did not send the module; `["field", header as JSON, Float32Array]` or `["field", undefined, why not]` is
-//! the answer to a displacement field; `["bent", places, order, notices as JSON, mesh, places before handles
-//! move them, regions as JSON]` or `["bent", undefined, why
-//! not]` that to a figure, its mesh undefined where it is that of the answer before. The others are the events of a
-//! load: [`pieces`] of the subject, such as `["begin", header as JSON]` and `["scalars", typed array]`,
-//! `["surface-array", index, array]` for each array of a surface and then `["surface"]`, `["progress", fraction,
-//! what]`, `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`, `["label-file", sha256, header as JSON,
-//! Uint8Array]`, `["frames", count]`, `["raw", bytes or undefined, is packed, guess or undefined]`, `["failed",
-//! message, details]`, where the owner of the file can mend it followed by the kind of fault, the name of the file,
-//! bytes found, bytes expected and the file that is missing; `["cancelled"]`.
+//! the answer to a displacement field; `["bent", places, order, notices as JSON, mesh, places before handles move them,
+//! regions as JSON]` or `["bent", undefined, why not]` that to a figure, its mesh undefined where it is that of the
+//! answer before. The others are the events of a load: [`pieces`] of the subject, such as `["begin", header as JSON]`
+//! and `["scalars", typed array]`, `["surface-array", index, array]` for each array of a surface and then
+//! `["surface"]`, `["progress", fraction, what]`, `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`,
+//! `["label-file", sha256, header as JSON, Uint8Array]`, `["frames", count]`, `["raw", bytes or undefined, is packed,
+//! guess or undefined]`, `["failed", message, details]`, where the owner of the file can mend it followed by the kind
+//! of fault, the name of the file, bytes found, bytes expected and the file that is missing; `["cancelled"]`.
 
 use std::sync::Arc;
 

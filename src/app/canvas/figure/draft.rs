@@ -5,9 +5,9 @@ use crate::app::canvas::projection::Projection;
 use crate::app::canvas::tools::head_bar;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, over_picture as ink};
-use crate::app::kit::{slow_click, widget};
+use crate::app::kit::{figure_tool, slow_click, widget};
 use crate::app::session::figure::{FigureCommand, FigureTool};
-use crate::app::session::{Command, Session, Tool};
+use crate::app::session::{Command, Session};
 use crate::app::words::figure::w;
 use crate::app::words::picture;
 
@@ -42,8 +42,7 @@ impl Hand {
     ) {
         let mut send = |command| commands.push(Command::Figure(command));
         let tool = session.tool().for_figure();
-        let is_free = session.tool() == Tool::Look || tool.is_some();
-        if !is_free || is_held || ui.input(|i| i.multi_touch().is_some()) {
+        if is_held || ui.input(|i| i.multi_touch().is_some()) {
             (self.widens, self.draws) = (None, false);
             return;
         }
@@ -150,10 +149,11 @@ pub(super) fn bar_ui(
         false => picture::w().in_the_middle,
     };
     let room = width - 24.0 - buttons * (side + 4.0) - if is_narrow { 76.0 } else { 118.0 };
-    let text = egui::RichText::new(tool_hint(tool, session)).size(12.5);
+    let (_, _, hint) = figure_tool::face(tool, session.view.figure.has_pixels());
+    let text = egui::RichText::new(hint).size(12.5);
     ui.allocate_ui(egui::vec2(room.max(40.0), side), |ui| {
         ui.add(egui::Label::new(text).truncate())
-            .on_hover_text(tool_hint(tool, session));
+            .on_hover_text(hint);
     });
     let mut button = |ui: &mut Ui, icon, name, command| {
         if widget::icon_button(ui, icon, name, true).clicked() {
@@ -179,19 +179,5 @@ pub(super) fn bar_ui(
     }
     if widget::icon_button(ui, Icon::Close, w().cancel, true).clicked() {
         commands.push(Command::Figure(FigureCommand::Take(tool)));
-    }
-}
-
-/// What a tool is for, in one sentence.
-fn tool_hint(tool: FigureTool, session: &Session) -> &'static str {
-    let plate = session.view.figure.plate.as_ref();
-    match tool {
-        FigureTool::Pin => w().pin_hint,
-        FigureTool::Line => w().line_hint,
-        FigureTool::Region if plate.is_some_and(|plate| plate.has_pixels()) => w().by_colour_hint,
-        FigureTool::Region => w().by_shape_hint,
-        FigureTool::Polygon => w().polygon_hint,
-        FigureTool::Landmark => w().landmark_hint,
-        FigureTool::Only => w().only_hint,
     }
 }

@@ -11,16 +11,12 @@ use crate::app::session::figure::{
 use crate::app::session::{Command, Session};
 use crate::app::words::figure::w;
 use crate::app::words::{fill, names};
-use crate::document::figure::{Handle, Hold};
+use crate::document::figure::{Handle, Hold, MAX_TURN, SCALE_RANGE};
 
 /// Radius of the ring around the selected handle, points.
 const RING: f32 = 40.0;
 /// The knob of the scale keeps within these parts of the ring's radius.
 const KNOB: [f32; 2] = [0.4, 5.0];
-/// Scales that a document takes.
-const SCALES: [f32; 2] = [0.05, 20.0];
-/// Turns either way that a document takes, radians.
-const MOST_TURN: f64 = 4.0 * std::f64::consts::PI;
 
 /// All handles of the figure, with the ring of the one that was selected last. True if one of them is under the pointer
 /// or held.
@@ -197,15 +193,16 @@ fn ring_ui(
     };
     if let Some(to) = knob(out, &dot) {
         let by = f64::from(out.angle_to(to));
-        let turn = (turn + by).clamp(-MOST_TURN, MOST_TURN);
+        let turn = (turn + by).clamp(-MAX_TURN, MAX_TURN);
         let edit = handle_edit(index, HandleKey::Turn(Some(turn)));
         commands.push(Command::Drag(edit));
     }
     let named = fill(w().size_of, &[&name]);
     let long = (scale as f32).clamp(KNOB[0], KNOB[1]);
     if let Some(to) = knob(out.perp() * long, &Dot::full(&named, ink::Y)) {
-        let scale = (to.length() / radius.max(1e-6)).clamp(SCALES[0], SCALES[1]);
-        let edit = handle_edit(index, HandleKey::Scale(f64::from(scale)));
+        let scale = f64::from(to.length() / radius.max(1e-6));
+        let scale = scale.clamp(SCALE_RANGE[0], SCALE_RANGE[1]);
+        let edit = handle_edit(index, HandleKey::Scale(scale));
         commands.push(Command::Drag(edit));
     }
     is_held

@@ -76,11 +76,9 @@ pub(super) fn paint(
         let stroke = Stroke::new(0.6, Color32::from_black_alpha(110));
         borders.edges.iter().for_each(|edge| line(*edge, stroke));
     }
-    let chosen = figure.region.as_deref();
-    let is_chosen = |region: u16| {
-        let name = sheet.mesh.regions.get(usize::from(region));
-        chosen.is_some() && name.map(String::as_str) == chosen
-    };
+    let mut names = sheet.mesh.regions.iter();
+    let chosen = names.position(|name| figure.region.as_ref() == Some(name));
+    let is_chosen = |region: u16| chosen == Some(usize::from(region));
     if figure.shows(Overlay::Outlines) || chosen.is_some() {
         let plain = Stroke::new(0.8, ink::HANDLE.gamma_multiply(0.6));
         for (edge, [one, other]) in &borders.borders {

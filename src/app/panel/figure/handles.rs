@@ -13,7 +13,7 @@ use crate::app::session::figure::{
 use crate::app::session::{Command, Session};
 use crate::app::words::figure::w;
 use crate::app::words::{fill, names};
-use crate::document::figure::{Handle, Hold};
+use crate::document::figure::{Handle, Hold, SCALE_RANGE};
 
 pub(super) fn list_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let figure = session.figure();
@@ -145,7 +145,7 @@ fn motion_ui(
         }
     }
     let row = NumberRow {
-        range: [0.05, 20.0],
+        range: SCALE_RANGE,
         decimals: 2,
         ..row(w().scale, w().scale_hint, scale, Some(1.0))
     };

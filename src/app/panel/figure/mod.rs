@@ -3,6 +3,7 @@
 
 mod handles;
 mod material;
+mod number;
 pub(crate) mod reference;
 mod region;
 mod regions;

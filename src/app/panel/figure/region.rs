@@ -4,6 +4,7 @@ use egui::{Ui, vec2};
 use serde_json::{Value, json};
 
 use super::material::{self, MATERIALS};
+use super::number;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
 use crate::app::session::figure::{FigureCommand, region_edit, rigidity_edit};
@@ -11,10 +12,7 @@ use crate::app::session::{Command, Session};
 use crate::app::words::figure::w;
 use crate::app::words::fill;
 use crate::document::color_text;
-use crate::document::figure::{Behind, Region, Rigidity, Source};
-
-/// Ends of the range of a rigidity.
-const RIGIDITY: [f64; 2] = [0.1, 100.0];
+use crate::document::figure::{Behind, RIGIDITY_RANGE, Region, Rigidity, Source};
 
 /// The rows of a region.
 struct Rows<'a> {
@@ -98,7 +96,7 @@ impl Rows<'_> {
                 summary: w().rigidity_hint,
                 value: [x, y][axis],
                 default: None,
-                range: RIGIDITY,
+                range: RIGIDITY_RANGE,
                 unit: "",
                 decimals: 1,
             };
@@ -189,22 +187,14 @@ impl Rows<'_> {
     fn number(
         &mut self,
         key: &str,
-        (name, summary): (&str, &str),
-        (value, default): (f64, f64),
+        names: (&str, &str),
+        value: (f64, f64),
         range: [f64; 2],
         decimals: usize,
     ) {
-        let row = NumberRow {
-            name,
-            summary,
-            value,
-            default: Some(default),
-            range,
-            unit: "",
-            decimals,
-        };
-        if let Some(change) = row.ui(self.ui) {
-            let change = change.map(|x| self.edit(key, json!(crate::math::round_to(x, 2))));
+        let change = number::row(self.ui, names, value, range, decimals);
+        if let Some(change) = change {
+            let change = change.map(|x| self.edit(key, json!(x)));
             self.commands.push(widget::command(change));
         }
     }

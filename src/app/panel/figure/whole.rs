@@ -3,14 +3,15 @@
 use egui::Ui;
 use serde_json::json;
 
+use super::number;
 use crate::app::kit::entry;
 use crate::app::kit::icon::Icon;
-use crate::app::kit::widget::{self, Named as _, NumberRow};
+use crate::app::kit::widget::{self, Named as _};
 use crate::app::session::figure::{FigureCommand, ReferenceCommand, figure_edit};
 use crate::app::session::{Command, Session};
 use crate::app::words::figure::w;
 use crate::app::words::fill;
-use crate::document::figure::{Propagation, Rest, Rotations};
+use crate::document::figure::{DEFAULT_DETAIL, Propagation, Rest, Rotations};
 use crate::document::{Edit, FigureList};
 
 pub(super) fn ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
@@ -22,11 +23,13 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 commands.push(Command::Figure(FigureCommand::DropLandmarks));
             }
         });
-        let strength = (w().strength, w().strength_hint, "context/strength");
-        number(
+        let names = (w().strength, w().strength_hint);
+        let value = (context.strength, 5.0);
+        number_ui(
             ui,
-            strength,
-            (context.strength, 5.0),
+            "context/strength",
+            names,
+            value,
             [0.0, 10.0],
             1,
             commands,
@@ -77,11 +80,12 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         let edit = figure_edit("rotations", Some(json!(rotations.name())));
         commands.push(Command::Apply(edit));
     }
-    let reach = (w().reach, w().reach_hint, "reach");
-    number(ui, reach, (figure.reach, 0.0), [0.0, 2.0], 2, commands);
-    let detail = (w().detail, w().detail_hint, "detail");
-    let value = (f64::from(figure.detail), 6000.0);
-    number(ui, detail, value, [500.0, 60_000.0], 0, commands);
+    let names = (w().reach, w().reach_hint);
+    let value = (figure.reach, 0.0);
+    number_ui(ui, "reach", names, value, [0.0, 2.0], 2, commands);
+    let names = (w().detail, w().detail_hint);
+    let value = (f64::from(figure.detail), f64::from(DEFAULT_DETAIL));
+    number_ui(ui, "detail", names, value, [500.0, 60_000.0], 0, commands);
     let drop_only = w().drop_only;
     if figure.only.is_some()
         && widget::labelled_button(ui, Icon::Close, drop_only, false, true).clicked()
@@ -143,25 +147,18 @@ fn amount_ui(ui: &mut Ui, key: &str, amount: f64, commands: &mut Vec<Command>) {
     }
 }
 
-fn number(
+/// A number of the figure itself, under a key.
+fn number_ui(
     ui: &mut Ui,
-    (name, summary, key): (&str, &str, &str),
-    (value, default): (f64, f64),
+    key: &str,
+    names: (&str, &str),
+    value: (f64, f64),
     range: [f64; 2],
     decimals: usize,
     commands: &mut Vec<Command>,
 ) {
-    let row = NumberRow {
-        name,
-        summary,
-        value,
-        default: Some(default),
-        range,
-        unit: "",
-        decimals,
-    };
-    if let Some(change) = row.ui(ui) {
-        let edit = |x: f64| figure_edit(key, Some(json!(crate::math::round_to(x, 2))));
+    if let Some(change) = number::row(ui, names, value, range, decimals) {
+        let edit = |x: f64| figure_edit(key, Some(json!(x)));
         commands.push(widget::command(change.map(edit)));
     }
 }

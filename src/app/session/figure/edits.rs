@@ -2,7 +2,7 @@ use glam::{DVec2, Vec2};
 use serde_json::{Value, json};
 
 use crate::app::session::session::Session;
-use crate::document::figure::{Handle, Hold, Region, Rigidity};
+use crate::document::figure::{Handle, Hold, Rigidity};
 use crate::document::{Edit, FigureList};
 use crate::math::round_to;
 
@@ -46,15 +46,7 @@ pub(super) fn rigidity_value(rigidity: Rigidity) -> Value {
 /// Sets a key of the figure itself, or puts it back to its default.
 pub fn figure_edit(key: &str, value: Option<Value>) -> Edit {
     let pointer = format!("/figure/{key}");
-    let name = "Change figure".to_owned();
-    match value {
-        Some(value) => Edit::Set {
-            pointer,
-            value,
-            name,
-        },
-        None => Edit::Reset { pointer, name },
-    }
+    Edit::put(pointer, value, "Change figure".to_owned())
 }
 
 /// Sets a key of a region by its name. A region of the source that the document does not list yet is listed.
@@ -80,9 +72,8 @@ pub fn rigidity_edit(session: &Session, name: &str, rigidity: Rigidity) -> Edit 
 
 /// Where a region stands in the document's list.
 pub(super) fn index_of(session: &Session, name: &str) -> Option<usize> {
-    let figure = session.illustration().figure.as_ref()?;
-    let mut regions = figure.regions.iter();
-    regions.position(|region: &Region| region.name == name)
+    let mut regions = session.listed_regions().iter();
+    regions.position(|region| region.name == name)
 }
 
 /// Sets a key of a handle.

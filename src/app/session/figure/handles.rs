@@ -6,14 +6,12 @@ use super::place::{NO_MOVE, handle_motion, line_places};
 use crate::app::session::notices::Gravity;
 use crate::app::session::session::{Session, Tab};
 use crate::app::words::figure;
-use crate::document::figure::{Hold, MAX_HANDLES};
+use crate::document::figure::{Hold, MAX_HANDLES, MAX_MOVE, MAX_TURN, SCALE_RANGE};
 use crate::document::{Edit, FigureList};
 use crate::math::round_to;
 
 /// Less than this is no change of scale.
 const NO_SCALE: f32 = 0.02;
-/// By how much handles may move: see the table of the document's keys.
-const FARTHEST: f64 = 4.0;
 /// By which angle a key turns a handle for one hundredth, radians.
 const TURN_STEP: f64 = 0.01;
 
@@ -52,7 +50,7 @@ impl Session {
         }
         let scale = sheet.motion_of(triangle).map_or(1.0, |(_, scale)| scale);
         if (scale - 1.0).abs() > NO_SCALE {
-            let scale = f64::from(scale.clamp(0.05, 20.0));
+            let scale = f64::from(scale).clamp(SCALE_RANGE[0], SCALE_RANGE[1]);
             keys.insert("scale".to_owned(), json!(round_to(scale, 3)));
         }
         keys
@@ -112,7 +110,7 @@ impl Session {
         }
         all.sort_unstable();
         let figure = self.figure();
-        let limit = DVec2::splat(FARTHEST);
+        let limit = DVec2::splat(MAX_MOVE);
         let edits = all.iter().filter_map(|index| {
             let handle = figure.handles.get(*index)?;
             let key = match &handle.hold {
@@ -223,8 +221,7 @@ impl Session {
             }
             let (turn, _) = handle_motion(&self.view.figure, handle);
             let turn = turn + f64::from(hundredths) * TURN_STEP;
-            let most = 4.0 * std::f64::consts::PI;
-            let key = HandleKey::Turn(Some(turn.clamp(-most, most)));
+            let key = HandleKey::Turn(Some(turn.clamp(-MAX_TURN, MAX_TURN)));
             Some(handle_edit(*index, key))
         });
         let edits: Vec<Edit> = edits.collect();
@@ -240,8 +237,7 @@ impl Session {
         let Some(from) = name.and_then(|name| index_of(self, &name)) else {
             return;
         };
-        let listed = self.illustration().figure.as_ref();
-        let count = listed.map_or(0, |figure| figure.regions.len());
+        let count = self.listed_regions().len();
         let to = from.saturating_add_signed(isize::from(by));
         if to != from && to < count {
             let list = FigureList::Regions;

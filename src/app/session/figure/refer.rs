@@ -8,11 +8,9 @@ use super::state::{Reference, ReferenceCommand, Takes};
 use crate::app::session::effect::Effect;
 use crate::app::session::session::Session;
 use crate::data::Plate;
-use crate::document::figure::MAX_CONTOURS;
+use crate::document::figure::{MAX_CONTOURS, MAX_OUTLINE};
 use crate::document::{Edit, FigureList};
 
-/// Places of an outline at most.
-const MOST_PLACES: usize = 256;
 /// An outline may be off by so much, parts of the picture's longest side.
 const OFF: f32 = 0.001;
 
@@ -61,10 +59,10 @@ impl Session {
         let takes = self.view.figure.reference.as_ref().map(|other| other.takes);
         match takes {
             Some(Takes::Landmarks) => {
-                let context = self.figure().context;
+                let context = self.figure().context.as_ref();
                 context.map_or(0, |context| context.points.len())
             }
-            Some(Takes::Outline) => MOST_PLACES,
+            Some(Takes::Outline) => MAX_OUTLINE,
             None => 0,
         }
     }
@@ -96,7 +94,7 @@ impl Session {
                 self.apply(&figure_edit("context/like", Some(like)), false);
             }
             Takes::Outline => {
-                let like = rounded_places(&thinned(&other.points, OFF, MOST_PLACES));
+                let like = rounded_places(&thinned(&other.points, OFF, MAX_OUTLINE));
                 self.take_outline(&like);
             }
         }
@@ -110,7 +108,7 @@ impl Session {
         let Some(region) = self.view.figure.region.clone() else {
             return;
         };
-        let contours = self.figure().contours;
+        let contours = &self.figure().contours;
         let own = contours.iter().position(|contour| contour.region == region);
         let edit = match own {
             Some(index) => figure_edit(&format!("contours/{index}/like"), Some(like.clone())),

@@ -4,29 +4,31 @@ use super::edits::{index_of, rounded};
 use crate::app::session::notices::Gravity;
 use crate::app::session::session::{Session, Tab};
 use crate::app::words::{figure, fill};
-use crate::document::figure::{Flood, MAX_FLOOD_POINTS, MAX_REGIONS, Source};
+use crate::document::figure::{
+    Flood, MAX_FLOOD_POINTS, MAX_FLOOD_SEEDS, MAX_REGIONS, Region, Source,
+};
 use crate::document::{Edit, FigureList, free_group_name};
 use glam::Vec2;
 
-/// Points of one flood.
-const MAX_SEEDS: usize = 16;
-
 impl Session {
+    /// The regions that the document lists.
+    pub(super) fn listed_regions(&self) -> &[Region] {
+        let figure = self.illustration().figure.as_ref();
+        figure.map_or(&[], |figure| &figure.regions)
+    }
+
     pub(super) fn region_count(&self) -> usize {
         let own = self.view.figure.regions.iter();
-        let listed = self.illustration().figure.as_ref();
-        let listed = listed.map_or(&[][..], |figure| &figure.regions);
+        let listed = self.listed_regions();
         let is_new = |name: &&String| !listed.iter().any(|region| region.name == **name);
         own.map(|region| &region.name).filter(is_new).count() + listed.len()
     }
 
     /// A name that no region has.
     pub(super) fn free_region_name(&self, wanted: Option<&str>) -> String {
-        let listed = self.illustration().figure.as_ref();
-        let listed = listed.map_or(&[][..], |figure| &figure.regions);
         let own = self.view.figure.regions.iter();
+        let listed = self.listed_regions().iter();
         let mut taken: Vec<String> = listed
-            .iter()
             .chain(own)
             .map(|region| region.name.clone())
             .collect();
@@ -119,14 +121,13 @@ impl Session {
             value: at.clone(),
             name: "Change region".to_owned(),
         };
-        seeds < MAX_SEEDS && self.apply(&edit, false)
+        seeds < MAX_FLOOD_SEEDS && self.apply(&edit, false)
     }
 
     /// The flood of the selected region, with its place in the document's list.
     pub fn selected_flood(&self) -> Option<(usize, &Flood)> {
         let index = index_of(self, self.view.figure.region.as_deref()?)?;
-        let figure = self.illustration().figure.as_ref()?;
-        match &figure.regions.get(index)?.from {
+        match &self.listed_regions().get(index)?.from {
             Some(Source::Flood(flood)) => Some((index, flood)),
             _ => None,
         }

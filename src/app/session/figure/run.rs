@@ -1,7 +1,9 @@
-use glam::Vec2;
-use serde_json::{Value, json};
+use std::sync::LazyLock;
 
-use super::edits::{figure_edit, rounded, rounded_places};
+use glam::Vec2;
+use serde_json::json;
+
+use super::edits::{figure_edit, rounded_places};
 use super::place::{NO_MOVE, thinned};
 use super::state::{FigureCommand, FigureTool};
 use crate::app::session::notices::Gravity;
@@ -9,22 +11,16 @@ use crate::app::session::session::{Session, Tab};
 use crate::app::session::tool::Tool;
 use crate::app::words::messages;
 use crate::document::Edit;
-use crate::document::figure::{Context, Figure};
+use crate::document::figure::{Figure, MAX_LANDMARKS, MAX_LINE, MAX_ONLY, MAX_POLYGON};
 
-/// Corners of a polygon and points of a line at most, as a document takes them.
-const MAX_CORNERS: usize = 512;
-const MAX_LINE: usize = 32;
-/// Corners of the polygon outside which handles move nothing.
-const MAX_ONLY: usize = 64;
-/// Landmarks at most.
-const MAX_LANDMARKS: usize = 64;
 /// A free line may be off by so much, subject units.
 const DRAWN_OFF: f32 = 0.0015;
 
 impl Session {
     /// The figure of what is shown; one without regions and handles if the document has none.
-    pub fn figure(&self) -> Figure {
-        self.shown().figure.clone().unwrap_or_default()
+    pub fn figure(&self) -> &Figure {
+        static PLAIN: LazyLock<Figure> = LazyLock::new(Figure::default);
+        self.shown().figure.as_ref().unwrap_or(&PLAIN)
     }
 
     pub(in crate::app::session) fn run_figure(&mut self, command: FigureCommand) {
@@ -83,7 +79,7 @@ impl Session {
         }
         match self.tool {
             Tool::Figure(tool) if tool.draws() => {
-                if self.view.figure.draft.len() < MAX_CORNERS {
+                if self.view.figure.draft.len() < MAX_POLYGON {
                     self.view.figure.draft.push(at);
                 }
             }
@@ -117,7 +113,7 @@ impl Session {
         let is_far = draft
             .last()
             .is_none_or(|last| last.distance(at) > DRAWN_OFF);
-        if at.is_finite() && is_far && draft.len() < 20 * MAX_CORNERS {
+        if at.is_finite() && is_far && draft.len() < 20 * MAX_POLYGON {
             draft.push(at);
         }
     }
@@ -130,32 +126,28 @@ impl Session {
         let Some((_, at_rest)) = self.at_rest(at) else {
             return self.nothing_here();
         };
-        let context: Option<Context> = self.figure().context;
-        let mut points: Vec<Value> = context
-            .iter()
-            .flat_map(|context| &context.points)
-            .map(|point| rounded(*point))
-            .collect();
-        if points.len() >= MAX_LANDMARKS {
-            return;
-        }
-        points.push(rounded(at_rest.as_dvec2()));
-        // A context has three points at least: the first come together.
-        if context.is_none() && points.len() < 3 {
-            self.view.figure.draft.push(at);
-            let draft = std::mem::take(&mut self.view.figure.draft);
-            if draft.len() < 3 {
-                self.view.figure.draft = draft;
-                return;
+        let points: Vec<Vec2> = match &self.figure().context {
+            Some(context) if context.points.len() >= MAX_LANDMARKS => return,
+            Some(context) => {
+                let points = context.points.iter().map(|at| at.as_vec2());
+                points.chain([at_rest]).collect()
             }
-            let at_rest = draft.iter().filter_map(|at| Some(self.at_rest(*at)?.1));
-            points = at_rest.map(|at| rounded(at.as_dvec2())).collect();
-        }
+            // A context has three points at least: the first come together.
+            None => {
+                self.view.figure.draft.push(at);
+                if self.view.figure.draft.len() < 3 {
+                    return;
+                }
+                let draft = std::mem::take(&mut self.view.figure.draft);
+                let at_rest = draft.iter().filter_map(|at| self.at_rest(*at));
+                at_rest.map(|(_, at)| at).collect()
+            }
+        };
         // Another picture has as many: its points no longer fit.
         let edit = Edit::All {
             name: "Add landmark".to_owned(),
             edits: vec![
-                figure_edit("context/points", Some(json!(points))),
+                figure_edit("context/points", Some(rounded_places(&points))),
                 figure_edit("context/like", Some(json!([]))),
             ],
         };
@@ -163,20 +155,20 @@ impl Session {
     }
 
     fn finish_draft(&mut self) {
-        let Tool::Figure(tool) = self.tool else {
+        let Some(tool) = self.tool.for_figure().filter(|tool| tool.draws()) else {
             return;
         };
         let mut draft = std::mem::take(&mut self.view.figure.draft);
         // A double click is two clicks in one place.
         draft.dedup_by(|a, b| a.distance(*b) < NO_MOVE);
         let least = if tool == FigureTool::Line { 2 } else { 3 };
-        if !tool.draws() || draft.len() < least {
+        if draft.len() < least {
             return;
         }
         let most = match tool {
             FigureTool::Line => MAX_LINE,
             FigureTool::Only => MAX_ONLY,
-            _ => MAX_CORNERS,
+            _ => MAX_POLYGON,
         };
         let draft = thinned(&draft, DRAWN_OFF, most);
         let at_rest: Vec<(Vec2, Vec2)> = draft

@@ -143,7 +143,7 @@ pub struct FigureView {
     pub region: Option<String>,
     /// Indices of the selected handles, the last that was selected at the end.
     pub handles: Vec<usize>,
-    /// The line or polygon that is drawn, places of the bent figure.
+    /// The line or polygon that is drawn, or landmarks that are too few so far: places of the bent figure.
     pub draft: Vec<Vec2>,
     /// Another picture, of which places are taken over.
     pub reference: Option<Reference>,
@@ -198,6 +198,11 @@ impl FigureView {
         self.region = None;
         self.handles.clear();
         self.draft.clear();
+    }
+
+    /// True if regions are found in the pixels of the plate, not in shapes.
+    pub fn has_pixels(&self) -> bool {
+        self.plate.as_ref().is_some_and(|plate| plate.has_pixels())
     }
 
     /// A region by its name, with what the source adds.

@@ -62,7 +62,7 @@ fn a_pin_takes_the_move_that_it_finds() {
     let mut session = plate();
     run(&mut session, FigureCommand::Take(FigureTool::Pin));
     click(&mut session, 0.3, 0.2);
-    let figure = session.figure();
+    let figure = session.figure().clone();
     let [pin] = &figure.handles[..] else {
         panic!("{figure:?}");
     };
@@ -74,7 +74,7 @@ fn a_pin_takes_the_move_that_it_finds() {
     assert_eq!(session.view.figure.handles, [0], "it is selected");
     // Beside the figure there is nothing to hold, and the tool stays in hand.
     click(&mut session, -0.45, 0.0);
-    assert_eq!(session.figure().handles.len(), 1);
+    assert_eq!(session.figure().clone().handles.len(), 1);
     assert_eq!(session.tool(), Tool::Figure(FigureTool::Pin));
     session.run(Command::Escape, 0.0);
     assert_eq!(session.tool(), Tool::Look);
@@ -97,7 +97,7 @@ fn handles_are_moved_together_in_one_step_of_undo() {
     session.end_drag();
     assert!(!session.is_passing());
     let moves = |session: &Session| -> Vec<f64> {
-        let figure = session.figure();
+        let figure = session.figure().clone();
         figure
             .handles
             .iter()
@@ -121,15 +121,15 @@ fn handles_are_moved_together_in_one_step_of_undo() {
     assert_eq!(session.view.figure.handles, [2]);
     session.run(Command::NudgeMain(5.0), 0.0);
     assert!(
-        session.figure().handles[2]
+        session.figure().clone().handles[2]
             .motion
             .turn
             .is_some_and(|turn| turn > 0.04)
     );
     session.run(Command::ToggleSelected, 0.0);
-    assert!(!session.figure().handles[2].enabled);
+    assert!(!session.figure().clone().handles[2].enabled);
     session.run(Command::DeleteSelected, 0.0);
-    assert_eq!(session.figure().handles.len(), 2);
+    assert_eq!(session.figure().clone().handles.len(), 2);
     assert!(session.view.figure.handles.is_empty());
 }
 
@@ -152,14 +152,18 @@ fn a_flood_is_widened_and_gets_more_points() {
     assert_eq!(flood(&session).tolerance, 24.0);
     run(&mut session, FigureCommand::Use(Vec2::new(0.3, 0.1), true));
     assert_eq!(flood(&session).at.len(), 2);
-    let name = session.figure().regions[0].name.clone();
+    let name = session.figure().clone().regions[0].name.clone();
     click(&mut session, 0.2, 0.3);
-    let second = session.figure().regions[1].name.clone();
+    let second = session.figure().clone().regions[1].name.clone();
     assert!(second != name && !second.is_empty(), "{second}");
     session.run(Command::ShiftSelected(-1), 0.0);
-    assert_eq!(session.figure().regions[0].name, second, "further back");
+    assert_eq!(
+        session.figure().clone().regions[0].name,
+        second,
+        "further back"
+    );
     session.run(Command::DeleteSelected, 0.0);
-    assert_eq!(session.figure().regions.len(), 1);
+    assert_eq!(session.figure().clone().regions.len(), 1);
 }
 
 #[test]
@@ -170,10 +174,11 @@ fn lines_and_polygons_are_drawn_by_corners_or_freely() {
         click(&mut session, x, y);
     }
     run(&mut session, FigureCommand::Finish);
-    let polygon = |session: &Session, index: usize| match &session.figure().regions[index].from {
-        Some(Source::Polygon(polygon)) => polygon.clone(),
-        other => panic!("{other:?}"),
-    };
+    let polygon =
+        |session: &Session, index: usize| match &session.figure().clone().regions[index].from {
+            Some(Source::Polygon(polygon)) => polygon.clone(),
+            other => panic!("{other:?}"),
+        };
     let corners = [[-0.1, 0.0], [0.1, 0.0], [0.1, 0.2]].map(DVec2::from_array);
     assert_eq!(polygon(&session, 0), corners, "at rest, each once");
     // A circle by hand.
@@ -194,7 +199,7 @@ fn lines_and_polygons_are_drawn_by_corners_or_freely() {
     run(&mut session, FigureCommand::TakeBack);
     assert_eq!(session.view.figure.draft.len(), 1);
     run(&mut session, FigureCommand::Finish);
-    assert_eq!(session.figure().regions.len(), 2);
+    assert_eq!(session.figure().clone().regions.len(), 2);
     click(&mut session, 0.0, 0.0);
     session.run(Command::Escape, 0.0);
     assert!(session.view.figure.draft.is_empty());
@@ -205,7 +210,7 @@ fn lines_and_polygons_are_drawn_by_corners_or_freely() {
         click(&mut session, x, 0.1);
     }
     run(&mut session, FigureCommand::Finish);
-    let line = session.figure().handles[0].hold.clone();
+    let line = session.figure().clone().handles[0].hold.clone();
     let Hold::Line {
         points,
         to: Some(to),
@@ -221,7 +226,7 @@ fn lines_and_polygons_are_drawn_by_corners_or_freely() {
         &mut session,
         FigureCommand::MoveLinePoint(0, 1, Vec2::new(0.3, 0.3)),
     );
-    let moved = session.figure().handles[0].hold.clone();
+    let moved = session.figure().clone().handles[0].hold.clone();
     assert!(matches!(moved, Hold::Line { to: Some(to), .. } if to[1] == DVec2::new(0.3, 0.3)));
     run(&mut session, FigureCommand::MoveLinePoint(0, 7, Vec2::ONE));
     run(&mut session, FigureCommand::MoveLinePoint(7, 0, Vec2::ONE));
@@ -231,7 +236,10 @@ fn lines_and_polygons_are_drawn_by_corners_or_freely() {
         session.camera.target = target.extend(0.0);
         session.run(Command::PlaceInMiddle, 0.0);
     }
-    assert_eq!(session.figure().only.map(|only| only.len()), Some(3));
+    assert_eq!(
+        session.figure().clone().only.map(|only| only.len()),
+        Some(3)
+    );
 }
 
 #[test]
@@ -251,7 +259,7 @@ fn shapes_of_a_drawing_become_regions() {
     run(&mut session, FigureCommand::Take(FigureTool::Region));
     // The shape at rest under what is seen.
     click(&mut session, -0.05, 0.05);
-    let figure = session.figure();
+    let figure = session.figure().clone();
     assert_eq!(figure.regions[0].name, "ulna");
     assert_eq!(
         figure.regions[0].from,
@@ -260,9 +268,13 @@ fn shapes_of_a_drawing_become_regions() {
     // As the bender tells it.
     session.view.figure.regions = Arc::new(figure.regions);
     click(&mut session, -0.05, 0.05);
-    assert_eq!(session.figure().regions.len(), 1, "it is one already");
+    assert_eq!(
+        session.figure().clone().regions.len(),
+        1,
+        "it is one already"
+    );
     run(&mut session, FigureCommand::TakeShapes);
-    let figure = session.figure();
+    let figure = session.figure().clone();
     let names: Vec<&str> = figure
         .regions
         .iter()
@@ -275,7 +287,11 @@ fn shapes_of_a_drawing_become_regions() {
         "{names:?}"
     );
     session.run(Command::Undo, 0.0);
-    assert_eq!(session.figure().regions.len(), 1, "one step of undo");
+    assert_eq!(
+        session.figure().clone().regions.len(),
+        1,
+        "one step of undo"
+    );
 }
 
 #[test]
@@ -284,11 +300,11 @@ fn landmarks_come_three_at_first() {
     run(&mut session, FigureCommand::Take(FigureTool::Landmark));
     for (x, count) in [(0.0, 0), (0.2, 0), (0.3, 3), (0.4, 4)] {
         click(&mut session, x, x * x);
-        let context = session.figure().context;
+        let context = session.figure().clone().context;
         assert_eq!(context.map_or(0, |context| context.points.len()), count);
     }
     run(&mut session, FigureCommand::DropLandmarks);
-    assert_eq!(session.figure().context, None);
+    assert_eq!(session.figure().clone().context, None);
 }
 
 #[test]
@@ -332,7 +348,7 @@ fn at_a_step_a_pose_is_recorded() {
     let wanted = json!({ "/figure/handles/0/move": [0, 0.2], "/figure/handles/0/turn": 0.5 });
     assert_eq!(set, Some(wanted));
     session.run(Command::GoToStep(0), 0.0);
-    assert_eq!(session.figure().handles[0].motion.by, DVec2::ZERO);
+    assert_eq!(session.figure().clone().handles[0].motion.by, DVec2::ZERO);
     // The region is of all steps.
     session.run(Command::GoToStep(1), 0.0);
     run(&mut session, FigureCommand::Take(FigureTool::Region));
@@ -396,12 +412,20 @@ fn places_of_another_picture_are_taken_over() {
     assert!(!session.can_take_over());
     refer(&mut session, ReferenceCommand::Click(Vec2::ONE));
     refer(&mut session, ReferenceCommand::Take);
-    let like = session.figure().context.and_then(|context| context.like);
+    let like = session
+        .figure()
+        .clone()
+        .context
+        .and_then(|context| context.like);
     assert_eq!(like.map(|like| like.len()), Some(3));
     // One landmark more: those of the other picture no longer fit.
     click(&mut session, 0.4, 0.0);
     assert_eq!(
-        session.figure().context.and_then(|context| context.like),
+        session
+            .figure()
+            .clone()
+            .context
+            .and_then(|context| context.like),
         None
     );
     // The outline of a region, once and then another one.
@@ -413,7 +437,7 @@ fn places_of_another_picture_are_taken_over() {
             refer(&mut session, ReferenceCommand::Click(at * size));
         }
         refer(&mut session, ReferenceCommand::Take);
-        let contours = session.figure().contours;
+        let contours = session.figure().clone().contours;
         assert_eq!(contours.len(), 1);
         assert_eq!(
             contours[0].like[1],

@@ -18,6 +18,26 @@ pub const MAX_HANDLES: usize = 64;
 pub const MAX_CONTOURS: usize = 8;
 /// Points of all floods together at most.
 pub const MAX_FLOOD_POINTS: usize = 256;
+/// Points of one flood at most.
+pub const MAX_FLOOD_SEEDS: usize = 16;
+/// Corners of a region's polygon at most.
+pub const MAX_POLYGON: usize = 512;
+/// Points of a line at most.
+pub const MAX_LINE: usize = 32;
+/// Corners of the polygon outside which handles move nothing, at most.
+pub const MAX_ONLY: usize = 64;
+/// Points of the context at most.
+pub const MAX_LANDMARKS: usize = 64;
+/// Points of another outline at most.
+pub const MAX_OUTLINE: usize = 256;
+/// How far a handle moves what it holds at most, along each axis.
+pub const MAX_MOVE: f64 = 4.0;
+/// By which angle a handle turns it at most: two full turns either way, radians.
+pub const MAX_TURN: f64 = 4.0 * std::f64::consts::PI;
+/// Ends of the range of factors by which a handle scales.
+pub const SCALE_RANGE: [f64; 2] = [0.05, 20.0];
+/// Least and greatest rigidity that a region may have.
+pub const RIGIDITY_RANGE: [f64; 2] = [0.1, 100.0];
 /// Triangles aimed at if a document does not say.
 pub const DEFAULT_DETAIL: u32 = 6000;
 
