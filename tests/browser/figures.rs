@@ -2,6 +2,10 @@
 //! native program.
 
 use super::embed::{open_coarse, picture_of, ready, rests_at};
+use super::hand::{
+    CTRL, Control, Touch, changed, click, controls, find, focus, mark, press, press_with,
+};
+use super::harness::Tab;
 use super::native::{drawn, promised};
 use super::parts::count;
 use super::*;
@@ -178,6 +182,188 @@ fn an_embed_bends_a_figure_from_step_to_step() {
         for part in ["subjects", "scans", "meshes", "pictures", "bg"] {
             assert_eq!(count(server, &format!("fabrica_{part}")), 0, "no {part}");
         }
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// Where a place of the figure's plane is seen in the page.
+async fn spot(tab: &Tab, x: f64, y: f64) -> (f64, f64) {
+    let picture = find(tab, "Picture").await;
+    let text: String = tab.eval("window.fabrica.viewer.get_document()").await;
+    let camera = illustration(&text).camera;
+    let half = f64::from((0.5 * camera.fov_deg.to_radians()).tan() * camera.distance);
+    let scale = 0.5 * picture.size.0.min(picture.size.1) / half;
+    let (middle_x, middle_y) = picture.middle();
+    let target = camera.target.as_dvec3();
+    (
+        middle_x + (x - target.x) * scale,
+        middle_y - (y - target.y) * scale,
+    )
+}
+
+/// Clicks on a place of the figure, and waits for the part of the document that it changes.
+async fn click_on(tab: &Tab, (x, y): (f64, f64)) -> serde_json::Value {
+    mark(tab, "figure").await;
+    let (x, y) = spot(tab, x, y).await;
+    tab.click(x, y).await;
+    let figure = changed(tab, "figure").await;
+    tab.settled().await;
+    figure
+}
+
+fn count_of(figure: &serde_json::Value, list: &str) -> usize {
+    figure[list].as_array().map_or(0, Vec::len)
+}
+
+/// A plate is dropped, divided, pinned and bent by the mouse, undone by a key, and its link shows the same in another
+/// tab and natively.
+#[test]
+fn a_plate_is_divided_and_bent_by_hand() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.server.add("plate.png", plate_png());
+        let size = (900, 760);
+        let link = format!("#{}", payload(PLAIN));
+        let tab = session.coarse_viewer(&link, size).await;
+        tab.settled().await;
+        drop_files(&tab, &["plate.png"]).await;
+        let is_figure = "JSON.parse(window.fabrica.viewer.get_document()).figure !== undefined";
+        tab.wait_until(is_figure, 120).await;
+        focus(&tab).await;
+        tab.settled().await;
+        // The disc by a click, a stripe by a drag that widens its tolerance until it holds all stripes.
+        click(&tab, "By colour").await;
+        let figure = click_on(&tab, (0.0, 0.0)).await;
+        assert_eq!(count_of(&figure, "regions"), 1, "{figure}");
+        mark(&tab, "figure").await;
+        let (x, y) = spot(&tab, -0.4, 0.2).await;
+        tab.drag((x, y), (x + 60.0, y), 6).await;
+        let figure = changed(&tab, "figure").await;
+        assert_eq!(count_of(&figure, "regions"), 2, "{figure}");
+        let tolerance = figure.pointer("/regions/1/from/flood/tolerance");
+        assert!(
+            tolerance.is_some_and(|t| t.as_f64().is_some_and(|t| (40.0..60.0).contains(&t))),
+            "{figure}"
+        );
+        // The disc is made of bone.
+        click(&tab, "region 1").await;
+        mark(&tab, "figure").await;
+        tab.settled().await;
+        // The row's label has the same name.
+        let is_combo = |control: &Control| control.name == "Material" && control.role == "ComboBox";
+        let combo = controls(&tab).await.into_iter().find(is_combo);
+        let (x, y) = combo.expect("a choice of materials").middle();
+        tab.click(x, y).await;
+        click(&tab, "Bone: rigid").await;
+        let figure = changed(&tab, "figure").await;
+        assert_eq!(figure["regions"][0]["rigidity"], "rigid", "{figure}");
+        click(&tab, "Pin").await;
+        for (i, place) in [(-0.4, -0.2), (0.0, 0.05), (0.4, 0.2)]
+            .into_iter()
+            .enumerate()
+        {
+            let figure = click_on(&tab, place).await;
+            assert_eq!(count_of(&figure, "handles"), i + 1, "{figure}");
+        }
+        press(&tab, "Escape").await;
+        mark(&tab, "figure").await;
+        let from = find(&tab, "Pin 3 in the picture").await.middle();
+        tab.drag(from, (from.0 - 10.0, from.1 - 40.0), 6).await;
+        let figure = changed(&tab, "figure").await;
+        let by = &figure["handles"][2]["move"];
+        assert!(by[1].as_f64().is_some_and(|y| y > 0.05), "{figure}");
+        tab.settled().await;
+        object_part(&tab.picture("figure_made").await);
+        let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+        let text: String = tab.eval("window.fabrica.viewer.get_document()").await;
+        let ReadPlate { plate, .. } = read_plate(&plate_png()).expect("a PNG");
+        let shown = illustration(&text);
+        let size_px = page.dimensions().into();
+        assert_alike(&page, &native(&shown, plate.clone(), size_px).await, "made");
+        let rest = native(&unbent(&shown), plate, size_px).await;
+        assert!(difference(&page, &rest, WHITE).mean > NEAR, "it is bent");
+        // One drag is one step of undo, and the picture comes back with it.
+        press_with(&tab, CTRL, "z", None).await;
+        tab.wait_until(
+            "JSON.parse(window.fabrica.viewer.get_document()).figure.handles[2].move === undefined",
+            60,
+        )
+        .await;
+        press_with(&tab, CTRL, "y", None).await;
+        tab.settled().await;
+        // Another reader has the file too.
+        let link: String = tab.eval("window.fabrica.viewer.get_link()").await;
+        let other = session.coarse_viewer(&format!("#{link}"), size).await;
+        drop_files(&other, &["plate.png"]).await;
+        other
+            .wait_until(
+                "window.fabrica.viewer.get_document().includes('\"handles\"')",
+                60,
+            )
+            .await;
+        other.settled().await;
+        let again = promised(&other, "window.fabrica.viewer.picture()").await;
+        let apart = difference(&page, &again, WHITE);
+        assert!(apart.percentile <= 1, "the same picture: {apart:?}");
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// Pins by fingers on a phone, and by keys alone.
+#[test]
+fn pins_are_set_by_fingers_and_by_keys() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let json = r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{"detail":1500}}"#;
+        let link = format!("#{}", payload(json));
+        let tab = session.coarse_viewer(&link, (390, 844)).await;
+        tab.settled().await;
+        let touch = Touch::new(&tab).await;
+        tab.settled().await;
+        for (i, (x, y)) in [(-0.25, 0.05), (0.36, -0.08)].into_iter().enumerate() {
+            if i == 0 {
+                touch.tap("Add").await;
+                touch.tap("Pin").await;
+                tab.settled().await;
+            }
+            mark(&tab, "figure").await;
+            touch.tap_at(spot(&tab, x, y).await).await;
+            let figure = changed(&tab, "figure").await;
+            assert_eq!(count_of(&figure, "handles"), i + 1, "{figure}");
+            tab.settled().await;
+        }
+        mark(&tab, "figure").await;
+        let (x, y) = find(&tab, "Pin 2 in the picture").await.middle();
+        touch.swipe(&[[(x, y), (x - 5.0, y - 60.0)]]).await;
+        let figure = changed(&tab, "figure").await;
+        let by = &figure["handles"][1]["move"];
+        assert!(by[1].as_f64().is_some_and(|y| y > 0.03), "{figure}");
+        tab.settled().await;
+        tab.picture("figure_by_fingers").await;
+        tab.assert_no_complaints().await;
+
+        // Its forearm lies in the middle of the picture.
+        let json = json.replace(
+            "\"figure\"",
+            "\"camera\":{\"target\":[0.1,-0.12,0]},\"figure\"",
+        );
+        let link = format!("#{}", payload(&json));
+        let tab = session.coarse_viewer(&link, (900, 760)).await;
+        focus(&tab).await;
+        tab.settled().await;
+        // As one goes through the controls of the page with Tab.
+        click(&tab, "Pin").await;
+        mark(&tab, "figure").await;
+        focus(&tab).await;
+        press(&tab, "Enter").await;
+        let figure = changed(&tab, "figure").await;
+        assert_eq!(count_of(&figure, "handles"), 1, "{figure}");
+        mark(&tab, "figure").await;
+        press(&tab, "]").await;
+        let figure = changed(&tab, "figure").await;
+        assert!(figure["handles"][0]["turn"].is_number(), "{figure}");
+        mark(&tab, "figure").await;
+        press(&tab, "Delete").await;
+        let figure = changed(&tab, "figure").await;
+        assert_eq!(count_of(&figure, "handles"), 0, "{figure}");
         tab.assert_no_complaints().await;
     });
 }
