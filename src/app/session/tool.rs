@@ -41,8 +41,8 @@ impl Tool {
         }
     }
 
-    /// True if the tool waits for a click, which the middle of the picture can stand in for: placing, captioning, a tool
-    /// of a figure.
+    /// True if the tool waits for a click, which the middle of the picture can stand in for: placing, captioning, a
+    /// tool of a figure.
     pub fn wants_place(self) -> bool {
         matches!(self, Self::Place(_) | Self::Caption | Self::Figure(_))
     }
