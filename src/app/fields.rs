@@ -89,6 +89,8 @@ impl App {
         let view = &mut self.session.view.figure;
         view.sheet.clone_from(&sheet);
         view.regions = Arc::clone(self.bending.regions());
+        view.progress = self.bending.progress(self.session.now);
+        view.is_stopped = self.bending.is_stopped();
         sheet
     }
 

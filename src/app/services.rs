@@ -48,6 +48,8 @@ pub trait Services {
     fn bend(&mut self, request: BendRequest) {
         _ = request;
     }
+    /// Stops the bending of a figure; [`BendAnswer::Stopped`] follows, or an answer that was there before.
+    fn stop_bending(&mut self) {}
     /// Fetches a file that ships with the program; [`Message::Shipped`] follows.
     fn fetch_shipped(&mut self, file: Shipped);
     /// Stops a load; [`LoadEvent::Cancelled`] follows.

@@ -359,6 +359,8 @@ impl App {
                 Effect::DropMesh => self.held_mesh = None,
                 Effect::StopTissues => self.tissue.stop(&self.assets, self.session.shown()),
                 Effect::FindTissues => self.tissue.find(),
+                Effect::StopBending => services.stop_bending(),
+                Effect::GoOnBending => self.bending.go_on(),
                 Effect::OpenFile => services.open_file(),
                 Effect::Save(file) => services.save_file(file),
                 Effect::Copy(text) => services.copy_text(text),
@@ -619,8 +621,9 @@ impl App {
         let picture = self.picture.as_ref();
         self.preset_pictures
             .advance(ctx, &self.session, picture, is_held);
+        let drawing = (picture, &mut self.bending);
         self.step_pictures
-            .advance(ctx, &self.session, picture, is_held);
+            .advance(ctx, &self.session, drawing, is_held);
         if let Some(picture) = &mut self.picture {
             for notice in picture.take_notices() {
                 // A file that is not there yet may be on its way.

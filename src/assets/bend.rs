@@ -12,6 +12,9 @@ pub const FOLLOWING: u32 = 4;
 /// Seconds in which a figure that followed a hand or a passage comes to the pose at rest.
 const EASING: f64 = 0.2;
 
+/// Seconds after which it is told how much is done: most poses are there before.
+const PATIENCE: f64 = 0.4;
+
 /// What is said of one plate at most: poses of a lesson that plays for hours may differ in their notices.
 const MOST_TOLD: usize = 50;
 
@@ -22,8 +25,19 @@ pub struct BendRequest {
     pub plate: Option<Arc<Plate>>,
     /// How it is divided and bent.
     pub figure: Figure,
-    /// With so many rounds from the last pose on; `None`: at rest, turns found to the end.
-    pub rounds: Option<u32>,
+    /// How far its turns are found.
+    pub pose: BendPose,
+}
+
+/// How far the turns of a pose are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BendPose {
+    /// To the end.
+    AtRest,
+    /// With so many rounds from the last pose on.
+    Following(u32),
+    /// To the end, but what follows goes on from the pose before.
+    Aside,
 }
 
 /// What a bender answers.
@@ -38,6 +52,10 @@ pub enum BendAnswer {
         /// What should be said of the pose at rest.
         notices: Vec<String>,
     },
+    /// So much of it is done, 0 to 1. The answer itself follows.
+    UnderWay(f32),
+    /// It was stopped, and the bender is gone, with the plate that it had.
+    Stopped,
     /// There is none, and why.
     Failed(String),
     /// The bender is gone, with the plate that it had, and why.
@@ -49,6 +67,8 @@ pub enum BendAnswer {
 struct Asked {
     figure: Figure,
     is_at_rest: bool,
+    /// It is for somebody else than the picture.
+    is_aside: bool,
 }
 
 /// A figure on its way from the pose that followed to that at rest.
@@ -56,6 +76,15 @@ struct Asked {
 struct Easing {
     from: Sheet,
     /// When it was first shown, seconds.
+    since: Option<f64>,
+}
+
+/// How much of what is under way is done.
+#[derive(Clone, Copy, Debug)]
+struct Progress {
+    /// 0 to 1.
+    part: f32,
+    /// When it was first asked for, seconds.
     since: Option<f64>,
 }
 
@@ -74,6 +103,12 @@ pub struct Bending {
     shown: Option<Asked>,
     sheet: Option<Sheet>,
     easing: Option<Easing>,
+    /// What is wanted besides, when the sheet is what is wanted.
+    wish: Option<Figure>,
+    /// What was bent besides; no sheet if it could not be.
+    aside: Option<(Figure, Option<Sheet>)>,
+    progress: Option<Progress>,
+    is_stopped: bool,
     regions: Arc<Vec<Region>>,
     notices: Vec<String>,
     /// What was said of poses at rest before: it is not said again.
@@ -100,22 +135,34 @@ impl Bending {
             self.forget();
             self.plate = Some(Arc::clone(plate));
         }
-        if self.under_way.is_some() || !self.wants(figure, is_moving) {
+        if self.under_way.is_some() {
             return None;
         }
-        let brings_plate = !std::mem::replace(&mut self.has_plate, true);
-        let figure = figure.cloned().unwrap_or_default();
+        if !self.wants(figure, is_moving) {
+            let figure = self.wish.take()?;
+            return Some(self.request(figure, BendPose::Aside));
+        }
+        self.is_stopped = false;
         // There is nothing to follow before the first pose.
-        let is_at_rest = !is_moving || self.sheet.is_none();
+        let pose = match !is_moving || self.sheet.is_none() {
+            true => BendPose::AtRest,
+            false => BendPose::Following(FOLLOWING),
+        };
+        Some(self.request(figure.cloned().unwrap_or_default(), pose))
+    }
+
+    fn request(&mut self, figure: Figure, pose: BendPose) -> BendRequest {
+        let has_plate = std::mem::replace(&mut self.has_plate, true);
         self.under_way = Some(Asked {
             figure: figure.clone(),
-            is_at_rest,
+            is_at_rest: !matches!(pose, BendPose::Following(_)),
+            is_aside: pose == BendPose::Aside,
         });
-        Some(BendRequest {
-            plate: brings_plate.then(|| Arc::clone(plate)),
+        BendRequest {
+            plate: self.plate.clone().filter(|_| !has_plate),
             figure,
-            rounds: (!is_at_rest).then_some(FOLLOWING),
-        })
+            pose,
+        }
     }
 
     fn forget(&mut self) {
@@ -141,9 +188,25 @@ impl Bending {
 
     /// Takes the answer to the request under way.
     pub fn take(&mut self, answer: BendAnswer) {
+        if let BendAnswer::UnderWay(part) = answer {
+            let since = self.progress.and_then(|progress| progress.since);
+            let of_picture = self.under_way.as_ref().filter(|asked| !asked.is_aside);
+            self.progress = of_picture.map(|_| Progress { part, since });
+            return;
+        }
+        self.progress = None;
         let asked = self.under_way.take();
-        self.has_plate &= !matches!(answer, BendAnswer::Lost(_));
+        self.has_plate &= !matches!(answer, BendAnswer::Lost(_) | BendAnswer::Stopped);
         if std::mem::take(&mut self.is_outdated) {
+            return;
+        }
+        let is_aside = asked.as_ref().is_some_and(|asked| asked.is_aside);
+        if let Some(asked) = asked.clone().filter(|_| is_aside) {
+            let sheet = match answer {
+                BendAnswer::Bent { sheet, .. } => Some(sheet),
+                _ => None,
+            };
+            self.aside = Some((asked.figure, sheet));
             return;
         }
         let is_at_rest = asked.as_ref().is_some_and(|asked| asked.is_at_rest);
@@ -169,6 +232,8 @@ impl Bending {
                     }
                 }
             }
+            BendAnswer::UnderWay(_) => {}
+            BendAnswer::Stopped => self.is_stopped = true,
             BendAnswer::Failed(why) | BendAnswer::Lost(why) => {
                 if self.failure.as_ref() != Some(&why) {
                     self.notices.push(why.clone());
@@ -176,6 +241,18 @@ impl Bending {
                 self.failure = Some(why);
             }
         }
+    }
+
+    /// The sheet of another pose of the same figure at rest, besides the one that is shown: `None` until it is there,
+    /// and nothing within if it could not be bent. Whoever wants it asks again and again.
+    pub fn aside(&mut self, figure: &Figure) -> Option<Option<Sheet>> {
+        if self.aside.as_ref().is_some_and(|(of, _)| of == figure) {
+            return self.aside.take().map(|(_, sheet)| sheet);
+        }
+        let is_it = |asked: &Asked| asked.is_aside && asked.figure == *figure;
+        let is_under_way = self.under_way.as_ref().is_some_and(is_it);
+        self.wish = (!is_under_way).then(|| figure.clone());
+        None
     }
 
     /// The newest sheet.
@@ -214,6 +291,25 @@ impl Bending {
         self.easing.is_some()
     }
 
+    /// How much of the pose that is awaited is done, 0 to 1, once that has taken a while. The time is in seconds.
+    pub fn progress(&mut self, now: f64) -> Option<f32> {
+        let progress = self.progress.as_mut()?;
+        let since = *progress.since.get_or_insert(now);
+        (now - since >= PATIENCE).then_some(progress.part)
+    }
+
+    /// True if the pose that was asked for was stopped, and no other has been since.
+    pub fn is_stopped(&self) -> bool {
+        self.is_stopped
+    }
+
+    /// The pose that was stopped is asked for again.
+    pub fn go_on(&mut self) {
+        if std::mem::take(&mut self.is_stopped) {
+            self.shown = None;
+        }
+    }
+
     /// The figure's regions with what its source adds, from behind to front, as of the last pose at rest.
     pub fn regions(&self) -> &Arc<Vec<Region>> {
         &self.regions
@@ -231,7 +327,10 @@ impl Bending {
         };
         let is_same = |known: &Arc<Plate>| Arc::ptr_eq(known, plate);
         let is_new = !self.plate.as_ref().is_some_and(is_same);
-        is_new || self.under_way.is_some() || self.wants(figure, is_moving)
+        let is_of_picture = |asked: &Asked| !asked.is_aside;
+        is_new
+            || self.under_way.as_ref().is_some_and(is_of_picture)
+            || self.wants(figure, is_moving)
     }
 
     /// What should be said of the figure; each is returned once.
@@ -284,7 +383,7 @@ mod tests {
     fn one_is_under_way_and_the_newest_is_next() {
         let (plate, mut bending) = (plate(), Bending::default());
         let first = bending.next(Some(&plate), None, false).expect("it is new");
-        assert!(first.plate.is_some() && first.rounds.is_none());
+        assert!(first.plate.is_some() && first.pose == BendPose::AtRest);
         for detail in [600, 700, 800] {
             let next = bending.next(Some(&plate), Some(&figure(detail)), true);
             assert_eq!(next, None, "one is under way");
@@ -292,16 +391,57 @@ mod tests {
         bending.take(bent(&[]));
         let next = bending.next(Some(&plate), Some(&figure(800)), true);
         let next = next.expect("another figure");
-        assert_eq!((next.plate, next.rounds), (None, Some(FOLLOWING)));
+        assert_eq!(
+            (next.plate, next.pose),
+            (None, BendPose::Following(FOLLOWING))
+        );
         assert_eq!(next.figure, figure(800));
         bending.take(bent(&[]));
         assert_eq!(bending.next(Some(&plate), Some(&figure(800)), true), None);
         let at_rest = bending.next(Some(&plate), Some(&figure(800)), false);
-        assert_eq!(at_rest.expect("it stands still").rounds, None);
+        assert_eq!(at_rest.expect("it stands still").pose, BendPose::AtRest);
         assert!(bending.is_behind(Some(&plate), Some(&figure(800)), false));
         bending.take(bent(&[]));
         assert_eq!(bending.next(Some(&plate), Some(&figure(800)), false), None);
         assert!(!bending.is_behind(Some(&plate), Some(&figure(800)), false));
+    }
+
+    #[test]
+    fn another_pose_is_bent_besides() {
+        let (plate, mut bending) = (plate(), Bending::default());
+        let asks = |bending: &mut Bending, detail| {
+            let request = bending.next(Some(&plate), Some(&figure(detail)), false);
+            request.map(|request| (request.figure.detail, request.pose))
+        };
+        assert_eq!(bending.aside(&figure(900)), None);
+        assert_eq!(asks(&mut bending, 600), Some((600, BendPose::AtRest)));
+        assert_eq!(bending.aside(&figure(900)), None);
+        assert_eq!(asks(&mut bending, 600), None, "one is under way");
+        bending.take(bent(&["of the picture"]));
+        assert_eq!(asks(&mut bending, 600), Some((900, BendPose::Aside)));
+        assert!(!bending.is_behind(Some(&plate), Some(&figure(600)), false));
+        assert_eq!(bending.aside(&figure(900)), None);
+        bending.take(BendAnswer::UnderWay(0.5));
+        assert_eq!(bending.progress(1.0).or(bending.progress(9.0)), None);
+        assert_eq!(bending.take_notices(), ["of the picture"]);
+        bending.take(bent(&["of the other"]));
+        assert!(bending.take_notices().is_empty());
+        assert_eq!(asks(&mut bending, 600), None, "asked for once");
+        assert!(
+            bending
+                .aside(&figure(900))
+                .is_some_and(|sheet| sheet.is_some())
+        );
+        assert_eq!(asks(&mut bending, 600), None);
+        // The picture comes first.
+        assert_eq!(bending.aside(&figure(900)), None);
+        assert_eq!(asks(&mut bending, 700), Some((700, BendPose::AtRest)));
+        bending.take(bent(&[]));
+        assert_eq!(asks(&mut bending, 700), Some((900, BendPose::Aside)));
+        bending.take(BendAnswer::Lost("gone".to_owned()));
+        assert_eq!(bending.aside(&figure(900)), Some(None));
+        let next = bending.next(Some(&plate), Some(&figure(800)), false);
+        assert!(next.is_some_and(|request| request.plate.is_some()));
     }
 
     #[test]
@@ -346,6 +486,46 @@ mod tests {
         assert_eq!(bending.next(Some(&plate), Some(&figure(1100)), false), None);
         let again = bending.next(Some(&plate), Some(&figure(1200)), false);
         assert!(again.is_some_and(|request| request.plate.is_some()));
+    }
+
+    #[test]
+    fn what_takes_long_tells_of_it_and_can_be_stopped() {
+        let (plate, mut bending) = (plate(), Bending::default());
+        let asks = |bending: &mut Bending, detail| {
+            let request = bending.next(Some(&plate), Some(&figure(detail)), false);
+            request.map(|request| request.plate.is_some())
+        };
+        assert_eq!(asks(&mut bending, 600), Some(true));
+        assert_eq!(bending.progress(1.0), None, "nothing is known of it");
+        bending.take(BendAnswer::UnderWay(0.25));
+        assert_eq!(bending.progress(1.0), None, "it may be there at once");
+        bending.take(BendAnswer::UnderWay(0.5));
+        assert_eq!(bending.progress(1.1), None);
+        assert_eq!(bending.progress(1.5), Some(0.5));
+        assert_eq!(asks(&mut bending, 700), None, "one is under way");
+        bending.take(bent(&[]));
+        assert_eq!(bending.progress(9.0), None);
+        assert_eq!(asks(&mut bending, 700), Some(false));
+        bending.take(BendAnswer::Stopped);
+        assert!(
+            bending.is_stopped() && bending.sheet().is_some(),
+            "the last one stays"
+        );
+        assert_eq!(asks(&mut bending, 700), None, "it was stopped");
+        bending.go_on();
+        assert_eq!(asks(&mut bending, 700), Some(true), "to another bender");
+        bending.take(bent(&[]));
+        assert!(!bending.is_stopped());
+        // Another figure is another matter.
+        assert_eq!(asks(&mut bending, 800), Some(false));
+        bending.take(BendAnswer::Stopped);
+        assert_eq!(asks(&mut bending, 900), Some(true));
+        assert!(!bending.is_stopped());
+        // What is told too late says nothing.
+        bending.take(bent(&[]));
+        bending.take(BendAnswer::UnderWay(0.5));
+        assert_eq!(bending.progress(9.0), None);
+        assert_eq!(bending.progress(10.0), None);
     }
 
     #[test]

@@ -25,7 +25,7 @@ mod store;
 mod tissue_work;
 mod want;
 
-pub use bend::{BendAnswer, BendRequest, Bending, FOLLOWING};
+pub use bend::{BendAnswer, BendPose, BendRequest, Bending, FOLLOWING};
 pub use events::{LoadEvent, RawQuestion, SegmentationsExpected};
 pub use news::ResourceNews;
 pub use store::{Assets, Data};

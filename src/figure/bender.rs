@@ -15,6 +15,10 @@ use crate::data::{Plate, Sheet, SheetMesh};
 use crate::document::figure::{Behind, Figure, Hold, Region, Rigidity, Rotations};
 use crate::math::linear_from_srgb;
 
+/// How much of a new pose is done with its mesh, and of what is left then with its factors.
+const OF_MESH: f32 = 0.6;
+const OF_FACTORS: f32 = 0.5;
+
 /// Bends the figure of a plate. It keeps what does not change from one pose to the next: the mesh as long as regions
 /// stay, the factors as long as what is held stays, and turns from one frame of a drag to the next.
 #[derive(Debug)]
@@ -38,7 +42,7 @@ struct Made {
 }
 
 /// What belongs to one list of what is held.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Rigged {
     /// The figure that it was made for, as far as the factors depend on it.
     key: Figure,
@@ -104,6 +108,19 @@ impl Bender {
         })
     }
 
+    /// As [`Bender::bent`], but what follows goes on from the pose before.
+    pub fn bent_aside(&mut self, figure: &Figure, progress: &mut Progress<'_>) -> Option<Bent> {
+        let before = self.made.as_ref();
+        let before = before.and_then(|made| Some((Arc::clone(&made.mesh), made.rig.clone()?)));
+        let bent = self.bent(figure, progress);
+        if let (Some(made), Some((mesh, rig))) = (&mut self.made, before)
+            && Arc::ptr_eq(&made.mesh, &mesh)
+        {
+            made.rig = Some(rig);
+        }
+        bent
+    }
+
     /// The pose that follows a drag or a passage: with so many rounds from the last pose on. Where there is no last
     /// pose with these regions and these held places, it is the pose at rest.
     pub fn follow(
@@ -129,20 +146,30 @@ impl Bender {
         })
     }
 
-    /// As [`Bender::bent`], with the numbers behind it.
+    /// As [`Bender::bent`], with the numbers behind it. A mesh takes the first part of the progress, then factors, then
+    /// rounds, each if it is to be made.
     pub fn solved(&mut self, figure: &Figure, progress: &mut Progress<'_>) -> Option<Solved> {
         let whole = self.original.completed(figure);
         let original = &self.original;
         let mesh_key = mesh_key(&whole);
+        let mut done = 0.0;
         let made = match self.made.take().filter(|made| made.key == mesh_key) {
             Some(made) => made,
-            None => Made::new(original, &whole, mesh_key, progress)?,
+            None => {
+                done = OF_MESH;
+                let mut of_mesh = |part: f32| progress(OF_MESH * part);
+                Made::new(original, &whole, mesh_key, &mut of_mesh)?
+            }
         };
         let made = self.made.insert(made);
         let rig_key = rig_key(&whole);
         let rigged = match made.rig.take().filter(|rig| rig.key == rig_key) {
             Some(rigged) => rigged,
             None => {
+                if !progress(done) {
+                    return None;
+                }
+                done += (1.0 - done) * OF_FACTORS;
                 self.factorisations += 1;
                 let mut notices = Vec::new();
                 Rigged {
@@ -155,7 +182,15 @@ impl Bender {
         };
         let rigged = made.rig.insert(rigged);
         let mut notices = [made.notices.as_slice(), &rigged.notices].concat();
-        let (posed, drag) = rigged.rig.settled(&whole, &mut notices);
+        let mut is_wanted = progress(done);
+        let mut of_rounds = |part: f32| {
+            is_wanted &= progress(done + (1.0 - done) * part);
+            is_wanted
+        };
+        let (posed, drag) = (rigged.rig).settled(&whole, &mut notices, &mut of_rounds);
+        if !is_wanted {
+            return None;
+        }
         rigged.drag = Some(drag);
         Some(Solved {
             rig: rigged.rig.clone(),

@@ -1,15 +1,13 @@
 use std::sync::Arc;
 
 use super::plane::reduced_size;
-use super::svg::{Drawing, SvgError};
+use super::svg::{DRAWN_SIDE, Drawing, SvgError};
 use crate::data::{Plate, PlateOrigin};
 use crate::pictures::{
     Picture, PictureError, PictureHeader, decode, orientation, reduced, upright,
 };
 use glam::dvec2;
 
-/// Pixels along the longest side of what a drawing is drawn into.
-const DRAWN_SIDE: u32 = 2048;
 /// Bytes by which the file of a figure is known: those in which an SVG has to begin.
 pub const SNIFF_BYTES: usize = 4096;
 

@@ -274,7 +274,7 @@ impl Picture {
     /// [`RenderError::NoSubject`] before there is anything to draw, and those of the renderer.
     pub fn image(&self) -> impl Future<Output = Result<Image, RenderError>> + 'static {
         self.renderer.render_image(
-            &self.seen(),
+            (&self.seen(), None),
             self.size_px.map(|side| side.max(1)),
             SAMPLES,
             |_| {},

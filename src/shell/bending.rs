@@ -2,8 +2,8 @@
 
 use super::figures::hand_over;
 use super::loading::{Post, PostingSink};
-use crate::assets::{BendAnswer, BendRequest, LoadEvent};
-use crate::figure::{Bender, ReadPlate, builtin_plate, unwatched};
+use crate::assets::{BendAnswer, BendPose, BendRequest, LoadEvent};
+use crate::figure::{Bender, ReadPlate, builtin_plate};
 use crate::load::LoadReport;
 
 /// One bender, and what it is asked for.
@@ -13,8 +13,12 @@ pub struct Desk {
 }
 
 impl Desk {
-    /// Does what is asked.
-    pub fn answer(&mut self, request: BendRequest) -> BendAnswer {
+    /// Does what is asked. `tell` hears how far a pose at rest is, 0 to 1, and says whether it is still wanted.
+    pub fn answer(
+        &mut self,
+        request: BendRequest,
+        tell: &mut dyn FnMut(f32) -> bool,
+    ) -> BendAnswer {
         if let Some(plate) = request.plate {
             // One of another picture is of no use from now on.
             self.bender = None;
@@ -26,17 +30,27 @@ impl Desk {
         let Some(bender) = &mut self.bender else {
             return BendAnswer::Failed("there is no picture to bend".to_owned());
         };
-        let bent = match request.rounds {
-            Some(rounds) => bender.follow(&request.figure, rounds, &mut unwatched),
-            None => bender.bent(&request.figure, &mut unwatched),
+        let mut told = 0;
+        let mut progress = |part: f32| {
+            let percent = (part * 100.0) as u32;
+            std::mem::replace(&mut told, percent) == percent || tell(part)
+        };
+        let figure = &request.figure;
+        let bent = match request.pose {
+            BendPose::AtRest => bender.bent(figure, &mut progress),
+            BendPose::Following(rounds) => bender.follow(figure, rounds, &mut progress),
+            BendPose::Aside => bender.bent_aside(figure, &mut progress),
         };
         match bent {
             Some(bent) => BendAnswer::Bent {
                 sheet: bent.sheet,
-                regions: request.rounds.is_none().then_some(bent.regions),
+                regions: (request.pose == BendPose::AtRest).then_some(bent.regions),
                 notices: bent.notices.iter().map(ToString::to_string).collect(),
             },
-            None => BendAnswer::Failed("the figure was not bent".to_owned()),
+            None => {
+                self.bender = None;
+                BendAnswer::Stopped
+            }
         }
     }
 }

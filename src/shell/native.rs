@@ -180,6 +180,8 @@ struct NativeServices {
     n_reading: usize,
     /// Takes figures to be bent, once one was.
     bends: Option<Sender<BendRequest>>,
+    /// What is bent is not wanted any more.
+    is_bending_stopped: Arc<AtomicBool>,
 }
 
 impl NativeServices {
@@ -202,6 +204,7 @@ impl NativeServices {
             labels: SegmentationsExpected::default(),
             n_reading: 0,
             bends: None,
+            is_bending_stopped: Arc::default(),
         }
     }
 
@@ -433,12 +436,20 @@ fn post_while_wanted(
 }
 
 /// Starts a thread that bends figures, as long as somebody can ask for it.
-fn start_bending(sender: Sender<Message>, ctx: egui::Context) -> Sender<BendRequest> {
+fn start_bending(
+    sender: Sender<Message>,
+    ctx: egui::Context,
+    is_stopped: Arc<AtomicBool>,
+) -> Sender<BendRequest> {
     let (asks, requests) = channel::<BendRequest>();
     std::thread::spawn(move || {
         let mut desk = Desk::default();
         for request in requests {
-            let answer = catch_unwind(AssertUnwindSafe(|| desk.answer(request)));
+            let mut tell = |part: f32| {
+                send(&sender, &ctx, Message::Bent(BendAnswer::UnderWay(part)));
+                !is_stopped.load(Ordering::Relaxed)
+            };
+            let answer = catch_unwind(AssertUnwindSafe(|| desk.answer(request, &mut tell)));
             let answer = answer.unwrap_or_else(|_| {
                 desk = Desk::default();
                 BendAnswer::Lost("a fault stopped the bending of the figure".to_owned())
@@ -609,14 +620,20 @@ impl Services for NativeServices {
 
     fn bend(&mut self, request: BendRequest) {
         let (sender, ctx) = (&self.sender, &self.ctx);
-        let bends = self
-            .bends
-            .get_or_insert_with(|| start_bending(sender.clone(), ctx.clone()));
+        let is_stopped = &self.is_bending_stopped;
+        is_stopped.store(false, Ordering::Relaxed);
+        let bends = self.bends.get_or_insert_with(|| {
+            start_bending(sender.clone(), ctx.clone(), Arc::clone(is_stopped))
+        });
         if bends.send(request).is_err() {
             self.bends = None;
             let why = "the thread that bends figures is gone".to_owned();
             self.send(Message::Bent(BendAnswer::Lost(why)));
         }
+    }
+
+    fn stop_bending(&mut self) {
+        self.is_bending_stopped.store(true, Ordering::Relaxed);
     }
 
     fn fetch_shipped(&mut self, file: Shipped) {

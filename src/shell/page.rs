@@ -510,6 +510,14 @@ impl Services for PageServices {
         }
     }
 
+    fn stop_bending(&mut self) {
+        let mut page = self.0.borrow_mut();
+        if let Some(bender) = &page.bender {
+            bender.stop();
+            page.send(Message::Bent(BendAnswer::Stopped));
+        }
+    }
+
     fn fetch_shipped(&mut self, file: Shipped) {
         let services = self.clone();
         // Its files lie beside the program, which need not lie beside the page that it is set into.

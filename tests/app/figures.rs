@@ -1,6 +1,7 @@
 //! Figures: drawings and pictures that are bent, seen flat.
 
 use super::*;
+use fabrica::app::session::figure::{FigureCommand, Overlay, figure_edit};
 use fabrica::app::{Command, See};
 use fabrica::document::FIGURE_FRONT;
 
@@ -135,6 +136,64 @@ fn handles(window: &Window) -> Vec<fabrica::document::figure::Handle> {
     let document = window.document();
     let figure = document.illustration().figure.clone();
     figure.map_or_else(Vec::new, |figure| figure.handles)
+}
+
+/// The strip shows each step as it bends the figure.
+#[test]
+fn steps_have_small_pictures_of_their_own() {
+    let mut window = Window::open(DESK, ARM);
+    window.steps(90);
+    window.settle();
+    window.look("figure_strip");
+    let tile = |window: &mut Window, label: &str| {
+        let rect = window.harness.get_by_label(label).rect();
+        window.pixels(rect.shrink(8.0).with_max_y(rect.max.y - 18.0))
+    };
+    let (start, step) = (tile(&mut window, "Start"), tile(&mut window, "Step 1"));
+    assert!(drawn(&start) > 60, "the arm is drawn");
+    assert!(apart(&start, &step) > 20, "bent otherwise");
+}
+
+/// A pose that takes long tells how far it is, can be stopped, and is made after all when that is wished.
+#[test]
+fn a_pose_that_takes_long_can_be_stopped() {
+    let mut window = Window::open(DESK, ARM);
+    // Handles stand where the document has them.
+    let handles = FigureCommand::Show(Overlay::Handles);
+    window.run_command(Command::Figure(handles));
+    // Above the cards over the picture.
+    let top = |window: &mut Window| {
+        let center = window.picture_center();
+        window.pixels(egui::Rect::from_center_size(
+            center - vec2(0.0, 65.0),
+            vec2(300.0, 130.0),
+        ))
+    };
+    let before = top(&mut window);
+    window.log.0.borrow_mut().is_slow = true;
+    let to = serde_json::json!([0.05, 0.12]);
+    let edit = figure_edit("handles/1/move", Some(to));
+    window.run_command(Command::Apply(edit));
+    assert!(
+        window.harness.query_by_label("Stop bending").is_none(),
+        "it may be there at once"
+    );
+    window.steps(60);
+    let bar = window.harness.get_by_role(Role::ProgressIndicator);
+    assert_eq!(
+        bar.accesskit_node().numeric_value(),
+        Some(f64::from(0.4_f32))
+    );
+    window.look("figure_under_way");
+    window.click("Stop bending");
+    window.steps(10);
+    assert!(window.harness.query_by_label("Stop bending").is_none());
+    assert!(apart(&before, &top(&mut window)) < 20, "as it was");
+    window.log.0.borrow_mut().is_slow = false;
+    window.click("Go on");
+    window.settle();
+    assert!(window.harness.query_by_label("Go on").is_none());
+    assert!(apart(&before, &top(&mut window)) > 100, "it is bent");
 }
 
 /// Pins are set by clicks and dragged, by the hand and by keys; the figure follows, and one drag is one step of undo.

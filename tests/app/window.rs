@@ -5,7 +5,7 @@
 use super::*;
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupExisting};
 use fabrica::app::{SetText, TextOver, TextToSet};
-use fabrica::assets::{BendRequest, Role, Source, Want};
+use fabrica::assets::{BendAnswer, BendPose, BendRequest, Role, Source, Want};
 use fabrica::load::{LabelSource, LoadReport, ReadOptions, read_label_file, read_subject};
 use fabrica::render::Gpu;
 use fabrica::shell::bending::{Desk, make_figure};
@@ -216,9 +216,20 @@ impl Services for Fake {
     }
     fn bend(&mut self, request: BendRequest) {
         let log = &mut *self.0.borrow_mut();
-        log.bends[usize::from(request.rounds.is_some())] += 1;
-        let answer = log.desk.answer(request);
+        match request.pose {
+            BendPose::AtRest => log.bends[0] += 1,
+            BendPose::Following(_) => log.bends[1] += 1,
+            BendPose::Aside => {}
+        }
+        let answer = match log.is_slow {
+            true => BendAnswer::UnderWay(0.4),
+            false => log.desk.answer(request, &mut |_| true),
+        };
         log.queue.push(Message::Bent(answer));
+    }
+    fn stop_bending(&mut self) {
+        let stopped = Message::Bent(BendAnswer::Stopped);
+        self.0.borrow_mut().queue.push(stopped);
     }
     fn fetch_shipped(&mut self, file: fabrica::app::Shipped) {
         use fabrica::app::Shipped;

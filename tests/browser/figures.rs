@@ -215,6 +215,25 @@ fn count_of(figure: &serde_json::Value, list: &str) -> usize {
     figure[list].as_array().map_or(0, Vec::len)
 }
 
+/// Notes how long each pose takes that follows the hand, from the request to the answer, ms.
+const TIME_FOLLOWING: &str = "(() => {
+    window.followed = [];
+    const post = Worker.prototype.postMessage;
+    Worker.prototype.postMessage = function (message, ...rest) {
+        if (message?.rounds !== undefined) {
+            if (!this.isTimed) this.addEventListener('message', (event) => {
+                if (event.data[0] !== 'bent' || !this.asked) return;
+                window.followed.push(performance.now() - this.asked);
+                this.asked = 0;
+            });
+            this.isTimed = true;
+            this.asked = performance.now();
+        }
+        return post.call(this, message, ...rest);
+    };
+    return true;
+})()";
+
 /// A plate is dropped, divided, pinned and bent by the mouse, undone by a key, and its link shows the same in another
 /// tab and natively.
 #[test]
@@ -266,12 +285,21 @@ fn a_plate_is_divided_and_bent_by_hand() {
         }
         press(&tab, "Escape").await;
         mark(&tab, "figure").await;
+        let _: bool = tab.eval(TIME_FOLLOWING).await;
         let from = find(&tab, "Pin 3 in the picture").await.middle();
         tab.drag(from, (from.0 - 10.0, from.1 - 40.0), 6).await;
         let figure = changed(&tab, "figure").await;
         let by = &figure["handles"][2]["move"];
         assert!(by[1].as_f64().is_some_and(|y| y > 0.05), "{figure}");
         tab.settled().await;
+        let mut followed: Vec<f64> = tab.eval("window.followed").await;
+        followed.sort_by(f64::total_cmp);
+        assert!(!followed.is_empty(), "it followed");
+        println!(
+            "{} poses followed the hand, each in {:.1} ms (median; the worker and its messages)",
+            followed.len(),
+            followed[followed.len() / 2]
+        );
         object_part(&tab.picture("figure_made").await);
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
         let text: String = tab.eval("window.fabrica.viewer.get_document()").await;

@@ -22,6 +22,9 @@ mod load;
 mod load_dicom;
 mod load_formats;
 mod load_hostile;
+#[cfg(target_os = "linux")]
+#[path = "../support/memory.rs"]
+mod memory;
 mod meshes;
 #[path = "../../src/bin/xtask/palette.rs"]
 mod palette;

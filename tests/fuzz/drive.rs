@@ -3,6 +3,8 @@
 
 use fabrica::data::{SubjectPart, SubjectSink, Volume, Voxels};
 use fabrica::document::Document;
+use fabrica::document::figure::{Figure, Flood, Handle, Region, Source};
+use fabrica::figure::{Bender, FigureFile, read_plate, unwatched};
 use fabrica::load::{
     self, ElementType, FileSet, LoadReport, MemoryFiles, RawLayout, ReadOptions,
 };
@@ -168,6 +170,66 @@ pub fn mesh(data: &[u8]) {
             }
             Err(error) => assert!(!error.to_string().contains('\n'), "one line: {error}"),
         }
+    }
+}
+
+/// Figures of pixels: PNG and JPEG.
+pub fn picture(data: &[u8]) {
+    if FigureFile::of(data) == Some(FigureFile::Picture) {
+        figure(data);
+    }
+}
+
+/// Figures of shapes: SVG. Where the bytes are none, they stand within one.
+pub fn drawing(data: &[u8]) {
+    if FigureFile::of(data) == Some(FigureFile::Drawing) {
+        return figure(data);
+    }
+    let inner = String::from_utf8_lossy(data);
+    let text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\">{inner}</svg>"
+    );
+    figure(text.as_bytes());
+}
+
+/// Reads a figure and, if it is small, floods a region of it and pulls at two places.
+fn figure(data: &[u8]) {
+    let plate = match read_plate(data) {
+        Ok(read) => read.plate,
+        Err(error) => {
+            let line = error.to_string();
+            assert!(!line.contains('\n') && !line.is_empty(), "one line: {line}");
+            return;
+        }
+    };
+    let [width, height] = plate.picture.size;
+    assert_eq!(plate.picture.pixels.len(), (width * height) as usize, "all pixels");
+    assert!(plate.size.min_element() > 0.0 && plate.size.is_finite(), "it has a size");
+    let is_of_pixels = FigureFile::of(data) == Some(FigureFile::Picture);
+    if is_of_pixels && width * height > 1 << 16 {
+        return;
+    }
+    let mut bender = Bender::new(&plate).expect("it was read before");
+    let source = match is_of_pixels {
+        true => Source::Flood(Flood::new(vec![glam::DVec2::ZERO])),
+        false => Source::Path("0".to_owned()),
+    };
+    let figure = Figure {
+        regions: vec![Region {
+            from: Some(source),
+            ..Region::new("region")
+        }],
+        handles: vec![
+            Handle::pin(glam::dvec2(-0.3, 0.0), glam::DVec2::ZERO),
+            Handle::pin(glam::dvec2(0.3, 0.0), glam::dvec2(0.0, 0.2)),
+        ],
+        detail: 500,
+        ..Figure::default()
+    };
+    let bent = bender.bent(&figure, &mut unwatched).expect("nobody stops it");
+    assert!(bent.sheet.places.iter().all(|place| place.is_finite()), "places are finite");
+    for notice in bent.notices {
+        assert!(!notice.to_string().contains('\n'), "one line: {notice}");
     }
 }
 

@@ -1,11 +1,11 @@
-//! How much memory a load takes, measured from outside: the highest resident size of a process of its own.
+//! How much memory a load takes.
 
 #![cfg(target_os = "linux")]
 
 use std::io::{BufWriter, Write as _};
 use std::path::Path;
-use std::process::Command;
 
+use crate::memory::{Measured, measure, report};
 use fabrica::data::{Subject, VolumeBuilder};
 use fabrica::document::Document;
 use fabrica::load::{LoadReport, OneFile, ReadOptions, read_volume};
@@ -14,82 +14,31 @@ use fabrica::render::{Gpu, GpuOptions, Studio};
 /// Set for the process that is measured: the file it loads.
 const LOAD: &str = "FABRICA_MEASURED_LOAD";
 
-/// A number out of the process's own status, in bytes.
-fn status(key: &str) -> u64 {
-    let text = std::fs::read_to_string("/proc/self/status").expect("Linux has it");
-    let line = text
-        .lines()
-        .find(|line| line.starts_with(key))
-        .expect("the key");
-    let kilobytes: u64 = line
-        .split_whitespace()
-        .nth(1)
-        .and_then(|number| number.parse().ok())
-        .expect("a number");
-    kilobytes * 1024
-}
-
 /// Not a test of its own: what the measured process does.
 #[test]
 fn measured() {
     let Some(path) = std::env::var_os(LOAD) else {
         return;
     };
-    let before = status("VmRSS:");
-    let mut report = LoadReport::default();
-    let mut builder = VolumeBuilder::new();
-    let start = std::time::Instant::now();
-    let file = std::fs::File::open(&path).expect("it was written before");
-    let len = file.metadata().expect("it is there").len();
-    let name = Path::new(&path).to_string_lossy().into_owned();
-    let result = read_volume(
-        &mut OneFile::new(&name, file, Some(len)),
-        &name,
-        &ReadOptions::default(),
-        &mut builder,
-        &mut report,
-    );
-    let seconds = start.elapsed().as_secs_f64();
-    let kept = match &result {
-        Ok(()) => builder
-            .finish()
-            .map(|volume| volume.grid.voxel_count())
-            .unwrap_or(0),
-        Err(_) => 0,
-    };
-    println!(
-        "peak {} kept {kept} seconds {seconds}",
-        status("VmHWM:").saturating_sub(before)
-    );
+    report(|| {
+        let mut builder = VolumeBuilder::new();
+        let file = std::fs::File::open(&path).expect("it was written before");
+        let len = file.metadata().expect("it is there").len();
+        let name = Path::new(&path).to_string_lossy().into_owned();
+        let result = read_volume(
+            &mut OneFile::new(&name, file, Some(len)),
+            &name,
+            &ReadOptions::default(),
+            &mut builder,
+            &mut LoadReport::default(),
+        );
+        let kept = result.is_ok().then(|| builder.finish().ok()).flatten();
+        kept.map_or(0, |volume| volume.grid.voxel_count() as u64)
+    });
 }
 
-struct Measured {
-    peak: u64,
-    kept: u64,
-    seconds: f64,
-}
-
-fn measure(path: &Path) -> Measured {
-    let output = Command::new(std::env::current_exe().expect("this test"))
-        .args(["load_memory::measured", "--exact", "--nocapture"])
-        .env(LOAD, path)
-        .output()
-        .expect("it starts");
-    let text = String::from_utf8_lossy(&output.stdout);
-    let line = text
-        .lines()
-        .find(|line| line.contains("peak "))
-        .unwrap_or_else(|| panic!("no figures in {text}"));
-    let words: Vec<&str> = line.split_whitespace().collect();
-    let after = |key: &str| {
-        let at = words.iter().position(|word| *word == key).expect(key);
-        words[at + 1]
-    };
-    Measured {
-        peak: after("peak").parse().expect("bytes"),
-        kept: after("kept").parse().expect("voxels"),
-        seconds: after("seconds").parse().expect("seconds"),
-    }
+fn measured_load(path: &Path) -> Measured {
+    measure("load_memory::measured", LOAD, path.as_os_str())
 }
 
 fn header(dims: [i16; 3], datatype: i16) -> Vec<u8> {
@@ -136,15 +85,15 @@ fn a_large_volume_is_held_once() {
     to_plain.flush().expect("room");
     to_packed.finish().expect("room");
     for path in [&plain, &packed] {
-        let measured = measure(path);
+        let measured = measured_load(path);
         let ratio = measured.peak as f64 / voxel_bytes as f64;
         println!(
             "{}: peak {:.1} MiB, {ratio:.2} times its voxels, {:.2} s",
             path.file_name().unwrap_or_default().to_string_lossy(),
-            measured.peak as f64 / (1 << 20) as f64,
+            measured.mebibytes(),
             measured.seconds
         );
-        assert_eq!(measured.kept, (n * n * n) as u64, "all voxels were kept");
+        assert_eq!(measured.result, (n * n * n) as u64, "all voxels were kept");
         assert!(ratio < 1.6, "{ratio:.2} times the voxels' bytes");
         // Negative control: the measure sees at least the voxels.
         assert!(ratio > 0.98, "{ratio:.2}: the measure is blind");
@@ -219,11 +168,11 @@ fn lies_and_bombs_take_no_memory() {
     }
     for path in files {
         let input = std::fs::metadata(&path).expect("there").len();
-        let measured = measure(&path);
+        let measured = measured_load(&path);
         println!(
             "{}: {input} bytes, peak {:.1} MiB, {:.2} s",
             path.file_name().unwrap_or_default().to_string_lossy(),
-            measured.peak as f64 / (1 << 20) as f64,
+            measured.mebibytes(),
             measured.seconds
         );
         assert!(measured.peak < limit(input), "{} bytes", measured.peak);

@@ -40,6 +40,9 @@ mod firm;
 mod gpu;
 #[path = "../support/long.rs"]
 mod long;
+#[cfg(target_os = "linux")]
+#[path = "../support/memory.rs"]
+mod memory;
 #[path = "../support/pictures.rs"]
 mod picture_files;
 #[path = "../reference/rbf.rs"]

@@ -6,6 +6,7 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget;
 use crate::app::session::Command;
+use crate::app::session::figure::FigureCommand;
 use crate::app::session::{Gravity, Load, Notice, Offer, Session};
 use crate::app::words::messages::w;
 use crate::app::words::{fill, names};
@@ -22,8 +23,10 @@ pub(crate) fn ui(
     session: &Session,
     commands: &mut Vec<Command>,
 ) {
+    let figure = &session.view.figure;
+    let is_bending = figure.progress.is_some() || figure.is_stopped;
     let is_busy = session.load.is_some() || session.is_reading || session.saving.is_some();
-    if !is_busy && session.notices.shown().next().is_none() {
+    if !is_busy && !is_bending && session.notices.shown().next().is_none() {
         return;
     }
     let is_narrow = rect.width() < 560.0;
@@ -50,6 +53,13 @@ pub(crate) fn ui(
         if let Some(fraction) = session.saving {
             let work = (w().saving, w().stop_saving);
             work_ui(ui, work, fraction, Command::StopSaving, commands);
+        }
+        if let Some(fraction) = figure.progress {
+            let work = (w().bending, w().stop_bending);
+            let stop = Command::Figure(FigureCommand::Stop);
+            work_ui(ui, work, fraction, stop, commands);
+        } else if figure.is_stopped {
+            stopped_ui(ui, commands);
         }
         if let Some(load) = &session.load {
             load_ui(ui, load, commands);
@@ -173,6 +183,16 @@ fn load_ui(ui: &mut Ui, load: &Load, commands: &mut Vec<Command>) {
                 commands.push(Command::CancelLoad);
             }
         });
+    });
+}
+
+/// The figure is not what the document says, and how to go on.
+fn stopped_ui(ui: &mut Ui, commands: &mut Vec<Command>) {
+    card(ui, Palette::get(ui).line, |ui| {
+        ui.add(Label::new(w().bending_stopped).wrap());
+        if widget::labelled_button(ui, Icon::Next, w().bend_on, false, true).clicked() {
+            commands.push(Command::Figure(FigureCommand::GoOn));
+        }
     });
 }
 

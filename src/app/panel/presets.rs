@@ -114,7 +114,7 @@ impl Pictures {
             let is_idle = picture.state.is_done && !picture.is_waiting();
             if is_idle && picture.state.has_picture && !is_held {
                 let seen = seen_by(session, &common, name);
-                self.job = Some((name, picture.start_small(&seen, PICTURE_PX)));
+                self.job = Some((name, picture.start_small(&seen, None, PICTURE_PX)));
             }
             ctx.request_repaint();
         } else if picture.is_none() {

@@ -18,6 +18,7 @@ use crate::app::kit::widget::{self, Named as _};
 use crate::app::picture::host::Picture;
 use crate::app::session::{Command, Session, StepCommand};
 use crate::app::words::{fill, steps::w};
+use crate::assets::Bending;
 use crate::data::{Pending, poll_once};
 use crate::document::{Document, Illustration};
 use crate::render::{Image, RenderError};
@@ -122,6 +123,30 @@ impl Pictures {
         self.find_places();
     }
 
+    /// Starts the picture of a state. A figure is bent first as that has it, which takes a few frames.
+    fn start(
+        &mut self,
+        state: Arc<Illustration>,
+        is_figure: bool,
+        picture: &Picture,
+        bending: &mut Bending,
+    ) {
+        let mut sheet = None;
+        if is_figure {
+            let figure = state.figure.clone().unwrap_or_default();
+            match bending.aside(&figure) {
+                None => return,
+                Some(None) => {
+                    self.made.push((state, None));
+                    return self.find_places();
+                }
+                Some(bent) => sheet = bent,
+            }
+        }
+        let work = picture.start_small(&state, sheet, PICTURE_PX);
+        self.job = Some((state, work));
+    }
+
     fn find_places(&mut self) {
         let made = &self.made;
         let place =
@@ -134,7 +159,7 @@ impl Pictures {
         &mut self,
         ctx: &Context,
         session: &Session,
-        picture: Option<&Picture>,
+        (picture, bending): (Option<&Picture>, &mut Bending),
         is_held: bool,
     ) {
         if !self.is_wanted {
@@ -161,13 +186,8 @@ impl Pictures {
         } else if let Some(state) = self.next().cloned() {
             let is_idle = picture.state.is_done && !picture.is_waiting();
             let is_still = !session.is_playing() && !is_held;
-            if session.view.is_figure() {
-                // The renderer has the figure as one step bends it, and no other.
-                self.made.push((state, None));
-                self.find_places();
-            } else if is_idle && is_still && picture.state.has_picture {
-                let work = picture.start_small(&state, PICTURE_PX);
-                self.job = Some((state, work));
+            if is_idle && is_still && picture.state.has_picture {
+                self.start(state, session.view.is_figure(), picture, bending);
             }
             ctx.request_repaint();
         }
@@ -181,6 +201,7 @@ fn is_seen_alike(one: &Arc<Illustration>, other: &Arc<Illustration>) -> bool {
             && one.camera == other.camera
             && one.look == other.look
             && one.recipes == other.recipes
+            && one.figure == other.figure
             && one.subject == other.subject
             && one.segments == other.segments)
 }

@@ -11,7 +11,7 @@ use eframe::egui_wgpu::RenderState;
 use glam::Vec2;
 
 use crate::app::session::{Command, Found, Place, Question};
-use crate::data::{Pending, Resources, Segment, Segmentation, Subject, Surface, poll_once};
+use crate::data::{Pending, Resources, Segment, Segmentation, Sheet, Subject, Surface, poll_once};
 use crate::document::{Background, Camera, Illustration};
 use crate::math::Aabb;
 use crate::render::{
@@ -338,14 +338,15 @@ impl Picture {
         });
     }
 
-    /// Starts drawing a small picture of the subject, beside the one that is shown.
+    /// Starts drawing a small picture of the subject, beside the one that is shown; of a figure as `sheet` has it.
     pub(crate) fn start_small(
         &self,
         illustration: &Illustration,
+        sheet: Option<Sheet>,
         size_px: [u32; 2],
     ) -> Pending<Result<Image, RenderError>> {
         let (renderer, samples) = (&self.renderer, SMALL_SAMPLES);
-        Box::pin(renderer.render_image(illustration, size_px, samples, |_| {}))
+        Box::pin(renderer.render_image((illustration, sheet), size_px, samples, |_| {}))
     }
 
     /// The bytes of the picture's file once they are there.

@@ -61,6 +61,10 @@ pub enum Effect {
     StopTissues,
     /// Go on finding them after a stop.
     FindTissues,
+    /// Stop bending the figure.
+    StopBending,
+    /// Go on bending it after a stop.
+    GoOnBending,
     /// Show a dialog for a scan or a document.
     OpenFile,
     /// Give bytes to the user as a file.

@@ -9,6 +9,10 @@ words! {
         saved: "Saved {0}", "{0} gesichert", "{0} guardado", "已保存 {0}";
         saved_in_downloads: "{0} is in this browser's downloads", "{0} liegt bei den Downloads dieses Browsers", "{0} está en las descargas de este navegador", "{0} 已存入此浏览器的下载内容";
         saving: "Saving the picture…", "Das Bild wird gesichert …", "Guardando la imagen…", "正在保存图片…";
+        bending: "Bending the figure…", "Die Figur wird gebogen …", "Doblando la figura…", "正在弯曲图形…";
+        stop_bending: "Stop bending", "Biegen anhalten", "Detener el doblado", "停止弯曲";
+        bending_stopped: "Stopped: the figure is shown as it was before.", "Angehalten: Die Figur ist zu sehen, wie sie vorher war.", "Detenido: la figura se muestra como estaba antes.", "已停止：图形显示的是之前的样子。";
+        bend_on: "Go on", "Weiter", "Continuar", "继续";
         stop_saving: "Stop saving", "Sichern anhalten", "Detener el guardado", "停止保存";
         saving_stopped: "Saving was stopped; no file was made", "Das Sichern wurde angehalten; es gibt keine Datei", "Se detuvo el guardado; no se creó ningún archivo", "已停止保存，未生成文件";
         not_saved: "The file was not saved", "Die Datei wurde nicht gesichert", "El archivo no se guardó", "文件未保存";

@@ -15,6 +15,7 @@ use crate::document::figure::{Figure, Rotations};
 use crate::figure::complex::mul;
 use crate::figure::mesh::Mesh;
 use crate::figure::notice::Notice;
+use crate::figure::progress::{Progress, unwatched};
 
 /// A figure that can be bent: its mesh with all that does not depend on where handles go. Matrices are factored here,
 /// once for the mesh, the rigidities, what handles hold and the context's points and strength; a drag needs none. Cheap
@@ -101,16 +102,22 @@ impl Rig {
     /// The pose that a figure's handles make: turns are found to the end. The figure may differ from the one that the
     /// rig was made for in where handles go, and in amounts.
     pub fn posed(&self, figure: &Figure, notices: &mut Vec<Notice>) -> Posed {
-        self.settled(figure, notices).0
+        self.settled(figure, notices, &mut unwatched).0
     }
 
-    /// As [`Rig::posed`], with the pose from which a drag goes on.
-    pub fn settled(&self, figure: &Figure, notices: &mut Vec<Notice>) -> (Posed, Drag) {
+    /// As [`Rig::posed`], with the pose from which a drag goes on. Where `progress` stops it, turns are found as far as
+    /// they were then.
+    pub fn settled(
+        &self,
+        figure: &Figure,
+        notices: &mut Vec<Notice>,
+        progress: &mut Progress<'_>,
+    ) -> (Posed, Drag) {
         let (base, shape_found) = self.base(figure);
         let moved = self.moved(figure, &base, notices);
         let mut state = self.propagated(&base, &moved);
         let rounds = match figure.rotations {
-            Rotations::Found => state.find_turns(),
+            Rotations::Found => state.find_turns(progress),
             Rotations::Propagated => 0,
         };
         let folded = self.folded(&state.places);

@@ -137,6 +137,10 @@ impl Spread {
             }
             let mut weight = 1.0;
             for (i, other) in self.distances.iter().enumerate() {
+                // Nothing comes of it any more: so it is for most of many handles.
+                if weight == 0.0 {
+                    break;
+                }
                 if i != j && other.length[vertex].is_finite() {
                     let (square, own, others) = (
                         sq(self.between[j][i]),

@@ -36,6 +36,12 @@ pub enum SvgError {
     /// Elements that are used in each other.
     #[error("the SVG's elements use each other in a circle, or through too many levels")]
     Uses,
+    /// Shapes that are used, or marked at points, over and over.
+    #[error("the SVG repeats its shapes too often to be read")]
+    Repeats,
+    /// Shapes that take too long to be drawn.
+    #[error("the SVG has too many large or long shapes to be drawn in time")]
+    Intricate,
     /// XML, but no SVG that has a size.
     #[error("the file is no SVG, or has no size")]
     NoSvg,

@@ -1,5 +1,8 @@
 use super::error::SvgError;
 
+/// Pixels along the longest side of what a drawing is drawn into, unless another size is asked for.
+pub(in crate::figure) const DRAWN_SIDE: u32 = 2048;
+
 /// Elements at most, and levels.
 pub(super) const MAX_ELEMENTS: usize = 100_000;
 const MAX_LEVELS: usize = 64;

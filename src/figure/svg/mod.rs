@@ -5,6 +5,8 @@
 //! 32 bits; from there on they have 64.
 
 mod error;
+mod expansion;
+mod intricacy;
 mod limits;
 mod paint;
 mod path;
@@ -13,6 +15,7 @@ mod read;
 mod write;
 
 pub use error::SvgError;
+pub(super) use limits::DRAWN_SIDE;
 pub use path::{Outline, Segment};
 pub use raster::MAX_DRAWN_SIDE;
 pub use read::{Drawing, Shape};

@@ -1,5 +1,7 @@
 use glam::DVec2;
 
+/// Curves are divided so that they are missed by at most this, pixels of the map.
+pub(super) const TOLERANCE: f64 = 1.0 / 16.0;
 /// Pieces of a curve at most: what is divided further is far outside the drawing.
 const MAX_PIECES: f64 = 4096.0;
 

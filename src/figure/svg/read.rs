@@ -4,9 +4,11 @@ use glam::{DAffine2, DMat2, DVec2, dvec2};
 use usvg::tiny_skia_path::PathSegment;
 
 use super::error::SvgError;
+use super::expansion::{check_entities, check_weight};
+use super::intricacy;
 use super::limits::{MAX_ELEMENTS, check_elements, check_nesting, xml_error};
 use super::paint::{Look, affine, look};
-use super::path::{Outline, Segment};
+use super::path::{Outline, Segment, TOLERANCE};
 use crate::data::PlateShape;
 use crate::figure::outlines::distance_squared;
 use crate::figure::plane::Plane;
@@ -14,8 +16,6 @@ use crate::figure::regions::{Fill, Mask, add_filled};
 
 /// Bytes of a file at most.
 const MAX_BYTES: usize = 8 << 20;
-/// Curves are divided so that they are missed by at most this, pixels of the map.
-const TOLERANCE: f64 = 1.0 / 16.0;
 /// By how much the curves of a shape may be missed where it is pointed at, subject units.
 const POINTED_TOLERANCE: f64 = 1e-3;
 /// Points of all shapes that can be pointed at: beyond that a drawing has no parts that one would click.
@@ -81,6 +81,7 @@ impl Drawing {
             SvgError::NoXml { line, column }
         })?;
         check_nesting(text)?;
+        check_entities(text)?;
         let options = usvg::roxmltree::ParsingOptions {
             allow_dtd: true,
             // Text and attributes count as nodes too.
@@ -90,6 +91,7 @@ impl Drawing {
         let document = usvg::roxmltree::Document::parse_with_options(text, options)
             .map_err(|error| xml_error(&error))?;
         check_elements(&document)?;
+        check_weight(&document)?;
         let options = usvg::Options {
             image_href_resolver: usvg::ImageHrefResolver {
                 resolve_data: Box::new(|_, _, _| None),
@@ -113,6 +115,8 @@ impl Drawing {
             left_out: left_out(&document),
         };
         drawing.add(tree.root(), view_from_tree, &mut Vec::new(), 1.0)?;
+        let shapes = drawing.shapes.iter();
+        intricacy::check(size, shapes.map(|shape| (&shape.outline, &shape.look)))?;
         Ok(drawing)
     }
 
@@ -272,8 +276,18 @@ fn add_line(mask: &mut Mask, line: &[DVec2], half: f64) {
         let range = |low: f64, high: f64, side: usize| {
             (low.max(0.0) as usize)..((high.max(0.0) as usize + 1).min(side))
         };
+        let along = ends[1] - ends[0];
         for row in range(low.y, high.y, height) {
-            for column in range(low.x, high.x, width) {
+            // Only what of the line lies within `half` of the row can be near its pixels; a bit more is looked at.
+            let y = row as f64 + 0.5;
+            let (mut from, mut to) = (low.x, high.x);
+            if along.y.abs() > 1e-9 {
+                let at = |y: f64| ((y - ends[0].y) / along.y).clamp(0.0, 1.0);
+                let xs = [y - half, y + half].map(|y| ends[0].x + at(y) * along.x);
+                from = xs[0].min(xs[1]) - half - 1.0;
+                to = xs[0].max(xs[1]) + half + 1.0;
+            }
+            for column in range(from, to, width) {
                 let centre = dvec2(column as f64 + 0.5, row as f64 + 0.5);
                 mask.bits[row * width + column] |=
                     distance_squared(centre, ends[0], ends[1]) <= half * half;

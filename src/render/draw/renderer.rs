@@ -565,20 +565,22 @@ impl Renderer {
         Ok(self.prepare())
     }
 
-    /// A finished picture of the subject on the GPU, independent of the picture in the window: for PNG export.
-    /// `on_progress` hears how much of the picture is drawn, 0 to 1. The future owns its resources and may be polled
+    /// A finished picture of the subject on the GPU, independent of the picture in the window: for small pictures of
+    /// other states. Of a figure it shows `sheet`, if there is one, in place of that in the window. `on_progress` hears how much of the picture is drawn, 0 to 1. The future owns its resources and may be polled
     /// once per frame; who drops it stops the work.
     pub fn render_image<P: Fn(f32) + 'static>(
         &self,
-        illustration: &Illustration,
+        (illustration, sheet): (&Illustration, Option<Sheet>),
         size_px: [u32; 2],
         samples: u32,
         on_progress: P,
     ) -> impl Future<Output = Result<Image, RenderError>> + 'static + use<P> {
+        let mut resources = self.resources.clone();
+        resources.sheet = sheet.or(resources.sheet);
         let started = self
             .studio
             .as_ref()
-            .map(|studio| studio.clone().with_resources(self.resources.clone()))
+            .map(|studio| studio.clone().with_resources(resources))
             .map(|studio| studio.render_with_progress(illustration, size_px, samples, on_progress));
         async move {
             match started {

@@ -68,6 +68,10 @@ impl Answers {
                 field.samples = samples.as_chunks::<4>().0.to_vec();
                 Some(Answer::Field(Box::new(Ok(field))))
             }
+            "bending" => {
+                let part = message.get(1).as_f64()? as f32;
+                Some(Answer::Bent(BendAnswer::UnderWay(part)))
+            }
             "bent" => {
                 // One that is not understood must not be waited for.
                 let lost = || BendAnswer::Lost("the figure was not bent".to_owned());
@@ -177,6 +181,14 @@ pub mod post {
         }
     }
 
+    /// Posts how much of a figure is bent, 0 to 1.
+    ///
+    /// # Errors
+    /// If the page cannot take the message.
+    pub fn bending(part: f32) -> Result<(), JsValue> {
+        send(&Array::of2(&"bending".into(), &part.into()), None)
+    }
+
     /// Posts a figure that is bent, or why it is not. Its triangles go along where they are others than `known`.
     ///
     /// # Errors
@@ -213,6 +225,7 @@ pub mod post {
                 message.push(&JsValue::UNDEFINED);
                 message.push(&why.into());
             }
+            BendAnswer::UnderWay(_) | BendAnswer::Stopped => return Ok(()),
         }
         send(&message, None)
     }

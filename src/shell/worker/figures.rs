@@ -83,7 +83,8 @@ pub async fn run(message: JsValue, load: Function) -> Result<Option<String>, JsV
 fn bend(bender: u32, request: BendRequest) -> Result<(), JsValue> {
     SERVED.with_borrow_mut(|all| {
         let served = all.entry(bender).or_default();
-        let answer = served.desk.answer(request);
+        let mut tell = |part: f32| post::bending(part).is_ok();
+        let answer = served.desk.answer(request, &mut tell);
         post::bent(&answer, served.mesh.as_ref())?;
         if let BendAnswer::Bent { sheet, .. } = answer {
             served.mesh = Some(sheet.mesh);

@@ -166,6 +166,11 @@ impl BendWorker {
         }
     }
 
+    /// Stops what is under way; the next request starts another worker.
+    pub fn stop(&self) {
+        drop(self.load.borrow_mut().take());
+    }
+
     /// Asks; `on_answer` of the request that had to start the worker is called with the answers to all.
     ///
     /// # Errors

@@ -17,7 +17,7 @@ use wasm_bindgen::prelude::*;
 use web_sys::Blob;
 
 use super::pieces;
-use crate::assets::{BendRequest, SegmentationsExpected};
+use crate::assets::{BendPose, BendRequest, SegmentationsExpected};
 use crate::data::VolumeLimits;
 use crate::document::{
     MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, RawVoxels, Reading, SubjectBox,
@@ -169,7 +169,11 @@ impl Task {
             Self::Bend(bender, request) => {
                 set("bender", &(*bender).into())?;
                 set("figure", &figure_to_text(&request.figure).into())?;
-                set("rounds", &request.rounds.into())?;
+                match request.pose {
+                    BendPose::AtRest => {}
+                    BendPose::Following(rounds) => set("rounds", &rounds.into())?,
+                    BendPose::Aside => set("aside", &JsValue::TRUE)?,
+                }
                 if let Some(plate) = &request.plate {
                     set("plate", &pieces::packed_plate(plate))?;
                 }
@@ -270,7 +274,11 @@ pub fn bend_of(message: &JsValue) -> Result<Option<(u32, BendRequest)>, JsValue>
     let request = BendRequest {
         plate: pieces::unpacked_plate(&get("plate")?).map(Arc::new),
         figure,
-        rounds: get("rounds")?.as_f64().map(|rounds| rounds as u32),
+        pose: match get("rounds")?.as_f64() {
+            Some(rounds) => BendPose::Following(rounds as u32),
+            None if get("aside")?.is_truthy() => BendPose::Aside,
+            None => BendPose::AtRest,
+        },
     };
     let bender = get("bender")?.as_f64().unwrap_or_default() as u32;
     Ok(Some((bender, request)))

@@ -5,6 +5,8 @@ mod drawn;
 mod follow;
 mod holding;
 mod limits;
+#[cfg(target_os = "linux")]
+mod memory;
 mod mesh;
 mod probe;
 mod reference;

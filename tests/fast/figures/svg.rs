@@ -320,6 +320,42 @@ fn hostile_drawings_are_refused_or_read_around() {
         Some(SvgError::TooDeep { limit: 64 }),
         "deep"
     );
+    let long = format!("<path id=\"p\" d=\"M0 0{}\"/>", "h1v1".repeat(20_000));
+    let uses = format!("{long}{}", "<use xlink:href=\"#p\"/>".repeat(5000));
+    assert_eq!(
+        timed("a long path 5,000 times", &svg(&uses)).err(),
+        Some(SvgError::Repeats)
+    );
+    let entity = format!(
+        "<!DOCTYPE svg [<!ENTITY a \"{}\">]><svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M0 0{}\"/></svg>",
+        "h1v1".repeat(20_000),
+        "&a;".repeat(100_000)
+    );
+    assert_eq!(
+        timed("a long entity 100,000 times", entity.as_bytes()).err(),
+        Some(SvgError::Entities)
+    );
+    for (name, path) in [
+        ("as large as the page", "<path d=\"M0 0H200V200H0Z\"/>"),
+        ("far beyond it", "<path d=\"M0 0C1e9 0 1e9 1e9 0 1e9Z\"/>"),
+        (
+            "wide lines",
+            "<path fill=\"none\" stroke=\"red\" stroke-width=\"900\" d=\"M0 0L200 200\"/>",
+        ),
+    ] {
+        let many = svg(&path.repeat(60_000));
+        assert_eq!(
+            timed(name, &many).err(),
+            Some(SvgError::Intricate),
+            "{name}"
+        );
+        assert!(timed(name, &svg(&path.repeat(20))).is_ok(), "{name}: a few");
+    }
+    let dashes = "<path fill=\"none\" stroke=\"red\" stroke-dasharray=\"0.001\" d=\"M0 0H200\"/>";
+    assert_eq!(
+        timed("dashes", &svg(&dashes.repeat(9))).err(),
+        Some(SvgError::Intricate)
+    );
     let outside = "<image xlink:href=\"file:///etc/passwd\" width=\"9\" height=\"9\"/><script>alert(1)</script><path d=\"M0 0H9V9Z\"/>";
     let read = timed("a file and a script", &svg(outside)).expect("the path is read");
     assert_eq!(read.shapes.len(), 1, "only the path");

@@ -6,6 +6,7 @@ use serde_json::json;
 use super::edits::{figure_edit, rounded_places};
 use super::place::{NO_MOVE, thinned};
 use super::state::{FigureCommand, FigureTool};
+use crate::app::session::effect::Effect;
 use crate::app::session::notices::Gravity;
 use crate::app::session::session::{Session, Tab};
 use crate::app::session::tool::Tool;
@@ -54,6 +55,8 @@ impl Session {
             }
             FigureCommand::Refer(command) => self.refer(command),
             FigureCommand::Show(overlay) => self.view.figure.toggle(overlay),
+            FigureCommand::Stop => self.effect(Effect::StopBending),
+            FigureCommand::GoOn => self.effect(Effect::GoOnBending),
         }
     }
 

@@ -128,6 +128,10 @@ pub enum FigureCommand {
     Show(Overlay),
     /// Takes places over from another picture.
     Refer(ReferenceCommand),
+    /// Stops the bending of a figure that takes long.
+    Stop,
+    /// Goes on with what was stopped.
+    GoOn,
 }
 
 /// A figure as it is made.
@@ -145,6 +149,10 @@ pub struct FigureView {
     pub handles: Vec<usize>,
     /// The line or polygon that is drawn, or landmarks that are too few so far: places of the bent figure.
     pub draft: Vec<Vec2>,
+    /// How much of a pose that takes long is done, 0 to 1.
+    pub progress: Option<f32>,
+    /// The figure is not bent as the document has it, since that was stopped.
+    pub is_stopped: bool,
     /// Another picture, of which places are taken over.
     pub reference: Option<Reference>,
     /// The next picture that is opened is that one.
@@ -161,6 +169,8 @@ impl Default for FigureView {
             region: None,
             handles: Vec::new(),
             draft: Vec::new(),
+            progress: None,
+            is_stopped: false,
             reference: None,
             wants_reference: false,
             shown: vec![Overlay::Outlines, Overlay::Handles],

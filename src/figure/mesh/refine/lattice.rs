@@ -20,6 +20,7 @@ impl Refinement<'_> {
         let height = side * 3.0_f64.sqrt() / 2.0;
         let size = self.mesh.point(2);
         let rows = (size.y / height) as usize;
+        let mut near = 0;
         for row in 0..=rows {
             let y = (row as f64 + 0.5) * height;
             let first = if row % 2 == 0 { 0.25 } else { 0.75 };
@@ -30,17 +31,19 @@ impl Refinement<'_> {
                     return;
                 }
                 if p.cmpgt(DVec2::ZERO).all() && p.cmplt(size).all() {
-                    self.seed_at(p, SEED_ROOM * side);
+                    self.seed_at(p, SEED_ROOM * side, &mut near);
                 }
             }
         }
     }
 
-    /// Adds a point if it is drawn there and nothing else is nearer than `room`.
-    pub(super) fn seed_at(&mut self, p: DVec2, room: f64) {
-        let Place::Inside(holder) = self.mesh.locate(p) else {
+    /// Adds a point if it is drawn there and nothing else is nearer than `room`. The search begins at `near`, which is
+    /// the triangle that was found from then on: where little is drawn, most points are far from the last one added.
+    fn seed_at(&mut self, p: DVec2, room: f64, near: &mut u32) {
+        let Place::Inside(holder) = self.mesh.walk(*near, p, false) else {
             return;
         };
+        *near = holder;
         if !self.is_drawn[usize::from(self.mesh.triangle(holder).label)] {
             return;
         }

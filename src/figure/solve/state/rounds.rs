@@ -2,6 +2,7 @@ use glam::DVec2;
 
 use super::super::anderson::Anderson;
 use super::{MAX_ROUNDS, State, TOLERANCE};
+use crate::figure::progress::Progress;
 
 /// Rounds.
 impl State {
@@ -42,8 +43,9 @@ impl State {
         }
     }
 
-    /// Rounds until no vertex moves by more than the tolerance in one, accelerated. Gives their number.
-    pub(crate) fn find_turns(&mut self) -> u32 {
+    /// Rounds until no vertex moves by more than the tolerance in one, accelerated. Gives their number. They end
+    /// early where `progress` says so.
+    pub(crate) fn find_turns(&mut self, progress: &mut Progress<'_>) -> u32 {
         let mut anderson = Anderson::default();
         let mut plain: Option<Vec<f64>> = None;
         let mut before = f64::INFINITY;
@@ -66,7 +68,8 @@ impl State {
                 DVec2::new(end[2 * i] - start[2 * i], end[2 * i + 1] - start[2 * i + 1]).length()
             };
             let most = (0..self.places.len()).map(moved).fold(0.0, f64::max);
-            if most <= TOLERANCE || round == MAX_ROUNDS {
+            let is_wanted = progress(round as f32 / MAX_ROUNDS as f32);
+            if most <= TOLERANCE || round == MAX_ROUNDS || !is_wanted {
                 return round;
             }
             plain = None;
