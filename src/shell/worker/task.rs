@@ -169,11 +169,10 @@ impl Task {
             Self::Bend(bender, request) => {
                 set("bender", &(*bender).into())?;
                 set("figure", &figure_to_text(&request.figure).into())?;
-                match request.pose {
-                    BendPose::AtRest => {}
-                    BendPose::Following(rounds) => set("rounds", &rounds.into())?,
-                    BendPose::Aside => set("aside", &JsValue::TRUE)?,
+                if let BendPose::Following(rounds) = request.pose {
+                    set("rounds", &rounds.into())?;
                 }
+                set("aside", &(request.pose == BendPose::Aside).into())?;
                 if let Some(plate) = &request.plate {
                     set("plate", &pieces::packed_plate(plate))?;
                 }
