@@ -12,6 +12,7 @@ use crate::data::{Resources, Sheet, Subject, with_mesh_segments};
 use crate::document::{Edit, TemplateData};
 use crate::load::{FieldFile, FieldUse};
 use crate::math::round_to;
+use crate::render::View;
 
 impl App {
     /// Asks the shell for fields that the document shows and that are missing, and takes over the data of files that
@@ -91,7 +92,32 @@ impl App {
         view.regions = Arc::clone(self.bending.regions());
         view.progress = self.bending.progress(self.session.now);
         view.is_stopped = self.bending.is_stopped();
+        self.draw_finer();
         sheet
+    }
+
+    /// Has a drawing drawn finer that is seen closer than its pixels once it is at rest, and shows it so.
+    fn draw_finer(&mut self) {
+        let Some(picture) = &mut self.picture else {
+            return;
+        };
+        if picture.state.is_done
+            && !self.session.is_passing()
+            && let Some(size_px) = picture.size_px()
+        {
+            let seen_px = 1.0
+                / View::new(&self.session.camera, size_px)
+                    .units_per_pixel(self.session.camera.distance);
+            self.bending.see_closer(seen_px);
+        }
+        let plate = self.assets.subject().and_then(Subject::plate);
+        if let (Some(plate), Some(finer)) = (plate, self.bending.take_finer()) {
+            let finer = Subject::from(plate.redrawn(finer));
+            if let Err(error) = picture.set_subject(finer) {
+                // It is shown with the pixels that it had.
+                self.session.notify(Gravity::Warning, error.to_string(), "");
+            }
+        }
     }
 
     /// True while the figure is not bent as the document has it.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::data::{Plate, Sheet};
 use crate::document::figure::{Figure, Region};
+use crate::pictures::Picture;
 
 /// Rounds by which a pose follows while something moves: more would hold up the next one.
 pub const FOLLOWING: u32 = 4;
@@ -38,6 +39,8 @@ pub enum BendPose {
     Following(u32),
     /// To the end, but what follows goes on from the pose before.
     Aside,
+    /// Not at all: the drawing itself is drawn finer.
+    Finer,
 }
 
 /// What a bender answers.
@@ -52,6 +55,8 @@ pub enum BendAnswer {
         /// What should be said of the pose at rest.
         notices: Vec<String>,
     },
+    /// The drawing in more pixels.
+    Finer(Picture),
     /// So much of it is done, 0 to 1. The answer itself follows.
     UnderWay(f32),
     /// It was stopped, and the bender is gone, with the plate that it had.
@@ -107,6 +112,11 @@ pub struct Bending {
     wish: Option<Figure>,
     /// What was bent besides; no sheet if it could not be.
     aside: Option<(Figure, Option<Sheet>)>,
+    /// The drawing is seen closer than its pixels.
+    is_coarse: bool,
+    /// It was asked for in more pixels.
+    is_finer_asked: bool,
+    finer: Option<Picture>,
     progress: Option<Progress>,
     is_stopped: bool,
     regions: Arc<Vec<Region>>,
@@ -139,6 +149,9 @@ impl Bending {
             return None;
         }
         if !self.wants(figure, is_moving) {
+            if self.is_coarse && !std::mem::replace(&mut self.is_finer_asked, true) {
+                return Some(self.request(Figure::default(), BendPose::Finer));
+            }
             let figure = self.wish.take()?;
             return Some(self.request(figure, BendPose::Aside));
         }
@@ -156,7 +169,7 @@ impl Bending {
         self.under_way = Some(Asked {
             figure: figure.clone(),
             is_at_rest: !matches!(pose, BendPose::Following(_)),
-            is_aside: pose == BendPose::Aside,
+            is_aside: matches!(pose, BendPose::Aside | BendPose::Finer),
         });
         BendRequest {
             plate: self.plate.clone().filter(|_| !has_plate),
@@ -204,6 +217,10 @@ impl Bending {
         if let Some(asked) = asked.clone().filter(|_| is_aside) {
             let sheet = match answer {
                 BendAnswer::Bent { sheet, .. } => Some(sheet),
+                BendAnswer::Finer(picture) => {
+                    self.finer = Some(picture);
+                    return;
+                }
                 _ => None,
             };
             self.aside = Some((asked.figure, sheet));
@@ -232,7 +249,7 @@ impl Bending {
                     }
                 }
             }
-            BendAnswer::UnderWay(_) => {}
+            BendAnswer::UnderWay(_) | BendAnswer::Finer(_) => {}
             BendAnswer::Stopped => self.is_stopped = true,
             BendAnswer::Failed(why) | BendAnswer::Lost(why) => {
                 if self.failure.as_ref() != Some(&why) {
@@ -253,6 +270,17 @@ impl Bending {
         let is_under_way = self.under_way.as_ref().is_some_and(is_it);
         self.wish = (!is_under_way).then(|| figure.clone());
         None
+    }
+
+    /// The plate is seen at rest with its longest side so long, pixels: a drawing with fewer is drawn finer, once.
+    pub fn see_closer(&mut self, seen_px: f32) {
+        let plate = self.plate.as_ref();
+        self.is_coarse = plate.is_some_and(|plate| plate.is_coarse(seen_px));
+    }
+
+    /// The drawing in more pixels, once it is there.
+    pub fn take_finer(&mut self) -> Option<Picture> {
+        self.finer.take()
     }
 
     /// The newest sheet.
@@ -343,7 +371,6 @@ impl Bending {
 mod tests {
     use super::*;
     use crate::data::{PlateOrigin, SheetMesh};
-    use crate::pictures::Picture;
     use glam::DVec2;
 
     fn plate() -> Arc<Plate> {
@@ -356,6 +383,7 @@ mod tests {
             },
             origin: PlateOrigin::Pixels,
             shapes: Vec::new(),
+            words: Vec::new(),
         })
     }
 
@@ -442,6 +470,39 @@ mod tests {
         assert_eq!(bending.aside(&figure(900)), Some(None));
         let next = bending.next(Some(&plate), Some(&figure(800)), false);
         assert!(next.is_some_and(|request| request.plate.is_some()));
+    }
+
+    #[test]
+    fn a_drawing_is_drawn_finer_once() {
+        let drawing = |origin| {
+            Arc::new(Plate {
+                origin,
+                ..(*plate()).clone()
+            })
+        };
+        let mut bending = Bending::default();
+        for origin in [
+            PlateOrigin::Pixels,
+            PlateOrigin::Builtin("drawn-arm".to_owned()),
+        ] {
+            let is_drawing = origin != PlateOrigin::Pixels;
+            let plate = drawing(origin);
+            assert!(bending.next(Some(&plate), None, false).is_some());
+            bending.take(bent(&[]));
+            let asks = |bending: &mut Bending| bending.next(Some(&plate), None, false);
+            bending.see_closer(1.0);
+            assert_eq!(asks(&mut bending), None, "it is fine enough");
+            bending.see_closer(1.5);
+            let asked = asks(&mut bending).map(|request| request.pose);
+            assert_eq!(asked, is_drawing.then_some(BendPose::Finer));
+            if is_drawing {
+                assert!(!bending.is_behind(Some(&plate), None, false));
+                bending.take(BendAnswer::Finer(plate.picture.clone()));
+                assert_eq!(bending.take_finer(), Some(plate.picture.clone()));
+            }
+            assert!(bending.take_finer().is_none() && bending.sheet().is_some());
+            assert_eq!(asks(&mut bending), None, "once");
+        }
     }
 
     #[test]

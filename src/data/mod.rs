@@ -51,7 +51,7 @@ pub use mesh::{
 };
 pub use parts::{SubjectPart, SubjectSink};
 pub use pending::{Pending, poll_once};
-pub use plate::{Plate, PlateOrigin, PlateShape};
+pub use plate::{Plate, PlateOrigin, PlateShape, PlateWord};
 pub use reduce::{Reducer, Reduction, VolumeLimits, dims_that_fit, resized};
 pub use resources::{FieldKey, ObjectMeshes, Resources};
 pub use segmented::{RECIPE_COLORS_SRGB, Segmented, segment, segment_with};

@@ -20,6 +20,17 @@ pub struct Plate {
     pub origin: PlateOrigin,
     /// The filled shapes of an SVG from a file, from behind to front, as far as they can be pointed at.
     pub shapes: Vec<PlateShape>,
+    /// The texts of an SVG, which are not drawn: they are offered as captions.
+    pub words: Vec<PlateWord>,
+}
+
+/// A text of a drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlateWord {
+    /// What stands there.
+    pub text: String,
+    /// Where it begins, subject space.
+    pub at: Vec2,
 }
 
 /// A filled shape of a drawing, so that a click can find it.
@@ -78,6 +89,23 @@ impl Plate {
             mm_per_unit: 1.0,
             middle_mm: DVec3::ZERO,
             detail: 1.0 / most.max(1) as f32,
+        }
+    }
+
+    /// True if a drawing has fewer pixels than its longest side has on a screen, and more could be drawn.
+    pub fn is_coarse(&self, seen_px: f32) -> bool {
+        let [width, height] = self.picture.size;
+        !self.has_pixels() && seen_px > width.max(height) as f32
+    }
+
+    /// The plate with other pixels of the same drawing.
+    pub fn redrawn(&self, picture: Picture) -> Self {
+        Self {
+            size: self.size,
+            picture,
+            origin: self.origin.clone(),
+            shapes: self.shapes.clone(),
+            words: self.words.clone(),
         }
     }
 

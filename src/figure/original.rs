@@ -3,7 +3,7 @@ use super::notice::Notice;
 use super::plane::Plane;
 use super::progress::Progress;
 use super::regions::{Canvas, Mask};
-use super::svg::{Drawing, SvgError};
+use super::svg::{Drawing, MAX_DRAWN_SIDE, SvgError};
 use crate::data::{Plate, PlateOrigin};
 use crate::document::figure::{Figure, Region, Source};
 use crate::pictures::Picture;
@@ -55,6 +55,11 @@ impl Original {
     /// The picture that a figure is drawn from.
     pub fn picture(&self) -> &Picture {
         &self.picture
+    }
+
+    /// A drawing drawn finer, for where it is seen closer than its pixels; `None` for a picture, which has no more.
+    pub fn finer(&self) -> Option<Picture> {
+        self.drawing.as_ref()?.picture(MAX_DRAWN_SIDE).ok()
     }
 
     /// A document's figure with what it leaves to the source: regions of a drawing of the program, and regions that

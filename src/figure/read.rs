@@ -116,6 +116,7 @@ pub fn plate_of_picture(picture: Picture) -> ReadPlate {
         picture,
         origin: PlateOrigin::Pixels,
         shapes: Vec::new(),
+        words: Vec::new(),
     };
     ReadPlate { plate, asides }
 }
@@ -128,7 +129,8 @@ pub fn plate_of_drawing(bytes: &[u8]) -> Result<ReadPlate, SvgError> {
     let drawing = Drawing::read(bytes)?;
     let mut asides = Vec::new();
     if !drawing.words.is_empty() {
-        let words = drawing.words.join("”, “");
+        let words: Vec<&str> = drawing.words.iter().map(|word| &*word.text).collect();
+        let words = words.join("”, “");
         asides.push(format!("text of the SVG is not drawn: “{words}”"));
     }
     if !drawing.left_out.is_empty() {
@@ -140,6 +142,7 @@ pub fn plate_of_drawing(bytes: &[u8]) -> Result<ReadPlate, SvgError> {
         picture: drawing.picture(DRAWN_SIDE)?,
         origin: PlateOrigin::Drawing(Arc::from(bytes)),
         shapes: drawing.pointed(),
+        words: drawing.offered(),
     };
     Ok(ReadPlate { plate, asides })
 }

@@ -30,6 +30,11 @@ impl Desk {
         let Some(bender) = &mut self.bender else {
             return BendAnswer::Failed("there is no picture to bend".to_owned());
         };
+        if request.pose == BendPose::Finer {
+            let finer = bender.original().finer();
+            let none = || BendAnswer::Failed("the picture has no more pixels".to_owned());
+            return finer.map_or_else(none, BendAnswer::Finer);
+        }
         let mut told = 0;
         let mut progress = |part: f32| {
             let percent = (part * 100.0) as u32;
@@ -37,7 +42,7 @@ impl Desk {
         };
         let figure = &request.figure;
         let bent = match request.pose {
-            BendPose::AtRest => bender.bent(figure, &mut progress),
+            BendPose::AtRest | BendPose::Finer => bender.bent(figure, &mut progress),
             BendPose::Following(rounds) => bender.follow(figure, rounds, &mut progress),
             BendPose::Aside => bender.bent_aside(figure, &mut progress),
         };

@@ -94,7 +94,7 @@ fn a_step_bends_it_from_frame_to_frame() {
 #[test]
 fn a_picture_that_is_opened_is_a_figure() {
     let mut window = Window::open(DESK, CUBE);
-    let svg = br##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 30"><rect id="r" x="5" y="5" width="30" height="20" fill="#c04020"/></svg>"##;
+    let svg = br##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 30"><rect id="r" x="5" y="5" width="30" height="20" fill="#c04020"/><text x="10" y="12">Red<tspan> square</tspan></text></svg>"##;
     {
         let log = &mut *window.log.0.borrow_mut();
         log.files.push(("plate.svg".to_owned(), svg.to_vec()));
@@ -113,6 +113,22 @@ fn a_picture_that_is_opened_is_a_figure() {
     let picture = window.middle();
     let red = picture.pixels().filter(|p| p.0[0] > 150 && p.0[1] < 100);
     assert!(red.count() > 200, "it is drawn");
+    // Its words are not drawn, but offered as labels.
+    window.click("Panel: Text");
+    window.settle();
+    window.look("figure_words");
+    window.click("Label: Red square");
+    window.settle();
+    let captions = window.document().illustration().captions.clone();
+    assert_eq!(captions.len(), 1);
+    assert_eq!(captions[0].text, "Red square");
+    let place = glam::Vec3::new(10.0 / 40.0 - 0.5, (15.0 - 12.0) / 40.0, 0.0);
+    assert!(captions[0].at.distance(place) < 1e-5, "{}", captions[0].at);
+    assert!(
+        window.harness.query_by_label("Label: Red square").is_none(),
+        "each once"
+    );
+    window.undo();
     window.undo();
     window.settle();
     let subject = &window.document().illustration().subject.clone();

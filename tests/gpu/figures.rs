@@ -336,6 +336,29 @@ fn places_go_there_and_back() {
     assert_eq!(outside.out, "3,4,0,3,4,0,-1\n");
 }
 
+/// A drawing that is seen closer than its pixels is drawn finer, so that an edge stays sharp.
+#[test]
+fn what_is_seen_closer_is_drawn_finer() {
+    let folder = in_folder(
+        r##"{ "fabrica": 1, "subject": { "src": "a.svg" }, "figure": { "detail": 500 },
+            "look": { "background": "#ffffff" }, "camera": { "distance": 0.06 } }"##,
+    );
+    let svg = br##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-50 -50 100 100"><path d="M-50-50H0.01V50H-50Z"/></svg>"##;
+    std::fs::write(folder.path().join("a.svg"), svg).expect("room");
+    // 6,220 pixels along the longest side: a texel of 2,048 is three pixels wide, one of 4,096 half of that.
+    let args = ["render", "d.json", "-o", "a.png", "--size", "200x200"];
+    call(folder.path(), &args, "").ok();
+    let png = decode(&std::fs::read(folder.path().join("a.png")).expect("written")).expect("a PNG");
+    let row = &png.pixels[100 * 200..101 * 200];
+    let is_between = |pixel: &&[u8; 4]| (20..235).contains(&pixel[0]);
+    assert!(
+        row[20][0] < 20 && row[180][0] > 235,
+        "an edge in the middle"
+    );
+    let between = row.iter().filter(is_between).count();
+    assert!((1..=2).contains(&between), "{between} pixels of the edge");
+}
+
 /// Numbers, shapes and pixels of a figure, by the name of the file.
 #[test]
 fn figures_are_exported() {

@@ -81,7 +81,41 @@ pub(crate) fn ui(
             });
         });
     }
+    words_ui(ui, session, commands);
     ui.add_space(6.0);
+}
+
+/// The texts of a drawing that are no captions yet, each a button that makes one of it.
+fn words_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let captions = &session.shown().captions;
+    let plate = session.view.figure.plate.as_ref();
+    let words = plate.map_or(&[][..], |plate| &plate.words);
+    let is_caption = |text: &str| captions.iter().any(|caption| caption.text == text);
+    let mut left = words
+        .iter()
+        .filter(|word| !is_caption(&word.text))
+        .peekable();
+    if left.peek().is_none() {
+        return;
+    }
+    widget::heading(ui, w().of_drawing, |_| {});
+    let weak = Palette::get(ui).weak;
+    let hint = egui::RichText::new(w().of_drawing_hint).small().color(weak);
+    ui.add(egui::Label::new(hint).wrap());
+    ui.horizontal_wrapped(|ui| {
+        for word in left {
+            let button = ui
+                .button(&word.text)
+                .named(fill(w().take_word, &[&word.text]));
+            if button.clicked() {
+                commands.push(Command::Apply(Edit::AddCaption(Caption {
+                    at: word.at.extend(0.0),
+                    text: word.text.clone(),
+                    enabled: true,
+                })));
+            }
+        }
+    });
 }
 
 /// The next letter that is typed replaces the whole text.

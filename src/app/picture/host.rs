@@ -388,6 +388,11 @@ impl Picture {
         Some(image)
     }
 
+    /// Width and height of the picture that is shown, pixels.
+    pub(crate) fn size_px(&self) -> Option<[u32; 2]> {
+        self.renderer.output_size()
+    }
+
     /// Box of the deformed object as it was last drawn, subject space.
     pub(crate) fn bounds(&self) -> Option<Aabb> {
         self.renderer.bounds()

@@ -11,6 +11,9 @@ words! {
         cancel: "Cancel the label", "Beschriftung abbrechen", "Cancelar el rótulo", "取消标注";
         caption_n: "Label {0}", "Beschriftung {0}", "Rótulo {0}", "标注 {0}";
         text_n: "Text of label {0}", "Text der Beschriftung {0}", "Texto del rótulo {0}", "标注 {0} 的文字";
+        of_drawing: "Words of the drawing", "Wörter der Zeichnung", "Palabras del dibujo", "图中的文字";
+        of_drawing_hint: "The drawing's own letters do not bend: take its words as labels", "Die Schrift der Zeichnung biegt sich nicht: ihre Wörter als Beschriftungen nehmen", "Las letras del dibujo no se doblan: tome sus palabras como rótulos", "图中文字不会随之弯曲：可用作标注";
+        take_word: "Label: {0}", "Beschriftung: {0}", "Rótulo: {0}", "标注：{0}";
         remove: "Remove the label {0}", "Beschriftung {0} entfernen", "Quitar el rótulo {0}", "移除标注 {0}";
     }
 }

@@ -12,6 +12,7 @@ mod paint;
 mod path;
 mod raster;
 mod read;
+mod words;
 mod write;
 
 pub use error::SvgError;
@@ -19,4 +20,5 @@ pub(super) use limits::DRAWN_SIDE;
 pub use path::{Outline, Segment};
 pub use raster::MAX_DRAWN_SIDE;
 pub use read::{Drawing, Shape};
+pub use words::Word;
 pub use write::{Label, bent};

@@ -9,7 +9,8 @@ use super::intricacy;
 use super::limits::{MAX_ELEMENTS, check_elements, check_nesting, xml_error};
 use super::paint::{Look, affine, look};
 use super::path::{Outline, Segment, TOLERANCE};
-use crate::data::PlateShape;
+use super::words::{Word, words};
+use crate::data::{PlateShape, PlateWord};
 use crate::figure::outlines::distance_squared;
 use crate::figure::plane::Plane;
 use crate::figure::regions::{Fill, Mask, add_filled};
@@ -29,7 +30,7 @@ pub struct Drawing {
     /// The shapes in the order of drawing.
     pub shapes: Vec<Shape>,
     /// The words of text, which is not drawn; they are offered as labels.
-    pub words: Vec<String>,
+    pub words: Vec<Word>,
     /// Kinds of elements that are not drawn.
     pub left_out: BTreeSet<&'static str>,
 }
@@ -111,7 +112,7 @@ impl Drawing {
         let mut drawing = Self {
             size,
             shapes: Vec::new(),
-            words: words(&document),
+            words: words(&document, size),
             left_out: left_out(&document),
         };
         drawing.add(tree.root(), view_from_tree, &mut Vec::new(), 1.0)?;
@@ -191,13 +192,24 @@ impl Drawing {
             .collect()
     }
 
+    /// A place of the view box in the plane of a figure.
+    fn on_plane(&self, at: DVec2) -> DVec2 {
+        let place = (at - 0.5 * self.size) / self.size.max_element();
+        dvec2(place.x, -place.y)
+    }
+
+    /// The texts with their places in the plane of a figure.
+    pub fn offered(&self) -> Vec<PlateWord> {
+        let offered = |word: &Word| PlateWord {
+            text: word.text.clone(),
+            at: self.on_plane(word.at).as_vec2(),
+        };
+        self.words.iter().map(offered).collect()
+    }
+
     /// The filled shapes as a click finds them, in the plane of a figure.
     pub fn pointed(&self) -> Vec<PlateShape> {
-        let longest = self.size.max_element();
-        let to_plane = |at: DVec2| {
-            let place = (at - 0.5 * self.size) / longest;
-            dvec2(place.x, -place.y)
-        };
+        let to_plane = |at: DVec2| self.on_plane(at);
         let mut count_of_id: BTreeMap<&str, u32> = BTreeMap::new();
         for id in self.filled().flat_map(|(_, shape)| &shape.ids) {
             *count_of_id.entry(id).or_default() += 1;
@@ -358,24 +370,6 @@ fn outline(path: &usvg::tiny_skia_path::Path, place: DAffine2) -> Outline {
         PathSegment::Close => Segment::Close,
     };
     Outline(path.segments().map(segment).collect())
-}
-
-/// The texts of a drawing, in its order.
-fn words(document: &usvg::roxmltree::Document<'_>) -> Vec<String> {
-    let texts = document
-        .descendants()
-        .filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "text")));
-    let words = texts.map(|node| {
-        let parts = node
-            .descendants()
-            .filter(|part| part.is_text())
-            .filter_map(|part| part.text());
-        parts
-            .flat_map(str::split_whitespace)
-            .collect::<Vec<_>>()
-            .join(" ")
-    });
-    words.filter(|words| !words.is_empty()).collect()
 }
 
 /// Kinds of elements that are not drawn, by their names.

@@ -23,7 +23,7 @@ use crate::figure::svg::{Drawing, Label, bent};
 use crate::figure::{Bender, FigureFile, Original, Solved, exported, unwatched};
 use crate::load::{LoadError, LoadReport};
 use crate::pictures::{PictureHeader, decode, orientation, upright};
-use crate::render::{Studio, encode_png};
+use crate::render::{Studio, View, encode_png};
 use crate::shell::figures::{figure_bytes, figure_file};
 use crate::shell::files::Folder;
 
@@ -182,6 +182,7 @@ impl Figure {
         let mut illustration = self.illustration.clone();
         illustration.camera = straight(&self.plate);
         let subject = Subject::Figure(Arc::clone(&self.plate));
+        let subject = finer(subject, &illustration.camera, size);
         let resources = Resources {
             sheet: self.sheet.clone(),
             ..Resources::default()
@@ -189,6 +190,17 @@ impl Figure {
         let studio = Studio::new(&gpu, &subject, false)?.with_resources(resources);
         let image = pollster::block_on(studio.render_image(&illustration, size, SAMPLES))?;
         Ok(encode_png(&image)?)
+    }
+}
+
+/// The subject of a picture of this size: a drawing that is seen closer than its pixels is drawn finer.
+pub(super) fn finer(subject: Subject, camera: &Camera, size_px: [u32; 2]) -> Subject {
+    let seen_px = 1.0 / View::new(camera, size_px).units_per_pixel(camera.distance);
+    let coarse = subject.plate().filter(|plate| plate.is_coarse(seen_px));
+    let redrawn = |plate: &Arc<Plate>| Some(plate.redrawn(Original::of(plate).ok()?.finer()?));
+    match coarse.and_then(redrawn) {
+        Some(plate) => Subject::from(plate),
+        None => subject,
     }
 }
 
@@ -336,7 +348,8 @@ fn of_drawing(drawing: &Drawing) -> String {
         text += &format!("  {number}{id}\n");
     }
     if !drawing.words.is_empty() {
-        text += &format!("words: {}\n", drawing.words.join(", "));
+        let words: Vec<&str> = drawing.words.iter().map(|word| &*word.text).collect();
+        text += &format!("words: {}\n", words.join(", "));
     }
     for kind in &drawing.left_out {
         notice(format!("not drawn of the SVG: {kind}"));

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use super::args::{Common, Moment};
 use super::device::open_gpu;
 use super::error::CliError;
-use super::figures::with_sheet;
+use super::figures::{finer, with_sheet};
 use super::objects::{Needed, objects_of};
 use super::opening::Opened;
 use super::output::{WholeFile, notice, unwritten};
@@ -88,6 +88,7 @@ pub(super) fn render(
     let place = (common, opened.folder.as_path());
     resources.objects = objects_of(&illustration, Needed::All, here, place)?;
     let (illustration, resources) = with_sheet(&mut None, illustration, resources, &subject)?;
+    let subject = finer(subject, &illustration.camera, paper.size);
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);
     let is_lettered = paper.lettering || is_svg(output);
     let places = match is_lettered {

@@ -72,6 +72,11 @@ impl Answers {
                 let part = message.get(1).as_f64()? as f32;
                 Some(Answer::Bent(BendAnswer::UnderWay(part)))
             }
+            "finer" => {
+                let lost = || BendAnswer::Lost("the drawing was not drawn finer".to_owned());
+                let finer = pieces::unpacked_picture(&message.get(1));
+                Some(Answer::Bent(finer.map_or_else(lost, BendAnswer::Finer)))
+            }
             "bent" => {
                 // One that is not understood must not be waited for.
                 let lost = || BendAnswer::Lost("the figure was not bent".to_owned());
@@ -224,6 +229,10 @@ pub mod post {
             BendAnswer::Failed(why) | BendAnswer::Lost(why) => {
                 message.push(&JsValue::UNDEFINED);
                 message.push(&why.into());
+            }
+            BendAnswer::Finer(picture) => {
+                let (picture, pixels) = pieces::packed_picture(picture);
+                return send(&Array::of2(&"finer".into(), &picture), Some(pixels));
             }
             BendAnswer::UnderWay(_) | BendAnswer::Stopped => return Ok(()),
         }

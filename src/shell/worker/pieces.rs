@@ -4,13 +4,17 @@
 use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
-use js_sys::{Array, Float32Array, Float64Array, Int16Array, Uint8Array, Uint16Array, Uint32Array};
+use js_sys::{
+    Array, ArrayBuffer, Float32Array, Float64Array, Int16Array, Uint8Array, Uint16Array,
+    Uint32Array,
+};
 use serde_json::{Value, json as value};
 use wasm_bindgen::prelude::*;
 
 use super::header::{json_of, volume_of};
 use crate::data::{
-    Plate, PlateOrigin, PlateShape, SheetMesh, SubjectPart, Surface, SurfaceArrays, Voxels,
+    Plate, PlateOrigin, PlateShape, PlateWord, SheetMesh, SubjectPart, Surface, SurfaceArrays,
+    Voxels,
 };
 use crate::pictures::Picture;
 
@@ -55,7 +59,19 @@ pub fn packed_plate(plate: &Plate) -> JsValue {
     };
     let pixels = Uint8Array::from(plate.picture.pixels.as_flattened());
     let numbers = Float64Array::from(numbers.as_slice());
-    Array::of4(&numbers, &pixels, &origin, &packed_shapes(&plate.shapes)).into()
+    let words = plate
+        .words
+        .iter()
+        .map(|word| value!([word.text, word.at.x, word.at.y]));
+    let words = Value::from_iter(words).to_string().into();
+    Array::of5(
+        &numbers,
+        &pixels,
+        &origin,
+        &packed_shapes(&plate.shapes),
+        &words,
+    )
+    .into()
 }
 
 /// The shapes of a drawing: their paths and rules and how many points each line has, then all points.
@@ -119,6 +135,42 @@ pub fn unpacked_plate(held: &JsValue) -> Option<Plate> {
         },
         origin,
         shapes: unpacked_shapes(&held.get(3))?,
+        words: json(&held.get(4))?
+            .as_array()?
+            .iter()
+            .filter_map(word)
+            .collect(),
+    })
+}
+
+fn word(value: &Value) -> Option<PlateWord> {
+    let number = |index: usize| Some(value.get(index)?.as_f64()? as f32);
+    Some(PlateWord {
+        text: value.get(0)?.as_str()?.to_owned(),
+        at: Vec2::new(number(1)?, number(2)?),
+    })
+}
+
+/// A picture: width, height and pixels; and the buffer of these, which may be moved.
+pub fn packed_picture(picture: &Picture) -> (JsValue, ArrayBuffer) {
+    let [width, height] = picture.size;
+    let pixels = Uint8Array::from(picture.pixels.as_flattened());
+    let packed = Array::of3(&width.into(), &height.into(), &pixels);
+    (packed.into(), pixels.buffer())
+}
+
+/// The picture from [`packed_picture`]; `None` if it is none.
+pub fn unpacked_picture(held: &JsValue) -> Option<Picture> {
+    let held: &Array = held.dyn_ref()?;
+    let side = |index: u32| held.get(index).as_f64().map(|side| side as u32);
+    let size = [side(0)?, side(1)?];
+    let pixels = held.get(2).dyn_ref::<Uint8Array>()?.to_vec();
+    let pixels = pixels.as_chunks().0.to_vec();
+    let is_whole = pixels.len() as u64 == u64::from(size[0]) * u64::from(size[1]);
+    is_whole.then_some(Picture {
+        size,
+        pixels,
+        is_of_inks: false,
     })
 }
 

@@ -173,6 +173,7 @@ impl Task {
                     set("rounds", &rounds.into())?;
                 }
                 set("aside", &(request.pose == BendPose::Aside).into())?;
+                set("finer", &(request.pose == BendPose::Finer).into())?;
                 if let Some(plate) = &request.plate {
                     set("plate", &pieces::packed_plate(plate))?;
                 }
@@ -276,6 +277,7 @@ pub fn bend_of(message: &JsValue) -> Result<Option<(u32, BendRequest)>, JsValue>
         pose: match get("rounds")?.as_f64() {
             Some(rounds) => BendPose::Following(rounds as u32),
             None if get("aside")?.is_truthy() => BendPose::Aside,
+            None if get("finer")?.is_truthy() => BendPose::Finer,
             None => BendPose::AtRest,
         },
     };

@@ -150,7 +150,8 @@ fn a_bent_finger_keeps_the_areas_of_its_bones() {
         (again.size - drawing.size).length() < 1e-3,
         "the same view box"
     );
-    assert_eq!(again.words, ["tip & <end>"], "labels are text");
+    let words: Vec<&str> = again.words.iter().map(|word| &*word.text).collect();
+    assert_eq!(words, ["tip & <end>"], "labels are text");
     let mut moved = 0;
     for region in &figure.regions {
         let (before, after) = (drawing.taken(&region.name), again.taken(&region.name));

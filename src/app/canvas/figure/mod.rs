@@ -12,7 +12,8 @@ use egui::{Rect, Response, Ui};
 use self::draft::Hand;
 use self::overlays::Borders;
 use crate::app::canvas::projection::Projection;
-use crate::app::session::{Command, Session};
+use crate::app::session::figure::FigureTool;
+use crate::app::session::{Command, Session, Tool};
 
 /// What of it lives from frame to frame.
 #[derive(Debug, Default)]
@@ -42,6 +43,11 @@ impl FigureCanvas {
             }
             if let Some(borders) = &self.borders {
                 overlays::paint(&painter, view, (sheet, borders), session);
+            }
+            if session.tool() == Tool::Figure(FigureTool::Region)
+                && let Some(pos) = response.hover_pos()
+            {
+                overlays::paint_shape(&painter, view, sheet, session, pos);
             }
         }
         let is_held = handles::ui(ui, view, session, commands);

@@ -5,7 +5,7 @@ use egui::{Color32, Painter, Pos2, Stroke};
 use glam::Vec2;
 
 use super::hatching;
-use super::plane::seen;
+use super::plane::{place, seen};
 use crate::app::canvas::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;
 use crate::app::session::Session;
@@ -51,6 +51,36 @@ impl Borders {
 
     pub(super) fn are_of(&self, mesh: &Arc<SheetMesh>) -> bool {
         Arc::ptr_eq(&self.mesh, mesh)
+    }
+}
+
+/// Points of a line that is found under the hand, at most.
+const POINTED: usize = 120;
+
+/// Paints around the shape of a drawing that a click at `pos` would take.
+pub(super) fn paint_shape(
+    painter: &Painter,
+    view: &Projection,
+    sheet: &Sheet,
+    session: &Session,
+    pos: Pos2,
+) {
+    let at_rest = place(view, pos).and_then(|at| sheet.back(at));
+    let plate = session.view.figure.plate.as_ref();
+    let Some(shape) = plate
+        .zip(at_rest)
+        .and_then(|(plate, (_, at))| plate.shape_at(at))
+    else {
+        return;
+    };
+    for line in &shape.lines {
+        let points = line.iter().step_by(line.len() / POINTED + 1);
+        let places = points.filter_map(|at| Some(sheet.forward(*at)?.1));
+        let mut spots: Vec<Pos2> = places.filter_map(|at| seen(view, at)).collect();
+        spots.extend(spots.first().copied());
+        for stroke in [Stroke::new(3.5, ink::HALO_DARK), Stroke::new(1.5, ink::HOT)] {
+            painter.line(spots.clone(), stroke);
+        }
     }
 }
 

@@ -24,6 +24,7 @@ fn session_of(json: &str, origin: PlateOrigin, shapes: Vec<PlateShape>) -> Sessi
         },
         origin,
         shapes,
+        words: Vec::new(),
     }));
     let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
     let rest: Vec<Vec2> = corners.map(Vec2::from_array).to_vec();
