@@ -116,18 +116,18 @@ fn a_picture_that_is_opened_is_a_figure() {
     // Its words are not drawn, but offered as labels.
     window.click("Panel: Text");
     window.settle();
+    let word = "Label: Red square";
+    window.harness.get_by_label(word).scroll_to_me();
+    window.steps(20);
     window.look("figure_words");
-    window.click("Label: Red square");
+    window.click(word);
     window.settle();
     let captions = window.document().illustration().captions.clone();
     assert_eq!(captions.len(), 1);
     assert_eq!(captions[0].text, "Red square");
     let place = glam::Vec3::new(10.0 / 40.0 - 0.5, (15.0 - 12.0) / 40.0, 0.0);
     assert!(captions[0].at.distance(place) < 1e-5, "{}", captions[0].at);
-    assert!(
-        window.harness.query_by_label("Label: Red square").is_none(),
-        "each once"
-    );
+    assert!(window.harness.query_by_label(word).is_none(), "each once");
     window.undo();
     window.undo();
     window.settle();

@@ -219,7 +219,7 @@ impl Services for Fake {
         match request.pose {
             BendPose::AtRest => log.bends[0] += 1,
             BendPose::Following(_) => log.bends[1] += 1,
-            BendPose::Aside => {}
+            BendPose::Aside | BendPose::Finer => {}
         }
         let answer = match log.is_slow {
             true => BendAnswer::UnderWay(0.4),

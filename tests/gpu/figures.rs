@@ -7,7 +7,7 @@ use fabrica::data::{Plate, Resources, Sheet, Subject};
 use fabrica::document::{Document, Illustration};
 use fabrica::figure::drawn::drawn as drawing_of;
 use fabrica::figure::svg::Drawing;
-use fabrica::figure::{Bender, builtin_plate, plate_of_picture, unwatched};
+use fabrica::figure::{Bender, builtin_plate, plate_of_drawing, plate_of_picture, unwatched};
 use fabrica::pictures::{Picture, decode};
 use fabrica::render::{Image, Studio};
 use glam::{Vec2, Vec3};
@@ -341,22 +341,32 @@ fn places_go_there_and_back() {
 fn what_is_seen_closer_is_drawn_finer() {
     let folder = in_folder(
         r##"{ "fabrica": 1, "subject": { "src": "a.svg" }, "figure": { "detail": 500 },
-            "look": { "background": "#ffffff" }, "camera": { "distance": 0.06 } }"##,
+            "look": { "background": "#ffffff" }, "camera": { "distance": 0.06, "fov": 10 } }"##,
     );
     let svg = br##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-50 -50 100 100"><path d="M-50-50H0.01V50H-50Z"/></svg>"##;
     std::fs::write(folder.path().join("a.svg"), svg).expect("room");
-    // 6,220 pixels along the longest side: a texel of 2,048 is three pixels wide, one of 4,096 half of that.
+    // 19,000 pixels along the longest side: a texel of 2,048 is nine pixels wide, one of 4,096 half of that.
     let args = ["render", "d.json", "-o", "a.png", "--size", "200x200"];
     call(folder.path(), &args, "").ok();
     let png = decode(&std::fs::read(folder.path().join("a.png")).expect("written")).expect("a PNG");
-    let row = &png.pixels[100 * 200..101 * 200];
-    let is_between = |pixel: &&[u8; 4]| (20..235).contains(&pixel[0]);
-    assert!(
-        row[20][0] < 20 && row[180][0] > 235,
-        "an edge in the middle"
-    );
-    let between = row.iter().filter(is_between).count();
-    assert!((1..=2).contains(&between), "{between} pixels of the edge");
+    let between = |row: &[u8]| {
+        assert!(
+            row[4 * 20] < 20 && row[4 * 180] > 235,
+            "an edge in the middle"
+        );
+        row.iter()
+            .step_by(4)
+            .filter(|red| (20..235).contains(*red))
+            .count()
+    };
+    let finer = between(png.pixels[100 * 200..101 * 200].as_flattened());
+    let text = std::fs::read_to_string(folder.path().join("d.json")).expect("written");
+    let document = Document::from_json(&text).expect("a document");
+    let plate = plate_of_drawing(svg).expect("a drawing").plate;
+    let coarse = drawn(plate, document.illustration(), [200, 200], 1);
+    let coarse = between(&coarse.rgba[4 * 100 * 200..4 * 101 * 200]);
+    println!("{finer} pixels of the edge, else {coarse}");
+    assert!(finer >= 1 && 4 * finer <= 3 * coarse, "{finer} of {coarse}");
 }
 
 /// Numbers, shapes and pixels of a figure, by the name of the file.

@@ -82,6 +82,7 @@ mod tests {
             [
                 word("Left ventricle", dvec2(20.0, 20.0)),
                 word("Apex", dvec2(15.0, 86.0)),
+                word("Nowhere", dvec2(-10.0, -20.0)),
             ]
         );
     }

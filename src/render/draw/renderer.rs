@@ -566,8 +566,9 @@ impl Renderer {
     }
 
     /// A finished picture of the subject on the GPU, independent of the picture in the window: for small pictures of
-    /// other states. Of a figure it shows `sheet`, if there is one, in place of that in the window. `on_progress` hears how much of the picture is drawn, 0 to 1. The future owns its resources and may be polled
-    /// once per frame; who drops it stops the work.
+    /// other states. Of a figure it shows `sheet`, if there is one, in place of that in the window. `on_progress` hears
+    /// how much of the picture is drawn, 0 to 1. The future owns its resources and may be polled once per frame; who
+    /// drops it stops the work.
     pub fn render_image<P: Fn(f32) + 'static>(
         &self,
         (illustration, sheet): (&Illustration, Option<Sheet>),
