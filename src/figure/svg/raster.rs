@@ -48,11 +48,27 @@ impl Drawing {
     }
 }
 
-/// Draws a shape; one that has no extent or numbers too large for 32 bits is left out.
+/// The painter's numbers hold so far from the picture's corner, pixels. Beyond it stops with a fault.
+const FARTHEST: f32 = 1e6;
+
+/// Draws a shape; one that has no extent, or reaches farther than the painter's numbers hold, is left out.
 fn draw(pixels: &mut skia::Pixmap, shape: &Shape, pixels_from_view: skia::Transform) {
     let Some(path) = path(&shape.outline) else {
         return;
     };
+    // How far corners of a line may stick out of it.
+    let reach = |stroke: &Stroke| (stroke.width * stroke.miter_limit.max(1.0)) as f32;
+    let reach = shape.look.stroke.as_ref().map_or(0.0, reach);
+    let is_near = |bounds: skia::Rect| {
+        let sides = [bounds.left(), bounds.top(), bounds.right(), bounds.bottom()];
+        let scale = pixels_from_view.sx.max(pixels_from_view.sy);
+        sides
+            .iter()
+            .all(|side| (side.abs() + reach) * scale <= FARTHEST)
+    };
+    if !is_near(path.bounds()) {
+        return;
+    }
     let look = &shape.look;
     let fill = |pixels: &mut skia::Pixmap| {
         let Some((fill, opacity)) = &look.fill else {

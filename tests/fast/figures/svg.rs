@@ -378,6 +378,16 @@ fn hostile_drawings_are_refused_or_read_around() {
         Some(SvgError::NoXml { line: 2, column: 6 }),
         "no UTF-8"
     );
+    // The painter's numbers do not hold there: such shapes are left out, and the others are drawn.
+    for far in ["1e4", "1e6", "1e8", "41e9", "1e20", "1e37"] {
+        let inner = format!(
+            "<circle r=\"{far}\"/><circle cx=\"{far}\" r=\"{far}\"/><rect x=\"-{far}\" y=\"3\" width=\"{far}\" height=\"9\"/>\
+             <path d=\"M0 0L9 {far}L-{far} 7Z\" stroke=\"red\" stroke-width=\"{far}\"/><path fill=\"red\" d=\"M20 30H40V50H20Z\"/>"
+        );
+        let drawing = timed(far, &svg(&inner)).expect("it is read");
+        let picture = drawing.picture(200).expect("it is drawn");
+        assert_eq!(picture.pixels[20 * 200 + 20], [255, 0, 0, 255], "{far}");
+    }
     let numbers =
         "<path d=\"M1e38 1e38L-1e38 5 9e999 nan\"/><path d=\"M0 0C1e30 1e30 -1e30 1e30 5 5Z\"/>";
     if let Ok(drawing) = timed("huge numbers", &svg(numbers)) {
