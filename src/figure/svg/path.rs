@@ -37,6 +37,16 @@ impl Outline {
         Self(self.0.iter().map(segment).collect())
     }
 
+    /// True if all of its points are somewhere.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.0.iter().all(|segment| match segment {
+            Segment::Move(to) | Segment::Line(to) => to.is_finite(),
+            Segment::Quadratic(control, to) => control.is_finite() && to.is_finite(),
+            Segment::Cubic(one, other, to) => [one, other, to].iter().all(|at| at.is_finite()),
+            Segment::Close => true,
+        })
+    }
+
     /// The pieces with the points that they begin at; a line that is closed has the straight piece back.
     pub(crate) fn pieces(&self) -> Vec<Piece> {
         let mut pieces = Vec::new();

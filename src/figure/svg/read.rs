@@ -144,12 +144,17 @@ impl Drawing {
                         });
                     }
                     let place = view_from_tree * affine(path.abs_transform());
+                    let outline = outline(path.data(), place);
+                    if !outline.is_finite() {
+                        // Numbers too large for usvg: nobody can tell where it lies.
+                        continue;
+                    }
                     let mut ids = ids.clone();
                     ids.extend((!path.id().is_empty()).then(|| path.id().to_owned()));
                     self.shapes.push(Shape {
                         ids,
                         has_own_id: !path.id().is_empty(),
-                        outline: outline(path.data(), place),
+                        outline,
                         fill: path
                             .fill()
                             .map(|fill| fill.rule() == usvg::FillRule::EvenOdd),
