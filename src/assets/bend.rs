@@ -208,13 +208,12 @@ impl Bending {
             return;
         }
         self.progress = None;
-        let asked = self.under_way.take();
+        let mut asked = self.under_way.take();
         self.has_plate &= !matches!(answer, BendAnswer::Lost(_) | BendAnswer::Stopped);
         if std::mem::take(&mut self.is_outdated) {
             return;
         }
-        let is_aside = asked.as_ref().is_some_and(|asked| asked.is_aside);
-        if let Some(asked) = asked.clone().filter(|_| is_aside) {
+        if let Some(asked) = asked.take_if(|asked| asked.is_aside) {
             let sheet = match answer {
                 BendAnswer::Bent { sheet, .. } => Some(sheet),
                 BendAnswer::Finer(picture) => {
