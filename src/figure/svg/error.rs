@@ -39,6 +39,9 @@ pub enum SvgError {
     /// Shapes that are used, or marked at points, over and over.
     #[error("the SVG repeats its shapes too often to be read")]
     Repeats,
+    /// Rules of style that take too long to be read, or to find their elements.
+    #[error("the SVG has too many rules of style for its elements")]
+    Styles,
     /// Shapes that take too long to be drawn.
     #[error("the SVG has too many large or long shapes to be drawn in time")]
     Intricate,

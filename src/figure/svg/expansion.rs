@@ -3,6 +3,7 @@ use std::collections::BTreeMap;
 use usvg::roxmltree::{Document, Node};
 
 use super::error::SvgError;
+use super::styles::{MOST_STEPS, Styles};
 
 /// Bytes of a text at most, when its entities are put in.
 const MAX_TEXT: u64 = 16 << 20;
@@ -13,6 +14,8 @@ const OF_ELEMENT: u64 = 100;
 const OF_STOP: u64 = 8;
 /// Elements that use each other in a row, at most; groups within them count.
 const MAX_DEPTH: usize = 512;
+/// Elements that take themselves in, at most. The parser mends one after the other, each time from the start.
+const MAX_CIRCLES: usize = 64;
 
 /// Measures what entities become before any is put in: a few kilobytes of them can stand for terabytes.
 pub(super) fn check_entities(text: &str) -> Result<(), SvgError> {
@@ -78,134 +81,154 @@ impl<'a> Entities<'a> {
     }
 }
 
-/// Measures what a drawing becomes when all that is used, marked, clipped or patterned by an element is put in there.
+/// Measures what a drawing becomes when all that is used, marked, clipped or patterned by an element is put in there,
+/// and how long rules of style take to find their elements.
 pub(super) fn check_weight(document: &Document<'_>) -> Result<(), SvgError> {
     let mut weights = Weights {
         element_of: BTreeMap::new(),
-        used_by: BTreeMap::new(),
-        weight_of: BTreeMap::new(),
+        styles: Styles::read(document)?,
+        cost_of: BTreeMap::new(),
+        circles: 0,
     };
     for node in document.descendants().filter(Node::is_element) {
         if let Some(id) = node.attribute("id") {
             weights.element_of.entry(id).or_insert(node);
         }
-        if node.tag_name().name() == "style" {
-            let texts = node.descendants().filter(Node::is_text);
-            texts
-                .filter_map(|text| text.text())
-                .for_each(|text| weights.add_rules(text));
-        }
     }
-    match weights.weight(document.root_element(), 0)? {
-        ..=MAX_WEIGHT => Ok(()),
-        _ => Err(SvgError::Repeats),
+    let whole = weights.weigh(document.root_element(), 0)?;
+    match whole {
+        _ if whole.steps > MOST_STEPS => Err(SvgError::Styles),
+        _ if whole.weight > MAX_WEIGHT => Err(SvgError::Repeats),
+        _ => Ok(()),
     }
 }
 
-/// An element that another one takes in, and whether that is done at each of its points.
+/// An element that another one takes in.
 #[derive(Clone, Copy)]
 struct Use<'a> {
     id: &'a str,
-    is_at_points: bool,
+    how: Taken,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Taken {
+    /// As it is: the parser goes through the rules of style once more.
+    Copied,
+    /// As paint, clip or mask.
+    Referred,
+    /// The same at each point.
+    AtPoints,
+}
+
+/// What an element costs with all that it takes in.
+#[derive(Clone, Copy, Default)]
+struct Cost {
+    /// About in step with bytes of memory.
+    weight: u64,
+    /// Steps in which rules of style find it.
+    steps: u64,
+}
+
+impl Cost {
+    fn add(&mut self, other: Self) {
+        self.weight = self.weight.saturating_add(other.weight);
+        self.steps = self.steps.saturating_add(other.steps);
+    }
 }
 
 struct Weights<'a, 'input> {
     element_of: BTreeMap<&'a str, Node<'a, 'input>>,
-    /// What rules of a style take in, by the classes, ids and names of elements in their selectors.
-    used_by: BTreeMap<&'a str, Vec<Use<'a>>>,
-    /// By the number of the element.
-    weight_of: BTreeMap<u32, u64>,
+    styles: Styles<'a>,
+    /// By the number of the element; of one that is being weighed there is none yet.
+    cost_of: BTreeMap<u32, Option<Cost>>,
+    circles: usize,
 }
 
 impl<'a, 'input> Weights<'a, 'input> {
-    fn add_rules(&mut self, style: &'a str) {
-        for rule in style.split('}') {
-            let Some((selectors, body)) = rule.split_once('{') else {
-                continue;
-            };
-            let used: Vec<Use<'a>> = body.split(';').flat_map(uses).collect();
-            if used.is_empty() {
-                continue;
+    /// What an element costs with all that it takes in.
+    fn weigh(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<Cost, SvgError> {
+        match self.cost_of.get(&node.id().get()) {
+            Some(Some(known)) => return Ok(*known),
+            // What takes itself in is left to the parser, which finds the circle.
+            Some(None) if self.circles < MAX_CIRCLES => {
+                self.circles += 1;
+                return Ok(Cost::default());
             }
-            let is_name = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '*');
-            for name in selectors
-                .split(|c| !is_name(c))
-                .filter(|name| !name.is_empty())
-            {
-                self.used_by.entry(name).or_default().extend(&used);
-            }
-        }
-    }
-
-    /// What an element weighs with all that it takes in.
-    fn weight(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<u64, SvgError> {
-        if let Some(known) = self.weight_of.get(&node.id().get()) {
-            return Ok(*known);
+            Some(None) => return Err(SvgError::Uses),
+            None => {}
         }
         if depth > MAX_DEPTH {
             return Err(SvgError::Uses);
         }
-        // What takes itself in is left to the parser, which finds the circle.
-        self.weight_of.insert(node.id().get(), 0);
+        self.cost_of.insert(node.id().get(), None);
         let of_points = |key| node.attribute(key).map_or(0, |text| text.len() as u64);
         let of_points = of_points("d") + of_points("points");
-        let mut weight = match node.tag_name().name() {
+        let weight = match node.tag_name().name() {
             "stop" => OF_STOP,
             "linearGradient" | "radialGradient" => 0,
             _ => OF_ELEMENT + of_points,
         };
-        for used in self.used(node) {
+        let (used, steps) = self.used(node)?;
+        let mut cost = Cost { weight, steps };
+        for used in used {
             let Some(target) = self.element_of.get(used.id).copied() else {
                 continue;
             };
-            let times = match used.is_at_points {
-                true => 2 + of_points / 2,
-                false => 1,
+            let one = self.weigh(target, depth + 1)?;
+            let points = match used.how {
+                Taken::AtPoints => 2 + of_points / 2,
+                Taken::Copied | Taken::Referred => 1,
             };
-            let one = self.weight(target, depth + 1)?;
-            weight = weight.saturating_add(one.saturating_mul(times));
+            cost.add(Cost {
+                weight: one.weight.saturating_mul(points),
+                steps: if used.how == Taken::Copied {
+                    one.steps
+                } else {
+                    0
+                },
+            });
         }
         for child in node.children().filter(Node::is_element) {
-            weight = weight.saturating_add(self.weight(child, depth + 1)?);
+            cost.add(self.weigh(child, depth + 1)?);
         }
-        self.weight_of.insert(node.id().get(), weight);
-        Ok(weight)
+        self.cost_of.insert(node.id().get(), Some(cost));
+        Ok(cost)
     }
 
-    fn used(&self, node: Node<'a, 'input>) -> Vec<Use<'a>> {
+    /// What an element takes in, and the steps in which rules of style find it.
+    fn used(&self, node: Node<'a, 'input>) -> Result<(Vec<Use<'a>>, u64), SvgError> {
         let mut used = Vec::new();
         for attribute in node.attributes() {
             match (attribute.name(), attribute.value()) {
                 ("href", target) => used.extend(target.strip_prefix('#').map(|id| Use {
                     id,
-                    is_at_points: false,
+                    how: Taken::Copied,
                 })),
-                ("style", body) => used.extend(body.split(';').flat_map(uses)),
-                (name, value) => used.extend(uses(value).map(|found| Use {
-                    is_at_points: name.starts_with("marker"),
-                    ..found
-                })),
+                ("style", body) => {
+                    let declared = body.split(';').filter_map(|one| one.split_once(':'));
+                    used.extend(declared.flat_map(|(name, value)| uses(name, value)));
+                }
+                (name, value) => used.extend(uses(name, value)),
             }
         }
-        if !self.used_by.is_empty() {
-            let classes = node.attribute("class").unwrap_or_default();
-            let names = classes.split_whitespace();
-            let names = names.chain(node.attribute("id"));
-            let names = names.chain([node.tag_name().name(), "*"]);
-            used.extend(names.filter_map(|name| self.used_by.get(name)).flatten());
-        }
-        used
+        let steps = self.styles.find(node, |name, value| {
+            used.extend(uses(name, value));
+        })?;
+        Ok((used, steps))
     }
 }
 
-/// The elements that a property of a style takes in.
-fn uses(property: &str) -> impl Iterator<Item = Use<'_>> {
-    let is_at_points = property.trim_start().starts_with("marker");
-    let targets = property.split("url(").skip(1).filter_map(|target| {
+/// The elements that a property takes in.
+fn uses<'a>(name: &str, value: &'a str) -> impl Iterator<Item = Use<'a>> + use<'a> {
+    let how = match name.trim_start().starts_with("marker") {
+        true => Taken::AtPoints,
+        false => Taken::Referred,
+    };
+    let targets = value.split("url(").skip(1).filter_map(|target| {
         let inner = target.split(')').next()?.trim();
         inner.trim_matches(['"', '\'']).strip_prefix('#')
     });
-    targets.map(move |id| Use { id, is_at_points })
+    targets.map(move |id| Use { id, how })
 }
 
 #[cfg(test)]
@@ -262,6 +285,13 @@ mod tests {
             drawn += &format!("<path class=\"c{}\" d=\"M0 0h9v9z\"/>", i % 300);
         }
         assert_eq!(weight(&drawn), Ok(()), "gradients");
+        let circles = |count: usize| -> String {
+            (0..count)
+                .map(|i| format!("<pattern id=\"p{i}\"><path fill=\"url(#p{i})\"/></pattern>"))
+                .collect()
+        };
+        assert_eq!(weight(&circles(60)), Ok(()), "the parser mends them");
+        assert_eq!(weight(&circles(70)), Err(SvgError::Uses), "one by one");
         let chain: String = (0..2000)
             .map(|i| format!("<g id=\"a{i}\"><use href=\"#a{}\"/></g>", i + 1))
             .collect();

@@ -12,6 +12,7 @@ mod paint;
 mod path;
 mod raster;
 mod read;
+mod styles;
 mod words;
 mod write;
 

@@ -327,6 +327,15 @@ fn hostile_drawings_are_refused_or_read_around() {
         timed("a long path 5,000 times", &svg(&uses)).err(),
         Some(SvgError::Repeats)
     );
+    let rules = format!(
+        "<style>{}</style>{}",
+        "path{fill:url(#a)}".repeat(100_000),
+        "<path d=\"M0 0h.1v.1z\"/>".repeat(50_000)
+    );
+    assert_eq!(
+        timed("100,000 rules for 50,000 elements", &svg(&rules)).err(),
+        Some(SvgError::Styles)
+    );
     let entity = format!(
         "<!DOCTYPE svg [<!ENTITY a \"{}\">]><svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M0 0{}\"/></svg>",
         "h1v1".repeat(20_000),
