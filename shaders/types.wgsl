@@ -501,6 +501,8 @@ struct SharesJob {
     /// First slice of this part, and slices in it.
     first_slice: u32,
     slice_count: u32,
+    /// Axis along which a pass goes.
+    axis: u32,
     /// Sets of kept tissue that each label belongs to, four bits each; packed as in `Kept`.
     label_sets: array<vec4u, 10>,
 }
@@ -543,8 +545,10 @@ struct DistanceJob {
     part: u32,
     /// How many parts have a rank.
     part_count: u32,
-    /// Words in a row of crumbs, which belong to the sets (pass/shares.wgsl); 0: there are none.
-    crumb_words: u32,
+    /// Words in a row of bits that tell the members of the sets (pass/shares.wgsl); 0: there are none.
+    member_words: u32,
+    /// 1 where these bits alone tell the members, word for word: fine voxels are label voxels, and no mesh adds any.
+    are_members_told: u32,
     /// Sets of kept tissue that each label belongs to, four bits each; packed as in `Kept`.
     label_sets: array<vec4u, 10>,
 }

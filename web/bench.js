@@ -43,7 +43,7 @@ function tableOf(frames) {
       line.append(cell);
     }
   };
-  row(["Scene", "Skip grid", "Frame, ms", "Ratio", "Made ready in, ms", "Without the grid"], "th");
+  row(["Scene", "Skip grid", "Frame, ms", "Ratio", "Edited in, ms", "Opened in, ms", "Without the grid"], "th");
   for (const frame of frames) {
     row(
       [
@@ -52,6 +52,7 @@ function tableOf(frames) {
         frame.ms.toFixed(1),
         frame.ratio.toFixed(2),
         frame.making_ms.toFixed(1),
+        frame.opening_ms.toFixed(1),
         frame.grid_gain === null ? "" : `${frame.grid_gain.toFixed(2)} ×`,
       ],
       "td",

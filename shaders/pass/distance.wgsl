@@ -39,8 +39,10 @@
 /// The distances, four channels, in slabs (see `Kept`).
 @group(3) @binding(6) var distance_out: texture_storage_3d<rgba16float, write>;
 
-/// Bits of label voxels that belong to each set as its crumbs, as pass/shares.wgsl leaves them.
-@group(3) @binding(7) var<storage, read_write> crumbs: array<u32>;
+/// Bits of label voxels that belong to each set, by their labels or as its crumbs, as pass/shares.wgsl leaves them.
+@group(3) @binding(7) var<storage, read_write> members: array<u32>;
+/// Per line of fine voxels of the part, 32 voxels in a word: 1 for members. What the way there found, for the way back.
+@group(3) @binding(8) var<storage, read_write> line_bits: array<u32>;
 
 /// Stands for "none on this line"; its square is still finite.
 const FAR: f32 = 1e4;
@@ -88,23 +90,26 @@ fn part_of(voxel: vec3i, label: u32) -> u32 {
     return part;
 }
 
-/// True if a fine voxel is a crumb of the set that is worked on.
-fn is_crumb(voxel: vec3i) -> bool {
+/// True if the bits of the set that is worked on tell a fine voxel as its member.
+fn is_marked(voxel: vec3i) -> bool {
     let size = textureDimensions(labels);
     let at = label_voxel_of(voxel);
-    if job.crumb_words == 0u || any(at < vec3i(0)) || any(at >= vec3i(size)) {
+    if any(at < vec3i(0)) || any(at >= vec3i(size)) {
         return false;
     }
     let row = u32(at.y) + size.y * (u32(at.z) + size.z * job.channel);
-    return (crumbs[(u32(at.x) >> 5u) + job.crumb_words * row] & (1u << (u32(at.x) & 31u))) != 0u;
+    return (members[(u32(at.x) >> 5u) + job.member_words * row] & (1u << (u32(at.x) & 31u))) != 0u;
 }
 
 /// True if a fine voxel belongs to what distances are taken to.
 fn is_member(voxel: vec3i) -> bool {
     if job.channel < CHANNEL_OUTSIDE {
+        if job.part == 0u && job.member_words != 0u {
+            return is_marked(voxel) || member_beside(voxel) != NO_LABEL;
+        }
         let label = member_label(voxel);
         if label == NO_LABEL || job.part == 0u {
-            return label != NO_LABEL || is_crumb(voxel);
+            return label != NO_LABEL;
         }
         return part_of(voxel, label) == job.part;
     }
@@ -188,13 +193,27 @@ fn along_x(@builtin(global_invocation_id) id: vec3u) {
     let z = job.first_slice + id.y;
     let row = job.coarse.x * (id.x + job.fine.y * id.y);
     let count = i32(job.fine.x);
+    let words = (job.fine.x + 31u) / 32u;
+    let row_of_bits = words * (id.x + job.fine.y * id.y);
+    let are_told = job.are_members_told != 0u && job.channel < CHANNEL_OUTSIDE && job.part == 0u;
+    for (var w = 0u; w < words; w++) {
+        var bits = 0u;
+        if are_told {
+            bits = members[w + words * (id.x + job.fine.y * (z + job.fine.z * job.channel))];
+        } else {
+            for (var i = 0u; i < min(32u, job.fine.x - 32u * w); i++) {
+                bits |= select(0u, 1u << i, is_member(vec3i(i32(32u * w + i), i32(id.x), i32(z))));
+            }
+        }
+        line_bits[row_of_bits + w] = bits;
+    }
     // Positions of the last member and the last other passed.
     var last = vec2f(-FAR);
     var x = 0;
     for (var c = 0u; c < job.coarse.x; c++) {
         let at = fine_position(c, 0u);
         while x < count && f32(x) <= at {
-            let member = is_member(vec3i(x, i32(id.x), i32(z)));
+            let member = (line_bits[row_of_bits + (u32(x) >> 5u)] & (1u << (u32(x) & 31u))) != 0u;
             last = select(last, vec2f(f32(x)), vec2<bool>(member, !member));
             x++;
         }
@@ -206,7 +225,7 @@ fn along_x(@builtin(global_invocation_id) id: vec3u) {
         let c = job.coarse.x - 1u - k;
         let at = fine_position(c, 0u);
         while x >= 0 && f32(x) >= at {
-            let member = is_member(vec3i(x, i32(id.x), i32(z)));
+            let member = (line_bits[row_of_bits + (u32(x) >> 5u)] & (1u << (u32(x) & 31u))) != 0u;
             last = select(last, vec2f(f32(x)), vec2<bool>(member, !member));
             x--;
         }

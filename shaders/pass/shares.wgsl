@@ -1,14 +1,15 @@
 // How much of each place belongs to each set of kept tissue, from the labels. Compute only; computed anew when a
 // document names other sets or another subject is shown.
 //
-//   labels            crumbs of the rest        shares of #
+//   labels            members                   shares of #
 //   # # # . .         # # # . .                 1.0  1.0  .75  .28  0.0
 //   # . # . .   -->   # # # . .           -->   1.0  1.0  .75  .28  0.0
 //   # # # . .         # # # . .                 1.0  1.0  .75  .28  0.0
 //
 // Crumbs are pieces of the rest of at most CRUMB label voxels that hang together by faces: they count as kept, so that
-// none is torn off at a rim. A voxel in a box of 4 x 4 x 2 voxels of the rest is in no crumb, which is found for 32
-// voxels at a time; from the others the piece is followed until it is too large.
+// none is torn off at a rim. A voxel in a box of 4 x 4 x 2 voxels of the rest is in no crumb, nor is one that hangs
+// together with such a box, which is found for 32 voxels at a time; from the others the piece is followed until it is
+// too large.
 //
 // The share of a label at a voxel is its weight among the 27 voxels around, 1 2 1 along each axis. That of the voxel's
 // own label is HELD at least, and those of the others have the rest of 1 in proportion. So what is one voxel thin is
@@ -20,11 +21,11 @@
 /// Bits of label voxels, 32 of a row in a word, rows behind rows, slices behind slices, sets behind sets: 1 where the
 /// label is not in the set.
 @group(3) @binding(1) var<storage, read_write> rest: array<u32>;
-/// In the same order: 1 for crumbs.
-@group(3) @binding(2) var<storage, read_write> crumbs: array<u32>;
+/// In the same order: 1 where the voxel belongs to the set, by its label or as a crumb.
+@group(3) @binding(2) var<storage, read_write> members: array<u32>;
 /// In the same order, of one set: 1 where a box of the rest begins.
 @group(3) @binding(3) var<storage, read_write> boxes: array<u32>;
-/// In the same order, of one set: 1 for voxels of such boxes.
+/// In the same order, of one set: 1 for voxels of such boxes, and for others of the rest that hang together with them.
 @group(3) @binding(4) var<storage, read_write> large: array<u32>;
 /// Shares of some slices, a byte for each channel, rows of `job.row_words` words.
 @group(3) @binding(5) var<storage, read_write> shares_out: array<u32>;
@@ -109,6 +110,63 @@ fn fill_boxes(@builtin(global_invocation_id) at: vec3u) {
     large[word_at(0u, at)] = bits;
 }
 
+/// The bits of `pass_bits` that hang together, to higher bits, with bits of `seed`, which are among them.
+fn filled_up(seed: u32, pass_bits: u32) -> u32 {
+    var found = seed;
+    var open = pass_bits;
+    for (var step = 1u; step < 32u; step *= 2u) {
+        found |= open & (found << step);
+        open &= open << step;
+    }
+    return found;
+}
+
+/// The same to lower bits.
+fn filled_down(seed: u32, pass_bits: u32) -> u32 {
+    return reverseBits(filled_up(reverseBits(seed), reverseBits(pass_bits)));
+}
+
+/// Spreads what is large through the rest along one axis (`job.axis`), both ways; one line of words for each
+/// invocation. A few rounds find nearly all; what they leave is followed voxel by voxel.
+@compute @workgroup_size(8, 8, 1)
+fn spread_large(@builtin(global_invocation_id) id: vec3u) {
+    let size = vec3u(job.words, job.dims.yz);
+    let axis = job.axis;
+    let sides = select(select(size.xy, size.xz, axis == 1u), size.yz, axis == 0u);
+    if any(id.xy >= sides) {
+        return;
+    }
+    let first = select(select(vec3u(id.xy, 0u), vec3u(id.x, 0u, id.y), axis == 1u), vec3u(0u, id.xy), axis == 0u);
+    let along = vec3u(vec3u(axis) == vec3u(0u, 1u, 2u));
+    let count = size[axis];
+    var before = 0u;
+    for (var i = 0u; i < count; i++) {
+        let at = first + i * along;
+        let open = rest[word_at(job.set_index, at)];
+        var found = large[word_at(0u, at)];
+        if axis == 0u {
+            found = filled_up(found | ((before >> 31u) & open), open);
+        } else {
+            found |= before & open;
+        }
+        large[word_at(0u, at)] = found;
+        before = found;
+    }
+    before = 0u;
+    for (var k = 0u; k < count; k++) {
+        let at = first + (count - 1u - k) * along;
+        let open = rest[word_at(job.set_index, at)];
+        var found = large[word_at(0u, at)];
+        if axis == 0u {
+            found = filled_down(found | ((before << 31u) & open), open);
+        } else {
+            found |= before & open;
+        }
+        large[word_at(0u, at)] = found;
+        before = found;
+    }
+}
+
 /// Bit of a label voxel in its word.
 fn bit_of(at: vec3i) -> u32 {
     return 1u << (u32(at.x) & 31u);
@@ -154,9 +212,14 @@ fn is_in_crumb(start: vec3i) -> bool {
     return true;
 }
 
-/// Finds the crumbs of `job.set_index`.
+/// The bits of a word that stand for voxels of its row.
+fn bits_of_row(word: u32) -> u32 {
+    return 0xffffffffu >> (32u - min(job.dims.x - 32u * word, 32u));
+}
+
+/// Finds the members of `job.set_index`.
 @compute @workgroup_size(4, 4, 4)
-fn find_crumbs(@builtin(global_invocation_id) at: vec3u) {
+fn find_members(@builtin(global_invocation_id) at: vec3u) {
     if is_beyond(at) {
         return;
     }
@@ -169,7 +232,7 @@ fn find_crumbs(@builtin(global_invocation_id) at: vec3u) {
             found |= 1u << i;
         }
     }
-    crumbs[word_at(job.set_index, at)] = found;
+    members[word_at(job.set_index, at)] = (~rest[word_at(job.set_index, at)] | found) & bits_of_row(at.x);
 }
 
 /// Bits of the members of a set from voxel x - 1 of a row on; those beyond the row are 0.
@@ -179,8 +242,7 @@ fn members_from(set_index: u32, x: u32, y: u32, z: u32) -> u32 {
     var words = vec2u(0u);
     for (var k = 0; k < 2; k++) {
         if low + k >= 0 && low + k < i32(job.words) {
-            let at = word_at(set_index, vec3u(u32(low + k), y, z));
-            words[k] = ~rest[at] | crumbs[at];
+            words[k] = members[word_at(set_index, vec3u(u32(low + k), y, z))];
         }
     }
     let shift = u32(first) & 31u;
@@ -208,6 +270,44 @@ fn share_at(at: vec3i, set_index: u32, weight: f32, is_member: bool) -> f32 {
     return select(0.0, held, is_member) + others * part;
 }
 
+/// Shares of a set at the voxels from x on that one word of what is written holds.
+fn shares_from(x: u32, y: u32, z: u32, set_index: u32) -> vec4f {
+    let per_word = 4u / job.channels;
+    let last = vec2i(job.dims.yz) - 1;
+    // Of the rows around: bits of the voxel before, of those of the word, and of the one behind.
+    var rows: array<u32, 9>;
+    var some = 0u;
+    var all = 0xffffffffu;
+    for (var row = 0; row < 9; row++) {
+        let at = vec2u(clamp(vec2i(i32(y), i32(z)) + vec2i(row % 3, row / 3) - 1, vec2i(0), last));
+        var bits = members_from(set_index, x, at.x, at.y);
+        bits |= select(0u, (bits >> 1u) & 1u, x == 0u);
+        let end = job.dims.x - x;
+        bits |= select(0u, ((bits >> end) & 1u) << (end + 1u), end <= per_word);
+        rows[row] = bits;
+        some |= bits;
+        all &= bits;
+    }
+    let window = (4u << per_word) - 1u;
+    if (some & window) == 0u || (all & window) == window {
+        return vec4f(select(1.0, 0.0, (some & window) == 0u));
+    }
+    var weights = vec4f(0.0);
+    for (var i = 0u; i < per_word; i++) {
+        for (var row = 0; row < 9; row++) {
+            let bits = rows[row] >> i;
+            let part = 1.0 / f32(4u << u32(abs(row % 3 - 1) + abs(row / 3 - 1)));
+            weights[i] += part * (0.5 * f32((bits >> 1u) & 1u) + 0.25 * f32(bits & 1u) + 0.25 * f32((bits >> 2u) & 1u));
+        }
+        let share = weights[i];
+        if share > 0.0 && share < 1.0 && x + i < job.dims.x {
+            let is_member = (rows[4] & (2u << i)) != 0u;
+            weights[i] = share_at(vec3i(vec3u(x + i, y, z)), set_index, share, is_member);
+        }
+    }
+    return weights;
+}
+
 /// Writes the shares of some slices, a word for each invocation: four voxels of one channel, two of two, one of four.
 @compute @workgroup_size(8, 8, 1)
 fn write_shares(@builtin(global_invocation_id) id: vec3u) {
@@ -216,32 +316,11 @@ fn write_shares(@builtin(global_invocation_id) id: vec3u) {
     }
     let per_word = 4u / job.channels;
     let x = per_word * id.x;
-    let z = job.first_slice + id.z;
-    let last = vec2i(job.dims.yz) - 1;
     var word = 0u;
     for (var k = 0u; k < select(0u, job.channels, x < job.dims.x); k++) {
-        // Of each voxel of the word.
-        var weights = vec4f(0.0);
-        var members = vec4<bool>();
-        for (var row = 0; row < 9; row++) {
-            let aside = vec2i(row % 3, row / 3) - 1;
-            let at = vec2u(clamp(vec2i(i32(id.y), i32(z)) + aside, vec2i(0), last));
-            let bits = members_from(k, x, at.x, at.y);
-            let part = 1.0 / f32(4u << u32(abs(aside.x) + abs(aside.y)));
-            for (var i = 0u; i < per_word; i++) {
-                let own = (bits >> (i + 1u)) & 1u;
-                let before = select((bits >> i) & 1u, own, x + i == 0u);
-                let behind = select((bits >> (i + 2u)) & 1u, own, x + i + 1u >= job.dims.x);
-                weights[i] += part * (0.5 * f32(own) + 0.25 * f32(before) + 0.25 * f32(behind));
-                members[i] = select(members[i], own != 0u, row == 4);
-            }
-        }
+        let shares = shares_from(x, id.y, job.first_slice + id.z, k);
         for (var i = 0u; i < per_word; i++) {
-            var share = weights[i];
-            if share > 0.0 && share < 1.0 && x + i < job.dims.x {
-                share = share_at(vec3i(vec3u(x + i, id.y, z)), k, share, members[i]);
-            }
-            word |= u32(255.0 * share + 0.5) << (8u * (i * job.channels + k));
+            word |= u32(255.0 * shares[i] + 0.5) << (8u * (i * job.channels + k));
         }
     }
     shares_out[id.x + job.row_words * (id.y + job.dims.y * id.z)] = word;

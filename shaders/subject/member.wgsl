@@ -51,6 +51,11 @@ fn member_label(voxel: vec3i) -> u32 {
     if is_in_channel(own) {
         return own;
     }
+    return member_beside(voxel);
+}
+
+/// The label of a mesh by which a fine voxel belongs to that set.
+fn member_beside(voxel: vec3i) -> u32 {
     var left = labels_beside(apply_affine(job.rest_from_voxel, vec3f(voxel)));
     loop {
         let label = take_label(&left);

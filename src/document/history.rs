@@ -117,6 +117,30 @@ impl History {
         Ok(changed)
     }
 
+    /// Writes down what was found to hold for the present document, and for those to undo and to redo that are meant
+    /// too. That is no step of undo. True if the present document changed.
+    ///
+    /// # Errors
+    /// As [`Edit::apply`] on the present document; all stay as they were.
+    pub fn tell(
+        &mut self,
+        edit: &Edit,
+        is_meant: impl Fn(&Document) -> bool,
+    ) -> Result<bool, DocumentError> {
+        self.drag = None;
+        let document = edit.apply(&self.document)?;
+        let changed = document != self.document;
+        self.document = document;
+        let others = self.undo.iter_mut().chain(&mut self.redo);
+        for entry in others.filter(|entry| is_meant(&entry.document)) {
+            // One that has no room for it stays as it is.
+            if let Ok(told) = edit.apply(&entry.document) {
+                entry.document = told;
+            }
+        }
+        Ok(changed)
+    }
+
     /// True while a drag goes on that has changed something.
     pub fn is_in_drag(&self) -> bool {
         self.drag.is_some()

@@ -113,6 +113,18 @@ fn a_picture_that_is_opened_is_a_figure() {
     let picture = window.middle();
     let red = picture.pixels().filter(|p| p.0[0] > 150 && p.0[1] < 100);
     assert!(red.count() > 200, "it is drawn");
+    // What a click would take is outlined under the hand.
+    window.click("By shape");
+    window.settle();
+    let before = window.middle();
+    let center = window.picture_center();
+    window.harness.hover_at(center + vec2(20.0, 10.0));
+    window.settle();
+    window.look("figure_pointed");
+    let outlined = apart(&before, &window.middle());
+    assert!(outlined > 100, "{outlined} pixels");
+    window.press(Key::Escape);
+    window.settle();
     // Its words are not drawn, but offered as labels.
     window.click("Panel: Text");
     window.settle();

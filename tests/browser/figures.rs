@@ -8,10 +8,11 @@ use super::hand::{
 use super::harness::Tab;
 use super::native::{drawn, promised};
 use super::parts::count;
+use super::picture_files::jpeg;
 use super::*;
 use fabrica::data::{Resources, Subject};
 use fabrica::document::Illustration;
-use fabrica::figure::{Bender, ReadPlate, builtin_plate, read_plate, unwatched};
+use fabrica::figure::{Bender, Original, ReadPlate, builtin_plate, read_plate, unwatched};
 use image::RgbaImage;
 
 /// An arm whose hand is moved by a step.
@@ -392,6 +393,87 @@ fn pins_are_set_by_fingers_and_by_keys() {
         press(&tab, "Delete").await;
         let figure = changed(&tab, "figure").await;
         assert_eq!(count_of(&figure, "handles"), 0, "{figure}");
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// A drawing with a word in it, which no picture shows.
+const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 300"><circle id="head" cx="200" cy="150" r="110" fill="#c9a27c"/><text x="200" y="150" font-size="20">Ulna</text></svg>"##;
+
+/// What takes long is stopped and gone on with; a drawing seen closely is drawn finer; its words become labels; a JPEG
+/// has the pixels that the native program reads.
+#[test]
+fn a_figure_is_stopped_drawn_finer_and_labelled() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let size = (900, 760);
+        let json = r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{"detail":60000,"handles":[{"region":"humerus"},{"region":"hand","move":[0.02,0.1]}]}}"#;
+        let link = format!("#{}", payload(json));
+        let tab = session.open_coarse(&link, size).await;
+        click(&tab, "Stop bending").await;
+        let go_on = find(&tab, "Go on").await;
+        tab.picture("figure_stopped").await;
+        let text: String = tab.eval("window.fabrica.viewer.get_document()").await;
+        assert!(text.contains("60000"), "nothing of it is lost: {text}");
+        tab.click(go_on.middle().0, go_on.middle().1).await;
+        tab.settled().await;
+        let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+        let plate = || builtin_plate("drawn-arm").expect("it is built in");
+        let size_px = page.dimensions().into();
+        let shown = illustration(json);
+        assert_alike(&page, &native(&shown, plate(), size_px).await, "gone_on");
+        tab.assert_no_complaints().await;
+
+        // The edge of a bone is several pixels wide where the drawing is seen too closely.
+        let json = r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{"detail":1500},"camera":{"target":[0.1,-0.12,0],"distance":0.15}}"#;
+        let link = format!("#{}", payload(json));
+        let tab = session.coarse_viewer(&link, size).await;
+        tab.settled().await;
+        let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+        let size_px = page.dimensions().into();
+        let shown = illustration(json);
+        let coarse = native(&shown, plate(), size_px).await;
+        let original = Original::of(&plate()).expect("a drawing");
+        let finer = plate().redrawn(original.finer().expect("it can be drawn finer"));
+        let finer = native(&shown, finer, size_px).await;
+        let [to_coarse, to_finer] = [&coarse, &finer].map(|other| difference(&page, other, WHITE));
+        println!("drawn finer: {to_finer:?}, coarse: {to_coarse:?}");
+        assert!(
+            to_finer.mean < 0.5 * to_coarse.mean,
+            "the finer one is seen"
+        );
+        tab.assert_no_complaints().await;
+
+        session
+            .server
+            .add("drawing.svg", DRAWING.as_bytes().to_vec());
+        let tab = session
+            .coarse_viewer(&format!("#{}", payload(PLAIN)), size)
+            .await;
+        tab.settled().await;
+        drop_files(&tab, &["drawing.svg"]).await;
+        let is_figure = "JSON.parse(window.fabrica.viewer.get_document()).figure !== undefined";
+        tab.wait_until(is_figure, 120).await;
+        tab.settled().await;
+        click(&tab, "Panel: Text").await;
+        mark(&tab, "labels").await;
+        click(&tab, "Label: Ulna").await;
+        let labels = changed(&tab, "labels").await;
+        assert_eq!(labels[0]["text"], "Ulna", "{labels}");
+        tab.settled().await;
+        tab.picture("figure_labelled").await;
+        tab.assert_no_complaints().await;
+
+        let value = |c: usize, x: u16, y: u16| (60 + 20 * x + 40 * y + 30 * c as u16) as u8;
+        let file = jpeg([64, 40], &[1, 2, 3], (0xc0, 8), &[], value);
+        session.server.add("plate.jpg", file.clone());
+        let link = format!("#{}", payload(&PLATE.replace("plate.png", "plate.jpg")));
+        let tab = session.coarse_viewer(&link, PAGE).await;
+        tab.settled().await;
+        let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+        let ReadPlate { plate, .. } = read_plate(&file).expect("a JPEG");
+        let shown = illustration(&PLATE.replace("plate.png", "plate.jpg"));
+        let size_px = page.dimensions().into();
+        assert_alike(&page, &native(&shown, plate, size_px).await, "jpeg");
         tab.assert_no_complaints().await;
     });
 }

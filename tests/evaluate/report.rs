@@ -416,6 +416,7 @@ fn cost(page: &mut Page) {
                 format!("{:.2}", row.ratio),
                 format!("{:.2}", row.seconds / peel),
                 format!("{:.1} ms", 1e3 * row.making_seconds),
+                format!("{:.1} ms", 1e3 * row.opening_seconds),
             ]
         })
         .collect();
@@ -425,6 +426,7 @@ fn cost(page: &mut Page) {
             "to undeformed",
             "to the same peel, axis",
             "made once per edit",
+            "made from nothing",
         ],
         &rows,
     );

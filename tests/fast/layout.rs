@@ -76,11 +76,12 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         DistanceJob {
             volume_from_voxel, fine, coarse, spacing, ratio, label_from_voxel, rest_from_voxel, half_box, half_ball,
             channel, threshold, reads_labels,
-            first_slice, slice_count, axis, slab, set_count, part, part_count, crumb_words,
+            first_slice, slice_count, axis, slab, set_count, part, part_count, member_words, are_members_told,
             label_sets,
         }
         SharesJob {
-            dims, words, set_index, channels, row_words, first_slice, slice_count, label_sets,
+            dims, words, set_index, channels, row_words, first_slice, slice_count, axis,
+            label_sets,
         }
         Bodies { items }
         GridTemplate {

@@ -226,7 +226,7 @@ impl Session {
     }
 
     /// The document tells from now on that its subject is a figure, if it is one and the file alone told it: its camera
-    /// looks at the front of the plate. This is a part of the last step of undo.
+    /// looks at the front of the plate. This is no step of undo, and holds for all steps with this subject.
     pub fn tell_figure(&mut self) {
         if !self.view.is_figure() || self.illustration().is_of_figure() {
             return;
@@ -236,7 +236,12 @@ impl Session {
             value: json!({}),
             name: "Open a picture".to_owned(),
         };
-        self.amend_document(&edit);
+        let subject = self.illustration().subject.clone();
+        let result = self.history.tell(&edit, |document| {
+            let illustration = document.illustration();
+            illustration.subject == subject && !illustration.is_of_figure()
+        });
+        self.applied(result, false);
         // Where the document could not be changed, its camera means what it meant.
         if self.illustration().is_of_figure() {
             for camera in [&mut self.camera, &mut self.home] {

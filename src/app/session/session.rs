@@ -538,18 +538,12 @@ impl Session {
         self.applied(result, false)
     }
 
-    /// As [`Session::amend`], whatever step is shown.
-    pub(super) fn amend_document(&mut self, edit: &Edit) -> bool {
-        let result = self.history.amend(edit);
-        self.applied(result, false)
-    }
-
     /// True if the figure that is shown changes from frame to frame: in a passage, and while a handle is dragged.
     pub fn is_passing(&self) -> bool {
         self.mode.is_moving() || (self.view.is_figure() && self.history.is_in_drag())
     }
 
-    fn applied(&mut self, result: Result<bool, DocumentError>, is_drag: bool) -> bool {
+    pub(super) fn applied(&mut self, result: Result<bool, DocumentError>, is_drag: bool) -> bool {
         match result {
             Ok(_) => {
                 self.document_changed(if is_drag {

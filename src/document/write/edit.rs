@@ -376,8 +376,9 @@ impl Edit {
             Self::SetGroup { template, .. } => format!("/templates/{template}/group"),
             Self::InsertTemplates { index, .. } => format!("/templates/{index}/paste"),
             Self::All { name, edits } => {
-                let first = edits.first().map(Self::target).unwrap_or_default();
-                format!("{first} {name}")
+                // What has to be made before a key can be set is made once, by the first edit of a drag.
+                let last = edits.last().map(Self::target).unwrap_or_default();
+                format!("{last} {name}")
             }
             Self::SetTransfer(_) | Self::SetPoints { .. } => "/look/transfer".to_owned(),
             Self::SetWindow(_) => "/look/window".to_owned(),

@@ -491,7 +491,7 @@ pub const PROGRAMS: &[Program] = &[
             ("mark_rest", Stage::Compute),
             ("find_boxes", Stage::Compute),
             ("fill_boxes", Stage::Compute),
-            ("find_crumbs", Stage::Compute),
+            ("find_members", Stage::Compute),
             ("write_shares", Stage::Compute),
         ],
     },

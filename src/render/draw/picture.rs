@@ -6,7 +6,8 @@ use super::sheet::DrawnSheet;
 use super::style::Styled;
 use super::tiles::tiles_of;
 use super::traced::Traced;
-use crate::document::Style;
+use crate::data::Resources;
+use crate::document::{Illustration, Style};
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -74,6 +75,12 @@ impl PictureJob {
             });
         }
         Ok(())
+    }
+
+    /// Takes over another illustration of the subject, as after an edit.
+    pub(crate) fn show(&mut self, shown: (&Illustration, &Resources)) {
+        self.passes
+            .update(&self.gpu, &mut self.scene, &self.subject, shown);
     }
 
     /// From now on drawn from the baked map.

@@ -408,8 +408,10 @@ pub struct SharesJob {
     pub first_slice: u32,
     /// Slices in the part.
     pub slice_count: u32,
+    /// Axis along which a pass goes.
+    pub axis: u32,
     /// To the next row of four.
-    pub padding: [u32; 2],
+    pub padding: u32,
     /// Sets of kept tissue that each label belongs to, packed as in [`Kept`].
     pub label_sets: LabelSets,
 }
@@ -456,10 +458,12 @@ pub struct DistanceJob {
     pub part: u32,
     /// How many parts have a rank.
     pub part_count: u32,
-    /// Words in a row of crumbs; 0: there are none.
-    pub crumb_words: u32,
+    /// Words in a row of bits that tell the members of the sets; 0: there are none.
+    pub member_words: u32,
+    /// 1 where these bits alone tell the members, word for word.
+    pub are_members_told: u32,
     /// To the next row of four.
-    pub padding: [u32; 3],
+    pub padding: [u32; 2],
     /// Sets of kept tissue that each label belongs to, packed as in [`Kept`].
     pub label_sets: LabelSets,
 }

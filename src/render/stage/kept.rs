@@ -1,7 +1,7 @@
 //! How far every place is from kept tissue: textures of distances, made on the GPU.
 
 use super::parts::PartPrograms;
-use super::shares::{Crumbs, KeptShares, SharesPrograms};
+use super::shares::{KeptShares, Members, SharesPrograms};
 use crate::document::MAX_KEEP_SETS;
 use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::{submit_and_read, uniform_buffer};
@@ -291,9 +291,9 @@ impl KeptTextures {
             self.stamp += 1;
             self.plan = Some(plan);
         }
-        let (is_new, crumbs) = self.shares.make(gpu, &programs.shares, subject, kept);
+        let (is_new, members) = self.shares.make(gpu, &programs.shares, subject, kept);
         self.stamp += u64::from(is_new);
-        let textures = (&self.view, crumbs);
+        let textures = (&self.view, members);
         let work = Work::new(gpu, pipelines, subject, &plan, &frame, kept, textures);
         for (set, parts) in (0..kept.set_count).zip(kept.parts) {
             if parts == 0 {
@@ -430,7 +430,8 @@ struct Work<'a> {
     fields: wgpu::Buffer,
     smoothed: wgpu::Buffer,
     flood: wgpu::Buffer,
-    crumbs: wgpu::Buffer,
+    members: wgpu::Buffer,
+    line_bits: wgpu::Buffer,
     slices: u32,
 }
 
@@ -442,7 +443,7 @@ impl<'a> Work<'a> {
         plan: &'a Plan,
         frame: &MeasuredFrame,
         kept: &KeptTissue,
-        (view, crumbs): (&'a wgpu::TextureView, Crumbs),
+        (view, members): (&'a wgpu::TextureView, Members),
     ) -> Self {
         let buffer = |label, size: u64| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -455,6 +456,7 @@ impl<'a> Work<'a> {
             })
         };
         let line = 8 * u64::from(plan.coarse.x) * u64::from(plan.fine.y);
+        let bits = 4 * u64::from(plan.fine.x.div_ceil(32)) * u64::from(plan.fine.y);
         let slices = (PART_BYTES / line).clamp(1, u64::from(plan.fine.z)) as u32;
         let plane = 8 * u64::from(plan.coarse.x) * u64::from(plan.coarse.y);
         let channels = if kept.keeps_deep {
@@ -462,6 +464,10 @@ impl<'a> Work<'a> {
         } else {
             u64::from(kept.set_count)
         };
+        let are_told = members.words != 0
+            && plan.reads_labels
+            && frame.source_from_voxel == DAffine3::IDENTITY
+            && subject.shader == SubjectShader::Volume;
         let volume_from_voxel = subject.voxels.texture_from_rest() * frame.rest_from_voxel;
         Self {
             gpu,
@@ -480,7 +486,8 @@ impl<'a> Work<'a> {
                 threshold: threshold(subject),
                 reads_labels: u32::from(plan.reads_labels),
                 axis: 3,
-                crumb_words: crumbs.words,
+                member_words: members.words,
+                are_members_told: u32::from(are_told),
                 label_sets: kept.label_sets,
                 ..DistanceJob::default()
             },
@@ -489,7 +496,8 @@ impl<'a> Work<'a> {
             fields: buffer("distances", 4 * plan.count() * channels),
             smoothed: buffer("distances smoothed", 4 * plan.count()),
             flood: buffer("outside", 4 * plan.count()),
-            crumbs: crumbs.bits,
+            members: members.bits,
+            line_bits: buffer("members of distance lines", bits * u64::from(slices)),
             slices,
         }
     }
@@ -637,7 +645,12 @@ impl<'a> Work<'a> {
             job.first_slice = first;
             job.slice_count = slices;
             let mut encoder = self.encoder();
-            let bindings = [(1, &self.lines), (5, &self.flood), (7, &self.crumbs)];
+            let bindings = [
+                (1, &self.lines),
+                (5, &self.flood),
+                (7, &self.members),
+                (8, &self.line_bits),
+            ];
             self.run(
                 &mut encoder,
                 &self.pipelines.along[0],

@@ -18,6 +18,9 @@ use std::sync::OnceLock;
 /// Bytes of shares that are written at a time.
 const PART_BYTES: u64 = 32 << 20;
 
+/// Rounds of spreading what is large along the three axes.
+const SPREAD_ROUNDS: usize = 6;
+
 /// The compute program that makes shares; compiled when the first document keeps something.
 #[derive(Debug, Default)]
 pub(crate) struct SharesPrograms(OnceLock<SharesPipelines>);
@@ -27,7 +30,8 @@ struct SharesPipelines {
     mark_rest: wgpu::ComputePipeline,
     find_boxes: wgpu::ComputePipeline,
     fill_boxes: wgpu::ComputePipeline,
-    find_crumbs: wgpu::ComputePipeline,
+    spread_large: wgpu::ComputePipeline,
+    find_members: wgpu::ComputePipeline,
     write_shares: wgpu::ComputePipeline,
 }
 
@@ -40,7 +44,8 @@ impl SharesPrograms {
                 mark_rest: pipeline("mark_rest"),
                 find_boxes: pipeline("find_boxes"),
                 fill_boxes: pipeline("fill_boxes"),
-                find_crumbs: pipeline("find_crumbs"),
+                spread_large: pipeline("spread_large"),
+                find_members: pipeline("find_members"),
                 write_shares: pipeline("write_shares"),
             }
         })
@@ -58,9 +63,9 @@ pub(crate) struct KeptShares {
     made: Option<(UVec3, u32)>,
 }
 
-/// Which label voxels belong to each set as its crumbs, while distances are made.
+/// Which label voxels belong to each set, by their labels or as its crumbs, while distances are made.
 #[derive(Debug)]
-pub(crate) struct Crumbs {
+pub(crate) struct Members {
     /// A bit for each voxel, 32 of a row in a word, sets behind sets.
     pub bits: wgpu::Buffer,
     /// Words in a row; 0 where there are none.
@@ -77,15 +82,15 @@ impl KeptShares {
         }
     }
 
-    /// Makes the shares of the sets that end at a smooth surface, and tells the crumbs that count as theirs. True if
-    /// there is another texture than before. The work is on its way to the GPU when this returns.
+    /// Makes the shares of the sets that end at a smooth surface, and tells their members. True if there is another
+    /// texture than before. The work is on its way to the GPU when this returns.
     pub(crate) fn make(
         &mut self,
         gpu: &Gpu,
         programs: &SharesPrograms,
         subject: &SubjectTextures,
         kept: &KeptTissue,
-    ) -> (bool, Crumbs) {
+    ) -> (bool, Members) {
         let dims = subject.label_voxels.map_or(UVec3::ZERO, |frame| frame.dims);
         let channels = match u32::BITS - kept.shared_sets.leading_zeros() {
             0..=1 => 1,
@@ -95,10 +100,10 @@ impl KeptShares {
         let voxels = dims.as_u64vec3().element_product();
         if kept.shared_sets == 0 || voxels == 0 || voxels > MOST_SHARED_VOXELS {
             self.sets = 0;
-            let none = buffer_of(gpu, "crumbs", 4);
+            let none = buffer_of(gpu, "members", 4);
             return (
                 false,
-                Crumbs {
+                Members {
                     bits: none,
                     words: 0,
                 },
@@ -113,14 +118,14 @@ impl KeptShares {
         self.sets = kept.shared_sets;
         let work = Work::new(gpu, programs.get(gpu), subject, kept, (dims, channels));
         for set in (0..channels).filter(|set| kept.shared_sets >> set & 1 != 0) {
-            work.find_crumbs(set);
+            work.find_members(set);
         }
         work.write(self.view.texture());
         (
             is_new,
-            Crumbs {
+            Members {
                 words: work.job.words,
-                bits: work.crumbs,
+                bits: work.members,
             },
         )
     }
@@ -133,7 +138,7 @@ struct Work<'a> {
     subject: &'a SubjectTextures,
     job: SharesJob,
     rest: wgpu::Buffer,
-    crumbs: wgpu::Buffer,
+    members: wgpu::Buffer,
     boxes: wgpu::Buffer,
     large: wgpu::Buffer,
 }
@@ -163,32 +168,42 @@ impl<'a> Work<'a> {
                 ..SharesJob::default()
             },
             rest: buffer_of(gpu, "rest of sets", planes),
-            crumbs: buffer_of(gpu, "crumbs", planes),
+            members: buffer_of(gpu, "members", planes),
             boxes: buffer_of(gpu, "boxes of the rest", plane),
             large: buffer_of(gpu, "large pieces of the rest", plane),
         }
     }
 
-    /// Finds the rest of a set, and the crumbs of it.
-    fn find_crumbs(&self, set_index: u32) {
-        let job = SharesJob {
+    /// Finds the rest of a set, and the members with the crumbs of it.
+    fn find_members(&self, set_index: u32) {
+        let mut job = SharesJob {
             set_index,
             ..self.job
         };
         let [_, y, z, _] = job.dims;
-        let groups = [job.words, y, z].map(|n| n.div_ceil(4));
-        let (rest, crumbs) = ((1, &self.rest), (2, &self.crumbs));
+        let words = [job.words, y, z];
+        let groups = words.map(|n| n.div_ceil(4));
+        let (rest, members) = ((1, &self.rest), (2, &self.members));
         let (boxes, large) = ((3, &self.boxes), (4, &self.large));
-        let passes: [(_, &[_], _); 4] = [
-            (&self.pipelines.mark_rest, &[rest], true),
-            (&self.pipelines.find_boxes, &[rest, boxes], false),
-            (&self.pipelines.fill_boxes, &[boxes, large], false),
-            (&self.pipelines.find_crumbs, &[rest, crumbs, large], false),
-        ];
+        let pipelines = self.pipelines;
         let mut encoder = encoder(self.gpu);
-        for (pipeline, buffers, reads_labels) in passes {
-            self.run(&mut encoder, pipeline, &job, buffers, reads_labels, groups);
+        let mut run = |pipeline, job: &SharesJob, buffers: &[_], reads_labels, groups| {
+            self.run(&mut encoder, pipeline, job, buffers, reads_labels, groups);
+        };
+        run(&pipelines.mark_rest, &job, &[rest], true, groups);
+        run(&pipelines.find_boxes, &job, &[rest, boxes], false, groups);
+        run(&pipelines.fill_boxes, &job, &[boxes, large], false, groups);
+        let across = [[y, z], [words[0], z], [words[0], y]];
+        for _ in 0..SPREAD_ROUNDS {
+            for (axis, threads) in (0..).zip(across) {
+                job.axis = axis;
+                let [first, second] = threads.map(|n| n.div_ceil(8));
+                let groups = [first, second, 1];
+                run(&pipelines.spread_large, &job, &[rest, large], false, groups);
+            }
         }
+        let all = [rest, members, large];
+        run(&pipelines.find_members, &job, &all, false, groups);
         self.gpu.queue.submit([encoder.finish()]);
     }
 
@@ -211,7 +226,7 @@ impl<'a> Work<'a> {
                 &mut encoder,
                 &self.pipelines.write_shares,
                 &job,
-                &[(1, &self.rest), (2, &self.crumbs), (5, &part)],
+                &[(2, &self.members), (5, &part)],
                 true,
                 [job.row_words.div_ceil(8), y.div_ceil(8), slice_count],
             );

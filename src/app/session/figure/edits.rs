@@ -49,19 +49,25 @@ pub fn figure_edit(key: &str, value: Option<Value>) -> Edit {
     Edit::put(pointer, value, "Change figure".to_owned())
 }
 
-/// Sets a key of a region by its name. A region of the source that the document does not list yet is listed.
+/// Sets a key of a region by its name. A region of the source that the document does not list yet is listed first, for
+/// all steps; its key is set at the step that is shown.
 pub fn region_edit(session: &Session, name: &str, key: &str, value: Value) -> Edit {
-    match index_of(session, name) {
-        Some(index) => Edit::Set {
-            pointer: format!("/figure/regions/{index}/{key}"),
-            value,
-            name: "Change region".to_owned(),
-        },
-        None => Edit::AddToFigure {
-            list: FigureList::Regions,
-            index: usize::MAX,
-            entry: json!({ "name": name, key: value }),
-        },
+    let listed = index_of(session, name);
+    let added = Edit::AddToFigure {
+        list: FigureList::Regions,
+        index: usize::MAX,
+        entry: json!({ "name": name }),
+    };
+    let mut edits: Vec<Edit> = listed.is_none().then_some(added).into_iter().collect();
+    let index = listed.unwrap_or(session.listed_regions().len());
+    edits.push(Edit::Set {
+        pointer: format!("/figure/regions/{index}/{key}"),
+        value,
+        name: "Change region".to_owned(),
+    });
+    Edit::All {
+        name: "Change region".to_owned(),
+        edits,
     }
 }
 

@@ -8,8 +8,8 @@ use super::{
 };
 use crate::app::session::{Command, LoadOf, Session, Tool};
 use crate::data::{Plate, PlateOrigin, PlateShape, Sheet, SheetMesh, Subject};
-use crate::document::Document;
-use crate::document::figure::{Hold, Source};
+use crate::document::figure::{Hold, Rigidity, Source};
+use crate::document::{Document, Edit, FIGURE_FRONT};
 use crate::pictures::Picture;
 
 /// A square plate whose two triangles have gone to the right by 0.1, and are one region.
@@ -325,6 +325,18 @@ fn a_built_in_region_is_changed_by_its_name() {
         listed,
         Some(json!([{ "name": "ulna", "fixed": true, "order": 2 }]))
     );
+    // A drag is one step of undo, from the first place of the hand on.
+    let before = session.document().clone();
+    for stiffness in [2.0, 3.0, 4.0] {
+        let rigidity = Rigidity::Elastic([stiffness; 2]);
+        let edit = super::rigidity_edit(&session, "radius", rigidity);
+        session.run(Command::Drag(edit), 0.0);
+    }
+    session.end_drag();
+    let listed = session.document().get("/figure/regions/1").cloned();
+    assert_eq!(listed, Some(json!({ "name": "radius", "rigidity": 4 })));
+    session.run(Command::Undo, 0.0);
+    assert_eq!(*session.document(), before);
     // What belongs to the drawing is not removed.
     run(
         &mut session,
@@ -332,6 +344,42 @@ fn a_built_in_region_is_changed_by_its_name() {
     );
     session.run(Command::DeleteSelected, 0.0);
     assert!(!session.notices.all().is_empty(), "a message tells why");
+}
+
+#[test]
+fn at_a_step_a_built_in_region_changes_from_there_on() {
+    let json =
+        r#"{ "fabrica": 1, "subject": { "builtin": "drawn-arm" }, "steps": [{ "seconds": 0 }] }"#;
+    let mut session = session_of(
+        json,
+        PlateOrigin::Builtin("drawn-arm".to_owned()),
+        Vec::new(),
+    );
+    session.has_less_motion = true;
+    session.run(Command::GoToStep(1), 0.0);
+    let edit = super::rigidity_edit(&session, "ulna", Rigidity::Elastic([3.0; 2]));
+    session.run(Command::Apply(edit), 0.0);
+    let regions = session.document().get("/figure/regions").cloned();
+    assert_eq!(regions, Some(json!([{ "name": "ulna" }])));
+    let set = session.document().get("/steps/0/set").cloned();
+    assert_eq!(set, Some(json!({ "/figure/regions/0/rigidity": 3 })));
+}
+
+#[test]
+fn undo_does_not_take_back_that_a_file_is_a_picture() {
+    let json = r#"{ "fabrica": 1, "subject": { "src": "plate.bin" } }"#;
+    let mut session = session_of(json, PlateOrigin::Pixels, Vec::new());
+    let edit = Edit::SetTitle("Elbow".to_owned());
+    session.run(Command::Apply(edit), 0.0);
+    let camera = session.camera;
+    session.tell_figure();
+    assert_eq!(session.camera.rotate, camera.rotate * FIGURE_FRONT);
+    for command in [Command::Undo, Command::Undo, Command::Redo] {
+        session.run(command, 0.0);
+        let illustration = session.document().illustration();
+        assert!(illustration.is_of_figure(), "it stays one");
+    }
+    assert_eq!(session.document().get("/title"), Some(&json!("Elbow")));
 }
 
 #[test]
