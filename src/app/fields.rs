@@ -92,26 +92,37 @@ impl App {
         view.regions = Arc::clone(self.bending.regions());
         view.progress = self.bending.progress(self.session.now);
         view.is_stopped = self.bending.is_stopped();
-        self.draw_finer();
+        self.show_finer();
         sheet
     }
 
-    /// Has a drawing drawn finer that is seen closer than its pixels once it is at rest, and shows it so.
-    fn draw_finer(&mut self) {
-        let Some(picture) = &mut self.picture else {
+    /// Has a drawing drawn finer that is seen closer than its pixels, once it is at rest: the picture is done, so that
+    /// nothing else asks for another frame.
+    pub(crate) fn see_closer(&mut self, ctx: &egui::Context) {
+        let Some(picture) = &self.picture else {
             return;
         };
         if picture.state.is_done
             && !self.session.is_passing()
             && let Some(size_px) = picture.size_px()
         {
-            let seen_px = 1.0
-                / View::new(&self.session.camera, size_px)
-                    .units_per_pixel(self.session.camera.distance);
-            self.bending.see_closer(seen_px);
+            let camera = &self.session.camera;
+            let view = View::new(camera, size_px);
+            if self
+                .bending
+                .see_closer(1.0 / view.units_per_pixel(camera.distance))
+            {
+                ctx.request_repaint();
+            }
         }
+    }
+
+    /// Shows the drawing in more pixels, once it is there.
+    fn show_finer(&mut self) {
         let plate = self.assets.subject().and_then(Subject::plate);
-        if let (Some(plate), Some(finer)) = (plate, self.bending.take_finer()) {
+        if let (Some(plate), Some(picture)) = (plate, &mut self.picture)
+            && let Some(finer) = self.bending.take_finer()
+        {
             let finer = Subject::from(plate.redrawn(finer));
             if let Err(error) = picture.set_subject(finer) {
                 // It is shown with the pixels that it had.

@@ -640,6 +640,7 @@ impl App {
             self.session.take_pace(whole_seconds);
             self.look_after_device();
         }
+        self.see_closer(ctx);
         self.advance_open_picture(&ctx.clone());
         if let Some(seconds) = self.session.seconds_to_next_change() {
             ctx.request_repaint_after(Duration::from_secs_f64(seconds));

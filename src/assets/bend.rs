@@ -271,10 +271,12 @@ impl Bending {
         None
     }
 
-    /// The plate is seen at rest with its longest side so long, pixels: a drawing with fewer is drawn finer, once.
-    pub fn see_closer(&mut self, seen_px: f32) {
+    /// The plate is seen at rest with its longest side so long, pixels: a drawing with fewer is drawn finer, once. True
+    /// if that is to be asked for next.
+    pub fn see_closer(&mut self, seen_px: f32) -> bool {
         let plate = self.plate.as_ref();
         self.is_coarse = plate.is_some_and(|plate| plate.is_coarse(seen_px));
+        self.is_coarse && !self.is_finer_asked
     }
 
     /// The drawing in more pixels, once it is there.
@@ -489,9 +491,9 @@ mod tests {
             assert!(bending.next(Some(&plate), None, false).is_some());
             bending.take(bent(&[]));
             let asks = |bending: &mut Bending| bending.next(Some(&plate), None, false);
-            bending.see_closer(1.0);
+            assert!(!bending.see_closer(1.0));
             assert_eq!(asks(&mut bending), None, "it is fine enough");
-            bending.see_closer(1.5);
+            assert_eq!(bending.see_closer(1.5), is_drawing);
             let asked = asks(&mut bending).map(|request| request.pose);
             assert_eq!(asked, is_drawing.then_some(BendPose::Finer));
             if is_drawing {
@@ -500,6 +502,7 @@ mod tests {
                 assert_eq!(bending.take_finer(), Some(plate.picture.clone()));
             }
             assert!(bending.take_finer().is_none() && bending.sheet().is_some());
+            assert!(!bending.see_closer(1.5), "once");
             assert_eq!(asks(&mut bending), None, "once");
         }
     }

@@ -14,6 +14,7 @@ use fabrica::data::{Resources, Subject};
 use fabrica::document::Illustration;
 use fabrica::figure::{Bender, Original, ReadPlate, builtin_plate, read_plate, unwatched};
 use image::RgbaImage;
+use std::time::Instant;
 
 /// An arm whose hand is moved by a step.
 const ARM: &str = r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{"detail":1500,"handles":[{"region":"humerus"},{"region":"hand","move":[0.02,0.03]}]},"steps":[{"set":{"/figure/handles/1/move":[0.05,0.12]},"seconds":1}]}"#;
@@ -408,7 +409,7 @@ fn a_figure_is_stopped_drawn_finer_and_labelled() {
         let size = (900, 760);
         let json = r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{"detail":60000,"handles":[{"region":"humerus"},{"region":"hand","move":[0.02,0.1]}]}}"#;
         let link = format!("#{}", payload(json));
-        let tab = session.open_coarse(&link, size).await;
+        let tab = session.coarse_viewer(&link, size).await;
         click(&tab, "Stop bending").await;
         let go_on = find(&tab, "Go on").await;
         tab.picture("figure_stopped").await;
@@ -435,12 +436,18 @@ fn a_figure_is_stopped_drawn_finer_and_labelled() {
         let original = Original::of(&plate()).expect("a drawing");
         let finer = plate().redrawn(original.finer().expect("it can be drawn finer"));
         let finer = native(&shown, finer, size_px).await;
-        let [to_coarse, to_finer] = [&coarse, &finer].map(|other| difference(&page, other, WHITE));
-        println!("drawn finer: {to_finer:?}, coarse: {to_coarse:?}");
-        assert!(
-            to_finer.mean < 0.5 * to_coarse.mean,
-            "the finer one is seen"
-        );
+        // It is drawn once the picture is at rest.
+        let start = Instant::now();
+        loop {
+            let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+            let [to_coarse, to_finer] =
+                [&coarse, &finer].map(|other| difference(&page, other, WHITE));
+            if to_finer.mean < 0.5 * to_coarse.mean {
+                break;
+            }
+            let seconds = start.elapsed().as_secs();
+            assert!(seconds < 30, "coarse: {to_coarse:?}, finer: {to_finer:?}");
+        }
         tab.assert_no_complaints().await;
 
         session
