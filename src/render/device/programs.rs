@@ -491,6 +491,7 @@ pub const PROGRAMS: &[Program] = &[
             ("mark_rest", Stage::Compute),
             ("find_boxes", Stage::Compute),
             ("fill_boxes", Stage::Compute),
+            ("spread_large", Stage::Compute),
             ("find_members", Stage::Compute),
             ("write_shares", Stage::Compute),
         ],
