@@ -184,6 +184,11 @@ fn sweep(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
+/// True if a fine voxel of the line whose bits begin at `row_of_bits` was found a member.
+fn is_in_line(row_of_bits: u32, x: u32) -> bool {
+    return (line_bits[row_of_bits + (x >> 5u)] & (1u << (x & 31u))) != 0u;
+}
+
 /// Along x: one line of fine voxels for each invocation (y, slice of the part), swept there and back.
 @compute @workgroup_size(8, 8, 1)
 fn along_x(@builtin(global_invocation_id) id: vec3u) {
@@ -213,7 +218,7 @@ fn along_x(@builtin(global_invocation_id) id: vec3u) {
     for (var c = 0u; c < job.coarse.x; c++) {
         let at = fine_position(c, 0u);
         while x < count && f32(x) <= at {
-            let member = (line_bits[row_of_bits + (u32(x) >> 5u)] & (1u << (u32(x) & 31u))) != 0u;
+            let member = is_in_line(row_of_bits, u32(x));
             last = select(last, vec2f(f32(x)), vec2<bool>(member, !member));
             x++;
         }
@@ -225,7 +230,7 @@ fn along_x(@builtin(global_invocation_id) id: vec3u) {
         let c = job.coarse.x - 1u - k;
         let at = fine_position(c, 0u);
         while x >= 0 && f32(x) >= at {
-            let member = (line_bits[row_of_bits + (u32(x) >> 5u)] & (1u << (u32(x) & 31u))) != 0u;
+            let member = is_in_line(row_of_bits, u32(x));
             last = select(last, vec2f(f32(x)), vec2<bool>(member, !member));
             x--;
         }

@@ -121,24 +121,25 @@ struct Counted<'a, 'input, 'b> {
     row: u32,
 }
 
-impl Counted<'_, '_, '_> {
-    fn next(&self, node: Option<Self>) -> Option<Self> {
+impl<'a, 'input> Counted<'a, 'input, '_> {
+    /// The element that is seen next from this one.
+    fn next(&self, node: Option<Node<'a, 'input>>) -> Option<Self> {
+        self.budget.take(1);
         if self.row >= MOST_IN_A_ROW {
             self.budget.take(MOST_STEPS);
         }
-        node.filter(|_| !self.budget.is_used_up())
+        let node = node.filter(|_| !self.budget.is_used_up())?;
+        Some(Self {
+            node,
+            row: self.row + 1,
+            ..*self
+        })
     }
 }
 
 impl Element for Counted<'_, '_, '_> {
     fn parent_element(&self) -> Option<Self> {
-        self.budget.take(1);
-        let parent = self.node.parent_element();
-        self.next(parent.map(|node| Self {
-            node,
-            budget: self.budget,
-            row: self.row + 1,
-        }))
+        self.next(self.node.parent_element())
     }
 
     fn prev_sibling_element(&self) -> Option<Self> {
@@ -148,12 +149,7 @@ impl Element for Counted<'_, '_, '_> {
             self.budget.take(1);
             before = node.prev_sibling();
         }
-        self.budget.take(1);
-        self.next(before.map(|node| Self {
-            node,
-            budget: self.budget,
-            row: self.row + 1,
-        }))
+        self.next(before)
     }
 
     fn has_local_name(&self, name: &str) -> bool {
@@ -183,8 +179,7 @@ mod tests {
 
     fn steps(style: &str, inner: &str) -> Result<u64, SvgError> {
         let text = format!("<svg><style>{style}</style>{inner}</svg>");
-        let options = usvg::roxmltree::ParsingOptions::default();
-        let document = Document::parse_with_options(&text, options).expect("XML");
+        let document = Document::parse(&text).expect("XML");
         let styles = Styles::read(&document)?;
         let elements = document.descendants().filter(Node::is_element);
         elements.map(|node| styles.find(node, |_, _| {})).sum()
