@@ -16,7 +16,8 @@ const CUTQUAD_REACH: f32 = 0.4;
 
 /// p0: amount, length, ripple.
 fn displace_cutquad(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f) -> Displaced {
-    if is_beyond(q, vec3f(0.0), vec3f(1.0, 1.0, NO_END)) {
+    // Shut it is the identity to the bit, also where a device contracts products and sums.
+    if p0.x <= 0.0 || is_beyond(q, vec3f(0.0), vec3f(1.0, 1.0, NO_END)) {
         return at_rest(q);
     }
     let z = min(q.z, 1.0);

@@ -17,8 +17,9 @@ struct Differential {
     path: u32,
 }
 
-/// One-sided differences of the map and of the continuity at a point, forward along the ray: into the material. `edge`
-/// is the sample at the point, `mask` the templates that may reach it.
+/// One-sided differences of the map and of the continuity at a point, forward along the ray: into the material. On a
+/// face that is seen obliquely an axis of the ray may lead out of the material, where the map may leap to other tissue:
+/// there the difference is taken backward. `edge` is the sample at the point, `mask` the templates that may reach it.
 fn differential_at(pos: vec3f, forward: vec3f, edge: Sample, mask: u32) -> Differential {
     var col0 = vec3f(1.0, 0.0, 0.0);
     var col1 = vec3f(0.0, 1.0, 0.0);
@@ -37,8 +38,10 @@ fn differential_at(pos: vec3f, forward: vec3f, edge: Sample, mask: u32) -> Diffe
         let has_base = KEEPS_TISSUE && (drawn_kinds & DRAWN_CURVES) == 0u;
         var turn = select(4u, select(0u, 1u, has_base), path != 0u);
         rounds_splines = true;
+        var is_back = false;
         while turn < 4u {
-            let along = select(vec3f(0.0), forward * map_step(), vec3u(1u, 2u, 3u) == vec3u(turn));
+            let toward = select(forward, -forward, is_back) * map_step();
+            let along = select(vec3f(0.0), toward, vec3u(1u, 2u, 3u) == vec3u(turn));
             let moved = map_along(pos + along, path);
             if turn == 0u {
                 base = moved;
@@ -46,7 +49,13 @@ fn differential_at(pos: vec3f, forward: vec3f, edge: Sample, mask: u32) -> Diffe
             let way = select(along.x + along.y + along.z, 1.0, turn == 0u);
             let column = (moved.pos - base.pos) / way;
             let change = (moved.continuity - base.continuity) / way;
-            if dot(column, column) < MAX_STRETCH * MAX_STRETCH {
+            let leaps = dot(column, column) >= MAX_STRETCH * MAX_STRETCH;
+            if leaps && !is_back && turn != 0u {
+                is_back = true;
+                continue;
+            }
+            is_back = false;
+            if !leaps {
                 col0 = select(col0, column, turn == 1u);
                 col1 = select(col1, column, turn == 2u);
                 col2 = select(col2, column, turn == 3u);

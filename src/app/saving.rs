@@ -6,9 +6,10 @@ use crate::app::canvas::lettering::Lettering;
 use crate::app::canvas::saved::{SavedRows, Saving, file_size};
 use crate::app::picture::host::Picture;
 use crate::app::services::TextToSet;
-use crate::app::session::{Gravity, SaveFile};
+use crate::app::session::{Gravity, PicturePaper, SaveFile};
 use crate::app::window::App;
 use crate::app::words;
+use crate::document::Background;
 
 impl App {
     /// Starts making the picture for a file.
@@ -16,10 +17,18 @@ impl App {
         let Some(picture) = &mut self.picture else {
             return;
         };
-        let illustration = self.session.shown_as_seen();
+        let mut illustration = self.session.shown_as_seen();
         let shown_px = self.viewport.size_px(ctx.pixels_per_point());
         let is_for_script = std::mem::take(&mut self.wants_shown_size);
         // A script asks for the picture as the window shows it, without lettering.
+        let paper = match is_for_script {
+            true => PicturePaper::Background,
+            false => self.session.picture_paper,
+        };
+        let has_shadow = matches!(paper, PicturePaper::Shadow | PicturePaper::ClearShadow);
+        if matches!(paper, PicturePaper::Clear | PicturePaper::ClearShadow) {
+            illustration.look.background = Background::None;
+        }
         let size_px = if is_for_script {
             shown_px
         } else {
@@ -40,7 +49,8 @@ impl App {
         let dpi = (!is_for_script).then_some(self.session.picture_dpi as f32);
         let progress = Rc::default();
         let rows = SavedRows::new(size_px, dpi, lettering, Rc::clone(&progress));
-        picture.start_file(&illustration, size_px, (rows, progress), SavedRows::finish);
+        let shown = (&illustration, size_px);
+        picture.start_file(shown, has_shadow, (rows, progress), SavedRows::finish);
         self.saving = Some(Saving {
             name: format!("{}.png", self.session.file_stem()),
             is_for_script,

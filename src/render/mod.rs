@@ -34,6 +34,7 @@ pub use draw::clock::system_clock;
 pub use draw::follow::PendingPlaces;
 pub use draw::identify::{SIGHT_PX, Sighting};
 pub use draw::image::{Image, decode_png, encode_png};
+pub use draw::paper_shadow::{OnPaper, PaperShadow, SHADOW_SAMPLES};
 pub use draw::pick::{Meeting, PendingDepths, PendingEvents, PendingPick, Pick, RayEvent};
 pub use draw::probe::{Probe, Sample};
 pub use draw::renderer::{DrawState, Renderer};

@@ -149,3 +149,38 @@ fn a_picture_has_the_size_that_was_chosen() {
     let (width, height) = (side(16), side(20));
     assert_eq!(width.max(height), 1000, "{width} × {height}");
 }
+
+/// What stands behind the object in a saved picture is chosen in the dialog: the background, nothing, or a soft shadow
+/// on either.
+#[test]
+fn a_saved_picture_gets_the_paper_that_is_chosen() {
+    // Tall enough for the whole dialog: what is scrolled out of view takes no click.
+    let mut window = opened(vec2(900.0, 1300.0), egui::Theme::Light, CUBE);
+    window.save_small_pictures();
+    window.look("share_paper");
+    let mut saved = |name: &str| {
+        window.click(name);
+        window.saved_picture()
+    };
+    let [plain, clear, shaded, cast] =
+        ["Background", "Nothing", "Shadow", "Shadow alone"].map(&mut saved);
+    if let Some(folder) = std::env::var_os("FABRICA_LOOK_AT") {
+        let path = std::path::Path::new(&folder).join("shaded.png");
+        shaded.save(path).expect("a picture to look at");
+    }
+    let corner = |image: &image::RgbaImage| image.get_pixel(2, 2).0;
+    assert_eq!(corner(&clear), [0; 4]);
+    assert_eq!(corner(&cast), [0; 4], "no shadow so far from the object");
+    assert_eq!([corner(&plain)[3], corner(&shaded)[3]], [255; 2]);
+    assert_eq!(corner(&plain), corner(&shaded));
+    let darker = plain.pixels().zip(shaded.pixels());
+    let darker = darker.filter(|(plain, shaded)| plain[1] > shaded[1].saturating_add(20));
+    let veiled = cast
+        .pixels()
+        .filter(|pixel| pixel[3] > 20 && pixel[3] < 200);
+    let (darker, veiled) = (darker.count(), veiled.count());
+    assert!(
+        darker > 1000 && veiled > 1000,
+        "{darker} darker, {veiled} veiled"
+    );
+}

@@ -4,7 +4,7 @@ use super::harness::{Session, Tab};
 use super::surfaces::{surface_of, surface_within};
 use super::*;
 use fabrica::data::{FieldSamples, Grid, Resources, Subject, Surface, Volume, VolumeBuilder};
-use fabrica::document::{Illustration, Lesson, ObjectSource, TemplateData};
+use fabrica::document::{Illustration, Lesson, ObjectSource, STYLE_PRESETS, TemplateData};
 use fabrica::load::{FieldUse, OneFile, read_field};
 use fabrica::subjects::{FINE_RESOLUTION, tool};
 use glam::DVec3;
@@ -181,6 +181,22 @@ fn besides() -> Vec<Case> {
     ]
 }
 
+/// Every style that has a name.
+fn styles() -> impl Iterator<Item = Case> {
+    STYLE_PRESETS.iter().map(|preset| {
+        case(
+            preset.name,
+            &["/look/style"],
+            json!({
+                "subject": { "builtin": "bar" },
+                "templates": [{ "kind": "split", "at": [0, 0.1, 0], "size": [0.6, 0.6, 0.6] }],
+                "look": { "style": preset.name },
+                "camera": { "rotate": [0.35, 0.2, 0.4, 0.82], "distance": 2 },
+            }),
+        )
+    })
+}
+
 /// The same document without what stands at a pointer.
 fn without(document: &Value, pointer: &str) -> Value {
     let mut plain = document.clone();
@@ -337,7 +353,7 @@ fn browser_draws_what_the_native_program_draws() {
         let tab = compare_field(&session, &mut native, &mut findings).await;
         tab.eval::<bool>("(window.fabrica.viewer.destroy(), true)")
             .await;
-        for case in kinds().into_iter().chain(besides()) {
+        for case in kinds().into_iter().chain(besides()).chain(styles()) {
             let text = case.document.to_string();
             let quoted = serde_json::to_string(&text).expect("text");
             let script = format!(

@@ -27,6 +27,7 @@ mod rigid;
 mod shells;
 mod slices;
 mod splines;
+mod strokes;
 mod style;
 mod textures;
 

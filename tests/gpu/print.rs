@@ -194,6 +194,55 @@ fn prints_have_their_resolution_and_no_background_if_wished() {
     assert_eq!(clear.rgba[middle + 3], 255, "but the bar");
 }
 
+/// `--shadow` lays a soft shadow on what is behind the object: on the document's colour, or on nothing, where the
+/// shadow alone is drawn. The object stays as it was.
+#[test]
+fn prints_have_a_shadow_if_wished() {
+    let folder = folder_with_bar();
+    let draw = |more: &[&str]| {
+        let args = ["render", "bar.json", "-o", "a.png", "--size", "160x120"];
+        fabrica_with(folder.path(), &[&args, more].concat(), b"").ok();
+        let bytes = std::fs::read(folder.path().join("a.png")).expect("a file");
+        decode_png(&bytes).expect("a PNG")
+    };
+    let plain = draw(&[]);
+    let clear = draw(&["--transparent"]);
+    let shaded = draw(&["--shadow"]);
+    let cast = draw(&["--shadow", "--transparent"]);
+    let pixels = |image: &Image| -> Vec<[u8; 4]> {
+        let pixels = image.rgba.chunks_exact(4);
+        pixels.map(|p| [p[0], p[1], p[2], p[3]]).collect()
+    };
+    let (mut dark, mut soft) = (0, 0);
+    for (((plain, clear), shaded), cast) in pixels(&plain)
+        .into_iter()
+        .zip(pixels(&clear))
+        .zip(pixels(&shaded))
+        .zip(pixels(&cast))
+    {
+        match clear[3] {
+            255 => {
+                assert_eq!([shaded, cast], [clear, clear], "the object");
+                assert_eq!(plain, clear);
+            }
+            0 => {
+                assert_eq!(cast[..3], [0; 3], "a shadow has no colour");
+                let is_darker = (0..3).all(|i| shaded[i] <= plain[i]);
+                assert!(is_darker && shaded[3] == 255, "{shaded:?} on {plain:?}");
+                dark += usize::from(cast[3] > 64);
+                soft += usize::from((1..64).contains(&cast[3]));
+            }
+            _ => assert!(shaded[3] == 255 && cast[3] >= clear[3]),
+        }
+    }
+    assert!(
+        dark > 100 && soft > 100,
+        "{dark} dark pixels, {soft} soft ones"
+    );
+    assert_eq!(cast.rgba[..4], [0; 4], "far from the object");
+    assert_eq!(shaded.rgba[..4], plain.rgba[..4]);
+}
+
 #[test]
 fn what_cannot_be_printed_is_refused_with_the_limit() {
     let folder = folder_with_bar();
@@ -304,6 +353,37 @@ fn a_plate_keeps_its_lines_and_letters() {
         assert!((low[axis] - first).abs() <= 1.5, "{low:?} {first}");
         assert!((high[axis] - last - 1.0).abs() <= 1.5, "{high:?} {last}");
     }
+}
+
+/// The outlines of a style are paths of its width and colour, and are not in the picture below.
+#[test]
+fn a_plate_takes_the_pen_of_its_style() {
+    let folder = folder_with_bar();
+    let with = |style: &str| {
+        let document = format!(
+            r##"{{"fabrica":1,"subject":{{"src":"bar.nii"}},"look":{{"transfer":[{{"value":0,"opacity":0}},{{"value":100,"color":"#cc4433","opacity":1}}]{style}}},"camera":{{"distance":3}}}}"##
+        );
+        std::fs::write(folder.path().join("bar.json"), document).expect("a document");
+        let args = ["render", "bar.json", "-o", "a.svg", "--size", "200x160"];
+        fabrica_with(folder.path(), &args, b"").ok();
+        let svg = std::fs::read_to_string(folder.path().join("a.svg")).expect("a file");
+        let data = between(&svg, "data:image/png;base64,", "\"");
+        let engine = base64::engine::general_purpose::STANDARD;
+        let inside = base64::Engine::decode(&engine, data).expect("base64");
+        let pen = between(&svg, "id=\"outlines\"", ">").to_owned();
+        (pen, decode_png(&inside).expect("a PNG"))
+    };
+    let (plain_pen, plain) = with("");
+    assert!(
+        plain_pen.contains("stroke=\"#1a1a1a\" stroke-width=\"0.32\""),
+        "{plain_pen}"
+    );
+    let (pen, inside) = with(r##","style":{"outline":{"width":10,"color":"#c01020"}}"##);
+    assert!(
+        pen.contains("stroke=\"#c01020\" stroke-width=\"1.60\""),
+        "{pen}"
+    );
+    assert!(inside == plain, "no outlines in the picture");
 }
 
 /// A print that is asked to end leaves what was there before.

@@ -6,7 +6,7 @@ use crate::app::kit::dialog;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::Palette;
 use crate::app::kit::widget;
-use crate::app::session::{Command, Session};
+use crate::app::session::{Command, PicturePaper, Session};
 use crate::app::words::share::w;
 use crate::app::words::{bar, fill, text};
 use crate::describe::Snippet;
@@ -141,6 +141,28 @@ fn inside(
     ui.label(w().dpi);
     if let Some(dpi) = widget::segmented(ui, w().dpi, &DPI, session.picture_dpi) {
         commands.push(Command::SetPictureDpi(dpi));
+    }
+    ui.label(w().paper);
+    let papers = [
+        (
+            PicturePaper::Background,
+            w().paper_background,
+            w().paper_background_hint,
+        ),
+        (PicturePaper::Clear, w().paper_clear, w().paper_clear_hint),
+        (
+            PicturePaper::Shadow,
+            w().paper_shadow,
+            w().paper_shadow_hint,
+        ),
+        (
+            PicturePaper::ClearShadow,
+            w().paper_clear_shadow,
+            w().paper_clear_shadow_hint,
+        ),
+    ];
+    if let Some(paper) = widget::explained(ui, w().paper, &papers, session.picture_paper) {
+        commands.push(Command::SetPicturePaper(paper));
     }
     if let Some(px) = session.picture_px {
         let cm = px as f32 / session.picture_dpi as f32 * CM_PER_INCH;

@@ -1,7 +1,7 @@
 //! The picture in the middle: the renderer, the texture that egui shows, and the questions to the GPU that wait
 //! for an answer. The only file of this room that uses wgpu.
 
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::task::Wake;
@@ -15,8 +15,8 @@ use crate::data::{Pending, Resources, Segment, Segmentation, Sheet, Subject, Sur
 use crate::document::{Background, Camera, Illustration};
 use crate::math::Aabb;
 use crate::render::{
-    Clock, DrawState, FollowedCaptions, Gpu, Image, PendingPick, PendingSlice, Pick, RenderError,
-    RenderNotice, Renderer, SlicePlane, SliceView, SubjectInfo, Taker, View,
+    Clock, DrawState, FollowedCaptions, Gpu, Image, OnPaper, PendingPick, PendingSlice, Pick,
+    RenderError, RenderNotice, Renderer, SlicePlane, SliceView, SubjectInfo, Taker, View,
 };
 
 /// A picture for a file, in the making.
@@ -320,20 +320,36 @@ impl Picture {
     }
 
     /// Starts drawing the picture once more for a file, in place of one that is being drawn. `rows` takes it, tells its
-    /// progress, and becomes the bytes of the file by `finish`.
+    /// progress, and becomes the bytes of the file by `finish`. With `has_shadow` the object throws a soft shadow on a
+    /// paper of that colour behind it.
     pub(crate) fn start_file<T: Taker + 'static>(
         &mut self,
-        illustration: &Illustration,
-        size_px: [u32; 2],
+        (illustration, size_px): (&Illustration, [u32; 2]),
+        has_shadow: bool,
         (rows, progress): (Result<T, RenderError>, Rc<Cell<f32>>),
         finish: fn(T) -> Result<Vec<u8>, RenderError>,
     ) {
-        let drawing = rows.map(|rows| {
-            let (renderer, samples) = (&self.renderer, FILE_SAMPLES);
-            renderer.render_rows(illustration, size_px, samples, rows)
+        let renderer = &self.renderer;
+        let small = has_shadow.then(|| renderer.paper_shadow(illustration, size_px));
+        let shadow = Rc::default();
+        let drawing = rows.map(|taker| {
+            let shadow = Rc::clone(&shadow);
+            let on_paper = OnPaper { taker, shadow };
+            let mut shown = illustration.clone();
+            if has_shadow {
+                shown.look.background = Background::None;
+            }
+            renderer.render_rows(&shown, size_px, FILE_SAMPLES, on_paper)
         });
+        let picture = async move {
+            if let Some(small) = small {
+                // Nobody else sets it.
+                let _was_empty = OnceCell::set(&shadow, small.await?);
+            }
+            finish(drawing?.await?.taker)
+        };
         self.file = Some(FileJob {
-            picture: Box::pin(async move { finish(drawing?.await?) }),
+            picture: Box::pin(picture),
             progress,
         });
     }

@@ -162,6 +162,8 @@ pub enum Command {
     SetPictureSize(Option<u32>),
     /// Saved pictures say from now on that they are printed with so many dots per inch.
     SetPictureDpi(u32),
+    /// Saved pictures stand on this paper from now on.
+    SetPicturePaper(PicturePaper),
     /// Saves the picture as a PNG.
     SavePicture,
     /// Stops making the picture for a file.
@@ -242,6 +244,20 @@ pub enum StepCommand {
     TogglePlay,
     /// Stands still at a place of the lesson: 1.5 is the middle of the passage from step 1 to step 2.
     Scrub(f32),
+}
+
+/// What saved pictures stand on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PicturePaper {
+    /// The background of the document.
+    #[default]
+    Background,
+    /// Nothing: the picture is transparent beside the object.
+    Clear,
+    /// The background of the document, with the object's soft shadow.
+    Shadow,
+    /// The object's soft shadow alone: it takes the colour of the page that it is printed on.
+    ClearShadow,
 }
 
 /// What the handles in the picture do.

@@ -81,7 +81,7 @@ mod tests;
 
 pub use self::camera::StandardView;
 pub use self::clipboard::{Clipboard, Copied};
-pub use self::command::{Command, GizmoMode, StepCommand};
+pub use self::command::{Command, GizmoMode, PicturePaper, StepCommand};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};
 pub use self::files::{FileChoice, Fit, RawCommand, RawDraft};
 pub use self::found::Found;

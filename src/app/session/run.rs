@@ -156,6 +156,7 @@ impl Session {
             Command::SaveDocument => self.save_document(),
             Command::SetPictureSize(longer_px) => self.picture_px = longer_px,
             Command::SetPictureDpi(dpi) => self.picture_dpi = dpi,
+            Command::SetPicturePaper(paper) => self.picture_paper = paper,
             Command::SavePicture => self.effect(Effect::SavePicture),
             Command::StopSaving => self.effect(Effect::StopSaving),
             Command::CancelLoad => {

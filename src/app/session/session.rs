@@ -3,7 +3,7 @@
 
 use super::camera;
 use super::clipboard::Clipboard;
-use super::command::GizmoMode;
+use super::command::{GizmoMode, PicturePaper};
 use super::effect::{Effect, LinkChange};
 use super::files::{FileChoice, RawDraft};
 use super::library::Library;
@@ -206,6 +206,8 @@ pub struct Session {
     pub picture_px: Option<u32>,
     /// Dots per inch that saved pictures are printed with.
     pub picture_dpi: u32,
+    /// What saved pictures stand on.
+    pub picture_paper: PicturePaper,
     /// The title stands over the picture.
     pub has_title: bool,
     /// Handles go in steps.
@@ -283,6 +285,7 @@ impl Session {
             is_lettering: false,
             picture_px: None,
             picture_dpi: 300,
+            picture_paper: PicturePaper::default(),
             has_title: false,
             is_snapping: false,
             is_alone: false,

@@ -23,6 +23,15 @@ words! {
         files: "As files", "Als Dateien", "Como archivos", "作为文件";
         size: "Pixels along the longer side", "Pixel an der längeren Seite", "Píxeles del lado más largo", "长边像素数";
         dpi: "Dots per inch in print", "Punkte pro Zoll im Druck", "Puntos por pulgada al imprimir", "打印时每英寸点数";
+        paper: "Behind the object", "Hinter dem Objekt", "Detrás del objeto", "物体后面";
+        paper_background: "Background", "Hintergrund", "Fondo", "背景";
+        paper_background_hint: "The colour that the document has", "Die Farbe, die das Dokument hat", "El color que tiene el documento", "文档的背景颜色";
+        paper_clear: "Nothing", "Nichts", "Nada", "无";
+        paper_clear_hint: "Transparent, for slides and pages of any colour", "Durchsichtig, für Folien und Seiten jeder Farbe", "Transparente, para diapositivas y páginas de cualquier color", "透明，适用于任何颜色的幻灯片和页面";
+        paper_shadow: "Shadow", "Schatten", "Sombra", "阴影";
+        paper_shadow_hint: "A soft shadow on the background, as if the object lay on paper", "Ein weicher Schatten auf dem Hintergrund, als läge das Objekt auf Papier", "Una sombra suave sobre el fondo, como si el objeto estuviera sobre papel", "背景上的柔和阴影，如同物体放在纸上";
+        paper_clear_shadow: "Shadow alone", "Nur Schatten", "Solo sombra", "仅阴影";
+        paper_clear_shadow_hint: "Transparent but for a soft shadow", "Durchsichtig bis auf einen weichen Schatten", "Transparente salvo una sombra suave", "除柔和阴影外透明";
         printed: "In print the longer side has {0} cm.", "Im Druck hat die längere Seite {0} cm.", "Impreso, el lado más largo mide {0} cm.", "打印时长边为 {0} 厘米。";
         automatic: "Automatic", "Automatisch", "Automático", "自动";
         on_clipboard: "The HTML is on the clipboard", "Das HTML ist in der Zwischenablage", "El HTML está en el portapapeles", "HTML 已在剪贴板中";

@@ -8,6 +8,7 @@ pub(crate) mod identify;
 pub(crate) mod image;
 pub(crate) mod object;
 pub(crate) mod pace;
+pub(crate) mod paper_shadow;
 pub(crate) mod passes;
 pub(crate) mod pick;
 pub(crate) mod picture;

@@ -3,6 +3,7 @@ use super::follow::PendingPlaces;
 use super::identify::Sighting;
 use super::image::{Image, read_picture};
 use super::pace::{Pace, Work};
+use super::paper_shadow::PaperShadow;
 use super::passes::Passes;
 use super::pick::{PendingDepths, PendingPick, PickScene};
 use super::quality::{WholePicture, least_scale, samples, steady_scale};
@@ -608,6 +609,26 @@ impl Renderer {
         async move {
             match started {
                 Some(picture) => picture.await,
+                None => Err(RenderError::NoSubject),
+            }
+        }
+    }
+
+    /// The shadow that the object of a picture throws on the paper behind it: see [`Studio::paper_shadow`].
+    pub fn paper_shadow(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+    ) -> impl Future<Output = Result<PaperShadow, RenderError>> + 'static + use<> {
+        let studio = self.studio.clone();
+        let resources = self.resources.clone();
+        let started = studio.map(|studio| {
+            let studio = studio.with_resources(resources);
+            studio.paper_shadow(illustration, size_px)
+        });
+        async move {
+            match started {
+                Some(shadow) => shadow.await,
                 None => Err(RenderError::NoSubject),
             }
         }

@@ -3,6 +3,7 @@
 use super::identify::{Sighting, identify};
 use super::image::Image;
 use super::object::object_samples;
+use super::paper_shadow::{PaperShadow, SHADOW_SAMPLES};
 use super::passes::Passes;
 use super::pick::{Pick, PickScene, RayEvent};
 use super::picture::PictureJob;
@@ -10,7 +11,7 @@ use super::probe::Sample;
 use super::rows::{Taker, band_rows};
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use crate::data::{Resources, Segment, Subject};
-use crate::document::Illustration;
+use crate::document::{Background, Illustration, Light};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::pack::gpu_types::Affine;
@@ -168,6 +169,29 @@ impl Studio {
             job.draw_rows(samples.max(1), &mut taker).await?;
             Ok(taker)
         }
+    }
+
+    /// The soft shadow that the object of a picture of this size throws on a paper of the picture's background, from a
+    /// small picture; for [`OnPaper`](super::paper_shadow::OnPaper), over a picture that is drawn without a background.
+    /// The future owns what it needs.
+    ///
+    /// # Errors
+    /// As [`Studio::render_image`].
+    pub fn paper_shadow(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+    ) -> impl Future<Output = Result<PaperShadow, RenderError>> + 'static + use<> {
+        let look = &illustration.look;
+        let (background, light) = (
+            look.background,
+            look.light.unwrap_or(Light::DOCUMENT_DEFAULT),
+        );
+        let mut clear = illustration.clone();
+        clear.look.background = Background::None;
+        let small_px = PaperShadow::small_size(size_px);
+        let small = self.render_image(&clear, small_px, SHADOW_SAMPLES);
+        async move { Ok(PaperShadow::new(&small.await?, size_px, background, &light)) }
     }
 
     /// Draws one picture from the baked map, with so many texels along its longest side, as the viewer does

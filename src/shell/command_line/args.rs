@@ -69,6 +69,9 @@ pub(super) enum Command {
         /// Draws on no background, whatever the document says.
         #[arg(long)]
         transparent: bool,
+        /// Lays a soft shadow of the object on what is behind it, as if it lay on paper.
+        #[arg(long)]
+        shadow: bool,
         /// Dots per inch that the picture is printed with, which the file says.
         #[arg(long, value_name = "N", value_parser = parse_dpi)]
         dpi: Option<f32>,

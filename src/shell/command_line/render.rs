@@ -1,5 +1,6 @@
 //! `fabrica render`: one picture, drawn without a window.
 
+use std::cell::OnceCell;
 use std::io::{self, Write as _};
 use std::path::Path;
 use std::rc::Rc;
@@ -14,12 +15,12 @@ use super::output::{WholeFile, notice, unwritten};
 use super::progress::Progress;
 use super::stop;
 use super::subject::{report_drawing, subject_of};
-use super::svg::Plate;
+use super::svg::{Pen, Plate};
 use crate::app::Lettering;
 use crate::describe::{Lang, Measured, Sight, describe};
 use crate::document::{Background, Illustration};
 use crate::math::borders::borders;
-use crate::render::{FileInMemory, PngRows, RenderError, Rows, SIGHT_PX, Studio, Taker};
+use crate::render::{FileInMemory, OnPaper, PngRows, RenderError, Rows, SIGHT_PX, Studio, Taker};
 
 /// Dots per inch that a file may say.
 const DPI_RANGE: [f32; 2] = [1.0, 9600.0];
@@ -36,6 +37,8 @@ pub(super) struct Paper {
     pub(super) lettering: bool,
     /// Without a background.
     pub(super) transparent: bool,
+    /// With a soft shadow of the object on what is behind it.
+    pub(super) shadow: bool,
     /// Dots per inch that it is printed with.
     pub(super) dpi: Option<f32>,
 }
@@ -179,7 +182,7 @@ impl Job<'_> {
         let file = WholeFile::create(output).map_err(io_error)?;
         let out = file.writer().map_err(io_error)?;
         let lettering = Rc::clone(&self.lettering);
-        self.draw(out, Some(lettering), self.dpi)?;
+        self.draw(self.illustration, out, Some(lettering), self.dpi)?;
         file.finish().map_err(io_error)
     }
 
@@ -189,8 +192,18 @@ impl Job<'_> {
         let grid = shrunk(self.paper.size, OUTLINE_PX);
         let sighting = pollster::block_on(self.studio.identify(self.illustration, grid))?;
         let lines = borders(&sighting.labels, grid);
+        // The outlines of a style become paths too, and are not in the picture below them.
+        let mut shown = self.illustration.clone();
+        let outline = &mut shown.look.style.outline;
+        let pen = match outline.width > 0.0 {
+            true => Pen {
+                width: std::mem::take(&mut outline.width),
+                color: outline.color_srgb,
+            },
+            false => Pen::PLAIN,
+        };
         let picture = FileInMemory::default();
-        self.draw(picture.clone(), None, None)?;
+        self.draw(&shown, picture.clone(), None, None)?;
         let plate = Plate {
             size: self.paper.size,
             dpi: self.dpi,
@@ -198,6 +211,7 @@ impl Job<'_> {
             told,
             png: &picture.take(),
             outlines: (&lines, grid),
+            pen,
             lettering: &self.lettering,
         };
         let out = file.writer().map_err(io_error)?;
@@ -209,6 +223,7 @@ impl Job<'_> {
 
     fn draw<W: io::Write + 'static>(
         &self,
+        illustration: &Illustration,
         out: W,
         lettering: Option<Rc<Lettering>>,
         dpi: Option<f32>,
@@ -219,9 +234,20 @@ impl Job<'_> {
             lettering,
             progress: Progress::start(),
         };
-        let studio = self.studio;
-        let drawing = studio.render_rows(self.illustration, size, samples, None, print);
-        pollster::block_on(drawing)?.png.finish()
+        let mut shown = illustration.clone();
+        let shadow = OnceCell::new();
+        if self.paper.shadow {
+            let cast = self.studio.paper_shadow(&shown, size);
+            // Nobody else sets it.
+            let _was_empty = shadow.set(pollster::block_on(cast)?);
+            shown.look.background = Background::None;
+        }
+        let print = OnPaper {
+            taker: print,
+            shadow: Rc::new(shadow),
+        };
+        let drawing = self.studio.render_rows(&shown, size, samples, None, print);
+        pollster::block_on(drawing)?.taker.png.finish()
     }
 }
 

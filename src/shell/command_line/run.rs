@@ -73,6 +73,7 @@ fn execute(args: Args) -> Result<(), CliError> {
             samples,
             lettering,
             transparent,
+            shadow,
             dpi,
         } => {
             let paper = Paper {
@@ -80,6 +81,7 @@ fn execute(args: Args) -> Result<(), CliError> {
                 samples,
                 lettering,
                 transparent,
+                shadow,
                 dpi,
             };
             render(common, &open(&doc)?, &output, moment, paper)

@@ -9,10 +9,23 @@ use base64::write::EncoderWriter;
 use crate::app::{Lettering, escaped};
 use crate::math::borders::BorderLine;
 
-/// Width of outlines, of the picture's shorter side; and their colour.
-const OUTLINE: f32 = 0.002;
-const OUTLINE_COLOR: &str = "#1a1a1a";
 const MM_PER_INCH: f32 = 25.4;
+
+/// A pen that outlines are drawn with.
+pub(super) struct Pen {
+    /// Width of the lines, thousandths of the picture's shorter side.
+    pub(super) width: f32,
+    /// sRGB bytes.
+    pub(super) color: [u8; 3],
+}
+
+impl Pen {
+    /// The pen for a picture whose style draws no outlines.
+    pub(super) const PLAIN: Self = Self {
+        width: 2.0,
+        color: [0x1a; 3],
+    };
+}
 
 /// What an SVG file of a picture holds.
 pub(super) struct Plate<'a> {
@@ -27,6 +40,8 @@ pub(super) struct Plate<'a> {
     pub(super) png: &'a [u8],
     /// Outlines, and columns and rows of the grid that they were found in.
     pub(super) outlines: (&'a [BorderLine], [u32; 2]),
+    /// How outlines are drawn.
+    pub(super) pen: Pen,
     pub(super) lettering: &'a Lettering,
 }
 
@@ -54,10 +69,11 @@ impl Plate<'_> {
             r#"<image width="{width}" height="{height}" href="data:image/png;base64,"#
         )?;
         write_base64(&mut out, self.png)?;
-        let line = OUTLINE * width.min(height) as f32;
+        let line = 1e-3 * self.pen.width * width.min(height) as f32;
+        let [red, green, blue] = self.pen.color;
         writeln!(
             out,
-            "\"/>\n<g id=\"outlines\" fill=\"none\" stroke=\"{OUTLINE_COLOR}\" stroke-width=\"{line:.2}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">"
+            "\"/>\n<g id=\"outlines\" fill=\"none\" stroke=\"#{red:02x}{green:02x}{blue:02x}\" stroke-width=\"{line:.2}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">"
         )?;
         let (lines, grid) = self.outlines;
         let scale = [0, 1].map(|i| self.size[i] as f32 / grid[i].max(1) as f32);
