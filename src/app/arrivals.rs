@@ -206,6 +206,7 @@ impl App {
         self.show_incoming();
         let is_step = self.session.load_done(sha256);
         self.session.tell_figure();
+        self.session.tell_space();
         if let Some(load) = load {
             self.take_segmentations(&load.of, is_step);
         }

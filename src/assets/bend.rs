@@ -279,6 +279,12 @@ impl Bending {
         self.is_coarse && !self.is_finer_asked
     }
 
+    /// True while something is done that the picture does not wait for: another pose, or a finer drawing.
+    pub fn awaits_aside(&self) -> bool {
+        let under_way = self.under_way.as_ref();
+        under_way.is_some_and(|asked| asked.is_aside)
+    }
+
     /// The drawing in more pixels, once it is there.
     pub fn take_finer(&mut self) -> Option<Picture> {
         self.finer.take()
@@ -496,12 +502,14 @@ mod tests {
             assert_eq!(bending.see_closer(1.5), is_drawing);
             let asked = asks(&mut bending).map(|request| request.pose);
             assert_eq!(asked, is_drawing.then_some(BendPose::Finer));
+            assert_eq!(bending.awaits_aside(), is_drawing);
             if is_drawing {
                 assert!(!bending.is_behind(Some(&plate), None, false));
                 bending.take(BendAnswer::Finer(plate.picture.clone()));
                 assert_eq!(bending.take_finer(), Some(plate.picture.clone()));
             }
             assert!(bending.take_finer().is_none() && bending.sheet().is_some());
+            assert!(!bending.awaits_aside());
             assert!(!bending.see_closer(1.5), "once");
             assert_eq!(asks(&mut bending), None, "once");
         }

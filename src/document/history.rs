@@ -141,6 +141,19 @@ impl History {
         Ok(changed)
     }
 
+    /// The file of the subject is none of a figure, of all documents that are meant: see [`Document::known_in_space`].
+    /// That is no step of undo either.
+    pub fn tell_space(&mut self, is_meant: impl Fn(&Document) -> bool) {
+        self.drag = None;
+        let entries = self.undo.iter_mut().chain(&mut self.redo);
+        let all = entries.map(|entry| &mut entry.document);
+        for document in all.chain([&mut self.document]) {
+            if is_meant(document) {
+                *document = document.known_in_space();
+            }
+        }
+    }
+
     /// True while a drag goes on that has changed something.
     pub fn is_in_drag(&self) -> bool {
         self.drag.is_some()

@@ -1,7 +1,7 @@
 //! The states of a document at its steps, and the passages between them.
 
 use super::blend::blend;
-use super::model::{Illustration, Step};
+use super::model::{Illustration, Step, SubjectRef};
 use super::read::resolve;
 use super::steps;
 use super::text::{DocumentError, json};
@@ -19,17 +19,23 @@ pub struct Lesson {
 }
 
 impl Lesson {
-    /// Walks the steps of a checked tree and resolves the document at each of them.
+    /// Walks the steps of a checked tree and resolves the document at each of them. The file of the subject `in_space`
+    /// is none of a figure.
     ///
     /// # Errors
     /// None that a document would not have had when it was made.
-    pub(super) fn new(root: &Value, steps: &[Step]) -> Result<Self, DocumentError> {
+    pub(super) fn new(
+        root: &Value,
+        steps: &[Step],
+        in_space: Option<&SubjectRef>,
+    ) -> Result<Self, DocumentError> {
         let mut states = Vec::with_capacity(steps.len() + 1);
         steps::walk(root, |state| {
             let mut state = state.clone();
             json::normalise(&mut state, 0)?;
             let map = state.as_object().ok_or(DocumentError::NoVersion)?;
-            let (illustration, _notices) = resolve(map)?;
+            let (mut illustration, _notices) = resolve(map)?;
+            illustration.learn_space(in_space);
             states.push(Arc::new(illustration));
             Ok(())
         })?;

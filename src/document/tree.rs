@@ -2,12 +2,13 @@
 
 use super::lesson::Lesson;
 use super::limits::{FORMAT, MAX_BYTES, MAX_NOTICES};
-use super::model::Illustration;
+use super::model::{Illustration, SubjectRef};
 use super::read::resolve;
 use super::text::{DocumentError, Notice, NoticeKind, json, pointer};
 use super::write::{Edit, json as writing, set};
 use super::{canonical, recording, steps};
 use serde_json::Value;
+use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
 /// An illustration as plain data: the JSON tree of the contract, whole and valid by construction.
@@ -27,6 +28,8 @@ struct Inner {
     bytes: usize,
     /// Made when a step is first shown: most documents of a history never are.
     lesson: OnceLock<Result<Lesson, DocumentError>>,
+    /// A subject whose file is known to be none of a figure, whatever stands beside it.
+    in_space: Option<SubjectRef>,
 }
 
 impl PartialEq for Document {
@@ -46,6 +49,7 @@ impl Document {
                 notices: Vec::new(),
                 bytes: r#"{"fabrica":1}"#.len(),
                 lesson: OnceLock::new(),
+                in_space: None,
             }),
         }
     }
@@ -61,20 +65,24 @@ impl Document {
                 limit: MAX_BYTES,
             });
         }
-        Self::from_normal(json::read(text)?)
+        Self::from_normal(json::read(text)?, None)
     }
 
     /// Makes a document of a JSON tree.
     ///
     /// # Errors
     /// As [`Document::from_json`].
-    pub fn from_value(mut value: Value) -> Result<Self, DocumentError> {
+    pub fn from_value(value: Value) -> Result<Self, DocumentError> {
+        Self::from_tree(value, None)
+    }
+
+    fn from_tree(mut value: Value, in_space: Option<SubjectRef>) -> Result<Self, DocumentError> {
         json::normalise(&mut value, 0)?;
-        Self::from_normal(value)
+        Self::from_normal(value, in_space)
     }
 
     /// Takes a tree whose numbers have their one form and whose depth is bounded.
-    fn from_normal(mut root: Value) -> Result<Self, DocumentError> {
+    fn from_normal(mut root: Value, in_space: Option<SubjectRef>) -> Result<Self, DocumentError> {
         let Value::Object(map) = &mut root else {
             return Err(DocumentError::WrongType {
                 pointer: String::new(),
@@ -88,7 +96,8 @@ impl Document {
                 .to_owned(),
             });
         };
-        let (illustration, mut notices) = resolve(map)?;
+        let (mut illustration, mut notices) = resolve(map)?;
+        illustration.learn_space(in_space.as_ref());
         canonical::strip(map);
         notices.extend(steps::check(&root)?);
         if notices.len() > MAX_NOTICES {
@@ -110,8 +119,25 @@ impl Document {
                 notices,
                 bytes: text.len(),
                 lesson: OnceLock::new(),
+                in_space,
             }),
         })
+    }
+
+    /// The document once it is known that the file of its subject is none of a figure: a `figure` beside it is kept,
+    /// and means nothing for the camera.
+    pub fn known_in_space(&self) -> Self {
+        let subject = self.inner.illustration.subject.clone();
+        let known = Self::from_tree(self.inner.root.clone(), Some(subject));
+        known.unwrap_or_else(|_| self.clone())
+    }
+
+    /// An edit as the tree takes it, which does not know what the file is.
+    fn for_tree<'a>(&self, edit: &'a Edit) -> Cow<'a, Edit> {
+        match self.inner.illustration.is_in_space {
+            true => Cow::Owned(edit.seen_as_figure()),
+            false => Cow::Borrowed(edit),
+        }
     }
 
     /// The document as JSON for people, in canonical order, ended by a newline. Reading it gives an equal document.
@@ -181,7 +207,7 @@ impl Document {
     ) -> Result<Self, DocumentError> {
         let mut root = self.inner.root.clone();
         edit(&mut root)?;
-        Self::from_value(root)
+        Self::from_tree(root, self.inner.in_space.clone())
     }
 
     /// Number of steps after step 0.
@@ -195,7 +221,8 @@ impl Document {
     /// # Errors
     /// [`DocumentError::NoSuchStep`].
     pub fn at_step(&self, step: usize) -> Result<Self, DocumentError> {
-        Self::from_value(steps::at_step(&self.inner.root, step, self.step_count())?)
+        let state = steps::at_step(&self.inner.root, step, self.step_count())?;
+        Self::from_tree(state, self.inner.in_space.clone())
     }
 
     /// A step that comes after another one and shows what an edit of that one's state makes of it: its entry of
@@ -204,7 +231,7 @@ impl Document {
     /// # Errors
     /// [`DocumentError::NoSuchStep`], and as [`Edit::apply`].
     pub fn step_after(&self, step: usize, edit: &Edit) -> Result<Value, DocumentError> {
-        recording::step_after(&self.inner.root, step, edit)
+        recording::step_after(&self.inner.root, step, &self.for_tree(edit))
     }
 
     /// What the document means at each of its steps, resolved when it is first asked for. Copies of a document share
@@ -214,7 +241,10 @@ impl Document {
     /// None that the document would not have had when it was made.
     pub fn lesson(&self) -> Result<&Lesson, DocumentError> {
         let inner = &self.inner;
-        let make = || Lesson::new(&inner.root, &inner.illustration.steps);
+        let make = || {
+            let in_space = inner.in_space.as_ref();
+            Lesson::new(&inner.root, &inner.illustration.steps, in_space)
+        };
         inner
             .lesson
             .get_or_init(make)
@@ -243,6 +273,7 @@ impl Edit {
     /// # Errors
     /// If there is no such template, caption or step, or a limit would be passed.
     pub fn apply(&self, document: &Document) -> Result<Document, DocumentError> {
-        document.edited(|root| recording::apply(root, self))
+        let edit = document.for_tree(self);
+        document.edited(|root| recording::apply(root, &edit))
     }
 }

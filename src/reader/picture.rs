@@ -65,6 +65,8 @@ impl Picture {
         let plate = stock.plate();
         if plate.is_some() {
             self.visit.tell_figure();
+        } else if stock.is_in_space() {
+            self.visit.tell_space();
         }
         let (visit, bending) = (&self.visit, &mut self.bending);
         bending.next(plate, visit.shown().figure.as_ref(), visit.is_moving())
@@ -74,6 +76,28 @@ impl Picture {
     pub fn take_bent(&mut self, answer: BendAnswer) {
         self.bending.take(answer);
         self.troubles.extend(self.bending.take_notices());
+    }
+
+    /// True if a drawing is seen closer than its pixels, once its picture is complete: what bends it is to be asked for
+    /// a finer one then, once.
+    pub fn see_closer(&mut self, stock: &Stock) -> bool {
+        if !self.is_complete || self.visit.is_moving() || stock.is_finer() {
+            return false;
+        }
+        let camera = self.visit.camera();
+        let view = View::new(camera, self.size_px);
+        let seen_px = 1.0 / view.units_per_pixel(camera.distance);
+        self.bending.see_closer(seen_px)
+    }
+
+    /// True while the drawing is being drawn finer.
+    pub fn awaits_finer(&self) -> bool {
+        self.bending.awaits_aside()
+    }
+
+    /// Shows the drawing in more pixels, once it is there: in all pictures of the stock.
+    pub fn show_finer(&mut self, stock: &mut Stock) {
+        stock.show_finer(&mut self.bending);
     }
 
     /// True while the figure is not bent as the document has it.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::assets::{Assets, Data, LoadEvent, Role, Source, TissueWork, Want, Wanted};
+use crate::assets::{Assets, Bending, Data, LoadEvent, Role, Source, TissueWork, Want, Wanted};
 use crate::data::{Plate, Resources, Subject, SubjectBuilder, SubjectSink as _};
 use crate::document::{Illustration, Recipe, SegmentsRef, SubjectRef};
 use crate::load::{FieldFile, LabelFile};
@@ -66,6 +66,8 @@ pub struct Stock {
     is_whole: bool,
     /// Pieces of the subject are on their way to the GPU.
     is_uploading: bool,
+    /// A drawing is shown with more pixels than it came with.
+    is_finer: bool,
     troubles: Vec<Trouble>,
     /// Grows when the pictures have to be drawn anew.
     revision: u64,
@@ -87,6 +89,7 @@ impl Stock {
             fraction: 0.0,
             is_whole: false,
             is_uploading: false,
+            is_finer: false,
             troubles: Vec::new(),
             revision: 0,
         }
@@ -149,6 +152,32 @@ impl Stock {
     /// The plate of the figure, if the subject is one.
     pub fn plate(&self) -> Option<&Arc<Plate>> {
         self.assets.subject().and_then(Subject::plate)
+    }
+
+    /// True if a drawing is shown with more pixels than it came with.
+    pub fn is_finer(&self) -> bool {
+        self.is_finer
+    }
+
+    /// True if the subject is there, and is no figure.
+    pub fn is_in_space(&self) -> bool {
+        self.is_whole && self.assets.subject().is_some() && self.plate().is_none()
+    }
+
+    /// Shows a drawing with more pixels once they are there, also after a device was lost.
+    pub fn show_finer(&mut self, bending: &mut Bending) {
+        let Some(finer) = bending.take_finer() else {
+            return;
+        };
+        let Some(plate) = self.plate().filter(|_| !self.is_finer) else {
+            return;
+        };
+        let finer = Subject::from(plate.redrawn(finer));
+        // One that does not fit is shown with the pixels that it had.
+        if self.host.set_subject(finer).is_ok() {
+            (self.is_finer, self.is_uploading) = (true, true);
+            self.revision += 1;
+        }
     }
 
     /// Millimetres in one subject unit, once there is a subject.
@@ -383,7 +412,7 @@ impl Stock {
         match std::mem::take(&mut self.incoming).finish() {
             Some(Ok((subject, _))) => {
                 let shown = subject.clone();
-                self.is_uploading = true;
+                (self.is_uploading, self.is_finer) = (true, false);
                 self.assets.give(Data::Subject { subject, sha256 });
                 self.work.restart();
                 if let Err(error) = self.host.set_subject(shown) {

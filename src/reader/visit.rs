@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::document::{
     Autoplay, Camera, Control, ControlRange, Document, DocumentError, FIGURE_FRONT, Illustration,
-    MAX_STEPS, Turn, Walk, orbit, shift, zoom,
+    MAX_STEPS, Turn, Walk, orbit, roll, shift, zoom,
 };
 use crate::link;
 
@@ -250,6 +250,20 @@ impl Visit {
         self.moved_values();
     }
 
+    /// The file has told that the subject is no figure, though one stands beside it: the camera is that of a document
+    /// without it from now on.
+    pub fn tell_space(&mut self) {
+        let shown = self.document.illustration();
+        if shown.subject.is_figure().is_some() || !shown.is_of_figure() {
+            return;
+        }
+        self.lesson = self.lesson.known_in_space();
+        self.document = self.document.known_in_space();
+        self.walk = Walk::at(&self.document, self.walk.step());
+        self.camera.rotate *= FIGURE_FRONT.inverse();
+        self.moved_values();
+    }
+
     /// Turns the object under the hand: radians to the right and down. A figure is flat, and is moved instead: by the
     /// whole picture for half a turn.
     pub fn turn(&mut self, right: f32, down: f32) {
@@ -280,6 +294,14 @@ impl Visit {
             glam::Vec3::splat(FARTHEST_TARGET),
         );
         self.moved_camera();
+    }
+
+    /// Rolls a figure under the hand, radians, a clockwise picture for positive. What lies in space is only turned.
+    pub fn roll(&mut self, angle: f32) {
+        if angle.is_finite() && self.document.illustration().is_of_figure() {
+            roll(&mut self.camera, angle);
+            self.moved_camera();
+        }
     }
 
     /// The document, its step or the values that are held are others now. States of steps are resolved here, not in
@@ -388,6 +410,44 @@ mod tests {
         assert!(!visit.has_strayed());
         visit.go(0, 0.0, true);
         assert!(near(amount(&visit), 0.0));
+    }
+
+    #[test]
+    fn a_figure_beside_a_scan_does_not_turn_it() {
+        let json = r#"{ "fabrica": 1, "subject": { "src": "a.nii" }, "figure": { "detail": 800 },
+            "camera": { "rotate": [0, 0, 0.7071, 0.7071] },
+            "steps": [{ "set": { "/camera/rotate": [0.7071, 0, 0, 0.7071] }, "seconds": 0 }] }"#;
+        let plain = json.replace(r#""figure": { "detail": 800 },"#, "");
+        let mut visit = Visit::open(json, None).expect("a document");
+        let mut wanted = Visit::open(&plain, None).expect("a document");
+        let apart = |one: &Visit, other: &Visit| {
+            let [one, other] = [one, other].map(|visit| visit.camera().rotate);
+            one.angle_between(other)
+        };
+        assert!(apart(&visit, &wanted) > 1.0, "it may be a figure");
+        visit.tell_space();
+        assert!(apart(&visit, &wanted) < 3e-3);
+        for visit in [&mut visit, &mut wanted] {
+            visit.go(1, 0.0, true);
+        }
+        assert!(apart(&visit, &wanted) < 3e-3, "at the step too");
+        let written = |visit: &Visit| visit.shown().written_rotation(visit.camera().rotate);
+        assert!(written(&visit).angle_between(written(&wanted)) < 3e-3);
+    }
+
+    #[test]
+    fn a_figure_is_rolled_and_what_lies_in_space_is_not() {
+        let angle_of = |json: &str, roll: f32| {
+            let mut visit = Visit::open(json, None).expect("a document");
+            let before = visit.camera().rotate;
+            visit.roll(roll);
+            assert_eq!(visit.has_strayed(), visit.camera().rotate != before);
+            before.angle_between(visit.camera().rotate)
+        };
+        let figure = r#"{ "fabrica": 1, "subject": { "builtin": "drawn-arm" } }"#;
+        assert!((angle_of(figure, 0.5) - 0.5).abs() < 3e-3);
+        assert!(angle_of(figure, f32::NAN) < 3e-3);
+        assert!(angle_of(LESSON, 0.5) < 3e-3);
     }
 
     #[test]

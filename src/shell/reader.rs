@@ -74,7 +74,7 @@ const HAS_PICTURE: u32 = 1;
 const IS_DONE: u32 = 2;
 /// A passage goes on.
 const IS_MOVING: u32 = 4;
-/// All that there is to draw is drawn; more comes when a load goes on.
+/// All that there is to draw is drawn; more comes when a load goes on, or a finer drawing.
 const WAITS: u32 = 8;
 
 /// Bytes that all subjects of a page may take on the device, unless the picture in use needs more.
@@ -308,22 +308,15 @@ impl Reader {
             true => shown.picture.visit.is_moving(),
             false => shown.picture.visit.advance(now, is_cut),
         };
-        if let Some(request) = shown.picture.next_bend(&stocked.stock) {
-            let worker = &inner.worker;
-            let bender = shown
-                .bender
-                .get_or_insert_with(|| BendWorker::new(worker.clone()));
+        let take = {
             let weak = Rc::downgrade(&self.inner);
-            let asked = bender.ask(request, move |answer| {
+            move |answer| {
                 if let Some(inner) = weak.upgrade() {
                     Inner::take_bent(&inner, id, answer);
                 }
-            });
-            if let Err(error) = asked {
-                let answer = BendAnswer::Lost(text_of(&error));
-                shown.picture.take_bent(answer);
             }
-        }
+        };
+        shown.ask_bender(&stocked.stock, &inner.worker, take.clone());
         let size = [width.max(1), height.max(1)];
         let is_moving = is_moving || passes;
         let drawn = match shown
@@ -337,6 +330,10 @@ impl Reader {
             }
             Err(error) => return Err(error.to_string().into()),
         };
+        if drawn.is_done && shown.picture.see_closer(&stocked.stock) {
+            // Nothing else may ask for another frame.
+            shown.ask_bender(&stocked.stock, &inner.worker, take);
+        }
         let mut flags = 0;
         if drawn.has_picture {
             shown.present(&inner.gpu);
@@ -352,6 +349,9 @@ impl Reader {
         let has_drawn_all = drawn.is_done || stocked.stock.host().subject_info().is_none();
         if is_settled && drawn.is_done && !passes {
             flags |= IS_DONE;
+            if shown.picture.awaits_finer() {
+                flags |= WAITS;
+            }
         } else if !is_settled && has_drawn_all && !passes {
             flags |= WAITS;
         }
@@ -493,6 +493,11 @@ impl Reader {
     /// Moves the object in the picture: parts of the picture's shorter side to the right and down.
     pub fn shift(&self, id: u32, right: f32, down: f32) {
         self.with(id, |visit| visit.shift(right, down));
+    }
+
+    /// Rolls a figure in the picture, radians, clockwise for positive.
+    pub fn roll(&self, id: u32, angle: f32) {
+        self.with(id, |visit| visit.roll(angle));
     }
 
     /// Back to what the author shows at this step.
@@ -667,6 +672,25 @@ async fn open_gpu() -> Result<Gpu, JsValue> {
 }
 
 impl Shown {
+    /// Asks what bends the figure for what is wanted next, if anything; `take` hears the answers.
+    fn ask_bender(
+        &mut self,
+        stock: &Stock,
+        worker: &Maker,
+        take: impl FnMut(BendAnswer) + 'static,
+    ) {
+        let Some(request) = self.picture.next_bend(stock) else {
+            return;
+        };
+        let bender = self
+            .bender
+            .get_or_insert_with(|| BendWorker::new(worker.clone()));
+        if let Err(error) = bender.ask(request, take) {
+            let answer = BendAnswer::Lost(text_of(&error));
+            self.picture.take_bent(answer);
+        }
+    }
+
     /// Hands the picture to the canvas.
     fn present(&mut self, gpu: &Gpu) {
         let Some(surface) = &self.surface else {
@@ -834,8 +858,12 @@ impl Inner {
     fn take_bent(inner: &Rc<RefCell<Self>>, id: u32, answer: BendAnswer) {
         let on_news = {
             let mut inner = inner.borrow_mut();
+            let inner = &mut *inner;
             if let Some(shown) = inner.shown.get_mut(&id) {
                 shown.picture.take_bent(answer);
+                if let Some(stocked) = inner.stocks.get_mut(&shown.stock) {
+                    shown.picture.show_finer(&mut stocked.stock);
+                }
             }
             inner.on_news.clone()
         };

@@ -22,7 +22,11 @@ const ARM: &str = r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{"d
 const PLATE: &str = r#"{"fabrica":1,"subject":{"src":"plate.png"},"figure":{"detail":800,"handles":[{"at":[-0.4,-0.2]},{"at":[0.3,0.2],"move":[0.05,0.1]}]}}"#;
 
 /// What the native program draws of an illustration.
-async fn native(shown: &Illustration, plate: fabrica::data::Plate, size: [u32; 2]) -> RgbaImage {
+pub(crate) async fn native(
+    shown: &Illustration,
+    plate: fabrica::data::Plate,
+    size: [u32; 2],
+) -> RgbaImage {
     let gpu = Gpu::open(&GpuOptions::default()).await.expect("a device");
     let mut bender = Bender::new(&plate).expect("a good plate");
     let figure = shown.figure.clone().unwrap_or_default();
@@ -35,13 +39,13 @@ async fn native(shown: &Illustration, plate: fabrica::data::Plate, size: [u32; 2
     drawn(&studio, shown, size).await
 }
 
-fn illustration(json: &str) -> Illustration {
+pub(crate) fn illustration(json: &str) -> Illustration {
     let document = Document::from_json(json).expect("a good document");
     document.illustration().clone()
 }
 
 /// A plate of stripes and a disc.
-fn plate_png() -> Vec<u8> {
+pub(crate) fn plate_png() -> Vec<u8> {
     let picture = RgbaImage::from_fn(120, 80, |x, y| {
         let is_disc = (x as i32 - 60).pow(2) + (y as i32 - 40).pow(2) < 900;
         let stripe = if (x / 10) % 2 == 0 { 200 } else { 120 };
@@ -64,7 +68,7 @@ fn plate_png() -> Vec<u8> {
 const NEAR: f64 = 2.0;
 
 /// The same figure at rest, without its handles.
-fn unbent(shown: &Illustration) -> Illustration {
+pub(crate) fn unbent(shown: &Illustration) -> Illustration {
     let mut unbent = shown.clone();
     if let Some(figure) = &mut unbent.figure {
         figure.handles.clear();
@@ -189,7 +193,7 @@ fn an_embed_bends_a_figure_from_step_to_step() {
 }
 
 /// Where a place of the figure's plane is seen in the page.
-async fn spot(tab: &Tab, x: f64, y: f64) -> (f64, f64) {
+pub(crate) async fn spot(tab: &Tab, x: f64, y: f64) -> (f64, f64) {
     let picture = find(tab, "Picture").await;
     let text: String = tab.eval("window.fabrica.viewer.get_document()").await;
     let camera = illustration(&text).camera;
@@ -213,7 +217,7 @@ async fn click_on(tab: &Tab, (x, y): (f64, f64)) -> serde_json::Value {
     figure
 }
 
-fn count_of(figure: &serde_json::Value, list: &str) -> usize {
+pub(crate) fn count_of(figure: &serde_json::Value, list: &str) -> usize {
     figure[list].as_array().map_or(0, Vec::len)
 }
 
@@ -437,18 +441,29 @@ fn a_figure_is_stopped_drawn_finer_and_labelled() {
         let finer = plate().redrawn(original.finer().expect("it can be drawn finer"));
         let finer = native(&shown, finer, size_px).await;
         // It is drawn once the picture is at rest.
-        let start = Instant::now();
-        loop {
-            let page = promised(&tab, "window.fabrica.viewer.picture()").await;
-            let [to_coarse, to_finer] =
-                [&coarse, &finer].map(|other| difference(&page, other, WHITE));
-            if to_finer.mean < 0.5 * to_coarse.mean {
-                break;
+        let comes = async |when: &str| {
+            let start = Instant::now();
+            loop {
+                let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+                let [to_coarse, to_finer] =
+                    [&coarse, &finer].map(|other| difference(&page, other, WHITE));
+                if to_finer.mean < 0.5 * to_coarse.mean {
+                    return;
+                }
+                let seconds = start.elapsed().as_secs();
+                assert!(
+                    seconds < 30,
+                    "{when}: coarse {to_coarse:?}, finer {to_finer:?}"
+                );
             }
-            let seconds = start.elapsed().as_secs();
-            assert!(seconds < 30, "coarse: {to_coarse:?}, finer: {to_finer:?}");
-        }
+        };
+        comes("at first").await;
         tab.assert_no_complaints().await;
+        tab.eval::<bool>("(window.devices[0].destroy(), true)")
+            .await;
+        tab.wait_until("document.documentElement.dataset.losses === '1' && document.documentElement.dataset.state === 'started'", 60).await;
+        tab.settled().await;
+        comes("after a loss").await;
 
         session
             .server

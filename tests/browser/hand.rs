@@ -2,11 +2,17 @@
 
 use super::compare::drawn_pixels;
 use super::harness::Tab;
+use chromiumoxide::cdp::browser_protocol::dom::SetFileInputFilesParams;
 use chromiumoxide::cdp::browser_protocol::emulation::{
     SetFocusEmulationEnabledParams, SetTouchEmulationEnabledParams,
 };
 use chromiumoxide::cdp::browser_protocol::input::{DispatchKeyEventParams, DispatchKeyEventType};
+use chromiumoxide::cdp::browser_protocol::page::{
+    EventFileChooserOpened, SetInterceptFileChooserDialogParams,
+};
+use futures::StreamExt as _;
 use serde_json::Value;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Lets time pass: only where time itself is what a test is about, or a hand is slow.
@@ -337,7 +343,9 @@ pub(crate) async fn strike(tab: &Tab, modifiers: i64, key: &str, command: Option
             "Tab" => 9,
             "Escape" => 27,
             "ArrowLeft" => 37,
+            "ArrowUp" => 38,
             "ArrowRight" => 39,
+            "ArrowDown" => 40,
             "/" => 191,
             "]" => 221,
             _ => i64::from(key.to_ascii_uppercase().as_bytes()[0]),
@@ -382,6 +390,25 @@ pub(crate) async fn hear(tab: &Tab, wanted: &str) {
         .await;
 }
 
+/// From now on the test chooses the files that the tab asks for.
+pub(crate) async fn choose_files(tab: &Tab) {
+    let intercept = SetInterceptFileChooserDialogParams::new(true);
+    let intercepted = tab.page.execute(intercept).await;
+    intercepted.expect("the test chooses the files");
+}
+
+/// Chooses a file in the dialog that `ask` opens.
+pub(crate) async fn choose_file(tab: &Tab, file: &Path, ask: impl Future<Output = ()>) {
+    let listener = tab.page.event_listener::<EventFileChooserOpened>();
+    let mut opened = listener.await.expect("the dialog is told of");
+    ask.await;
+    let dialog = tokio::time::timeout(Duration::from_secs(20), opened.next());
+    let dialog = dialog.await.expect("a dialog opens").expect("a dialog");
+    let mut files = SetFileInputFilesParams::new(vec![file.display().to_string()]);
+    files.backend_node_id = dialog.backend_node_id;
+    tab.page.execute(files).await.expect("a file is given");
+}
+
 /// The text on the clipboard once it has come.
 pub(crate) async fn clipboard(tab: &Tab, start: &str) -> String {
     let read = "navigator.clipboard.readText().catch(error => String(error))";
@@ -399,10 +426,19 @@ async fn spoken(tab: &Tab) -> String {
 
 /// Goes on with the tabulator until the page says that the keyboard has come to what is wanted.
 pub(crate) async fn tab_to(tab: &Tab, wanted: &str) {
+    walk_to(tab, 0, wanted).await;
+}
+
+/// The same backwards.
+pub(crate) async fn tab_back_to(tab: &Tab, wanted: &str) {
+    walk_to(tab, SHIFT, wanted).await;
+}
+
+async fn walk_to(tab: &Tab, modifiers: i64, wanted: &str) {
     let mut heard = Vec::new();
     for _ in 0..60 {
         let before = spoken(tab).await;
-        press(tab, "Tab").await;
+        press_with(tab, modifiers, "Tab", None).await;
         let mut said = spoken(tab).await;
         for _ in 0..20 {
             if said != before {

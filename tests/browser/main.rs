@@ -30,6 +30,7 @@ mod passage;
 mod path;
 #[path = "../support/pictures.rs"]
 mod picture_files;
+mod plates;
 mod presenting;
 mod rounds;
 mod running;

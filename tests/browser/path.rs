@@ -7,11 +7,6 @@ use super::*;
 use chromiumoxide::cdp::browser_protocol::browser::{
     SetDownloadBehaviorBehavior, SetDownloadBehaviorParams,
 };
-use chromiumoxide::cdp::browser_protocol::dom::SetFileInputFilesParams;
-use chromiumoxide::cdp::browser_protocol::page::{
-    EventFileChooserOpened, SetInterceptFileChooserDialogParams,
-};
-use futures::StreamExt as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -80,11 +75,7 @@ impl<'a> Author<'a> {
             With::Mouse => None,
             With::Fingers => Some(Touch::new(tab).await),
         };
-        let intercept = SetInterceptFileChooserDialogParams::new(true);
-        tab.page
-            .execute(intercept)
-            .await
-            .expect("the test chooses the files");
+        hand::choose_files(tab).await;
         Self {
             tab,
             touch,
@@ -224,14 +215,8 @@ impl<'a> Author<'a> {
 
     /// Chooses a file in the dialog that a press on the control opens.
     async fn choose(&mut self, button: &str, file: &Path) {
-        let listener = self.tab.page.event_listener::<EventFileChooserOpened>();
-        let mut opened = listener.await.expect("the dialog is told of");
-        self.press(button).await;
-        let dialog = tokio::time::timeout(Duration::from_secs(20), opened.next());
-        let dialog = dialog.await.expect("a dialog opens").expect("a dialog");
-        let mut files = SetFileInputFilesParams::new(vec![file.display().to_string()]);
-        files.backend_node_id = dialog.backend_node_id;
-        self.tab.page.execute(files).await.expect("a file is given");
+        let tab = self.tab;
+        hand::choose_file(tab, file, self.press(button)).await;
     }
 
     /// Opens the scan, as the bar offers it.

@@ -20,6 +20,8 @@ export class Background {
   #unanswered = [];
   #hasSpoken = false;
   #hasEnded = false;
+  /** The bender of a figure that stands in the page. */
+  #bender = null;
 
   constructor() {
     if (isRefused) return this.#stayHere();
@@ -46,6 +48,8 @@ export class Background {
     this.#worker?.terminate();
     this.#channel?.port1.close();
     this.#unanswered = [];
+    const bender = this.#bender;
+    if (bender !== null) import("./inline.js").then(({ dismiss }) => dismiss(bender));
   }
 
   #stayHere() {
@@ -58,6 +62,7 @@ export class Background {
   }
 
   #runHere(message) {
+    this.#bender = message.bender ?? null;
     import("./inline.js").then(
       ({ run }) => !this.#hasEnded && run(message, this.#channel.port1),
       (error) => this.onerror?.(error),

@@ -175,6 +175,10 @@ export class Embed {
     this.#engine?.reader.shift(this.id, right, down);
     this.#viewed();
   }
+  roll(angle) {
+    this.#engine?.reader.roll(this.id, angle);
+    this.#viewed();
+  }
 
   #viewed() {
     this.#changed();

@@ -18,7 +18,7 @@ export class Hands {
   #isInside = false;
   #abort = new AbortController();
 
-  /** `embed` hears turn, zoom, shift, go, reset, entered, escape and moving. */
+  /** `embed` hears turn, zoom, shift, roll, go, reset, entered, escape and moving. */
   constructor(stage, host, embed) {
     this.#stage = stage;
     this.#embed = embed;
@@ -104,6 +104,10 @@ export class Hands {
       const spread = (at) => Math.max(Math.hypot(at[0] - other[0], at[1] - other[1]), 1);
       this.#embed.zoom(spread(now) / spread(before));
       this.#embed.shift((0.5 * dx) / side, (0.5 * dy) / side);
+      const way = (at) => Math.atan2(at[1] - other[1], at[0] - other[0]);
+      // The shorter way round.
+      const by = way(now) - way(before);
+      this.#embed.roll(Math.atan2(Math.sin(by), Math.cos(by)));
     } else if (event.shiftKey) {
       this.#embed.shift(dx / side, dy / side);
     } else {

@@ -17,6 +17,11 @@ function load(part) {
   return programs.get(part);
 }
 
+/** Lets go of a bender of a figure, which would end with its worker. */
+export function dismiss(bender) {
+  before = before.then(() => programs.get("figures")).then((program) => program?.dismiss(bender), () => {});
+}
+
 /** Does a task as web/worker.js does it. Answers go to `port`. */
 export function run(message, port) {
   const scope = { postMessage: (...args) => port.postMessage(...args), fetch: (...args) => fetch(...args) };

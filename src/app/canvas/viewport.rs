@@ -278,7 +278,7 @@ impl Viewport {
 
     fn announce(&self, response: &Response, session: &Session) {
         let title = &session.illustration().title;
-        let subject = names::subject_title(&session.illustration().subject);
+        let subject = names::subject_title(session.illustration());
         response.widget_info(|| {
             let name = if title.is_empty() {
                 fill(w().picture_of, &[&in_sentence(&subject)])

@@ -342,7 +342,7 @@ impl Card<'_> {
     /// Subject and number of steps.
     fn about(&self) -> String {
         let shown = self.example.document.illustration();
-        let subject = names::subject_title(&shown.subject);
+        let subject = names::subject_title(shown);
         match shown.steps.len() {
             1 => fill(w().one_step, &[&subject]),
             n => fill(w().steps, &[&subject, &n]),
@@ -435,7 +435,7 @@ fn recent_row(
         let shown = recent.document.illustration();
         let kinds = shown.templates.iter().map(|t| kinds::title(t.kind));
         let kinds = kinds.collect::<Vec<&str>>().join(", ");
-        let subject = names::subject_title(&shown.subject);
+        let subject = names::subject_title(shown);
         let about = if kinds.is_empty() {
             subject
         } else {

@@ -119,7 +119,12 @@ fn link_length_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 /// Which subject: the built-in ones, and opening one's own.
 fn subject_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let current = &session.illustration().subject;
-    let shown = widget::combo("subject", &names::subject_title(current), 112.0).show_ui(ui, |ui| {
+    let shown = widget::combo(
+        "subject",
+        &names::subject_title(session.illustration()),
+        112.0,
+    )
+    .show_ui(ui, |ui| {
         for name in crate::subjects::all_names() {
             let subject = SubjectRef::Builtin {
                 name: (*name).to_owned(),
@@ -257,10 +262,7 @@ fn facts_ui(ui: &mut Ui, session: &Session) {
     let count = facts.segments.len().to_string();
     let modality = scan.modality.as_deref().map(facts::modality);
     let lines = [
-        Some((
-            w.name,
-            names::subject_title(&session.illustration().subject),
-        )),
+        Some((w.name, names::subject_title(session.illustration()))),
         modality.map(|modality| (w.modality, modality.to_owned())),
         Some((w.voxels, format!("{x} × {y} × {z}"))),
         Some((w.spacing, mm(scan.spacing_mm, 3))),

@@ -98,7 +98,7 @@ impl Example {
     fn is_found(&self, wanted: &str) -> bool {
         let shown = self.document.illustration();
         let mut text = format!("{} {} ", shown.title, shown.legend);
-        text.push_str(&names::subject_title(&shown.subject));
+        text.push_str(&names::subject_title(shown));
         for kind in &self.kinds {
             text.push(' ');
             text.push_str(kinds::title(*kind));
@@ -129,7 +129,7 @@ impl Recent {
     pub fn name(&self) -> String {
         let shown = self.document.illustration();
         match shown.title.trim() {
-            "" => names::subject_title(&shown.subject),
+            "" => names::subject_title(shown),
             title => title.to_owned(),
         }
     }

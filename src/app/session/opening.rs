@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::effect::Effect;
+use super::effect::{Effect, LinkChange};
 use super::mode::Mode;
 use super::notices::Gravity;
 use super::session::{Load, LoadOf, STORED_DOCUMENT, Session, payload_of};
@@ -10,7 +10,8 @@ use super::ticket::Ticket;
 use crate::app::words::fill;
 use crate::app::words::messages::w;
 use crate::assets::{OtherFile, Want};
-use crate::document::{Document, Edit, FIGURE_FRONT, Reading, SubjectRef};
+use crate::document::figure::Figure;
+use crate::document::{Document, Edit, FIGURE_FRONT, Notice, NoticeKind, Reading, SubjectRef};
 use crate::link;
 
 /// True if a subject that was asked for, or is shown, is that of the document.
@@ -80,6 +81,8 @@ impl Session {
             let subject = self.illustration().subject.clone();
             self.requested = Some(subject.clone());
             self.effect(Effect::LoadSubject(subject));
+        } else {
+            self.tell_space();
         }
     }
 
@@ -144,7 +147,9 @@ impl Session {
         let subject = &self.illustration().subject;
         let is_here = is_of(&self.requested, subject);
         let is_file = !matches!(subject, SubjectRef::Builtin { .. });
-        let is_asked_for = !self.is_restored || self.template_count() > 0;
+        let figure = self.illustration().figure.as_ref();
+        let has_work = self.template_count() > 0 || figure.is_some_and(|f| *f != Figure::default());
+        let is_asked_for = !self.is_restored || has_work;
         !is_here && is_file && is_asked_for
     }
 
@@ -248,6 +253,28 @@ impl Session {
                 camera.rotate *= FIGURE_FRONT;
             }
         }
+    }
+
+    /// A `figure` stands beside a subject whose file, as it turns out, is none of a figure: it is named, and the camera
+    /// is that of a document without it from now on. This is no step of undo.
+    pub fn tell_space(&mut self) {
+        let subject = self.illustration().subject.clone();
+        let is_seen = self.view.subject.is_some() && !self.shows_earlier_object();
+        let is_known = is_seen && subject.is_figure().is_none() && !self.view.is_figure();
+        if !is_known || !self.illustration().is_of_figure() {
+            return;
+        }
+        self.history.tell_space(|document| {
+            let illustration = document.illustration();
+            illustration.subject == subject && illustration.is_of_figure()
+        });
+        self.document_changed(LinkChange::Replace);
+        for camera in [&mut self.camera, &mut self.home] {
+            camera.rotate *= FIGURE_FRONT.inverse();
+        }
+        let what = "a subject that is no figure";
+        let notice = Notice::new("/figure", NoticeKind::Beside { what });
+        self.notify(Gravity::Warning, notice.to_string(), "");
     }
 
     /// The change to another subject, but with the segments and recipes of the present one.

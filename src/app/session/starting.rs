@@ -350,6 +350,52 @@ mod tests {
     }
 
     #[test]
+    fn a_figure_beside_a_scan_does_not_turn_it() {
+        let json = r#"{ "fabrica": 1, "subject": { "src": "a.nii" }, "figure": { "detail": 800 },
+            "camera": { "rotate": [0, 0, 0.7071, 0.7071] } }"#;
+        let plain = json.replace(r#""figure": { "detail": 800 },"#, "");
+        let [mut session, wanted] =
+            [json, plain.as_str()].map(|json| Session::with_scan(json, 1.0, &[]));
+        session.shown_subject = Some(session.illustration().subject.clone());
+        let apart = |session: &Session, rotate| session.camera.rotate.angle_between(rotate);
+        assert!(apart(&session, wanted.camera.rotate) > 1.0, "it may be one");
+        session.tell_space();
+        assert!(apart(&session, wanted.camera.rotate) < 3e-3);
+        let told = session.notices.all().last();
+        let told = told.map(|notice| notice.message.clone());
+        assert!(
+            told.as_ref()
+                .is_some_and(|told| told.starts_with("/figure")),
+            "{told:?}"
+        );
+        // What is written of a camera is what a document without the figure would have.
+        let written = session.document_as_seen();
+        assert_eq!(written, *session.document());
+        session.run(Command::Orbit(0.5, 0.2), 0.0);
+        let written = session.document_as_seen().without("/figure");
+        let written = written.expect("a document");
+        assert!(apart(&session, written.illustration().camera.rotate) < 3e-3);
+    }
+
+    #[test]
+    fn a_figure_of_an_earlier_visit_waits_for_its_plate() {
+        for (rest, waits) in [("", false), (r#""handles": [{ "at": [0, 0] }]"#, true)] {
+            let hash = "a".repeat(64);
+            let json = format!(
+                r#"{{ "fabrica": 1, "subject": {{ "sha256": "{hash}" }}, "figure": {{ {rest} }} }}"#
+            );
+            let mut session = session_of(&json);
+            session.is_restored = true;
+            session.load_started(Ticket(1));
+            session.refuse_load("not here", String::new());
+            session.file_started(Ticket(2));
+            let load = Load::new(Ticket(2), "Reading", LoadOf::File);
+            let other = session.other_file(&load, &"b".repeat(64));
+            assert_eq!(other.is_some(), waits, "{json}");
+        }
+    }
+
+    #[test]
     fn a_label_file_that_came_with_the_scan_goes_with_it() {
         let mut session = session_of(PEELED);
         let before = session.document().clone();

@@ -23,6 +23,8 @@ words! {
         own_surface: "Your surface", "Eigene Oberfläche", "Superficie propia", "自己的表面";
         own_surfaces: "Your surfaces", "Eigene Oberflächen", "Superficies propias", "自己的表面";
         own_scan: "Your scan", "Eigener Scan", "Estudio propio", "自己的扫描";
+        picture_from_address: "Plate from an address", "Bildtafel von einer Adresse", "Lámina de una dirección", "来自网址的图版";
+        own_picture: "Your plate", "Eigene Bildtafel", "Lámina propia", "自己的图版";
         more: "More", "Mehr", "Más", "更多";
         new_document: "New document", "Neues Dokument", "Documento nuevo", "新建文档";
         save_document: "Save document", "Dokument sichern", "Guardar documento", "保存文档";

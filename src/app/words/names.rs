@@ -3,7 +3,7 @@
 
 use super::{Lang, bar, capitalized, figure, fill, kinds, lang, of};
 use crate::document::figure::{Handle, Hold};
-use crate::document::{PlacedTemplate, SubjectRef, TemplateKind};
+use crate::document::{Illustration, PlacedTemplate, SubjectRef, TemplateKind};
 
 words! {
     /// What a step of undo did.
@@ -247,7 +247,12 @@ pub(crate) fn edit_title(name: &str) -> String {
 }
 
 /// What a document's subject is called.
-pub(crate) fn subject_title(subject_ref: &SubjectRef) -> String {
+pub(crate) fn subject_title(shown: &Illustration) -> String {
+    let w = bar::w();
+    let [from_address, own] = match shown.is_of_figure() {
+        true => [w.picture_from_address, w.own_picture],
+        false => [w.scan_from_address, w.own_scan],
+    };
     let or = |name: &str, otherwise: &str| {
         if name.is_empty() {
             otherwise.to_owned()
@@ -255,13 +260,13 @@ pub(crate) fn subject_title(subject_ref: &SubjectRef) -> String {
             name.to_owned()
         }
     };
-    match subject_ref {
+    match &shown.subject {
         SubjectRef::Builtin { name } => subject(name),
-        SubjectRef::Address { name, .. } => or(name, bar::w().scan_from_address),
-        SubjectRef::Supplied { name, .. } => or(name, bar::w().own_scan),
+        SubjectRef::Address { name, .. } => or(name, from_address),
+        SubjectRef::Supplied { name, .. } => or(name, own),
         SubjectRef::Meshes { meshes, .. } => match meshes.as_slice() {
-            [one] => or(&one.name, bar::w().own_surface),
-            _ => bar::w().own_surfaces.to_owned(),
+            [one] => or(&one.name, w.own_surface),
+            _ => w.own_surfaces.to_owned(),
         },
     }
 }
@@ -292,6 +297,33 @@ mod tests {
     use super::*;
     use crate::document::{Document, Edit};
     use crate::math::Placement;
+
+    #[test]
+    fn a_plate_is_no_scan() {
+        let title = |lang, json: &str| {
+            set_lang(lang);
+            let document = Document::from_json(json).expect("a valid document");
+            subject_title(document.illustration())
+        };
+        let file = format!(
+            r#"{{"fabrica":1,"subject":{{"sha256":"{}"}}"#,
+            "a".repeat(64)
+        );
+        let (scan, plate) = (format!("{file}}}"), format!(r#"{file},"figure":{{}}}}"#));
+        for (lang, of_scan, of_plate) in [
+            (Lang::English, "Your scan", "Your plate"),
+            (Lang::German, "Eigener Scan", "Eigene Bildtafel"),
+            (Lang::Spanish, "Estudio propio", "Lámina propia"),
+            (Lang::Chinese, "自己的扫描", "自己的图版"),
+        ] {
+            assert_eq!(title(lang, &scan), of_scan);
+            assert_eq!(title(lang, &plate), of_plate);
+        }
+        let address = r#"{"fabrica":1,"subject":{"src":"a.png"},"figure":{}}"#;
+        assert_eq!(title(Lang::English, address), "Plate from an address");
+        let named = r#"{"fabrica":1,"subject":{"src":"a.png","name":"Elbow"},"figure":{}}"#;
+        assert_eq!(title(Lang::English, named), "Elbow");
+    }
 
     #[test]
     fn steps_of_undo_are_named_in_the_language() {

@@ -45,6 +45,8 @@ pub struct Illustration {
     pub templates: Vec<PlacedTemplate>,
     /// How a figure is divided and bent; `None` if the document has no such key.
     pub figure: Option<Figure>,
+    /// The file of the subject is known to be none of a figure, whatever stands beside it.
+    pub is_in_space: bool,
     /// Transfer function, opacity, light and background.
     pub look: Look,
     /// The view that the document opens with.
@@ -76,6 +78,7 @@ impl Illustration {
             objects: Vec::new(),
             templates: Vec::new(),
             figure: None,
+            is_in_space: false,
             look: Look {
                 transfer: Transfer::Auto,
                 window: Window::Auto,
@@ -150,7 +153,17 @@ impl Illustration {
     /// True if the document tells that its subject is a figure: by a built-in figure, or by a `figure` beside a file.
     pub fn is_of_figure(&self) -> bool {
         let is_figure = self.subject.is_figure();
-        is_figure.unwrap_or(self.figure.is_some())
+        is_figure.unwrap_or(self.figure.is_some() && !self.is_in_space)
+    }
+
+    /// The file of a subject is known to be none of a figure. If it is this one's, a `figure` beside it does not turn
+    /// the camera.
+    pub(crate) fn learn_space(&mut self, subject: Option<&SubjectRef>) {
+        let is_it = subject.is_some_and(|subject| subject.is_same_data(&self.subject));
+        if is_it && self.subject.is_figure().is_none() {
+            self.camera.rotate = self.written_rotation(self.camera.rotate);
+            self.is_in_space = true;
+        }
     }
 
     /// This illustration once it is known that its subject is a figure: seen from the front of its plane. One whose

@@ -122,6 +122,7 @@ impl Reader {
             objects,
             templates,
             figure: root.map.contains_key("figure").then_some(figure),
+            is_in_space: false,
             look,
             camera,
             captions,

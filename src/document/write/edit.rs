@@ -2,9 +2,9 @@
 
 use crate::document::model::figure;
 use crate::document::model::{
-    Align, Background, Camera, Caption, Constrain, ControlPoints, Curve, MeshRef, ObjectPlacement,
-    OpacityMode, ParamValue, SubjectBox, SubjectRef, TemplateKind, TemplateMode, Transfer,
-    TransferPoint, Window,
+    Align, Background, Camera, Caption, Constrain, ControlPoints, Curve, FIGURE_FRONT, MeshRef,
+    ObjectPlacement, OpacityMode, ParamValue, SubjectBox, SubjectRef, TemplateKind, TemplateMode,
+    Transfer, TransferPoint, Window,
 };
 use crate::math::Placement;
 use serde_json::Value;
@@ -341,6 +341,25 @@ impl FigureList {
 }
 
 impl Edit {
+    /// The same with the camera of a figure where it has that of a subject in space.
+    pub(crate) fn seen_as_figure(&self) -> Self {
+        match self {
+            Self::All { name, edits } => Self::All {
+                name: name.clone(),
+                edits: edits.iter().map(Self::seen_as_figure).collect(),
+            },
+            Self::AtStep { step, edit } => Self::AtStep {
+                step: *step,
+                edit: Box::new(edit.seen_as_figure()),
+            },
+            Self::SetCamera(camera) => Self::SetCamera(Camera {
+                rotate: camera.rotate * FIGURE_FRONT,
+                ..*camera
+            }),
+            other => other.clone(),
+        }
+    }
+
     /// Sets a value by JSON pointer, or without one puts the key back to its default. `name` is that in the menu.
     pub fn put(pointer: String, value: Option<Value>, name: String) -> Self {
         match value {

@@ -29,12 +29,6 @@ pub(crate) fn vertex_buffer<T: bytemuck::NoUninit>(
     filled_buffer(gpu, label, bytemuck::cast_slice(contents), usage)
 }
 
-/// A buffer of corners of triangles.
-pub(crate) fn index_buffer(gpu: &Gpu, label: &str, contents: &[u32]) -> wgpu::Buffer {
-    let usage = wgpu::BufferUsages::INDEX;
-    filled_buffer(gpu, label, bytemuck::cast_slice(contents), usage)
-}
-
 /// Written through the queue and not mapped at creation: on a device that was just lost, mapping ends the program.
 fn filled_buffer(gpu: &Gpu, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
     let alignment = wgpu::COPY_BUFFER_ALIGNMENT;

@@ -88,10 +88,9 @@ impl SheetPass {
         pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
         if let Some(buffers) = drawn.buffers.filter(|buffers| buffers.count > 0) {
             pass.set_vertex_buffer(0, buffers.corners.slice(..));
-            pass.set_index_buffer(buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
             for &[x, y, w, h] in drawn.tiles {
                 pass.set_scissor_rect(x, y, w, h);
-                pass.draw_indexed(0..buffers.count, 0, 0..1);
+                pass.draw(0..buffers.count, 0..1);
             }
         }
         drop(pass);
@@ -122,7 +121,7 @@ fn pipelines(gpu: &Gpu, layouts: &Layouts) -> [wgpu::RenderPipeline; 2] {
     let corners = VertexParts {
         entry: "place_corner",
         stride: size_of::<SheetCorner>() as u64,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Float32x4],
+        attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x2, 2 => Float32x2, 3 => Float32x4, 4 => Float32x4],
     };
     let groups = [empty, empty, empty, &layouts.sheet];
     let lay = PipelineParts {

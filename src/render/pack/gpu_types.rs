@@ -851,14 +851,16 @@ pub struct Sheet {
     pub padding: u32,
 }
 
-/// A corner of a figure's triangles, as the vertex shader reads it.
+/// A corner of a figure's triangles, as the vertex shader reads it: each of the three has the whole triangle.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct SheetCorner {
-    /// Where it is at rest, subject space.
+    /// Where the triangle's corners are, subject space.
+    pub places: [[f32; 2]; 3],
+    /// Where the first of them is at rest, subject space.
     pub rest: [f32; 2],
-    /// Where it is, subject space.
-    pub place: [f32; 2],
+    /// Columns of the map from directions in the bent triangle to those at rest.
+    pub rest_from_place: [[f32; 2]; 2],
     /// Straight linear colour in place of the plate's; alpha 0: the plate's.
     pub color: [f32; 4],
 }

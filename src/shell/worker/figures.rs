@@ -80,6 +80,12 @@ pub async fn run(message: JsValue, load: Function) -> Result<Option<String>, JsV
     }
 }
 
+/// Lets go of a bender that nobody asks any more. One in a worker ends with it.
+#[wasm_bindgen]
+pub fn dismiss(bender: u32) {
+    SERVED.with_borrow_mut(|all| all.remove(&bender));
+}
+
 fn bend(bender: u32, request: BendRequest) -> Result<(), JsValue> {
     SERVED.with_borrow_mut(|all| {
         let served = all.entry(bender).or_default();
