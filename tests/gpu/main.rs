@@ -29,6 +29,7 @@ mod slices;
 mod splines;
 mod strokes;
 mod style;
+mod sweeps;
 mod textures;
 
 #[path = "../reference/carved.rs"]
@@ -50,6 +51,8 @@ mod picture_files;
 mod rbf;
 #[path = "../reference/mod.rs"]
 mod reference;
+#[path = "../reference/sweep.rs"]
+mod reference_sweep;
 #[path = "../support/scans.rs"]
 mod scans;
 #[path = "../support/scatter.rs"]
