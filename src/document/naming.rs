@@ -40,7 +40,6 @@ impl Edit {
             Self::SetControlPoints { template, .. } => {
                 format!("Change points of {}", name_of(template))
             }
-            Self::SetTools { template, .. } => format!("Change tools of {}", name_of(template)),
             Self::SetPlacement {
                 template,
                 placement,

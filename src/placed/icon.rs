@@ -1,7 +1,7 @@
 use crate::displace::Holds;
 use crate::document::{
     Background, Camera, ControlPoints, Document, DocumentError, Edit, ObjectPlacement, ObjectRef,
-    ParamValue, PlacedTemplate, SubjectRef, SweepTools, TemplateData, TemplateKind,
+    ParamValue, PlacedTemplate, SubjectRef, TemplateData, TemplateKind,
 };
 use crate::math::Placement;
 use glam::{Quat, Vec3};
@@ -49,7 +49,6 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
             name: TOOL.to_owned(),
             found: None,
         }),
-        Holds::Tools => TemplateData::Tools(SweepTools::default()),
         Holds::Parameters | Holds::File => TemplateData::None,
     };
     let placement = Placement {

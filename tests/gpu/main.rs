@@ -29,7 +29,6 @@ mod slices;
 mod splines;
 mod strokes;
 mod style;
-mod sweeps;
 mod textures;
 
 #[path = "../reference/carved.rs"]
@@ -51,8 +50,6 @@ mod picture_files;
 mod rbf;
 #[path = "../reference/mod.rs"]
 mod reference;
-#[path = "../reference/sweep.rs"]
-mod reference_sweep;
 #[path = "../support/scans.rs"]
 mod scans;
 #[path = "../support/scatter.rs"]

@@ -60,7 +60,6 @@ pub(crate) mod share;
 pub(crate) mod slices;
 pub(crate) mod steps;
 pub(crate) mod style;
-pub(crate) mod sweep;
 pub(crate) mod templates;
 #[cfg(test)]
 mod tests;

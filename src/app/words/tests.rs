@@ -31,7 +31,6 @@ fn lines() -> impl Iterator<Item = &'static Line> {
         slices::LINES,
         steps::LINES,
         style::LINES,
-        sweep::LINES,
         templates::LINES,
         text::LINES,
         tissue::LINES,

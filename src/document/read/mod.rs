@@ -15,7 +15,6 @@ mod style;
 mod subject;
 mod surface;
 mod template;
-mod tools;
 
 pub use figure::figure_from_text;
 pub(super) use illustration::resolve;

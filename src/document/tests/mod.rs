@@ -9,7 +9,6 @@ mod recipes;
 mod recording;
 mod styles;
 mod surfaces;
-mod sweeps;
 
 use super::*;
 use crate::math::Placement;
