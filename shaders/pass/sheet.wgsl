@@ -5,8 +5,8 @@
 /// A squeezed plate is read at so many places along the direction in which it is squeezed, at most.
 const MOST_TAPS: f32 = 8.0;
 
-/// Rasterisers move corners to places on a grid, of a sixteenth of a pixel in some: triangles are handed to them so much
-/// larger on all sides (pixels), and what lies within is told by each pixel itself, alike on every device.
+/// Rasterisers move corners to places on a grid, of a sixteenth of a pixel in some: triangles are handed to them larger
+/// by this on all sides (pixels), and each pixel tells itself whether it lies within, alike on every device.
 const MARGIN: f32 = 0.125;
 /// Sine of the sharpest corner that gets the whole margin. At a smaller one the tip would reach far.
 const SHARPEST: f32 = 0.02;
