@@ -27,7 +27,6 @@ mod rigid;
 mod shells;
 mod slices;
 mod splines;
-mod strokes;
 mod style;
 mod textures;
 

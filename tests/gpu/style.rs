@@ -12,7 +12,7 @@ use glam::{DVec3, UVec3, Vec2, Vec3};
 const SIDE: u32 = 64;
 const SIZE: [u32; 2] = [200, 200];
 
-pub(crate) fn illustration(rest: &str) -> Illustration {
+fn illustration(rest: &str) -> Illustration {
     let json = format!(r#"{{"fabrica":1,{rest}}}"#);
     Document::from_json(&json)
         .expect("a document")
@@ -20,7 +20,7 @@ pub(crate) fn illustration(rest: &str) -> Illustration {
         .clone()
 }
 
-pub(crate) fn drawn(studio: &Studio, shown: &Illustration, size: [u32; 2], samples: u32) -> Image {
+fn drawn(studio: &Studio, shown: &Illustration, size: [u32; 2], samples: u32) -> Image {
     pollster::block_on(studio.render_image(shown, size, samples)).expect("a picture")
 }
 
@@ -145,55 +145,6 @@ fn outlines_stand_at_silhouettes_and_nowhere_inside() {
             }
         }
     }
-}
-
-/// Where a layer is peeled off a box one line stands at each jump in depth: the rim of the flap is drawn once.
-#[test]
-fn a_peeled_rim_is_drawn_once() {
-    let volume = solid(cuboid, |_| 1, &["box"]);
-    let studio = studio_of(software(), &volume, true);
-    let style =
-        format!(r##""style":{{"outline":{{"width":10,"color":"#000000","creases":0}},{WHITE}}}"##);
-    // The layer under the front, which faces the eye, is rolled up.
-    let peel = r#""templates":[{"kind":"peel","at":[0,0.14,0],"rotate":[-0.7071068,0,0,0.7071068],
-        "size":[0.5,0.4,0.2],"params":{"progress":0.6,"depth":0.5,"radius":0.2}}]"#;
-    let camera = r#""camera":{"rotate":[0.05,0.02,0.2,0.978],"distance":2}"#;
-    let shown = illustration(&format!(r#""look":{{{LOOK},{style}}},{camera},{peel}"#));
-    let image = drawn(&studio, &shown, SIZE, 4);
-    let middles: Vec<Vec2> = (0..SIZE[1])
-        .flat_map(|y| (0..SIZE[0]).map(move |x| Vec2::new(x as f32 + 0.5, y as f32 + 0.5)))
-        .collect();
-    // Some rows of pixels at a time: all are asked by one texture.
-    let depths: Vec<Option<f32>> = middles
-        .chunks(8000)
-        .flat_map(|some| pollster::block_on(studio.depths(&shown, SIZE, some)).expect("depths"))
-        .collect();
-    let depth = |x: u32, y: u32| depths[(y * SIZE[0] + x) as usize];
-    // Both ends of a jump belong to the box, so that its silhouette is not counted.
-    let is_jump = |x: u32, y: u32| match (depth(x, y), depth(x + 1, y)) {
-        (Some(here), Some(next)) => (here - next).abs() > 0.06,
-        _ => false,
-    };
-    let mut asked = 0;
-    for y in 0..SIZE[1] {
-        for x in 12..SIZE[0] - 13 {
-            let around = x - 12..x + 12;
-            let is_alone = around.clone().filter(|&x| is_jump(x, y)).count() == 1
-                && around.clone().all(|x| depth(x, y).is_some());
-            if !(is_alone && is_jump(x, y)) {
-                continue;
-            }
-            asked += 1;
-            let lines: Vec<bool> = around.map(|x| is_line(&image, x, y)).collect();
-            let begun = lines.windows(2).filter(|two| !two[0] && two[1]).count();
-            assert!(!lines[0], "a line 12 pixels beside the rim at ({x}, {y})");
-            assert_eq!(begun, 1, "lines across the rim at ({x}, {y})");
-            // Two pixels wide across; a rim that runs obliquely through the row is cut at most at 60 degrees.
-            let dark = lines.iter().filter(|line| **line).count();
-            assert!((1..=5).contains(&dark), "{dark} pixels at ({x}, {y})");
-        }
-    }
-    assert!(asked > 30, "only {asked} places of the rim were asked");
 }
 
 /// Two tissues of one form, one colour: a line stands along their border, and ends with it.
