@@ -159,8 +159,13 @@ fn a_saved_picture_gets_the_paper_that_is_chosen() {
     window.save_small_pictures();
     window.look("share_paper");
     let mut saved = |name: &str| {
-        window.click(name);
-        window.saved_picture()
+        window.click(&format!("Behind the object: {name}"));
+        window.press(Key::Escape);
+        let picture = window.saved_picture();
+        window.click("More");
+        window.click("Share…");
+        window.steps(3);
+        picture
     };
     let [plain, clear, shaded, cast] =
         ["Background", "Nothing", "Shadow", "Shadow alone"].map(&mut saved);
