@@ -114,7 +114,7 @@ fn a_plate_is_bent_and_sent_by_keys_alone() {
     with_browser(BrowserGpu::Software, |session| async move {
         const SIZE: (u32, u32) = (900, 760);
         session.allow_clipboard().await;
-        let file = plate_file("plate_by_keys.png");
+        let file = plate_file("plate_for_keys.png");
         let link = format!("#{}", payload(PLAIN));
         let tab = session.coarse_viewer(&link, SIZE).await;
         focus(&tab).await;
@@ -181,7 +181,7 @@ fn a_plate_is_bent_and_sent_by_fingers_alone() {
     with_browser(BrowserGpu::Software, |session| async move {
         const SIZE: (u32, u32) = (390, 844);
         session.allow_clipboard().await;
-        let file = plate_file("plate_by_fingers.png");
+        let file = plate_file("plate_for_fingers.png");
         let link = format!("#{}", payload(PLAIN));
         let tab = session.coarse_viewer(&link, SIZE).await;
         let touch = Touch::new(&tab).await;
@@ -281,6 +281,7 @@ fn a_figure_is_found_among_recent_documents() {
         shows_it("reloaded").await;
 
         // Another document takes its place, and it is opened from the list.
+        click(&tab, "More").await;
         click(&tab, "Examples").await;
         click(&tab, "Subject of the examples").await;
         click(&tab, "Cube").await;
@@ -291,6 +292,7 @@ fn a_figure_is_found_among_recent_documents() {
         )
         .await;
         tab.settled().await;
+        click(&tab, "More").await;
         click(&tab, "Examples").await;
         click(&tab, "Recent documents").await;
         tab.frames(5).await;

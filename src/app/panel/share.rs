@@ -142,6 +142,10 @@ fn inside(
     if let Some(dpi) = widget::segmented(ui, w().dpi, &DPI, session.picture_dpi) {
         commands.push(Command::SetPictureDpi(dpi));
     }
+    if let Some(px) = session.picture_px {
+        let cm = px as f32 / session.picture_dpi as f32 * CM_PER_INCH;
+        ui.label(fill(w().printed, &[&format!("{cm:.1}")]));
+    }
     ui.label(w().paper);
     let papers = [
         (
@@ -163,10 +167,6 @@ fn inside(
     ];
     if let Some(paper) = widget::explained(ui, w().paper, &papers, session.picture_paper) {
         commands.push(Command::SetPicturePaper(paper));
-    }
-    if let Some(px) = session.picture_px {
-        let cm = px as f32 / session.picture_dpi as f32 * CM_PER_INCH;
-        ui.label(fill(w().printed, &[&format!("{cm:.1}")]));
     }
     let mut is_lettering = session.is_lettering;
     if ui
