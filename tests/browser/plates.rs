@@ -222,6 +222,8 @@ fn a_plate_is_bent_and_sent_by_fingers_alone() {
         let (x, y) = find(&tab, "Pin 3 in the picture").await.middle();
         touch.swipe(&[[(x, y), (x - 5.0, y - 60.0)]]).await;
         changed(&tab, "figure").await;
+        // The card of the tool takes room from the picture.
+        touch.tap("Put the tool away").await;
         let page = assert_made(&tab).await;
         tab.picture("plate_by_fingers").await;
         touch.tap("Copy link").await;
@@ -294,7 +296,7 @@ fn a_figure_is_found_among_recent_documents() {
         tab.settled().await;
         click(&tab, "More").await;
         click(&tab, "Examples").await;
-        click(&tab, "Recent documents").await;
+        click(&tab, "Show: Recent documents").await;
         tab.frames(5).await;
         tab.picture("plate_recent").await;
         let listed = find(&tab, "Open Your plate").await;
