@@ -49,8 +49,13 @@ impl App {
         let dpi = (!is_for_script).then_some(self.session.picture_dpi as f32);
         let progress = Rc::default();
         let rows = SavedRows::new(size_px, dpi, lettering, Rc::clone(&progress));
-        let shown = (&illustration, size_px);
-        picture.start_file(shown, has_shadow, (rows, progress), SavedRows::finish);
+        let size_and_shadow = (size_px, has_shadow);
+        picture.start_file(
+            &illustration,
+            size_and_shadow,
+            (rows, progress),
+            SavedRows::finish,
+        );
         self.saving = Some(Saving {
             name: format!("{}.png", self.session.file_stem()),
             is_for_script,

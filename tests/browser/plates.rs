@@ -386,7 +386,7 @@ fn an_embed_draws_finer_and_rolls() {
 #[test]
 fn what_bends_a_figure_goes_with_its_embed() {
     with_browser(BrowserGpu::Software, |session| async move {
-        let json = r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{"detail":1500,"handles":[{"region":"humerus"},{"region":"hand","move":[0.02,0.1]}]}}"#;
+        let json = r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{"detail":1500,"handles":[{"region":"humerus"},{"region":"hand","move":[0.02,0.06]}]}}"#;
         let embed = format!("src=\"#{}\">", payload(json));
         serve_where(
             &session,

@@ -6,7 +6,8 @@ use crate::surfaces::brick;
 use fabrica::data::Subject;
 use fabrica::document::{Document, Illustration};
 use fabrica::render::{
-    FileInMemory, Image, MOST_PX, PngRows, RenderError, Rows, Studio, Taker, decode_png,
+    FileInMemory, Image, MOST_PX, PictureSpec, PngRows, RenderError, Rows, Studio, Taker,
+    decode_png,
 };
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -16,6 +17,15 @@ const SIZE: [u32; 2] = [150, 131];
 fn illustration(json: &str) -> Illustration {
     let document = Document::from_json(json).expect("a document");
     document.illustration().clone()
+}
+
+/// A picture without a shadow.
+fn spec(size_px: [u32; 2], samples: u32) -> PictureSpec {
+    PictureSpec {
+        size_px,
+        samples,
+        has_shadow: false,
+    }
 }
 
 /// Takes rows into a PNG file, and stops when so much is drawn.
@@ -60,7 +70,7 @@ impl Taker for Print {
 
 fn in_bands(studio: &Studio, shown: &Illustration, samples: u32, rows: u32) -> Image {
     let print = Print::new(SIZE, 2.0);
-    let drawing = studio.render_rows(shown, SIZE, samples, Some(rows), print);
+    let drawing = studio.render_rows(shown, spec(SIZE, samples), Some(rows), print);
     let print = pollster::block_on(drawing).expect("a picture");
     assert_eq!(print.next, SIZE[1], "all rows");
     assert!(print.most_rows <= rows as usize, "{}", print.most_rows);
@@ -127,11 +137,11 @@ fn drawing_stops_when_it_is_told_to() {
     let studio = studio_of(gpu(), &builtin("bar", 24), true);
     let shown = illustration(r#"{"fabrica":1}"#);
     let print = Print::new(SIZE, 0.4);
-    let stopped = pollster::block_on(studio.render_rows(&shown, SIZE, 2, Some(20), print));
+    let stopped = pollster::block_on(studio.render_rows(&shown, spec(SIZE, 2), Some(20), print));
     assert!(matches!(stopped, Err(RenderError::Stopped)), "it stops");
     let print = Print::new(SIZE, 2.0);
     let size = [10, MOST_PX + 1];
-    let refused = pollster::block_on(studio.render_rows(&shown, size, 1, None, print));
+    let refused = pollster::block_on(studio.render_rows(&shown, spec(size, 1), None, print));
     let Err(RenderError::BadSize { max, .. }) = refused else {
         panic!("it is refused");
     };

@@ -1,7 +1,7 @@
 //! The picture in the middle: the renderer, the texture that egui shows, and the questions to the GPU that wait
 //! for an answer. The only file of this room that uses wgpu.
 
-use std::cell::{Cell, OnceCell};
+use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::task::Wake;
@@ -15,7 +15,7 @@ use crate::data::{Pending, Resources, Segment, Segmentation, Sheet, Subject, Sur
 use crate::document::{Background, Camera, Illustration};
 use crate::math::Aabb;
 use crate::render::{
-    Clock, DrawState, FollowedCaptions, Gpu, Image, OnPaper, PendingPick, PendingSlice, Pick,
+    Clock, DrawState, FollowedCaptions, Gpu, Image, PendingPick, PendingSlice, Pick, PictureSpec,
     RenderError, RenderNotice, Renderer, SlicePlane, SliceView, SubjectInfo, Taker, View,
 };
 
@@ -320,36 +320,23 @@ impl Picture {
     }
 
     /// Starts drawing the picture once more for a file, in place of one that is being drawn. `rows` takes it, tells its
-    /// progress, and becomes the bytes of the file by `finish`. With `has_shadow` the object throws a soft shadow on a
-    /// paper of that colour behind it.
+    /// progress, and becomes the bytes of the file by `finish`. With `has_shadow` the object throws a soft shadow on
+    /// its background.
     pub(crate) fn start_file<T: Taker + 'static>(
         &mut self,
-        (illustration, size_px): (&Illustration, [u32; 2]),
-        has_shadow: bool,
+        illustration: &Illustration,
+        (size_px, has_shadow): ([u32; 2], bool),
         (rows, progress): (Result<T, RenderError>, Rc<Cell<f32>>),
         finish: fn(T) -> Result<Vec<u8>, RenderError>,
     ) {
-        let renderer = &self.renderer;
-        let small = has_shadow.then(|| renderer.paper_shadow(illustration, size_px));
-        let shadow = Rc::default();
-        let drawing = rows.map(|taker| {
-            let shadow = Rc::clone(&shadow);
-            let on_paper = OnPaper { taker, shadow };
-            let mut shown = illustration.clone();
-            if has_shadow {
-                shown.look.background = Background::None;
-            }
-            renderer.render_rows(&shown, size_px, FILE_SAMPLES, on_paper)
-        });
-        let picture = async move {
-            if let Some(small) = small {
-                // Nobody else sets it.
-                let _was_empty = OnceCell::set(&shadow, small.await?);
-            }
-            finish(drawing?.await?.taker)
+        let spec = PictureSpec {
+            size_px,
+            samples: FILE_SAMPLES,
+            has_shadow,
         };
+        let drawing = rows.map(|rows| self.renderer.render_rows(illustration, spec, rows));
         self.file = Some(FileJob {
-            picture: Box::pin(picture),
+            picture: Box::pin(async move { finish(drawing?.await?) }),
             progress,
         });
     }

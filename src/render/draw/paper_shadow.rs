@@ -2,17 +2,15 @@
 //! made of a small picture without a background, and laid under the rows of the large one.
 
 use super::image::Image;
-use super::rows::{Rows, Taker};
+use super::rows::{Rows, Taker, shrunk};
 use crate::document::{Background, Light};
 use crate::math::{linear_from_srgb, srgb_from_linear};
 use crate::render::device::error::RenderError;
-use std::cell::OnceCell;
-use std::rc::Rc;
 
 /// Pixels along the longer side of the small picture at most: the shadow is soft, a larger one shows no more.
 const SMALL_PX: u32 = 512;
 /// Samples per pixel of the small picture.
-pub const SHADOW_SAMPLES: u32 = 4;
+pub(super) const SHADOW_SAMPLES: u32 = 4;
 /// How much light the shadow takes at most, 0 to 1.
 const DARK: f32 = 0.5;
 /// How far the shadow is soft, of the picture's shorter side; and how far behind the object the paper lies.
@@ -21,7 +19,7 @@ const BEHIND: f32 = 0.025;
 
 /// A shadow on paper, for a picture of one size.
 #[derive(Clone, Debug)]
-pub struct PaperShadow {
+pub(super) struct PaperShadow {
     /// Width and height of the small picture, pixels.
     size: [usize; 2],
     /// How much light is taken, 0 to [`DARK`]. Rows from the top.
@@ -36,14 +34,18 @@ pub struct PaperShadow {
 
 impl PaperShadow {
     /// Size of the small picture that the shadow for a picture of this size is made of, pixels.
-    pub fn small_size(size_px: [u32; 2]) -> [u32; 2] {
-        let factor = (SMALL_PX as f32 / size_px[0].max(size_px[1]).max(1) as f32).min(1.0);
-        size_px.map(|side| ((side as f32 * factor).round() as u32).max(1))
+    pub(super) fn small_size(size_px: [u32; 2]) -> [u32; 2] {
+        shrunk(size_px, SMALL_PX)
     }
 
     /// The shadow for a picture of `size_px` on a background, of a small picture without one that has
     /// [`PaperShadow::small_size`].
-    pub fn new(small: &Image, size_px: [u32; 2], background: Background, light: &Light) -> Self {
+    pub(super) fn new(
+        small: &Image,
+        size_px: [u32; 2],
+        background: Background,
+        light: &Light,
+    ) -> Self {
         let size = small.size.map(|side| side as usize);
         let shorter = size[0].min(size[1]) as f32;
         // Away from the light, which the paper faces: y runs upwards there.
@@ -157,13 +159,12 @@ fn smooth_lines(
     }
 }
 
-/// Rows that get the paper and its shadow, once these are known, before somebody takes them.
+/// Rows that get the paper and its shadow before somebody takes them.
 #[derive(Debug)]
-pub struct OnPaper<T> {
+pub(super) struct OnPaper<T> {
     /// Who takes them.
     pub taker: T,
-    /// The shadow. Without one the rows stay as they are drawn.
-    pub shadow: Rc<OnceCell<PaperShadow>>,
+    pub shadow: PaperShadow,
 }
 
 impl<T: Taker> Taker for OnPaper<T> {
@@ -172,9 +173,7 @@ impl<T: Taker> Taker for OnPaper<T> {
     }
 
     fn take(&mut self, mut rows: Rows) -> Result<(), RenderError> {
-        if let Some(shadow) = self.shadow.get() {
-            shadow.lay_under(&mut rows);
-        }
+        self.shadow.lay_under(&mut rows);
         self.taker.take(rows)
     }
 }

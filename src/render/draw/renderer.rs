@@ -3,12 +3,11 @@ use super::follow::PendingPlaces;
 use super::identify::Sighting;
 use super::image::{Image, read_picture};
 use super::pace::{Pace, Work};
-use super::paper_shadow::PaperShadow;
 use super::passes::Passes;
 use super::pick::{PendingDepths, PendingPick, PickScene};
 use super::quality::{WholePicture, least_scale, samples, steady_scale};
 use super::raycast::sample_weight;
-use super::rows::Taker;
+use super::rows::{PictureSpec, Taker};
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
@@ -597,38 +596,17 @@ impl Renderer {
     pub fn render_rows<T: Taker + 'static>(
         &self,
         illustration: &Illustration,
-        size_px: [u32; 2],
-        samples: u32,
+        spec: PictureSpec,
         taker: T,
     ) -> impl Future<Output = Result<T, RenderError>> + 'static + use<T> {
         let resources = self.resources.clone();
         let started = self.studio.as_ref().map(|studio| {
             let studio = studio.clone().with_resources(resources);
-            studio.render_rows(illustration, size_px, samples, None, taker)
+            studio.render_rows(illustration, spec, None, taker)
         });
         async move {
             match started {
                 Some(picture) => picture.await,
-                None => Err(RenderError::NoSubject),
-            }
-        }
-    }
-
-    /// The shadow that the object of a picture throws on the paper behind it: see [`Studio::paper_shadow`].
-    pub fn paper_shadow(
-        &self,
-        illustration: &Illustration,
-        size_px: [u32; 2],
-    ) -> impl Future<Output = Result<PaperShadow, RenderError>> + 'static + use<> {
-        let studio = self.studio.clone();
-        let resources = self.resources.clone();
-        let started = studio.map(|studio| {
-            let studio = studio.with_resources(resources);
-            studio.paper_shadow(illustration, size_px)
-        });
-        async move {
-            match started {
-                Some(shadow) => shadow.await,
                 None => Err(RenderError::NoSubject),
             }
         }

@@ -20,6 +20,23 @@ pub(super) fn band_rows(width: u32) -> u32 {
     (BAND_PX / width.max(1) / TILE).max(1) * TILE
 }
 
+/// A size of the same shape whose sides have so many pixels at most, and one at least.
+pub fn shrunk(size: [u32; 2], most: u32) -> [u32; 2] {
+    let factor = (f64::from(most) / f64::from(size[0].max(size[1]).max(1))).min(1.0);
+    size.map(|side| ((f64::from(side) * factor).round() as u32).max(1))
+}
+
+/// How a finished picture is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PictureSpec {
+    /// Width and height, pixels.
+    pub size_px: [u32; 2],
+    /// Samples per pixel, 1 at least.
+    pub samples: u32,
+    /// The object throws a soft shadow on its background, or on nothing where there is none.
+    pub has_shadow: bool,
+}
+
 /// Rows of a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rows {

@@ -3,12 +3,12 @@
 use super::identify::{Sighting, identify};
 use super::image::Image;
 use super::object::object_samples;
-use super::paper_shadow::{PaperShadow, SHADOW_SAMPLES};
+use super::paper_shadow::{OnPaper, PaperShadow, SHADOW_SAMPLES};
 use super::passes::Passes;
 use super::pick::{Pick, PickScene, RayEvent};
 use super::picture::PictureJob;
 use super::probe::Sample;
-use super::rows::{Taker, band_rows};
+use super::rows::{PictureSpec, Taker, band_rows};
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use crate::data::{Resources, Segment, Subject};
 use crate::document::{Background, Illustration, Light};
@@ -150,48 +150,49 @@ impl Studio {
 
     /// Draws one picture from the top and hands its rows over as they are done; gives the taker back. No more than some
     /// rows are in memory at once, `rows_at_once` or as many as are drawn well. The pixels are those of
-    /// [`Studio::render_image`], to the bit. The future owns what it needs.
+    /// [`Studio::render_image`], to the bit; a shadow is made of a small picture that is drawn first. The future owns
+    /// what it needs.
     ///
     /// # Errors
     /// As [`Studio::render_image`], and what the taker returns.
     pub fn render_rows<T: Taker + 'static>(
         &self,
         illustration: &Illustration,
-        size_px: [u32; 2],
-        samples: u32,
+        spec: PictureSpec,
         rows_at_once: Option<u32>,
         mut taker: T,
     ) -> impl Future<Output = Result<T, RenderError>> + 'static + use<T> {
-        let job = self.picture(illustration, size_px);
-        async move {
-            let mut job = job?;
-            job.band_rows = rows_at_once.unwrap_or(job.band_rows);
-            job.draw_rows(samples.max(1), &mut taker).await?;
-            Ok(taker)
-        }
-    }
-
-    /// The soft shadow that the object of a picture of this size throws on a paper of the picture's background, from a
-    /// small picture; for [`OnPaper`](super::paper_shadow::OnPaper), over a picture that is drawn without a background.
-    /// The future owns what it needs.
-    ///
-    /// # Errors
-    /// As [`Studio::render_image`].
-    pub fn paper_shadow(
-        &self,
-        illustration: &Illustration,
-        size_px: [u32; 2],
-    ) -> impl Future<Output = Result<PaperShadow, RenderError>> + 'static + use<> {
+        let PictureSpec {
+            size_px,
+            samples,
+            has_shadow,
+        } = spec;
         let look = &illustration.look;
         let (background, light) = (
             look.background,
             look.light.unwrap_or(Light::DOCUMENT_DEFAULT),
         );
-        let mut clear = illustration.clone();
-        clear.look.background = Background::None;
-        let small_px = PaperShadow::small_size(size_px);
-        let small = self.render_image(&clear, small_px, SHADOW_SAMPLES);
-        async move { Ok(PaperShadow::new(&small.await?, size_px, background, &light)) }
+        let (job, small) = if has_shadow {
+            let mut clear = illustration.clone();
+            clear.look.background = Background::None;
+            let small = self.render_image(&clear, PaperShadow::small_size(size_px), SHADOW_SAMPLES);
+            (self.picture(&clear, size_px), Some(small))
+        } else {
+            (self.picture(illustration, size_px), None)
+        };
+        async move {
+            let mut job = job?;
+            job.band_rows = rows_at_once.unwrap_or(job.band_rows);
+            let samples = samples.max(1);
+            let Some(small) = small else {
+                job.draw_rows(samples, &mut taker).await?;
+                return Ok(taker);
+            };
+            let shadow = PaperShadow::new(&small.await?, size_px, background, &light);
+            let mut on_paper = OnPaper { taker, shadow };
+            job.draw_rows(samples, &mut on_paper).await?;
+            Ok(on_paper.taker)
+        }
     }
 
     /// Draws one picture from the baked map, with so many texels along its longest side, as the viewer does

@@ -1,6 +1,5 @@
 //! `fabrica render`: one picture, drawn without a window.
 
-use std::cell::OnceCell;
 use std::io::{self, Write as _};
 use std::path::Path;
 use std::rc::Rc;
@@ -20,7 +19,9 @@ use crate::app::Lettering;
 use crate::describe::{Lang, Measured, Sight, describe};
 use crate::document::{Background, Illustration};
 use crate::math::borders::borders;
-use crate::render::{FileInMemory, OnPaper, PngRows, RenderError, Rows, SIGHT_PX, Studio, Taker};
+use crate::render::{
+    FileInMemory, PictureSpec, PngRows, RenderError, Rows, SIGHT_PX, Studio, Taker, shrunk,
+};
 
 /// Dots per inch that a file may say.
 const DPI_RANGE: [f32; 2] = [1.0, 9600.0];
@@ -234,31 +235,18 @@ impl Job<'_> {
             lettering,
             progress: Progress::start(),
         };
-        let mut shown = illustration.clone();
-        let shadow = OnceCell::new();
-        if self.paper.shadow {
-            let cast = self.studio.paper_shadow(&shown, size);
-            // Nobody else sets it.
-            let _was_empty = shadow.set(pollster::block_on(cast)?);
-            shown.look.background = Background::None;
-        }
-        let print = OnPaper {
-            taker: print,
-            shadow: Rc::new(shadow),
+        let spec = PictureSpec {
+            size_px: size,
+            samples,
+            has_shadow: self.paper.shadow,
         };
-        let drawing = self.studio.render_rows(&shown, size, samples, None, print);
-        pollster::block_on(drawing)?.taker.png.finish()
+        let drawing = self.studio.render_rows(illustration, spec, None, print);
+        pollster::block_on(drawing)?.png.finish()
     }
 }
 
 fn io_error(source: io::Error) -> RenderError {
     png::EncodingError::from(source).into()
-}
-
-/// A size of the same shape whose sides have so many pixels at most.
-fn shrunk(size: [u32; 2], most: u32) -> [u32; 2] {
-    let factor = (f64::from(most) / f64::from(size[0].max(size[1]))).min(1.0);
-    size.map(|side| ((f64::from(side) * factor).round() as u32).max(1))
 }
 
 /// A picture on its way into a PNG file.
