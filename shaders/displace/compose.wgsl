@@ -21,7 +21,7 @@
 //   displace/dilate.wgsl displace/peel.wgsl displace/flap.wgsl displace/split.wgsl displace/slices.wgsl
 //   displace/retractor.wgsl displace/cutquad.wgsl displace/peeler.wgsl displace/pull.wgsl displace/cut.wgsl
 //   displace/hole.wgsl displace/lens.wgsl displace/move.wgsl displace/rbf.wgsl displace/field.wgsl
-//   displace/crack.wgsl displace/carve.wgsl
+//   displace/crack.wgsl displace/carve.wgsl displace/sweep.wgsl
 
 /// Pipeline constant. Bit k is set if the document has a template of kind k; bit 0 is set if a template lies along a
 /// curve.
@@ -159,6 +159,11 @@ fn displace(kind: u32, q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -
         case KIND_CARVE: {
             if (drawn_kinds & DRAWN_CARVE) != 0u {
                 d = displace_carve(q, size, p0, p1, held);
+            }
+        }
+        case KIND_SWEEP: {
+            if (drawn_kinds & DRAWN_SWEEP) != 0u {
+                d = displace_sweep(q, size, p0, p1, held);
             }
         }
         default: {}

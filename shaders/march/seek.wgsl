@@ -87,7 +87,9 @@ fn leap(ray: Ray, walk: ptr<function, Walk>) {
         let reach = max(f32(content.y), 1.0);
         let plane = select(cell + 1.0 - reach, cell + reach, ray.dir > vec3f(0.0));
         let exits = (grid.origin_min.xyz + plane * grid.cell_size.xyz - ray.origin) * ray.inverse_dir;
-        (*walk).t_cell = min(exits.x, min(exits.y, exits.z)) + frame.step * 0.01;
+        // Ahead of the sample: a ray almost along a face of cells may be past the face and, by rounding, still in the
+        // cell; the march would not go on.
+        (*walk).t_cell = max(min(exits.x, min(exits.y, exits.z)), (*walk).t) + frame.step * 0.01;
         (*walk).mask = content.x;
         if content.y == 0u || (*walk).before.opacity > VISIBLE {
             break;

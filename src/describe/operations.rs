@@ -321,6 +321,16 @@ fn doing(template: &PlacedTemplate) -> Option<(Line, Option<Extent>)> {
                 "应用了位移场，强度 {0}",
             ],
         ),
+        K::Sweep if !has_moves(template) => None,
+        K::Sweep => part(
+            number("progress"),
+            [
+                "Tools push and pull the tissue along, {0} of their way",
+                "Werkzeuge schieben und ziehen das Gewebe mit, {0} ihres Weges",
+                "Unos instrumentos empujan y arrastran el tejido, {0} de su recorrido",
+                "器械推拉组织，行程 {0}",
+            ],
+        ),
         K::Carve if template.carves_by().is_none() => None,
         K::Carve => {
             let line = [
@@ -420,6 +430,7 @@ fn has_moves(template: &PlacedTemplate) -> bool {
             let mut points = points.points.iter();
             points.any(|point| point.shift.length() > NOTHING)
         }
+        TemplateData::Tools(tools) => tools.acting().any(|tool| tool.path.len() > 1),
         _ => false,
     }
 }

@@ -48,6 +48,7 @@ pub fn without_formula(path: &str, text: &str, drawn_kinds: u32) -> Option<Strin
         Holds::Points => (", held: u32", None),
         Holds::File => (", held: u32", Some("fields")),
         Holds::Object => (", held: u32", Some("carvers")),
+        Holds::Tools => (", held: u32", Some("sweeps")),
     };
     let touched = texture.map_or_else(String::new, |texture| {
         format!(

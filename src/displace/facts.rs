@@ -2,6 +2,7 @@
 
 use super::points::{ControlPoint, ControlPoints};
 use super::spec::{MAX_PARAM_FLOATS, ParamValue, TemplateSpec};
+use super::tools::SweepTools;
 use crate::math::Aabb;
 use glam::{Vec2, Vec3};
 
@@ -135,6 +136,8 @@ pub struct Given {
     pub samples: Option<Samples>,
     /// The object of a `carve`, once it has been read.
     pub tool: Option<Tool>,
+    /// The tools of a `sweep`.
+    pub tools: Option<SweepTools>,
 }
 
 /// What bounds the object of a `carve`.
@@ -189,6 +192,8 @@ pub enum Holds {
     Points,
     /// A file with the samples of a displacement field. Such a template cannot be mirrored.
     File,
+    /// Tools and their paths.
+    Tools,
     /// The name of an object of the scene, which gives the template its place. Such a template cannot be mirrored.
     Object,
 }

@@ -4,7 +4,7 @@ use super::facts::{Facts, Holds};
 use super::spec::TemplateSpec;
 use super::{
     bend, carve, crack, cut, cutquad, dilate, field, flap, hole, lens, r#move, peel, peeler, poke,
-    pull, rbf, retractor, slices, split, squeeze, twist, wave,
+    pull, rbf, retractor, slices, split, squeeze, sweep, twist, wave,
 };
 
 macro_rules! kinds {
@@ -55,6 +55,7 @@ kinds! {
     Field = 20 in field,
     Crack = 21 in crack,
     Carve = 22 in carve,
+    Sweep = 23 in sweep,
 }
 
 impl TemplateKind {

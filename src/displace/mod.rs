@@ -72,6 +72,9 @@ mod slices;
 mod spec;
 mod split;
 mod squeeze;
+mod sweep;
+mod sweeping;
+mod tools;
 mod twist;
 mod wave;
 
@@ -86,3 +89,8 @@ pub use kind::TemplateKind;
 pub use noise::noise;
 pub use points::{ControlPoint, ControlPoints};
 pub use spec::{MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateSpec};
+pub(crate) use sweeping::Sweeping;
+pub use tools::{
+    MAX_IMAGES, MAX_KEYS, MAX_PIECES, MAX_SWEEP_STEPS, MAX_TOOL_POINTS, MAX_TOOLS, PathKey,
+    SweepTool, SweepTools, ToolShape,
+};

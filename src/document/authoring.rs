@@ -126,6 +126,12 @@ pub fn mirror(template: &PlacedTemplate, plane: Plane, as_copy: bool) -> Vec<Edi
             points,
         });
     }
+    if let TemplateData::Tools(tools) = &template.data {
+        edits.push(Edit::SetTools {
+            template: index,
+            tools: tools.mirrored(),
+        });
+    }
     let specs = template.kind.spec().params;
     for ((spec, old), new) in specs.iter().zip(&template.params).zip(params) {
         if *old != new {

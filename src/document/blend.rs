@@ -3,7 +3,7 @@
 use super::model::{
     Align, Background, Curve, Ghost, Hatch, Illustration, Layer, Light, Outline, ParamKind,
     ParamValue, PlacedTemplate, SceneObject, SegmentLook, Stipple, Style, SurfaceChange,
-    SurfaceLook, TemplateData, Tone, Transfer, TransferPoint, Window, join_objects,
+    SurfaceLook, TemplateData, Tone, Transfer, TransferPoint, Window, join_objects, limit_sweeps,
 };
 use super::pose::blend_figure;
 use crate::math::mix_srgb;
@@ -53,6 +53,7 @@ pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illu
     }
     // What carves is where its object is. Which of them do nothing was told when the document was read.
     let _told = join_objects(&mut out.templates, &out.objects);
+    let _told = limit_sweeps(&mut out.templates);
     if let (Some(a), Some(b)) = (start.look.tint, end.look.tint) {
         out.look.tint = Some(mix(a, b));
     }
@@ -108,6 +109,9 @@ fn blend_template(start: &PlacedTemplate, out: &mut PlacedTemplate, part: f32) {
             to.at = from.at.lerp(to.at, part);
             to.shift = from.shift.lerp(to.shift, part);
         }
+    }
+    if let (TemplateData::Tools(a), TemplateData::Tools(b)) = (&start.data, &mut out.data) {
+        *b = b.blended(a, part);
     }
     match (&start.align, &mut out.align) {
         (

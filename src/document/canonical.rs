@@ -110,6 +110,7 @@ fn is_default(value: &Value, kind: Kind) -> bool {
         Kind::Vector { default, .. } => is_numbers(value, &default.map(|v| v as f32)),
         Kind::Rotation => is_numbers(value, &IDENTITY),
         Kind::Pairs { .. }
+        | Kind::Triples { .. }
         | Kind::Points { .. }
         | Kind::Vectors { .. }
         | Kind::Path { .. }

@@ -40,6 +40,7 @@ impl Edit {
             Self::SetControlPoints { template, .. } => {
                 format!("Change points of {}", name_of(template))
             }
+            Self::SetTools { template, .. } => format!("Change tools of {}", name_of(template)),
             Self::SetPlacement {
                 template,
                 placement,

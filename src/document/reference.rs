@@ -48,6 +48,7 @@ fn object(page: &mut String, at: &str, holds: Option<Holds>, keys: &[Key]) {
         Some(Holds::Points) => " of an `rbf`, besides its parameters",
         Some(Holds::File) => " of a `field`, besides its parameters",
         Some(Holds::Object) => " of a `carve`, besides its parameters",
+        Some(Holds::Tools) => " of a `sweep`, besides its parameters",
         Some(Holds::Parameters) | None => "",
     };
     _ = write!(
@@ -133,6 +134,10 @@ fn values(kind: Kind) -> String {
         Kind::Pairs { most } => {
             format!("list of pairs of numbers, of which the first {most} are drawn")
         }
+        Kind::Triples { most, max } => format!(
+            "list of entries of three numbers, each {}, of which the first {most} are drawn",
+            range(-max, max)
+        ),
         Kind::Vectors { most, max, .. } => {
             format!(
                 "list of at most {most} entries of three numbers, each {}",

@@ -24,7 +24,7 @@ use super::model::{
     Style, StylePreset, SurfaceLook, TemplateKind, TemplateMode, Tone,
 };
 use super::text::{json, pointer};
-use crate::displace::Holds;
+use crate::displace::{Holds, MAX_KEYS, MAX_TOOL_POINTS, MAX_TOOLS, ToolShape};
 use crate::math::{Placement, plain_f64};
 use serde_json::{Map, Value, json};
 use std::collections::HashMap;
@@ -186,6 +186,13 @@ pub(crate) enum Kind {
     Pairs {
         /// Most pairs that are drawn.
         most: usize,
+    },
+    /// A list of three numbers each; more than `most` are not drawn.
+    Triples {
+        /// Most entries that are drawn.
+        most: usize,
+        /// Greatest absolute value of a number.
+        max: f64,
     },
     /// A list of three numbers each; more than `most` are refused.
     Vectors {
@@ -641,6 +648,37 @@ pub(crate) const CARVE: &[Key] = &[
     key(BY_NAME, "object", Kind::Text, "name of the entry of `objects` by whose surface is cut; its place is the template's place"),
 ];
 
+/// Keys in `params` of a `sweep`, besides its parameters.
+#[rustfmt::skip]
+pub(crate) const SWEEP: &[Key] = &[
+    key(BY_NAME, "mirror", Kind::Text, "letters of x, y and z: every tool has an image beyond the middle plane of the box across that axis, which acts at the same time"),
+    key(BY_NAME, "tools", Kind::FirstOf { of: TOOL, most: MAX_TOOLS }, "tools that act at once; with their images at most eight are drawn. Without this key there is one, with all its keys at their defaults").optional().unmade(),
+];
+
+/// Keys of a tool of a `sweep`. Its lengths are fractions of the shortest side of the box.
+#[rustfmt::skip]
+pub(crate) const TOOL: &[Key] = &[
+    key(BY_NAME, "shape", Kind::Name(&ToolShape::NAMES), "its form. A capsule lies along z, a torus about z"),
+    key(BY_NAME, "radius", number(0.15, 0.0, 2.0), "of a ball (0.15 without this key, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)").optional(),
+    key(BY_NAME, "radii", Kind::Vector { default: [0.2, 0.15, 0.1], min: 0.005, max: 2.0 }, "half axes of an ellipsoid").unmade(),
+    key(BY_NAME, "length", number(0.4, 0.0, 4.0), "of the straight part of a capsule"),
+    key(BY_NAME, "half", Kind::Vector { default: [0.15; 3], min: 0.005, max: 2.0 }, "half sides of a box").unmade(),
+    key(BY_NAME, "round", number(0.02, 0.0, 2.0), "radius of the edges of a box, at most its least half side"),
+    key(BY_NAME, "ring", number(0.2, 0.005, 2.0), "radius of a torus, to the middle of its tube"),
+    key(BY_NAME, "points", Kind::Triples { most: MAX_TOOL_POINTS, max: 4.0 }, "of a curve: two or more places with straight pieces between them. Without this key `[[0, 0, -0.2], [0, 0, 0.2]]`").optional().unmade(),
+    key(BY_NAME, "coat", number(0.25, 0.01, 2.0), "width of the coating in which its motion fades"),
+    key(BY_NAME, "spline", Kind::Flag { default: false }, "true: places are joined by a Catmull-Rom curve, each span of four screws; false: one screw from key to key"),
+    key(BY_NAME, "path", Kind::FirstOf { of: PATH_KEY, most: MAX_KEYS }, "its poses, each an object with these keys or its place alone; with one it stands still. Without this key `[[0.5, 0.5, 1.15], [0.5, 0.5, 0.65]]`").optional().unmade(),
+];
+
+/// Keys of a pose of a tool.
+#[rustfmt::skip]
+pub(crate) const PATH_KEY: &[Key] = &[
+    key(320, "at", Kind::Vector { default: [0.5; 3], min: -MAX_PAIR, max: MAX_PAIR }, "place of the tool's origin, template space").stays().unmade(),
+    key(330, "rotate", Kind::Rotation, "turn about its origin").unmade(),
+    key(632, "scale", number(1.0, 0.05, 20.0), "scale about its origin"),
+];
+
 /// Keys of `/look`.
 #[rustfmt::skip]
 pub(crate) const LOOK: &[Key] = &[
@@ -810,6 +848,7 @@ pub(crate) fn params_of(kind: Option<TemplateKind>) -> &'static [Key] {
         Some(Holds::Points) => RBF,
         Some(Holds::File) => FIELD,
         Some(Holds::Object) => CARVE,
+        Some(Holds::Tools) => SWEEP,
         Some(Holds::Parameters) | None => &[],
     }
 }
@@ -843,6 +882,7 @@ impl Kind {
             Self::List { .. }
             | Self::FirstOf { .. }
             | Self::Pairs { .. }
+            | Self::Triples { .. }
             | Self::Points { .. }
             | Self::Vectors { .. }
             | Self::Path { .. }
@@ -1107,6 +1147,7 @@ pub(crate) fn visit(visit: &mut impl FnMut(&str, Option<Holds>, &'static [Key]))
                     inside(&at, Some(Holds::Points), visit, RBF);
                     inside(&at, Some(Holds::File), visit, FIELD);
                     inside(&at, Some(Holds::Object), visit, CARVE);
+                    inside(&at, Some(Holds::Tools), visit, SWEEP);
                 }
                 _ => {}
             }

@@ -9,6 +9,7 @@ mod linear;
 mod number;
 mod placement;
 mod polyline;
+mod similarity;
 pub mod space;
 
 pub use aabb::Aabb;
@@ -18,3 +19,4 @@ pub(crate) use linear::Solver;
 pub use number::{hex, plain_f64, round_to};
 pub use placement::Placement;
 pub use polyline::{simplified, winding};
+pub use similarity::{Screw, Similarity, smooth_path};

@@ -1,7 +1,7 @@
 use crate::displace::Holds;
 use crate::document::{
     Background, Camera, ControlPoints, Document, DocumentError, Edit, ObjectPlacement, ObjectRef,
-    ParamValue, PlacedTemplate, SubjectRef, TemplateData, TemplateKind,
+    ParamValue, PlacedTemplate, SubjectRef, SweepTools, TemplateData, TemplateKind,
 };
 use crate::math::Placement;
 use glam::{Quat, Vec3};
@@ -49,6 +49,7 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
             name: TOOL.to_owned(),
             found: None,
         }),
+        Holds::Tools => TemplateData::Tools(SweepTools::default()),
         Holds::Parameters | Holds::File => TemplateData::None,
     };
     let placement = Placement {

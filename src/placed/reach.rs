@@ -1,5 +1,7 @@
 use crate::data::{Carver, FieldSamples, Resources};
-use crate::displace::{Given, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples, Tool};
+use crate::displace::{
+    Given, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples, Sweeping, Tool,
+};
 use crate::document::{PlacedTemplate, TemplateData};
 use glam::Vec3;
 
@@ -21,9 +23,7 @@ pub(super) fn given(
         shift: held.shift,
     });
     Given {
-        size: template
-            .bent()
-            .map_or(template.placement.size, |bent| bent.size()),
+        size: acting_size(template),
         p: std::array::from_fn(|i| floats[i]),
         points,
         samples,
@@ -32,6 +32,10 @@ pub(super) fn given(
             room: carver.room,
             cell: carver.cell,
         }),
+        tools: match &template.data {
+            TemplateData::Tools(held) => Some(held.clone()),
+            _ => None,
+        },
     }
 }
 
@@ -46,6 +50,36 @@ pub fn reach(template: &PlacedTemplate, resources: &Resources) -> Reach {
 /// (shaders/displace/rbf.wgsl).
 pub fn solved_points(template: &PlacedTemplate) -> Vec<[f32; 4]> {
     Interpolant::of(&given(template, None, None)).pack()
+}
+
+/// Sides of the box that a template acts in, subject units; along a curve, of the box laid along it.
+fn acting_size(template: &PlacedTemplate) -> Vec3 {
+    let bent = template.bent();
+    bent.map_or(template.placement.size, |bent| bent.size())
+}
+
+/// What the shader of a `sweep` that acts ([`PlacedTemplate::acting`]) reads besides its parameters, for steps that
+/// begin at texel `first` of their texture; `first` is moved behind them (shaders/displace/sweep.wgsl).
+pub fn sweep_rows(template: &PlacedTemplate, first: &mut usize) -> Vec<[f32; 4]> {
+    let given = given(template, None, None);
+    Sweeping::of(&given).rows(given.p[0], first)
+}
+
+/// The steps of a `sweep` as its shader reads them; none of other kinds.
+pub fn sweep_texels(template: &PlacedTemplate) -> Vec<[f32; 4]> {
+    match &template.data {
+        TemplateData::Tools(tools) => Sweeping::new(tools, acting_size(template)).texels(),
+        _ => Vec::new(),
+    }
+}
+
+/// Width that a texture of the map of a `sweep` has to show in eight texels, subject units; none of other kinds. It is
+/// the smallest coating, or less of one in which tissue is sheared.
+pub fn least_coat(template: &PlacedTemplate) -> Option<f32> {
+    match &template.data {
+        TemplateData::Tools(tools) => Sweeping::new(tools, acting_size(template)).least_width(),
+        _ => None,
+    }
 }
 
 /// The control points of an `rbf` that its map misses as it acts ([`PlacedTemplate::acting`]), because another point

@@ -3,6 +3,7 @@
 use crate::data::{Resources, Sheet};
 use crate::document::{Illustration, Style};
 use crate::math::Aabb;
+use crate::placed::least_coat;
 use crate::render::device::bindings::entry;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
@@ -27,6 +28,12 @@ use crate::render::subject::textures::SubjectTextures;
 
 /// Kinds of templates from which on the baked map is used: one formula or two are as fast as a texture.
 const LEAST_BAKED_KINDS: u32 = 3;
+/// Texels that the smallest coating of a sweep has in the baked map at least (spec/sweepers.md, A.3): with fewer,
+/// tissue is drawn more than a texel beside its place.
+const TEXELS_A_COAT: f32 = 8.0;
+/// Texels along the longest side that are made for the sake of a coating at most: 56 MiB. Thinner ones are drawn by
+/// their formula while things move too.
+const MOST_COAT_TEXELS: u32 = 192;
 
 /// An illustration on the GPU, for one subject. Brought up to date after each edit of the document.
 ///
@@ -57,6 +64,8 @@ pub(crate) struct Scene {
     grid: Option<SkipGrid>,
     /// Bound where there is no skip grid.
     no_grid: (wgpu::Buffer, wgpu::TextureView),
+    /// The smallest coating of the sweeps that act, or less of one that is sheared, subject units.
+    least_coat: Option<f32>,
     baked: Option<BakedTexture>,
     baked_from: MadeFrom<3>,
     bound_from: MadeFrom<4>,
@@ -142,6 +151,7 @@ impl Scene {
             sheet: None,
             grid,
             no_grid,
+            least_coat: None,
             baked: None,
             baked_from: MadeFrom::default(),
             bound_from: MadeFrom::default(),
@@ -171,6 +181,9 @@ impl Scene {
             None => illustration,
         };
         self.inputs.update(illustration, resources, subject);
+        let acting = illustration.templates.iter().map(|t| resources.acting(t));
+        let coats = acting.filter(|t| t.enabled).filter_map(|t| least_coat(&t));
+        self.least_coat = coats.reduce(f32::min);
         let has_other_sheet = self.update_sheet(gpu, subject, resources);
         self.has_segments = subject.info.has_segments;
         self.has_textures = subject.texture_bytes() > 0;
@@ -332,8 +345,19 @@ impl Scene {
     /// True where drawing the map from a texture may be faster: it holds several formulas, and no tissue is kept,
     /// which the texture knows nothing of.
     pub(crate) fn may_bake(&self) -> bool {
-        self.inputs.templates.get().drawn_kinds().count_ones() >= LEAST_BAKED_KINDS
+        let kinds = self.inputs.templates.get().drawn_kinds().count_ones();
+        (kinds >= LEAST_BAKED_KINDS || self.least_coat.is_some())
+            && self
+                .texels_for_coat()
+                .is_none_or(|texels| texels <= MOST_COAT_TEXELS)
             && !self.key().keeps_tissue()
+    }
+
+    /// Texels along the longest side that the smallest coating asks for; `None` if nothing is swept.
+    fn texels_for_coat(&self) -> Option<u32> {
+        let longest = self.bounds().size().max_element();
+        let texels = TEXELS_A_COAT * longest / self.least_coat?;
+        Some(texels.ceil().clamp(1.0, 1e6) as u32)
     }
 
     /// Bakes about so many texels more of the map, from the start (with so many texels along the longest side, or as
@@ -348,9 +372,10 @@ impl Scene {
         most_texels: u32,
     ) -> u32 {
         let bounds = self.bounds();
-        let baked = self
-            .baked
-            .get_or_insert_with(|| BakedTexture::new(gpu, layouts, bounds, texels_along));
+        let least = self.texels_for_coat();
+        let baked = self.baked.get_or_insert_with(|| {
+            BakedTexture::new(gpu, layouts, bounds, texels_along, least.unwrap_or(0))
+        });
         let drawn_kinds = self.inputs.templates.get().drawn_kinds();
         baked.advance(
             gpu,
@@ -400,7 +425,7 @@ struct Bound<'a> {
 impl Bound<'_> {
     fn group(&self, gpu: &Gpu, layouts: &Layouts) -> wgpu::BindGroup {
         let view = wgpu::BindingResource::TextureView;
-        let [fields, carvers] = self.held.entries();
+        let [fields, carvers, sweeps] = self.held.entries();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("scene"),
             layout: &layouts.scene,
@@ -420,6 +445,7 @@ impl Bound<'_> {
                 entry(12, view(&self.objects.view)),
                 carvers,
                 entry(14, view(&self.kept_textures.shares.view)),
+                sweeps,
             ],
         })
     }

@@ -4,7 +4,7 @@ use super::*;
 use fabrica::app::Shipped;
 use fabrica::document::Illustration;
 
-const EXAMPLES: usize = 39;
+const EXAMPLES: usize = 43;
 
 /// A document with something placed, so that it counts as work.
 const OWN: &str = r#"{ "fabrica": 1, "title": "My work", "subject": { "builtin": "cube" }, "templates": [ { "kind": "hole" } ] }"#;

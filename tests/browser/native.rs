@@ -74,8 +74,8 @@ fn kinds() -> Vec<Case> {
     cases
 }
 
-/// What templates and looks have besides: control points, drawn lines, curves, kept tissue, constraints, bodies, and
-/// opacity by gradient with its correction at cuts.
+/// What templates and looks have besides: control points, tools, drawn lines, curves, kept tissue, constraints, bodies,
+/// and opacity by gradient with its correction at cuts.
 fn besides() -> Vec<Case> {
     let above = json!({ "rotate": [0.3, 0.2, 0.1, 0.92] });
     vec![
@@ -97,6 +97,22 @@ fn besides() -> Vec<Case> {
                     "edge": 0.2,
                     "cut": [[0.45, 0], [0.5, 1]],
                 } }],
+                "camera": above,
+            }),
+        ),
+        case(
+            "sweep",
+            &[
+                "/templates/0/params/mirror",
+                "/templates/0/params/tools/0",
+                "/templates/0/params/tools/1",
+            ],
+            json!({
+                "subject": { "builtin": "cube" },
+                "templates": [{ "kind": "sweep", "at": [0, 0, 0.2], "size": [0.8, 0.8, 0.8], "params": { "mirror": "x", "tools": [
+                    { "radius": 0.12, "path": [[0.25, 0.5, 1.1], [0.3, 0.5, 0.75]] },
+                    { "shape": "ellipsoid", "path": [[0.7, 0.15, 0.6], { "at": [0.7, 0.1, 1.0], "rotate": [0, 0, 0.6, 0.8] }] },
+                ] } }],
                 "camera": above,
             }),
         ),

@@ -68,7 +68,7 @@ impl<'a> Labels<'a> {
 
     /// True if a place lies within the smooth surface about these labels, if all places within a fiftieth of a voxel
     /// agree: a texture is read at one of 256 places between two voxels.
-    fn firmly_kept(&self, rest: DVec3, kept: &[u8]) -> Option<bool> {
+    pub(crate) fn firmly_kept(&self, rest: DVec3, kept: &[u8]) -> Option<bool> {
         let kept = KeptLabels::new(|label| u8::from(kept.contains(&label)));
         let voxel = self.voxel_from_rest.transform_point3(rest);
         let is_in = |at| kept.sets_at(self.volume, at) != 0;

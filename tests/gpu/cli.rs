@@ -517,7 +517,7 @@ fn the_catalogue_is_listed() {
     let catalogue: Value =
         serde_json::from_str(&fabrica(&["templates", "--json"]).ok().out).expect("JSON");
     let kinds = catalogue.as_array().expect("a list");
-    assert_eq!(kinds.len(), 22);
+    assert_eq!(kinds.len(), 23);
     let param = |kind: &str, name: &str| {
         let kind = kinds.iter().find(|k| k["kind"] == kind).expect("the kind");
         let params = kind["params"].as_array().expect("params");
@@ -538,6 +538,27 @@ fn the_catalogue_is_listed() {
     );
     assert_eq!(param("pull", "offset")["default"], json!([0.0, 0.0, 0.25]));
     assert_eq!(param("split", "wedge")["default"], json!(true));
+    // A list says what is in it: every key that the reference has.
+    let tools = param("sweep", "tools");
+    assert_eq!((&tools["type"], &tools["max"]), (&json!("list"), &json!(4)));
+    let reference = include_str!("../../src/document/reference.md");
+    let (_, rows) = reference
+        .split_once("`/templates/*/params/tools/*`\n")
+        .expect("its section");
+    let rows = rows.split("\n## ").next().unwrap_or_default();
+    let mut wanted: Vec<&str> = rows
+        .lines()
+        .filter_map(|row| row.strip_prefix("| `")?.split('`').next())
+        .collect();
+    let mut listed: Vec<&str> = tools["of"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(|key| key["name"].as_str())
+        .collect();
+    wanted.sort_unstable();
+    listed.sort_unstable();
+    assert_eq!(listed, wanted);
     let text = fabrica(&["templates"]).ok().out;
     for kind in kinds {
         assert!(

@@ -334,6 +334,13 @@ const SNAPSHOTS: &[(&str, &str, &str)] = &[
         r##", "camera": { "distance": 1.9 }, "look": { "background": "#e8eef4" }, "figure": { "handles": [{ "region": "left ventricle", "scale": 1.2 }, { "region": "aorta" }, { "region": "right atrium" }] }"##,
     ),
     (
+        "sweep/pressed_and_pulled",
+        "bar",
+        r##", "templates": [{ "kind": "sweep", "size": [0.6, 0.6, 0.6], "rotate": [-0.7071, 0, 0, 0.7071], "params": { "mirror": "x", "tools": [
+            { "radius": 0.12, "coat": 0.2, "path": [[0.7, 0.35, 1], [0.62, 0.4, 0.5]] },
+            { "shape": "torus", "ring": 0.1, "radius": 0.03, "path": [[0.7, 0.75, 0.6], { "at": [0.8, 0.8, 0.95], "rotate": [0, 0.2588, 0, 0.9659] }] }] } }]"##,
+    ),
+    (
         "style/stipple_and_vignette",
         "bar",
         r##", "look": { "style": { "tone": { "levels": 3 }, "stipple": { "spacing": 30, "size": 8 }, "ghost": { "by": "cut", "strength": 0.9 } } }, "templates": [{ "kind": "split", "at": [0, 0.1, 0.3], "size": [0.4, 0.6, 0.4] }]"##,

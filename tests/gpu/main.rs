@@ -28,6 +28,7 @@ mod shells;
 mod slices;
 mod splines;
 mod style;
+mod sweeps;
 mod textures;
 
 #[path = "../reference/carved.rs"]
@@ -49,6 +50,8 @@ mod picture_files;
 mod rbf;
 #[path = "../reference/mod.rs"]
 mod reference;
+#[path = "../reference/sweep.rs"]
+mod reference_sweep;
 #[path = "../support/scans.rs"]
 mod scans;
 #[path = "../support/scatter.rs"]

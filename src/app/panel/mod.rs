@@ -26,6 +26,7 @@ pub(crate) mod shortcuts;
 pub(crate) mod steps;
 pub(crate) mod strip;
 mod style;
+mod sweep;
 pub(crate) mod templates;
 pub(crate) mod text;
 pub(crate) mod tissue;

@@ -2,7 +2,7 @@
 
 use egui::{DragAndDrop, Label, Rect, Stroke, Ui, vec2};
 
-use super::{carve, curve, figure, kept, objects, points};
+use super::{carve, curve, figure, kept, objects, points, sweep};
 use crate::app::kit::entry::{self, EntryRow, rotation_row, vec3};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::template_menu;
@@ -199,6 +199,7 @@ fn template_ui(
         ui.push_id((index, i), |ui| param_ui(ui, template, i, *value, commands));
     }
     points::ui(ui, template, commands);
+    sweep::ui(ui, template, commands);
     // The place of one that carves is its object's.
     let has_place = template.kind.facts().holds != Holds::Object;
     carve::ui(ui, session, template, commands);

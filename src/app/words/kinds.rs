@@ -746,6 +746,24 @@ fn kind_words(kind: TemplateKind) -> Kind {
                 ),
             ],
         },
+        K::Sweep => Kind {
+            title: ["Sweep", "Mitnehmen", "Arrastrar", "拖移"],
+            summary: [
+                "Tools move through the tissue and take with them what is near; nothing tears or folds",
+                "Werkzeuge bewegen sich durch das Gewebe und nehmen mit, was nahe ist; nichts reißt oder faltet sich",
+                "Unos instrumentos se mueven por el tejido y se llevan lo que está cerca; nada se rasga ni se pliega",
+                "器械在组织中移动，带动附近的组织；不撕裂，不折叠",
+            ],
+            params: &[(
+                ["Progress", "Fortschritt", "Avance", "进度"],
+                [
+                    "How far the tools have come on their paths",
+                    "Wie weit die Werkzeuge auf ihren Wegen gekommen sind",
+                    "Hasta dónde han llegado los instrumentos en su recorrido",
+                    "器械沿路径行进的程度",
+                ],
+            )],
+        },
     }
 }
 

@@ -60,6 +60,7 @@ pub(crate) mod share;
 pub(crate) mod slices;
 pub(crate) mod steps;
 pub(crate) mod style;
+pub(crate) mod sweep;
 pub(crate) mod templates;
 #[cfg(test)]
 mod tests;

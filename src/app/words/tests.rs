@@ -31,6 +31,7 @@ fn lines() -> impl Iterator<Item = &'static Line> {
         slices::LINES,
         steps::LINES,
         style::LINES,
+        sweep::LINES,
         templates::LINES,
         text::LINES,
         tissue::LINES,

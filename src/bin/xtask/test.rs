@@ -10,8 +10,8 @@ use crate::page;
 use crate::run::{Outcome, cargo, report, root, run};
 use crate::setup;
 
-/// The test binaries, fast to slow.
-const BINARIES: [&str; 5] = ["fast", "gpu", "evaluate", "app", "browser"];
+/// The test binaries that are run once all is built; `gpu` is run before, beside the end of the page's build.
+const BINARIES: [&str; 4] = ["fast", "evaluate", "app", "browser"];
 
 /// Parts of tests/app that get a process together: Mesa 22's lavapipe keeps 0.15 GB of every window drawn in a process,
 /// as long as it lives, and half a hundred windows are more than a small machine has. Some two dozen share their
@@ -42,20 +42,24 @@ pub(crate) fn test(names: &[String]) -> Outcome {
     }
     setup::for_page()?;
     // The page is built beside the native checks and the compiler of the tests: for most of its time one core optimises
-    // one program, and the others have ends that take one core too.
-    let ((checked, compiled), page) = std::thread::scope(|scope| {
+    // one program, and the others have ends that take one core too. The tests on the GPU need no page, and none of them
+    // asks that something is quick.
+    let ((checked, compiled, drawn), page) = std::thread::scope(|scope| {
         let page = scope.spawn(page::build_beside);
         let checked = check::check_rest();
         let what = "lint, document and compile the tests and what they test";
         let compiled = linted_tests(&["--no-run"]).and_then(|mut command| run(what, &mut command));
-        ((checked, compiled), page.join())
+        let drawn = compiled.is_ok().then(|| one("gpu", linted_tests));
+        ((checked, compiled, drawn), page.join())
     });
     // Where something cannot be built, or a lint speaks, there is no use in waiting for the rest.
     let built = page.map_err(|_panic| "building the page panicked".to_owned())?;
     if built.is_err() || compiled.is_err() {
-        return close(start, vec![checked, compiled, built]);
+        let outcomes = [checked, compiled, built].into_iter().chain(drawn);
+        return close(start, outcomes.collect());
     }
     let mut outcomes = vec![checked];
+    outcomes.extend(drawn);
     outcomes.push(run("unit tests", &mut linted_tests(&["--lib"])?));
     outcomes.extend(BINARIES.map(|name| one(name, linted_tests)));
     let examples = &mut linted_tests(&["--doc"])?;

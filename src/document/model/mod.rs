@@ -17,8 +17,8 @@ mod surface;
 mod template;
 
 pub use crate::displace::{
-    ControlPoint, ControlPoints, MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateKind,
-    TemplateSpec,
+    ControlPoint, ControlPoints, MAX_KEYS, MAX_PARAM_FLOATS, MAX_TOOLS, ParamKind, ParamSpec,
+    ParamValue, PathKey, SweepTool, SweepTools, TemplateKind, TemplateSpec, ToolShape,
 };
 pub use curve::Curve;
 pub use illustration::{Camera, Caption, Control, ControlRange, FIGURE_FRONT, Illustration, Step};
@@ -36,8 +36,8 @@ pub use style_preset::{STYLE_PRESETS, StylePreset, style_preset};
 pub(in crate::document) use subject::DRAWN;
 pub use subject::{RawVoxels, Reading, SegmentsRef, SubjectRef, is_drawn_name};
 pub use surface::{BodyKind, Layer, SurfaceChange, SurfaceLook};
-pub(in crate::document) use template::join_objects;
 pub use template::{
     Align, Constrain, ConstrainBy, FieldRef, FoundObject, NotCarving, ObjectRef, PlacedTemplate,
     TemplateData, TemplateMode, keep_set, keep_sets,
 };
+pub(in crate::document) use template::{join_objects, limit_sweeps};

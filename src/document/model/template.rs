@@ -2,7 +2,10 @@
 
 use super::curve::Curve;
 use super::object::{ObjectPlacement, ObjectSource, SceneObject};
-use crate::displace::{Amount, ControlPoints, ParamValue, Shrinking, TemplateKind};
+use crate::displace::{
+    Amount, ControlPoints, Holds, MAX_PIECES, MAX_SWEEP_STEPS, ParamValue, Shrinking, SweepTools,
+    Sweeping, TemplateKind,
+};
 use crate::document::limits::MAX_CARVERS;
 use crate::math::{Bent, Placement};
 use glam::{Quat, Vec2, Vec3};
@@ -53,7 +56,10 @@ impl PlacedTemplate {
             mode: TemplateMode::Compose,
             align: Align::Axis,
             constrain: None,
-            data: TemplateData::None,
+            data: match kind.facts().holds {
+                Holds::Tools => TemplateData::Tools(SweepTools::default()),
+                _ => TemplateData::None,
+            },
         }
     }
 
@@ -267,6 +273,8 @@ pub enum TemplateData {
     Field(FieldRef),
     /// The object of a `carve`.
     Object(ObjectRef),
+    /// The tools of a `sweep`.
+    Tools(SweepTools),
 }
 
 /// The object of a `carve`.
@@ -372,6 +380,29 @@ pub(in crate::document) fn join_objects(
         }
     }
     without
+}
+
+/// Leaves out the sweeps with which a document would have more pieces of paths or more steps than it may. Says which,
+/// by their index.
+pub(in crate::document) fn limit_sweeps(templates: &mut [PlacedTemplate]) -> Vec<usize> {
+    let mut used = [0, 0];
+    let mut over = Vec::new();
+    for template in templates {
+        let bent = template.bent();
+        let size = bent.map_or(template.placement.size, |bent| bent.size());
+        let TemplateData::Tools(tools) = &mut template.data else {
+            continue;
+        };
+        tools.is_left_out = false;
+        let [pieces, steps] = Sweeping::counted(tools, size);
+        let all = [used[0] + pieces, used[1] + steps];
+        tools.is_left_out = all[0] > MAX_PIECES || all[1] > MAX_SWEEP_STEPS;
+        match tools.is_left_out {
+            true => over.push(template.index),
+            false => used = all,
+        }
+    }
+    over
 }
 
 /// The file of a `field`.

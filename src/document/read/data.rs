@@ -31,6 +31,7 @@ impl Reader {
                 name: params.string("object")?,
                 found: None,
             }),
+            Holds::Tools => TemplateData::Tools(self.sweep_tools(params)?),
             Holds::Parameters => TemplateData::None,
         })
     }

@@ -5,7 +5,7 @@ use super::reader::Reader;
 use crate::document::limits::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS};
 use crate::document::model::{
     Camera, Caption, FIGURE_FRONT, Illustration, PlacedTemplate, Step, TemplateData, join_objects,
-    keep_sets,
+    keep_sets, limit_sweeps,
 };
 use crate::document::schema::ROOT;
 use crate::document::text::json::number_text;
@@ -63,6 +63,10 @@ impl Reader {
         for (index, why) in join_objects(&mut templates, &objects) {
             let at = format!("/templates/{index}/params/object");
             self.note(at, NoticeKind::NotCarving { why: why.why() });
+        }
+        for index in limit_sweeps(&mut templates) {
+            let what = "sweeps with more than 256 pieces of paths or 1,024 steps in all are";
+            self.note(format!("/templates/{index}"), NoticeKind::NotDrawn { what });
         }
         let is_field = |t: &&PlacedTemplate| matches!(t.data, TemplateData::Field(_)) && t.enabled;
         if let Some(over) = templates.iter().filter(is_field).nth(MAX_FIELDS) {

@@ -15,6 +15,7 @@ mod style;
 mod subject;
 mod surface;
 mod template;
+mod tools;
 
 pub use figure::figure_from_text;
 pub(super) use illustration::resolve;

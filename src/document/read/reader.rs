@@ -247,7 +247,7 @@ impl Reader {
         key: &str,
     ) -> Result<&'a [Value], DocumentError> {
         let most = match object.kind(key) {
-            Kind::Pairs { most } | Kind::FirstOf { most, .. } => most,
+            Kind::Pairs { most } | Kind::Triples { most, .. } | Kind::FirstOf { most, .. } => most,
             _ => usize::MAX,
         };
         let items = object.list(key)?;

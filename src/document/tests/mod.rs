@@ -9,6 +9,7 @@ mod recipes;
 mod recording;
 mod styles;
 mod surfaces;
+mod sweeps;
 
 use super::*;
 use crate::math::Placement;

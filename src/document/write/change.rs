@@ -89,6 +89,13 @@ impl Edit {
                 set(root, &join(&at, "points"), listed)?;
                 set(root, &join(&at, "cut"), cut)
             }
+            Self::SetTools { template: i, tools } => {
+                let at = join(&template(i), "params");
+                let before = pointer::get(root, &join(&at, "tools")).cloned();
+                let mirror = value::mirrors(tools);
+                set(root, &join(&at, "tools"), value::tools(tools, before))?;
+                set(root, &join(&at, "mirror"), json!(mirror))
+            }
             Self::SetPlacement {
                 template: i,
                 placement,

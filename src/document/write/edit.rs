@@ -3,8 +3,8 @@
 use crate::document::model::figure;
 use crate::document::model::{
     Align, Background, Camera, Caption, Constrain, ControlPoints, Curve, FIGURE_FRONT, MeshRef,
-    ObjectPlacement, OpacityMode, ParamValue, SubjectBox, SubjectRef, TemplateKind, TemplateMode,
-    Transfer, TransferPoint, Window,
+    ObjectPlacement, OpacityMode, ParamValue, SubjectBox, SubjectRef, SweepTools, TemplateKind,
+    TemplateMode, Transfer, TransferPoint, Window,
 };
 use crate::math::Placement;
 use serde_json::Value;
@@ -73,6 +73,13 @@ pub enum Edit {
         template: usize,
         /// Points and cut, template space.
         points: ControlPoints,
+    },
+    /// Sets the tools of a `sweep`.
+    SetTools {
+        /// Index of the template.
+        template: usize,
+        /// Tools and mirrors; tools of an unknown shape stay as they are in the document.
+        tools: SweepTools,
     },
     /// Moves, turns or sizes a template.
     SetPlacement {
@@ -380,6 +387,7 @@ impl Edit {
                 template, param, ..
             } => format!("/templates/{template}/params/{param}"),
             Self::SetControlPoints { template, .. } => format!("/templates/{template}/points"),
+            Self::SetTools { template, .. } => format!("/templates/{template}/tools"),
             Self::SetPlacement { template, .. } => format!("/templates/{template}/placement"),
             Self::SetCurve { template, .. } => format!("/templates/{template}/curve"),
             Self::SetAmount { template, .. } => format!("/templates/{template}/amount"),

@@ -1,12 +1,12 @@
 //! Parts of a document as JSON.
 
-use super::number::{color_text, hundredths, rounded, rounded_value, vector};
+use super::number::{color_text, hundredths, rotation, rounded, rounded_value, vector};
 use crate::document::model::{
-    Caption, CleanStep, ControlPoints, Curve, MeshParts, MeshReading, MeshRef, RawVoxels, Recipe,
-    RecipeSource, Stroke, TransferPoint,
+    Caption, CleanStep, ControlPoints, Curve, MeshParts, MeshReading, MeshRef, PathKey, RawVoxels,
+    Recipe, RecipeSource, Stroke, SweepTools, ToolShape, TransferPoint,
 };
 use crate::document::schema::MAX_VALUE;
-use glam::{IVec3, Vec3};
+use glam::{IVec3, Quat, Vec3};
 use serde_json::{Value, json};
 
 /// The points of a transfer function.
@@ -118,6 +118,68 @@ pub(super) fn points_and_cut(points: &ControlPoints) -> [Value; 2] {
         .iter()
         .map(|p| json!([rounded(p.x), rounded(p.y)]));
     [listed.collect(), cut.collect()]
+}
+
+/// Letters of the axes that a sweep is mirrored across.
+pub(super) fn mirrors(tools: &SweepTools) -> String {
+    let axes = ['x', 'y', 'z'].into_iter().zip(tools.mirror);
+    axes.filter(|(_, is_on)| *is_on)
+        .map(|(axis, _)| axis)
+        .collect()
+}
+
+/// The tools of a sweep. Of those that the document has `before`, keys that are not known stay, and tools of an unknown
+/// shape stay whole.
+pub(super) fn tools(tools: &SweepTools, before: Option<Value>) -> Value {
+    let each = tools.tools.iter().map(|tool| {
+        let old = before.as_ref().and_then(|list| list.get(tool.index));
+        let mut value = old.cloned().unwrap_or_else(|| json!({}));
+        let Some(shape) = &tool.shape else {
+            return value;
+        };
+        let mut put = |key: &str, new: Value| value[key] = new;
+        put("shape", json!(shape.name()));
+        match shape {
+            ToolShape::Ball { radius } => put("radius", rounded(*radius)),
+            ToolShape::Ellipsoid { radii } => put("radii", vector(*radii)),
+            ToolShape::Capsule { radius, length } => {
+                put("radius", rounded(*radius));
+                put("length", rounded(*length));
+            }
+            ToolShape::Box { half, round } => {
+                put("half", vector(*half));
+                put("round", rounded(*round));
+            }
+            ToolShape::Torus { ring, radius } => {
+                put("ring", rounded(*ring));
+                put("radius", rounded(*radius));
+            }
+            ToolShape::Curve { points, radius } => {
+                put("points", points.iter().map(|p| vector(*p)).collect());
+                put("radius", rounded(*radius));
+            }
+        }
+        put("coat", rounded(tool.coat));
+        put("spline", json!(tool.spline));
+        put("path", tool.path.iter().map(path_key).collect());
+        value
+    });
+    each.collect()
+}
+
+/// A pose on the path of a tool.
+fn path_key(key: &PathKey) -> Value {
+    if *key == PathKey::at(key.at) {
+        return vector(key.at);
+    }
+    let mut value = json!({ "at": vector(key.at) });
+    if key.rotate != Quat::IDENTITY {
+        value["rotate"] = rotation(key.rotate);
+    }
+    if key.scale != 1.0 {
+        value["scale"] = rounded(key.scale);
+    }
+    value
 }
 
 /// One step of a clean-up.

@@ -4,10 +4,10 @@
 //! |---|---|---|---|---|
 //! | 0 | the frame: camera and sampling | 1 | | |
 //! | 1 | the subject: values, labels, palette, triangles, depths and fills of meshes | 1 | 6 | 1 |
-//! | 2 | the scene: templates, look, skip grid, kept tissue, fields, bodies, meshes, objects, carvers | 7 | 8 | |
+//! | 2 | the scene: templates, look, skip grid, kept tissue, fields, bodies, meshes, objects, carve, sweep | 7 | 9 | |
 //! | 3 | the pass: the baked map | 1 | 1 | |
-//! | | in all | 10 | 15 | 1 |
-//! | | left in one stage | 2 | 1 | 15 |
+//! | | in all | 10 | 16 | 1 |
+//! | | left in one stage | 2 | 0 | 15 |
 //!
 //! Group 3 belongs to the pass: other passes (picks, resolve, slices) bind less there. A picture uses no storage
 //! buffer.
@@ -45,7 +45,7 @@ const SUBJECT: Group = &[
 ];
 /// Templates, look and its table, the skip grid and its cells, kept tissue and its distances, fields, bodies and
 /// their shares, how a mesh is drawn, objects and their triangles, the grids of objects that carve, shares of kept
-/// tissue.
+/// tissue, steps of sweeps.
 const SCENE: Group = &[
     Holds::Uniform,
     Holds::Uniform,
@@ -62,6 +62,7 @@ const SCENE: Group = &[
     Holds::Numbers(D2),
     Holds::Numbers(D2),
     Holds::Texture(D3),
+    Holds::Exact(D2),
 ];
 /// Where the baked map lies, and the map.
 const BAKED: Group = &[Holds::Uniform, Holds::Texture(D3)];
@@ -220,15 +221,16 @@ mod tests {
         };
         let limits = wgpu::Limits::defaults();
         let uniforms = count(|h| matches!(h, Holds::Uniform));
-        let textures = count(|h| matches!(h, Holds::Texture(_) | Holds::Numbers(_)));
+        let textures =
+            count(|h| matches!(h, Holds::Texture(_) | Holds::Exact(_) | Holds::Numbers(_)));
         let samplers = count(|h| matches!(h, Holds::Sampler));
-        assert_eq!([uniforms, textures, samplers], [10, 15, 1]);
+        assert_eq!([uniforms, textures, samplers], [10, 16, 1]);
         let left = [
             limits.max_uniform_buffers_per_shader_stage - uniforms,
             limits.max_sampled_textures_per_shader_stage - textures,
             limits.max_samplers_per_shader_stage - samplers,
         ];
-        assert_eq!(left, [2, 1, 15]);
+        assert_eq!(left, [2, 0, 15]);
         assert_eq!(all.len() as u32, limits.max_bind_groups, "no group is left");
     }
 }

@@ -330,6 +330,8 @@ shader_files![
     "displace/noise.wgsl",
     "displace/crack.wgsl",
     "displace/carve.wgsl",
+    "displace/tools.wgsl",
+    "displace/sweep.wgsl",
     "displace/curve.wgsl",
     "displace/compose.wgsl",
     "bind/frame.wgsl",

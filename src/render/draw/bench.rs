@@ -3,7 +3,8 @@ use super::studio::Studio;
 use crate::data::{Resources, Subject, Surface};
 use crate::document::{
     Align, BodyKind, Constrain, ConstrainBy, Document, Illustration, ObjectPlacement, ObjectSource,
-    PlacedTemplate, SceneObject, Style, SubjectRef, TemplateKind, style_preset,
+    PathKey, PlacedTemplate, SceneObject, Style, SubjectRef, SweepTool, SweepTools, TemplateData,
+    TemplateKind, style_preset,
 };
 use crate::math::Placement;
 use crate::render::device::error::RenderError;
@@ -153,6 +154,16 @@ const STYLED: [(&str, &str); 5] = [
     ("one peel, blueprint", "blueprint"),
 ];
 
+/// Measured with the grid alone: a ball that is swept over three coatings, by its formula and from the baked map,
+/// beside a twist of the same reach.
+const SWEPT: [&str; 3] = ["one twist, as wide", "one sweep", SWEPT_BAKED];
+const SWEPT_BAKED: &str = "one sweep, baked";
+
+/// True if a case is read from the baked map.
+fn is_baked(name: &str) -> bool {
+    [BAKED, SWEPT_BAKED].contains(&name)
+}
+
 /// What is drawn to be measured.
 struct Case {
     name: &'static str,
@@ -182,10 +193,10 @@ pub struct BenchMeshes {
 
 /// Times frames (one sample per pixel at rest quality, read back) of a subject, which documents name as `named`:
 /// undeformed, one peel, eight templates, a peel aligned to the surface and to segments, each with and without the
-/// grid; a peel that gives way to bone, and one of rigid bone; one peel in each style; and, if there are `meshes`, of
-/// these. After a frame of each that warms up come the plan's rounds of a frame of each; the median counts. What is
-/// made before a frame is timed apart: from nothing, and after an edit. `on_progress` hears how much is measured, 0 to
-/// 1.
+/// grid; a peel that gives way to bone, and one of rigid bone; one peel in each style; a sweep and a twist; and, if
+/// there are `meshes`, of these. After a frame of each that warms up come the plan's rounds of a frame of each; the
+/// median counts. What is made before a frame is timed apart: from nothing, and after an edit. `on_progress` hears how
+/// much is measured, 0 to 1.
 ///
 /// # Errors
 /// As [`Studio::render_image`].
@@ -217,6 +228,11 @@ pub async fn bench(
         studio: studio.clone(),
         illustration: styled_case(named, preset),
     }));
+    cases.extend(SWEPT.map(|name| Case {
+        name,
+        studio: studio.clone(),
+        illustration: swept_case(named, name),
+    }));
     let (mut bytes, mut texture_bytes) = (None, 0);
     if let Some(meshes) = meshes {
         let drawn = Studio::new(gpu, &Subject::from(Arc::clone(&meshes.surface)), true)?;
@@ -234,7 +250,7 @@ pub async fn bench(
     };
     for case in &cases {
         // Compiles, and fills caches.
-        if case.name == BAKED {
+        if is_baked(case.name) {
             let baked = case
                 .studio
                 .render_baked(&case.illustration, size_px, 1, None);
@@ -256,7 +272,7 @@ pub async fn bench(
             WorkDone::start(gpu).await?;
             let opened = clock();
             job.show((&case.illustration, &case.studio.resources));
-            if case.name == BAKED {
+            if is_baked(case.name) {
                 job.bake(None);
             }
             WorkDone::start(gpu).await?;
@@ -329,6 +345,43 @@ fn mesh_cases(gpu: &Gpu, drawn: &Studio, meshes: &BenchMeshes) -> Result<Vec<Cas
         of("surface, eight templates", drawn, shown(8, BodyKind::Auto)),
         of("surface, 16 x", &finer, shown(0, BodyKind::Auto)),
     ])
+}
+
+/// A ball that is swept into the subject from the front over three coatings, or a twist of the box that it reaches.
+fn swept_case(named: &SubjectRef, name: &str) -> Illustration {
+    const SIDE: f32 = 0.4;
+    let mut illustration = case(named, 0);
+    let kind = match name {
+        "one twist, as wide" => TemplateKind::Twist,
+        _ => TemplateKind::Sweep,
+    };
+    // z of the box points to the front.
+    let placement = Placement {
+        at: Vec3::new(0.0, 0.3, 0.05),
+        rotate: Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2),
+        size: Vec3::splat(SIDE),
+    };
+    let mut template = PlacedTemplate::new(kind, placement);
+    let mut tool = SweepTool::default();
+    tool.path = [1.15, 1.15 - 3.0 * tool.coat]
+        .map(|z| PathKey::at(Vec3::new(0.5, 0.5, z)))
+        .to_vec();
+    template.data = match kind {
+        TemplateKind::Sweep => TemplateData::Tools(SweepTools {
+            tools: vec![tool],
+            ..SweepTools::default()
+        }),
+        _ => {
+            let reach = 0.15 + tool.coat;
+            let [from, to] = [tool.path[0].at.z, tool.path[1].at.z];
+            template.placement.at.y += SIDE * (0.5 * (from + to) - 0.5);
+            template.placement.size =
+                SIDE * Vec3::new(2.0 * reach, 2.0 * reach, from - to + 2.0 * reach);
+            TemplateData::None
+        }
+    };
+    illustration.templates = vec![template];
+    illustration
 }
 
 /// One peel in a style.

@@ -99,11 +99,12 @@ impl Probe {
                 binding: entry.binding,
                 resource: entry.resource,
             });
-            let [fields, carvers] = of_held;
+            let [fields, carvers, sweeps] = of_held;
             let bindings = [
                 bind(2, 0, &templates),
                 fields,
                 carvers,
+                sweeps,
                 bind(3, 0, &input),
                 bind(3, 1, &output),
             ];

@@ -6,7 +6,7 @@ use crate::data::{Carver, FieldSamples, Resources};
 use crate::document::{
     MAX_FIELDS, MAX_OBJECTS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData, TemplateMode,
 };
-use crate::placed::solved_points;
+use crate::placed::{solved_points, sweep_rows, sweep_texels};
 use glam::{Affine3A, Mat3A, Vec3A};
 
 /// Format of the transfer table.
@@ -119,7 +119,7 @@ impl Templates {
         // The first entry stays 0: no points, no samples, no curve. Curves come first: there is room for one of every
         // template.
         let (mut used, mut slice) = (1, 0);
-        let mut fields = 0;
+        let (mut fields, mut steps) = (0, 0);
         let mut hold = |rows: &[[f32; 4]]| {
             let free = packed.pool.get_mut(used..used + rows.len())?;
             free.copy_from_slice(rows);
@@ -150,6 +150,7 @@ impl Templates {
                     _ => Vec::new(),
                 },
                 TemplateData::Object(_) => carver_rows(template, resources, &carvers),
+                TemplateData::Tools(_) => sweep_rows(template, &mut steps),
                 TemplateData::None => Vec::new(),
             };
             if let Some(first) = hold(&held) {
@@ -181,6 +182,15 @@ pub(crate) fn acting_carvers(placed: &[PlacedTemplate], resources: &Resources) -
         }
     }
     carvers
+}
+
+/// The steps of the sweeps that act, one behind the other.
+pub(crate) fn acting_sweeps(placed: &[PlacedTemplate], resources: &Resources) -> Vec<[f32; 4]> {
+    let acting = placed.iter().map(|t| resources.acting(t));
+    let enabled = acting.filter(|t| t.enabled).take(MAX_TEMPLATES);
+    enabled
+        .flat_map(|template| sweep_texels(&template))
+        .collect()
 }
 
 /// So far from an object that carves its distance is read from its grids, subject units, where it does nothing too.

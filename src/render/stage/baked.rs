@@ -61,18 +61,20 @@ impl BakedTexture {
     }
 
     /// Over a box of the deformed object, with so many texels along its longest side (as many as suit the device if
-    /// `None`); holds nothing until [`BakedTexture::advance`] has made all slabs.
+    /// `None`, and no fewer than `least`); holds nothing until [`BakedTexture::advance`] has made all slabs.
     pub(crate) fn new(
         gpu: &Gpu,
         layouts: &Layouts,
         bounds: Aabb,
         texels_along: Option<u32>,
+        least: u32,
     ) -> Self {
-        let along = texels_along.unwrap_or(if gpu.is_software() {
+        let usual = if gpu.is_software() {
             TEXELS_SOFTWARE
         } else {
             TEXELS_HARDWARE
-        });
+        };
+        let along = texels_along.unwrap_or(usual.max(least));
         let limit = gpu
             .device
             .limits()

@@ -1,4 +1,5 @@
-//! What templates hold besides numbers, on the GPU: sampled displacements, and the grids of objects that carve.
+//! What templates hold besides numbers, on the GPU: sampled displacements, the grids of objects that carve, the steps
+//! of sweeps.
 
 use std::sync::Arc;
 
@@ -7,13 +8,15 @@ use crate::document::{MAX_FIELDS, PlacedTemplate};
 use crate::render::device::bindings::entry;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::textures::{volume_texture, write_slices};
-use crate::render::pack::gpu_types::acting_carvers;
+use crate::render::pack::gpu_types::{acting_carvers, acting_sweeps};
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::textures::flat_texture;
 use glam::UVec3;
 
 /// Texels in a row of the texture of grids, as in shaders/displace/carve.wgsl.
 const CARVER_ROW: usize = 4096;
+/// Texels in a row of the texture of sweeps, as in shaders/displace/tools.wgsl.
+const SWEEP_ROW: usize = 1024;
 
 /// What the templates that act hold, as far as it is there.
 #[derive(Clone, Debug, Default)]
@@ -22,6 +25,8 @@ pub(crate) struct HeldData {
     fields: Vec<FieldSamples>,
     /// Grids of objects, each once, in the order in which templates first carve by them.
     carvers: Vec<Arc<Carver>>,
+    /// Steps of sweeps, in the order of the templates.
+    sweeps: Vec<[f32; 4]>,
 }
 
 /// Two are equal if they share their data in memory.
@@ -29,6 +34,7 @@ impl PartialEq for HeldData {
     fn eq(&self, other: &Self) -> bool {
         let pairs = self.carvers.iter().zip(&other.carvers);
         self.fields == other.fields
+            && self.sweeps == other.sweeps
             && self.carvers.len() == other.carvers.len()
             && pairs.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))
     }
@@ -42,6 +48,7 @@ impl HeldData {
         Self {
             fields: samples.take(MAX_FIELDS).collect(),
             carvers: acting_carvers(templates, resources),
+            sweeps: acting_sweeps(templates, resources),
         }
     }
 }
@@ -53,6 +60,8 @@ pub(crate) struct HeldTextures {
     fields: wgpu::TextureView,
     /// Group 2, binding 13: the nodes of all grids, one behind the other.
     carvers: wgpu::TextureView,
+    /// Group 2, binding 15: the steps of all sweeps, one behind the other.
+    sweeps: wgpu::TextureView,
     /// Stamp of the textures.
     pub stamp: Stamp,
     made_from: MadeFrom<1>,
@@ -70,6 +79,7 @@ impl HeldTextures {
             self.destroy();
             self.fields = fields_of(gpu, &held.get().fields);
             self.carvers = carvers_of(gpu, &held.get().carvers);
+            self.sweeps = sweeps_of(gpu, &held.get().sweeps);
             self.stamp += 1;
         }
     }
@@ -79,21 +89,27 @@ impl HeldTextures {
         Self {
             fields: fields_of(gpu, &held.fields),
             carvers: carvers_of(gpu, &held.carvers),
+            sweeps: sweeps_of(gpu, &held.sweeps),
             stamp: 0,
             made_from: MadeFrom::default(),
         }
     }
 
-    /// Both textures as entries of group 2, of every program that displaces.
-    pub(crate) fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 2] {
+    /// All textures as entries of group 2, of every program that displaces.
+    pub(crate) fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 3] {
         let view = wgpu::BindingResource::TextureView;
-        [entry(7, view(&self.fields)), entry(13, view(&self.carvers))]
+        [
+            entry(7, view(&self.fields)),
+            entry(13, view(&self.carvers)),
+            entry(15, view(&self.sweeps)),
+        ]
     }
 
     /// Gives the memory back to the device.
     pub(crate) fn destroy(&self) {
         self.fields.texture().destroy();
         self.carvers.texture().destroy();
+        self.sweeps.texture().destroy();
     }
 }
 
@@ -143,5 +159,15 @@ fn carvers_of(gpu: &Gpu, carvers: &[Arc<Carver>]) -> wgpu::TextureView {
     let size = [width as u32, (texels.len() / width) as u32];
     let texture = flat_texture(gpu, "carvers", size, wgpu::TextureFormat::R32Uint);
     write_slices(gpu, &texture, 0, 1, 4, bytemuck::cast_slice(&texels));
+    texture.create_view(&Default::default())
+}
+
+fn sweeps_of(gpu: &Gpu, steps: &[[f32; 4]]) -> wgpu::TextureView {
+    let mut texels = steps.to_vec();
+    let width = if texels.is_empty() { 1 } else { SWEEP_ROW };
+    texels.resize(texels.len().next_multiple_of(width).max(1), [0.0; 4]);
+    let size = [width as u32, (texels.len() / width) as u32];
+    let texture = flat_texture(gpu, "sweeps", size, wgpu::TextureFormat::Rgba32Float);
+    write_slices(gpu, &texture, 0, 1, 16, bytemuck::cast_slice(&texels));
     texture.create_view(&Default::default())
 }

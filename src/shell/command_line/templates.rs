@@ -2,11 +2,62 @@
 
 use serde_json::{Value, json};
 
-use crate::displace::Holds;
-use crate::document::{ParamKind, TemplateKind, plain_f64};
+use crate::displace::{Holds, MAX_TOOL_POINTS};
+use crate::document::{MAX_KEYS, MAX_TOOLS, ParamKind, TemplateKind, ToolShape, plain_f64};
 
-/// The parameter of a kind that holds an object, and what it is.
-const OBJECT: [&str; 2] = ["object", "Name of the object of the scene"];
+/// Parameters of a kind that are no numbers or choices, as the list has them.
+fn held(holds: Holds) -> Value {
+    let number = |name: &str, default: f64, [min, max]: [f64; 2], summary: &str| json!({ "name": name, "summary": summary, "type": "number", "default": default, "min": min, "max": max });
+    let vector = |name: &str, default: [f64; 3], [min, max]: [f64; 2], summary: &str| json!({ "name": name, "summary": summary, "type": "vector", "default": default, "min": min, "max": max });
+    let text = |name: &str, summary: &str| json!({ "name": name, "summary": summary, "type": "text", "default": "" });
+    let list = |name: &str, default: Value, most: usize, of: Value, summary: &str| json!({ "name": name, "summary": summary, "type": "list", "default": default, "max": most, "of": of });
+    let (solid, round) = ([0.005, 2.0], [0.0, 2.0]);
+    match holds {
+        Holds::Object => json!([text("object", "Name of the object of the scene")]),
+        Holds::Tools => {
+            let key = json!([
+                vector("at", [0.5; 3], [-10.0, 10.0], "Place of the tool's origin, template space; a bare list is a place"),
+                { "name": "rotate", "summary": "Turn about its origin", "type": "rotation", "default": [0, 0, 0, 1] },
+                number("scale", 1.0, [0.05, 20.0], "Scale about its origin"),
+            ]);
+            let path = json!([[0.5, 0.5, 1.15], [0.5, 0.5, 0.65]]);
+            let point = json!([vector(
+                "",
+                [0.0; 3],
+                [-4.0, 4.0],
+                "A place in the frame of the tool"
+            )]);
+            let tool = json!([
+                { "name": "shape", "summary": "Its form; lengths are fractions of the shortest side of the box",
+                    "type": "choice", "default": ToolShape::NAMES[0], "choices": ToolShape::NAMES },
+                number("radius", 0.15, round, "Of a ball (0.15, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)"),
+                vector("radii", [0.2, 0.15, 0.1], solid, "Half axes of an ellipsoid"),
+                number("length", 0.4, [0.0, 4.0], "Of the straight part of a capsule"),
+                vector("half", [0.15; 3], solid, "Half sides of a box"),
+                number("round", 0.02, round, "Radius of the edges of a box, at most its least half side"),
+                number("ring", 0.2, solid, "Radius of a torus, to the middle of its tube"),
+                list("points", json!([[0, 0, -0.2], [0, 0, 0.2]]), MAX_TOOL_POINTS, point, "Of a curve: two or more places with straight pieces between them"),
+                number("coat", 0.25, [0.01, 2.0], "Width of the coating in which its motion fades"),
+                { "name": "spline", "summary": "Places are joined by a smooth curve", "type": "flag", "default": false },
+                list("path", path, MAX_KEYS, key, "Its poses; with one it stands still and holds what is in it"),
+            ]);
+            json!([
+                text(
+                    "mirror",
+                    "Letters of x, y and z: each tool has an image beyond the middle plane of the box across that axis"
+                ),
+                list(
+                    "tools",
+                    json!([{}]),
+                    MAX_TOOLS,
+                    tool,
+                    "Tools that act at once; with their images at most eight"
+                ),
+            ])
+        }
+        Holds::Parameters | Holds::Points | Holds::File => json!([]),
+    }
+}
 
 pub(super) fn templates_json() -> String {
     let templates: Vec<Value> = TemplateKind::ALL
@@ -60,10 +111,10 @@ pub(super) fn templates_json() -> String {
                 })
                 .collect();
             let mut value = json!({ "kind": spec.name, "summary": spec.summary, "params": params });
-            if kind.facts().holds == Holds::Object {
-                value["params"].as_array_mut().into_iter().for_each(|list| {
-                    list.push(json!({ "name": OBJECT[0], "summary": OBJECT[1], "type": "text", "default": "" }));
-                });
+            if let (Some(list), Value::Array(more)) =
+                (value["params"].as_array_mut(), held(kind.facts().holds))
+            {
+                list.extend(more);
             }
             if let Some(main) = spec.main_param.and_then(|i| spec.params.get(i)) {
                 value["main"] = json!(main.name);
@@ -83,8 +134,9 @@ pub(super) fn templates_text() -> String {
     for kind in TemplateKind::ALL {
         let spec = kind.spec();
         text.push_str(&format!("{}: {}\n", spec.name, spec.summary));
-        if kind.facts().holds == Holds::Object {
-            text.push_str(&format!("  {}: {}\n", OBJECT[0], OBJECT[1]));
+        for param in held(kind.facts().holds).as_array().into_iter().flatten() {
+            let [name, summary] = ["name", "summary"].map(|key| param[key].as_str().unwrap_or(""));
+            text.push_str(&format!("  {name}: {summary}\n"));
         }
         for param in spec.params {
             let values = match param.kind {

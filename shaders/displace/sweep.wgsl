@@ -1,0 +1,227 @@
+// Sweep: tools that move through the tissue and take with them what is near. Metric template space, from the middle of
+// the box; defined everywhere.
+// Source: Angelidis, Wyvill and Cani, Sweepers, sections 3 and 4; spec/sweepers.md, A.
+//
+//        tool at progress 0                the tissue in the coating follows in part: velocity = field · velocity of
+//     ___ .....                            the tool; all of it inside the tool follows whole
+//    (   ).    .
+//     ---  \   .  coating                  source: the flow run backwards, from progress to 0
+//           \ ___
+//            (   ) progress
+//             ---
+//
+// Differs from the source: not its sub-steps, in which the field stands still, but their limit, the flow of the
+// weighted velocities, so that the result depends on no number of steps, part of the way and the rest are the whole,
+// and there is an inverse: the same flow backwards (spec/sweepers.md, D, has all of it).
+//
+// By classical Runge-Kutta, whose steps the processor finds (src/displace/sweeping.rs). `templates.pool[held]` holds
+// where steps, blocks of steps and blocks of those begin in the texture of sweeps, and the number of tools; then the
+// last step that acts, the progress that it acts until, the number of images of all tools, bits of the axes that are
+// mirrored; then the box outside which nothing moves; then for each image the signs of its axes and its tool (w); then
+// for each tool two rows: its form; its shape and what one through its coating is.
+// A step in the texture: its start and length; a ball that holds the reach of all that moves in it (w: square of the
+// radius); for each tool a ball that holds its reach, rows of the inverse of its pose at the start, its screw (turn and
+// growth, velocity of the origin), its scale.
+//
+// One processor that draws in our tests (lavapipe) ends all loops of a pixel after 65,535 turns in all. So one turn of
+// a loop passes over 64 steps whose reach does not hold the point, or 8, and evaluates one field in those that do. A
+// loop in a branch that is not taken costs a turn there too: a field has none.
+// needs: bind/templates.wgsl displace/frame.wgsl displace/tools.wgsl
+
+/// Steps in a block, and blocks in a block of blocks, as a power of two.
+const SWEEP_BLOCK_BITS: u32 = 3u;
+/// Rows of the pool before those of images.
+const SWEEP_HEAD: u32 = 4u;
+/// Texels of a step for itself.
+const SWEEP_STEP_ROWS: u32 = 2u;
+/// Texels of a step for each tool.
+const SWEEP_TOOL_ROWS: u32 = 6u;
+
+/// Bit j is set if image j of a tool may reach a point. `first`: the ball of the first tool.
+fn sweep_hits(x: vec3f, first: u32, held: u32, images: u32) -> u32 {
+    var hits = 0u;
+    for (var j = 0u; j < images; j += 2u) {
+        // Two to a turn; the second is the first again where there is none.
+        let k = min(j + 1u, images - 1u);
+        let one = templates.pool[held + SWEEP_HEAD + j];
+        let two = templates.pool[held + SWEEP_HEAD + k];
+        let ball_one = sweep_texel(first + SWEEP_TOOL_ROWS * u32(one.w));
+        let ball_two = sweep_texel(first + SWEEP_TOOL_ROWS * u32(two.w));
+        let way_one = one.xyz * x - ball_one.xyz;
+        let way_two = two.xyz * x - ball_two.xyz;
+        hits |= select(0u, 1u << j, dot(way_one, way_one) <= ball_one.w);
+        hits |= select(0u, 1u << k, dot(way_two, way_two) <= ball_two.w);
+    }
+    return hits;
+}
+
+/// The last step from `last` on backwards that may move a point, -1 for none.
+fn sweep_find(x: vec3f, last: i32, head: vec4f) -> i32 {
+    let step_rows = SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS * u32(head.w);
+    var i = last;
+    // Block and block of blocks that are known to be reached.
+    var known = vec2i(-1);
+    while i >= 0 {
+        let block = vec2i(i, i >> SWEEP_BLOCK_BITS) >> vec2u(SWEEP_BLOCK_BITS);
+        let is_wide = known.y != block.y;
+        let is_block = !is_wide && known.x != block.x;
+        var ball = u32(head.x) + u32(i) * step_rows + 1u;
+        var before = i - 1;
+        if is_wide {
+            ball = u32(head.z) + u32(block.y);
+            before = (block.y << (2u * SWEEP_BLOCK_BITS)) - 1;
+        } else if is_block {
+            ball = u32(head.y) + u32(block.x);
+            before = (block.x << SWEEP_BLOCK_BITS) - 1;
+        }
+        let reach = sweep_texel(ball);
+        let way = x - reach.xyz;
+        if dot(way, way) > reach.w {
+            i = before;
+        } else if is_wide {
+            known.y = block.y;
+        } else if is_block {
+            known.x = block.x;
+        } else {
+            break;
+        }
+    }
+    return i;
+}
+
+/// The last step that begins before a time.
+fn sweep_step_at(time: f32, last: u32, head: vec4f) -> u32 {
+    let step_rows = SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS * u32(head.w);
+    var low = 0u;
+    var high = last;
+    while low < high {
+        let middle = (low + high + 1u) / 2u;
+        if sweep_texel(u32(head.x) + middle * step_rows).x < time {
+            low = middle;
+        } else {
+            high = middle - 1u;
+        }
+    }
+    return low;
+}
+
+/// Velocity of what goes with a screw, at a way from its origin, without that of the origin.
+fn screw_linear(v: vec3f, screw: vec4f) -> vec3f {
+    return screw.w * v + cross(screw.xyz, v);
+}
+
+/// From where the flow of one step has brought a point, from `lasts` after the step's start. `at`: texel of the step.
+fn sweep_back(end: vec3f, at: u32, lasts: f32, held: u32, images: u32, mirror: u32, tools: u32) -> vec3f {
+    let of_tools = held + SWEEP_HEAD + images;
+    // A point of a mirror plane stays in it, to the bit.
+    let planes = (vec3u(mirror) & vec3u(1u, 2u, 4u)) != vec3u(0u);
+    let stays = planes & (end == vec3f(0.0));
+    var x = end;
+    var since = lasts;
+    var total = vec3f(0.0);
+    var stage = 0u;
+    // What is driven by one tool comes into the reach of no other within the step: the balls have room for its way.
+    let near = sweep_hits(end, at + SWEEP_STEP_ROWS, held, images);
+    if near == 0u {
+        return vec3f(0.0);
+    }
+    var ahead = near;
+    // Of a curve, the distance to its pieces so far.
+    var piece = 0u;
+    var nearest = NO_END;
+    // Of the images so far: the sum of fields, the product of what is left, the sum of fields times velocities.
+    var fields = 0.0;
+    var left = 1.0;
+    var driven = vec3f(0.0);
+    while stage < 4u {
+        let of_image = templates.pool[held + SWEEP_HEAD + firstTrailingBit(ahead)];
+        let tool = u32(of_image.w);
+        let first = at + SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS * tool;
+        let p = of_image.xyz * x;
+        let form = templates.pool[of_tools + 2u * tool];
+        let kind = templates.pool[of_tools + 2u * tool + 1u];
+        let screw = sweep_texel(first + 4u);
+        let moves = sweep_texel(first + 5u);
+        let velocity = screw_linear(p, screw) + moves.xyz;
+        // exp(-since L) p and e^(growth since) by their series: a step is short.
+        let back = -since;
+        let third = velocity + back / 4.0 * screw_linear(velocity, screw);
+        let second = velocity + back / 3.0 * screw_linear(third, screw);
+        let then = p + back * (velocity + back / 2.0 * screw_linear(second, screw));
+        let own = vec4f(then, 1.0);
+        let place = vec3f(
+            dot(sweep_texel(first + 1u), own),
+            dot(sweep_texel(first + 2u), own),
+            dot(sweep_texel(first + 3u), own),
+        );
+        let grown = screw.w * since;
+        let scale = moves.w * (1.0 + grown * (1.0 + grown / 2.0 * (1.0 + grown / 3.0 * (1.0 + grown / 4.0))));
+        let shape = u32(kind.x);
+        var distance = tool_distance(place, shape, form);
+        if shape == CURVE_SHAPE {
+            let begin = u32(form.y);
+            let last = begin + u32(form.z) - 1u;
+            nearest = min(nearest, pieces_distance(place, begin + piece, last));
+            piece += CURVE_PIECES;
+            if begin + piece < last {
+                continue;
+            }
+            distance = max(nearest - form.x, 0.0);
+            piece = 0u;
+            nearest = NO_END;
+        }
+        let field = tool_field(scale * distance * kind.y);
+        fields += field;
+        left *= 1.0 - field;
+        driven += field * (of_image.xyz * velocity);
+        ahead &= ahead - 1u;
+        if ahead == 0u {
+            let flow = select(driven * ((1.0 - left) / max(fields, 1e-30)), vec3f(0.0), stays);
+            let is_middle = stage == 1u || stage == 2u;
+            total += select(1.0, 2.0, is_middle) * flow;
+            let next = select(0.5, 1.0, stage == 2u) * lasts;
+            x = end - next * flow;
+            since = lasts - next;
+            stage++;
+            ahead = near;
+            fields = 0.0;
+            left = 1.0;
+            driven = vec3f(0.0);
+        }
+    }
+    return total * (-lasts / 6.0);
+}
+
+/// p0: progress. `held`: index in the pool, 0 if nothing moves.
+fn displace_sweep(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Displaced {
+    if held == 0u || p0.x <= 0.0 {
+        return at_rest(q);
+    }
+    let start = size * (q - 0.5);
+    if any(start < templates.pool[held + 2u].xyz) || any(start > templates.pool[held + 3u].xyz) {
+        return at_rest(q);
+    }
+    let head = templates.pool[held];
+    let acting = templates.pool[held + 1u];
+    let tools = u32(head.w);
+    let images = u32(acting.z);
+    let step_rows = SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS * tools;
+    var last = i32(acting.x);
+    // Constraints by coordinate do a part of it.
+    if p0.x < acting.y {
+        last = i32(sweep_step_at(p0.x, u32(last), head));
+    }
+    var moved = vec3f(0.0);
+    loop {
+        let i = sweep_find(start + moved, last, head);
+        if i < 0 {
+            break;
+        }
+        let at = u32(head.x) + u32(i) * step_rows;
+        let time = sweep_texel(at);
+        let lasts = min(time.y, p0.x - time.x);
+        moved += sweep_back(start + moved, at, lasts, held, images, u32(acting.w), tools);
+        last = i - 1;
+    }
+    return Displaced(q + moved / size, 1.0);
+}

@@ -1,0 +1,503 @@
+//! The steps in which the flow of a `sweep` is integrated (spec/sweepers.md, A.3): poses, screws and reach of every
+//! tool in each, found once per edit in 64 bits, and packed for shaders/displace/sweep.wgsl.
+
+use super::facts::Given;
+use super::tools::{SweepTool, SweepTools, ToolShape};
+use crate::math::{Aabb, Screw, Similarity, smooth_path};
+use glam::{DQuat, DVec3, Vec3};
+
+/// Steps of a tool per width of its coating that it travels, and where the reaches of several overlap.
+const STEPS_A_COAT: f64 = 6.0;
+const STEPS_A_COAT_OF_MANY: f64 = 8.0;
+/// Most steps of one sweep: a thin coating in the way of a wide one asks for more than the document's limit counts.
+const MOST_STEPS: f64 = 4096.0;
+/// Steps in a block, and blocks in a block of blocks, as in shaders/displace/sweep.wgsl.
+const BLOCK: usize = 8;
+/// Texels of a step for itself, and for each tool.
+const STEP_ROWS: usize = 2;
+const TOOL_ROWS: usize = 6;
+/// How much finer than to its width a sheared coating has to be known, for each coating of the way and of its stretch.
+const SHEARED: f64 = 0.14;
+/// Reach is rounded up by this part of it, for floats of 32 bits.
+const ROUNDING: f64 = 1e-5;
+
+/// A tool on its way, in metric local coordinates: from the middle of the box, in subject units.
+#[derive(Clone, Debug)]
+struct Mover<'a> {
+    shape: &'a ToolShape,
+    /// Subject units to a unit of the shape.
+    unit: f64,
+    /// Width of the coating, subject units.
+    coat: f64,
+    /// Farthest point of the tool from its origin at scale 1, subject units.
+    farthest: f64,
+    poses: Vec<Similarity>,
+    screws: Vec<Screw>,
+}
+
+impl<'a> Mover<'a> {
+    fn new(tool: &'a SweepTool, size: DVec3) -> Option<Self> {
+        let shape = tool.shape.as_ref()?;
+        let unit = size.min_element();
+        let keys: Vec<Similarity> = tool
+            .path
+            .iter()
+            .map(|key| {
+                let turn = DQuat::from_array(key.rotate.to_array().map(f64::from));
+                let place = size * (key.at.as_dvec3() - 0.5);
+                Similarity::new(f64::from(key.scale), turn, place)
+            })
+            .collect();
+        let poses = match tool.spline {
+            true => smooth_path(&keys),
+            false => keys,
+        };
+        let screws = poses.windows(2).map(|pair| {
+            let screw = pair[1].after(&pair[0].inverse()).log();
+            screw.times((poses.len() - 1) as f64)
+        });
+        Some(Self {
+            shape,
+            unit,
+            coat: f64::from(tool.coat) * unit,
+            farthest: f64::from(shape.farthest()) * unit,
+            screws: screws.collect(),
+            poses,
+        })
+    }
+
+    /// The piece that holds a time, its screw in units of the whole time, and the pose then.
+    fn at(&self, time: f64) -> (usize, Screw, Similarity) {
+        let pieces = self.screws.len();
+        let piece = ((time * pieces as f64) as usize).min(pieces.saturating_sub(1));
+        self.at_in(piece, time)
+    }
+
+    /// As [`Mover::at`], of a piece that is known: at its end the next one begins.
+    fn at_in(&self, piece: usize, time: f64) -> (usize, Screw, Similarity) {
+        let Some(screw) = self.screws.get(piece) else {
+            return (0, Screw::NONE, self.poses[0]);
+        };
+        let since = time - piece as f64 / self.screws.len() as f64;
+        let pose = screw.times(since).exp().after(&self.poses[piece]);
+        (piece, *screw, pose)
+    }
+
+    /// Radius of the tool with its coating about its origin.
+    fn radius(&self, pose: &Similarity) -> f64 {
+        self.farthest * pose.scale + self.coat
+    }
+
+    /// The longest way of a point of the tool with its coating from one time to another of one piece.
+    fn travel(&self, from: f64, to: f64) -> f64 {
+        let (piece, screw, _) = self.at(0.5 * (from + to));
+        let fastest = [from, 0.5 * (from + to), to].map(|time| {
+            let (_, _, pose) = self.at_in(piece, time);
+            screw.velocity(pose.place).length() + screw.rate() * self.radius(&pose)
+        });
+        fastest.into_iter().fold(0.0, f64::max) * (to - from)
+    }
+
+    /// A ball that holds the tool with its coating from one time to another of one piece.
+    fn ball(&self, from: f64, to: f64) -> Ball {
+        let (piece, _, middle) = self.at(0.5 * (from + to));
+        let mut radius = self.radius(&middle);
+        for time in [from, to] {
+            let (_, _, pose) = self.at_in(piece, time);
+            let away = pose.place.distance(middle.place);
+            radius = radius.max(self.radius(&pose) + away);
+        }
+        Ball {
+            middle: middle.place,
+            radius,
+        }
+    }
+}
+
+/// A ball, metric local coordinates.
+#[derive(Clone, Copy, Debug)]
+struct Ball {
+    middle: DVec3,
+    radius: f64,
+}
+
+impl Ball {
+    /// A ball around several.
+    fn around(balls: &[Self]) -> Option<Self> {
+        let least = balls.iter().map(|b| b.middle - b.radius);
+        let most = balls.iter().map(|b| b.middle + b.radius);
+        let middle = 0.5 * (least.reduce(DVec3::min)? + most.reduce(DVec3::max)?);
+        let far = balls.iter().map(|b| b.middle.distance(middle) + b.radius);
+        Some(Self {
+            middle,
+            radius: far.fold(0.0, f64::max),
+        })
+    }
+}
+
+/// One step: every tool moves by one screw.
+#[derive(Clone, Debug)]
+struct Step {
+    start: f64,
+    end: f64,
+    /// For each tool what it reaches, its screw, and its pose at the start.
+    tools: Vec<(Ball, Screw, Similarity)>,
+    /// The longest way of a point of any tool.
+    travel: f64,
+}
+
+/// How a `sweep` is evaluated.
+#[derive(Clone, Debug)]
+pub(crate) struct Sweeping<'a> {
+    movers: Vec<Mover<'a>>,
+    mirror: [bool; 3],
+    steps: Vec<Step>,
+    size: DVec3,
+}
+
+impl<'a> Sweeping<'a> {
+    /// The steps of tools in a box of this size.
+    pub(crate) fn new(tools: &'a SweepTools, size: Vec3) -> Self {
+        let size = size.as_dvec3();
+        let movers: Vec<_> = tools.acting().filter_map(|t| Mover::new(t, size)).collect();
+        let mut sweeping = Self {
+            movers,
+            mirror: tools.mirror,
+            steps: Vec::new(),
+            size,
+        };
+        let spans = sweeping.spans();
+        let wanted: Vec<f64> = spans.iter().map(|span| sweeping.wanted(*span)).collect();
+        let all: f64 = wanted.iter().sum();
+        let factor = (MOST_STEPS / all.max(1.0)).min(1.0);
+        for ((from, to), wanted) in spans.into_iter().zip(wanted) {
+            let count = libm::ceil(wanted * factor);
+            for i in 0..count as usize {
+                let at = |i: usize| from + (to - from) * (i as f64 / count);
+                sweeping.step(at(i), at(i + 1));
+            }
+        }
+        sweeping
+    }
+
+    /// Where the first tool is at a time, template space; the middle of the box if there is none.
+    pub(crate) fn place(given: &Given, time: f32) -> Vec3 {
+        let tool = given.tools.as_ref().and_then(|t| t.acting().next());
+        let size = given.size.as_dvec3();
+        let mover = tool.and_then(|tool| Mover::new(tool, size));
+        let place = mover.map_or(DVec3::ZERO, |m| m.at(f64::from(time)).2.place);
+        (place / size + 0.5).as_vec3()
+    }
+
+    /// The steps of what a template holds.
+    pub(crate) fn of(given: &'a Given) -> Self {
+        match &given.tools {
+            Some(tools) => Self::new(tools, given.size),
+            None => Self {
+                movers: Vec::new(),
+                mirror: [false; 3],
+                steps: Vec::new(),
+                size: given.size.as_dvec3(),
+            },
+        }
+    }
+
+    /// Pieces of paths, and steps as the limits of a document count them.
+    pub(crate) fn counted(tools: &'a SweepTools, size: Vec3) -> [usize; 2] {
+        let size = size.as_dvec3();
+        let movers: Vec<_> = tools.acting().filter_map(|t| Mover::new(t, size)).collect();
+        let pieces = movers.iter().map(|mover| mover.screws.len()).sum();
+        let sweeping = Self {
+            movers,
+            mirror: tools.mirror,
+            steps: Vec::new(),
+            size,
+        };
+        let of_span = |(from, to): (f64, f64)| {
+            let of_tool = sweeping
+                .movers
+                .iter()
+                .map(|mover| STEPS_A_COAT_OF_MANY * mover.travel(from, to) / mover.coat);
+            libm::ceil(of_tool.fold(0.0, f64::max)).min(MOST_STEPS) as usize
+        };
+        [pieces, sweeping.spans().into_iter().map(of_span).sum()]
+    }
+
+    /// From break to break: times at which any tool goes over from one screw to another.
+    fn spans(&self) -> Vec<(f64, f64)> {
+        let mut breaks: Vec<f64> = Vec::new();
+        for mover in &self.movers {
+            let pieces = mover.screws.len();
+            breaks.extend(
+                (0..=pieces)
+                    .filter(|_| pieces > 0)
+                    .map(|k| k as f64 / pieces as f64),
+            );
+        }
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+        breaks.windows(2).map(|pair| (pair[0], pair[1])).collect()
+    }
+
+    /// Steps that a span takes.
+    fn wanted(&self, (from, to): (f64, f64)) -> f64 {
+        let balls: Vec<Ball> = self.movers.iter().map(|m| m.ball(from, to)).collect();
+        let images = self.images();
+        let mut wanted = 0.0_f64;
+        for (i, mover) in self.movers.iter().enumerate() {
+            let travel = mover.travel(from, to);
+            let mut per_travel = STEPS_A_COAT / mover.coat;
+            for (j, other) in self.movers.iter().enumerate() {
+                // With images of itself too.
+                for (n, image) in images.iter().enumerate() {
+                    let apart = balls[i].middle.distance(*image * balls[j].middle);
+                    let is_other = i != j || n > 0;
+                    if is_other && apart < balls[i].radius + balls[j].radius {
+                        let coat = mover.coat.min(other.coat);
+                        per_travel = per_travel.max(STEPS_A_COAT_OF_MANY / coat);
+                    }
+                }
+            }
+            wanted = wanted.max(travel * per_travel);
+        }
+        libm::ceil(wanted.min(MOST_STEPS))
+    }
+
+    fn step(&mut self, start: f64, end: f64) {
+        let travel = self.movers.iter().map(|mover| mover.travel(start, end));
+        let travel = travel.fold(0.0, f64::max);
+        // What is driven by one tool may come into the reach of another on the way.
+        let room = if self.movers.len() * self.images().len() > 1 {
+            travel
+        } else {
+            0.0
+        };
+        let tools = self.movers.iter().map(|mover| {
+            let ball = mover.ball(start, end);
+            let (piece, screw, _) = mover.at(0.5 * (start + end));
+            let (_, _, pose) = mover.at_in(piece, start);
+            let radius = (ball.radius + room) * (1.0 + ROUNDING);
+            (Ball { radius, ..ball }, screw, pose)
+        });
+        self.steps.push(Step {
+            start,
+            end,
+            tools: tools.collect(),
+            travel,
+        });
+    }
+
+    /// Signs of the axes of each image, the tools themselves first.
+    fn images(&self) -> Vec<DVec3> {
+        let mut images = vec![DVec3::ONE];
+        for axis in (0..3).filter(|axis| self.mirror[*axis]) {
+            let other = images.clone().into_iter().map(|mut signs| {
+                signs[axis] = -1.0;
+                signs
+            });
+            images.extend(other);
+        }
+        images
+    }
+
+    /// A ball about the reach of all that moves in some steps, images too.
+    fn reach(&self, steps: &[Step]) -> Option<Ball> {
+        let tools = steps.iter().flat_map(|step| &step.tools);
+        let moving = tools.filter(|(_, screw, _)| !screw.is_none());
+        let images = self.images();
+        let balls = moving.flat_map(|(ball, ..)| {
+            images.iter().map(|image| Ball {
+                middle: ball.middle * *image,
+                radius: ball.radius,
+            })
+        });
+        Ball::around(&balls.collect::<Vec<_>>())
+    }
+
+    /// The box outside which nothing moves until a time, metric local coordinates; empty if nothing moves at all.
+    fn swept(&self, progress: f64) -> Aabb {
+        let mut swept = Aabb::EMPTY;
+        for step in self.steps.iter().filter(|step| step.start < progress) {
+            for (ball, screw, _) in &step.tools {
+                if screw.is_none() {
+                    continue;
+                }
+                for image in self.images() {
+                    let middle = (ball.middle * image).as_vec3();
+                    let radius = (ball.radius * (1.0 + ROUNDING)) as f32;
+                    swept = swept.union(Aabb {
+                        min: middle - radius,
+                        max: middle + radius,
+                    });
+                }
+            }
+        }
+        swept
+    }
+
+    /// The box outside which nothing moves until a time, template space.
+    pub(crate) fn bounds(&self, progress: f32) -> Aabb {
+        let swept = self.swept(f64::from(progress));
+        if swept.is_empty() {
+            return Aabb::EMPTY;
+        }
+        let size = self.size.as_vec3();
+        Aabb {
+            min: swept.min / size + 0.5,
+            max: swept.max / size + 0.5,
+        }
+    }
+
+    /// The longest way of any material until a time, subject units.
+    pub(crate) fn longest(&self, progress: f32) -> f32 {
+        let done = |step: &Step| {
+            let part = (f64::from(progress) - step.start) / (step.end - step.start);
+            step.travel * part.clamp(0.0, 1.0)
+        };
+        self.steps.iter().map(done).sum::<f64>() as f32
+    }
+
+    /// The smallest coating, subject units.
+    pub(crate) fn least_coat(&self) -> Option<f32> {
+        let coats = self.movers.iter().map(|mover| mover.coat as f32);
+        coats.reduce(f32::min)
+    }
+
+    /// Width to which a texture of the map has to be as fine as to a coating, subject units: the smallest coating, or a
+    /// part of it where a tool turns. What shears in its coating has a source that is read a little off; that tissue
+    /// then lies far along the turn.
+    pub(crate) fn least_width(&self) -> Option<f32> {
+        let widths = self.movers.iter().map(|mover| {
+            let turned: f64 = mover.screws.iter().map(|s| s.turn.length()).sum();
+            let angle = turned / mover.screws.len().max(1) as f64;
+            let farthest = mover
+                .poses
+                .iter()
+                .map(|pose| mover.radius(pose) - mover.coat);
+            let coats = angle * farthest.fold(0.0, f64::max) / mover.coat;
+            // The curvature of the map grows with the way in coatings, and its stretch with that way too. The factor is
+            // measured on a box that turns by three coatings.
+            mover.coat / (SHEARED * coats * (1.0 + 2.0 * coats)).max(1.0)
+        });
+        widths.map(|width| width as f32).reduce(f32::min)
+    }
+
+    /// Number of [`Sweeping::texels`].
+    fn texel_count(&self) -> usize {
+        let points: usize = self.movers.iter().map(|m| m.shape.points().len()).sum();
+        let count = self.steps.len();
+        let blocks = count.div_ceil(BLOCK) + count.div_ceil(BLOCK * BLOCK);
+        count * (STEP_ROWS + TOOL_ROWS * self.movers.len()) + blocks + points
+    }
+
+    /// What the shader reads from its texture: the steps, balls about blocks of them and about blocks of blocks, and
+    /// the points of curves.
+    pub(crate) fn texels(&self) -> Vec<[f32; 4]> {
+        let mut texels = Vec::with_capacity(self.texel_count());
+        let with = |v: DVec3, w: f64| v.as_vec3().extend(w as f32).to_array();
+        for step in &self.steps {
+            texels.push([step.start as f32, (step.end - step.start) as f32, 0.0, 0.0]);
+            texels.push(packed_ball(self.reach(std::slice::from_ref(step))));
+            for (ball, screw, pose) in &step.tools {
+                texels.push(packed_ball(Some(*ball)));
+                let inverse = pose.inverse();
+                // Rows of a turn are the axes turned back.
+                let rows =
+                    [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| pose.turn * axis * inverse.scale);
+                for (row, place) in rows.into_iter().zip(inverse.place.to_array()) {
+                    texels.push(with(row, place));
+                }
+                texels.push(with(screw.turn, screw.growth));
+                texels.push(with(screw.way, pose.scale));
+            }
+        }
+        for block in [BLOCK, BLOCK * BLOCK] {
+            for steps in self.steps.chunks(block) {
+                texels.push(packed_ball(self.reach(steps)));
+            }
+        }
+        for mover in &self.movers {
+            for point in mover.shape.points() {
+                texels.push(with(point.as_dvec3() * mover.unit, 0.0));
+            }
+        }
+        texels
+    }
+
+    /// What the shader reads from the pool, for texels that begin at `first`; nothing if nothing moves.
+    pub(crate) fn rows(&self, progress: f32, first: &mut usize) -> Vec<[f32; 4]> {
+        let begin = *first;
+        *first += self.texel_count();
+        let last = self
+            .steps
+            .partition_point(|step| step.start < f64::from(progress));
+        if last == 0 {
+            return Vec::new();
+        }
+        let swept = self.swept(f64::from(progress));
+        let (count, bases) = (self.steps.len(), self.movers.len());
+        let images = self.images();
+        let blocks = begin + count * (STEP_ROWS + TOOL_ROWS * bases);
+        let blocks_of_blocks = blocks + count.div_ceil(BLOCK);
+        let mut points = blocks_of_blocks + count.div_ceil(BLOCK * BLOCK);
+        let mirror = (0..3)
+            .filter(|axis| self.mirror[*axis])
+            .map(|axis| 1 << axis);
+        let mirror: u32 = mirror.sum();
+        let mut rows = vec![
+            [
+                begin as f32,
+                blocks as f32,
+                blocks_of_blocks as f32,
+                bases as f32,
+            ],
+            [
+                (last - 1) as f32,
+                progress,
+                (images.len() * bases) as f32,
+                mirror as f32,
+            ],
+            swept.min.extend(0.0).to_array(),
+            swept.max.extend(0.0).to_array(),
+        ];
+        for image in &images {
+            for base in 0..bases {
+                rows.push(image.as_vec3().extend(base as f32).to_array());
+            }
+        }
+        for mover in &self.movers {
+            let shape = mover.shape;
+            let unit = mover.unit as f32;
+            let count = shape.points().len();
+            let form = match shape {
+                ToolShape::Curve { radius, .. } => {
+                    [radius * unit, points as f32, count as f32, 0.0]
+                }
+                ToolShape::Ellipsoid { radii } => (*radii * unit).extend(0.0).to_array(),
+                ToolShape::Box { half, round } => {
+                    let round = round.min(half.min_element());
+                    let core = (*half - round).max(Vec3::ZERO);
+                    (core * unit).extend(round * unit).to_array()
+                }
+                ToolShape::Ball { radius } => [radius * unit, 0.0, 0.0, 0.0],
+                ToolShape::Capsule { radius, length } => {
+                    [radius * unit, 0.5 * length * unit, 0.0, 0.0]
+                }
+                ToolShape::Torus { ring, radius } => [radius * unit, ring * unit, 0.0, 0.0],
+            };
+            points += count;
+            rows.push(form);
+            rows.push([shape.number() as f32, (1.0 / mover.coat) as f32, 0.0, 0.0]);
+        }
+        rows
+    }
+}
+
+/// A ball as the shader takes it: w is the square of its radius; of nothing, a ball that holds no point.
+fn packed_ball(ball: Option<Ball>) -> [f32; 4] {
+    let Some(ball) = ball else {
+        return [0.0, 0.0, 0.0, -1.0];
+    };
+    let square = ball.radius * ball.radius * (1.0 + ROUNDING);
+    ball.middle.as_vec3().extend(square as f32).to_array()
+}

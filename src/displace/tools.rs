@@ -1,0 +1,293 @@
+//! What a `sweep` holds: its tools, their shapes and their paths.
+
+use glam::{Quat, Vec3};
+
+/// Most tools of a `sweep`.
+pub const MAX_TOOLS: usize = 4;
+/// Most tools of a `sweep` with their mirror images.
+pub const MAX_IMAGES: usize = 8;
+/// Most keys of a tool's path.
+pub const MAX_KEYS: usize = 64;
+/// Most points of a tool that is a curve.
+pub const MAX_TOOL_POINTS: usize = 32;
+/// Most pieces of paths in all sweeps of a document, images not counted.
+pub const MAX_PIECES: usize = 256;
+/// Most steps in all sweeps of a document.
+pub const MAX_SWEEP_STEPS: usize = 1024;
+
+/// What moves in a `sweep`, all at once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepTools {
+    /// For x, y and z: every tool has an image beyond the middle plane of the box.
+    pub mirror: [bool; 3],
+    /// The tools, at most [`MAX_TOOLS`].
+    pub tools: Vec<SweepTool>,
+    /// True if the document has more pieces or steps before it than are drawn.
+    pub is_left_out: bool,
+}
+
+impl Default for SweepTools {
+    /// One tool of the default shape, without images.
+    fn default() -> Self {
+        Self {
+            mirror: [false; 3],
+            tools: vec![SweepTool::default()],
+            is_left_out: false,
+        }
+    }
+}
+
+impl SweepTools {
+    /// Images of every tool, itself counted.
+    pub fn images(&self) -> usize {
+        1 << self.mirror.iter().filter(|is_on| **is_on).count()
+    }
+
+    /// The tools that act: those of a known shape whose images all fit.
+    pub fn acting(&self) -> impl Iterator<Item = &SweepTool> {
+        let known = self.tools.iter().filter(|tool| tool.shape.is_some());
+        let fit = if self.is_left_out {
+            0
+        } else {
+            (MAX_IMAGES / self.images()).min(MAX_TOOLS)
+        };
+        known.take(fit)
+    }
+
+    /// The tools as they are in a mirror whose plane is the middle plane of the box across x.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let mut other = self.clone();
+        for tool in &mut other.tools {
+            if let Some(ToolShape::Curve { points, .. }) = &mut tool.shape {
+                points.iter_mut().for_each(|point| point.x = -point.x);
+            }
+            for key in &mut tool.path {
+                key.at.x = 1.0 - key.at.x;
+                let [x, y, z, w] = key.rotate.to_array();
+                key.rotate = Quat::from_xyzw(x, -y, -z, w);
+            }
+        }
+        other
+    }
+
+    /// The tools on the way from others of the same make to these; these, if the others are of another make.
+    #[must_use]
+    pub fn blended(&self, from: &Self, part: f32) -> Self {
+        let mut out = self.clone();
+        let is_alike = from.tools.len() == out.tools.len()
+            && from.tools.iter().zip(&out.tools).all(|(a, b)| a.is_like(b));
+        if is_alike {
+            for (from, to) in from.tools.iter().zip(&mut out.tools) {
+                to.blend(from, part);
+            }
+        }
+        out
+    }
+}
+
+/// A set of points that moves, with a coating in which its motion fades.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepTool {
+    /// Its form; `None` for one that this version does not draw.
+    pub shape: Option<ToolShape>,
+    /// Width of its coating, fractions of the shortest side of the box.
+    pub coat: f32,
+    /// True: places are joined by a smooth curve.
+    pub spline: bool,
+    /// Its poses, at least one.
+    pub path: Vec<PathKey>,
+    /// Its entry in the document's list; beyond the list for one that is new.
+    pub index: usize,
+}
+
+impl Default for SweepTool {
+    /// A ball that presses from above.
+    fn default() -> Self {
+        Self {
+            shape: Some(ToolShape::Ball { radius: 0.15 }),
+            coat: 0.25,
+            spline: false,
+            path: PathKey::PRESS.to_vec(),
+            index: 0,
+        }
+    }
+}
+
+impl SweepTool {
+    fn is_like(&self, other: &Self) -> bool {
+        self.path.len() == other.path.len()
+            && match (&self.shape, &other.shape) {
+                (Some(a), Some(b)) => a.name() == b.name() && a.count() == b.count(),
+                (a, b) => a.is_none() && b.is_none(),
+            }
+    }
+
+    fn blend(&mut self, from: &Self, part: f32) {
+        let mix = |a: f32, b: f32| a + (b - a) * part;
+        self.coat = mix(from.coat, self.coat);
+        if let (Some(from), Some(to)) = (&from.shape, &mut self.shape) {
+            let before = from.numbers();
+            for (to, from) in to.numbers_mut().into_iter().zip(before) {
+                *to = mix(from, *to);
+            }
+        }
+        for (from, to) in from.path.iter().zip(&mut self.path) {
+            to.at = from.at.lerp(to.at, part);
+            to.rotate = from.rotate.slerp(to.rotate, part);
+            // Geometrically, as along a path.
+            let grown = libm::powf(to.scale / from.scale, part);
+            to.scale = from.scale * grown;
+        }
+    }
+}
+
+/// A pose on the path of a tool.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathKey {
+    /// Place of the tool's origin, template space.
+    pub at: Vec3,
+    /// Turn about its origin.
+    pub rotate: Quat,
+    /// Scale about its origin.
+    pub scale: f32,
+}
+
+impl PathKey {
+    /// The path of a tool that presses from above.
+    pub const PRESS: [Self; 2] = [
+        Self::at(Vec3::new(0.5, 0.5, 1.15)),
+        Self::at(Vec3::new(0.5, 0.5, 0.65)),
+    ];
+
+    /// A place without a turn.
+    pub const fn at(at: Vec3) -> Self {
+        Self {
+            at,
+            rotate: Quat::IDENTITY,
+            scale: 1.0,
+        }
+    }
+}
+
+/// The form of a tool in its own frame; lengths are fractions of the shortest side of the box.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(
+    missing_docs,
+    reason = "spec/sweepers.md, A.4, says what each number is"
+)]
+pub enum ToolShape {
+    Ball { radius: f32 },
+    Ellipsoid { radii: Vec3 },
+    Capsule { radius: f32, length: f32 },
+    Box { half: Vec3, round: f32 },
+    Torus { ring: f32, radius: f32 },
+    Curve { points: Vec<Vec3>, radius: f32 },
+}
+
+impl ToolShape {
+    /// Names in documents, in the order of the numbers that the shaders know shapes by.
+    pub const NAMES: [&'static str; 6] = ["ball", "ellipsoid", "capsule", "box", "torus", "curve"];
+
+    /// The default of the shape of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "ball" => Self::Ball { radius: 0.15 },
+            "ellipsoid" => Self::Ellipsoid {
+                radii: Vec3::new(0.2, 0.15, 0.1),
+            },
+            "capsule" => Self::Capsule {
+                radius: 0.08,
+                length: 0.4,
+            },
+            "box" => Self::Box {
+                half: Vec3::splat(0.15),
+                round: 0.02,
+            },
+            "torus" => Self::Torus {
+                ring: 0.2,
+                radius: 0.05,
+            },
+            "curve" => Self::Curve {
+                points: vec![Vec3::new(0.0, 0.0, -0.2), Vec3::new(0.0, 0.0, 0.2)],
+                radius: 0.05,
+            },
+            _ => return None,
+        })
+    }
+
+    /// Its place among [`ToolShape::NAMES`].
+    pub fn number(&self) -> usize {
+        match self {
+            Self::Ball { .. } => 0,
+            Self::Ellipsoid { .. } => 1,
+            Self::Capsule { .. } => 2,
+            Self::Box { .. } => 3,
+            Self::Torus { .. } => 4,
+            Self::Curve { .. } => 5,
+        }
+    }
+
+    /// Its name in documents.
+    pub fn name(&self) -> &'static str {
+        Self::NAMES[self.number()]
+    }
+
+    /// Its points, if it is a curve.
+    pub fn points(&self) -> &[Vec3] {
+        match self {
+            Self::Curve { points, .. } => points,
+            _ => &[],
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.points().len()
+    }
+
+    /// All of its numbers, in the order in which the document names them.
+    pub fn numbers(&self) -> Vec<f32> {
+        let mut own = self.clone();
+        own.numbers_mut().into_iter().map(|x| *x).collect()
+    }
+
+    /// All of its numbers, to be changed.
+    pub fn numbers_mut(&mut self) -> Vec<&mut f32> {
+        match self {
+            Self::Ball { radius } => vec![radius],
+            Self::Ellipsoid { radii } => parts(radii).into(),
+            Self::Capsule { radius, length } => vec![radius, length],
+            Self::Box { half, round } => {
+                let [x, y, z] = parts(half);
+                vec![x, y, z, round]
+            }
+            Self::Torus { ring, radius } => vec![ring, radius],
+            Self::Curve { points, radius } => {
+                let mut all: Vec<&mut f32> = points.iter_mut().flat_map(parts).collect();
+                all.push(radius);
+                all
+            }
+        }
+    }
+
+    /// Distance of its farthest point from its origin.
+    pub fn farthest(&self) -> f32 {
+        match self {
+            Self::Ball { radius } => *radius,
+            Self::Ellipsoid { radii } => radii.max_element(),
+            Self::Capsule { radius, length } => 0.5 * length + radius,
+            Self::Box { half, .. } => half.length(),
+            Self::Torus { ring, radius } => ring + radius,
+            Self::Curve { points, radius } => {
+                let far = points.iter().map(|point| point.length());
+                far.fold(0.0, f32::max) + radius
+            }
+        }
+    }
+}
+
+/// The three numbers of a vector.
+fn parts(v: &mut Vec3) -> [&mut f32; 3] {
+    let Vec3 { x, y, z } = v;
+    [x, y, z]
+}
