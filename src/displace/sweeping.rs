@@ -376,7 +376,7 @@ impl<'a> Sweeping<'a> {
                 .map(|pose| mover.radius(pose) - mover.coat);
             let coats = angle * farthest.fold(0.0, f64::max) / mover.coat;
             // The curvature of the map grows with the way in coatings, and its stretch with that way too. The factor is
-            // measured on a box that turns by three coatings.
+            // measured: of what boxes and ellipsoids shear by two or three coatings 99 % is drawn within a texel.
             mover.coat / (SHEARED * coats * (1.0 + 2.0 * coats)).max(1.0)
         });
         widths.map(|width| width as f32).reduce(f32::min)

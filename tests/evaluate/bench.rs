@@ -174,6 +174,7 @@ pub(crate) struct Method<'a> {
     fields: wgpu::TextureView,
     /// Of a list without objects that carve.
     carvers: wgpu::TextureView,
+    sweeps: wgpu::TextureView,
 }
 
 fn source() -> String {
@@ -233,6 +234,12 @@ impl<'a> Method<'a> {
             .create_view(&Default::default()),
             carvers: texture(wgpu::TextureFormat::R32Uint, wgpu::TextureDimension::D2, 1)
                 .create_view(&Default::default()),
+            sweeps: texture(
+                wgpu::TextureFormat::Rgba32Float,
+                wgpu::TextureDimension::D2,
+                1,
+            )
+            .create_view(&Default::default()),
         }
     }
 
@@ -270,6 +277,7 @@ impl<'a> Method<'a> {
                         entry(0, self.templates.as_entire_binding()),
                         entry(7, wgpu::BindingResource::TextureView(&self.fields)),
                         entry(13, wgpu::BindingResource::TextureView(&self.carvers)),
+                        entry(15, wgpu::BindingResource::TextureView(&self.sweeps)),
                     ],
                 ),
             ),

@@ -17,6 +17,7 @@ struct Lit {
     pipeline: wgpu::ComputePipeline,
     fields: wgpu::TextureView,
     carvers: wgpu::TextureView,
+    sweeps: wgpu::TextureView,
 }
 
 impl Lit {
@@ -59,6 +60,7 @@ impl Lit {
             pipeline: gpu.device.create_compute_pipeline(&descriptor),
             fields: texel(wgpu::TextureFormat::Rgba16Float, wgpu::TextureDimension::D3),
             carvers: texel(wgpu::TextureFormat::R32Uint, wgpu::TextureDimension::D2),
+            sweeps: texel(wgpu::TextureFormat::Rgba32Float, wgpu::TextureDimension::D2),
         }
     }
 
@@ -78,6 +80,7 @@ impl Lit {
             entry(0, templates.as_entire_binding()),
             entry(7, view(&self.fields)),
             entry(13, view(&self.carvers)),
+            entry(15, view(&self.sweeps)),
         ];
         let own = [
             entry(0, input.as_entire_binding()),
