@@ -9,6 +9,7 @@ use glam::Vec3;
 
 use super::ball::{self, PictureBall};
 use super::captions::Followed;
+use super::drawn::DrawnWay;
 use super::figure::FigureCanvas;
 use super::gizmo::Gizmo;
 use super::held::Held;
@@ -16,7 +17,7 @@ use super::measure::Distances;
 use super::panes::ONE_PANE;
 use super::projection::{self, Projection};
 use super::tools::{asking_ui, bar_bottom, tools_ui};
-use super::{curve, orientation, points, slice_plot, view_bar};
+use super::{curve, orientation, points, slice_plot, view_bar, ways};
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, template_menu, widget};
 use crate::app::picture::host::{Picture, found};
@@ -24,9 +25,9 @@ use crate::app::services::TextOver;
 use crate::app::session::camera;
 use crate::app::session::{Command, Gravity, Place, Question, Selection, Session, Tool};
 use crate::app::words::picture::w;
-use crate::app::words::{self, fill, in_sentence, kinds, messages, names};
+use crate::app::words::{self, fill, in_sentence, kinds, messages, names, sweep};
 use crate::displace::Holds;
-use crate::document::{Background, Camera};
+use crate::document::{Background, Camera, TemplateKind};
 use crate::math::Placement;
 use crate::render::{CaptionPlace, PendingPick, RenderError};
 
@@ -73,6 +74,7 @@ pub(crate) struct Viewport {
     captions: Followed,
     ball: PictureBall,
     figure: FigureCanvas,
+    drawn: DrawnWay,
     /// The picture still shows another object than the document's, and is drawn faintly.
     pub(crate) is_earlier: bool,
 }
@@ -108,6 +110,7 @@ impl Viewport {
             || self.preview_pick.is_some()
             || self.captions.is_waiting()
             || self.ball.is_waiting()
+            || self.drawn.is_waiting()
     }
 
     /// Identity of the picture as a widget, once it has been shown.
@@ -190,7 +193,13 @@ impl Viewport {
         match session.tool() {
             Tool::Place(kind) => {
                 let name = in_sentence(kinds::title(kind));
-                self.placing_ui(ui, bars, &view, &name, commands);
+                let places = [w().tap_where, w().click_where].map(|text| fill(text, &[&name]));
+                let draws = [sweep::w().tap_or_draw, sweep::w().click_or_draw].map(str::to_owned);
+                let texts = match kind {
+                    TemplateKind::Sweep => draws,
+                    _ => places,
+                };
+                self.placing_ui(ui, bars, &view, &texts, commands);
             }
             Tool::Caption => {
                 self.gizmo.release();
@@ -265,7 +274,8 @@ impl Viewport {
         let asked = ui.input(|i| i.pointer.latest_pos());
         let asked = asked.filter(|_| response.double_clicked());
         let is_point = points::ui(ui, view, template, asked, commands);
-        if curve::ui(ui, view, template, commands) || is_point {
+        let is_key = ways::ui(ui, view, template, asked, commands);
+        if curve::ui(ui, view, template, commands) || is_point || is_key {
             self.gizmo.release();
         } else if let Some(edit) =
             self.gizmo
@@ -309,6 +319,7 @@ impl Viewport {
     ) -> Camera {
         let mut camera = session.camera;
         let is_painting = FigureCanvas::takes_drags(session, ui)
+            || DrawnWay::takes_drags(session, ui)
             || session.tool().ball().is_some()
                 && ui.input(|i| !i.pointer.secondary_down() && !i.pointer.middle_down());
         let touch = ui
@@ -448,6 +459,8 @@ impl Viewport {
             .ball
             .ui(ui, response, session, (picture, size), commands);
         self.questions.extend(hand);
+        let hands = (response, view);
+        self.drawn.ui(ui, hands, session, (picture, size), commands);
         self.ask(session, camera, picture, size, commands);
         self.captions
             .update(ui.ctx(), session, camera, picture, size);
@@ -524,7 +537,7 @@ impl Viewport {
         }
         let is_free = session
             .selected_template()
-            .is_none_or(|template| template.kind.facts().holds != Holds::Points)
+            .is_none_or(|t| !matches!(t.kind.facts().holds, Holds::Points | Holds::Tools))
             && !self.gizmo.is_hot();
         match clicked {
             Some(_) if session.tool().adds_up() && response.clicked() => {
@@ -585,14 +598,13 @@ impl Viewport {
         ui: &mut Ui,
         rect: Rect,
         view: &Projection,
-        name: &str,
+        texts: &[String; 2],
         commands: &mut Vec<Command>,
     ) {
         self.gizmo.release();
-        if let Some(preview) = &self.preview {
+        if let Some(preview) = self.preview.as_ref().filter(|_| !self.drawn.is_drawing()) {
             paint_preview(ui, view.rect, view, preview);
         }
-        let texts = [w().tap_where, w().click_where].map(|text| fill(text, &[&name]));
         asking_ui(
             ui,
             rect,
