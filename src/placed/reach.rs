@@ -1,6 +1,6 @@
 use crate::data::{Carver, FieldSamples, Resources};
 use crate::displace::{
-    Given, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples, Sweeping, Tool, ToolWay,
+    Given, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples, Sweeping, Tool,
 };
 use crate::document::{PlacedTemplate, TemplateData};
 use glam::Vec3;
@@ -73,22 +73,11 @@ pub fn sweep_texels(template: &PlacedTemplate) -> Vec<[f32; 4]> {
     }
 }
 
-/// How the tools of a `sweep` go with the parameters that it has, each in its place in the list; none of other kinds.
-pub fn tool_ways(template: &PlacedTemplate) -> Vec<Option<ToolWay>> {
-    match &template.data {
-        TemplateData::Tools(tools) => {
-            let progress = given(template, None, None).p[0];
-            Sweeping::ways(tools, acting_size(template), progress)
-        }
-        _ => Vec::new(),
-    }
-}
-
 /// Width that a texture of the map of a `sweep` has to show in eight texels, subject units; none of other kinds. It is
 /// the smallest coating, or less of one in which tissue is sheared.
 pub fn least_coat(template: &PlacedTemplate) -> Option<f32> {
     match &template.data {
-        TemplateData::Tools(tools) => Sweeping::still(tools, acting_size(template)).least_width(),
+        TemplateData::Tools(tools) => Sweeping::new(tools, acting_size(template)).least_width(),
         _ => None,
     }
 }

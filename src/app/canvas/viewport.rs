@@ -9,7 +9,6 @@ use glam::Vec3;
 
 use super::ball::{self, PictureBall};
 use super::captions::Followed;
-use super::drawn::DrawnWay;
 use super::figure::FigureCanvas;
 use super::gizmo::Gizmo;
 use super::held::Held;
@@ -17,7 +16,7 @@ use super::measure::Distances;
 use super::panes::ONE_PANE;
 use super::projection::{self, Projection};
 use super::tools::{asking_ui, bar_bottom, tools_ui};
-use super::{curve, orientation, points, slice_plot, view_bar, ways};
+use super::{curve, orientation, points, slice_plot, view_bar};
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, template_menu, widget};
 use crate::app::picture::host::{Picture, found};
@@ -25,9 +24,9 @@ use crate::app::services::TextOver;
 use crate::app::session::camera;
 use crate::app::session::{Command, Gravity, Place, Question, Selection, Session, Tool};
 use crate::app::words::picture::w;
-use crate::app::words::{self, fill, in_sentence, kinds, messages, names, sweep};
+use crate::app::words::{self, fill, in_sentence, kinds, messages, names};
 use crate::displace::Holds;
-use crate::document::{Background, Camera, TemplateKind};
+use crate::document::{Background, Camera};
 use crate::math::Placement;
 use crate::render::{CaptionPlace, PendingPick, RenderError};
 
@@ -74,7 +73,6 @@ pub(crate) struct Viewport {
     captions: Followed,
     ball: PictureBall,
     figure: FigureCanvas,
-    drawn: DrawnWay,
     /// The picture still shows another object than the document's, and is drawn faintly.
     pub(crate) is_earlier: bool,
 }
@@ -110,7 +108,6 @@ impl Viewport {
             || self.preview_pick.is_some()
             || self.captions.is_waiting()
             || self.ball.is_waiting()
-            || self.drawn.is_waiting()
     }
 
     /// Identity of the picture as a widget, once it has been shown.
@@ -193,13 +190,7 @@ impl Viewport {
         match session.tool() {
             Tool::Place(kind) => {
                 let name = in_sentence(kinds::title(kind));
-                let places = [w().tap_where, w().click_where].map(|text| fill(text, &[&name]));
-                let draws = [sweep::w().tap_or_draw, sweep::w().click_or_draw].map(str::to_owned);
-                let texts = match kind {
-                    TemplateKind::Sweep => draws,
-                    _ => places,
-                };
-                self.placing_ui(ui, bars, &view, &texts, commands);
+                self.placing_ui(ui, bars, &view, &name, commands);
             }
             Tool::Caption => {
                 self.gizmo.release();
@@ -274,8 +265,7 @@ impl Viewport {
         let asked = ui.input(|i| i.pointer.latest_pos());
         let asked = asked.filter(|_| response.double_clicked());
         let is_point = points::ui(ui, view, template, asked, commands);
-        let is_key = ways::ui(ui, view, template, asked, commands);
-        if curve::ui(ui, view, template, commands) || is_point || is_key {
+        if curve::ui(ui, view, template, commands) || is_point {
             self.gizmo.release();
         } else if let Some(edit) =
             self.gizmo
@@ -319,7 +309,6 @@ impl Viewport {
     ) -> Camera {
         let mut camera = session.camera;
         let is_painting = FigureCanvas::takes_drags(session, ui)
-            || DrawnWay::takes_drags(session, ui)
             || session.tool().ball().is_some()
                 && ui.input(|i| !i.pointer.secondary_down() && !i.pointer.middle_down());
         let touch = ui
@@ -459,8 +448,6 @@ impl Viewport {
             .ball
             .ui(ui, response, session, (picture, size), commands);
         self.questions.extend(hand);
-        let hands = (response, view);
-        self.drawn.ui(ui, hands, session, (picture, size), commands);
         self.ask(session, camera, picture, size, commands);
         self.captions
             .update(ui.ctx(), session, camera, picture, size);
@@ -537,7 +524,7 @@ impl Viewport {
         }
         let is_free = session
             .selected_template()
-            .is_none_or(|t| !matches!(t.kind.facts().holds, Holds::Points | Holds::Tools))
+            .is_none_or(|template| template.kind.facts().holds != Holds::Points)
             && !self.gizmo.is_hot();
         match clicked {
             Some(_) if session.tool().adds_up() && response.clicked() => {
@@ -598,13 +585,14 @@ impl Viewport {
         ui: &mut Ui,
         rect: Rect,
         view: &Projection,
-        texts: &[String; 2],
+        name: &str,
         commands: &mut Vec<Command>,
     ) {
         self.gizmo.release();
-        if let Some(preview) = self.preview.as_ref().filter(|_| !self.drawn.is_drawing()) {
+        if let Some(preview) = &self.preview {
             paint_preview(ui, view.rect, view, preview);
         }
+        let texts = [w().tap_where, w().click_where].map(|text| fill(text, &[&name]));
         asking_ui(
             ui,
             rect,

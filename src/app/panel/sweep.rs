@@ -10,7 +10,6 @@ use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
 use crate::app::session::Command;
 use crate::app::words::fill;
 use crate::app::words::sweep::w;
-use crate::displace::{COAT, LONG, ROUND, SCALE, SOLID};
 use crate::document::{
     Edit, MAX_KEYS, MAX_TOOLS, PathKey, PlacedTemplate, SweepTool, SweepTools, TemplateData,
     ToolShape,
@@ -18,6 +17,10 @@ use crate::document::{
 
 /// Greatest coordinate of a key that the fields offer, template units.
 const FARTHEST: f64 = 10.0;
+/// Ranges of lengths of tools, as documents have them.
+const SOLID: [f64; 2] = [0.005, 2.0];
+const ROUND: [f64; 2] = [0.0, 2.0];
+const LONG: [f64; 2] = [0.0, 4.0];
 
 /// The tools, one under the other, and the planes in which they are mirrored.
 pub(crate) fn ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>) {
@@ -124,7 +127,7 @@ fn tool_ui(ui: &mut Ui, number: usize, tool: &SweepTool) -> Edited {
             ..tool.clone()
         }));
     }
-    let coat = length_row(ui, (w().coat, w().coat_hint), tool.coat, COAT);
+    let coat = length_row(ui, (w().coat, w().coat_hint), tool.coat, [0.01, 2.0]);
     if let Some(change) = coat {
         edited = Edited::To(change.map(|coat| SweepTool {
             coat,
@@ -180,7 +183,7 @@ fn path_ui(ui: &mut Ui, number: usize, tool: &SweepTool) -> Option<Change<SweepT
                 summary: w().scale_hint,
                 value: f64::from(key.scale),
                 default: Some(1.0),
-                range: SCALE,
+                range: [0.05, 20.0],
                 unit: "",
                 decimals: 2,
             };
@@ -227,8 +230,7 @@ fn shape_ui(ui: &mut Ui, shape: &ToolShape) -> Option<Change<ToolShape>> {
         ToolShape::Capsule { .. } => &[(w.radius, ROUND), (w.length, LONG)],
         ToolShape::Box { half, round } => {
             let sides = axes_row(ui, w.half, *half, shape);
-            let most = f64::from(half.min_element());
-            let change = length_row(ui, (w.round, hint), *round, [0.0, most]);
+            let change = length_row(ui, (w.round, hint), *round, ROUND);
             let half = *half;
             let rounded = change.map(|c| c.map(|round| ToolShape::Box { half, round }));
             return sides.or(rounded);
@@ -262,7 +264,7 @@ fn axes_row(ui: &mut Ui, name: &str, value: Vec3, shape: &ToolShape) -> Option<C
     Some(change.map(|value| match shape {
         ToolShape::Box { round, .. } => ToolShape::Box {
             half: vec3(value),
-            round: round.min(vec3(value).min_element()),
+            round: *round,
         },
         _ => ToolShape::Ellipsoid { radii: vec3(value) },
     }))

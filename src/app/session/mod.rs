@@ -29,7 +29,6 @@ pub mod camera;
 mod clipboard;
 mod clock;
 mod command;
-mod drawing;
 mod dropped;
 mod effect;
 pub mod figure;

@@ -148,8 +148,6 @@ pub struct Session {
     pub(super) glide: Option<Glide>,
     pub(super) mode: Mode,
     pub(super) tool: Tool,
-    /// The template that a hand is drawing.
-    pub(super) drawn: Option<usize>,
     /// The selected template or object.
     pub selection: Selection,
     /// What the handles in the picture do.
@@ -257,7 +255,6 @@ impl Session {
             glide: None,
             mode: Mode::default(),
             tool: Tool::default(),
-            drawn: None,
             selection: Selection::Nothing,
             gizmo: GizmoMode::Move,
             notices: Notices::default(),
