@@ -158,14 +158,7 @@ pub(crate) struct Sweeping<'a> {
 impl<'a> Sweeping<'a> {
     /// The steps of tools in a box of this size.
     pub(crate) fn new(tools: &'a SweepTools, size: Vec3) -> Self {
-        let size = size.as_dvec3();
-        let movers: Vec<_> = tools.acting().filter_map(|t| Mover::new(t, size)).collect();
-        let mut sweeping = Self {
-            movers,
-            mirror: tools.mirror,
-            steps: Vec::new(),
-            size,
-        };
+        let mut sweeping = Self::still(tools, size);
         let spans = sweeping.spans();
         let wanted: Vec<f64> = spans.iter().map(|span| sweeping.wanted(*span)).collect();
         let all: f64 = wanted.iter().sum();
@@ -202,17 +195,22 @@ impl<'a> Sweeping<'a> {
         }
     }
 
-    /// Pieces of paths, and steps as the limits of a document count them.
-    pub(crate) fn counted(tools: &'a SweepTools, size: Vec3) -> [usize; 2] {
+    /// The tools alone, without steps.
+    pub(crate) fn still(tools: &'a SweepTools, size: Vec3) -> Self {
         let size = size.as_dvec3();
-        let movers: Vec<_> = tools.acting().filter_map(|t| Mover::new(t, size)).collect();
-        let pieces = movers.iter().map(|mover| mover.screws.len()).sum();
-        let sweeping = Self {
-            movers,
+        let movers = tools.acting().filter_map(|t| Mover::new(t, size));
+        Self {
+            movers: movers.collect(),
             mirror: tools.mirror,
             steps: Vec::new(),
             size,
-        };
+        }
+    }
+
+    /// Pieces of paths, and steps as the limits of a document count them.
+    pub(crate) fn counted(tools: &'a SweepTools, size: Vec3) -> [usize; 2] {
+        let sweeping = Self::still(tools, size);
+        let pieces = sweeping.movers.iter().map(|m| m.screws.len()).sum();
         let of_span = |(from, to): (f64, f64)| {
             let of_tool = sweeping
                 .movers

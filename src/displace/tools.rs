@@ -15,6 +15,15 @@ pub const MAX_PIECES: usize = 256;
 /// Most steps in all sweeps of a document.
 pub const MAX_SWEEP_STEPS: usize = 1024;
 
+/// Ranges of lengths of tools in documents, fractions of the shortest side of the box: of what has to be solid, of
+/// what may be without extent, of the straight part of a capsule.
+pub(crate) const SOLID: [f64; 2] = [0.005, 2.0];
+pub(crate) const ROUND: [f64; 2] = [0.0, 2.0];
+pub(crate) const LONG: [f64; 2] = [0.0, 4.0];
+/// Ranges of the width of a coating and of the scale of a pose.
+pub(crate) const COAT: [f64; 2] = [0.01, 2.0];
+pub(crate) const SCALE: [f64; 2] = [0.05, 20.0];
+
 /// What moves in a `sweep`, all at once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepTools {

@@ -24,7 +24,9 @@ use super::model::{
     Style, StylePreset, SurfaceLook, TemplateKind, TemplateMode, Tone,
 };
 use super::text::{json, pointer};
-use crate::displace::{Holds, MAX_KEYS, MAX_TOOL_POINTS, MAX_TOOLS, ToolShape};
+use crate::displace::{
+    COAT, Holds, LONG, MAX_KEYS, MAX_TOOL_POINTS, MAX_TOOLS, ROUND, SCALE, SOLID, ToolShape,
+};
 use crate::math::{Placement, plain_f64};
 use serde_json::{Map, Value, json};
 use std::collections::HashMap;
@@ -659,14 +661,14 @@ pub(crate) const SWEEP: &[Key] = &[
 #[rustfmt::skip]
 pub(crate) const TOOL: &[Key] = &[
     key(BY_NAME, "shape", Kind::Name(&ToolShape::NAMES), "its form. A capsule lies along z, a torus about z"),
-    key(BY_NAME, "radius", number(0.15, 0.0, 2.0), "of a ball (0.15 without this key, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)").optional(),
-    key(BY_NAME, "radii", Kind::Vector { default: [0.2, 0.15, 0.1], min: 0.005, max: 2.0 }, "half axes of an ellipsoid").unmade(),
-    key(BY_NAME, "length", number(0.4, 0.0, 4.0), "of the straight part of a capsule"),
-    key(BY_NAME, "half", Kind::Vector { default: [0.15; 3], min: 0.005, max: 2.0 }, "half sides of a box").unmade(),
-    key(BY_NAME, "round", number(0.02, 0.0, 2.0), "radius of the edges of a box, at most its least half side"),
-    key(BY_NAME, "ring", number(0.2, 0.005, 2.0), "radius of a torus, to the middle of its tube"),
+    key(BY_NAME, "radius", number(0.15, ROUND[0], ROUND[1]), "of a ball (0.15 without this key, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)").optional(),
+    key(BY_NAME, "radii", Kind::Vector { default: [0.2, 0.15, 0.1], min: SOLID[0], max: SOLID[1] }, "half axes of an ellipsoid").unmade(),
+    key(BY_NAME, "length", number(0.4, LONG[0], LONG[1]), "of the straight part of a capsule"),
+    key(BY_NAME, "half", Kind::Vector { default: [0.15; 3], min: SOLID[0], max: SOLID[1] }, "half sides of a box").unmade(),
+    key(BY_NAME, "round", number(0.02, ROUND[0], ROUND[1]), "radius of the edges of a box, at most its least half side"),
+    key(BY_NAME, "ring", number(0.2, SOLID[0], SOLID[1]), "radius of a torus, to the middle of its tube"),
     key(BY_NAME, "points", Kind::Triples { most: MAX_TOOL_POINTS, max: 4.0 }, "of a curve: two or more places with straight pieces between them. Without this key `[[0, 0, -0.2], [0, 0, 0.2]]`").optional().unmade(),
-    key(BY_NAME, "coat", number(0.25, 0.01, 2.0), "width of the coating in which its motion fades"),
+    key(BY_NAME, "coat", number(0.25, COAT[0], COAT[1]), "width of the coating in which its motion fades"),
     key(BY_NAME, "spline", Kind::Flag { default: false }, "true: places are joined by a Catmull-Rom curve, each span of four screws; false: one screw from key to key"),
     key(BY_NAME, "path", Kind::FirstOf { of: PATH_KEY, most: MAX_KEYS }, "its poses, each an object with these keys or its place alone; with one it stands still. Without this key `[[0.5, 0.5, 1.15], [0.5, 0.5, 0.65]]`").optional().unmade(),
 ];
@@ -676,7 +678,7 @@ pub(crate) const TOOL: &[Key] = &[
 pub(crate) const PATH_KEY: &[Key] = &[
     key(320, "at", Kind::Vector { default: [0.5; 3], min: -MAX_PAIR, max: MAX_PAIR }, "place of the tool's origin, template space").stays().unmade(),
     key(330, "rotate", Kind::Rotation, "turn about its origin").unmade(),
-    key(632, "scale", number(1.0, 0.05, 20.0), "scale about its origin"),
+    key(632, "scale", number(1.0, SCALE[0], SCALE[1]), "scale about its origin"),
 ];
 
 /// Keys of `/look`.

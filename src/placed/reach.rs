@@ -77,7 +77,7 @@ pub fn sweep_texels(template: &PlacedTemplate) -> Vec<[f32; 4]> {
 /// the smallest coating, or less of one in which tissue is sheared.
 pub fn least_coat(template: &PlacedTemplate) -> Option<f32> {
     match &template.data {
-        TemplateData::Tools(tools) => Sweeping::new(tools, acting_size(template)).least_width(),
+        TemplateData::Tools(tools) => Sweeping::still(tools, acting_size(template)).least_width(),
         _ => None,
     }
 }

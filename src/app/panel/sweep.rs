@@ -10,6 +10,7 @@ use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
 use crate::app::session::Command;
 use crate::app::words::fill;
 use crate::app::words::sweep::w;
+use crate::displace::{COAT, LONG, ROUND, SCALE, SOLID};
 use crate::document::{
     Edit, MAX_KEYS, MAX_TOOLS, PathKey, PlacedTemplate, SweepTool, SweepTools, TemplateData,
     ToolShape,
@@ -17,10 +18,6 @@ use crate::document::{
 
 /// Greatest coordinate of a key that the fields offer, template units.
 const FARTHEST: f64 = 10.0;
-/// Ranges of lengths of tools, as documents have them.
-const SOLID: [f64; 2] = [0.005, 2.0];
-const ROUND: [f64; 2] = [0.0, 2.0];
-const LONG: [f64; 2] = [0.0, 4.0];
 
 /// The tools, one under the other, and the planes in which they are mirrored.
 pub(crate) fn ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>) {
@@ -127,7 +124,7 @@ fn tool_ui(ui: &mut Ui, number: usize, tool: &SweepTool) -> Edited {
             ..tool.clone()
         }));
     }
-    let coat = length_row(ui, (w().coat, w().coat_hint), tool.coat, [0.01, 2.0]);
+    let coat = length_row(ui, (w().coat, w().coat_hint), tool.coat, COAT);
     if let Some(change) = coat {
         edited = Edited::To(change.map(|coat| SweepTool {
             coat,
@@ -183,7 +180,7 @@ fn path_ui(ui: &mut Ui, number: usize, tool: &SweepTool) -> Option<Change<SweepT
                 summary: w().scale_hint,
                 value: f64::from(key.scale),
                 default: Some(1.0),
-                range: [0.05, 20.0],
+                range: SCALE,
                 unit: "",
                 decimals: 2,
             };

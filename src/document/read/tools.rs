@@ -2,7 +2,7 @@
 
 use super::object::{Object, numbers, wrong};
 use super::reader::Reader;
-use crate::displace::{PathKey, SweepTool, SweepTools, ToolShape};
+use crate::displace::{LONG, PathKey, ROUND, SOLID, SweepTool, SweepTools, ToolShape};
 use crate::document::schema::{Kind, MAX_PAIR};
 use crate::document::text::pointer::join;
 use crate::document::text::{DocumentError, NoticeKind};
@@ -11,10 +11,6 @@ use serde_json::Value;
 
 /// What a place in a list is called in a message.
 const PLACE: &str = "a list of three numbers";
-/// Ranges of the numbers of tools, fractions of the shortest side of the box.
-const ROUND: [f64; 2] = [0.0, 2.0];
-const SOLID: [f64; 2] = [0.005, 2.0];
-const LONG: [f64; 2] = [0.0, 4.0];
 
 impl Reader {
     pub(super) fn sweep_tools(&mut self, params: &Object<'_>) -> Result<SweepTools, DocumentError> {

@@ -32,15 +32,19 @@ pub(crate) struct HeldData {
 /// Two are equal if they share their data in memory.
 impl PartialEq for HeldData {
     fn eq(&self, other: &Self) -> bool {
-        let pairs = self.carvers.iter().zip(&other.carvers);
-        self.fields == other.fields
-            && self.sweeps == other.sweeps
-            && self.carvers.len() == other.carvers.len()
-            && pairs.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))
+        self.sweeps == other.sweeps && self.has_files_of(other)
     }
 }
 
 impl HeldData {
+    /// True if both share their fields and grids in memory.
+    fn has_files_of(&self, other: &Self) -> bool {
+        let pairs = self.carvers.iter().zip(&other.carvers);
+        self.fields == other.fields
+            && self.carvers.len() == other.carvers.len()
+            && pairs.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))
+    }
+
     /// What the templates of a document hold.
     pub(crate) fn of(templates: &[PlacedTemplate], resources: &Resources) -> Self {
         let acting = templates.iter().filter(|t| t.acting().enabled);
@@ -65,6 +69,8 @@ pub(crate) struct HeldTextures {
     /// Stamp of the textures.
     pub stamp: Stamp,
     made_from: MadeFrom<1>,
+    /// What they were made of.
+    made_of: HeldData,
 }
 
 impl HeldTextures {
@@ -76,10 +82,19 @@ impl HeldTextures {
     /// Takes over what templates hold; it is on its way to the GPU when this returns.
     pub(crate) fn update(&mut self, gpu: &Gpu, held: &Stamped<HeldData>) {
         if self.made_from.is_stale([held.stamp()]) {
-            self.destroy();
-            self.fields = fields_of(gpu, &held.get().fields);
-            self.carvers = carvers_of(gpu, &held.get().carvers);
-            self.sweeps = sweeps_of(gpu, &held.get().sweeps);
+            let new = held.get();
+            // A path that is dragged uploads no file again.
+            if !self.made_of.has_files_of(new) {
+                self.fields.texture().destroy();
+                self.carvers.texture().destroy();
+                self.fields = fields_of(gpu, &new.fields);
+                self.carvers = carvers_of(gpu, &new.carvers);
+            }
+            if self.made_of.sweeps != new.sweeps {
+                self.sweeps.texture().destroy();
+                self.sweeps = sweeps_of(gpu, &new.sweeps);
+            }
+            self.made_of = new.clone();
             self.stamp += 1;
         }
     }
@@ -92,6 +107,7 @@ impl HeldTextures {
             sweeps: sweeps_of(gpu, &held.sweeps),
             stamp: 0,
             made_from: MadeFrom::default(),
+            made_of: held.clone(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::displace::{Holds, MAX_TOOL_POINTS};
+use crate::displace::{COAT, Holds, LONG, MAX_TOOL_POINTS, ROUND, SCALE, SOLID};
 use crate::document::{MAX_KEYS, MAX_TOOLS, ParamKind, TemplateKind, ToolShape, plain_f64};
 
 /// Parameters of a kind that are no numbers or choices, as the list has them.
@@ -11,14 +11,13 @@ fn held(holds: Holds) -> Value {
     let vector = |name: &str, default: [f64; 3], [min, max]: [f64; 2], summary: &str| json!({ "name": name, "summary": summary, "type": "vector", "default": default, "min": min, "max": max });
     let text = |name: &str, summary: &str| json!({ "name": name, "summary": summary, "type": "text", "default": "" });
     let list = |name: &str, default: Value, most: usize, of: Value, summary: &str| json!({ "name": name, "summary": summary, "type": "list", "default": default, "max": most, "of": of });
-    let (solid, round) = ([0.005, 2.0], [0.0, 2.0]);
     match holds {
         Holds::Object => json!([text("object", "Name of the object of the scene")]),
         Holds::Tools => {
             let key = json!([
                 vector("at", [0.5; 3], [-10.0, 10.0], "Place of the tool's origin, template space; a bare list is a place"),
                 { "name": "rotate", "summary": "Turn about its origin", "type": "rotation", "default": [0, 0, 0, 1] },
-                number("scale", 1.0, [0.05, 20.0], "Scale about its origin"),
+                number("scale", 1.0, SCALE, "Scale about its origin"),
             ]);
             let path = json!([[0.5, 0.5, 1.15], [0.5, 0.5, 0.65]]);
             let point = json!([vector(
@@ -30,14 +29,14 @@ fn held(holds: Holds) -> Value {
             let tool = json!([
                 { "name": "shape", "summary": "Its form; lengths are fractions of the shortest side of the box",
                     "type": "choice", "default": ToolShape::NAMES[0], "choices": ToolShape::NAMES },
-                number("radius", 0.15, round, "Of a ball (0.15, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)"),
-                vector("radii", [0.2, 0.15, 0.1], solid, "Half axes of an ellipsoid"),
-                number("length", 0.4, [0.0, 4.0], "Of the straight part of a capsule"),
-                vector("half", [0.15; 3], solid, "Half sides of a box"),
-                number("round", 0.02, round, "Radius of the edges of a box, at most its least half side"),
-                number("ring", 0.2, solid, "Radius of a torus, to the middle of its tube"),
+                number("radius", 0.15, ROUND, "Of a ball (0.15, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)"),
+                vector("radii", [0.2, 0.15, 0.1], SOLID, "Half axes of an ellipsoid"),
+                number("length", 0.4, LONG, "Of the straight part of a capsule"),
+                vector("half", [0.15; 3], SOLID, "Half sides of a box"),
+                number("round", 0.02, ROUND, "Radius of the edges of a box, at most its least half side"),
+                number("ring", 0.2, SOLID, "Radius of a torus, to the middle of its tube"),
                 list("points", json!([[0, 0, -0.2], [0, 0, 0.2]]), MAX_TOOL_POINTS, point, "Of a curve: two or more places with straight pieces between them"),
-                number("coat", 0.25, [0.01, 2.0], "Width of the coating in which its motion fades"),
+                number("coat", 0.25, COAT, "Width of the coating in which its motion fades"),
                 { "name": "spline", "summary": "Places are joined by a smooth curve", "type": "flag", "default": false },
                 list("path", path, MAX_KEYS, key, "Its poses; with one it stands still and holds what is in it"),
             ]);
