@@ -2,7 +2,8 @@
 // needs: types.wgsl kinds.wgsl displace/curve.wgsl displace/compose.wgsl march/sample.wgsl
 //   march/plain.wgsl|march/align.wgsl|march/baked.wgsl
 
-/// Columns of the Jacobian longer than this come from a jump of the map, not from tissue.
+/// Columns of the Jacobian longer than this come from a jump of the map, not from tissue. A sweep has no jump, and what
+/// is pressed together by ten coatings is stretched by a hundred.
 const MAX_STRETCH: f32 = 12.0;
 
 /// How the map changes around a point.
@@ -38,6 +39,7 @@ fn differential_at(pos: vec3f, forward: vec3f, edge: Sample, mask: u32) -> Diffe
         let has_base = KEEPS_TISSUE && (drawn_kinds & DRAWN_CURVES) == 0u;
         var turn = select(4u, select(0u, 1u, has_base), path != 0u);
         rounds_splines = true;
+        let may_leap = KEEPS_TISSUE || (drawn_kinds & ~(DRAWN_SWEEP | DRAWN_CURVES)) != 0u;
         var is_back = false;
         while turn < 4u {
             let toward = select(forward, -forward, is_back) * map_step();
@@ -49,7 +51,7 @@ fn differential_at(pos: vec3f, forward: vec3f, edge: Sample, mask: u32) -> Diffe
             let way = select(along.x + along.y + along.z, 1.0, turn == 0u);
             let column = (moved.pos - base.pos) / way;
             let change = (moved.continuity - base.continuity) / way;
-            let leaps = dot(column, column) >= MAX_STRETCH * MAX_STRETCH;
+            let leaps = may_leap && dot(column, column) >= MAX_STRETCH * MAX_STRETCH;
             if leaps && !is_back && turn != 0u {
                 is_back = true;
                 continue;
