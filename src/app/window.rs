@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use egui::Ui;
 
+use crate::app::canvas::points;
 use crate::app::canvas::saved::Saving;
 use crate::app::canvas::slices::Slices;
 use crate::app::canvas::steps;
@@ -579,9 +580,9 @@ impl App {
             if is_plain && (is_typing || (viewport::is_widget_key(key) && !has_arrows)) {
                 continue;
             }
-            // A point of the transfer function is removed by the same keys as a template.
+            // A point of the transfer function and a dot in the picture are removed by the same keys as a template.
             let is_delete = matches!(key, egui::Key::Delete | egui::Key::Backspace);
-            if is_delete && self.transfer.has_keyboard {
+            if is_delete && (self.transfer.has_keyboard || points::has_keyboard(ui)) {
                 continue;
             }
             // A slice is scrolled by the keys that order templates.

@@ -165,7 +165,7 @@ pub struct Samples {
 pub struct Facts {
     /// Name, meaning and parameters.
     pub spec: TemplateSpec,
-    /// What the template holds besides its parameters: control points, a file, or nothing.
+    /// What the template holds besides its parameters.
     pub holds: Holds,
     /// How it is done in part.
     pub amount: Amount,

@@ -90,8 +90,9 @@ pub use noise::noise;
 pub use points::{ControlPoint, ControlPoints};
 pub use spec::{MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateSpec};
 pub(crate) use sweeping::Sweeping;
-pub(crate) use tools::{COAT, LONG, ROUND, SCALE, SOLID};
+pub use sweeping::{ToolWay, WAY_PARTS};
+pub(crate) use tools::{COAT, FARTHEST, LONG, ROUND, SCALE, SOLID};
 pub use tools::{
-    MAX_IMAGES, MAX_KEYS, MAX_PIECES, MAX_SWEEP_STEPS, MAX_TOOL_POINTS, MAX_TOOLS, PathKey,
-    SweepTool, SweepTools, ToolShape,
+    MAX_IMAGES, MAX_KEYS, MAX_PIECES, MAX_SWEEP_STEPS, MAX_TOOL_POINTS, MAX_TOOLS, MOST_STEPS,
+    PathKey, SweepTool, SweepTools, ToolShape,
 };

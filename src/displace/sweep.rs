@@ -6,7 +6,7 @@ use glam::Vec3;
 /// Half side of a box in which differences still tell how the map changes, in widths of the smallest coating.
 const DETAIL_COATS: f32 = 0.125;
 
-/// All that is known about sweep besides its formula. It is grabbed where its first tool is.
+/// All that is known about sweep besides its formula. It is grabbed at the first of its tools that moves.
 pub(super) const FACTS: Facts = Facts {
     spec: TemplateSpec {
         name: "sweep",

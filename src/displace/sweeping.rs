@@ -2,15 +2,13 @@
 //! tool in each, found once per edit in 64 bits, and packed for shaders/displace/sweep.wgsl.
 
 use super::facts::Given;
-use super::tools::{SweepTool, SweepTools, ToolShape};
+use super::tools::{MOST_STEPS, PathKey, SweepTool, SweepTools, ToolShape};
 use crate::math::{Aabb, Screw, Similarity, smooth_path};
 use glam::{DQuat, DVec3, Vec3};
 
 /// Steps of a tool per width of its coating that it travels, and where the reaches of several overlap.
 const STEPS_A_COAT: f64 = 6.0;
 const STEPS_A_COAT_OF_MANY: f64 = 8.0;
-/// Most steps of one sweep: a thin coating in the way of a wide one asks for more than the document's limit counts.
-const MOST_STEPS: f64 = 4096.0;
 /// Steps in a block, and blocks in a block of blocks, as in shaders/displace/sweep.wgsl.
 const BLOCK: usize = 8;
 /// Texels of a step for itself, and for each tool.
@@ -135,6 +133,19 @@ impl Ball {
     }
 }
 
+/// Signs of the axes of each image in these mirrors, the tools themselves first.
+fn images_of(mirror: [bool; 3]) -> Vec<DVec3> {
+    let mut images = vec![DVec3::ONE];
+    for axis in (0..3).filter(|axis| mirror[*axis]) {
+        let other = images.clone().into_iter().map(|mut signs| {
+            signs[axis] = -1.0;
+            signs
+        });
+        images.extend(other);
+    }
+    images
+}
+
 /// One step: every tool moves by one screw.
 #[derive(Clone, Debug)]
 struct Step {
@@ -145,6 +156,18 @@ struct Step {
     /// The longest way of a point of any tool.
     travel: f64,
 }
+
+/// How a tool of a `sweep` goes, in template space.
+#[derive(Clone, Debug)]
+pub struct ToolWay {
+    /// Its poses from the first key to the last, [`WAY_PARTS`] to a span between two keys.
+    pub poses: Vec<PathKey>,
+    /// Lines that show its form where it has come to, and those of its images.
+    pub outline: Vec<Vec<Vec3>>,
+}
+
+/// Poses of a [`ToolWay`] from one key to the next.
+pub const WAY_PARTS: usize = 16;
 
 /// How a `sweep` is evaluated.
 #[derive(Clone, Debug)]
@@ -161,10 +184,16 @@ impl<'a> Sweeping<'a> {
         let mut sweeping = Self::still(tools, size);
         let spans = sweeping.spans();
         let wanted: Vec<f64> = spans.iter().map(|span| sweeping.wanted(*span)).collect();
-        let all: f64 = wanted.iter().sum();
-        let factor = (MOST_STEPS / all.max(1.0)).min(1.0);
-        for ((from, to), wanted) in spans.into_iter().zip(wanted) {
-            let count = libm::ceil(wanted * factor);
+        // Where thin coatings of others ask for more than may be, each span still gets what its own tools ask for.
+        let own = spans.iter().zip(&wanted);
+        let own: Vec<f64> = own
+            .map(|(span, wanted)| sweeping.counted_in(*span).min(*wanted))
+            .collect();
+        let [least, all] = [&own, &wanted].map(|counts| counts.iter().sum::<f64>());
+        let room = (tools.most_steps as f64 - least).max(0.0);
+        let part = (room / (all - least).max(1.0)).min(1.0);
+        for (((from, to), wanted), own) in spans.into_iter().zip(wanted).zip(own) {
+            let count = libm::ceil(own + (wanted - own) * part);
             for i in 0..count as usize {
                 let at = |i: usize| from + (to - from) * (i as f64 / count);
                 sweeping.step(at(i), at(i + 1));
@@ -173,13 +202,55 @@ impl<'a> Sweeping<'a> {
         sweeping
     }
 
-    /// Where the first tool is at a time, template space; the middle of the box if there is none.
+    /// Where the first tool that moves is held at a time, template space: beside its origin, so that the handle of its
+    /// way does not lie on its keys, and goes along where the tool only turns or grows. The middle of the box if there
+    /// is none.
     pub(crate) fn place(given: &Given, time: f32) -> Vec3 {
-        let tool = given.tools.as_ref().and_then(|t| t.acting().next());
+        let acting = || given.tools.iter().flat_map(SweepTools::acting);
+        let moving = acting().find(|tool| tool.path.len() > 1);
+        let tool = moving.or_else(|| acting().next());
         let size = given.size.as_dvec3();
         let mover = tool.and_then(|tool| Mover::new(tool, size));
-        let place = mover.map_or(DVec3::ZERO, |m| m.at(f64::from(time)).2.place);
+        let place = mover.map_or(DVec3::ZERO, |mover| {
+            let (_, _, pose) = mover.at(f64::from(time));
+            pose.of(DVec3::splat(mover.farthest / libm::sqrt(3.0)))
+        });
         (place / size + 0.5).as_vec3()
+    }
+
+    /// How the tools go, each in its place in the list; none of an unknown shape.
+    pub(crate) fn ways(tools: &SweepTools, size: Vec3, progress: f32) -> Vec<Option<ToolWay>> {
+        let size = size.as_dvec3();
+        let images = images_of(tools.mirror);
+        let way = |tool: &SweepTool| {
+            let mover = Mover::new(tool, size)?;
+            let parts = WAY_PARTS * (tool.path.len() - 1);
+            let poses = (0..=parts).map(|i| {
+                let (_, _, pose) = mover.at(i as f64 / parts.max(1) as f64);
+                PathKey {
+                    at: (pose.place / size + 0.5).as_vec3(),
+                    rotate: pose.turn.as_quat(),
+                    scale: pose.scale as f32,
+                }
+            });
+            let (_, _, pose) = mover.at(f64::from(progress));
+            let lines = mover.shape.outline();
+            let mut outline = Vec::new();
+            for image in &images {
+                for line in &lines {
+                    let places = line.iter().map(|p| {
+                        let metric = pose.of(p.as_dvec3() * mover.unit) * *image;
+                        (metric / size + 0.5).as_vec3()
+                    });
+                    outline.push(places.collect());
+                }
+            }
+            Some(ToolWay {
+                poses: poses.collect(),
+                outline,
+            })
+        };
+        tools.tools.iter().map(way).collect()
     }
 
     /// The steps of what a template holds.
@@ -207,18 +278,26 @@ impl<'a> Sweeping<'a> {
         }
     }
 
-    /// Pieces of paths, and steps as the limits of a document count them.
-    pub(crate) fn counted(tools: &'a SweepTools, size: Vec3) -> [usize; 2] {
+    /// Pieces of paths, and steps as the limits of a document count them. Where there is room for fewer pieces the
+    /// steps are not counted.
+    pub(crate) fn counted(tools: &'a SweepTools, size: Vec3, room: usize) -> [usize; 2] {
         let sweeping = Self::still(tools, size);
         let pieces = sweeping.movers.iter().map(|m| m.screws.len()).sum();
-        let of_span = |(from, to): (f64, f64)| {
-            let of_tool = sweeping
-                .movers
-                .iter()
-                .map(|mover| STEPS_A_COAT_OF_MANY * mover.travel(from, to) / mover.coat);
-            libm::ceil(of_tool.fold(0.0, f64::max)).min(MOST_STEPS) as usize
-        };
-        [pieces, sweeping.spans().into_iter().map(of_span).sum()]
+        if pieces > room {
+            return [pieces, 0];
+        }
+        let spans = sweeping.spans().into_iter();
+        let steps = spans.map(|span| sweeping.counted_in(span) as usize);
+        [pieces, steps.sum()]
+    }
+
+    /// Steps of a span as the limits of a document count them.
+    fn counted_in(&self, (from, to): (f64, f64)) -> f64 {
+        let of_tool = self
+            .movers
+            .iter()
+            .map(|mover| STEPS_A_COAT_OF_MANY * mover.travel(from, to) / mover.coat);
+        libm::ceil(of_tool.fold(0.0, f64::max)).min(MOST_STEPS as f64)
     }
 
     /// From break to break: times at which any tool goes over from one screw to another.
@@ -258,7 +337,7 @@ impl<'a> Sweeping<'a> {
             }
             wanted = wanted.max(travel * per_travel);
         }
-        libm::ceil(wanted.min(MOST_STEPS))
+        libm::ceil(wanted.min(MOST_STEPS as f64))
     }
 
     fn step(&mut self, start: f64, end: f64) {
@@ -287,15 +366,7 @@ impl<'a> Sweeping<'a> {
 
     /// Signs of the axes of each image, the tools themselves first.
     fn images(&self) -> Vec<DVec3> {
-        let mut images = vec![DVec3::ONE];
-        for axis in (0..3).filter(|axis| self.mirror[*axis]) {
-            let other = images.clone().into_iter().map(|mut signs| {
-                signs[axis] = -1.0;
-                signs
-            });
-            images.extend(other);
-        }
-        images
+        images_of(self.mirror)
     }
 
     /// A ball about the reach of all that moves in some steps, images too.

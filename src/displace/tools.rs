@@ -1,6 +1,7 @@
 //! What a `sweep` holds: its tools, their shapes and their paths.
 
 use glam::{Quat, Vec3};
+use std::f32::consts::TAU;
 
 /// Most tools of a `sweep`.
 pub const MAX_TOOLS: usize = 4;
@@ -12,8 +13,11 @@ pub const MAX_KEYS: usize = 64;
 pub const MAX_TOOL_POINTS: usize = 32;
 /// Most pieces of paths in all sweeps of a document, images not counted.
 pub const MAX_PIECES: usize = 256;
-/// Most steps in all sweeps of a document.
+/// Most steps in all sweeps of a document, as its limit counts them.
 pub const MAX_SWEEP_STEPS: usize = 1024;
+/// Most steps that all sweeps of a document are done in: a thin coating in the way of a wide one asks for more than the
+/// limit counts.
+pub const MOST_STEPS: usize = 4096;
 
 /// Ranges of lengths of tools in documents, fractions of the shortest side of the box: of what has to be solid, of
 /// what may be without extent, of the straight part of a capsule.
@@ -24,6 +28,9 @@ pub(crate) const LONG: [f64; 2] = [0.0, 4.0];
 pub(crate) const COAT: [f64; 2] = [0.01, 2.0];
 pub(crate) const SCALE: [f64; 2] = [0.05, 20.0];
 
+/// Greatest coordinate of a key, template units.
+pub(crate) const FARTHEST: f32 = 10.0;
+
 /// What moves in a `sweep`, all at once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepTools {
@@ -33,6 +40,8 @@ pub struct SweepTools {
     pub tools: Vec<SweepTool>,
     /// True if the document has more pieces or steps before it than are drawn.
     pub is_left_out: bool,
+    /// Its share of [`MOST_STEPS`].
+    pub most_steps: usize,
 }
 
 impl Default for SweepTools {
@@ -42,6 +51,7 @@ impl Default for SweepTools {
             mirror: [false; 3],
             tools: vec![SweepTool::default()],
             is_left_out: false,
+            most_steps: MOST_STEPS,
         }
     }
 }
@@ -80,13 +90,12 @@ impl SweepTools {
         other
     }
 
-    /// The tools on the way from others of the same make to these; these, if the others are of another make.
+    /// The tools on the way from others to these. What another list has more or fewer of, another shape or path, is as
+    /// it is here.
     #[must_use]
     pub fn blended(&self, from: &Self, part: f32) -> Self {
         let mut out = self.clone();
-        let is_alike = from.tools.len() == out.tools.len()
-            && from.tools.iter().zip(&out.tools).all(|(a, b)| a.is_like(b));
-        if is_alike {
+        if from.tools.len() == out.tools.len() {
             for (from, to) in from.tools.iter().zip(&mut out.tools) {
                 to.blend(from, part);
             }
@@ -124,22 +133,20 @@ impl Default for SweepTool {
 }
 
 impl SweepTool {
-    fn is_like(&self, other: &Self) -> bool {
-        self.path.len() == other.path.len()
-            && match (&self.shape, &other.shape) {
-                (Some(a), Some(b)) => a.name() == b.name() && a.count() == b.count(),
-                (a, b) => a.is_none() && b.is_none(),
-            }
-    }
-
     fn blend(&mut self, from: &Self, part: f32) {
         let mix = |a: f32, b: f32| a + (b - a) * part;
         self.coat = mix(from.coat, self.coat);
-        if let (Some(from), Some(to)) = (&from.shape, &mut self.shape) {
+        if let (Some(from), Some(to)) = (&from.shape, &mut self.shape)
+            && from.number() == to.number()
+            && from.count() == to.count()
+        {
             let before = from.numbers();
             for (to, from) in to.numbers_mut().into_iter().zip(before) {
                 *to = mix(from, *to);
             }
+        }
+        if from.path.len() != self.path.len() {
+            return;
         }
         for (from, to) in from.path.iter().zip(&mut self.path) {
             to.at = from.at.lerp(to.at, part);
@@ -279,17 +286,105 @@ impl ToolShape {
         }
     }
 
+    /// True if a document may hold it with these numbers.
+    pub(crate) fn is_in_range(&self) -> bool {
+        let (all, points) = (self.numbers(), 3 * self.count());
+        let is_within = |(i, x): (usize, &f32)| {
+            let [low, high] = match self {
+                Self::Ball { .. } | Self::Ellipsoid { .. } => SOLID,
+                Self::Capsule { .. } => [ROUND, LONG][i],
+                Self::Box { .. } => [SOLID, ROUND][i / 3],
+                Self::Torus { .. } => [SOLID, ROUND][i],
+                Self::Curve { .. } if i < points => [-LONG[1], LONG[1]],
+                Self::Curve { .. } => ROUND,
+            };
+            low <= f64::from(*x) && f64::from(*x) <= high
+        };
+        all.iter().enumerate().all(is_within)
+    }
+
     /// Distance of its farthest point from its origin.
     pub fn farthest(&self) -> f32 {
         match self {
             Self::Ball { radius } => *radius,
             Self::Ellipsoid { radii } => radii.max_element(),
             Self::Capsule { radius, length } => 0.5 * length + radius,
-            Self::Box { half, .. } => half.length(),
+            Self::Box { half, round } => {
+                let round = round.min(half.min_element());
+                (*half - round).length() + round
+            }
             Self::Torus { ring, radius } => ring + radius,
             Self::Curve { points, radius } => {
                 let far = points.iter().map(|point| point.length());
                 far.fold(0.0, f32::max) + radius
+            }
+        }
+    }
+}
+
+/// Corners of a circle that is drawn.
+const CORNERS: u16 = 32;
+
+/// An ellipse by its half axes, closed.
+fn ellipse(middle: Vec3, u: Vec3, v: Vec3) -> Vec<Vec3> {
+    let corner = |i: u16| {
+        let (sin, cos) = libm::sincosf(TAU * f32::from(i % CORNERS) / f32::from(CORNERS));
+        middle + cos * u + sin * v
+    };
+    (0..=CORNERS).map(corner).collect()
+}
+
+impl ToolShape {
+    /// Lines that show its form, in its own frame; fractions of the shortest side of the box.
+    pub fn outline(&self) -> Vec<Vec<Vec3>> {
+        let [x, y, z] = Vec3::AXES;
+        let round = |radii: Vec3| {
+            let [x, y, z] = [radii * x, radii * y, radii * z];
+            [[x, y], [y, z], [z, x]].map(|[u, v]| ellipse(Vec3::ZERO, u, v))
+        };
+        match self {
+            Self::Ball { radius } => round(Vec3::splat(*radius)).into(),
+            Self::Ellipsoid { radii } => round(*radii).into(),
+            Self::Capsule { radius, length } => {
+                let end = 0.5 * length * z;
+                let [across, aside, along] = [x, y, z].map(|axis| *radius * axis);
+                let mut lines = vec![ellipse(end, across, aside), ellipse(-end, across, aside)];
+                lines.extend([across, aside].map(|side| {
+                    let whole = ellipse(Vec3::ZERO, side, along);
+                    // Half of it about either end.
+                    let mut line: Vec<Vec3> = whole[..usize::from(CORNERS)]
+                        .iter()
+                        .map(|p| *p + if p.z < -1e-6 * radius { -end } else { end })
+                        .collect();
+                    line.insert(usize::from(CORNERS) / 2 + 1, -side - end);
+                    line.extend([side - end, side + end]);
+                    line
+                }));
+                lines
+            }
+            Self::Box { half, .. } => {
+                let corner = |i: usize| {
+                    let signs =
+                        [i, i >> 1, i >> 2].map(|bit| if bit & 1 == 1 { 1.0 } else { -1.0 });
+                    Vec3::from_array(signs) * *half
+                };
+                let mut lines = vec![
+                    [0, 1, 3, 2, 0].map(corner).to_vec(),
+                    [4, 5, 7, 6, 4].map(corner).to_vec(),
+                ];
+                lines.extend((0..4).map(|i| vec![corner(i), corner(i + 4)]));
+                lines
+            }
+            Self::Torus { ring, radius } => {
+                let rims =
+                    [ring - radius, ring + radius].map(|r| ellipse(Vec3::ZERO, r * x, r * y));
+                let tubes =
+                    [x, -x, y, -y].map(|out| ellipse(*ring * out, *radius * out, *radius * z));
+                rims.into_iter().chain(tubes).collect()
+            }
+            Self::Curve { points, radius } => {
+                let ends = points.iter().map(|p| ellipse(*p, *radius * x, *radius * y));
+                std::iter::once(points.clone()).chain(ends).collect()
             }
         }
     }

@@ -662,9 +662,9 @@ pub(crate) const SWEEP: &[Key] = &[
 pub(crate) const TOOL: &[Key] = &[
     key(BY_NAME, "shape", Kind::Name(&ToolShape::NAMES), "its form. A capsule lies along z, a torus about z"),
     key(BY_NAME, "radius", number(0.15, ROUND[0], ROUND[1]), "of a ball (0.15 without this key, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)").optional(),
-    key(BY_NAME, "radii", Kind::Vector { default: [0.2, 0.15, 0.1], min: SOLID[0], max: SOLID[1] }, "half axes of an ellipsoid").unmade(),
+    key(BY_NAME, "radii", Kind::Vector { default: [0.2, 0.15, 0.1], min: SOLID[0], max: SOLID[1] }, "half axes of an ellipsoid"),
     key(BY_NAME, "length", number(0.4, LONG[0], LONG[1]), "of the straight part of a capsule"),
-    key(BY_NAME, "half", Kind::Vector { default: [0.15; 3], min: SOLID[0], max: SOLID[1] }, "half sides of a box").unmade(),
+    key(BY_NAME, "half", Kind::Vector { default: [0.15; 3], min: SOLID[0], max: SOLID[1] }, "half sides of a box"),
     key(BY_NAME, "round", number(0.02, ROUND[0], ROUND[1]), "radius of the edges of a box, at most its least half side"),
     key(BY_NAME, "ring", number(0.2, SOLID[0], SOLID[1]), "radius of a torus, to the middle of its tube"),
     key(BY_NAME, "points", Kind::Triples { most: MAX_TOOL_POINTS, max: 4.0 }, "of a curve: two or more places with straight pieces between them. Without this key `[[0, 0, -0.2], [0, 0, 0.2]]`").optional().unmade(),
@@ -677,7 +677,7 @@ pub(crate) const TOOL: &[Key] = &[
 #[rustfmt::skip]
 pub(crate) const PATH_KEY: &[Key] = &[
     key(320, "at", Kind::Vector { default: [0.5; 3], min: -MAX_PAIR, max: MAX_PAIR }, "place of the tool's origin, template space").stays().unmade(),
-    key(330, "rotate", Kind::Rotation, "turn about its origin").unmade(),
+    key(330, "rotate", Kind::Rotation, "turn about its origin"),
     key(632, "scale", number(1.0, SCALE[0], SCALE[1]), "scale about its origin"),
 ];
 
@@ -942,7 +942,14 @@ pub(crate) fn default_at(path: &[String], kind: Option<TemplateKind>) -> Option<
     loop {
         let key = find(keys, path.next()?)?;
         let Some(inner) = path.as_slice().first() else {
-            return key.kind.container().filter(|_| key.is_made);
+            return match key.name {
+                // Without these keys there is something all the same.
+                "tools" => Some(json!([{}])),
+                "path" if std::ptr::eq(keys, TOOL) => {
+                    Some(json!([[0.5, 0.5, 1.15], [0.5, 0.5, 0.65]]))
+                }
+                _ => key.kind.container().filter(|_| key.is_made),
+            };
         };
         match key.kind {
             Kind::Object(of) | Kind::OneOrMore { of, .. } | Kind::Style(of) => keys = of,
@@ -953,7 +960,15 @@ pub(crate) fn default_at(path: &[String], kind: Option<TemplateKind>) -> Option<
                     return None;
                 }
             }
-            Kind::Params if path.as_slice().len() == 1 => return param_at(kind?, inner),
+            Kind::Params => {
+                if path.as_slice().len() == 1
+                    && let Some(value) = param_at(kind?, inner)
+                {
+                    return Some(value);
+                }
+                // What a kind holds besides its parameters.
+                keys = params_of(kind);
+            }
             _ => return None,
         }
     }

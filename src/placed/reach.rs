@@ -1,6 +1,6 @@
 use crate::data::{Carver, FieldSamples, Resources};
 use crate::displace::{
-    Given, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples, Sweeping, Tool,
+    Given, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples, Sweeping, Tool, ToolWay,
 };
 use crate::document::{PlacedTemplate, TemplateData};
 use glam::Vec3;
@@ -69,6 +69,17 @@ pub fn sweep_rows(template: &PlacedTemplate, first: &mut usize) -> Vec<[f32; 4]>
 pub fn sweep_texels(template: &PlacedTemplate) -> Vec<[f32; 4]> {
     match &template.data {
         TemplateData::Tools(tools) => Sweeping::new(tools, acting_size(template)).texels(),
+        _ => Vec::new(),
+    }
+}
+
+/// How the tools of a `sweep` go with the parameters that it has, each in its place in the list; none of other kinds.
+pub fn tool_ways(template: &PlacedTemplate) -> Vec<Option<ToolWay>> {
+    match &template.data {
+        TemplateData::Tools(tools) => {
+            let progress = given(template, None, None).p[0];
+            Sweeping::ways(tools, acting_size(template), progress)
+        }
         _ => Vec::new(),
     }
 }

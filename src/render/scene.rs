@@ -342,8 +342,8 @@ impl Scene {
         &self.held
     }
 
-    /// True where drawing the map from a texture may be faster: it holds several formulas, and no tissue is kept,
-    /// which the texture knows nothing of.
+    /// True where drawing the map from a texture may be faster: it holds several formulas, or a sweep whose coatings
+    /// are wide enough, and no tissue is kept, which the texture knows nothing of.
     pub(crate) fn may_bake(&self) -> bool {
         let kinds = self.inputs.templates.get().drawn_kinds().count_ones();
         (kinds >= LEAST_BAKED_KINDS || self.least_coat.is_some())

@@ -5,26 +5,6 @@ use fabrica::data::VolumeBuilder;
 use fabrica::document::{Transfer, TransferPoint, Window as ValueWindow, preset};
 use fabrica::render::ScaleBar;
 
-impl Window {
-    fn double_click_at(&mut self, pos: Pos2) {
-        self.harness.hover_at(pos);
-        self.harness.step();
-        // A step takes a quarter of a second, which is too long between two clicks.
-        let start = self.harness.ctx.input(|i| i.time);
-        for i in 0..4 {
-            if i % 2 == 0 {
-                self.harness.drag_at(pos);
-            } else {
-                self.harness.drop_at(pos);
-            }
-            self.harness.input_mut().time = Some(start + 0.02 * f64::from(i + 1));
-            self.harness.step();
-        }
-        self.harness.input_mut().time = None;
-        self.settle();
-    }
-}
-
 // ---------------------------------------------------------------------------------------------------- transfer
 // function
 

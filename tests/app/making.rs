@@ -352,6 +352,15 @@ fn control_points_are_dragged_added_and_cut_apart() {
         .get_by_label("Control point 1")
         .rect()
         .center();
+    // A double click beside it makes another: its first click does not put the template away.
+    window.double_click_at(dot + vec2(60.0, 40.0));
+    assert_eq!(points(&window).as_array().map(Vec::len), Some(3));
+    // It goes again by the key that takes a template away where no dot has the keyboard.
+    let third = window.harness.get_by_label("Control point 3").rect();
+    window.click_at(third.center());
+    window.press(Key::Delete);
+    window.settle();
+    assert_eq!(points(&window), before);
     window.drag(dot, vec2(30.0, 20.0));
     let after = points(&window);
     assert_ne!(before, after, "the dot was dragged");
@@ -377,6 +386,130 @@ fn control_points_are_dragged_added_and_cut_apart() {
         window.press_with(Modifiers::COMMAND, Key::Z);
     }
     assert_eq!(points(&window), before, "each was one step of undo");
+}
+
+#[test]
+fn a_sweep_is_drawn_on_the_object() {
+    let mut window = Window::open(
+        DESK,
+        r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#,
+    );
+    let before = window.document();
+    // It may stand below the end of what is seen of the catalogue.
+    let take = |window: &mut Window| {
+        window.harness.get_by_label("Place sweep").scroll_to_me();
+        window.steps(3);
+        window.click("Place sweep");
+    };
+    take(&mut window);
+    let from = window.picture_center();
+    window.drag(from, vec2(90.0, -40.0));
+    let patience = clock() + 60.0;
+    while clock() < patience && window.harness.query_by_label("Cancel placing").is_some() {
+        window.steps(1);
+    }
+    let document = window.document();
+    let [template] = document.illustration().templates.as_slice() else {
+        panic!("one gesture is one template: {}", document.to_json())
+    };
+    let fabrica::document::TemplateData::Tools(held) = &template.data else {
+        panic!("a sweep: {template:?}")
+    };
+    assert_eq!(held.tools.len(), 1);
+    let path = &held.tools[0].path;
+    assert!((2..8).contains(&path.len()), "few keys: {path:?}");
+    // Its ends lie where the hand was.
+    for (key, name) in [
+        (0, "Key 1 of tool 1".to_owned()),
+        (path.len() - 1, format!("Key {} of tool 1", path.len())),
+    ] {
+        let spot = window.harness.get_by_label(name.as_str()).rect().center();
+        let hand = if key == 0 {
+            from
+        } else {
+            from + vec2(90.0, -40.0)
+        };
+        assert!(spot.distance(hand) < 5.0, "{name}: {spot} and {hand}");
+    }
+    window.look("sweep_drawn");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(
+        window.document().to_json(),
+        before.to_json(),
+        "one step of undo"
+    );
+    // A click without a way presses, as before; beside the object a drag draws nothing.
+    let height = window.harness.get_by_role(Role::Image).rect().height();
+    take(&mut window);
+    window.drag(from - vec2(0.0, 0.46 * height), vec2(60.0, 0.0));
+    window.settle();
+    assert!(window.document().illustration().templates.is_empty());
+    assert!(
+        window.harness.query_by_label("Cancel placing").is_some(),
+        "still placing"
+    );
+    window.click_at(from);
+    window.settle();
+    assert_eq!(window.document().illustration().templates.len(), 1);
+}
+
+#[test]
+fn keys_of_tools_are_dragged_added_and_removed() {
+    let mut window = Window::open(
+        DESK,
+        r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [ { "kind": "sweep", "size": [0.8, 0.8, 0.8], "params": { "mirror": "x", "tools": [
+            { "radius": 0.1, "path": [[0.3, 0.5, 1.1], [0.4, 0.6, 0.7]] }, { "shape": "torus", "path": [[0.7, 0.3, 0.9]] } ] } } ] }"#,
+    );
+    let path = |window: &Window, tool: usize| {
+        let document = window.document();
+        let value = document.get(&format!("/templates/0/params/tools/{tool}/path"));
+        value.cloned().unwrap_or_default()
+    };
+    window.click("1. Sweep");
+    window.settle();
+    window.look("tools_of_a_sweep");
+    let before = path(&window, 0);
+    let dot = |window: &Window, name: &str| window.harness.get_by_label(name).rect().center();
+    let [first, second] = ["Key 1 of tool 1", "Key 2 of tool 1"].map(|name| dot(&window, name));
+    // The first of six moves begins the drag.
+    let moved = vec2(24.0, 18.0);
+    window.drag(second, 1.2 * moved);
+    let after = path(&window, 0);
+    assert_eq!(before[0], after[0], "no other key");
+    assert_ne!(before[1], after[1], "the dot was dragged");
+    let [now, hand] = [dot(&window, "Key 2 of tool 1"), second + moved];
+    assert!(
+        now.distance(hand) < 1.0,
+        "from {second} to {now}, not {hand}"
+    );
+    // A double click on the way adds a key there, which changes no way.
+    let middle = first.lerp(now, 0.5);
+    window.double_click_at(middle);
+    assert_eq!(path(&window, 0).as_array().map(Vec::len), Some(3));
+    // It lies at a sixteenth of the way.
+    let added = dot(&window, "Key 2 of tool 1");
+    let off = added.distance(middle);
+    assert!(
+        off < first.distance(now) / 16.0,
+        "{added} of {first} and {now}"
+    );
+    // Delete takes a key away, the last one stays.
+    for (name, tool, left) in [("Key 2 of tool 1", 0, 2), ("Key 1 of tool 2", 1, 1)] {
+        let spot = dot(&window, name);
+        window.click_at(spot);
+        window.press(Key::Delete);
+        window.settle();
+        assert_eq!(
+            path(&window, tool).as_array().map(Vec::len),
+            Some(left),
+            "{name}"
+        );
+    }
+    assert_eq!(window.document().illustration().templates.len(), 1);
+    for _ in 0..3 {
+        window.press_with(Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!(path(&window, 0), before, "each was one step of undo");
 }
 
 /// The colour that the middle of a dot has: that of the last full circle that is painted there.

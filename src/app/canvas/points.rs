@@ -232,6 +232,7 @@ pub(crate) fn handle(
     painter.circle_stroke(spot, 7.2, Stroke::new(1.0, ink::HALO_DARK));
     let mut by = response.drag_delta();
     if response.has_focus() {
+        ui.data_mut(|data| data.insert_temp(egui::Id::unique(FOCUSED), id));
         ui.memory_mut(|memory| {
             let filter = egui::EventFilter {
                 horizontal_arrows: true,
@@ -259,6 +260,15 @@ pub(crate) fn handle(
         .then(|| view.on_plane(spot + by, pos, normal))
         .flatten();
     (response, moved.map(Moved::To))
+}
+
+/// Under this name is kept which dot had the keyboard last.
+const FOCUSED: &str = "dot with the keyboard";
+
+/// True if a dot has the keyboard: Delete is for it then.
+pub(crate) fn has_keyboard(ui: &Ui) -> bool {
+    let last = ui.data(|data| data.get_temp::<egui::Id>(egui::Id::unique(FOCUSED)));
+    last.is_some() && last == ui.memory(|memory| memory.focused())
 }
 
 /// True if a dot is under the pointer or held.

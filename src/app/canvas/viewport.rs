@@ -9,6 +9,7 @@ use glam::Vec3;
 
 use super::ball::{self, PictureBall};
 use super::captions::Followed;
+use super::drawn::DrawnWay;
 use super::figure::FigureCanvas;
 use super::gizmo::Gizmo;
 use super::held::Held;
@@ -16,7 +17,7 @@ use super::measure::Distances;
 use super::panes::ONE_PANE;
 use super::projection::{self, Projection};
 use super::tools::{asking_ui, bar_bottom, tools_ui};
-use super::{curve, orientation, points, slice_plot, view_bar};
+use super::{curve, orientation, points, slice_plot, view_bar, ways};
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, template_menu, widget};
 use crate::app::picture::host::{Picture, found};
@@ -24,9 +25,9 @@ use crate::app::services::TextOver;
 use crate::app::session::camera;
 use crate::app::session::{Command, Gravity, Place, Question, Selection, Session, Tool};
 use crate::app::words::picture::w;
-use crate::app::words::{self, fill, in_sentence, kinds, messages, names};
+use crate::app::words::{self, fill, in_sentence, kinds, messages, names, sweep};
 use crate::displace::Holds;
-use crate::document::{Background, Camera};
+use crate::document::{Background, Camera, PlacedTemplate, TemplateKind};
 use crate::math::Placement;
 use crate::render::{CaptionPlace, PendingPick, RenderError};
 
@@ -73,8 +74,29 @@ pub(crate) struct Viewport {
     captions: Followed,
     ball: PictureBall,
     figure: FigureCanvas,
+    drawn: DrawnWay,
     /// The picture still shows another object than the document's, and is drawn faintly.
     pub(crate) is_earlier: bool,
+}
+
+/// True if a double click on the picture adds a place to the template.
+fn takes_places(template: &PlacedTemplate) -> bool {
+    matches!(template.kind.facts().holds, Holds::Points | Holds::Tools)
+}
+
+/// True if another click would add a place to the selected template: within its box, or on a way of its tools. The
+/// first one does not put it away then.
+fn may_add(view: &Projection, response: &Response, session: &Session) -> bool {
+    let template = session.selected_template().filter(|t| takes_places(t));
+    let Some((template, pos)) = template.zip(response.interact_pointer_pos()) else {
+        return false;
+    };
+    if template.kind.facts().holds == Holds::Tools {
+        return ways::is_near(view, template, pos);
+    }
+    let place = view.on_plane(pos, template.placement.at, view.back());
+    let place = place.map(|pos| template.template_from_subject(pos));
+    place.is_some_and(|q| q.cmpge(Vec3::ZERO).all() && q.cmple(Vec3::ONE).all())
 }
 
 impl Viewport {
@@ -108,6 +130,7 @@ impl Viewport {
             || self.preview_pick.is_some()
             || self.captions.is_waiting()
             || self.ball.is_waiting()
+            || self.drawn.is_waiting()
     }
 
     /// Identity of the picture as a widget, once it has been shown.
@@ -190,7 +213,13 @@ impl Viewport {
         match session.tool() {
             Tool::Place(kind) => {
                 let name = in_sentence(kinds::title(kind));
-                self.placing_ui(ui, bars, &view, &name, commands);
+                let places = [w().tap_where, w().click_where].map(|text| fill(text, &[&name]));
+                let draws = [sweep::w().tap_or_draw, sweep::w().click_or_draw].map(str::to_owned);
+                let texts = match kind {
+                    TemplateKind::Sweep => draws,
+                    _ => places,
+                };
+                self.placing_ui(ui, bars, &view, &texts, commands);
             }
             Tool::Caption => {
                 self.gizmo.release();
@@ -217,6 +246,7 @@ impl Viewport {
             && selects
             && !self.gizmo.is_hot()
             && session.selection != Selection::Nothing
+            && !may_add(&view, &response, session)
         {
             commands.push(Command::Select(None));
         }
@@ -265,7 +295,8 @@ impl Viewport {
         let asked = ui.input(|i| i.pointer.latest_pos());
         let asked = asked.filter(|_| response.double_clicked());
         let is_point = points::ui(ui, view, template, asked, commands);
-        if curve::ui(ui, view, template, commands) || is_point {
+        let is_key = ways::ui(ui, view, template, asked, commands);
+        if curve::ui(ui, view, template, commands) || is_point || is_key {
             self.gizmo.release();
         } else if let Some(edit) =
             self.gizmo
@@ -309,6 +340,7 @@ impl Viewport {
     ) -> Camera {
         let mut camera = session.camera;
         let is_painting = FigureCanvas::takes_drags(session, ui)
+            || DrawnWay::takes_drags(session, ui)
             || session.tool().ball().is_some()
                 && ui.input(|i| !i.pointer.secondary_down() && !i.pointer.middle_down());
         let touch = ui
@@ -448,6 +480,8 @@ impl Viewport {
             .ball
             .ui(ui, response, session, (picture, size), commands);
         self.questions.extend(hand);
+        let hands = (response, view);
+        self.drawn.ui(ui, hands, session, (picture, size), commands);
         self.ask(session, camera, picture, size, commands);
         self.captions
             .update(ui.ctx(), session, camera, picture, size);
@@ -522,10 +556,8 @@ impl Viewport {
             self.preview = None;
             self.preview_pick = None;
         }
-        let is_free = session
-            .selected_template()
-            .is_none_or(|template| template.kind.facts().holds != Holds::Points)
-            && !self.gizmo.is_hot();
+        let is_free =
+            !session.selected_template().is_some_and(takes_places) && !self.gizmo.is_hot();
         match clicked {
             Some(_) if session.tool().adds_up() && response.clicked() => {
                 let places = slow_click::places(ui, response).into_iter();
@@ -585,14 +617,13 @@ impl Viewport {
         ui: &mut Ui,
         rect: Rect,
         view: &Projection,
-        name: &str,
+        texts: &[String; 2],
         commands: &mut Vec<Command>,
     ) {
         self.gizmo.release();
-        if let Some(preview) = &self.preview {
+        if let Some(preview) = self.preview.as_ref().filter(|_| !self.drawn.is_drawing()) {
             paint_preview(ui, view.rect, view, preview);
         }
-        let texts = [w().tap_where, w().click_where].map(|text| fill(text, &[&name]));
         asking_ui(
             ui,
             rect,

@@ -10,14 +10,12 @@ use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
 use crate::app::session::Command;
 use crate::app::words::fill;
 use crate::app::words::sweep::w;
-use crate::displace::{COAT, LONG, ROUND, SCALE, SOLID};
+use crate::displace::{COAT, FARTHEST, LONG, ROUND, SCALE, SOLID};
 use crate::document::{
     Edit, MAX_KEYS, MAX_TOOLS, PathKey, PlacedTemplate, SweepTool, SweepTools, TemplateData,
     ToolShape,
 };
-
-/// Greatest coordinate of a key that the fields offer, template units.
-const FARTHEST: f64 = 10.0;
+use crate::placed::joined_sweep;
 
 /// The tools, one under the other, and the planes in which they are mirrored.
 pub(crate) fn ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Command>) {
@@ -72,6 +70,30 @@ pub(crate) fn ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comm
         commands.push(widget::command(
             change.map(|tools| Edit::SetTools { template, tools }),
         ));
+    }
+}
+
+/// Offers to put the tools of a sweep that is added to another into that one.
+pub(crate) fn join_ui(
+    ui: &mut Ui,
+    templates: &[PlacedTemplate],
+    index: usize,
+    commands: &mut Vec<Command>,
+) {
+    let Some((template, tools)) = joined_sweep(templates, index) else {
+        return;
+    };
+    let name = fill(w().join, &[&(template + 1)]);
+    if ui.button(name).on_hover_text(w().join_hint).clicked() {
+        let edits = vec![
+            Edit::SetTools { template, tools },
+            Edit::RemoveTemplate { template: index },
+        ];
+        commands.push(Command::Select(Some(template)));
+        commands.push(Command::Apply(Edit::All {
+            name: "Join sweeps".to_owned(),
+            edits,
+        }));
     }
 }
 
@@ -165,7 +187,7 @@ fn path_ui(ui: &mut Ui, number: usize, tool: &SweepTool) -> Option<Change<SweepT
         let set = |change: Change<PathKey>| Some(change.map(|key| with(&|new| new.path[i] = key)));
         ui.push_id(("key", i), |ui| {
             let at = key.at.to_array().map(f64::from);
-            let range = [-FARTHEST, FARTHEST];
+            let range = [-FARTHEST, FARTHEST].map(f64::from);
             if let Some(change) = widget::vector_row(ui, &name, w().key_hint, at, range, "", 3) {
                 changed = set(change.map(|at| PathKey {
                     at: vec3(at),
@@ -227,7 +249,8 @@ fn shape_ui(ui: &mut Ui, shape: &ToolShape) -> Option<Change<ToolShape>> {
         ToolShape::Capsule { .. } => &[(w.radius, ROUND), (w.length, LONG)],
         ToolShape::Box { half, round } => {
             let sides = axes_row(ui, w.half, *half, shape);
-            let change = length_row(ui, (w.round, hint), *round, ROUND);
+            let most = f64::from(half.min_element());
+            let change = length_row(ui, (w.round, hint), *round, [0.0, most]);
             let half = *half;
             let rounded = change.map(|c| c.map(|round| ToolShape::Box { half, round }));
             return sides.or(rounded);
@@ -261,7 +284,7 @@ fn axes_row(ui: &mut Ui, name: &str, value: Vec3, shape: &ToolShape) -> Option<C
     Some(change.map(|value| match shape {
         ToolShape::Box { round, .. } => ToolShape::Box {
             half: vec3(value),
-            round: *round,
+            round: round.min(vec3(value).min_element()),
         },
         _ => ToolShape::Ellipsoid { radii: vec3(value) },
     }))

@@ -228,6 +228,7 @@ fn template_ui(
                 }));
             }
         });
+        sweep::join_ui(ui, &session.shown().templates, index, commands);
     }
     if session.template_count() > 1 {
         let current = group_of(session.document(), index);

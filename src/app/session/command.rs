@@ -52,6 +52,13 @@ pub enum Command {
         /// Out of the object, any length but zero.
         normal: Vec3,
     },
+    /// Draws a sweep, as far as the hand has come.
+    DrawSweep {
+        /// Where the hand was, subject space.
+        way: Vec<Vec3>,
+        /// The hand has let go.
+        is_over: bool,
+    },
     /// Fastens a caption to the tissue that was found.
     CaptionOn(Option<Found>),
     /// Adds a seed to the recipe that is being seeded.

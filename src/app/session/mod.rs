@@ -29,6 +29,7 @@ pub mod camera;
 mod clipboard;
 mod clock;
 mod command;
+mod drawing;
 mod dropped;
 mod effect;
 pub mod figure;

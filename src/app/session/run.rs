@@ -68,6 +68,7 @@ impl Session {
             Command::PlaceOn(found) => self.place_on(found),
             Command::PlaceOnOrAtTarget(found) => self.place_on_or_at_target(found),
             Command::PlaceAt { pos, normal } => self.place_at(pos, normal),
+            Command::DrawSweep { way, is_over } => self.draw_sweep(&way, is_over),
             Command::CaptionOn(found) => self.caption_on(found),
             Command::SeedOn(found) => self.seed_on(found),
             Command::AddSeed(pos, value) => {
@@ -234,6 +235,7 @@ impl Session {
         if kind.facts().holds == Holds::Object {
             return self.start_carving(kind);
         }
+        self.drawn = None;
         let is_same = self.tool == Tool::Place(kind);
         self.take_tool(if is_same {
             Tool::Look

@@ -148,6 +148,8 @@ pub struct Session {
     pub(super) glide: Option<Glide>,
     pub(super) mode: Mode,
     pub(super) tool: Tool,
+    /// The template that a hand is drawing.
+    pub(super) drawn: Option<usize>,
     /// The selected template or object.
     pub selection: Selection,
     /// What the handles in the picture do.
@@ -255,6 +257,7 @@ impl Session {
             glide: None,
             mode: Mode::default(),
             tool: Tool::default(),
+            drawn: None,
             selection: Selection::Nothing,
             gizmo: GizmoMode::Move,
             notices: Notices::default(),

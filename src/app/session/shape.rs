@@ -7,6 +7,11 @@ use crate::displace::Shape;
 use crate::document::{Camera, TemplateKind};
 use crate::math::Placement;
 
+/// How much of the plane through its target a camera sees across the picture's shorter side, subject units.
+pub(super) fn seen_across(camera: &Camera) -> f32 {
+    2.0 * camera.distance * (0.5 * camera.fov_deg.to_radians()).tan()
+}
+
 /// The box of a new template that is put on a surface: its z axis along the normal, its y axis up in the picture as far
 /// as that goes, its top a little above the surface. `pos` in subject space; `normal` points out of the object.
 pub fn placement_on_surface(
@@ -16,8 +21,7 @@ pub fn placement_on_surface(
     camera: &Camera,
 ) -> Placement {
     // The size follows the view: about a quarter of the picture's shorter side, within reason.
-    let seen = 2.0 * camera.distance * (0.5 * camera.fov_deg.to_radians()).tan();
-    let side = (0.25 * seen).clamp(0.08, 0.5);
+    let side = (0.25 * seen_across(camera)).clamp(0.08, 0.5);
     let z = normal.normalize_or(Vec3::Y);
     let [right, up, _] = camera::axes(camera.rotate);
     let y = (up - z * up.dot(z))

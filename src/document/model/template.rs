@@ -3,8 +3,8 @@
 use super::curve::Curve;
 use super::object::{ObjectPlacement, ObjectSource, SceneObject};
 use crate::displace::{
-    Amount, ControlPoints, Holds, MAX_PIECES, MAX_SWEEP_STEPS, ParamValue, Shrinking, SweepTools,
-    Sweeping, TemplateKind,
+    Amount, ControlPoints, Holds, MAX_PIECES, MAX_SWEEP_STEPS, MOST_STEPS, ParamValue, Shrinking,
+    SweepTools, Sweeping, TemplateKind,
 };
 use crate::document::limits::MAX_CARVERS;
 use crate::math::{Bent, Placement};
@@ -35,7 +35,7 @@ pub struct PlacedTemplate {
     pub align: Align,
     /// The tissue towards which its displacement fades, if any.
     pub constrain: Option<Constrain>,
-    /// Control points or the file of a field, for the kinds that have them.
+    /// Control points, the file of a field, an object or tools, for the kinds that have them.
     pub data: TemplateData,
 }
 
@@ -387,19 +387,26 @@ pub(in crate::document) fn join_objects(
 pub(in crate::document) fn limit_sweeps(templates: &mut [PlacedTemplate]) -> Vec<usize> {
     let mut used = [0, 0];
     let mut over = Vec::new();
-    for template in templates {
+    let mut counts = vec![0; templates.len()];
+    for (template, count) in templates.iter_mut().zip(&mut counts) {
         let bent = template.bent();
         let size = bent.map_or(template.placement.size, |bent| bent.size());
         let TemplateData::Tools(tools) = &mut template.data else {
             continue;
         };
         tools.is_left_out = false;
-        let [pieces, steps] = Sweeping::counted(tools, size);
+        let [pieces, steps] = Sweeping::counted(tools, size, MAX_PIECES - used[0]);
         let all = [used[0] + pieces, used[1] + steps];
         tools.is_left_out = all[0] > MAX_PIECES || all[1] > MAX_SWEEP_STEPS;
         match tools.is_left_out {
             true => over.push(template.index),
-            false => used = all,
+            false => (used, *count) = (all, steps),
+        }
+    }
+    // Each is done in as many steps as is its share of those that are counted.
+    for (template, count) in templates.iter_mut().zip(counts) {
+        if let TemplateData::Tools(tools) = &mut template.data {
+            tools.most_steps = (MOST_STEPS * count).div_ceil(used[1].max(1));
         }
     }
     over

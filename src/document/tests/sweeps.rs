@@ -1,5 +1,6 @@
 //! Sweeps: tools and paths as documents write them, limits, hostile input, edits, steps, mirror images.
 
+use crate::displace::MOST_STEPS;
 use crate::document::{
     Document, Edit, PlacedTemplate, Plane, SweepTools, TemplateData, ToolShape, mirror,
 };
@@ -274,4 +275,74 @@ fn a_mirrored_sweep_is_seen_in_the_mirror() {
         let image = b_key.at - 0.5 + b_key.rotate * *q;
         assert!((place * flip).distance(image) < 1e-4);
     }
+}
+
+/// A thin coating in the way of a wide one asks for many more steps than the limit counts.
+#[test]
+fn all_sweeps_of_a_document_share_the_steps_that_are_done() {
+    let sweep = json!({ "kind": "sweep", "size": [1, 1, 1], "params": { "tools": [
+        { "coat": 2, "path": [[-3.5, 0.5, 0.5], [4.5, 0.5, 0.5]] },
+        { "radius": 0.005, "coat": 0.01, "path": [[0.5, 0.5, 0.5]] }] } });
+    let document =
+        Document::from_value(json!({ "fabrica": 1, "templates": vec![sweep; 32] })).expect("right");
+    assert_eq!(document.notices(), [], "each counts for 32 steps");
+    let templates = &document.illustration().templates;
+    let shares: Vec<usize> = templates.iter().map(|t| tools_of(t).most_steps).collect();
+    assert!(shares.iter().all(|share| *share >= 32), "{shares:?}");
+    assert!(
+        shares.iter().sum::<usize>() <= MOST_STEPS + 32,
+        "{shares:?}"
+    );
+}
+
+#[test]
+fn a_pointer_makes_what_stands_at_its_default() {
+    for (params, pointer, value) in [
+        (json!({}), "coat", json!(0.5)),
+        (json!({}), "path/1/0", json!(0.9)),
+        (
+            json!({ "tools": [{ "shape": "ellipsoid", "radii": [0.2, 0.15, 0.1] }] }),
+            "radii/0",
+            json!(0.3),
+        ),
+        (
+            json!({ "tools": [{ "shape": "box" }] }),
+            "half/1",
+            json!(0.3),
+        ),
+        (
+            json!({ "tools": [{ "path": [[0, 0, 0], { "at": [1, 0, 0], "scale": 2 }] }] }),
+            "path/1/rotate/2",
+            json!(1),
+        ),
+    ] {
+        let pointer = format!("/templates/0/params/tools/0/{pointer}");
+        let document = Document::from_value(json!({ "fabrica": 1,
+            "templates": [{ "kind": "sweep", "params": params }], "steps": [{ "set": { &pointer: value } }] }));
+        let document = document.expect("right");
+        assert_eq!(document.notices(), [], "{pointer}");
+        let step = document.at_time(1, 1.0).expect("a step");
+        assert_ne!(tools_of(&step.templates[0]), tools(&document), "{pointer}");
+    }
+}
+
+#[test]
+fn what_is_beyond_the_tools_that_are_drawn_stays() {
+    let document = read(json!({ "tools": [{}, {}, {}, {}, { "coat": 1.5 }] })).expect("right");
+    let mut held = tools(&document).clone();
+    held.tools[0].shape = ToolShape::named("ellipsoid");
+    let edit = Edit::SetTools {
+        template: 0,
+        tools: held.clone(),
+    };
+    let after = edit.apply(&document).expect("it takes them");
+    assert!(after.to_json_compact().contains(r#""coat":1.5"#));
+    // Of another shape only its own numbers are left.
+    held.tools[0].shape = ToolShape::named("ball");
+    let edit = Edit::SetTools {
+        template: 0,
+        tools: held,
+    };
+    let text = edit.apply(&after).expect("it takes them").to_json_compact();
+    assert!(!text.contains("radii"), "{text}");
 }

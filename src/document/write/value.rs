@@ -1,6 +1,7 @@
 //! Parts of a document as JSON.
 
 use super::number::{color_text, hundredths, rotation, rounded, rounded_value, vector};
+use crate::displace::MAX_TOOLS;
 use crate::document::model::{
     Caption, CleanStep, ControlPoints, Curve, MeshParts, MeshReading, MeshRef, PathKey, RawVoxels,
     Recipe, RecipeSource, Stroke, SweepTools, ToolShape, TransferPoint,
@@ -128,8 +129,13 @@ pub(super) fn mirrors(tools: &SweepTools) -> String {
         .collect()
 }
 
-/// The tools of a sweep. Of those that the document has `before`, keys that are not known stay, and tools of an unknown
-/// shape stay whole.
+/// Keys of tools that say what a shape is like; another shape has others.
+const OF_SHAPES: [&str; 7] = [
+    "radius", "radii", "length", "half", "round", "ring", "points",
+];
+
+/// The tools of a sweep. Of those that the document has `before`, keys that are not known stay, and tools that are not
+/// drawn stay whole: of an unknown shape, or beyond the number that is drawn.
 pub(super) fn tools(tools: &SweepTools, before: Option<Value>) -> Value {
     let each = tools.tools.iter().map(|tool| {
         let old = before.as_ref().and_then(|list| list.get(tool.index));
@@ -137,6 +143,9 @@ pub(super) fn tools(tools: &SweepTools, before: Option<Value>) -> Value {
         let Some(shape) = &tool.shape else {
             return value;
         };
+        if let Some(keys) = value.as_object_mut() {
+            keys.retain(|key, _| !OF_SHAPES.contains(&key.as_str()));
+        }
         let mut put = |key: &str, new: Value| value[key] = new;
         put("shape", json!(shape.name()));
         match shape {
@@ -164,7 +173,9 @@ pub(super) fn tools(tools: &SweepTools, before: Option<Value>) -> Value {
         put("path", tool.path.iter().map(path_key).collect());
         value
     });
-    each.collect()
+    let list = before.as_ref().and_then(Value::as_array);
+    let beyond = list.into_iter().flatten().skip(MAX_TOOLS).cloned();
+    each.chain(beyond).collect()
 }
 
 /// A pose on the path of a tool.
