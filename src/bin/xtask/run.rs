@@ -98,6 +98,23 @@ fn shown(command: &Command) -> String {
         .join(" ")
 }
 
+/// The same command, which gives way to others that want the processor, where the system has a program for that.
+pub(crate) fn given_way(command: Command) -> Command {
+    let Some(nice) = find("nice") else {
+        return command;
+    };
+    let mut behind = program(nice);
+    behind.args(["-n", "10"]);
+    behind.arg(command.get_program()).args(command.get_args());
+    for (name, value) in command.get_envs() {
+        match value {
+            Some(value) => behind.env(name, value),
+            None => behind.env_remove(name),
+        };
+    }
+    behind
+}
+
 /// Where a program is found.
 pub(crate) fn find(name: &str) -> Option<PathBuf> {
     let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);

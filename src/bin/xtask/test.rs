@@ -2,16 +2,17 @@
 
 use std::path::Path;
 use std::process::Command;
+use std::sync::mpsc::{Receiver, channel};
 use std::time::Instant;
 
 use crate::check;
 use crate::lint;
 use crate::page;
-use crate::run::{Outcome, cargo, report, root, run};
+use crate::run::{Outcome, cargo, given_way, report, root, run, run_beside};
 use crate::setup;
 
-/// The test binaries that are run once all is built; `gpu` is run before, beside the end of the page's build.
-const BINARIES: [&str; 4] = ["fast", "evaluate", "app", "browser"];
+/// The test binaries that draw and need no page.
+const LONG: [&str; 3] = ["gpu", "evaluate", "app"];
 
 /// Parts of tests/app that get a process together: Mesa 22's lavapipe keeps 0.15 GB of every window drawn in a process,
 /// as long as it lives, and half a hundred windows are more than a small machine has. Some two dozen share their
@@ -41,31 +42,59 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         return close(start, outcomes);
     }
     setup::for_page()?;
-    // The page is built beside the native checks and the compiler of the tests: for most of its time one core optimises
-    // one program, and the others have ends that take one core too. The tests on the GPU need no page, and none of them
-    // asks that something is quick.
-    let ((checked, compiled, drawn), page) = std::thread::scope(|scope| {
-        let page = scope.spawn(page::build_beside);
-        let checked = check::check_rest();
+    // Two rows of work beside each other. One builds the page and then tests it in the browser: it draws one page after
+    // the other, and leaves much of two cores idle. The other checks, compiles and runs all other tests, which go on
+    // while the page is still being built, and give way to the browser, whose tests wait for answers.
+    let (sender, receiver) = channel();
+    let (mut outcomes, page) = std::thread::scope(move |scope| {
+        let page = scope.spawn(move || page_and_browser(&receiver));
+        let mut outcomes = vec![check::check_rest()];
         let what = "lint, document and compile the tests and what they test";
         let compiled = linted_tests(&["--no-run"]).and_then(|mut command| run(what, &mut command));
-        let drawn = compiled.is_ok().then(|| one("gpu", linted_tests));
-        ((checked, compiled, drawn), page.join())
+        let is_compiled = compiled.is_ok();
+        outcomes.push(compiled);
+        // Nobody waits for the answer any more where the page could not be built.
+        let _waits = sender.send(is_compiled);
+        if is_compiled {
+            outcomes.extend(without_page());
+        }
+        (outcomes, page.join())
     });
-    // Where something cannot be built, or a lint speaks, there is no use in waiting for the rest.
-    let built = page.map_err(|_panic| "building the page panicked".to_owned())?;
-    if built.is_err() || compiled.is_err() {
-        let outcomes = [checked, compiled, built].into_iter().chain(drawn);
-        return close(start, outcomes.collect());
+    match page {
+        Ok(of_page) => outcomes.extend(of_page),
+        Err(_panic) => outcomes.push(Err("building the page panicked".to_owned())),
     }
-    let mut outcomes = vec![checked];
-    outcomes.extend(drawn);
-    outcomes.push(run("unit tests", &mut linted_tests(&["--lib"])?));
-    outcomes.extend(BINARIES.map(|name| one(name, linted_tests)));
-    let examples = &mut linted_tests(&["--doc"])?;
-    outcomes.push(run("examples in the documentation", examples));
     outcomes.push(all_ran(&not_run));
     close(start, outcomes)
+}
+
+/// Builds the page, waits until the tests are compiled, and runs those of the browser. `is_compiled` tells whether they
+/// could be.
+fn page_and_browser(is_compiled: &Receiver<bool>) -> Vec<Outcome> {
+    let built = page::build_beside();
+    let is_built = built.is_ok();
+    let mut outcomes = vec![built];
+    if is_compiled.recv().unwrap_or(false) && is_built {
+        let browser = linted_tests(&["--test", "browser", "--", "--nocapture"]);
+        outcomes.push(browser.and_then(|mut command| run_beside("tests/browser", &mut command)));
+    }
+    outcomes
+}
+
+/// Runs all tests but those of the browser, one binary after the other. The long ones give way to what else runs; of
+/// the short ones some ask that nothing takes long.
+fn without_page() -> Vec<Outcome> {
+    let at_once = |what: &str, args: &[&str]| {
+        linted_tests(args).and_then(|mut command| run(what, &mut command))
+    };
+    let behind = |args: &[&str]| linted_tests(args).map(given_way);
+    let mut outcomes = vec![
+        at_once("unit tests", &["--lib"]),
+        one("fast", linted_tests),
+        at_once("examples in the documentation", &["--doc"]),
+    ];
+    outcomes.extend(LONG.map(|name| one(name, behind)));
+    outcomes
 }
 
 /// Runs the tests of a binary, which is compiled as `tests` has cargo do it.
