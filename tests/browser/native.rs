@@ -272,6 +272,16 @@ impl Findings {
             }
         }
     }
+
+    /// Fails if the sides differ.
+    fn tell(&self) {
+        let Self { worst, faults } = self;
+        println!(
+            "worst mean {:.3}, worst 99.9th percentile {}",
+            worst.0, worst.1
+        );
+        assert!(faults.is_empty(), "{}", faults.join("\n"));
+    }
 }
 
 /// The native side.
@@ -360,16 +370,29 @@ pub(crate) async fn promised(tab: &Tab, script: &str) -> RgbaImage {
     image::load_from_memory(&png).expect("a PNG").to_rgba8()
 }
 
-/// The same documents drawn by the page and by the native program under lavapipe.
+/// Each kind of template, drawn by the page and by the native program under lavapipe.
 #[test]
-fn browser_draws_what_the_native_program_draws() {
-    with_browser(BrowserGpu::Software, |session| async move {
+fn browser_draws_kinds_as_the_native_program_does() {
+    compare_cases(kinds);
+}
+
+/// The same of what documents have besides, and of styles.
+#[test]
+fn browser_draws_what_else_there_is_as_the_native_program_does() {
+    compare_cases(|| besides().into_iter().chain(styles()).collect());
+}
+
+/// The same documents drawn by the page and by the native program.
+fn compare_cases(cases: fn() -> Vec<Case>) {
+    with_browser(BrowserGpu::Software, move |session| async move {
         let mut native = Native::open().await;
         let mut findings = Findings::default();
-        let tab = compare_field(&session, &mut native, &mut findings).await;
+        let tab = session
+            .coarse_viewer(&format!("#{}", payload(PLAIN)), (300, 420))
+            .await;
         tab.eval::<bool>("(window.fabrica.viewer.destroy(), true)")
             .await;
-        for case in kinds().into_iter().chain(besides()).chain(styles()) {
+        for case in cases() {
             let text = case.document.to_string();
             let quoted = serde_json::to_string(&text).expect("text");
             let script = format!(
@@ -381,17 +404,21 @@ fn browser_draws_what_the_native_program_draws() {
                 tokio::join!(promised(&tab, &script), native.draw_case(&case));
             findings.compare(&case.name, &page, &image, &plain);
         }
-        let Findings { worst, faults } = findings;
-        println!(
-            "worst mean {:.3}, worst 99.9th percentile {}",
-            worst.0, worst.1
-        );
-        assert!(faults.is_empty(), "{}", faults.join("\n"));
+        findings.tell();
     });
 }
 
 /// A displacement field comes from a file, so that the viewer itself draws it: its picture as it is shown.
-async fn compare_field(session: &Session, native: &mut Native, findings: &mut Findings) -> Tab {
+#[test]
+fn a_field_is_drawn_as_the_native_program_draws_it() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let mut findings = Findings::default();
+        compare_field(&session, &mut Native::open().await, &mut findings).await;
+        findings.tell();
+    });
+}
+
+async fn compare_field(session: &Session, native: &mut Native, findings: &mut Findings) {
     let mut table = String::from("x,y,z,dx,dy,dz\n");
     for i in 0..125 {
         let at = [i % 5, i / 5 % 5, i / 25].map(|n| f64::from(n) * 25.0 - 50.0);
@@ -429,7 +456,6 @@ async fn compare_field(session: &Session, native: &mut Native, findings: &mut Fi
     let studio = studio.with_resources(resources);
     let image = drawn(&studio, illustration, size).await;
     findings.compare("field", &page, &image, &[("/templates/0", plain)]);
-    tab
 }
 
 /// A ball of 80 mm with bumps, as an OBJ of one part.

@@ -11,8 +11,8 @@ use crate::page;
 use crate::run::{Outcome, cargo, given_way, report, root, run, run_beside};
 use crate::setup;
 
-/// The test binaries that draw and need no page.
-const LONG: [&str; 3] = ["gpu", "evaluate", "app"];
+/// The test binaries that draw, need no page, and ask of nothing that it is quick.
+const PATIENT: [&str; 2] = ["gpu", "evaluate"];
 
 /// Parts of tests/app that get a process together: Mesa 22's lavapipe keeps 0.15 GB of every window drawn in a process,
 /// as long as it lives, and half a hundred windows are more than a small machine has. Some two dozen share their
@@ -43,10 +43,10 @@ pub(crate) fn test(names: &[String]) -> Outcome {
     }
     setup::for_page()?;
     // Two rows of work beside each other. One builds the page and then tests it in the browser: it draws one page after
-    // the other, and leaves much of two cores idle. The other checks, compiles and runs all other tests, which go on
-    // while the page is still being built, and give way to the browser, whose tests wait for answers.
+    // the other, and leaves a quarter of two cores idle. The other checks and compiles all other tests, and runs those
+    // that can give way to the browser, whose tests wait for answers.
     let (sender, receiver) = channel();
-    let (mut outcomes, page) = std::thread::scope(move |scope| {
+    let (mut outcomes, is_compiled, page) = std::thread::scope(move |scope| {
         let page = scope.spawn(move || page_and_browser(&receiver));
         let mut outcomes = vec![check::check_rest()];
         let what = "lint, document and compile the tests and what they test";
@@ -56,13 +56,20 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         // Nobody waits for the answer any more where the page could not be built.
         let _waits = sender.send(is_compiled);
         if is_compiled {
-            outcomes.extend(without_page());
+            let behind = |args: &[&str]| linted_tests(args).map(given_way);
+            outcomes.extend(PATIENT.map(|name| one(name, behind)));
         }
-        (outcomes, page.join())
+        (outcomes, is_compiled, page.join())
     });
     match page {
         Ok(of_page) => outcomes.extend(of_page),
         Err(_panic) => outcomes.push(Err("building the page panicked".to_owned())),
+    }
+    if is_compiled {
+        outcomes.push(run("unit tests", &mut linted_tests(&["--lib"])?));
+        outcomes.extend(["fast", "app"].map(|name| one(name, linted_tests)));
+        let examples = &mut linted_tests(&["--doc"])?;
+        outcomes.push(run("examples in the documentation", examples));
     }
     outcomes.push(all_ran(&not_run));
     close(start, outcomes)
@@ -78,22 +85,6 @@ fn page_and_browser(is_compiled: &Receiver<bool>) -> Vec<Outcome> {
         let browser = linted_tests(&["--test", "browser", "--", "--nocapture"]);
         outcomes.push(browser.and_then(|mut command| run_beside("tests/browser", &mut command)));
     }
-    outcomes
-}
-
-/// Runs all tests but those of the browser, one binary after the other. The long ones give way to what else runs; of
-/// the short ones some ask that nothing takes long.
-fn without_page() -> Vec<Outcome> {
-    let at_once = |what: &str, args: &[&str]| {
-        linted_tests(args).and_then(|mut command| run(what, &mut command))
-    };
-    let behind = |args: &[&str]| linted_tests(args).map(given_way);
-    let mut outcomes = vec![
-        at_once("unit tests", &["--lib"]),
-        one("fast", linted_tests),
-        at_once("examples in the documentation", &["--doc"]),
-    ];
-    outcomes.extend(LONG.map(|name| one(name, behind)));
     outcomes
 }
 
