@@ -31,7 +31,7 @@ use std::time::{Duration, Instant, SystemTime};
 use tokio::time::timeout;
 
 /// No browser test may take longer; a hanging browser must not hold up everything after it.
-const LIMIT: Duration = Duration::from_secs(450);
+const LIMIT: Duration = Duration::from_secs(900);
 /// Closing what a test has opened may not take longer.
 const CLOSING: Duration = Duration::from_secs(10);
 /// Between two questions of what is waited for.
