@@ -4,7 +4,7 @@
 use egui::{CursorIcon, Event, Painter, Pos2, Rect, Response, Stroke, Ui, vec2};
 use glam::Vec3;
 
-use super::projection::Projection;
+use super::projection::{Projection, pixels_of};
 use super::slice_plot::Map;
 use super::tools::head_bar;
 use crate::app::kit::icon::Icon;
@@ -218,9 +218,7 @@ impl PictureBall {
         commands: &mut Vec<Command>,
     ) -> Option<Question> {
         let (way, _) = self.hand.follow(ui, response, session, commands);
-        let rect = response.rect;
-        let scale = size[0] as f32 / rect.width().max(1.0);
-        let pixel = |pos: Pos2| [(pos.x - rect.min.x) * scale, (pos.y - rect.min.y) * scale];
+        let pixel = pixels_of(response.rect, size);
         if session.tool().ball().is_none() {
             (self.next, self.pick, self.spot) = (None, None, None);
             return None;

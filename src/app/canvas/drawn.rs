@@ -3,7 +3,7 @@
 use egui::{PointerButton, Pos2, Response, Shape, Stroke, Ui};
 use glam::Vec3;
 
-use super::projection::Projection;
+use super::projection::{Projection, pixels_of};
 use crate::app::kit::theme::over_picture as ink;
 use crate::app::picture::host::Picture;
 use crate::app::session::{Command, Session, Tool};
@@ -111,10 +111,9 @@ impl DrawnWay {
         (picture, size): (&mut Picture, [u32; 2]),
     ) -> bool {
         let Some(asked) = &mut self.asked else {
-            let scale = size[0] as f32 / view.rect.width().max(1.0);
-            let pixel = (first - view.rect.min) * scale;
+            let pixel = pixels_of(view.rect, size)(first);
             // Another question may be open; then this one is asked in the next frame.
-            self.asked = picture.pick([pixel.x, pixel.y], size).ok();
+            self.asked = picture.pick(pixel, size).ok();
             return true;
         };
         match asked.poll_now() {

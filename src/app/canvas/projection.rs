@@ -6,6 +6,12 @@ use glam::Vec3;
 use crate::app::session::camera::axes;
 use crate::document::Camera;
 
+/// Where in a picture of so many pixels a place of the window is, if the picture fills this rectangle.
+pub(crate) fn pixels_of(rect: Rect, size: [u32; 2]) -> impl Fn(Pos2) -> [f32; 2] {
+    let scale = size[0] as f32 / rect.width().max(1.0);
+    move |pos| [(pos.x - rect.min.x) * scale, (pos.y - rect.min.y) * scale]
+}
+
 /// Moves the target so that the picture follows the pointer by `delta` points.
 pub(crate) fn pan(camera: &mut Camera, view: &Projection, delta: Vec2) {
     let unit = 1.0 / view.points_per_unit(camera.target);

@@ -526,10 +526,8 @@ impl Viewport {
         size: [u32; 2],
         commands: &mut Vec<Command>,
     ) {
-        let rect = response.rect;
-        let scale = size[0] as f32 / rect.width().max(1.0);
-        let pixel = |pos: Pos2| [(pos.x - rect.min.x) * scale, (pos.y - rect.min.y) * scale];
-        let clicked = response.interact_pointer_pos().map(pixel);
+        let pixel = projection::pixels_of(response.rect, size);
+        let clicked = response.interact_pointer_pos().map(&pixel);
         if let Some(kind) = session.tool().placing() {
             if let Some(pick) = &mut self.preview_pick {
                 match pick.poll_now() {

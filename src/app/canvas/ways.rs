@@ -50,16 +50,17 @@ pub(crate) fn ui(
             let dot = Dot::full(&name, ink::HANDLE);
             let (response, moved) = handle(ui, view, spot, plane, &dot);
             is_over |= is_hot(&response);
-            let mut new = held.clone();
             match moved {
                 Some(Moved::To(pos)) => {
                     let limit = Vec3::splat(FARTHEST);
                     let at = template.template_from_subject(pos).clamp(-limit, limit);
+                    let mut new = held.clone();
                     new.tools[t].path[k].at = at;
                     commands.push(Command::Drag(set(template, new)));
                 }
                 // The last key stays: a path has one at least.
                 Some(Moved::Removed) if tool.path.len() > 1 => {
+                    let mut new = held.clone();
                     new.tools[t].path.remove(k);
                     commands.push(Command::Apply(set(template, new)));
                 }
