@@ -14,6 +14,7 @@
 //! | [`subjects`] | 4 | the built-in subjects, generated |
 //! | [`placed`] | 4 | what a placed template reaches, where it is grabbed, its icon |
 //! | [`describe`] | 4 | a picture in words, for who cannot see it |
+//! | [`clay`] | 4 | clay: strokes that shape a mesh, and the mesh that follows them |
 //! | [`figure`] | 4 | flat pictures that bend: regions, outlines, meshes, the solve |
 //! | [`assets`] | 5 | what a document needs from outside, and what has come of it |
 //! | `render` | 5 | everything GPU |
@@ -28,7 +29,7 @@
 //!
 //! | word | means |
 //! |---|---|
-//! | subject | what is illustrated: a volume, with meshes beside it or not, meshes alone, or a figure |
+//! | subject | what is illustrated: a volume, with meshes beside it or not, meshes alone, a clay, or a figure |
 //! | volume | scalars on an oriented grid of voxels; never a subject in general |
 //! | segmentation | a volume of label numbers, with the segments that they stand for |
 //! | label | a number in a segmentation |
@@ -45,6 +46,7 @@
 //! | figure | a 2D subject, drawn as a sheet of triangles; never an embed |
 //! | plate | the flat picture that a figure bends |
 //! | sheet | the triangles of a bent figure |
+//! | clay | a subject whose document holds the strokes that shape it, and no mesh |
 //!
 //! # Imports
 //!
@@ -67,6 +69,7 @@ pub mod document;
 pub mod data;
 pub mod link;
 
+pub mod clay;
 pub mod describe;
 pub mod figure;
 pub mod load;
@@ -91,6 +94,7 @@ pub mod reader;
     feature = "part-scans",
     feature = "part-meshes",
     feature = "part-pictures",
-    feature = "part-figures"
+    feature = "part-figures",
+    feature = "part-clay"
 ))]
 pub mod shell;

@@ -44,6 +44,7 @@ export function partOf(json, base) {
   } catch {
     return null;
   }
+  if (typeof subject?.clay === "object" && subject.clay !== null) return "clay";
   if (VOLUMES.includes(subject?.builtin)) return "subjects";
   if (typeof subject?.src !== "string" || subject.builtin !== undefined || !URL.canParse(subject.src, base)) return null;
   const { origin, pathname } = new URL(subject.src, base);

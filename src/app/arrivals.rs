@@ -9,7 +9,7 @@ use crate::app::window::App;
 use crate::app::words::{self, fill};
 use crate::assets::{Data, LoadEvent, Role, SegmentationsExpected, Want};
 use crate::data::{Subject, SubjectBuilder, SubjectSink as _};
-use crate::document::{SegmentsRef, SubjectRef};
+use crate::document::SegmentsRef;
 
 impl App {
     pub(crate) fn take_messages(&mut self) {
@@ -260,7 +260,7 @@ impl App {
     fn look_after_files_beside(&mut self) {
         let illustration = self.session.illustration();
         let named = illustration.segments.clone();
-        let is_file = !matches!(illustration.subject, SubjectRef::Builtin { .. });
+        let is_file = !illustration.subject.is_made();
         let expected = SegmentationsExpected {
             sha256: named.iter().filter_map(|s| s.sha256.clone()).collect(),
             has_scan: is_file && self.session.view.subject.is_some(),
@@ -409,10 +409,17 @@ impl App {
                 let load = self.session.load.as_ref();
                 let modality = load.and_then(|load| load.modality.clone());
                 self.session.view.set_modality(modality);
-                self.assets.give(Data::Subject {
+                let data = Data::Subject {
                     subject: subject.clone(),
                     sha256: None,
-                });
+                };
+                match self.session.clay_under_way() {
+                    // It has no hash that could be another one.
+                    Some(want) => {
+                        let _taken = self.assets.take(&want, data);
+                    }
+                    None => self.assets.give(data),
+                }
                 self.tissue.restart();
                 let shown = self
                     .picture

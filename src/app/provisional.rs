@@ -38,6 +38,9 @@ impl App {
                 w.object_missing
             });
         }
+        if self.session.awaits_clay() {
+            return Some(w.shaping);
+        }
         let load = self.session.load.as_ref();
         if load.is_some_and(|load| load.is_coarse) {
             return Some(w.coarse);

@@ -273,6 +273,7 @@ impl App {
     pub fn is_at_rest(&self) -> bool {
         let is_picture_done = |picture: &Picture| picture.state.is_done && !picture.is_waiting();
         self.session.load.is_none()
+            && !self.session.awaits_clay()
             && !self.services.is_reading()
             && !self.tissue.is_behind(&self.assets, self.session.shown())
             && !self.wants_beside()
@@ -467,6 +468,7 @@ impl App {
         if let Some(text) = viewport::pasted(ui) {
             self.session.open_text(&text);
         }
+        self.session.follow_clay();
         self.do_outside();
         self.session.is_alone = ui.input(|i| i.modifiers.shift);
         let mut commands = Vec::new();

@@ -8,7 +8,7 @@ use super::want::{OtherFile, Role, Source, Want, Wanted};
 use crate::data::{
     FieldKey, FieldSamples, Grid, ObjectMeshes, Resources, Segment, Segmentation, Subject, Surface,
 };
-use crate::document::{Illustration, SegmentsRef, SubjectBox, SubjectRef, TemplateData};
+use crate::document::{Clay, Illustration, SegmentsRef, SubjectBox, SubjectRef, TemplateData};
 use crate::load::{FieldFile, FieldUse, LabelFile};
 
 /// What a file turned out to hold.
@@ -66,6 +66,8 @@ fn find<'a, T>(held: &'a [Held<T>], want: &Want) -> Option<&'a Arc<T>> {
 #[derive(Debug, Default)]
 pub struct Assets {
     subject: Option<Subject>,
+    /// The recipe of the subject, if it is a clay.
+    clay: Option<Arc<Clay>>,
     /// Where the subject's voxels lie.
     grid: Option<Grid>,
     segments: Vec<Held<LabelFile>>,
@@ -125,6 +127,9 @@ impl Assets {
             }
             data => self.hold(want.src().map(str::to_owned), data),
         }
+        if want.role == Role::Subject {
+            self.clay = want.clay().cloned();
+        }
         Ok(())
     }
 
@@ -152,6 +157,7 @@ impl Assets {
                 self.place(grid.or_else(own));
                 self.own_named = None;
                 self.has_told_kept = false;
+                self.clay = None;
                 self.subject = Some(subject);
             }
             Data::Segments(file) => {
@@ -215,7 +221,7 @@ impl Assets {
     /// True if the file of this want has arrived. Only one subject is held at a time.
     pub fn has(&self, want: &Want) -> bool {
         match want.role {
-            Role::Subject => self.subject.is_some(),
+            Role::Subject => self.subject.is_some() && self.clay.as_ref() == want.clay(),
             Role::Segments => find(&self.segments, want).is_some(),
             Role::Field => find(&self.fields, want).is_some(),
             Role::Object => {
@@ -313,6 +319,7 @@ impl Assets {
             objects: self.object_meshes(illustration),
             frame: self.subject.as_ref().map(Subject::frame),
             sheet: None,
+            clay: self.clay.clone(),
         };
         self.tell_of_thin(illustration, &resources, &mut news);
         (resources, news)

@@ -1,6 +1,8 @@
+use std::sync::Arc;
+
 use crate::document::{
-    FieldRef, Illustration, MeshReading, MeshRef, ObjectSource, Reading, SceneObject, SegmentsRef,
-    SubjectBox, SubjectRef, TemplateData,
+    Clay, FieldRef, Illustration, MeshReading, MeshRef, ObjectSource, Reading, SceneObject,
+    SegmentsRef, SubjectBox, SubjectRef, TemplateData,
 };
 use crate::load::MeshOptions;
 
@@ -20,10 +22,12 @@ pub enum Role {
 }
 
 /// Where the data for a want come from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// Made by the program, by name.
     Builtin(String),
+    /// Shaped by the program, stroke by stroke.
+    Clay(Arc<Clay>),
     /// A file. One without an address is supplied by the reader, who is asked for it by the author's name.
     File {
         /// Address, relative to the document or absolute, as written in the document.
@@ -76,6 +80,7 @@ impl Want {
                 }
             }
             SubjectRef::Builtin { name } => Source::Builtin(name.clone()),
+            SubjectRef::Clay(clay) => Source::Clay(Arc::clone(clay)),
             SubjectRef::Address {
                 src, sha256, name, ..
             } => Source::File {
@@ -207,10 +212,26 @@ impl Want {
         self.role == other.role && is_same_source && self.reading == reading
     }
 
+    /// The name that the reader is asked for the file by, or that of what the program makes.
+    pub fn name(&self) -> &str {
+        match &self.source {
+            Source::Builtin(name) | Source::File { name, .. } => name,
+            Source::Clay(_) => "clay",
+        }
+    }
+
+    /// The recipe of a clay.
+    pub fn clay(&self) -> Option<&Arc<Clay>> {
+        match &self.source {
+            Source::Clay(clay) => Some(clay),
+            Source::Builtin(_) | Source::File { .. } => None,
+        }
+    }
+
     /// Address of the file, as written in the document; `None` without one.
     pub fn src(&self) -> Option<&str> {
         match &self.source {
-            Source::Builtin(_) => None,
+            Source::Builtin(_) | Source::Clay(_) => None,
             Source::File { src, .. } => src.as_deref(),
         }
     }
@@ -218,7 +239,7 @@ impl Want {
     /// SHA-256 that the document gives.
     pub fn sha256(&self) -> Option<&str> {
         match &self.source {
-            Source::Builtin(_) => None,
+            Source::Builtin(_) | Source::Clay(_) => None,
             Source::File { sha256, .. } => sha256.as_deref(),
         }
     }
@@ -247,7 +268,7 @@ pub struct Wanted(pub Vec<Want>);
 impl Wanted {
     /// What this illustration names.
     pub fn of(illustration: &Illustration) -> Self {
-        let mut wants = vec![Want::subject(&illustration.subject)];
+        let mut wants = vec![Want::subject(&illustration.subject_shown())];
         wants.extend(illustration.segments.iter().filter_map(Want::segments));
         for template in illustration.templates.iter().filter(|t| t.enabled) {
             if let TemplateData::Field(field) = &template.data

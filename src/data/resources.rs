@@ -6,7 +6,7 @@ use glam::{Quat, Vec3};
 use super::{Carver, FieldSamples, Segment, Segmentation, Sheet, Subject, SubjectFrame, Surface};
 use crate::displace::Holds;
 use crate::document::{
-    FoundObject, ObjectSource, ParamValue, PlacedTemplate, SceneObject, TemplateData,
+    Clay, FoundObject, ObjectSource, ParamValue, PlacedTemplate, SceneObject, TemplateData,
 };
 use crate::math::Placement;
 
@@ -29,6 +29,8 @@ pub struct Resources {
     pub frame: Option<SubjectFrame>,
     /// The figure as its document bends it, once that is known.
     pub sheet: Option<Sheet>,
+    /// The recipe of the subject that is here, if it is a clay: captions go with its strokes.
+    pub clay: Option<Arc<Clay>>,
 }
 
 /// Meshes of objects, by where each comes from.
@@ -172,5 +174,6 @@ impl PartialEq for Resources {
             && self.has_objects_of(other)
             && self.frame == other.frame
             && Sheet::are_same(self.sheet.as_ref(), other.sheet.as_ref())
+            && both(&self.clay, &other.clay, Arc::ptr_eq)
     }
 }

@@ -135,6 +135,10 @@ pub(super) fn subject_in_sentence(of: &SubjectRef, lang: Lang) -> Option<String>
             [one] => &one.name,
             _ => return None,
         },
+        SubjectRef::Clay(_) => {
+            let clay = lang.of(["Clay", "Ton", "Arcilla", "黏土"]);
+            return Some(in_sentence(clay, lang));
+        }
     };
     let name = super::lang::one_line(name, MAX_NAME);
     (!name.is_empty()).then_some(name)
@@ -144,6 +148,7 @@ pub(super) fn subject_in_sentence(of: &SubjectRef, lang: Lang) -> Option<String>
 pub fn has_patient(of: &SubjectRef) -> bool {
     match of {
         SubjectRef::Builtin { name } => matches!(name.as_str(), "head" | "hand" | "torso" | "knee"),
+        SubjectRef::Clay(_) => false,
         SubjectRef::Address { .. } | SubjectRef::Supplied { .. } | SubjectRef::Meshes { .. } => {
             true
         }

@@ -60,6 +60,7 @@ mod interpolant;
 mod kind;
 mod lens;
 mod r#move;
+mod mover;
 mod noise;
 mod peel;
 mod peeler;
@@ -86,6 +87,7 @@ pub use facts::{
 pub(crate) use interpolant::Interpolant;
 pub use interpolant::Missed;
 pub use kind::TemplateKind;
+pub(crate) use mover::{Ball, Mover, counted_in, images_of, spans, wanted_in};
 pub use noise::noise;
 pub use points::{ControlPoint, ControlPoints};
 pub use spec::{MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateSpec};

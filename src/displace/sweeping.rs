@@ -2,13 +2,13 @@
 //! tool in each, found once per edit in 64 bits, and packed for shaders/displace/sweep.wgsl.
 
 use super::facts::Given;
-use super::tools::{MOST_STEPS, PathKey, SweepTool, SweepTools, ToolShape};
+use super::mover::{Ball, Mover, counted_in, images_of, spans, wanted_in};
+use super::tools::{PathKey, SweepTool, SweepTools, ToolShape};
 use crate::math::{Aabb, Screw, Similarity, smooth_path};
 use glam::{DQuat, DVec3, Vec3};
 
-/// Steps of a tool per width of its coating that it travels, and where the reaches of several overlap.
+/// Steps of a tool alone per width of its coating that it travels.
 const STEPS_A_COAT: f64 = 6.0;
-const STEPS_A_COAT_OF_MANY: f64 = 8.0;
 /// Steps in a block, and blocks in a block of blocks, as in shaders/displace/sweep.wgsl.
 const BLOCK: usize = 8;
 /// Texels of a step for itself, and for each tool.
@@ -19,131 +19,24 @@ const SHEARED: f64 = 0.14;
 /// Reach is rounded up by this part of it, for floats of 32 bits.
 const ROUNDING: f64 = 1e-5;
 
-/// A tool on its way, in metric local coordinates: from the middle of the box, in subject units.
-#[derive(Clone, Debug)]
-struct Mover<'a> {
-    shape: &'a ToolShape,
-    /// Subject units to a unit of the shape.
-    unit: f64,
-    /// Width of the coating, subject units.
-    coat: f64,
-    /// Farthest point of the tool from its origin at scale 1, subject units.
-    farthest: f64,
-    poses: Vec<Similarity>,
-    screws: Vec<Screw>,
-}
-
-impl<'a> Mover<'a> {
-    fn new(tool: &'a SweepTool, size: DVec3) -> Option<Self> {
-        let shape = tool.shape.as_ref()?;
-        let unit = size.min_element();
-        let keys: Vec<Similarity> = tool
-            .path
-            .iter()
-            .map(|key| {
-                let turn = DQuat::from_array(key.rotate.to_array().map(f64::from));
-                let place = size * (key.at.as_dvec3() - 0.5);
-                Similarity::new(f64::from(key.scale), turn, place)
-            })
-            .collect();
-        let poses = match tool.spline {
-            true => smooth_path(&keys),
-            false => keys,
-        };
-        let screws = poses.windows(2).map(|pair| {
-            let screw = pair[1].after(&pair[0].inverse()).log();
-            screw.times((poses.len() - 1) as f64)
-        });
-        Some(Self {
-            shape,
-            unit,
-            coat: f64::from(tool.coat) * unit,
-            farthest: f64::from(shape.farthest()) * unit,
-            screws: screws.collect(),
-            poses,
+/// A tool of a sweep in a box of this size; none of an unknown shape.
+fn mover_of(tool: &SweepTool, size: DVec3) -> Option<Mover<'_>> {
+    let shape = tool.shape.as_ref()?;
+    let unit = size.min_element();
+    let keys: Vec<Similarity> = tool
+        .path
+        .iter()
+        .map(|key| {
+            let turn = DQuat::from_array(key.rotate.to_array().map(f64::from));
+            let place = size * (key.at.as_dvec3() - 0.5);
+            Similarity::new(f64::from(key.scale), turn, place)
         })
-    }
-
-    /// The piece that holds a time, its screw in units of the whole time, and the pose then.
-    fn at(&self, time: f64) -> (usize, Screw, Similarity) {
-        let pieces = self.screws.len();
-        let piece = ((time * pieces as f64) as usize).min(pieces.saturating_sub(1));
-        self.at_in(piece, time)
-    }
-
-    /// As [`Mover::at`], of a piece that is known: at its end the next one begins.
-    fn at_in(&self, piece: usize, time: f64) -> (usize, Screw, Similarity) {
-        let Some(screw) = self.screws.get(piece) else {
-            return (0, Screw::NONE, self.poses[0]);
-        };
-        let since = time - piece as f64 / self.screws.len() as f64;
-        let pose = screw.times(since).exp().after(&self.poses[piece]);
-        (piece, *screw, pose)
-    }
-
-    /// Radius of the tool with its coating about its origin.
-    fn radius(&self, pose: &Similarity) -> f64 {
-        self.farthest * pose.scale + self.coat
-    }
-
-    /// The longest way of a point of the tool with its coating from one time to another of one piece.
-    fn travel(&self, from: f64, to: f64) -> f64 {
-        let (piece, screw, _) = self.at(0.5 * (from + to));
-        let fastest = [from, 0.5 * (from + to), to].map(|time| {
-            let (_, _, pose) = self.at_in(piece, time);
-            screw.velocity(pose.place).length() + screw.rate() * self.radius(&pose)
-        });
-        fastest.into_iter().fold(0.0, f64::max) * (to - from)
-    }
-
-    /// A ball that holds the tool with its coating from one time to another of one piece.
-    fn ball(&self, from: f64, to: f64) -> Ball {
-        let (piece, _, middle) = self.at(0.5 * (from + to));
-        let mut radius = self.radius(&middle);
-        for time in [from, to] {
-            let (_, _, pose) = self.at_in(piece, time);
-            let away = pose.place.distance(middle.place);
-            radius = radius.max(self.radius(&pose) + away);
-        }
-        Ball {
-            middle: middle.place,
-            radius,
-        }
-    }
-}
-
-/// A ball, metric local coordinates.
-#[derive(Clone, Copy, Debug)]
-struct Ball {
-    middle: DVec3,
-    radius: f64,
-}
-
-impl Ball {
-    /// A ball around several.
-    fn around(balls: &[Self]) -> Option<Self> {
-        let least = balls.iter().map(|b| b.middle - b.radius);
-        let most = balls.iter().map(|b| b.middle + b.radius);
-        let middle = 0.5 * (least.reduce(DVec3::min)? + most.reduce(DVec3::max)?);
-        let far = balls.iter().map(|b| b.middle.distance(middle) + b.radius);
-        Some(Self {
-            middle,
-            radius: far.fold(0.0, f64::max),
-        })
-    }
-}
-
-/// Signs of the axes of each image in these mirrors, the tools themselves first.
-fn images_of(mirror: [bool; 3]) -> Vec<DVec3> {
-    let mut images = vec![DVec3::ONE];
-    for axis in (0..3).filter(|axis| mirror[*axis]) {
-        let other = images.clone().into_iter().map(|mut signs| {
-            signs[axis] = -1.0;
-            signs
-        });
-        images.extend(other);
-    }
-    images
+        .collect();
+    let poses = match tool.spline {
+        true => smooth_path(&keys),
+        false => keys,
+    };
+    Some(Mover::new(shape, unit, f64::from(tool.coat) * unit, poses))
 }
 
 /// One step: every tool moves by one screw.
@@ -182,12 +75,15 @@ impl<'a> Sweeping<'a> {
     /// The steps of tools in a box of this size.
     pub(crate) fn new(tools: &'a SweepTools, size: Vec3) -> Self {
         let mut sweeping = Self::still(tools, size);
-        let spans = sweeping.spans();
-        let wanted: Vec<f64> = spans.iter().map(|span| sweeping.wanted(*span)).collect();
+        let spans = spans(&sweeping.movers);
+        let wanted: Vec<f64> = spans
+            .iter()
+            .map(|span| wanted_in(&sweeping.movers, sweeping.mirror, *span, STEPS_A_COAT))
+            .collect();
         // Where thin coatings of others ask for more than may be, each span still gets what its own tools ask for.
         let own = spans.iter().zip(&wanted);
         let own: Vec<f64> = own
-            .map(|(span, wanted)| sweeping.counted_in(*span).min(*wanted))
+            .map(|(span, wanted)| counted_in(&sweeping.movers, *span).min(*wanted))
             .collect();
         let [least, all] = [&own, &wanted].map(|counts| counts.iter().sum::<f64>());
         let room = (tools.most_steps as f64 - least).max(0.0);
@@ -210,7 +106,7 @@ impl<'a> Sweeping<'a> {
         let moving = acting().find(|tool| tool.path.len() > 1);
         let tool = moving.or_else(|| acting().next());
         let size = given.size.as_dvec3();
-        let mover = tool.and_then(|tool| Mover::new(tool, size));
+        let mover = tool.and_then(|tool| mover_of(tool, size));
         let place = mover.map_or(DVec3::ZERO, |mover| {
             let (_, _, pose) = mover.at(f64::from(time));
             pose.of(DVec3::splat(mover.farthest / libm::sqrt(3.0)))
@@ -223,7 +119,7 @@ impl<'a> Sweeping<'a> {
         let size = size.as_dvec3();
         let images = images_of(tools.mirror);
         let way = |tool: &SweepTool| {
-            let mover = Mover::new(tool, size)?;
+            let mover = mover_of(tool, size)?;
             let parts = WAY_PARTS * (tool.path.len() - 1);
             let poses = (0..=parts).map(|i| {
                 let (_, _, pose) = mover.at(i as f64 / parts.max(1) as f64);
@@ -269,7 +165,7 @@ impl<'a> Sweeping<'a> {
     /// The tools alone, without steps.
     pub(crate) fn still(tools: &'a SweepTools, size: Vec3) -> Self {
         let size = size.as_dvec3();
-        let movers = tools.acting().filter_map(|t| Mover::new(t, size));
+        let movers = tools.acting().filter_map(|t| mover_of(t, size));
         Self {
             movers: movers.collect(),
             mirror: tools.mirror,
@@ -286,58 +182,9 @@ impl<'a> Sweeping<'a> {
         if pieces > room {
             return [pieces, 0];
         }
-        let spans = sweeping.spans().into_iter();
-        let steps = spans.map(|span| sweeping.counted_in(span) as usize);
+        let spans = spans(&sweeping.movers).into_iter();
+        let steps = spans.map(|span| counted_in(&sweeping.movers, span) as usize);
         [pieces, steps.sum()]
-    }
-
-    /// Steps of a span as the limits of a document count them.
-    fn counted_in(&self, (from, to): (f64, f64)) -> f64 {
-        let of_tool = self
-            .movers
-            .iter()
-            .map(|mover| STEPS_A_COAT_OF_MANY * mover.travel(from, to) / mover.coat);
-        libm::ceil(of_tool.fold(0.0, f64::max)).min(MOST_STEPS as f64)
-    }
-
-    /// From break to break: times at which any tool goes over from one screw to another.
-    fn spans(&self) -> Vec<(f64, f64)> {
-        let mut breaks: Vec<f64> = Vec::new();
-        for mover in &self.movers {
-            let pieces = mover.screws.len();
-            breaks.extend(
-                (0..=pieces)
-                    .filter(|_| pieces > 0)
-                    .map(|k| k as f64 / pieces as f64),
-            );
-        }
-        breaks.sort_by(f64::total_cmp);
-        breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
-        breaks.windows(2).map(|pair| (pair[0], pair[1])).collect()
-    }
-
-    /// Steps that a span takes.
-    fn wanted(&self, (from, to): (f64, f64)) -> f64 {
-        let balls: Vec<Ball> = self.movers.iter().map(|m| m.ball(from, to)).collect();
-        let images = self.images();
-        let mut wanted = 0.0_f64;
-        for (i, mover) in self.movers.iter().enumerate() {
-            let travel = mover.travel(from, to);
-            let mut per_travel = STEPS_A_COAT / mover.coat;
-            for (j, other) in self.movers.iter().enumerate() {
-                // With images of itself too.
-                for (n, image) in images.iter().enumerate() {
-                    let apart = balls[i].middle.distance(*image * balls[j].middle);
-                    let is_other = i != j || n > 0;
-                    if is_other && apart < balls[i].radius + balls[j].radius {
-                        let coat = mover.coat.min(other.coat);
-                        per_travel = per_travel.max(STEPS_A_COAT_OF_MANY / coat);
-                    }
-                }
-            }
-            wanted = wanted.max(travel * per_travel);
-        }
-        libm::ceil(wanted.min(MOST_STEPS as f64))
     }
 
     fn step(&mut self, start: f64, end: f64) {

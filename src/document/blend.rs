@@ -54,6 +54,11 @@ pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illu
     // What carves is where its object is. Which of them do nothing was told when the document was read.
     let _told = join_objects(&mut out.templates, &out.objects);
     let _told = limit_sweeps(&mut out.templates);
+    if let (Some(a), Some(b)) = (start.strokes_shown(), end.strokes_shown())
+        && part < 1.0
+    {
+        out.look.strokes = Some((mix(a as f32, b as f32) + 0.5).floor() as u32);
+    }
     if let (Some(a), Some(b)) = (start.look.tint, end.look.tint) {
         out.look.tint = Some(mix(a, b));
     }

@@ -114,6 +114,7 @@ fn is_default(value: &Value, kind: Kind) -> bool {
         | Kind::Points { .. }
         | Kind::Vectors { .. }
         | Kind::Path { .. }
+        | Kind::Wholes { .. }
         | Kind::Segments
         | Kind::List { .. }
         | Kind::FirstOf { .. } => is_empty_list(value),

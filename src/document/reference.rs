@@ -148,6 +148,16 @@ fn values(kind: Kind) -> String {
             "list of whole numbers, three for each of at most {most} points, which lie within {}",
             range(-max, max)
         ),
+        Kind::Wholes {
+            each,
+            most,
+            min,
+            max,
+        } => format!(
+            "list of whole numbers, {} for each of at most {most} keys, each {}",
+            ["one", "three"][usize::from(each > 1)],
+            range(min, max)
+        ),
         Kind::Segments => "list of names or label numbers".to_owned(),
         Kind::Labels => "object: text by label number".to_owned(),
         Kind::Looks(_) => "object: by name of a segment a number, 0 … 1, or an object".to_owned(),

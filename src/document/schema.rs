@@ -19,9 +19,10 @@ use super::model::figure::{
     SCALE_RANGE,
 };
 use super::model::{
-    Align, BodyKind, Camera, ConstrainBy, GhostBy, HatchBy, Layer, Light, MeshAxes, MeshParts,
-    MeshReading, MeshUnits, ObjectPlacement, OpacityMode, ParamKind, RawVoxels, SceneObject, Step,
-    Style, StylePreset, SurfaceLook, TemplateKind, TemplateMode, Tone,
+    Align, BodyKind, Camera, Clay, ClayShape, ClayStroke, ConstrainBy, GhostBy, HatchBy, Layer,
+    Light, MeshAxes, MeshParts, MeshReading, MeshUnits, ObjectPlacement, OpacityMode, ParamKind,
+    RawVoxels, SceneObject, Step, Style, StylePreset, SurfaceLook, TemplateKind, TemplateMode,
+    Tone,
 };
 use super::text::{json, pointer};
 use crate::displace::{
@@ -211,6 +212,18 @@ pub(crate) enum Kind {
         /// Number of places at most.
         most: usize,
         /// Greatest absolute value of a coordinate of a place.
+        max: f64,
+    },
+    /// A list of whole numbers, so many for each key of a path; keys beyond its end have what goes without saying, more
+    /// than `most` keys are refused.
+    Wholes {
+        /// Numbers for each key.
+        each: usize,
+        /// Number of keys at most.
+        most: usize,
+        /// Lowest value.
+        min: f64,
+        /// Highest value; of three numbers that are a vector also its greatest length.
         max: f64,
     },
     /// A list of names or numbers of segments.
@@ -462,6 +475,7 @@ const CONTOUR: &[Key] = &[
 #[rustfmt::skip]
 pub(crate) const SUBJECT: &[Key] = &[
     key(210, "builtin", Kind::Builtin, "a subject that the program generates; it goes before `src` and `sha256`").leaves(LeftOut::Alone),
+    key(215, "clay", Kind::Object(CLAY), "what is made by shaping a starting shape with tools: it is seen, cut and labelled as a mesh of one segment, `clay`. It goes before every other source").optional().unmade(),
     key(220, "revision", Kind::Whole, "revision of a built-in subject; without it the first one").optional(),
     key(230, "src", Kind::Address, "address of a file").optional(),
     key(240, "sha256", Kind::Hash, "hash of the file's bytes; without `src` the reader supplies the file that has it").optional(),
@@ -476,6 +490,59 @@ pub(crate) const SUBJECT: &[Key] = &[
     key(284, "box", Kind::Box, "of a subject of meshes alone, the box whose centre is the origin and whose longest side is 1 unit; without it that of the vertices").optional(),
     key(290, "segments", Kind::OneOrMore { of: SEGMENTATION, most: MAX_LABEL_FILES, what: "label volumes" }, "label volumes beside the subject, or names for its own labels"),
     key(310, "features", Kind::List { of: RECIPE, most: MAX_RECIPES, what: "features" }, "recipes of segments that are made from the values of the subject"),
+];
+
+/// Keys of `/subject/clay`. Its unit of length is the longest side of the starting shape.
+#[rustfmt::skip]
+pub(crate) const CLAY: &[Key] = &[
+    key(530, "from", Kind::Object(CLAY_FROM), "what it is before the first stroke: a shape, or a mesh file. Its centre is the origin, and its longest side is 1 unit"),
+    key(BY_NAME, "detail", exact(0.02, Clay::DETAIL[0], Clay::DETAIL[1]), "longest edge of its triangles where strokes come, subject units"),
+    key(BY_NAME, "tools", Kind::List { of: CLAY_TOOL, most: Clay::MAX_TOOLS, what: "tools" }, "what strokes are made by. Without this key there is one, with all its keys at their defaults").optional().unmade(),
+    key(BY_NAME, "strokes", Kind::List { of: CLAY_STROKE, most: Clay::MAX_STROKES, what: "strokes" }, "what shapes it, one after the other"),
+];
+
+/// Keys of `/subject/clay/from`.
+#[rustfmt::skip]
+pub(crate) const CLAY_FROM: &[Key] = &[
+    key(BY_NAME, "shape", Kind::Name(&ClayShape::NAMES), "a ball of radius ½, a cube of side 1, a plate 1 × 1 × 0.15 (z), both with edges rounded by 0.02, or a torus about z of radius 0.35 to the middle of its tube, which has radius 0.15. A unit is 100 mm. `src` and `sha256` go before it"),
+    key(230, "src", Kind::Address, "address of a mesh file, all of whose parts are one clay").optional(),
+    key(240, "sha256", Kind::Hash, "hash of the file's bytes; without `src` the reader supplies the file that has it").optional(),
+    key(250, "name", Kind::Text, "the author's name for the file"),
+    key(275, "units", UNITS, "length of one unit of the file; without it millimetres, in a GLB metres").optional(),
+    key(276, "axes", AXES, "directions of the file's axes; without it what the file says, else `ras` in STL and PLY and `y-up` in OBJ and GLB").optional(),
+];
+
+/// Keys of a tool of a clay. Its lengths are subject units.
+#[rustfmt::skip]
+pub(crate) const CLAY_TOOL: &[Key] = &{
+    let [a, b, c, d, e, f, g, h] = shape_keys("of a ball (0.1 without this key, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)");
+    [a, b, c, d, e, f, g, h,
+    key(BY_NAME, "coat", exact(0.1, COAT[0], COAT[1]), "width of the coating in which its motion fades")]
+};
+
+/// Keys of a stroke of a clay.
+#[rustfmt::skip]
+pub(crate) const CLAY_STROKE: &[Key] = &{
+    let [a, b, c, d, e] = CLAY_MOVE;
+    [a, b, c, d, e,
+    key(BY_NAME, "with", Kind::List { of: CLAY_WITH, most: Clay::MAX_AT_ONCE - 1, what: "further tools" }, "further tools that act at the same time; with their images at most eight act at once"),
+    key(BY_NAME, "mirror", Kind::Text, "letters of x, y and z: every tool has an image beyond the middle plane of the subject across that axis, which acts at the same time"),
+    key(BY_NAME, "do", Kind::Name(&ClayStroke::NAMES), "`sweep` takes along what the tools touch, `smooth` evens it out"),
+    key(BY_NAME, "strength", Kind::Count { default: ClayStroke::DEFAULT_STRENGTH as f64, min: 1.0, max: 100.0 }, "how strongly a stroke smooths"),
+    key(BY_NAME, "off", Kind::Flag { default: false }, "true: the stroke is counted, but left out")]
+};
+
+/// Keys of an entry of a stroke's `with`.
+pub(crate) const CLAY_WITH: &[Key] = &CLAY_MOVE;
+
+/// What is said of each tool of a stroke.
+#[rustfmt::skip]
+const CLAY_MOVE: [Key; 5] = [
+    key(BY_NAME, "tool", Kind::Whole, "index of the tool in `tools`"),
+    key(BY_NAME, "path", Kind::Path { most: MAX_KEYS, max: FAR }, "places of the tool's origin, thousandths of a subject unit: x, y and z of the first key, then of each further one less the one before; a tool with one key holds what is in it").stays().unmade(),
+    key(BY_NAME, "turns", Kind::Wholes { each: 3, most: MAX_KEYS, min: -179.0, max: 179.0 }, "turns about the tool's origin, whole degrees: for each key a rotation vector in the subject's axes, at most 179 long, the first from rest, each later one from the key before. Keys beyond the list do not turn"),
+    key(BY_NAME, "scales", Kind::Wholes { each: 1, most: MAX_KEYS, min: 5.0, max: 2000.0 }, "sizes, whole per cent of the tool's own. Keys beyond the list have the last one, without a list 100"),
+    key(BY_NAME, "straight", Kind::Flag { default: false }, "true: one screw from key to key; false: from three keys on places are joined by a Catmull-Rom curve, each span of four screws"),
 ];
 
 /// Units of a mesh file.
@@ -659,19 +726,28 @@ pub(crate) const SWEEP: &[Key] = &[
 
 /// Keys of a tool of a `sweep`. Its lengths are fractions of the shortest side of the box.
 #[rustfmt::skip]
-pub(crate) const TOOL: &[Key] = &[
+pub(crate) const TOOL: &[Key] = &{
+    let [a, b, c, d, e, f, g, h] = shape_keys("of a ball (0.15 without this key, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)");
+    [a, b, c, d, e, f, g, h,
+    key(BY_NAME, "coat", number(0.25, COAT[0], COAT[1]), "width of the coating in which its motion fades"),
+    key(BY_NAME, "spline", Kind::Flag { default: false }, "true: places are joined by a Catmull-Rom curve, each span of four screws; false: one screw from key to key"),
+    key(BY_NAME, "path", Kind::FirstOf { of: PATH_KEY, most: MAX_KEYS }, "its poses, each an object with these keys or its place alone; with one it stands still. Without this key `[[0.5, 0.5, 1.15], [0.5, 0.5, 0.65]]`").optional().unmade()]
+};
+
+/// The keys that give a tool its form.
+#[rustfmt::skip]
+const fn shape_keys(radius: &'static str) -> [Key; 8] {
+    [
     key(BY_NAME, "shape", Kind::Name(&ToolShape::NAMES), "its form. A capsule lies along z, a torus about z"),
-    key(BY_NAME, "radius", number(0.15, ROUND[0], ROUND[1]), "of a ball (0.15 without this key, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)").optional(),
+    key(BY_NAME, "radius", number(0.15, ROUND[0], ROUND[1]), radius).optional(),
     key(BY_NAME, "radii", Kind::Vector { default: [0.2, 0.15, 0.1], min: SOLID[0], max: SOLID[1] }, "half axes of an ellipsoid"),
     key(BY_NAME, "length", number(0.4, LONG[0], LONG[1]), "of the straight part of a capsule"),
     key(BY_NAME, "half", Kind::Vector { default: [0.15; 3], min: SOLID[0], max: SOLID[1] }, "half sides of a box"),
     key(BY_NAME, "round", number(0.02, ROUND[0], ROUND[1]), "radius of the edges of a box, at most its least half side"),
     key(BY_NAME, "ring", number(0.2, SOLID[0], SOLID[1]), "radius of a torus, to the middle of its tube"),
     key(BY_NAME, "points", Kind::Triples { most: MAX_TOOL_POINTS, max: 4.0 }, "of a curve: two or more places with straight pieces between them. Without this key `[[0, 0, -0.2], [0, 0, 0.2]]`").optional().unmade(),
-    key(BY_NAME, "coat", number(0.25, COAT[0], COAT[1]), "width of the coating in which its motion fades"),
-    key(BY_NAME, "spline", Kind::Flag { default: false }, "true: places are joined by a Catmull-Rom curve, each span of four screws; false: one screw from key to key"),
-    key(BY_NAME, "path", Kind::FirstOf { of: PATH_KEY, most: MAX_KEYS }, "its poses, each an object with these keys or its place alone; with one it stands still. Without this key `[[0.5, 0.5, 1.15], [0.5, 0.5, 0.65]]`").optional().unmade(),
-];
+    ]
+}
 
 /// Keys of a pose of a tool.
 #[rustfmt::skip]
@@ -698,6 +774,7 @@ pub(crate) const LOOK: &[Key] = &[
     key(630, "background", Kind::Background, "behind the object; `none` is transparent"),
     key(632, "scale", Kind::Flag { default: false }, "true: a scale bar in millimetres stands in the picture. It holds in the plane through the camera's target that faces the eye, and is left out where nobody knows how large the subject is"),
     key(634, "sides", Kind::Flag { default: false }, "true: letters of the patient's sides (R, L, A, P, S, I) stand at the edges of the picture"),
+    key(BY_NAME, "strokes", Kind::Count { default: Clay::MAX_STROKES as f64, min: 0.0, max: Clay::MAX_STROKES as f64 }, "how many strokes of a clay are shown, from the first on, those that are off counted; without it all. It goes through the whole numbers from step to step").optional(),
     key(636, "style", Kind::Style(STYLE), "how an illustrator would draw it: the name of a preset, or an object whose keys change one. Widths and distances are thousandths of the shorter side of the picture. Numbers and colours ease from step to step, also from preset to preset"),
     key(638, "light", Kind::Object(LIGHT), "where the light comes from and how it falls. An empty object is the light whose values are all at their default; without the key there is none, and the picture is lit as ever, from the upper left. Numbers ease from step to step").optional(),
 ];
@@ -888,6 +965,7 @@ impl Kind {
             | Self::Points { .. }
             | Self::Vectors { .. }
             | Self::Path { .. }
+            | Self::Wholes { .. }
             | Self::Segments => json!([]),
             Self::Object(_)
             | Self::OneOrMore { .. }

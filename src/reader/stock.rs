@@ -16,18 +16,21 @@ pub struct StockKey {
     recipes: Vec<Recipe>,
     /// What relative addresses start from, for a document that has any.
     base: String,
+    /// The picture that alone has it, of a clay: pictures may show different strokes.
+    picture: Option<u32>,
 }
 
 impl StockKey {
-    /// The key of an illustration whose relative addresses start from `base`.
-    pub fn new(illustration: &Illustration, base: &str) -> Self {
-        let is_builtin = matches!(illustration.subject, SubjectRef::Builtin { .. });
-        let has_addresses = !is_builtin || !illustration.segments.is_empty();
+    /// The key of an illustration whose relative addresses start from `base`, for the picture of this number.
+    pub fn new(illustration: &Illustration, base: &str, picture: u32) -> Self {
+        let is_clay = matches!(illustration.subject, SubjectRef::Clay(_));
+        let has_addresses = !illustration.subject.is_made() || !illustration.segments.is_empty();
         Self {
             subject: illustration.subject.clone(),
             segments: illustration.segments.clone(),
             recipes: illustration.recipes.clone(),
             base: if has_addresses { base } else { "" }.to_owned(),
+            picture: is_clay.then_some(picture),
         }
     }
 
@@ -108,6 +111,19 @@ impl Stock {
     /// Grows when the pictures have to be drawn anew.
     pub fn revision(&self) -> u64 {
         self.revision
+    }
+
+    /// Follows the picture that it is for: of a clay so many strokes are wanted as are shown.
+    pub fn follow(&mut self, shown: &Illustration) {
+        if self.key.picture.is_some() {
+            self.illustration.look.strokes = shown.look.strokes;
+        }
+    }
+
+    /// True if the subject that is there is the one that is shown, of a clay as far as its strokes go.
+    fn has_shown(&self) -> bool {
+        let shown = &self.illustration;
+        self.key.picture.is_none() || self.assets.has(&Want::subject(&shown.subject_shown()))
     }
 
     /// Takes what should be fetched next, if anything, and counts it as under way: the subject, then label volumes.
@@ -227,7 +243,7 @@ impl Stock {
     pub fn is_settled(&self) -> bool {
         let is_made = !self.work.is_behind(&self.assets, &self.illustration);
         let is_there = self.is_whole && !self.is_uploading;
-        self.has_failed() || (is_there && self.loading.is_none() && is_made)
+        self.has_failed() || (is_there && self.loading.is_none() && is_made && self.has_shown())
     }
 
     /// Nothing more will come of what is under way, and why.
@@ -268,10 +284,16 @@ impl Stock {
             }
             LoadEvent::LabelFile(file) => self.incoming_labels.push(*file),
             LoadEvent::Done { sha256 } => self.take_end(sha256),
-            LoadEvent::Notice(message) => self.troubles.push(Trouble {
-                message,
-                is_fatal: false,
-            }),
+            // Each part of a clay that is shown says the same again.
+            LoadEvent::Notice(message) => {
+                let trouble = Trouble {
+                    message,
+                    is_fatal: false,
+                };
+                if !self.troubles.contains(&trouble) {
+                    self.troubles.push(trouble);
+                }
+            }
             LoadEvent::Failed { message, .. } => self.fail(message),
             LoadEvent::AskRaw(_) => {
                 self.fail("The file does not say how its voxels lie".to_owned());
@@ -413,7 +435,14 @@ impl Stock {
             Some(Ok((subject, _))) => {
                 let shown = subject.clone();
                 (self.is_uploading, self.is_finer) = (true, false);
-                self.assets.give(Data::Subject { subject, sha256 });
+                let data = Data::Subject { subject, sha256 };
+                match &self.loading {
+                    // A hash was looked at before; a clay has none.
+                    Some(want) if want.clay().is_some() => {
+                        let _taken = self.assets.take(&want.clone(), data);
+                    }
+                    _ => self.assets.give(data),
+                }
                 self.work.restart();
                 if let Err(error) = self.host.set_subject(shown) {
                     self.fail(error.to_string());

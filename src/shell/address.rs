@@ -21,6 +21,7 @@ pub(super) fn foreign_host(address: &str) -> Option<String> {
 pub(super) fn part_of(document: &Document, base: &str) -> Option<Part> {
     match &document.illustration().subject {
         SubjectRef::Builtin { name } => Some(Task::Subject(name.clone(), None).part()),
+        SubjectRef::Clay(_) => Some(Part::Clay),
         subject => {
             let address = absolute(subject.src()?, base).ok()?;
             foreign_host(&address)

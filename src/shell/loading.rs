@@ -310,14 +310,22 @@ fn question(files: &mut dyn FileSet, name: &str) -> RawQuestion {
 /// Turns what a reader hands over into events.
 pub(super) struct PostingSink<'a> {
     post: &'a mut dyn Post,
+    /// What is done, for who waits.
+    what: &'static str,
     last_fraction: f32,
     is_stopped: bool,
 }
 
 impl<'a> PostingSink<'a> {
     pub(super) fn new(post: &'a mut dyn Post) -> Self {
+        Self::of(post, "Reading")
+    }
+
+    /// One that tells what is done in other words.
+    pub(super) fn of(post: &'a mut dyn Post, what: &'static str) -> Self {
         Self {
             post,
+            what,
             last_fraction: -1.0,
             is_stopped: false,
         }
@@ -390,7 +398,7 @@ impl SubjectSink for PostingSink<'_> {
             self.last_fraction = fraction;
             return self.pass(LoadEvent::Progress {
                 fraction,
-                what: "Reading".to_owned(),
+                what: self.what.to_owned(),
             });
         }
         !self.is_stopped

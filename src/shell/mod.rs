@@ -20,6 +20,7 @@ mod wished;
 pub mod worker;
 
 pub mod bending;
+pub mod clays;
 pub mod figures;
 pub mod loading;
 pub mod meshes;

@@ -10,6 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use super::bending::{Desk, make_figure};
+use super::clays::{ClayDesk, make_clay};
 use super::command_line::ReadingFlags;
 use super::figures::read_file;
 use super::files::{Folder, Picked, local, mesh_set};
@@ -20,7 +21,7 @@ use crate::assets::{
     BendAnswer, BendRequest, LoadEvent, Role, SegmentationsExpected, Source, Want,
 };
 use crate::data::VolumeLimits;
-use crate::document::{Document, RawVoxels, Reading, is_drawn_name};
+use crate::document::{Clay, Document, RawVoxels, Reading, is_drawn_name};
 use crate::load::{is_field, mesh_among, read_field};
 use crate::render::Gpu;
 use crate::subjects::mesh_names;
@@ -178,6 +179,8 @@ struct NativeServices {
     labels: SegmentationsExpected,
     /// Fields that threads are reading.
     n_reading: usize,
+    /// Shapes clays, one at a time.
+    clays: Arc<Mutex<ClayDesk>>,
     /// Takes figures to be bent, once one was.
     bends: Option<Sender<BendRequest>>,
     /// What is bent is not wanted any more.
@@ -203,6 +206,7 @@ impl NativeServices {
             dropped: Vec::new(),
             labels: SegmentationsExpected::default(),
             n_reading: 0,
+            clays: Arc::default(),
             bends: None,
             is_bending_stopped: Arc::default(),
         }
@@ -321,6 +325,23 @@ impl NativeServices {
                 true => make_mesh(&name, carves, &mut post),
                 false => make_subject(&name, &resolutions(limits), slabs_in_threads, &mut post),
             }
+        });
+        ticket
+    }
+
+    /// Shapes a clay in a thread. One that nobody wants any more lets the desk go at its next step.
+    fn start_clay(&mut self, clay: Arc<Clay>) -> Ticket {
+        let (ticket, is_wanted) = self.new_ticket();
+        let (sender, ctx, desk) = (
+            self.sender.clone(),
+            self.ctx.clone(),
+            Arc::clone(&self.clays),
+        );
+        std::thread::spawn(move || {
+            let mut post =
+                |event: LoadEvent| post_while_wanted(&sender, &ctx, ticket, &is_wanted, event);
+            let mut desk = desk.lock().unwrap_or_else(PoisonError::into_inner);
+            make_clay(&mut desk, &clay, &mut post);
         });
         ticket
     }
@@ -590,6 +611,7 @@ impl Services for NativeServices {
     fn load(&mut self, want: &Want) -> Ticket {
         let (src, name) = match &want.source {
             Source::Builtin(name) => return self.start_builtin(name.clone(), want),
+            Source::Clay(clay) => return self.start_clay(Arc::clone(clay)),
             Source::File { src, name, .. } => (src.clone(), name),
         };
         // A file is read where the document says that it is, even if the same bytes were opened before.
@@ -650,11 +672,8 @@ impl Services for NativeServices {
         match self.known_file(want).or(local) {
             Some(path) => self.read_field(Some(want.clone()), path),
             None => {
-                let name = match &want.source {
-                    Source::Builtin(name) | Source::File { name, .. } => name,
-                };
                 self.n_reading += 1;
-                let outcome = Box::new(Err(wanted_file(name)));
+                let outcome = Box::new(Err(wanted_file(want.name())));
                 let want = Some(want.clone());
                 self.send(Message::Field { want, outcome });
             }

@@ -21,7 +21,7 @@ use crate::app::{
 };
 use crate::assets::{BendAnswer, BendRequest, LoadEvent, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
-use crate::document::{RawVoxels, Reading};
+use crate::document::{RawVoxels, Reading, clay_to_text};
 use crate::load::FieldFile;
 
 /// A larger file is no document (the contract's limit is 1 MiB), and is opened as a scan.
@@ -458,6 +458,11 @@ impl Services for PageServices {
                 self.start(ticket, &builtin_task(name, want));
                 return ticket;
             }
+            Source::Clay(clay) => {
+                let ticket = self.0.borrow_mut().new_ticket();
+                self.start(ticket, &Task::Clay(clay_to_text(clay)));
+                return ticket;
+            }
             Source::File { src, sha256, name } => (src, sha256, name),
         };
         let Some(src) = src else {
@@ -549,9 +554,7 @@ impl Services for PageServices {
             let url = Url::new_with_base(src, &base).ok()?;
             Some((src.to_owned(), url.href()))
         });
-        let missing = match &want.source {
-            Source::Builtin(name) | Source::File { name, .. } => wanted_file(name),
-        };
+        let missing = wanted_file(want.name());
         // What lies elsewhere is not fetched unasked.
         let host = address.as_ref().and_then(|(_, at)| foreign_host(at));
         let mut page = self.0.borrow_mut();

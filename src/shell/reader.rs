@@ -21,6 +21,7 @@ use super::worker::run::{self, BendWorker, Maker, WorkerLoad};
 use super::worker::task::{Part, ScanTask, Task};
 use crate::assets::{BendAnswer, LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::describe::{Lang, seen_from};
+use crate::document::{Illustration, clay_to_text};
 use crate::link::{self, Qr};
 use crate::reader::{Picture, Stock, StockKey, Visit, outline, texts};
 use crate::render::{Gpu, GpuOptions, RenderError};
@@ -197,7 +198,7 @@ impl Reader {
             is_resting: false,
             bender: None,
         };
-        shown.stock = inner.stock_for(&shown.picture.visit, &shown.base);
+        shown.stock = inner.stock_for(&shown.picture.visit, &shown.base, id);
         inner.shown.insert(id, shown);
         Ok(id)
     }
@@ -744,10 +745,10 @@ impl Inner {
         surface.map_err(|error| JsValue::from(error.to_string()))
     }
 
-    /// The stock for a visit: one that is there, or a new one.
-    fn stock_for(&mut self, visit: &Visit, base: &str) -> u32 {
+    /// The stock for a visit of the picture of a number: one that is there, or a new one.
+    fn stock_for(&mut self, visit: &Visit, base: &str, picture: u32) -> u32 {
         let illustration = visit.document().illustration();
-        let key = StockKey::new(illustration, base);
+        let key = StockKey::new(illustration, base, picture);
         let found = self.stocks.iter().find(|(_, s)| *s.stock.key() == key);
         if let Some((id, _)) = found {
             return *id;
@@ -770,7 +771,7 @@ impl Inner {
         let Some(mut shown) = self.shown.remove(&id) else {
             return;
         };
-        let stock = self.stock_for(&shown.picture.visit, &shown.base);
+        let stock = self.stock_for(&shown.picture.visit, &shown.base, id);
         if stock != shown.stock {
             shown.stock = stock;
             shown.picture.restock();
@@ -828,8 +829,11 @@ impl Inner {
                 continue;
             };
             let shown = this.shown.values().filter(|shown| shown.stock == id);
-            let mut shown = shown.map(|shown| shown.picture.visit.shown());
+            let shown: Vec<&Illustration> =
+                shown.map(|shown| shown.picture.visit.shown()).collect();
+            shown.iter().for_each(|shown| stocked.stock.follow(shown));
             let wanted = stocked.stock.next_want();
+            let mut shown = shown.into_iter();
             let object = || shown.find_map(|shown| stocked.stock.next_object(shown));
             let Some(want) = wanted.or_else(object) else {
                 continue;
@@ -873,6 +877,7 @@ impl Inner {
     fn way(&self, stock: u32, want: &Want) -> Way {
         let (src, name) = match &want.source {
             Source::Builtin(name) => return Way::Start(builtin_task(name, want)),
+            Source::Clay(clay) => return Way::Start(Task::Clay(clay_to_text(clay))),
             Source::File { src, name, .. } => (src, name),
         };
         let Some(src) = src else {
@@ -984,9 +989,7 @@ async fn field(
     want: &Want,
     address: Option<Result<String, String>>,
 ) -> Result<crate::load::FieldFile, String> {
-    let missing = match &want.source {
-        Source::Builtin(name) | Source::File { name, .. } => wanted_file(name),
-    };
+    let missing = wanted_file(want.name());
     let address = address.ok_or_else(|| missing.clone())??;
     let blob = fetched(&address).await.ok_or(missing)?;
     let src = want.src().unwrap_or(&address);

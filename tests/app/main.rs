@@ -5,6 +5,7 @@ mod authoring;
 mod bodies;
 mod canvas;
 mod captions;
+mod clay;
 mod comfort;
 mod dropping;
 mod figures;

@@ -9,6 +9,7 @@ use fabrica::assets::{BendAnswer, BendPose, BendRequest, Role, Source, Want};
 use fabrica::load::{LabelSource, LoadReport, ReadOptions, read_label_file, read_subject};
 use fabrica::render::Gpu;
 use fabrica::shell::bending::{Desk, make_figure};
+use fabrica::shell::clays::{ClayDesk, make_clay};
 use fabrica::shell::figures::read_figure;
 use std::sync::OnceLock;
 
@@ -206,6 +207,15 @@ impl Services for Fake {
                 },
             };
             log.queue.push(Message::Load { ticket, event });
+        }
+        if !log.is_slow
+            && let Source::Clay(clay) = &want.source
+        {
+            let mut post = |event: LoadEvent| {
+                log.queue.push(Message::Load { ticket, event });
+                true
+            };
+            make_clay(&mut ClayDesk::default(), clay, &mut post);
         }
         if !log.is_slow
             && let Some(src) = want.src()

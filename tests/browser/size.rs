@@ -14,7 +14,7 @@ struct Program {
 }
 
 /// The page itself, and the parts that it fetches when it first needs them.
-const PROGRAMS: [Program; 7] = [
+const PROGRAMS: [Program; 8] = [
     // With the editor of figures, and room for what the page is still to get.
     Program {
         name: "fabrica",
@@ -38,6 +38,11 @@ const PROGRAMS: [Program; 7] = [
     },
     Program {
         name: "fabrica_meshes",
+        sent: 572_000,
+        packed: 520_000,
+    },
+    Program {
+        name: "fabrica_clay",
         sent: 572_000,
         packed: 520_000,
     },

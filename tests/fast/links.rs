@@ -791,6 +791,37 @@ fn links_of_figures_are_short() {
     }
 }
 
+/// A clay of a ball with random strokes of up to four keys, with turns in every third.
+fn stroked_ball(random: &mut Random, strokes: usize) -> Value {
+    let whole = |random: &mut Random, most: i64| random.below(2 * most as usize + 1) as i64 - most;
+    let strokes = (0..strokes).map(|i| {
+        let keys = 1 + random.below(4);
+        let step = |k: usize| if k < 3 { 600 } else { 200 };
+        let path: Vec<i64> = (0..3 * keys).map(|k| whole(random, step(k))).collect();
+        let mut stroke = json!({ "path": path });
+        if i % 3 == 0 {
+            let turns: Vec<i64> = (0..3 * keys).map(|_| whole(random, 90)).collect();
+            stroke["turns"] = json!(turns);
+        }
+        stroke
+    });
+    json!({ "fabrica": 1, "subject": { "clay": { "strokes": strokes.collect::<Vec<_>>() } } })
+}
+
+#[test]
+fn links_of_clays_are_short() {
+    let mut longest = 0;
+    for seed in 1..=8 {
+        let document = document(stroked_ball(&mut Random(seed), 40));
+        assert!(document.notices().is_empty(), "{:?}", document.notices());
+        let payload = link::encode(&document);
+        longest = longest.max(payload.len());
+        assert_eq!(link::decode(&payload).expect("it opens").document, document);
+    }
+    println!("forty strokes on a ball: {longest} characters");
+    assert!(longest < 1800, "{longest}");
+}
+
 /// Every link that a release made, one per line: payload, tab, the document's canonical JSON. Lines are never deleted
 /// or changed. `FABRICA_BLESS=links` appends what the list below adds.
 #[test]
@@ -821,6 +852,13 @@ fn golden_links_open_for_ever() {
         "steps": [{ "title": "In", "set": { "/objects/0/at": [0.1, 0.3, 0.05] } }] }));
     wanted.push(bent_arm());
     wanted.push(flooded_plate());
+    wanted.push(json!({ "fabrica": 1, "subject": { "clay": { "from": { "shape": "plate" }, "detail": 0.03,
+        "tools": [{ "radius": 0.2, "coat": 0.15 }, { "shape": "box", "half": [0.2, 0.3, 0.3], "round": 0.05, "coat": 0.3 }, { "shape": "later", "size": 2 }],
+        "strokes": [{ "path": [100, 0, 400, 0, 0, -360], "turns": [0, 0, 40], "scales": [100, 80], "mirror": "x" },
+            { "tool": 1, "path": [-560, 0, 0, 0, 0, 0], "turns": [0, 0, 0, -50, 0, 0], "straight": true,
+            "with": [{ "tool": 1, "path": [560, 0, 0, 0, 0, 0], "turns": [0, 0, 0, 50, 0, 0], "straight": true }] },
+            { "do": "smooth", "strength": 30, "path": [0, 0, 80, 90, 0, 0], "off": true }] } }, "look": { "strokes": 1 },
+        "labels": [{ "at": [0, 0, 0.07], "text": "Bowl" }], "steps": [{ "title": "Wrung", "set": { "/look/strokes": 3 } }] }));
     wanted.push(json!({ "fabrica": 1, "subject": { "src": "face.svg", "name": "Face" }, "figure": {
         "regions": [{ "name": "jaw", "from": { "path": "jaw-2" }, "rigidity": "rigid", "order": 2, "cut": true, "behind": "smooth" },
             { "name": "skin", "from": { "polygon": [[-0.5, -0.4], [0.5, -0.4], [0, 0.4]] }, "rigidity": [1, 4], "behind": "#e8c8b0", "fixed": true },

@@ -343,6 +343,9 @@ fn bad_usage_is_2() {
         &["render", "x", "-o", "a.png", "--size", "big"],
         &["render", "x", "-o", "a.png", "--samples", "0"],
         &["render", "x", "-o", "a.png", "--time", "NaN"],
+        &["clay", "x"],
+        &["clay", "x", "-o", "a.ply", "--check"],
+        &["clay", "x", "-o", "a.ply", "--json"],
         &["doc"],
         &["templates", "--xml"],
         &["probe"],
@@ -360,6 +363,47 @@ fn bad_usage_is_2() {
         fabrica(&["--version"]).out.starts_with("fabrica "),
         "its version"
     );
+}
+
+#[test]
+fn a_clay_is_written_read_again_and_checked() {
+    const PULLED: &str = r#"{ "fabrica": 1, "title": "Horn", "subject": { "clay": { "detail": 0.05,
+        "tools": [{ "radius": 0.1 }, { "shape": "later" }],
+        "strokes": [{ "path": [0, 0, 440, 0, 0, 300] }, { "tool": 1, "path": [0, 0, 0] }] } } }"#;
+    let folder = folder();
+    let path = write(&folder, "horn.json", PULLED);
+    let path = text(&path);
+    let check = |args: &[&str]| -> Value {
+        let args = [&["clay", path, "--check", "--json"], args].concat();
+        serde_json::from_str(&fabrica(&args).ok().out).expect("JSON")
+    };
+    let whole = check(&[]);
+    assert_eq!(whole, check(&[]), "the same bits again");
+    assert_eq!(whole["crossing"], 0);
+    assert_eq!(whole["euler"], 2);
+    assert_eq!(whole["border_edges"], 0);
+    assert_ne!(whole["sha256"], check(&["--strokes", "0"])["sha256"]);
+    let told = fabrica(&["clay", path, "--check"]).ok();
+    assert!(told.out.contains("Euler number: 2"), "{}", told.out);
+    assert!(told.err.contains("stroke 2 is left out"), "{}", told.err);
+    for end in ["ply", "obj", "stl", "glb"] {
+        let mesh = folder.path().join(format!("horn.{end}"));
+        fabrica(&["clay", path, "-o", text(&mesh)]).ok();
+        let info = fabrica(&["info", text(&mesh)]).ok().out;
+        assert!(info.contains("surface: closed"), "{end}: {info}");
+        assert!(info.contains("100 × 100 × 1"), "{end}: in millimetres: {info}");
+        let triangles = format!("triangles: {}", whole["triangles"]);
+        assert!(info.contains(&triangles), "{end}: {info}");
+    }
+    let picture = folder.path().join("horn.png");
+    let args = ["render", path, "-o", text(&picture), "--size", "64x48"];
+    assert!(fabrica(&args).ok().err.contains("stroke 2 is left out"));
+    let ball = write(&folder, "ball.json", r#"{ "fabrica": 1 }"#);
+    let outcome = fabrica(&["clay", text(&ball), "--check"]);
+    assert_eq!(outcome.status, 2, "{}", outcome.err);
+    let egg = r#"{ "fabrica": 1, "subject": { "clay": { "from": { "shape": "egg" } } } }"#;
+    let egg = write(&folder, "egg.json", egg);
+    fabrica(&["clay", text(&egg), "--check"]).failed(&["egg"]);
 }
 
 #[test]

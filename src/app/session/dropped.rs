@@ -8,7 +8,7 @@ use super::selection::Selection;
 use super::session::{LoadOf, MeshQuestion, Session, Tab};
 use crate::app::words::objects;
 use crate::data::SubjectFrame;
-use crate::document::{Edit, MAX_MESHES, MAX_OBJECTS, MeshRef, SubjectBox, SubjectRef};
+use crate::document::{Edit, MAX_MESHES, MAX_OBJECTS, MeshRef, SubjectBox};
 
 /// An object farther from the middle of the subject than this is brought before the camera, subject units.
 const FARTHEST: f32 = 1.2;
@@ -51,9 +51,9 @@ impl Session {
     /// True if the subject takes one mesh more.
     pub fn can_take_mesh(&self) -> bool {
         let shown = self.illustration();
-        // Beside a scan it is a surface of the same patient; beside a built-in mesh it would not be drawn.
+        // Beside a scan it is a surface of the same patient; beside a mesh that is made it would not be drawn.
         let is_alone = !self.view.has_values();
-        let is_taken = !is_alone || !matches!(shown.subject, SubjectRef::Builtin { .. });
+        let is_taken = !is_alone || !shown.subject.is_made();
         is_taken && shown.meshes().len() < MAX_MESHES
     }
 

@@ -90,7 +90,8 @@ impl Example {
             SubjectRef::Builtin { name } => name,
             SubjectRef::Address { .. }
             | SubjectRef::Supplied { .. }
-            | SubjectRef::Meshes { .. } => "",
+            | SubjectRef::Meshes { .. }
+            | SubjectRef::Clay(_) => "",
         }
     }
 

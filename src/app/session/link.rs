@@ -103,7 +103,7 @@ impl Session {
     pub fn needs_own_file(&self) -> bool {
         let wanted = Wanted::of(self.illustration()).0;
         wanted.iter().any(|want| match &want.source {
-            Source::Builtin(_) => false,
+            Source::Builtin(_) | Source::Clay(_) => false,
             Source::File { src: None, .. } => true,
             Source::File { src: Some(src), .. } => is_local(src),
         })

@@ -77,8 +77,9 @@ impl Session {
 
     /// Asks for the document's subject unless it is there or on its way.
     pub fn load_subject(&mut self) {
-        if !is_of(&self.requested, &self.illustration().subject) {
-            let subject = self.illustration().subject.clone();
+        let subject = self.shown().subject_shown();
+        if !is_of(&self.requested, &subject) {
+            self.given_up = None;
             self.requested = Some(subject.clone());
             self.effect(Effect::LoadSubject(subject));
         } else {
@@ -89,7 +90,37 @@ impl Session {
     /// True while an object is seen that is not the document's: that is on its way, or cannot be had.
     pub fn shows_earlier_object(&self) -> bool {
         let is_seen = self.view.subject.is_some();
-        is_seen && !is_of(&self.shown_subject, &self.illustration().subject)
+        let subject = &self.illustration().subject;
+        // A clay of other strokes is this one still.
+        let is_same_clay = |shown: &SubjectRef| shown.is_same_clay(subject);
+        let is_it = self.shown_subject.as_ref().is_some_and(is_same_clay);
+        is_seen && !is_it && !is_of(&self.shown_subject, subject)
+    }
+
+    /// True while another part of a clay's strokes is to be shown than is.
+    pub fn awaits_clay(&self) -> bool {
+        if !matches!(self.illustration().subject, SubjectRef::Clay(_)) {
+            return false;
+        }
+        let wanted = self.shown().subject_shown();
+        !is_of(&self.shown_subject, &wanted) && !is_of(&self.given_up, &wanted)
+    }
+
+    /// The clay that is being shaped, if that is the load under way.
+    pub fn clay_under_way(&self) -> Option<Want> {
+        let load = self.load.as_ref()?;
+        let want = Want::subject(self.requested.as_ref()?);
+        (load.of == LoadOf::Subject && want.clay().is_some()).then_some(want)
+    }
+
+    /// Asks for a clay as far as its strokes are shown, once nothing else is under way.
+    pub fn follow_clay(&mut self) {
+        if self.load.is_none() && self.awaits_clay() {
+            let wanted = self.shown().subject_shown();
+            if !is_of(&self.requested, &wanted) {
+                self.load_subject();
+            }
+        }
     }
 
     /// The subject of the load under way is shown, whole or coarsely.
@@ -97,7 +128,7 @@ impl Session {
         let of = self.load.as_ref().map(|load| &load.of);
         // A file becomes the document's subject when it is done.
         self.shown_subject = match of {
-            Some(LoadOf::Subject) => Some(self.illustration().subject.clone()),
+            Some(LoadOf::Subject) => self.requested.clone(),
             _ => None,
         };
     }
@@ -146,7 +177,7 @@ impl Session {
     pub(super) fn waits_for_file(&self) -> bool {
         let subject = &self.illustration().subject;
         let is_here = is_of(&self.requested, subject);
-        let is_file = !matches!(subject, SubjectRef::Builtin { .. });
+        let is_file = !subject.is_made();
         let figure = self.illustration().figure.as_ref();
         let has_work = self.template_count() > 0 || figure.is_some_and(|f| *f != Figure::default());
         let is_asked_for = !self.is_restored || has_work;
@@ -328,13 +359,14 @@ impl Session {
         if let Some(load) = self.load.take()
             && load.of == LoadOf::Subject
         {
-            self.requested = None;
+            // What came to nothing is not asked for again by itself.
+            self.given_up = self.requested.take();
         }
     }
 
     /// A load brought the file whose hash the document waits for. True if the document wants it read in another way.
     fn wants_other_frame(&self, loaded: &Reading) -> bool {
         let subject = &self.illustration().subject;
-        !matches!(subject, SubjectRef::Builtin { .. }) && Want::subject(subject).reading != *loaded
+        !subject.is_made() && Want::subject(subject).reading != *loaded
     }
 }

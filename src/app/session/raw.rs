@@ -5,7 +5,7 @@ use super::files::{Fit, RawCommand, RawDraft, fit};
 use super::session::Session;
 use super::ticket::Ticket;
 use crate::assets::RawQuestion;
-use crate::document::{Edit, RawVoxels, Reading, SubjectRef};
+use crate::document::{Edit, RawVoxels, Reading};
 
 impl Session {
     /// A load asks how the voxels of its file lie. An answer that the document has for its own file is taken without
@@ -74,7 +74,7 @@ impl Session {
             // A file that the document names: the answer goes into the document, and the file is loaded again.
             Some(_) => {
                 let subject = self.illustration().subject.clone().with_reading(reading);
-                if !matches!(subject, SubjectRef::Builtin { .. }) {
+                if !subject.is_made() {
                     self.apply(&Edit::SetSubject(subject), false);
                     self.load_subject();
                 }

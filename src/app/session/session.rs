@@ -170,6 +170,8 @@ pub struct Session {
     pub files: FileChoice,
     /// The subject that was loaded, or is on its way.
     pub(super) requested: Option<SubjectRef>,
+    /// The subject whose load came to nothing.
+    pub(super) given_up: Option<SubjectRef>,
     /// The subject that is seen, as the document names it; `None` while a file is seen that is not yet the document's.
     pub(super) shown_subject: Option<SubjectRef>,
     /// Rises with every document that is opened.
@@ -268,6 +270,7 @@ impl Session {
             mesh_question: None,
             files: FileChoice::default(),
             requested: None,
+            given_up: None,
             shown_subject: None,
             opened: 0,
             is_restored: false,

@@ -14,7 +14,8 @@ use super::shape::placement_on_surface;
 use super::tissues::{with_range, with_seeds};
 use super::tool::Tool;
 use crate::app::words::{capitalized, captions, fill, kept, messages};
-use crate::document::{Camera, Caption, Edit, MAX_SEEDS, RecipeSource, TemplateKind};
+use crate::clay::Way;
+use crate::document::{Camera, Caption, Edit, MAX_SEEDS, RecipeSource, SubjectRef, TemplateKind};
 use crate::math::Placement;
 
 impl Session {
@@ -104,7 +105,7 @@ impl Session {
         let segment = facts.and_then(|(facts, label)| facts.segments.get(&label));
         let segment = segment.filter(|name| !name.trim().is_empty());
         let caption = Caption {
-            at: found.pos_in_rest,
+            at: self.at_start(found.pos_in_rest),
             text: segment.map_or_else(
                 || fill(captions::w().caption_n, &[&(index + 1)]),
                 |name| capitalized(&kept::segment(name)),
@@ -114,6 +115,14 @@ impl Session {
         if self.apply(&Edit::AddCaption(caption), false) {
             self.are_panels_hidden = false;
             self.edit_caption(index);
+        }
+    }
+
+    /// Where tissue of the untouched subject is in what the document holds: of a clay in its starting shape.
+    fn at_start(&self, place: Vec3) -> Vec3 {
+        match &self.shown_subject {
+            Some(SubjectRef::Clay(clay)) => Way::of(clay).back(place.as_dvec3()).as_vec3(),
+            _ => place,
         }
     }
 

@@ -22,6 +22,7 @@ words! {
         scan_from_address: "Scan from an address", "Scan von einer Adresse", "Estudio de una dirección", "来自网址的扫描";
         own_surface: "Your surface", "Eigene Oberfläche", "Superficie propia", "自己的表面";
         own_surfaces: "Your surfaces", "Eigene Oberflächen", "Superficies propias", "自己的表面";
+        clay: "Clay", "Ton", "Arcilla", "黏土";
         own_scan: "Your scan", "Eigener Scan", "Estudio propio", "自己的扫描";
         picture_from_address: "Plate from an address", "Bildtafel von einer Adresse", "Lámina de una dirección", "来自网址的图版";
         own_picture: "Your plate", "Eigene Bildtafel", "Lámina propia", "自己的图版";

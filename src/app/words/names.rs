@@ -85,6 +85,7 @@ pub(crate) fn style_preset(name: &str, title: &'static str) -> &'static str {
 pub(crate) fn stage(what: &str) -> String {
     let line = match what {
         "Loading" => ["Loading", "Laden", "Cargando", "正在载入"],
+        "Shaping" => ["Shaping", "Formen", "Modelando", "正在塑形"],
         "Reading" => ["Reading", "Lesen", "Leyendo", "正在读取"],
         "Generating" => ["Generating", "Erzeugen", "Generando", "正在生成"],
         "Fetching" => ["Fetching", "Abrufen", "Descargando", "正在获取"],
@@ -268,6 +269,7 @@ pub(crate) fn subject_title(shown: &Illustration) -> String {
             [one] => or(&one.name, w.own_surface),
             _ => w.own_surfaces.to_owned(),
         },
+        SubjectRef::Clay(_) => w.clay.to_owned(),
     }
 }
 

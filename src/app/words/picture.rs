@@ -44,6 +44,7 @@ words! {
         from_left: "From the patient's left", "Von der linken Seite des Patienten", "Desde la izquierda del paciente", "从患者左侧看";
         from_above: "From above, superior", "Von oben, superior", "Desde arriba, superior", "从上面看";
         from_below: "From below, inferior", "Von unten, inferior", "Desde abajo, inferior", "从下面看";
+        shaping: "The clay is still being shaped", "Der Ton wird noch geformt", "La arcilla aún se está modelando", "黏土仍在塑形";
         earlier_object: "Earlier picture: the object is still loading", "Früheres Bild: das Objekt wird noch geladen", "Imagen anterior: el objeto aún se está cargando", "先前的图像：对象仍在载入";
         object_missing: "Earlier picture: the scan of this document is not here", "Früheres Bild: der Scan dieses Dokuments ist nicht da", "Imagen anterior: falta el estudio de este documento", "先前的图像：缺少此文档的扫描";
         coarse: "Coarse for now: the fine picture is on its way", "Vorerst grob: das feine Bild folgt", "De momento sin detalle: la imagen fina está en camino", "暂为粗略图像：精细图像即将就绪";

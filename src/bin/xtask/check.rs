@@ -48,13 +48,14 @@ const PAGE: [(&str, Option<&str>, &[&str]); 3] = [
     ("lint, the reader", Some("reader"), &["fabrica_reader"]),
     (
         "lint, the parts that run in workers",
-        Some("part-subjects,part-scans,part-meshes,part-pictures,part-figures"),
+        Some("part-subjects,part-scans,part-meshes,part-pictures,part-figures,part-clay"),
         &[
             "fabrica_subjects",
             "fabrica_scans",
             "fabrica_meshes",
             "fabrica_pictures",
             "fabrica_figures",
+            "fabrica_clay",
         ],
     ),
 ];

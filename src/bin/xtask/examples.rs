@@ -46,9 +46,10 @@ pub(crate) fn examples(root: &Path) -> Result<Vec<(String, Document)>, String> {
     let names: Vec<&str> = anatomy.chain(subjects::all_names()).collect();
     examples.sort_by_key(|(_, document)| match &document.illustration().subject {
         SubjectRef::Builtin { name } => names.iter().position(|other| other == name),
-        SubjectRef::Address { .. } | SubjectRef::Supplied { .. } | SubjectRef::Meshes { .. } => {
-            Some(names.len())
-        }
+        SubjectRef::Address { .. }
+        | SubjectRef::Supplied { .. }
+        | SubjectRef::Meshes { .. }
+        | SubjectRef::Clay(_) => Some(names.len()),
     });
     Ok(examples)
 }

@@ -11,7 +11,7 @@ use std::path::Path;
 use super::imports::{self, Graph, Import, Source};
 
 /// Rooms with their layers: a room imports only rooms of lower layers.
-pub(crate) const ROOMS: [(&str, u32); 16] = [
+pub(crate) const ROOMS: [(&str, u32); 17] = [
     ("math", 0),
     ("pictures", 1),
     ("displace", 1),
@@ -20,6 +20,7 @@ pub(crate) const ROOMS: [(&str, u32); 16] = [
     ("data", 3),
     ("load", 4),
     ("figure", 4),
+    ("clay", 4),
     ("subjects", 4),
     ("placed", 4),
     ("describe", 4),

@@ -93,6 +93,7 @@ impl Illustration {
                 background: Background::Color([255; 3]),
                 scale_bar: false,
                 sides: false,
+                strokes: None,
             },
             camera: Camera::DOCUMENT_DEFAULT,
             captions: Vec::new(),
@@ -107,6 +108,24 @@ impl Illustration {
         match &self.subject {
             SubjectRef::Meshes { meshes, .. } => meshes,
             _ => &self.meshes_beside,
+        }
+    }
+
+    /// How many strokes of the clay are shown, those that are off counted; `None` for another subject.
+    pub fn strokes_shown(&self) -> Option<u32> {
+        let SubjectRef::Clay(clay) = &self.subject else {
+            return None;
+        };
+        let all = u32::try_from(clay.strokes.len()).unwrap_or(u32::MAX);
+        Some(self.look.strokes.map_or(all, |strokes| strokes.min(all)))
+    }
+
+    /// The subject that is shown: of a clay the recipe up to the strokes that are. It is no subject of the document:
+    /// written back, strokes would be lost.
+    pub fn subject_shown(&self) -> SubjectRef {
+        match (&self.subject, self.look.strokes) {
+            (SubjectRef::Clay(clay), Some(strokes)) => SubjectRef::Clay(clay.cut(strokes)),
+            (subject, _) => subject.clone(),
         }
     }
 

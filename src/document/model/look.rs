@@ -35,6 +35,8 @@ pub struct Look {
     pub scale_bar: bool,
     /// The letters of the patient's sides stand at the picture's edges.
     pub sides: bool,
+    /// The strokes of a clay that are shown, from the first on; `None`: all.
+    pub strokes: Option<u32>,
 }
 
 /// How one segment is drawn: as a body of its own, whatever its values are.

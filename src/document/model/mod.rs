@@ -1,5 +1,6 @@
 //! Plain types: what a document means. No JSON.
 
+mod clay;
 mod curve;
 pub mod figure;
 mod illustration;
@@ -20,6 +21,7 @@ pub use crate::displace::{
     ControlPoint, ControlPoints, MAX_KEYS, MAX_PARAM_FLOATS, MAX_TOOLS, ParamKind, ParamSpec,
     ParamValue, PathKey, SweepTool, SweepTools, TemplateKind, TemplateSpec, ToolShape,
 };
+pub use clay::{Clay, ClayKey, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool};
 pub use curve::Curve;
 pub use illustration::{Camera, Caption, Control, ControlRange, FIGURE_FRONT, Illustration, Step};
 pub use light::Light;

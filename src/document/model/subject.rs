@@ -1,6 +1,8 @@
 //! Which file or built-in subject is illustrated, and how its file is read.
 
+use super::clay::Clay;
 use super::mesh::{MeshReading, MeshRef, SubjectBox};
+use std::sync::Arc;
 
 /// How the names of built-in figures begin.
 pub(in crate::document) const DRAWN: &str = "drawn-";
@@ -40,6 +42,8 @@ pub enum SubjectRef {
         /// The box that gives origin and unit; `None` takes that of all vertices.
         bounds: Option<SubjectBox>,
     },
+    /// A clay, which is made by its strokes. Shared, since a recipe may be long.
+    Clay(Arc<Clay>),
 }
 
 /// True for the name of a built-in figure, whether this version knows it or not.
@@ -53,38 +57,53 @@ impl SubjectRef {
         matches!(self, Self::Builtin { name } if is_drawn_name(name))
     }
 
+    /// True for what the program makes itself: a built-in subject or a clay.
+    pub fn is_made(&self) -> bool {
+        matches!(self, Self::Builtin { .. } | Self::Clay(_))
+    }
+
+    /// True if both are clays of one start, however far each is shaped.
+    pub fn is_same_clay(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Clay(own), Self::Clay(theirs)) => own.from == theirs.from,
+            _ => false,
+        }
+    }
+
     /// Whether the subject is a figure, as far as the document tells: the bytes of a file decide for it, so there it is
     /// `None`.
     pub fn is_figure(&self) -> Option<bool> {
         match self {
-            Self::Builtin { .. } | Self::Meshes { .. } => Some(self.is_drawn_figure()),
+            Self::Builtin { .. } | Self::Meshes { .. } | Self::Clay(_) => {
+                Some(self.is_drawn_figure())
+            }
             Self::Address { .. } | Self::Supplied { .. } => None,
         }
     }
 
-    /// How its file is read; `None` for a built-in subject and for meshes alone, which have a reading each.
+    /// How its file is read; `None` for a built-in subject, a clay, and meshes alone, which have a reading each.
     pub fn reading(&self) -> Option<&Reading> {
         match self {
-            Self::Builtin { .. } | Self::Meshes { .. } => None,
+            Self::Builtin { .. } | Self::Meshes { .. } | Self::Clay(_) => None,
             Self::Address { reading, .. } | Self::Supplied { reading, .. } => Some(reading),
         }
     }
 
-    /// Address of its file, or of the first of several; `None` for a built-in subject and for a file that the reader
-    /// supplies.
+    /// Address of its file, or of the first of several; `None` for a built-in subject, a clay, and a file that the
+    /// reader supplies.
     pub fn src(&self) -> Option<&str> {
         match self {
-            Self::Builtin { .. } | Self::Supplied { .. } => None,
+            Self::Builtin { .. } | Self::Supplied { .. } | Self::Clay(_) => None,
             Self::Address { src, .. } => Some(src),
             Self::Meshes { meshes, .. } => meshes.first()?.src.as_deref(),
         }
     }
 
-    /// SHA-256 of the file, or of the first of several, that the reader supplies; `None` for a built-in subject and for
-    /// a file with an address.
+    /// SHA-256 of the file, or of the first of several, that the reader supplies; `None` for a built-in subject, a
+    /// clay, and a file with an address.
     pub fn supplied_sha256(&self) -> Option<&str> {
         match self {
-            Self::Builtin { .. } | Self::Address { .. } => None,
+            Self::Builtin { .. } | Self::Address { .. } | Self::Clay(_) => None,
             Self::Supplied { sha256, .. } => Some(sha256),
             Self::Meshes { meshes, .. } => {
                 let first = meshes.first().filter(|mesh| mesh.src.is_none())?;
@@ -98,7 +117,7 @@ impl SubjectRef {
         let nameless = |subject: &Self| {
             let mut subject = subject.clone();
             match &mut subject {
-                Self::Builtin { .. } => {}
+                Self::Builtin { .. } | Self::Clay(_) => {}
                 Self::Address { name, .. } | Self::Supplied { name, .. } => name.clear(),
                 // The author's names of several meshes are those of their segments.
                 Self::Meshes { meshes, .. } => {
@@ -112,11 +131,12 @@ impl SubjectRef {
         nameless(self) == nameless(other)
     }
 
-    /// This subject with another way of reading its file. A built-in subject stays as it is, and so do meshes alone.
+    /// This subject with another way of reading its file. A built-in subject or a clay stays as it is, and so do meshes
+    /// alone.
     #[must_use]
     pub fn with_reading(mut self, new: Reading) -> Self {
         match &mut self {
-            Self::Builtin { .. } | Self::Meshes { .. } => {}
+            Self::Builtin { .. } | Self::Meshes { .. } | Self::Clay(_) => {}
             Self::Address { reading, .. } | Self::Supplied { reading, .. } => *reading = new,
         }
         self

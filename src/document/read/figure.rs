@@ -305,29 +305,6 @@ impl Reader {
         })
     }
 
-    /// A number of the schema, in its range and in full precision.
-    fn exact(&mut self, object: &Object<'_>, key: &str) -> Result<f64, DocumentError> {
-        let Kind::Exact { default, min, max } = object.kind(key) else {
-            debug_assert!(false, "{key} is no number of full precision in the schema");
-            return Ok(0.0);
-        };
-        let value = object.number(key)?.unwrap_or(default);
-        let [drawn] = self.clamp(|| object.at(key), [value], [min, max]);
-        Ok(drawn)
-    }
-
-    /// A whole number of the schema, in its range; others are rounded.
-    fn count(&mut self, object: &Object<'_>, key: &str) -> Result<u32, DocumentError> {
-        let Kind::Count { default, min, max } = object.kind(key) else {
-            debug_assert!(false, "{key} is no whole number in the schema");
-            return Ok(0);
-        };
-        let value = object.number(key)?.unwrap_or(default);
-        let drawn = (value + 0.5).floor().clamp(min, max);
-        let [drawn] = self.clamped(|| object.at(key), [value], [drawn]);
-        Ok(drawn as u32)
-    }
-
     /// Two numbers of the schema, in their range; 0 and 0 if the key is missing.
     fn point(&mut self, object: &Object<'_>, key: &str) -> Result<DVec2, DocumentError> {
         let Kind::Point { max } = object.kind(key) else {

@@ -51,6 +51,10 @@ impl Reader {
             background,
             scale_bar: object.flag("scale")?,
             sides: object.flag("sides")?,
+            strokes: match object.map.contains_key("strokes") {
+                true => Some(self.count(object, "strokes")?),
+                false => None,
+            },
         })
     }
 

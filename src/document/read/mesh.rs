@@ -48,8 +48,22 @@ impl Reader {
 
     /// How the file of an object is read, which has no segments.
     fn reading_of_object(&mut self, object: &Object<'_>) -> Result<MeshReading, DocumentError> {
-        let own = "what the file says";
         let smooth = object.map.contains_key("smooth");
+        Ok(MeshReading {
+            smooth_deg: match smooth {
+                true => Some(self.number(object, "smooth")?),
+                false => None,
+            },
+            ..self.reading_as_whole(object)?
+        })
+    }
+
+    /// How a file is read whose parts are one, with the normals that it has.
+    pub(super) fn reading_as_whole(
+        &mut self,
+        object: &Object<'_>,
+    ) -> Result<MeshReading, DocumentError> {
+        let own = "what the file says";
         Ok(MeshReading {
             units: self
                 .choice_if_any(object, "units", own)?
@@ -58,10 +72,7 @@ impl Reader {
                 .choice_if_any(object, "axes", own)?
                 .map(|i| MeshAxes::ALL[i]),
             parts: MeshParts::Whole,
-            smooth_deg: match smooth {
-                true => Some(self.number(object, "smooth")?),
-                false => None,
-            },
+            smooth_deg: None,
         })
     }
 

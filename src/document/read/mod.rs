@@ -1,5 +1,6 @@
 //! From the JSON tree to the typed illustration.
 
+mod clay;
 mod control;
 mod curve;
 mod data;
@@ -17,5 +18,6 @@ mod surface;
 mod template;
 mod tools;
 
+pub use clay::clay_from_text;
 pub use figure::figure_from_text;
 pub(super) use illustration::resolve;

@@ -105,6 +105,29 @@ impl Reader {
         Ok(value as f32)
     }
 
+    /// A number of the schema, in its range and in full precision.
+    pub(super) fn exact(&mut self, object: &Object<'_>, key: &str) -> Result<f64, DocumentError> {
+        let Kind::Exact { default, min, max } = object.kind(key) else {
+            debug_assert!(false, "{key} is no number of full precision in the schema");
+            return Ok(0.0);
+        };
+        let value = object.number(key)?.unwrap_or(default);
+        let [drawn] = self.clamp(|| object.at(key), [value], [min, max]);
+        Ok(drawn)
+    }
+
+    /// A whole number of the schema, in its range; others are rounded.
+    pub(super) fn count(&mut self, object: &Object<'_>, key: &str) -> Result<u32, DocumentError> {
+        let Kind::Count { default, min, max } = object.kind(key) else {
+            debug_assert!(false, "{key} is no whole number in the schema");
+            return Ok(0);
+        };
+        let value = object.number(key)?.unwrap_or(default);
+        let drawn = (value + 0.5).floor().clamp(min, max);
+        let [drawn] = self.clamped(|| object.at(key), [value], [drawn]);
+        Ok(drawn as u32)
+    }
+
     /// Three numbers of the schema, in their range.
     pub(super) fn numbers(
         &mut self,

@@ -81,7 +81,11 @@ impl Reader {
     }
 
     /// The places of a path: the first, then each less the one before.
-    fn places(&mut self, object: &Object<'_>, key: &str) -> Result<Vec<IVec3>, DocumentError> {
+    pub(super) fn places(
+        &mut self,
+        object: &Object<'_>,
+        key: &str,
+    ) -> Result<Vec<IVec3>, DocumentError> {
         let (most, max) = match object.kind(key) {
             Kind::Path { most, max } => (most, max),
             _ => (usize::MAX, f64::MAX),

@@ -6,9 +6,13 @@ use crate::document::limits::{BUILTIN_SUBJECTS, DEFAULT_SUBJECT, DRAWN_FIGURES};
 use crate::document::model::{MeshRef, RawVoxels, Reading, SegmentsRef, SubjectRef};
 use crate::document::text::{DocumentError, NoticeKind, shortened};
 use serde_json::Value;
+use std::sync::Arc;
+
+/// Keys of a subject that say how its file is read, besides its box.
+const OF_FILE: [&str; 6] = ["frame", "raw", "units", "axes", "parts", "smooth"];
 
 impl Reader {
-    /// The subject, and the meshes beside it: those of a subject of meshes alone are the subject.
+    /// The subject, and the meshes beside it: those of a subject of meshes alone are the subject, and a clay has none.
     pub(super) fn subject(
         &mut self,
         object: &Object<'_>,
@@ -17,12 +21,16 @@ impl Reader {
         let meshes = self.meshes(object)?;
         let has = |key: &&str| object.map.contains_key(*key);
         let is_meshes = !object.list("meshes")?.is_empty();
-        if is_meshes && !["builtin", "src", "sha256"].iter().any(has) {
-            let own = ["name", "frame", "raw", "units", "axes", "parts", "smooth"];
-            for key in own.iter().filter(|key| has(key)) {
-                let taken = "the list of meshes";
-                self.note(object.at(key), NoticeKind::LeftAside { taken });
+        if has(&"clay") {
+            if is_meshes {
+                let what = "a clay";
+                self.note(object.at("meshes"), NoticeKind::Beside { what });
             }
+            return Ok((self.clay_alone(object)?, Vec::new()));
+        }
+        if is_meshes && !["builtin", "src", "sha256"].iter().any(has) {
+            self.left_aside(object, &["name"], "the list of meshes");
+            self.left_aside(object, &OF_FILE, "the list of meshes");
             let bounds = self.reading(object)?.bounds;
             object.string("name")?;
             return Ok((SubjectRef::Meshes { meshes, bounds }, Vec::new()));
@@ -30,7 +38,30 @@ impl Reader {
         Ok((self.volume_or_mesh(object)?, meshes))
     }
 
-    /// The subject of a document that is not made of `meshes` alone.
+    /// Names those of these keys that are there, since another source is shown.
+    fn left_aside(&mut self, object: &Object<'_>, keys: &[&str], taken: &'static str) {
+        for key in keys.iter().filter(|key| object.map.contains_key(**key)) {
+            self.note(object.at(key), NoticeKind::LeftAside { taken });
+        }
+    }
+
+    /// A subject that is a clay, whatever else it names.
+    fn clay_alone(&mut self, object: &Object<'_>) -> Result<SubjectRef, DocumentError> {
+        let child = object.child("clay")?;
+        let clay = self.clay(&child)?;
+        // Only checked.
+        for key in ["builtin", "src", "name"] {
+            object.text(key)?;
+        }
+        object.hash()?;
+        self.mesh_reading(object)?;
+        self.left_aside(object, &["builtin", "src", "sha256"], "the clay");
+        self.left_aside(object, &OF_FILE, "the clay");
+        self.left_aside(object, &["box"], "the clay");
+        Ok(SubjectRef::Clay(Arc::new(clay)))
+    }
+
+    /// The subject of a document that is neither a clay nor made of `meshes` alone.
     fn volume_or_mesh(&mut self, object: &Object<'_>) -> Result<SubjectRef, DocumentError> {
         let builtin = object.text("builtin")?;
         let src = object.text("src")?;
@@ -46,19 +77,8 @@ impl Reader {
                 );
             }
             self.mesh_reading(object)?;
-            let own = [
-                "src", "sha256", "frame", "raw", "units", "axes", "parts", "smooth",
-            ];
-            for key in own {
-                if object.map.contains_key(key) {
-                    self.note(
-                        object.at(key),
-                        NoticeKind::LeftAside {
-                            taken: "the built-in subject",
-                        },
-                    );
-                }
-            }
+            self.left_aside(object, &["src", "sha256"], "the built-in subject");
+            self.left_aside(object, &OF_FILE, "the built-in subject");
             return Ok(SubjectRef::Builtin {
                 name: builtin.to_owned(),
             });

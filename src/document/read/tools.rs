@@ -14,14 +14,8 @@ const PLACE: &str = "a list of three numbers";
 
 impl Reader {
     pub(super) fn sweep_tools(&mut self, params: &Object<'_>) -> Result<SweepTools, DocumentError> {
-        let letters = params.text("mirror")?.unwrap_or_default();
-        let mirror = ['x', 'y', 'z'].map(|letter| letters.contains(letter));
-        if letters.chars().any(|letter| !"xyz".contains(letter)) {
-            let instead = "each of the letters x, y and z in it";
-            self.unknown_value(params.at("mirror"), letters, instead);
-        }
         let mut tools = SweepTools {
-            mirror,
+            mirror: self.mirror(params)?,
             ..SweepTools::default()
         };
         if !params.map.contains_key("tools") {
@@ -48,13 +42,42 @@ impl Reader {
         Ok(tools)
     }
 
+    /// The axes whose letters `mirror` has.
+    pub(super) fn mirror(&mut self, object: &Object<'_>) -> Result<[bool; 3], DocumentError> {
+        let letters = object.text("mirror")?.unwrap_or_default();
+        if letters.chars().any(|letter| !"xyz".contains(letter)) {
+            let instead = "each of the letters x, y and z in it";
+            self.unknown_value(object.at("mirror"), letters, instead);
+        }
+        Ok(['x', 'y', 'z'].map(|letter| letters.contains(letter)))
+    }
+
     fn sweep_tool(
         &mut self,
         object: &Object<'_>,
         index: usize,
     ) -> Result<SweepTool, DocumentError> {
+        Ok(SweepTool {
+            shape: self.shape_of_tool(object, SweepTool::default().shape)?,
+            coat: self.number(object, "coat")?,
+            spline: object.flag("spline")?,
+            path: self.tool_path(object)?,
+            index,
+        })
+    }
+
+    /// The form of a tool; `None`, with a notice, for one that this version does not have. `ball` is the ball that
+    /// nothing more is said of.
+    pub(super) fn shape_of_tool(
+        &mut self,
+        object: &Object<'_>,
+        ball: Option<ToolShape>,
+    ) -> Result<Option<ToolShape>, DocumentError> {
+        let mut shape = ball;
         let name = object.text("shape")?.unwrap_or(ToolShape::NAMES[0]);
-        let mut shape = ToolShape::named(name);
+        if name != ToolShape::NAMES[0] {
+            shape = ToolShape::named(name);
+        }
         match &mut shape {
             Some(shape) => {
                 self.unknown_keys(object);
@@ -63,13 +86,7 @@ impl Reader {
             // What an unknown shape is told of is not known either.
             None => self.unknown_value(object.at("shape"), name, "nothing"),
         }
-        Ok(SweepTool {
-            shape,
-            coat: self.number(object, "coat")?,
-            spline: object.flag("spline")?,
-            path: self.tool_path(object)?,
-            index,
-        })
+        Ok(shape)
     }
 
     fn tool_shape(

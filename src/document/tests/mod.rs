@@ -1,4 +1,5 @@
 mod carving;
+mod clay;
 mod controls;
 mod curves;
 mod figures;

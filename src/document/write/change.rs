@@ -1,5 +1,6 @@
 //! What each edit does to the tree.
 
+use super::clay::clay;
 use super::edit::Edit;
 use super::lists::{insert, list, reorder, take};
 use super::number::{color_text, rotation, rounded, rounded_size, rounded_value, vector};
@@ -92,7 +93,7 @@ impl Edit {
             Self::SetTools { template: i, tools } => {
                 let at = join(&template(i), "params");
                 let before = pointer::get(root, &join(&at, "tools")).cloned();
-                let mirror = value::mirrors(tools);
+                let mirror = value::mirrors(tools.mirror);
                 set(root, &join(&at, "tools"), value::tools(tools, before))?;
                 set(root, &join(&at, "mirror"), json!(mirror))
             }
@@ -243,6 +244,7 @@ impl Edit {
                         pointer::remove(root, &join("/subject", key))?;
                     }
                 }
+                let clay_before = pointer::remove(root, "/subject/clay")?;
                 for key in [
                     "builtin", "revision", "src", "sha256", "name", "frame", "raw", "units",
                     "axes", "parts", "smooth", "box",
@@ -253,6 +255,9 @@ impl Edit {
                     let meshes: Value = meshes.iter().map(value::mesh).collect();
                     set(root, "/subject/meshes", meshes)?;
                     return set_box(root, *bounds);
+                }
+                if let SubjectRef::Clay(given) = subject {
+                    return set(root, "/subject/clay", clay(given, clay_before.as_ref()));
                 }
                 let mut put =
                     |key: &str, value: &str| set(root, &join("/subject", key), json!(value));
@@ -271,7 +276,7 @@ impl Edit {
                         put("sha256", sha256)?;
                         put("name", name)
                     }
-                    SubjectRef::Meshes { .. } => Ok(()),
+                    SubjectRef::Meshes { .. } | SubjectRef::Clay(_) => Ok(()),
                 }?;
                 match subject.reading() {
                     Some(reading) => {
@@ -347,12 +352,11 @@ impl Edit {
 /// front.
 fn written_rotation(root: &Value, camera: &Camera) -> Quat {
     let subject = |key: &str| root.get("subject").and_then(|subject| subject.get(key));
+    let has_file = subject("src").or(subject("sha256")).is_some();
     let is_figure = match subject("builtin").and_then(Value::as_str) {
+        _ if subject("clay").is_some() => false,
         Some(name) => name.starts_with(DRAWN),
-        None => {
-            let has_file = subject("src").or(subject("sha256")).is_some();
-            has_file && root.get("figure").is_some()
-        }
+        None => has_file && root.get("figure").is_some(),
     };
     match is_figure {
         true => camera.rotate * FIGURE_FRONT.inverse(),
@@ -368,7 +372,7 @@ fn is_same_file(root: &Value, subject: &SubjectRef) -> bool {
             .unwrap_or_default()
     };
     match subject {
-        SubjectRef::Builtin { .. } => false,
+        SubjectRef::Builtin { .. } | SubjectRef::Clay(_) => false,
         // Whatever else is said of them, they are other files.
         SubjectRef::Meshes { .. } => false,
         SubjectRef::Address { src, .. } => text("src") == src,
@@ -409,7 +413,7 @@ fn add_mesh(
     box_mm: Option<SubjectBox>,
 ) -> Result<(), DocumentError> {
     let has = |root: &Value, key| pointer::get(root, &join("/subject", key)).is_some();
-    let sources = ["builtin", "src", "sha256", "meshes"];
+    let sources = ["builtin", "src", "sha256", "meshes", "clay"];
     if !sources.into_iter().any(|key| has(root, key)) {
         set(root, "/subject/builtin", json!(DEFAULT_SUBJECT))?;
     }

@@ -121,9 +121,9 @@ pub(super) fn points_and_cut(points: &ControlPoints) -> [Value; 2] {
     [listed.collect(), cut.collect()]
 }
 
-/// Letters of the axes that a sweep is mirrored across.
-pub(super) fn mirrors(tools: &SweepTools) -> String {
-    let axes = ['x', 'y', 'z'].into_iter().zip(tools.mirror);
+/// Letters of the axes that tools are mirrored across.
+pub(super) fn mirrors(mirror: [bool; 3]) -> String {
+    let axes = ['x', 'y', 'z'].into_iter().zip(mirror);
     axes.filter(|(_, is_on)| *is_on)
         .map(|(axis, _)| axis)
         .collect()
@@ -143,31 +143,8 @@ pub(super) fn tools(tools: &SweepTools, before: Option<Value>) -> Value {
         let Some(shape) = &tool.shape else {
             return value;
         };
-        if let Some(keys) = value.as_object_mut() {
-            keys.retain(|key, _| !OF_SHAPES.contains(&key.as_str()));
-        }
+        put_shape(&mut value, shape);
         let mut put = |key: &str, new: Value| value[key] = new;
-        put("shape", json!(shape.name()));
-        match shape {
-            ToolShape::Ball { radius } => put("radius", rounded(*radius)),
-            ToolShape::Ellipsoid { radii } => put("radii", vector(*radii)),
-            ToolShape::Capsule { radius, length } => {
-                put("radius", rounded(*radius));
-                put("length", rounded(*length));
-            }
-            ToolShape::Box { half, round } => {
-                put("half", vector(*half));
-                put("round", rounded(*round));
-            }
-            ToolShape::Torus { ring, radius } => {
-                put("ring", rounded(*ring));
-                put("radius", rounded(*radius));
-            }
-            ToolShape::Curve { points, radius } => {
-                put("points", points.iter().map(|p| vector(*p)).collect());
-                put("radius", rounded(*radius));
-            }
-        }
         put("coat", rounded(tool.coat));
         put("spline", json!(tool.spline));
         put("path", tool.path.iter().map(path_key).collect());
@@ -176,6 +153,35 @@ pub(super) fn tools(tools: &SweepTools, before: Option<Value>) -> Value {
     let list = before.as_ref().and_then(Value::as_array);
     let beyond = list.into_iter().flatten().skip(MAX_TOOLS).cloned();
     each.chain(beyond).collect()
+}
+
+/// Gives a tool this shape, in place of the one that it has.
+pub(super) fn put_shape(tool: &mut Value, shape: &ToolShape) {
+    if let Some(keys) = tool.as_object_mut() {
+        keys.retain(|key, _| !OF_SHAPES.contains(&key.as_str()));
+    }
+    let mut put = |key: &str, new: Value| tool[key] = new;
+    put("shape", json!(shape.name()));
+    match shape {
+        ToolShape::Ball { radius } => put("radius", rounded(*radius)),
+        ToolShape::Ellipsoid { radii } => put("radii", vector(*radii)),
+        ToolShape::Capsule { radius, length } => {
+            put("radius", rounded(*radius));
+            put("length", rounded(*length));
+        }
+        ToolShape::Box { half, round } => {
+            put("half", vector(*half));
+            put("round", rounded(*round));
+        }
+        ToolShape::Torus { ring, radius } => {
+            put("ring", rounded(*ring));
+            put("radius", rounded(*radius));
+        }
+        ToolShape::Curve { points, radius } => {
+            put("points", points.iter().map(|p| vector(*p)).collect());
+            put("radius", rounded(*radius));
+        }
+    }
 }
 
 /// A pose on the path of a tool.

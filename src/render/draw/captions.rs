@@ -4,8 +4,11 @@ use super::follow::PendingPlaces;
 use super::pick::PendingDepths;
 use super::renderer::Renderer;
 use super::studio::Studio;
+use std::sync::Arc;
+
+use crate::clay::Way;
 use crate::data::Sheet;
-use crate::document::{Camera, Caption, Illustration, PlacedTemplate, Recipe, SubjectRef};
+use crate::document::{Camera, Caption, Clay, Illustration, PlacedTemplate, Recipe, SubjectRef};
 use crate::render::device::error::RenderError;
 use crate::render::pack::view::View;
 use glam::{Vec2, Vec3};
@@ -25,20 +28,31 @@ struct Cause {
     templates: Vec<PlacedTemplate>,
     /// The bent figure that the points lie in, if they lie in one.
     sheet: Option<Sheet>,
-    /// Points of tissue that are followed, rest space: one per caption; and whether that is drawn.
+    /// The clay whose strokes the captions go with, if the subject is one.
+    clay: Option<Arc<Clay>>,
+    /// Places of the captions in the document, and points of tissue that are followed, rest space: one per caption; and
+    /// whether that is drawn.
+    at: Vec<Vec3>,
     points: Vec<Vec3>,
     drawn: Vec<bool>,
 }
 
 impl Cause {
-    fn of(shown: &Illustration, segments: usize, sheet: Option<&Sheet>) -> Self {
+    fn of(
+        shown: &Illustration,
+        segments: usize,
+        sheet: Option<&Sheet>,
+        clay: Option<&Arc<Clay>>,
+    ) -> Self {
         Self {
             subject: shown.subject.clone(),
             recipes: shown.recipes.clone(),
             segments,
             templates: shown.templates.clone(),
             sheet: sheet.cloned(),
-            points: shown.captions.iter().map(|caption| caption.at).collect(),
+            clay: clay.cloned(),
+            at: shown.captions.iter().map(|caption| caption.at).collect(),
+            points: tissue(shown, clay),
             drawn: shown
                 .captions
                 .iter()
@@ -48,17 +62,40 @@ impl Cause {
     }
 
     /// True if [`Cause::of`] would give an equal value. Copies nothing, since this is asked in every frame.
-    fn is_of(&self, shown: &Illustration, segments: usize, sheet: Option<&Sheet>) -> bool {
-        Sheet::are_same(self.sheet.as_ref(), sheet)
+    fn is_of(
+        &self,
+        shown: &Illustration,
+        segments: usize,
+        sheet: Option<&Sheet>,
+        clay: Option<&Arc<Clay>>,
+    ) -> bool {
+        let is_same_clay = match (&self.clay, clay) {
+            (Some(own), Some(shown)) => Arc::ptr_eq(own, shown),
+            (own, shown) => own.is_none() && shown.is_none(),
+        };
+        is_same_clay
+            && Sheet::are_same(self.sheet.as_ref(), sheet)
             && self.segments == segments
             && self.subject == shown.subject
             && self.recipes == shown.recipes
             && self.templates == shown.templates
-            && self.points.iter().zip(&self.drawn).eq(shown
+            && self.at.iter().zip(&self.drawn).eq(shown
                 .captions
                 .iter()
                 .map(|caption| (&caption.at, &caption.enabled)))
     }
+}
+
+/// Where the tissue of captions is in the untouched subject. Captions of a clay stand in its starting shape, and go
+/// with the strokes of the clay that is drawn.
+fn tissue(shown: &Illustration, clay: Option<&Arc<Clay>>) -> Vec<Vec3> {
+    let way = clay.map(|clay| Way::of(clay));
+    let place = |at: Vec3| match &way {
+        Some(way) => way.forward(at.as_dvec3()).as_vec3(),
+        None => at,
+    };
+    let captions = shown.captions.iter();
+    captions.map(|caption| place(caption.at)).collect()
 }
 
 /// True if the surface that is seen there, `seen_depth` from the eye, lies in front of a caption's place. False if
@@ -118,11 +155,12 @@ impl FollowedCaptions {
         }
         let segments = renderer.segments().len();
         let sheet = renderer.sheet().cloned();
-        let is_known = |cause: &Cause| cause.is_of(shown, segments, sheet.as_ref());
+        let clay = renderer.clay().cloned();
+        let is_known = |cause: &Cause| cause.is_of(shown, segments, sheet.as_ref(), clay.as_ref());
         if self.pending.is_some() {
             is_waiting = true;
         } else if !self.known.as_ref().is_some_and(is_known) {
-            let cause = Cause::of(shown, segments, sheet.as_ref());
+            let cause = Cause::of(shown, segments, sheet.as_ref(), clay.as_ref());
             if sheet.is_none() && cause.templates.iter().all(|t| !t.acting().enabled) {
                 self.places = cause.points.iter().copied().map(Some).collect();
                 self.known = Some(cause);
@@ -212,11 +250,7 @@ pub async fn caption_places(
     illustration: &Illustration,
     size_px: [u32; 2],
 ) -> Result<Vec<CaptionPlace>, RenderError> {
-    let points: Vec<Vec3> = illustration
-        .captions
-        .iter()
-        .map(|caption| caption.at)
-        .collect();
+    let points = tissue(illustration, studio.clay());
     let places = studio.follow_points(illustration, &points).await?;
     let view = View::new(&illustration.camera, size_px);
     let drawn = |(place, caption): (Option<Vec3>, &Caption)| place.filter(|_| caption.enabled);

@@ -12,7 +12,7 @@ use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
 use crate::data::{Resources, Segment, Segmentation, Sheet, Subject, Surface};
-use crate::document::{Camera, Illustration};
+use crate::document::{Camera, Clay, Illustration};
 use crate::math::Aabb;
 use crate::render::device::bindings::encoder;
 use crate::render::device::error::RenderError;
@@ -275,6 +275,7 @@ impl Renderer {
     pub fn set_resources(&mut self, resources: Resources) {
         if resources.fields != self.resources.fields
             || !resources.has_objects_of(&self.resources)
+            || resources.clay != self.resources.clay
             || !Sheet::are_same(resources.sheet.as_ref(), self.sheet())
         {
             self.touch();
@@ -285,6 +286,11 @@ impl Renderer {
     /// The bent figure that is drawn, if the subject is one.
     pub fn sheet(&self) -> Option<&Sheet> {
         self.resources.sheet.as_ref()
+    }
+
+    /// The recipe of the subject, if it is a clay.
+    pub fn clay(&self) -> Option<&Arc<Clay>> {
+        self.resources.clay.as_ref()
     }
 
     /// Looks from elsewhere than the illustration says, until that is set again.

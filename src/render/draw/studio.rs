@@ -11,7 +11,7 @@ use super::probe::Sample;
 use super::rows::{PictureSpec, Taker, band_rows};
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use crate::data::{Resources, Segment, Subject};
-use crate::document::{Background, Illustration, Light};
+use crate::document::{Background, Clay, Illustration, Light};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::pack::gpu_types::Affine;
@@ -248,6 +248,11 @@ impl Studio {
             Some(grid) => Ok(Some(grid.read(&self.gpu).await?)),
             None => Ok(None),
         }
+    }
+
+    /// The recipe of the subject, if it is a clay.
+    pub fn clay(&self) -> Option<&Arc<Clay>> {
+        self.resources.clay.as_ref()
     }
 
     /// What the labels of [`Studio::identify`] stand for: the segments of the subject, or the regions of a figure.

@@ -127,6 +127,31 @@ pub(super) enum Command {
         #[command(flatten)]
         moment: Moment,
     },
+    /// Writes a clay as a mesh, or checks its mesh.
+    Clay {
+        /// Document, link or payload whose subject is a clay; - for a document on standard input.
+        doc: String,
+        /// The file to write: .ply, .obj, .stl (millimetres) or .glb (metres).
+        #[arg(
+            short,
+            long,
+            value_name = "FILE",
+            required_unless_present = "check",
+            conflicts_with = "check"
+        )]
+        output: Option<PathBuf>,
+        /// Prints what the mesh is like: whether it is closed, its edges, angles, triangles that intersect, its hash.
+        #[arg(long)]
+        check: bool,
+        /// Prints that as JSON.
+        #[arg(long, requires = "check", conflicts_with = "output")]
+        json: bool,
+        /// The clay after its first strokes, those that are off counted; without it as the document shows it.
+        #[arg(long, value_name = "N")]
+        strokes: Option<u32>,
+        #[command(flatten)]
+        moment: Moment,
+    },
     /// Prints the link of a document.
     Link {
         /// Document, link or payload to link to; - for a document on standard input.

@@ -39,8 +39,10 @@ pub(super) fn describe(
     let lesson = document.lesson().map_err(CliError::Step)?;
     let first = lesson.at_step(steps.start).map_err(CliError::Step)?;
     let gpu = open_gpu(common)?;
-    let subject = subject_of(first, common, &opened.folder, gpu.volume_limits())?;
-    let studio = Studio::new(&gpu, &subject, true)?;
+    let limits = gpu.volume_limits();
+    let mut subject = subject_of(first, common, &opened.folder, limits)?;
+    let mut studio = Studio::new(&gpu, &subject, true)?;
+    let mut of = first.subject_shown();
     let mut told: Vec<Description> = Vec::new();
     let mut bender = None;
     for step in steps {
@@ -51,6 +53,12 @@ pub(super) fn describe(
             }
         }
         let shown = at_step.illustration();
+        // A step may show more or fewer strokes of a clay.
+        if shown.subject_shown() != of {
+            of = shown.subject_shown();
+            subject = subject_of(shown, common, &opened.folder, limits)?;
+            studio = Studio::new(&gpu, &subject, true)?;
+        }
         let mut resources = fields_of(shown, common, &opened.folder)?;
         let place = (common, opened.folder.as_path());
         resources.objects = objects_of(shown, Needed::All, ObjectMeshes::new(), place)?;

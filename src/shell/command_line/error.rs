@@ -3,7 +3,8 @@
 use std::io;
 use std::path::Path;
 
-use crate::assets::{OtherFile, Role, Source, Want};
+use crate::assets::{OtherFile, Role, Want};
+use crate::clay::ClayError;
 use crate::data::BuildError;
 use crate::document::{DocumentError, MAX_BYTES};
 use crate::link::{LinkError, TooLongForQr};
@@ -99,6 +100,9 @@ pub(super) enum MissingSubject {
     /// No such built-in subject in this version.
     #[error(transparent)]
     Builtin(#[from] SubjectError),
+    /// The clay cannot be made.
+    #[error(transparent)]
+    Clay(#[from] ClayError),
     /// The file cannot be read.
     #[error("{source} [{path}]")]
     File {
@@ -129,9 +133,8 @@ impl MissingSubject {
 
     /// The error for a file that the reader is to supply.
     pub(super) fn wanted(want: &Want) -> Self {
-        let (Source::Builtin(name) | Source::File { name, .. }) = &want.source;
         Self::Wanted {
-            name: match name.as_str() {
+            name: match want.name() {
                 "" => "without a name".to_owned(),
                 name => format!("“{name}”"),
             },

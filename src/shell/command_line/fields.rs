@@ -6,14 +6,14 @@ use super::args::Common;
 use super::error::CliError;
 use super::output::notice;
 use super::subject::subject_of;
-use crate::assets::{Assets, Data, ResourceNews, Source, Want};
+use crate::assets::{Assets, Data, ResourceNews, Want};
 use crate::data::{Grid, Resources, VolumeLimits};
 use crate::document::{Illustration, SubjectRef, TemplateData};
 use crate::load::{FieldFile, read_field};
 use crate::shell::files::{Folder, local};
 use crate::subjects::{FINE_RESOLUTION, Generator};
 
-/// The samples of each `field` template that acts.
+/// The samples of each `field` template that acts, and the recipe of a clay, which captions go with.
 ///
 /// # Errors
 /// [`CliError::Field`] with the template's pointer.
@@ -39,8 +39,12 @@ pub(super) fn fields_of(
         taken.map_err(|other| failed(format!("{} is {other}", path.display())))?;
         paths.push((template.index, path));
     }
+    let clay = Want::subject(&illustration.subject_shown()).clay().cloned();
     if paths.is_empty() {
-        return Ok(Resources::default());
+        return Ok(Resources {
+            clay,
+            ..Resources::default()
+        });
     }
     assets.set_grid(subject_grid(illustration, common, folder)?);
     let (resources, news) = assets.resources(illustration);
@@ -58,7 +62,7 @@ pub(super) fn fields_of(
             }
         }
     }
-    Ok(resources)
+    Ok(Resources { clay, ..resources })
 }
 
 /// The file of a field: at its address, else the one of those given that has its hash.
@@ -81,7 +85,7 @@ fn file_of(want: &Want, folder: &Path, given: &[PathBuf]) -> Result<(PathBuf, Fi
             }
         }
     }
-    let (Source::Builtin(name) | Source::File { name, .. }) = &want.source;
+    let name = want.name();
     others.insert(
         0,
         format!(

@@ -5,6 +5,7 @@
 
 mod args;
 mod bench;
+mod clay;
 mod describe;
 mod device;
 mod error;

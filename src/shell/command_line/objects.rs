@@ -54,6 +54,8 @@ pub(super) fn objects_of(
                 // What is generated has no hash that could be another one.
                 let _always_taken = assets.take(&want, data);
             }
+            // No object is one.
+            Source::Clay(_) => {}
             Source::File { .. } => {
                 let Some(path) = path_of(&want, common, folder) else {
                     report_missing("object", &want, folder);

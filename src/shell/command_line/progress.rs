@@ -15,11 +15,19 @@ pub(super) struct Progress {
     told: f64,
     has_told: bool,
     is_on_terminal: bool,
+    /// What is done to the work.
+    done: &'static str,
 }
 
 impl Progress {
     pub(super) fn start() -> Self {
+        Self::of("drawn")
+    }
+
+    /// Of a work that is not drawing.
+    pub(super) fn of(done: &'static str) -> Self {
         Self {
+            done,
             told: system_clock(),
             has_told: false,
             is_on_terminal: io::stderr().is_terminal(),
@@ -41,9 +49,9 @@ impl Progress {
         self.has_told = true;
         let percent = (100.0 * part).floor();
         if self.is_on_terminal {
-            self.write(&format!("\r{percent} % drawn"));
+            self.write(&format!("\r{percent} % {}", self.done));
         } else {
-            notice(format!("{percent} % drawn"));
+            notice(format!("{percent} % {}", self.done));
         }
     }
 

@@ -6,6 +6,7 @@ use clap::Parser as _;
 
 use super::args::{Args, Command};
 use super::bench::bench;
+use super::clay::{check_clay, write_clay};
 use super::describe::describe;
 use super::error::CliError;
 use super::export::export_field;
@@ -138,6 +139,20 @@ fn execute(args: Args) -> Result<(), CliError> {
             size,
             moment,
         } => export_figure(common, &open(&doc)?, &output, moment, size),
+        Command::Clay {
+            doc,
+            output,
+            check: _,
+            json,
+            strokes,
+            moment,
+        } => {
+            let opened = open(&doc)?;
+            match &output {
+                Some(output) => write_clay(common, &opened, output, strokes, moment),
+                None => check_clay(common, &opened, strokes, moment, json),
+            }
+        }
         Command::Link { doc, page, qr } => {
             link(&open(&doc)?, &page.unwrap_or_default(), qr.as_deref())
         }

@@ -7,16 +7,19 @@ use std::sync::mpsc::sync_channel;
 use super::args::Common;
 use super::error::{CliError, MissingSubject};
 use super::output::notice;
+use super::progress::Progress;
 use super::reading::hint;
+use super::stop;
 use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
 use crate::data::{
     BuildError, Mesh, Reducer, Resources, Subject, SubjectBuilder, SubjectPart, SubjectSink as _,
     Surface, TimeSlices, VolumeBuilder, VolumeLimits, segment,
 };
-use crate::document::{DRAWN_FIGURES, Illustration, Reading};
+use crate::document::{Clay, DRAWN_FIGURES, Illustration, Reading};
 use crate::figure::builtin_plate;
 use crate::load::{LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
 use crate::render::{KeptTissue, RenderNotice, lidded};
+use crate::shell::clays::{ClayDesk, surface_of_clay};
 use crate::shell::figures::read_any;
 use crate::shell::files::{Folder, local, mesh_set};
 use crate::shell::loading::hash_of;
@@ -135,6 +138,14 @@ fn take_subject(
                 sha256: None,
             });
             Ok(())
+        }
+        Source::Clay(clay) => {
+            let data = Data::Subject {
+                subject: shaped(clay)?,
+                sha256: None,
+            };
+            let taken = assets.take(want, data);
+            taken.map_err(|other| MissingSubject::other(Path::new(""), other))
         }
         Source::File { src: Some(src), .. } => {
             let path = local(folder, src).ok_or_else(|| MissingSubject::remote(want))?;
@@ -314,6 +325,18 @@ pub(super) fn generate(name: &str) -> Result<Subject, MissingSubject> {
         source,
     });
     Ok(Subject::from(volume?))
+}
+
+/// A clay as its recipe has it. Notices say what of it cannot be done.
+fn shaped(clay: &Arc<Clay>) -> Result<Subject, MissingSubject> {
+    let mut progress = Progress::of("shaped");
+    let made = surface_of_clay(&mut ClayDesk::default(), clay, &mut |part| {
+        progress.tell(part);
+        !stop::is_wished()
+    });
+    let (surface, notices) = made?;
+    notices.iter().for_each(notice);
+    Ok(surface.into())
 }
 
 /// The given file that has the hash of a want.

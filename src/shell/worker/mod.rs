@@ -1,6 +1,6 @@
 //! What the page leaves to Web Workers. Each part is a program of its own, with its own module, which is fetched when
 //! the page first needs it: one makes the built-in subjects, one reads scans and holds their decoders, one reads meshes
-//! and prepares them, one reads figures and bends them, and one holds the decoders of pictures.
+//! and prepares them, one reads figures and bends them, one shapes clays, and one holds the decoders of pictures.
 //!
 //! `web/worker.js` loads the part that the first message names, and hands it a [`task`]. What the part posts back is an
 //! [`answer`]. A part that finds that a file is for another one names that, and the worker goes on with it. One worker
@@ -22,6 +22,8 @@ pub mod run;
     feature = "part-figures"
 ))]
 mod blobs;
+#[cfg(feature = "part-clay")]
+pub mod clay;
 #[cfg(feature = "part-figures")]
 pub mod figures;
 #[cfg(feature = "part-meshes")]

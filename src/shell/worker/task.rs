@@ -5,6 +5,7 @@
 //! - for the readers of scans and of meshes `builtin` (of a mesh) and `carves`, `files` (pairs of name and `Blob`),
 //!   `address`, or `field` (a pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label
 //!   volumes), `has_scan` and `may_be_field`,
+//! - for the shaper of clays `clay` (a text),
 //! - for the bender of figures `figure` (a text), `bender` (a number: each has one plate), `rounds`, and `plate` where
 //!   it is to be another one from now on.
 
@@ -40,6 +41,8 @@ pub enum Part {
     Pictures,
     /// Reads figures and bends them.
     Figures,
+    /// Shapes clays.
+    Clay,
 }
 
 impl Part {
@@ -51,6 +54,7 @@ impl Part {
             Self::Meshes => "meshes",
             Self::Pictures => "pictures",
             Self::Figures => "figures",
+            Self::Clay => "clay",
         }
     }
 
@@ -68,12 +72,13 @@ impl Part {
 
     /// The part of this name.
     pub fn of_name(name: &str) -> Option<Self> {
-        const ALL: [Part; 5] = [
+        const ALL: [Part; 6] = [
             Part::Subjects,
             Part::Scans,
             Part::Meshes,
             Part::Pictures,
             Part::Figures,
+            Part::Clay,
         ];
         ALL.into_iter().find(|part| part.name() == name)
     }
@@ -88,6 +93,8 @@ pub enum Task {
     Scan(ScanTask),
     /// Bend a figure, by the bender of this number.
     Bend(u32, BendRequest),
+    /// Shape a clay, whose recipe this is.
+    Clay(String),
 }
 
 /// What the parts that read files are to do.
@@ -129,6 +136,7 @@ impl Task {
     pub fn part(&self) -> Part {
         match self {
             Self::Bend(..) => Part::Figures,
+            Self::Clay(_) => Part::Clay,
             Self::Subject(name, _) if is_drawn_name(name) => Part::Figures,
             Self::Subject(name, _) if mesh_names().contains(&name.as_str()) => Part::Meshes,
             Self::Subject(..) => Part::Subjects,
@@ -177,6 +185,9 @@ impl Task {
                 if let Some(plate) = &request.plate {
                     set("plate", &pieces::packed_plate(plate))?;
                 }
+            }
+            Self::Clay(recipe) => {
+                set("clay", &recipe.into())?;
             }
             Self::Subject(name, resolution) => {
                 set("builtin", &name.into())?;

@@ -1,0 +1,27 @@
+//! Layer 4: clay, a closed surface that tools shape stroke by stroke (after Angelidis, Wyvill and Cani, *Sweepers*;
+//! what is meant exactly stands in spec/sweepers.md, B). The document holds the recipe; the mesh is made from it here.
+
+mod body;
+mod check;
+mod field;
+mod mesh;
+mod motion;
+mod refine;
+mod shaping;
+mod smooth;
+mod start;
+mod way;
+mod write;
+
+pub use body::{SEGMENT, box_mm};
+pub use check::{Check, MAX_CROSSING, mesh_sha256};
+pub use motion::LeftOut;
+pub use refine::MAX_TRIANGLES;
+pub use shaping::{ClayError, Shaped, Shaping};
+pub use way::Way;
+pub use write::{Export, Form};
+
+#[cfg(test)]
+mod suite;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,359 @@
+//! The edges of a clay follow its steps: long ones split, short ones collapse, some flip (spec/sweepers.md, B.2; after
+//! Angelidis, Wyvill and Cani, Sweepers, section 5.1). An edge is judged by where its ends go in the step; new and
+//! merged vertices are made before the step and moved by it.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use glam::DVec3;
+
+use super::mesh::{ClayMesh, Vertex};
+
+/// Most triangles: beyond them no edge is split.
+pub const MAX_TRIANGLES: usize = 300_000;
+
+/// Cosines of the angles between normals at which edges split and collapse: 20° and 8°.
+const SPLIT_COS: f64 = 0.939_692_620_785_908_4;
+const COLLAPSE_COS: f64 = 0.990_268_068_741_570_3;
+/// Cosine of the angle between two triangles that count as flat: 5°.
+const FLAT_COS: f64 = 0.996_194_698_091_745_5;
+/// Cosine of the angle by which no normal of a triangle may turn: 60°.
+const TURN_COS: f64 = 0.5;
+/// The smallest of six angles has to grow by this part of it for a flip: rounding alone turns no edge.
+const WORTH: f64 = 1e-3;
+
+/// Where what is made before a step is taken by it.
+pub(super) trait Carry {
+    /// A vertex after the step.
+    fn carry(&self, vertex: &Vertex) -> Vertex;
+}
+
+/// The mesh in a step: where its vertices are before, and where those that move are after.
+pub(super) struct Stepping<'a> {
+    pub(super) mesh: &'a mut ClayMesh,
+    /// Places after the step, for the vertices in `moved`.
+    pub(super) after: &'a mut Vec<Vertex>,
+    /// The number of the step in which a vertex was last moved.
+    pub(super) moved_in: &'a mut Vec<u32>,
+    /// This step's number.
+    pub(super) number: u32,
+    /// The vertices that this step moves.
+    pub(super) moved: Vec<u32>,
+    /// Vertices that came to be in this step, moved or not.
+    pub(super) made: Vec<u32>,
+    /// Longest edge.
+    pub(super) detail: f64,
+    /// True once an edge stayed long because of [`MAX_TRIANGLES`].
+    pub(super) is_full: bool,
+}
+
+/// An edge in a queue: its length as bits, which are in order as no length is below 0, and its ends.
+type Queued = (u64, Reverse<(u32, u32)>);
+
+/// The middle of the cubic through two vertices, how far it is off the middle of the edge, and that middle.
+fn cubic_middle(a: &Vertex, b: &Vertex) -> (DVec3, f64, DVec3) {
+    let (p, q) = (a.pos(), b.pos());
+    let along = q - p;
+    let (n, m) = (a.normal(), b.normal());
+    let off = (m * along.dot(m) - n * along.dot(n)) * 0.125;
+    let middle = (p + q) * 0.5;
+    (middle + off, off.length(), middle)
+}
+
+/// The vertex in the middle of two: on the cubic unless that is far off.
+pub(super) fn between(a: &Vertex, b: &Vertex, detail: f64) -> Vertex {
+    let (on_cubic, off, middle) = cubic_middle(a, b);
+    let pos = if off <= detail / 10.0 {
+        on_cubic
+    } else {
+        middle
+    };
+    let normal = (a.normal() + b.normal()).normalize_or(a.normal());
+    Vertex::new(pos, normal)
+}
+
+fn must_split(a: &Vertex, b: &Vertex, detail: f64) -> bool {
+    let square = a.pos().distance_squared(b.pos());
+    if square > detail * detail {
+        return true;
+    }
+    if square <= detail * detail / 16.0 {
+        return false;
+    }
+    a.normal().dot(b.normal()) < SPLIT_COS || cubic_middle(a, b).1 > detail / 20.0
+}
+
+fn must_collapse(a: &Vertex, b: &Vertex, detail: f64) -> bool {
+    let square = a.pos().distance_squared(b.pos());
+    if square >= detail * detail / 4.0 {
+        return false;
+    }
+    let is_plain = a.normal().dot(b.normal()) > COLLAPSE_COS;
+    square < detail * detail / 256.0 || (is_plain && cubic_middle(a, b).1 < detail / 40.0)
+}
+
+/// Twice the area of a triangle, along its normal.
+fn area_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
+}
+
+/// The greatest cosine of an angle of a triangle: that of the smallest angle. 1 for one without area.
+fn sharpest([a, b, c]: [DVec3; 3]) -> f64 {
+    let cos = |at: DVec3, one: DVec3, two: DVec3| {
+        let (u, v) = (one - at, two - at);
+        let lengths = libm::sqrt(u.length_squared() * v.length_squared());
+        if lengths > 0.0 {
+            u.dot(v) / lengths
+        } else {
+            1.0
+        }
+    };
+    cos(a, b, c).max(cos(b, c, a)).max(cos(c, a, b))
+}
+
+impl Stepping<'_> {
+    fn is_moved(&self, vertex: u32) -> bool {
+        self.moved_in[vertex as usize] == self.number
+    }
+
+    /// A vertex after the step.
+    fn after(&self, vertex: u32) -> &Vertex {
+        match self.is_moved(vertex) {
+            true => &self.after[vertex as usize],
+            false => &self.mesh.vertices[vertex as usize],
+        }
+    }
+
+    /// Takes note of where a vertex goes; one that stays is not moved.
+    pub(super) fn move_to(&mut self, vertex: u32, after: Vertex) {
+        if after == self.mesh.vertices[vertex as usize] {
+            self.moved_in[vertex as usize] = 0;
+            return;
+        }
+        self.after[vertex as usize] = after;
+        if self.moved_in[vertex as usize] != self.number {
+            self.moved_in[vertex as usize] = self.number;
+            self.moved.push(vertex);
+        }
+    }
+
+    /// Takes a vertex as moved, though it stays where it is.
+    pub(super) fn touch(&mut self, vertex: u32) {
+        self.after[vertex as usize] = self.mesh.vertices[vertex as usize];
+        self.moved_in[vertex as usize] = self.number;
+        self.moved.push(vertex);
+    }
+
+    /// Splits an edge in the middle: the new vertex.
+    pub(super) fn split(&mut self, half: u32, carry: &impl Carry) -> u32 {
+        let ends = [self.mesh.from(half), self.mesh.to(half)];
+        let [a, b] = ends.map(|end| self.mesh.vertices[end as usize]);
+        let middle = between(&a, &b, self.detail);
+        let vertex = self.mesh.split(half, middle);
+        let places = self.mesh.vertices.len();
+        self.after.resize(places, middle);
+        self.moved_in.resize(places, 0);
+        self.moved_in[vertex as usize] = 0;
+        self.made.push(vertex);
+        self.move_to(vertex, carry.carry(&middle));
+        vertex
+    }
+
+    /// Puts an edge into a queue if it asks for something, by its ends after the step.
+    fn ask(
+        &self,
+        [a, b]: [u32; 2],
+        queue: &mut BinaryHeap<Queued>,
+        asks: fn(&Vertex, &Vertex, f64) -> bool,
+        is_shortest_first: bool,
+    ) {
+        let (one, two) = (self.after(a), self.after(b));
+        if asks(one, two, self.detail) {
+            let square = one.pos().distance_squared(two.pos());
+            let key = if is_shortest_first {
+                !square.to_bits()
+            } else {
+                square.to_bits()
+            };
+            queue.push((key, Reverse((a.min(b), a.max(b)))));
+        }
+    }
+
+    /// The half-edge of what a queue gave, if the edge is still there and as long as it was.
+    fn still(&self, (key, Reverse((a, b))): Queued, is_shortest_first: bool) -> Option<u32> {
+        let half = self.mesh.half(a, b).or_else(|| self.mesh.half(b, a))?;
+        let square = self.after(a).pos().distance_squared(self.after(b).pos());
+        let bits = if is_shortest_first {
+            !square.to_bits()
+        } else {
+            square.to_bits()
+        };
+        (bits == key).then_some(half)
+    }
+
+    /// The edges that a vertex of this step has: each end of those that have two such vertices has it once.
+    fn edges_of(&self, vertex: u32) -> impl Iterator<Item = [u32; 2]> + '_ {
+        let halves = self.mesh.fan(vertex).flat_map(|half| {
+            // The last edge of a border vertex has no half-edge that leaves it.
+            [self.mesh.to(half), self.mesh.across(half)]
+        });
+        halves.map(move |other| [vertex, other])
+    }
+
+    /// Splits long edges, longest first, until none is left.
+    pub(super) fn split_long(&mut self, carry: &impl Carry) {
+        let mut queue = BinaryHeap::new();
+        for vertex in &self.moved {
+            if !self.mesh.is_vertex(*vertex) || !self.is_moved(*vertex) {
+                continue;
+            }
+            for half in self.mesh.fan(*vertex) {
+                let to = self.mesh.to(half);
+                if to < *vertex || !self.is_moved(to) {
+                    self.ask([*vertex, to], &mut queue, must_split, false);
+                }
+            }
+            if self.mesh.is_border(*vertex) {
+                for edge in self.edges_of(*vertex) {
+                    self.ask(edge, &mut queue, must_split, false);
+                }
+            }
+        }
+        while let Some(queued) = queue.pop() {
+            let Some(half) = self.still(queued, false) else {
+                continue;
+            };
+            if self.mesh.triangle_count() >= MAX_TRIANGLES {
+                self.is_full = true;
+                return;
+            }
+            let vertex = self.split(half, carry);
+            let edges: Vec<[u32; 2]> = self.edges_of(vertex).collect();
+            for [from, to] in edges {
+                if self.is_moved(from) || self.is_moved(to) {
+                    self.ask([from, to], &mut queue, must_split, false);
+                }
+            }
+        }
+    }
+
+    /// Lets the ends of short edges become one, shortest first, until none is left that may.
+    pub(super) fn collapse_short(&mut self, carry: &impl Carry) {
+        let mut queue = BinaryHeap::new();
+        for vertex in &self.moved {
+            if !self.mesh.is_vertex(*vertex) || !self.is_moved(*vertex) {
+                continue;
+            }
+            for half in self.mesh.fan(*vertex) {
+                let to = self.mesh.to(half);
+                if to < *vertex && self.is_moved(to) {
+                    self.ask([*vertex, to], &mut queue, must_collapse, true);
+                }
+            }
+        }
+        while let Some(queued) = queue.pop() {
+            let Some(half) = self.still(queued, true) else {
+                continue;
+            };
+            let Some(vertex) = self.collapse(half, carry) else {
+                continue;
+            };
+            if !self.is_moved(vertex) {
+                continue;
+            }
+            let edges: Vec<u32> = self.mesh.ring(vertex).collect();
+            for other in edges.into_iter().filter(|other| self.is_moved(*other)) {
+                self.ask([vertex, other], &mut queue, must_collapse, true);
+            }
+        }
+    }
+
+    /// Collapses an edge, if that leaves the surface whole, its normals within 60° and no edge to be split.
+    fn collapse(&mut self, half: u32, carry: &impl Carry) -> Option<u32> {
+        let ends = [self.mesh.from(half), self.mesh.to(half)];
+        if !self.mesh.may_collapse(half) {
+            return None;
+        }
+        let [a, b] = ends.map(|end| self.mesh.vertices[end as usize]);
+        let before = between(&a, &b, self.detail);
+        let after = carry.carry(&before);
+        for (end, other) in [(ends[0], ends[1]), (ends[1], ends[0])] {
+            for leaving in self.mesh.fan(end) {
+                let [one, two] = [self.mesh.to(leaving), self.mesh.across(leaving)];
+                if one != other && must_split(&after, self.after(one), self.detail) {
+                    return None;
+                }
+                if one == other || two == other {
+                    continue;
+                }
+                let [p, q] = [one, two].map(|v| self.after(v).pos());
+                let old = area_normal([self.after(end).pos(), p, q]);
+                let new = area_normal([after.pos(), p, q]);
+                if !is_turned_little(old, new) {
+                    return None;
+                }
+            }
+        }
+        let vertex = self.mesh.collapse(half, before);
+        self.move_to(vertex, after);
+        Some(vertex)
+    }
+
+    /// One round of flips where triangles are flat and become less slender.
+    pub(super) fn flip_slender(&mut self) {
+        let mut halves = Vec::new();
+        for i in 0..self.moved.len() {
+            let vertex = self.moved[i];
+            if !self.mesh.is_vertex(vertex) || !self.is_moved(vertex) {
+                continue;
+            }
+            halves.clear();
+            halves.extend(self.mesh.fan(vertex));
+            for half in &halves {
+                // An edge may have gone with a flip before.
+                if self.mesh.from(*half) == vertex {
+                    let to = self.mesh.to(*half);
+                    if (to < vertex || !self.is_moved(to)) && self.is_worth_a_flip(*half) {
+                        self.mesh.flip(*half);
+                    }
+                }
+            }
+        }
+    }
+
+    fn is_worth_a_flip(&self, half: u32) -> bool {
+        let Some(other) = self.mesh.twin(half) else {
+            return false;
+        };
+        let corners = [
+            self.mesh.from(half),
+            self.mesh.to(half),
+            self.mesh.across(half),
+            self.mesh.across(other),
+        ];
+        let [a, b, c, d] = corners.map(|v| self.after(v).pos());
+        // Angles across the edge of less than half a turn together: the edge is the better one.
+        if (a - c).dot(b - c) >= 0.0 && (a - d).dot(b - d) >= 0.0 {
+            return false;
+        }
+        let [one, two] = [area_normal([a, b, c]), area_normal([b, a, d])];
+        let lengths = libm::sqrt(one.length_squared() * two.length_squared());
+        if one.dot(two) < FLAT_COS * lengths {
+            return false;
+        }
+        let [first, second] = [area_normal([c, d, b]), area_normal([d, c, a])];
+        let old = sharpest([a, b, c]).max(sharpest([b, a, d]));
+        let new = sharpest([c, d, b]).max(sharpest([d, c, a]));
+        new < old - WORTH
+            && is_turned_little(one + two, first)
+            && is_turned_little(one + two, second)
+            && !must_split(self.after(corners[2]), self.after(corners[3]), self.detail)
+    }
+}
+
+/// True if a triangle has an area still, and its normal is less than 60° from what it was; one that had none may have
+/// any.
+fn is_turned_little(old: DVec3, new: DVec3) -> bool {
+    let lengths = libm::sqrt(old.length_squared() * new.length_squared());
+    new.length_squared() > 0.0 && (lengths == 0.0 || old.dot(new) > TURN_COS * lengths)
+}

@@ -1,0 +1,466 @@
+//! Strokes shape a mesh, step by step (spec/sweepers.md, B.1 and B.2). The same recipe gives the same mesh, bit for
+//! bit, on every machine: 64-bit floats, only what IEEE 754 rounds exactly and functions of `libm`, one fixed order.
+
+use std::collections::BinaryHeap;
+
+use glam::DVec3;
+
+use super::mesh::{ClayMesh, Vertex};
+use super::motion::{LeftOut, Motion, Step, around, is_in};
+use super::refine::{Carry, MAX_TRIANGLES, Stepping};
+use super::smooth;
+use super::start;
+use crate::document::{Clay, ClayStart};
+
+/// Steps whose reach is looked at together, and blocks of them.
+const BLOCK: usize = 8;
+const WIDE: usize = 64;
+/// Most strokes that are named one by one.
+const MOST_NOTICES: usize = 4;
+/// Rounds in which a starting shape gets edges that strokes would leave as they are.
+const ROUNDS: usize = 8;
+
+/// Why a clay cannot be made.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ClayError {
+    /// Its start is of a kind that this version does not know.
+    #[error("this version makes no clay from \"{0}\"")]
+    UnknownStart(String),
+    /// It cannot be drawn.
+    #[error("{0}")]
+    NoSurface(String),
+    /// Whoever asked for it asked to stop.
+    #[error("stopped")]
+    Stopped,
+}
+
+/// A clay that is being shaped.
+#[derive(Clone, Debug)]
+pub struct Shaping {
+    mesh: ClayMesh,
+    after: Vec<Vertex>,
+    moved_in: Vec<u32>,
+    /// Number of the step, over all strokes.
+    number: u32,
+    detail: f64,
+    /// The vertices that the last stroke moved.
+    touched: Vec<bool>,
+    /// Strokes that did nothing, and why.
+    left_out: Vec<(usize, LeftOut)>,
+    /// The stroke since which there were too many triangles to split edges.
+    full_since: Option<usize>,
+    done: usize,
+}
+
+/// The motion in one step.
+struct Moved<'a> {
+    motion: &'a Motion<'a>,
+    step: &'a Step,
+}
+
+impl Carry for Moved<'_> {
+    fn carry(&self, vertex: &Vertex) -> Vertex {
+        self.motion.moved(self.step, vertex)
+    }
+}
+
+/// Nothing moves.
+pub(super) struct Still;
+
+impl Carry for Still {
+    fn carry(&self, vertex: &Vertex) -> Vertex {
+        *vertex
+    }
+}
+
+/// The vertices that may move in the steps to come.
+#[derive(Default)]
+struct Candidates {
+    wide: Vec<u32>,
+    near: Vec<u32>,
+}
+
+impl Shaping {
+    /// The starting shape of a clay.
+    ///
+    /// # Errors
+    /// If this version does not know it.
+    pub fn new(clay: &Clay) -> Result<Self, ClayError> {
+        let shape = match &clay.from {
+            ClayStart::Shape(shape) => *shape,
+            ClayStart::Mesh(_) => return Err(ClayError::UnknownStart("src".to_owned())),
+            ClayStart::Unknown(name) => return Err(ClayError::UnknownStart(name.clone())),
+        };
+        let (vertices, triangles) = start::shape(shape, clay.detail);
+        // The built-in shapes are closed surfaces, which a test holds.
+        let mut shaping = Self::of(vertices, triangles, clay.detail)
+            .ok_or_else(|| ClayError::UnknownStart("shape".to_owned()))?;
+        if clay.detail >= start::FINEST {
+            shaping.settle();
+        }
+        Ok(shaping)
+    }
+
+    /// A clay of these triangles; `None` if they are no surface.
+    pub(super) fn of(vertices: Vec<Vertex>, triangles: Vec<[u32; 3]>, detail: f64) -> Option<Self> {
+        let mesh = ClayMesh::new(vertices, triangles)?;
+        Some(Self {
+            after: mesh.vertices.clone(),
+            moved_in: vec![0; mesh.vertices.len()],
+            touched: vec![false; mesh.vertices.len()],
+            mesh,
+            number: 0,
+            detail,
+            left_out: Vec::new(),
+            full_since: None,
+            done: 0,
+        })
+    }
+
+    /// Looks after all edges until nothing changes, so that a stroke that only carries them leaves them alone.
+    fn settle(&mut self) {
+        for _ in 0..ROUNDS {
+            let before = self.mesh.triangle_count();
+            let all = 0..self.mesh.vertex_places();
+            let all: Vec<u32> = all.filter(|v| self.mesh.is_vertex(*v)).collect();
+            self.look_after(&all);
+            if self.mesh.triangle_count() == before {
+                return;
+            }
+        }
+    }
+
+    /// Splits, collapses and flips the edges of vertices that lie where they stay.
+    fn look_after(&mut self, vertices: &[u32]) {
+        let mut stepping = self.stepping();
+        for vertex in vertices {
+            stepping.touch(*vertex);
+        }
+        stepping.split_long(&Still);
+        stepping.collapse_short(&Still);
+        stepping.flip_slender();
+        let is_full = stepping.is_full;
+        self.note_full(is_full);
+    }
+
+    fn note_full(&mut self, is_full: bool) {
+        if is_full && self.full_since.is_none() {
+            self.full_since = Some(self.done);
+        }
+    }
+
+    fn stepping(&mut self) -> Stepping<'_> {
+        self.number += 1;
+        Stepping {
+            mesh: &mut self.mesh,
+            after: &mut self.after,
+            moved_in: &mut self.moved_in,
+            number: self.number,
+            moved: Vec::new(),
+            made: Vec::new(),
+            detail: self.detail,
+            is_full: false,
+        }
+    }
+
+    /// Does the next stroke of a clay. `go_on` hears the part that is done and says whether to go on; after an error
+    /// this shaping is good for nothing more.
+    ///
+    /// # Errors
+    /// If it was stopped.
+    pub fn stroke(
+        &mut self,
+        clay: &Clay,
+        go_on: &mut dyn FnMut(f32) -> bool,
+    ) -> Result<(), ClayError> {
+        let index = self.done;
+        let Some(stroke) = clay.strokes.get(index) else {
+            return Ok(());
+        };
+        self.touched.fill(false);
+        if !stroke.is_off {
+            let done = Motion::new(clay, stroke).and_then(|motion| match stroke.smooth {
+                Some(strength) => Ok((motion.moments()?, motion, Some(strength))),
+                None => Ok((motion.times()?, motion, None)),
+            });
+            match done {
+                Ok((times, motion, None)) => self.sweep(&motion, &times, go_on)?,
+                Ok((times, motion, Some(strength))) => {
+                    self.smooth(&motion, &times, strength, go_on)?;
+                }
+                Err(why) => self.left_out.push((index, why)),
+            }
+        }
+        self.done += 1;
+        Ok(())
+    }
+
+    fn sweep(
+        &mut self,
+        motion: &Motion<'_>,
+        times: &[(f64, f64)],
+        go_on: &mut dyn FnMut(f32) -> bool,
+    ) -> Result<(), ClayError> {
+        let mut long = self.long_triangles();
+        let mut done = 0;
+        for times in times.chunks(WIDE) {
+            let steps: Vec<Step> = times.iter().map(|time| motion.step(*time)).collect();
+            let mut candidates = Candidates::default();
+            let balls = around(&steps);
+            let all = 0..self.mesh.vertex_places();
+            candidates.wide = self.within(all, &balls);
+            for steps in steps.chunks(BLOCK) {
+                if !go_on(done as f32 / times.len() as f32) {
+                    return Err(ClayError::Stopped);
+                }
+                let balls = around(steps);
+                candidates.near = self.within(candidates.wide.iter().copied(), &balls);
+                for step in steps {
+                    self.step(motion, step, &mut long, &mut candidates);
+                    done += 1;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The vertices that lie in some balls.
+    fn within(
+        &self,
+        vertices: impl Iterator<Item = u32>,
+        balls: &[crate::displace::Ball],
+    ) -> Vec<u32> {
+        let mesh = &self.mesh;
+        let is_there =
+            |v: &u32| mesh.is_vertex(*v) && is_in(balls, mesh.vertices[*v as usize].pos());
+        vertices.filter(is_there).collect()
+    }
+
+    fn step(
+        &mut self,
+        motion: &Motion<'_>,
+        step: &Step,
+        long: &mut Vec<u32>,
+        candidates: &mut Candidates,
+    ) {
+        if !long.is_empty() {
+            let made = self.split_reached(motion, step, long);
+            candidates.wide.extend(&made);
+            candidates.near.extend(&made);
+        }
+        let moving = self.within(candidates.near.iter().copied(), &step.balls);
+        let carry = Moved { motion, step };
+        let mut stepping = self.stepping();
+        for vertex in moving {
+            let after = motion.moved(step, &stepping.mesh.vertices[vertex as usize]);
+            stepping.move_to(vertex, after);
+        }
+        stepping.split_long(&carry);
+        stepping.collapse_short(&carry);
+        stepping.flip_slender();
+        let Stepping {
+            moved,
+            made,
+            is_full,
+            ..
+        } = stepping;
+        candidates.wide.extend(&made);
+        candidates.near.extend(&made);
+        self.note_made(&made);
+        for vertex in moved {
+            if self.moved_in[vertex as usize] == self.number && self.mesh.is_vertex(vertex) {
+                self.mesh.vertices[vertex as usize] = self.after[vertex as usize];
+                self.touched[vertex as usize] = true;
+            }
+        }
+        self.note_full(is_full);
+    }
+
+    /// New vertices have not moved yet, whatever had their places before.
+    fn note_made(&mut self, made: &[u32]) {
+        self.touched.resize(self.mesh.vertices.len(), false);
+        for vertex in made {
+            self.touched[*vertex as usize] = false;
+        }
+    }
+
+    /// The triangles that have an edge longer than the detail.
+    fn long_triangles(&self) -> Vec<u32> {
+        let all = 0..self.mesh.triangle_places();
+        all.filter(|t| self.longest(*t).is_some()).collect()
+    }
+
+    /// The longest edge of a triangle, if it is longer than the detail: its square and its half-edge.
+    fn longest(&self, triangle: u32) -> Option<(f64, u32)> {
+        self.mesh.triangle(triangle)?;
+        let halves = 3 * triangle..3 * triangle + 3;
+        let squares = halves.map(|half| {
+            let [a, b] = [self.mesh.from(half), self.mesh.to(half)]
+                .map(|v| self.mesh.vertices[v as usize].pos());
+            (a.distance_squared(b), half)
+        });
+        let longest = squares.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
+        (longest.0 > self.detail * self.detail).then_some(longest)
+    }
+
+    /// Splits the edges of the triangles that meet the reach of a step until none is longer than the detail: a coarse
+    /// mesh may have no vertex there. Gives the new vertices.
+    fn split_reached(&mut self, motion: &Motion<'_>, step: &Step, long: &mut Vec<u32>) -> Vec<u32> {
+        let mut made = Vec::new();
+        let mut queue = BinaryHeap::new();
+        long.retain(|triangle| self.longest(*triangle).is_some());
+        for triangle in long.iter() {
+            if let Some((square, half)) = self.longest(*triangle)
+                && self.is_met(motion, step, *triangle)
+            {
+                queue.push((square.to_bits(), std::cmp::Reverse(half)));
+            }
+        }
+        while let Some((bits, std::cmp::Reverse(half))) = queue.pop() {
+            let Some((square, still)) = self.longest(half / 3) else {
+                continue;
+            };
+            if square.to_bits() != bits || still != half {
+                continue;
+            }
+            if self.mesh.triangle_count() >= MAX_TRIANGLES {
+                self.note_full(true);
+                break;
+            }
+            let mut stepping = self.stepping();
+            let vertex = stepping.split(half, &Still);
+            made.push(vertex);
+            let around: Vec<u32> = self.mesh.fan(vertex).map(|half| half / 3).collect();
+            for triangle in around {
+                let Some((square, half)) = self.longest(triangle) else {
+                    continue;
+                };
+                long.push(triangle);
+                if self.is_met(motion, step, triangle) {
+                    queue.push((square.to_bits(), std::cmp::Reverse(half)));
+                }
+            }
+        }
+        if !made.is_empty() {
+            long.sort_unstable();
+            long.dedup();
+            self.note_made(&made);
+        }
+        made
+    }
+
+    /// True if a triangle meets the reach of the tools in a step, to an eighth of the detail.
+    fn is_met(&self, motion: &Motion<'_>, step: &Step, triangle: u32) -> bool {
+        let Some(corners) = self.mesh.triangle(triangle) else {
+            return false;
+        };
+        let corners = corners.map(|v| self.mesh.vertices[v as usize].pos());
+        let mut open = vec![corners];
+        while let Some(corners) = open.pop() {
+            let [a, b, c] = corners;
+            let middle = (a + b + c) / 3.0;
+            let far = corners.map(|p| p.distance(middle));
+            let radius = far.into_iter().fold(0.0, f64::max);
+            let is_near =
+                |ball: &crate::displace::Ball| ball.middle.distance(middle) <= ball.radius + radius;
+            if !step.balls.iter().any(is_near) {
+                continue;
+            }
+            let beyond = motion.beyond_reach(step, middle);
+            if beyond == 0.0 || (beyond <= radius && radius < self.detail / 8.0) {
+                return true;
+            }
+            if beyond <= radius {
+                let [ab, bc, ca] = [(a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5];
+                open.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+            }
+        }
+        false
+    }
+
+    fn smooth(
+        &mut self,
+        motion: &Motion<'_>,
+        moments: &[(f64, f64)],
+        strength: u32,
+        go_on: &mut dyn FnMut(f32) -> bool,
+    ) -> Result<(), ClayError> {
+        let mut long = self.long_triangles();
+        for (done, moment) in moments.iter().enumerate() {
+            if !go_on(done as f32 / moments.len() as f32) {
+                return Err(ClayError::Stopped);
+            }
+            let step = motion.step(*moment);
+            if !long.is_empty() {
+                self.split_reached(motion, &step, &mut long);
+            }
+            let near = self.within(0..self.mesh.vertex_places(), &step.balls);
+            let part = |pos: DVec3| f64::from(strength) / 200.0 * motion.field(&step, pos);
+            let moved = smooth::smoothed(&mut self.mesh, &near, &part);
+            self.look_after(&moved);
+            self.touched.resize(self.mesh.vertices.len(), false);
+            for vertex in moved {
+                self.touched[vertex as usize] = true;
+            }
+        }
+        Ok(())
+    }
+
+    /// Number of strokes that are done, those that are off or left out counted too.
+    pub fn done(&self) -> usize {
+        self.done
+    }
+
+    /// Strokes that did nothing, by their places in the list, and why.
+    pub fn left_out(&self) -> &[(usize, LeftOut)] {
+        &self.left_out
+    }
+
+    /// The stroke since which no edge is split, as there are [`MAX_TRIANGLES`].
+    pub fn full_since(&self) -> Option<usize> {
+        self.full_since
+    }
+
+    /// What was left out and what was met, in words: strokes by their numbers, from 1.
+    pub fn notices(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        for (index, why) in self.left_out.iter().take(MOST_NOTICES) {
+            lines.push(format!("stroke {} is left out: {why}", index + 1));
+        }
+        if let Some(more) = self.left_out.len().checked_sub(MOST_NOTICES + 1) {
+            lines.push(format!("{} more strokes are left out", more + 1));
+        }
+        if let Some(stroke) = self.full_since {
+            lines.push(format!(
+                "since stroke {} the clay has {MAX_TRIANGLES} triangles, and no edge is split any more",
+                stroke + 1
+            ));
+        }
+        lines
+    }
+
+    /// The mesh as it stands.
+    pub fn shaped(&self) -> Shaped {
+        let (vertices, triangles, kept) = self.mesh.compact();
+        let is_touched = |v: &u32| self.touched.get(*v as usize).copied().unwrap_or(false);
+        Shaped {
+            positions: vertices.iter().map(|vertex| vertex.pos).collect(),
+            normals: vertices.iter().map(|vertex| vertex.normal).collect(),
+            triangles,
+            touched: kept.iter().map(is_touched).collect(),
+        }
+    }
+}
+
+/// A clay's mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shaped {
+    /// Vertices, the clay's space.
+    pub positions: Vec<glam::Vec3>,
+    /// Unit normals of the vertices.
+    pub normals: Vec<glam::Vec3>,
+    /// Indices of three vertices, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// True for the vertices that the last stroke moved.
+    pub touched: Vec<bool>,
+}

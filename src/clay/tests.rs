@@ -1,0 +1,472 @@
+//! What a clay promises (spec/sweepers.md, B.1), on the recipes of `suite.rs`.
+
+use glam::{DVec3, Vec3};
+
+use super::check::Check;
+use super::refine::MAX_TRIANGLES;
+use super::shaping::{ClayError, Shaped, Shaping};
+use super::suite::{ball, clay, key, place, stroke, suite};
+use super::way::Way;
+use super::{LeftOut, mesh::Vertex};
+use crate::displace::ToolShape;
+use crate::document::{Clay, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool};
+
+/// Recipes whose measure by the way back says nothing: they stretch a thousandfold along the normal, so that the last
+/// bit of a place lies many triangles away in the starting shape.
+const LONG: [&str; 1] = ["spiral"];
+/// Recipes with rims that are sharper than an edge may be short: their normals are not measured.
+const SHARP_RIMS: [&str; 2] = ["spiral", "wring"];
+
+fn check(shaped: &Shaped) -> Check {
+    Check::of(&shaped.positions, &shaped.triangles, Some(&shaped.touched))
+}
+
+fn shape_each(clay: &Clay, each: &mut dyn FnMut(&Shaping)) -> Shaping {
+    let mut shaping = Shaping::new(clay).unwrap();
+    for _ in &clay.strokes {
+        shaping.stroke(clay, &mut |_| true).unwrap();
+        each(&shaping);
+    }
+    shaping
+}
+
+fn shape(clay: &Clay) -> Shaping {
+    shape_each(clay, &mut |_| {})
+}
+
+fn with_strokes(mut clay: Clay, strokes: Vec<ClayStroke>) -> Clay {
+    clay.strokes = strokes;
+    clay
+}
+
+/// The nearest point of a starting shape, and the normal there.
+fn nearest(shape: ClayShape, pos: DVec3) -> (DVec3, DVec3) {
+    let on_box = |half: DVec3| {
+        let core = half - 0.02;
+        let inner = pos.clamp(-core, core);
+        let out = (pos - inner).normalize();
+        (inner + 0.02 * out, out)
+    };
+    match shape {
+        ClayShape::Ball => (0.5 * pos.normalize(), pos.normalize()),
+        ClayShape::Cube => on_box(DVec3::splat(0.5)),
+        ClayShape::Plate => on_box(DVec3::new(0.5, 0.5, 0.075)),
+        ClayShape::Torus => {
+            let ring = 0.35 * DVec3::new(pos.x, pos.y, 0.0).normalize();
+            let out = (pos - ring).normalize();
+            (ring + 0.15 * out, out)
+        }
+    }
+}
+
+#[test]
+fn starting_shapes_are_closed_exact_and_even() {
+    for (shape, name) in ClayShape::ALL.into_iter().zip(ClayShape::NAMES) {
+        for detail in [0.004, 0.015, 0.02, 0.05, 0.1] {
+            let mut clay = clay(shape, &[ball(0.1, 0.1)]);
+            clay.detail = detail;
+            let shaped = Shaping::new(&clay).unwrap().shaped();
+            let check = Check::of(&shaped.positions, &shaped.triangles, None);
+            let euler = if shape == ClayShape::Torus { 0 } else { 2 };
+            assert!(
+                check.is_two_manifold() && check.border_edges == 0,
+                "{name} {detail}"
+            );
+            assert_eq!((check.euler, check.pieces, check.crossing), (euler, 1, 0));
+            assert!(
+                check.longest_edge.unwrap() <= detail.max(0.015),
+                "{name} {detail}"
+            );
+            for (pos, normal) in shaped.positions.iter().zip(&shaped.normals) {
+                let (on, out) = nearest(shape, pos.as_dvec3());
+                let off = on.distance(pos.as_dvec3());
+                assert!(off < detail / 40.0, "{name} {detail} {pos} {off}");
+                assert!(out.dot(normal.as_dvec3()) > 0.99, "{name} {detail} {pos}");
+            }
+            let box_of = shaped.positions.iter().copied();
+            let [least, most] =
+                [box_of.clone().reduce(Vec3::min), box_of.reduce(Vec3::max)].map(Option::unwrap);
+            assert!(
+                ((most - least).max_element() - 1.0).abs() < 1e-3,
+                "{name} {detail}"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_stroke_leaves_one_whole_surface() {
+    for (name, clay) in suite() {
+        let mut strokes = 0;
+        shape_each(&clay, &mut |shaping| {
+            strokes += 1;
+            let check = check(&shaping.shaped());
+            let at = format!("{name} {strokes}: {}", check.lines());
+            assert!(check.is_two_manifold() && check.border_edges == 0, "{at}");
+            assert_eq!(
+                (check.euler, check.pieces, check.crossing),
+                (2, 1, 0),
+                "{at}"
+            );
+            assert!(check.longest_edge.unwrap() <= clay.detail, "{at}");
+            assert!(shaping.left_out().is_empty() && shaping.full_since().is_none());
+        });
+        assert_eq!(strokes, clay.strokes.len());
+    }
+}
+
+/// The same check catches a map that folds: a sub-step of the paper ten times beyond its bound.
+#[test]
+fn a_fold_is_seen() {
+    let clay = clay(ClayShape::Plate, &[ball(0.1, 0.1)]);
+    let mut shaped = Shaping::new(&clay).unwrap().shaped();
+    let tool = DVec3::new(0.0, 0.0, 0.175);
+    for pos in &mut shaped.positions {
+        let distance = (pos.as_dvec3().distance(tool) - 0.1).max(0.0);
+        let (field, _) = super::field::falloff(distance / 0.1);
+        *pos -= Vec3::Z * (0.5 * field) as f32;
+    }
+    assert!(check(&shaped).crossing > 0);
+}
+
+/// The measure of the spec: a vertex is taken back through the exact inverses, the nearest point of the starting shape
+/// is carried forward again, and the distance of the two counts; and the normals.
+#[test]
+fn the_mesh_stands_for_the_exact_sweep() {
+    for (name, clay) in suite() {
+        if LONG.contains(&name) {
+            continue;
+        }
+        let ClayStart::Shape(start) = clay.from else {
+            unreachable!("the suite begins with built-in shapes")
+        };
+        let shaped = shape(&clay).shaped();
+        let way = Way::of(&clay);
+        let (mut off, mut angles) = (Vec::new(), Vec::new());
+        for (pos, normal) in shaped.positions.iter().zip(&shaped.normals).step_by(3) {
+            let pos = pos.as_dvec3();
+            let (on, out) = nearest(start, way.back(pos));
+            let (exact, out) = way.forward_with_normal(on, out);
+            off.push(exact.distance(pos) / clay.detail);
+            angles.push(out.angle_between(normal.as_dvec3()).to_degrees());
+        }
+        let most = |values: &mut Vec<f64>, part: f64| {
+            values.sort_by(f64::total_cmp);
+            values[((values.len() - 1) as f64 * part) as usize]
+        };
+        let [most_of, all] = [0.99, 1.0].map(|part| most(&mut off, part));
+        assert!(
+            most_of < 0.25 && all < 1.0,
+            "{name}: {most_of} {all} of the detail"
+        );
+        if !SHARP_RIMS.contains(&name) {
+            let degrees = most(&mut angles, 0.99);
+            assert!(degrees < 5.0, "{name}: normals {degrees}° off");
+        }
+    }
+}
+
+/// Distance of a place from a triangle.
+fn from_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
+    let from_edge = |a: DVec3, b: DVec3| {
+        let along = b - a;
+        let part = ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        p.distance(a + part * along)
+    };
+    let normal = (b - a).cross(c - a);
+    let is_inner = |a: DVec3, b: DVec3| normal.dot((b - a).cross(p - a)) >= 0.0;
+    if is_inner(a, b) && is_inner(b, c) && is_inner(c, a) {
+        return (p - a).dot(normal.normalize()).abs();
+    }
+    from_edge(a, b).min(from_edge(b, c)).min(from_edge(c, a))
+}
+
+#[test]
+fn a_coarse_mesh_lies_on_a_fine_one() {
+    for (_, clay) in suite().into_iter().filter(|(name, _)| LONG.contains(name)) {
+        let mut fine = clay.clone();
+        fine.detail = 0.5 * clay.detail;
+        let [coarse, fine] = [&clay, &fine].map(|clay| shape(clay).shaped());
+        let touched = coarse.positions.iter().zip(&coarse.touched);
+        let touched = touched.filter(|(_, is_touched)| **is_touched);
+        for (pos, _) in touched.step_by(23) {
+            let pos = pos.as_dvec3();
+            let corners = |t: &[u32; 3]| t.map(|v| fine.positions[v as usize].as_dvec3());
+            let distances = fine
+                .triangles
+                .iter()
+                .map(|t| from_triangle(pos, corners(t)));
+            let off = distances.fold(f64::INFINITY, f64::min);
+            assert!(off < 0.1 * clay.detail, "{pos} {off}");
+        }
+    }
+}
+
+#[test]
+fn strokes_touch_only_what_they_reach() {
+    let of = |keys: [[i32; 3]; 2]| {
+        let clay = clay(ClayShape::Ball, &[ball(0.1, 0.1)]);
+        with_strokes(clay, vec![stroke(&keys.map(place))])
+    };
+    let start = Shaping::new(&of([[0; 3]; 2])).unwrap().shaped();
+    // The coating ends 0.01 inside the surface, or outside of it.
+    for keys in [[[0, 0, -250], [0, 0, 290]], [[800, 0, -300], [800, 0, 400]]] {
+        let shaped = shape(&of(keys)).shaped();
+        assert_eq!(shaped.positions, start.positions);
+        assert_eq!(shaped.triangles, start.triangles);
+    }
+    let pushed = shape(&of([[0, 0, 700], [0, 0, 300]])).shaped();
+    let is_reached = |pos: &Vec3| {
+        let on_way = Vec3::Z * pos.z.clamp(0.3, 0.7);
+        pos.distance(on_way) < 0.2
+    };
+    let bits = |pos: &Vec3| pos.to_array().map(f32::to_bits);
+    let after: std::collections::BTreeSet<_> = pushed.positions.iter().map(bits).collect();
+    let outside = start.positions.iter().filter(|pos| !is_reached(pos));
+    assert!(outside.clone().count() > 5000);
+    assert!(outside.into_iter().all(|pos| after.contains(&bits(pos))));
+}
+
+#[test]
+fn a_tool_that_holds_all_of_it_carries_it_rigidly() {
+    for shape_of in ClayShape::ALL {
+        let clay = clay(shape_of, &[ball(1.0, 0.5)]);
+        let turned = [place([0; 3]), key([150, -80, 40], [40, 70, -25], 100)];
+        let clay = with_strokes(clay, vec![stroke(&turned)]);
+        let start = Shaping::new(&clay).unwrap().shaped();
+        let carried = shape(&clay).shaped();
+        assert_eq!(carried.triangles, start.triangles, "{shape_of:?}");
+        for [a, b, _] in &start.triangles {
+            let length = |shaped: &Shaped| {
+                let [a, b] = [a, b].map(|v| shaped.positions[*v as usize].as_dvec3());
+                a.distance(b)
+            };
+            assert!((length(&start) - length(&carried)).abs() < 2e-6);
+        }
+    }
+}
+
+#[test]
+fn mirrored_strokes_leave_mirrored_clay() {
+    let mut clay = clay(ClayShape::Ball, &[ball(0.1, 0.15)]);
+    let mut pull = stroke(&[[150, 100, 400], [300, 150, 700], [450, 100, 750]].map(place));
+    pull.mirror = [true, false, false];
+    let mut press = stroke(&[[60, -550, 0], [40, -300, 50]].map(place));
+    press.mirror = [true, false, true];
+    clay.strokes = vec![pull, press];
+    let shaped = shape(&clay).shaped();
+    let triangles: Vec<[DVec3; 3]> = shaped
+        .triangles
+        .iter()
+        .map(|t| t.map(|v| shaped.positions[v as usize].as_dvec3()))
+        .collect();
+    let touched = shaped.positions.iter().zip(&shaped.touched);
+    for (pos, _) in touched.filter(|(_, is_touched)| **is_touched).step_by(11) {
+        let image = pos.as_dvec3() * DVec3::new(-1.0, 1.0, 1.0);
+        let distances = triangles.iter().map(|t| from_triangle(image, *t));
+        let off = distances.fold(f64::INFINITY, f64::min);
+        assert!(off < 0.25 * clay.detail, "{pos} {off}");
+    }
+    let all = shaped.positions.iter().zip(&shaped.normals);
+    let on_plane: Vec<_> = all.filter(|(pos, _)| pos.x.abs() < 1e-5).collect();
+    assert!(on_plane.len() > 50);
+    assert!(on_plane.iter().all(|(_, normal)| normal.x.abs() < 1e-3));
+}
+
+#[test]
+fn a_tool_pressed_into_one_huge_triangle_shapes_it() {
+    let corner = |i: usize| {
+        let signs = [i, i >> 1, i >> 2].map(|bit| if bit & 1 == 1 { 0.5 } else { -0.5 });
+        let pos = DVec3::from_array(signs);
+        Vertex::new(pos, pos.normalize())
+    };
+    let faces = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let triangles = faces
+        .iter()
+        .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
+    let vertices: Vec<Vertex> = (0..8).map(corner).collect();
+    // Beside the diagonal of the upper face.
+    let clay = with_strokes(
+        clay(ClayShape::Cube, &[ball(0.06, 0.06)]),
+        vec![stroke(&[[200, -200, 650], [200, -200, 450]].map(place))],
+    );
+    let mut shaping = Shaping::of(vertices, triangles.collect(), clay.detail).unwrap();
+    shaping.stroke(&clay, &mut |_| true).unwrap();
+    let shaped = shaping.shaped();
+    let check = check(&shaped);
+    assert_eq!((check.euler, check.crossing, check.border_edges), (2, 0, 0));
+    assert!(check.longest_edge.unwrap() <= clay.detail);
+    let deepest = shaped
+        .positions
+        .iter()
+        .filter(|pos| pos.distance(Vec3::new(0.2, -0.2, 0.39)) < 0.02);
+    assert!(deepest.count() > 3);
+}
+
+#[test]
+fn the_way_back_is_the_inverse() {
+    for (name, clay) in suite() {
+        let way = Way::of(&clay);
+        let shaped = shape(&clay).shaped();
+        let mut far = 0;
+        for pos in shaped.positions.iter().step_by(37) {
+            let pos = pos.as_dvec3();
+            let again = way.forward(way.back(pos));
+            far += usize::from(again.distance(pos) > 1e-4);
+            assert!(again.distance(pos) < 1e-3, "{name} {pos} {again}");
+        }
+        assert!(far < 5, "{name} {far}");
+    }
+}
+
+#[test]
+fn smoothing_takes_wrinkles_away_and_leaves_the_rest() {
+    let mut clay = clay(ClayShape::Ball, &[ball(0.03, 0.04), ball(0.2, 0.1)]);
+    for x in [-120, -40, 40, 120] {
+        clay.strokes
+            .push(stroke(&[[x, 0, 600], [x, 0, 440]].map(place)));
+    }
+    let wrinkled = shape(&clay).shaped();
+    let mut smooth = stroke(&[[-150, 0, 450], [150, 0, 450]].map(place));
+    smooth.smooth = Some(100);
+    smooth.moves[0].tool = 1;
+    clay.strokes.push(smooth);
+    let smoothed = shape(&clay).shaped();
+    let area = |shaped: &Shaped| -> f64 {
+        let areas = shaped.triangles.iter().map(|t| {
+            let [a, b, c] = t.map(|v| shaped.positions[v as usize].as_dvec3());
+            0.5 * (b - a).cross(c - a).length()
+        });
+        areas.sum()
+    };
+    assert!(area(&smoothed) < area(&wrinkled) - 0.005);
+    let check = check(&smoothed);
+    assert!(check.is_two_manifold() && check.border_edges == 0);
+    assert_eq!(check.euler, 2);
+    assert!(check.longest_edge.unwrap() <= clay.detail);
+    let below = |shaped: &Shaped| -> Vec<Vec3> {
+        let low = shaped.positions.iter().filter(|pos| pos.z < 0.0);
+        low.copied().collect()
+    };
+    assert_eq!(below(&smoothed), below(&wrinkled));
+}
+
+#[test]
+fn what_cannot_be_done_is_named_and_left_out() {
+    let mut clay = clay(ClayShape::Ball, &[ball(0.005, 0.01)]);
+    clay.tools.push(ClayTool {
+        shape: None,
+        coat: 0.1,
+    });
+    let far = stroke(&[[0, 0, 0], [9000, 0, 0], [0, 0, 0]].map(place));
+    let of = |tool| {
+        let mut stroke = stroke(&[[0, 0, 700], [0, 0, 300]].map(place));
+        stroke.moves[0].tool = tool;
+        stroke
+    };
+    let mut off = of(0);
+    off.is_off = true;
+    clay.strokes = vec![far, of(1), of(7), off, of(0)];
+    let shaping = shape(&clay);
+    let [
+        (0, LeftOut::TooLong { steps }),
+        (1, LeftOut::NoTool(1)),
+        (2, LeftOut::NoTool(7)),
+    ] = shaping.left_out()
+    else {
+        panic!("{:?}", shaping.left_out());
+    };
+    assert!(*steps > 10_000);
+    assert_eq!(shaping.done(), 5);
+    let start = Shaping::new(&clay).unwrap().shaped();
+    assert_ne!(shaping.shaped().positions, start.positions);
+    clay.from = ClayStart::Unknown("egg".to_owned());
+    assert_eq!(
+        Shaping::new(&clay).unwrap_err(),
+        ClayError::UnknownStart("egg".to_owned())
+    );
+}
+
+#[test]
+fn a_stroke_stops_when_asked() {
+    let (_, clay) = suite().swap_remove(0);
+    let mut shaping = Shaping::new(&clay).unwrap();
+    let mut asked = 0;
+    let stopped = shaping.stroke(&clay, &mut |part| {
+        assert!((0.0..=1.0).contains(&part));
+        asked += 1;
+        asked < 3
+    });
+    assert_eq!(stopped, Err(ClayError::Stopped));
+}
+
+#[test]
+fn at_the_limit_of_triangles_it_goes_on_without_splitting() {
+    let mut clay = clay(ClayShape::Ball, &[ball(0.1, 0.1), ball(0.5, 0.2)]);
+    clay.detail = 0.004;
+    let small = stroke(&[[0, 0, 700], [0, 0, 650]].map(place));
+    let mut large = stroke(&[[0, 0, 20], [0, 0, 60]].map(place));
+    large.moves[0].tool = 1;
+    clay.strokes = vec![small, large.clone(), large];
+    let shaping = shape(&clay);
+    assert_eq!(shaping.full_since(), Some(1));
+    let shaped = shaping.shaped();
+    assert!(shaped.triangles.len() <= MAX_TRIANGLES + 2);
+    let check = Check::of(&shaped.positions, &shaped.triangles, None);
+    assert!(check.is_two_manifold() && check.border_edges == 0);
+    assert_eq!(check.euler, 2);
+}
+
+/// The mesh of [`sixty_strokes_give_the_same_bits`].
+const SIXTY_STROKES: &str = "312f5618ae6afbb73458d949ac3dd90a974d8dd4ab40c3c14d4a605bc9d7b43c";
+
+/// A recipe of sixty strokes: its mesh is the same, bit for bit, in every build and on every machine. The hash changes
+/// with the mesher, and only then.
+#[test]
+fn sixty_strokes_give_the_same_bits() {
+    let mut state = 5_u32;
+    let mut draw = |below: i32| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        ((i64::from(state >> 8) * i64::from(below)) >> 24) as i32
+    };
+    let boxed = ClayTool {
+        shape: Some(ToolShape::Box {
+            half: Vec3::new(0.1, 0.05, 0.08),
+            round: 0.02,
+        }),
+        coat: 0.08,
+    };
+    let mut clay = clay(ClayShape::Ball, &[ball(0.08, 0.1), boxed]);
+    clay.detail = 0.03;
+    for i in 0..60 {
+        let at = [draw(1000) - 500, draw(1000) - 500, draw(1000) - 500];
+        let way = [draw(160) - 80, draw(160) - 80, draw(160) - 80];
+        let to = [0, 1, 2].map(|axis| at[axis] + way[axis]);
+        let turn = [draw(60), draw(60), 0];
+        let mut stroke = stroke(&[place(at), key(to, turn, 90 + draw(20))]);
+        stroke.moves[0].tool = i % 2;
+        stroke.mirror[0] = i % 3 == 0;
+        stroke.smooth = (i % 7 == 6).then_some(60);
+        if i % 5 == 4 {
+            stroke.moves.push(ClayMove {
+                tool: 0,
+                keys: vec![place(to)],
+                is_straight: false,
+            });
+        }
+        clay.strokes.push(stroke);
+    }
+    let shaping = shape(&clay);
+    assert!(shaping.left_out().is_empty());
+    let check = check(&shaping.shaped());
+    assert_eq!((check.euler, check.border_edges), (2, 0));
+    assert!(check.is_two_manifold());
+    assert_eq!(check.sha256, SIXTY_STROKES, "{}", check.lines());
+}

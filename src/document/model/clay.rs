@@ -1,0 +1,166 @@
+//! A clay: a starting shape, tools, and the strokes that shape it (spec/sweepers.md, B). The document holds this recipe
+//! and never the mesh.
+
+use super::mesh::MeshRef;
+use crate::displace::ToolShape;
+use std::sync::Arc;
+
+/// A clay as its document describes it. Lengths are subject units: 1 is the longest side of the starting shape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clay {
+    /// What it is before the first stroke.
+    pub from: ClayStart,
+    /// Longest edge of its triangles where strokes come, [`Clay::DETAIL`].
+    pub detail: f64,
+    /// The tools that strokes name by their places in this list, at most [`Clay::MAX_TOOLS`].
+    pub tools: Vec<ClayTool>,
+    /// One after the other, at most [`Clay::MAX_STROKES`]. Those that are off are counted too.
+    pub strokes: Vec<ClayStroke>,
+}
+
+impl Clay {
+    /// Range of [`Clay::detail`].
+    pub const DETAIL: [f64; 2] = [0.004, 0.1];
+    /// Most tools.
+    pub const MAX_TOOLS: usize = 16;
+    /// Most strokes.
+    pub const MAX_STROKES: usize = 2000;
+    /// Most keys of one path of a stroke.
+    pub const MAX_KEYS: usize = 64;
+    /// Most tools that act at once, mirror images counted.
+    pub const MAX_AT_ONCE: usize = 8;
+    /// Millimetres of a subject unit of the built-in starting shapes.
+    pub const MM_PER_UNIT: f64 = 100.0;
+}
+
+impl Clay {
+    /// This clay with its first strokes only, those that are off counted.
+    #[must_use]
+    pub fn cut(self: &Arc<Self>, strokes: u32) -> Arc<Self> {
+        let strokes = strokes as usize;
+        if strokes >= self.strokes.len() {
+            return Arc::clone(self);
+        }
+        Arc::new(Self {
+            from: self.from.clone(),
+            detail: self.detail,
+            tools: self.tools.clone(),
+            strokes: self.strokes[..strokes].to_vec(),
+        })
+    }
+
+    /// True if both begin with the same mesh and have the same tools: one may be the other with more strokes.
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.from == other.from && self.detail == other.detail && self.tools == other.tools
+    }
+}
+
+impl Default for Clay {
+    /// A ball that nothing has touched.
+    fn default() -> Self {
+        Self {
+            from: ClayStart::Shape(ClayShape::Ball),
+            detail: 0.02,
+            tools: vec![ClayTool::default()],
+            strokes: Vec::new(),
+        }
+    }
+}
+
+/// What a clay is before its first stroke.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ClayStart {
+    /// One of the built-in shapes.
+    Shape(ClayShape),
+    /// A mesh file.
+    Mesh(MeshRef),
+    /// What this version makes no clay of, by its name or key in the document: it is kept.
+    Unknown(String),
+}
+
+/// A built-in starting shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClayShape {
+    /// Radius ½.
+    Ball,
+    /// Side 1, edges rounded by 0.02.
+    Cube,
+    /// 1 × 1 × 0.15 (z), edges rounded by 0.02.
+    Plate,
+    /// About z, ring 0.35, radius 0.15.
+    Torus,
+}
+
+impl ClayShape {
+    /// All shapes; the first is the default.
+    pub const ALL: [Self; 4] = [Self::Ball, Self::Cube, Self::Plate, Self::Torus];
+    /// Names in documents, in the order of [`Self::ALL`].
+    pub const NAMES: [&'static str; 4] = ["ball", "cube", "plate", "torus"];
+
+    /// The name in documents.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}
+
+/// A tool for strokes; the lengths of its shape are subject units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClayTool {
+    /// Its form; `None` for one that this version does not have.
+    pub shape: Option<ToolShape>,
+    /// Width of its coating.
+    pub coat: f64,
+}
+
+impl Default for ClayTool {
+    /// A small ball with as wide a coating.
+    fn default() -> Self {
+        Self {
+            shape: Some(ToolShape::Ball { radius: 0.1 }),
+            coat: 0.1,
+        }
+    }
+}
+
+/// A stroke: tools that move through the clay, all at once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClayStroke {
+    /// The stroke's own tool and way, then those of `with`.
+    pub moves: Vec<ClayMove>,
+    /// For x, y and z: every tool has an image beyond the middle plane of the starting shape.
+    pub mirror: [bool; 3],
+    /// Strength of a stroke that smooths, 1 to 100; `None` for one that moves.
+    pub smooth: Option<u32>,
+    /// True: it is counted and left out.
+    pub is_off: bool,
+}
+
+impl ClayStroke {
+    /// Names in documents of what a stroke does; the first is the default.
+    pub(crate) const NAMES: [&'static str; 2] = ["sweep", "smooth"];
+    /// Strength of a stroke that smooths and does not say how strongly.
+    pub const DEFAULT_STRENGTH: u32 = 50;
+}
+
+/// A tool of a stroke, and how it goes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClayMove {
+    /// Index in [`Clay::tools`]; one beyond the list names no tool.
+    pub tool: usize,
+    /// At least one pose.
+    pub keys: Vec<ClayKey>,
+    /// True: screws join the keys; else a smooth curve does from three keys on.
+    pub is_straight: bool,
+}
+
+/// A pose on the way of a tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ClayKey {
+    /// Place of the tool's origin, thousandths of a subject unit. The document holds the way from the key before.
+    pub at: [i32; 3],
+    /// Turn about the tool's origin since the key before, since its rest for the first: rotation vector, degrees,
+    /// subject axes.
+    pub turn: [i32; 3],
+    /// Size, per cent of the tool's own.
+    pub percent: i32,
+}
