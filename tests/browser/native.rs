@@ -4,8 +4,11 @@ use super::harness::{Session, Tab};
 use super::surfaces::{surface_of, surface_within};
 use super::*;
 use fabrica::data::{FieldSamples, Grid, Resources, Subject, Surface, Volume, VolumeBuilder};
-use fabrica::document::{Illustration, Lesson, ObjectSource, STYLE_PRESETS, TemplateData};
+use fabrica::document::{
+    Illustration, Lesson, ObjectSource, STYLE_PRESETS, SubjectRef, TemplateData,
+};
 use fabrica::load::{FieldUse, OneFile, read_field};
+use fabrica::shell::clays::{ClayDesk, surface_of_clay};
 use fabrica::subjects::{FINE_RESOLUTION, tool};
 use glam::DVec3;
 use image::RgbaImage;
@@ -456,6 +459,51 @@ async fn compare_field(session: &Session, native: &mut Native, findings: &mut Fi
     let studio = studio.with_resources(resources);
     let image = drawn(&studio, illustration, size).await;
     findings.compare("field", &page, &image, &[("/templates/0", plain)]);
+}
+
+/// A clay is shaped in a worker by a part of its own, the only one that its link fetches; it is the clay that the native
+/// program shapes.
+#[test]
+fn a_clay_is_drawn_as_the_native_program_draws_it() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let json = r#"{"fabrica":1,"subject":{"clay":{"detail":0.04,"tools":[{"radius":0.12},{"shape":"box","half":[0.1,0.05,0.1]}],
+            "strokes":[{"path":[140,60,380,60,30,170],"mirror":"x"},{"tool":1,"path":[0,560,0,0,-260,40],"turns":[0,0,0,0,30,40]},
+            {"path":[0,0,-420,0,30,-250,90,0,-90],"scales":[100,80,60]},{"do":"smooth","strength":80,"path":[-100,500,100,200,0,0]}]}},
+            "camera":{"rotate":[0.3,0.2,0.1,0.92]}}"#;
+        let link = payload(json);
+        let tab = session.coarse_viewer(&format!("#{link}"), (300, 420)).await;
+        tab.settled().await;
+        let server = &session.server;
+        assert_eq!(parts::count(server, "fabrica_clay_bg.wasm"), 1);
+        for part in ["subjects", "scans", "meshes", "pictures", "figures"] {
+            let name = format!("fabrica_{part}");
+            assert_eq!(parts::count(server, &name), 0, "no {part} for a clay");
+        }
+        let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+        let size = page.dimensions().into();
+        let native = Native::open().await;
+        let clay_of = |text: &str| {
+            let document = Document::from_json(text).expect("a good document");
+            let SubjectRef::Clay(clay) = &document.illustration().subject else {
+                panic!("a clay: {text}")
+            };
+            let made = surface_of_clay(&mut ClayDesk::default(), clay, &mut |_| true);
+            let (surface, notices) = made.expect("it can be made");
+            assert!(notices.is_empty(), "{notices:?}");
+            (document, Subject::from(surface))
+        };
+        let draw = async |text: &str| {
+            let (document, subject) = clay_of(text);
+            let studio = Studio::new(&native.gpu, &subject, true).expect("it fits");
+            drawn(&studio, document.illustration(), size).await
+        };
+        let image = draw(json).await;
+        let plain = draw(&json.replace("-250,90", "-150,20")).await;
+        let mut findings = Findings::default();
+        findings.compare("clay", &page, &image, &[("/subject/clay/strokes/2", plain)]);
+        findings.tell();
+        tab.assert_no_complaints().await;
+    });
 }
 
 /// A ball of 80 mm with bumps, as an OBJ of one part.

@@ -90,7 +90,12 @@ fn each_part_is_fetched_when_it_is_needed() {
         let asked = programs(server);
         println!("with the scan: {asked:?}");
         assert_eq!(count(server, "fabrica_scans_bg.wasm"), 1, "{asked:?}");
-        for part in ["fabrica_meshes", "fabrica_pictures", "fabrica_figures", "fabrica_clay"] {
+        for part in [
+            "fabrica_meshes",
+            "fabrica_pictures",
+            "fabrica_figures",
+            "fabrica_clay",
+        ] {
             assert_eq!(count(server, part), 0, "no {part} for a scan: {asked:?}");
         }
         // The compiled module serves the next load: nothing is fetched again.
@@ -119,7 +124,12 @@ fn a_link_to_a_scan_fetches_no_maker_of_subjects() {
             programs(server)
         );
         assert_eq!(count(server, "fabrica_scans_bg.wasm"), 1);
-        for part in ["fabrica_meshes", "fabrica_pictures", "fabrica_figures", "fabrica_clay"] {
+        for part in [
+            "fabrica_meshes",
+            "fabrica_pictures",
+            "fabrica_figures",
+            "fabrica_clay",
+        ] {
             assert_eq!(count(server, part), 0, "no {part} for a scan");
         }
         tab.assert_no_complaints().await;
