@@ -461,8 +461,8 @@ async fn compare_field(session: &Session, native: &mut Native, findings: &mut Fi
     findings.compare("field", &page, &image, &[("/templates/0", plain)]);
 }
 
-/// A clay is shaped in a worker by a part of its own, the only one that its link fetches; it is the clay that the native
-/// program shapes.
+/// A clay is shaped in a worker by a part of its own, the only one that its link fetches; it is the clay that the
+/// native program shapes.
 #[test]
 fn a_clay_is_drawn_as_the_native_program_draws_it() {
     with_browser(BrowserGpu::Software, |session| async move {

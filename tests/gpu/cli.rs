@@ -391,7 +391,10 @@ fn a_clay_is_written_read_again_and_checked() {
         fabrica(&["clay", path, "-o", text(&mesh)]).ok();
         let info = fabrica(&["info", text(&mesh)]).ok().out;
         assert!(info.contains("surface: closed"), "{end}: {info}");
-        assert!(info.contains("100 × 100 × 1"), "{end}: in millimetres: {info}");
+        assert!(
+            info.contains("100 × 100 × 1"),
+            "{end}: in millimetres: {info}"
+        );
         let triangles = format!("triangles: {}", whole["triangles"]);
         assert!(info.contains(&triangles), "{end}: {info}");
     }
