@@ -5,6 +5,8 @@ use super::embed::{open_coarse, picture_of, ready, rests_quietly};
 use super::harness::Tab;
 use super::*;
 use fabrica::data::VolumeBuilder;
+use fabrica::document::SubjectRef;
+use fabrica::shell::clays::{ClayDesk, surface_of_clay};
 use fabrica::subjects::FINE_RESOLUTION;
 
 /// As clicks in the editor record it (see tests/app/steps.rs): a template and a label are added at step 3.
@@ -182,6 +184,61 @@ fn a_lesson_rests_at_its_steps_and_never_jumps() {
         rests_at(5, "scrubbed").await;
 
         println!("at rest the worst mean difference is {worst}");
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// Two embeds of one clay show different strokes of it, and steps show it grow, each as the native program shapes it.
+#[test]
+fn a_clay_grows_by_steps() {
+    const GROWS: &str = r#"{"fabrica":1,"subject":{"clay":{"detail":0.05,"tools":[{"radius":0.15}],
+        "strokes":[{"path":[0,0,400,0,0,150]},{"path":[700,0,0,-350,0,0]}]}},"look":{"strokes":0},
+        "steps":[{"title":"Pulled","seconds":0.1,"set":{"/look/strokes":1}},{"title":"Pressed","seconds":0.1,"set":{"/look/strokes":2}}]}"#;
+    with_browser(BrowserGpu::Software, |session| async move {
+        let link = payload(GROWS);
+        let embeds = [0, 2].map(|step| format!("controls step={step} src=\"#{link}\">"));
+        let tab = open_coarse(&session, &embeds, "", (240, 700)).await;
+        ready(&tab, 2).await;
+        rests_quietly(&tab).await;
+        let size: [u32; 2] = picture_of(&tab, "e0").await.dimensions().into();
+        let gpu = Gpu::open(&GpuOptions::default()).await.expect("a device");
+        let document = Document::from_json(GROWS).expect("a document");
+        let lesson = document.lesson().expect("steps");
+        let mut pictures = Vec::new();
+        for step in 0..=2 {
+            let shown = lesson.at_step(step).expect("a step");
+            let SubjectRef::Clay(clay) = shown.subject_shown() else {
+                panic!("a clay")
+            };
+            assert_eq!(clay.strokes.len(), step);
+            let made = surface_of_clay(&mut ClayDesk::default(), &clay, &mut |_| true);
+            let subject = fabrica::data::Subject::from(made.expect("it can be made").0);
+            let studio = Studio::new(&gpu, &subject, true).expect("it fits");
+            let image = studio.render_image(shown, size, 5).await;
+            let image = image.expect("a picture");
+            let picture = image::RgbaImage::from_raw(size[0], size[1], image.rgba);
+            pictures.push(picture.expect("whole"));
+        }
+        let looks_like = |picture: &image::RgbaImage| {
+            let off = |step: usize| difference(picture, &pictures[step], WHITE).mean;
+            (0..3).min_by(|a, b| off(*a).total_cmp(&off(*b)))
+        };
+        assert_eq!(looks_like(&picture_of(&tab, "e0").await), Some(0));
+        assert_eq!(looks_like(&picture_of(&tab, "e1").await), Some(2));
+        for step in [1, 2, 0] {
+            tab.eval::<bool>(&format!("(e0.step = {step}, true)")).await;
+            // Nothing is drawn while a worker shapes, so that quiet alone says little.
+            let mut seen = None;
+            for _ in 0..200 {
+                seen = looks_like(&picture_of(&tab, "e0").await);
+                if seen == Some(step) {
+                    break;
+                }
+                tokio::time::sleep(std::time::Duration::from_millis(200)).await;
+            }
+            assert_eq!(seen, Some(step));
+        }
+        assert_eq!(looks_like(&picture_of(&tab, "e1").await), Some(2));
         tab.assert_no_complaints().await;
     });
 }
