@@ -413,13 +413,8 @@ impl App {
                     subject: subject.clone(),
                     sha256: None,
                 };
-                match self.session.clay_under_way() {
-                    // It has no hash that could be another one.
-                    Some(want) => {
-                        let _taken = self.assets.take(&want, data);
-                    }
-                    None => self.assets.give(data),
-                }
+                let clay = self.session.clay_under_way();
+                self.assets.give_subject(data, clay);
                 self.tissue.restart();
                 let shown = self
                     .picture

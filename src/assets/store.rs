@@ -139,6 +139,12 @@ impl Assets {
         self.hold(None, data);
     }
 
+    /// Takes the present subject; `clay` is its recipe if it is one.
+    pub fn give_subject(&mut self, data: Data, clay: Option<Arc<Clay>>) {
+        self.hold(None, data);
+        self.clay = clay;
+    }
+
     /// Takes a label volume that goes with the subject although no document names it.
     pub fn add_segments(&mut self, file: LabelFile) {
         self.added.push(Arc::new(file.segmentation));

@@ -139,6 +139,13 @@ impl<'a> Motion<'a> {
         Ok(parts(&spans, if fits { &wanted } else { &counted }))
     }
 
+    /// What the tools reach on their whole way, images too: balls about each tool in each span.
+    pub(super) fn reach(&self) -> Vec<Ball> {
+        let spans = spans(&self.movers);
+        let steps: Vec<Step> = spans.iter().map(|span| self.step(*span)).collect();
+        steps.into_iter().flat_map(|step| step.balls).collect()
+    }
+
     /// The times at which a stroke that smooths does so: the start, and every half coating of the way.
     ///
     /// # Errors

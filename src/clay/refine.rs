@@ -50,6 +50,14 @@ pub(super) struct Stepping<'a> {
 /// An edge in a queue: its length as bits, which are in order as no length is below 0, and its ends.
 type Queued = (u64, Reverse<(u32, u32)>);
 
+/// Where an edge stands in a queue, by the square of its length.
+fn rank(square: f64, is_shortest_first: bool) -> u64 {
+    match is_shortest_first {
+        true => !square.to_bits(),
+        false => square.to_bits(),
+    }
+}
+
 /// The middle of the cubic through two vertices, how far it is off the middle of the edge, and that middle.
 fn cubic_middle(a: &Vertex, b: &Vertex) -> (DVec3, f64, DVec3) {
     let (p, q) = (a.pos(), b.pos());
@@ -170,12 +178,10 @@ impl Stepping<'_> {
         let (one, two) = (self.after(a), self.after(b));
         if asks(one, two, self.detail) {
             let square = one.pos().distance_squared(two.pos());
-            let key = if is_shortest_first {
-                !square.to_bits()
-            } else {
-                square.to_bits()
-            };
-            queue.push((key, Reverse((a.min(b), a.max(b)))));
+            queue.push((
+                rank(square, is_shortest_first),
+                Reverse((a.min(b), a.max(b))),
+            ));
         }
     }
 
@@ -183,12 +189,7 @@ impl Stepping<'_> {
     fn still(&self, (key, Reverse((a, b))): Queued, is_shortest_first: bool) -> Option<u32> {
         let half = self.mesh.half(a, b).or_else(|| self.mesh.half(b, a))?;
         let square = self.after(a).pos().distance_squared(self.after(b).pos());
-        let bits = if is_shortest_first {
-            !square.to_bits()
-        } else {
-            square.to_bits()
-        };
-        (bits == key).then_some(half)
+        (rank(square, is_shortest_first) == key).then_some(half)
     }
 
     /// The edges that a vertex of this step has: each end of those that have two such vertices has it once.
@@ -200,21 +201,31 @@ impl Stepping<'_> {
         halves.map(move |other| [vertex, other])
     }
 
+    /// The vertices that move and are there.
+    fn moving(&self) -> impl Iterator<Item = u32> + '_ {
+        let moved = self.moved.iter().copied();
+        moved.filter(|vertex| self.mesh.is_vertex(*vertex) && self.is_moved(*vertex))
+    }
+
+    /// Lets the edges follow: long ones split, short ones collapse, then slender triangles flip.
+    pub(super) fn look_after(&mut self, carry: &impl Carry) {
+        self.split_long(carry);
+        self.collapse_short(carry);
+        self.flip_slender();
+    }
+
     /// Splits long edges, longest first, until none is left.
-    pub(super) fn split_long(&mut self, carry: &impl Carry) {
+    fn split_long(&mut self, carry: &impl Carry) {
         let mut queue = BinaryHeap::new();
-        for vertex in &self.moved {
-            if !self.mesh.is_vertex(*vertex) || !self.is_moved(*vertex) {
-                continue;
-            }
-            for half in self.mesh.fan(*vertex) {
+        for vertex in self.moving() {
+            for half in self.mesh.fan(vertex) {
                 let to = self.mesh.to(half);
-                if to < *vertex || !self.is_moved(to) {
-                    self.ask([*vertex, to], &mut queue, must_split, false);
+                if to < vertex || !self.is_moved(to) {
+                    self.ask([vertex, to], &mut queue, must_split, false);
                 }
             }
-            if self.mesh.is_border(*vertex) {
-                for edge in self.edges_of(*vertex) {
+            if self.mesh.is_border(vertex) {
+                for edge in self.edges_of(vertex) {
                     self.ask(edge, &mut queue, must_split, false);
                 }
             }
@@ -238,16 +249,13 @@ impl Stepping<'_> {
     }
 
     /// Lets the ends of short edges become one, shortest first, until none is left that may.
-    pub(super) fn collapse_short(&mut self, carry: &impl Carry) {
+    fn collapse_short(&mut self, carry: &impl Carry) {
         let mut queue = BinaryHeap::new();
-        for vertex in &self.moved {
-            if !self.mesh.is_vertex(*vertex) || !self.is_moved(*vertex) {
-                continue;
-            }
-            for half in self.mesh.fan(*vertex) {
+        for vertex in self.moving() {
+            for half in self.mesh.fan(vertex) {
                 let to = self.mesh.to(half);
-                if to < *vertex && self.is_moved(to) {
-                    self.ask([*vertex, to], &mut queue, must_collapse, true);
+                if to < vertex && self.is_moved(to) {
+                    self.ask([vertex, to], &mut queue, must_collapse, true);
                 }
             }
         }
@@ -300,7 +308,7 @@ impl Stepping<'_> {
     }
 
     /// One round of flips where triangles are flat and become less slender.
-    pub(super) fn flip_slender(&mut self) {
+    fn flip_slender(&mut self) {
         let mut halves = Vec::new();
         for i in 0..self.moved.len() {
             let vertex = self.moved[i];

@@ -136,9 +136,7 @@ impl Shaping {
         for vertex in vertices {
             stepping.touch(*vertex);
         }
-        stepping.split_long(&Still);
-        stepping.collapse_short(&Still);
-        stepping.flip_slender();
+        stepping.look_after(&Still);
         let is_full = stepping.is_full;
         self.note_full(is_full);
     }
@@ -202,15 +200,15 @@ impl Shaping {
         go_on: &mut dyn FnMut(f32) -> bool,
     ) -> Result<(), ClayError> {
         let mut long = self.long_triangles();
-        let mut done = 0;
+        let (mut done, all) = (0, times.len());
         for times in times.chunks(WIDE) {
             let steps: Vec<Step> = times.iter().map(|time| motion.step(*time)).collect();
             let mut candidates = Candidates::default();
             let balls = around(&steps);
-            let all = 0..self.mesh.vertex_places();
-            candidates.wide = self.within(all, &balls);
+            let vertices = 0..self.mesh.vertex_places();
+            candidates.wide = self.within(vertices, &balls);
             for steps in steps.chunks(BLOCK) {
-                if !go_on(done as f32 / times.len() as f32) {
+                if !go_on(done as f32 / all as f32) {
                     return Err(ClayError::Stopped);
                 }
                 let balls = around(steps);
@@ -255,9 +253,7 @@ impl Shaping {
             let after = motion.moved(step, &stepping.mesh.vertices[vertex as usize]);
             stepping.move_to(vertex, after);
         }
-        stepping.split_long(&carry);
-        stepping.collapse_short(&carry);
-        stepping.flip_slender();
+        stepping.look_after(&carry);
         let Stepping {
             moved,
             made,

@@ -8,6 +8,7 @@ use super::shaping::{ClayError, Shaped, Shaping};
 use super::suite::{ball, clay, key, place, stroke, suite};
 use super::way::Way;
 use super::{LeftOut, mesh::Vertex};
+use crate::data::mesh::testing::cube;
 use crate::displace::ToolShape;
 use crate::document::{Clay, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool};
 
@@ -142,13 +143,18 @@ fn the_mesh_stands_for_the_exact_sweep() {
         };
         let shaped = shape(&clay).shaped();
         let way = Way::of(&clay);
+        let all = shaped.positions.iter().zip(&shaped.normals).step_by(3);
+        let seen: Vec<_> = all.map(|(p, n)| (p.as_dvec3(), n.as_dvec3())).collect();
+        let mut exact = seen.clone();
+        way.back(&mut exact);
+        for vertex in &mut exact {
+            *vertex = nearest(start, vertex.0);
+        }
+        way.forward(&mut exact);
         let (mut off, mut angles) = (Vec::new(), Vec::new());
-        for (pos, normal) in shaped.positions.iter().zip(&shaped.normals).step_by(3) {
-            let pos = pos.as_dvec3();
-            let (on, out) = nearest(start, way.back(pos));
-            let (exact, out) = way.forward_with_normal(on, out);
+        for ((pos, normal), (exact, out)) in seen.into_iter().zip(exact) {
             off.push(exact.distance(pos) / clay.detail);
-            angles.push(out.angle_between(normal.as_dvec3()).to_degrees());
+            angles.push(out.angle_between(normal).to_degrees());
         }
         let most = |values: &mut Vec<f64>, part: f64| {
             values.sort_by(f64::total_cmp);
@@ -275,29 +281,18 @@ fn mirrored_strokes_leave_mirrored_clay() {
 
 #[test]
 fn a_tool_pressed_into_one_huge_triangle_shapes_it() {
-    let corner = |i: usize| {
-        let signs = [i, i >> 1, i >> 2].map(|bit| if bit & 1 == 1 { 0.5 } else { -0.5 });
-        let pos = DVec3::from_array(signs);
+    let (corners, triangles) = cube();
+    let corner = |corner: &Vec3| {
+        let pos = corner.as_dvec3() - 0.5;
         Vertex::new(pos, pos.normalize())
     };
-    let faces = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let triangles = faces
-        .iter()
-        .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
-    let vertices: Vec<Vertex> = (0..8).map(corner).collect();
+    let vertices: Vec<Vertex> = corners.iter().map(corner).collect();
     // Beside the diagonal of the upper face.
     let clay = with_strokes(
         clay(ClayShape::Cube, &[ball(0.06, 0.06)]),
         vec![stroke(&[[200, -200, 650], [200, -200, 450]].map(place))],
     );
-    let mut shaping = Shaping::of(vertices, triangles.collect(), clay.detail).unwrap();
+    let mut shaping = Shaping::of(vertices, triangles, clay.detail).unwrap();
     shaping.stroke(&clay, &mut |_| true).unwrap();
     let shaped = shaping.shaped();
     let check = check(&shaped);
@@ -316,9 +311,12 @@ fn the_way_back_is_the_inverse() {
         let way = Way::of(&clay);
         let shaped = shape(&clay).shaped();
         let mut far = 0;
-        for pos in shaped.positions.iter().step_by(37) {
-            let pos = pos.as_dvec3();
-            let again = way.forward(way.back(pos));
+        let all = shaped.positions.iter().step_by(37);
+        let places: Vec<_> = all.map(|pos| (pos.as_dvec3(), DVec3::ZERO)).collect();
+        let mut agains = places.clone();
+        way.back(&mut agains);
+        way.forward(&mut agains);
+        for ((pos, _), (again, _)) in places.into_iter().zip(agains) {
             far += usize::from(again.distance(pos) > 1e-4);
             assert!(again.distance(pos) < 1e-3, "{name} {pos} {again}");
         }
@@ -405,6 +403,16 @@ fn a_stroke_stops_when_asked() {
         asked < 3
     });
     assert_eq!(stopped, Err(ClayError::Stopped));
+    // A long stroke tells the part of all its steps.
+    let (_, clay) = suite().swap_remove(3);
+    let mut parts = Vec::new();
+    let mut hear = |part: f32| {
+        parts.push(part);
+        true
+    };
+    let done = Shaping::new(&clay).unwrap().stroke(&clay, &mut hear);
+    assert_eq!(done, Ok(()));
+    assert!(parts.len() > 8 && parts.is_sorted() && parts[parts.len() - 1] < 1.0);
 }
 
 #[test]

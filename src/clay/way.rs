@@ -14,12 +14,10 @@ pub struct Way<'a> {
     strokes: Vec<Carried<'a>>,
 }
 
-/// A stroke, and what it reaches: all of it, and in blocks.
+/// A stroke, and what it reaches. Its steps are made when they are needed: those of all strokes would fill the memory.
 struct Carried<'a> {
     motion: Motion<'a>,
-    steps: Vec<Step>,
-    blocks: Vec<Vec<Ball>>,
-    all: Vec<Ball>,
+    reach: Vec<Ball>,
 }
 
 impl<'a> Way<'a> {
@@ -29,13 +27,10 @@ impl<'a> Way<'a> {
         let acting = acting.filter(|stroke| !stroke.is_off && stroke.smooth.is_none());
         let carried = acting.filter_map(|stroke| {
             let motion = Motion::new(clay, stroke).ok()?;
-            let times = motion.times().ok()?;
-            let steps: Vec<Step> = times.iter().map(|time| motion.step(*time)).collect();
+            motion.times().ok()?;
             Some(Carried {
-                all: around(&steps),
-                blocks: steps.chunks(BLOCK).map(around).collect(),
+                reach: motion.reach(),
                 motion,
-                steps,
             })
         });
         Self {
@@ -43,47 +38,70 @@ impl<'a> Way<'a> {
         }
     }
 
-    /// Where a place of the starting shape is in the clay. Both in the clay's space.
-    pub fn forward(&self, pos: DVec3) -> DVec3 {
-        self.forward_with_normal(pos, DVec3::ZERO).0
-    }
-
-    /// As [`Way::forward`], with the normal of a surface there.
-    pub fn forward_with_normal(&self, pos: DVec3, normal: DVec3) -> (DVec3, DVec3) {
-        let mut at = (pos, normal);
+    /// Where places of the starting shape are in the clay, and the normals of a surface there. Both in the clay's space.
+    pub fn forward(&self, vertices: &mut [(DVec3, DVec3)]) {
         for stroke in &self.strokes {
-            if !is_in(&stroke.all, at.0) {
-                continue;
-            }
-            for (steps, balls) in stroke.steps.chunks(BLOCK).zip(&stroke.blocks) {
-                if !is_in(balls, at.0) {
-                    continue;
-                }
+            stroke.each_block(false, vertices, |motion, steps, vertex| {
                 for step in steps {
-                    at = stroke.motion.carried(step, at.0, at.1);
+                    *vertex = motion.carried(step, vertex.0, vertex.1);
                 }
-            }
+            });
         }
-        at
     }
 
-    /// Where a place of the clay was in the starting shape. Both in the clay's space.
-    pub fn back(&self, pos: DVec3) -> DVec3 {
-        let mut pos = pos;
+    /// Where a place of the starting shape is in the clay.
+    pub fn forward_of(&self, pos: DVec3) -> DVec3 {
+        let mut one = [(pos, DVec3::ZERO)];
+        self.forward(&mut one);
+        one[0].0
+    }
+
+    /// Where places of the clay were in the starting shape; their normals stay. Both in the clay's space.
+    pub fn back(&self, vertices: &mut [(DVec3, DVec3)]) {
         for stroke in self.strokes.iter().rev() {
-            // What the stroke reaches it leaves there.
-            if !is_in(&stroke.all, pos) {
-                continue;
-            }
-            for (steps, balls) in stroke.steps.chunks(BLOCK).zip(&stroke.blocks).rev() {
-                if !is_in(balls, pos) {
-                    continue;
-                }
+            stroke.each_block(true, vertices, |motion, steps, vertex| {
                 for step in steps.iter().rev() {
-                    pos = stroke.motion.carried_back(step, pos);
+                    vertex.0 = motion.carried_back(step, vertex.0);
+                }
+            });
+        }
+    }
+
+    /// Where a place of the clay was in the starting shape.
+    pub fn back_of(&self, pos: DVec3) -> DVec3 {
+        let mut one = [(pos, DVec3::ZERO)];
+        self.back(&mut one);
+        one[0].0
+    }
+}
+
+impl Carried<'_> {
+    /// Does something with each block of steps and each vertex that it may move, in the order of time or against it.
+    /// What a stroke reaches it leaves there, so that the others stay out of it.
+    fn each_block(
+        &self,
+        is_back: bool,
+        vertices: &mut [(DVec3, DVec3)],
+        act: impl Fn(&Motion<'_>, &[Step], &mut (DVec3, DVec3)),
+    ) {
+        let reached = (0..vertices.len()).filter(|i| is_in(&self.reach, vertices[*i].0));
+        let reached: Vec<usize> = reached.collect();
+        if reached.is_empty() {
+            return;
+        }
+        let times = self.motion.times().unwrap_or_default();
+        let mut blocks: Vec<&[(f64, f64)]> = times.chunks(BLOCK).collect();
+        if is_back {
+            blocks.reverse();
+        }
+        for block in blocks {
+            let steps: Vec<Step> = block.iter().map(|time| self.motion.step(*time)).collect();
+            let balls = around(&steps);
+            for i in &reached {
+                if is_in(&balls, vertices[*i].0) {
+                    act(&self.motion, &steps, &mut vertices[*i]);
                 }
             }
         }
-        pos
     }
 }

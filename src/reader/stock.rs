@@ -436,13 +436,8 @@ impl Stock {
                 let shown = subject.clone();
                 (self.is_uploading, self.is_finer) = (true, false);
                 let data = Data::Subject { subject, sha256 };
-                match &self.loading {
-                    // A hash was looked at before; a clay has none.
-                    Some(want) if want.clay().is_some() => {
-                        let _taken = self.assets.take(&want.clone(), data);
-                    }
-                    _ => self.assets.give(data),
-                }
+                let clay = self.loading.as_ref().and_then(Want::clay);
+                self.assets.give_subject(data, clay.cloned());
                 self.work.restart();
                 if let Err(error) = self.host.set_subject(shown) {
                     self.fail(error.to_string());

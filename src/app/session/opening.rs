@@ -1,5 +1,7 @@
 //! Opening documents and the subjects that they show.
 
+use std::sync::Arc;
+
 use serde_json::{Value, json};
 
 use super::effect::{Effect, LinkChange};
@@ -11,7 +13,9 @@ use crate::app::words::fill;
 use crate::app::words::messages::w;
 use crate::assets::{OtherFile, Want};
 use crate::document::figure::Figure;
-use crate::document::{Document, Edit, FIGURE_FRONT, Notice, NoticeKind, Reading, SubjectRef};
+use crate::document::{
+    Clay, Document, Edit, FIGURE_FRONT, Notice, NoticeKind, Reading, SubjectRef,
+};
 use crate::link;
 
 /// True if a subject that was asked for, or is shown, is that of the document.
@@ -99,27 +103,29 @@ impl Session {
 
     /// True while another part of a clay's strokes is to be shown than is.
     pub fn awaits_clay(&self) -> bool {
-        if !matches!(self.illustration().subject, SubjectRef::Clay(_)) {
-            return false;
-        }
-        let wanted = self.shown().subject_shown();
-        !is_of(&self.shown_subject, &wanted) && !is_of(&self.given_up, &wanted)
+        let is_clay = matches!(self.illustration().subject, SubjectRef::Clay(_));
+        is_clay && !self.is_as_shown(&self.shown_subject) && !self.is_as_shown(&self.given_up)
+    }
+
+    /// True if a subject is a clay as far as its strokes are shown.
+    fn is_as_shown(&self, subject: &Option<SubjectRef>) -> bool {
+        let shown = self.shown();
+        subject.as_ref().is_some_and(|subject| shown.shows(subject))
     }
 
     /// The clay that is being shaped, if that is the load under way.
-    pub fn clay_under_way(&self) -> Option<Want> {
+    pub fn clay_under_way(&self) -> Option<Arc<Clay>> {
         let load = self.load.as_ref()?;
-        let want = Want::subject(self.requested.as_ref()?);
-        (load.of == LoadOf::Subject && want.clay().is_some()).then_some(want)
+        match self.requested.as_ref()? {
+            SubjectRef::Clay(clay) if load.of == LoadOf::Subject => Some(Arc::clone(clay)),
+            _ => None,
+        }
     }
 
     /// Asks for a clay as far as its strokes are shown, once nothing else is under way.
     pub fn follow_clay(&mut self) {
-        if self.load.is_none() && self.awaits_clay() {
-            let wanted = self.shown().subject_shown();
-            if !is_of(&self.requested, &wanted) {
-                self.load_subject();
-            }
+        if self.load.is_none() && self.awaits_clay() && !self.is_as_shown(&self.requested) {
+            self.load_subject();
         }
     }
 

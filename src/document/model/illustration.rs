@@ -129,6 +129,16 @@ impl Illustration {
         }
     }
 
+    /// True if a subject is a clay as [`Illustration::subject_shown`] gives it. Copies nothing, since this is asked in
+    /// every frame.
+    pub fn shows(&self, subject: &SubjectRef) -> bool {
+        let (SubjectRef::Clay(own), SubjectRef::Clay(shown)) = (&self.subject, subject) else {
+            return false;
+        };
+        let strokes = self.strokes_shown().map_or(0, |strokes| strokes as usize);
+        own.is_like(shown) && own.strokes[..strokes] == shown.strokes
+    }
+
     /// JSON pointers to what the document has, but what is not drawn of this subject: templates and the look of volumes
     /// beside a figure, `figure` beside any other subject. The document itself names them in its notices where it
     /// tells which it is ([`SubjectRef::is_figure`]); of a file, the program knows when it has its bytes.

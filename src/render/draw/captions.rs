@@ -4,14 +4,13 @@ use super::follow::PendingPlaces;
 use super::pick::PendingDepths;
 use super::renderer::Renderer;
 use super::studio::Studio;
-use std::sync::Arc;
-
 use crate::clay::Way;
 use crate::data::Sheet;
 use crate::document::{Camera, Caption, Clay, Illustration, PlacedTemplate, Recipe, SubjectRef};
 use crate::render::device::error::RenderError;
 use crate::render::pack::view::View;
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
+use std::sync::Arc;
 
 /// A caption's tissue nearer to the surface than this is on it, subject units.
 const SKIN: f32 = 0.02;
@@ -89,13 +88,13 @@ impl Cause {
 /// Where the tissue of captions is in the untouched subject. Captions of a clay stand in its starting shape, and go
 /// with the strokes of the clay that is drawn.
 fn tissue(shown: &Illustration, clay: Option<&Arc<Clay>>) -> Vec<Vec3> {
-    let way = clay.map(|clay| Way::of(clay));
-    let place = |at: Vec3| match &way {
-        Some(way) => way.forward(at.as_dvec3()).as_vec3(),
-        None => at,
+    let at = shown.captions.iter().map(|caption| caption.at);
+    let Some(clay) = clay else {
+        return at.collect();
     };
-    let captions = shown.captions.iter();
-    captions.map(|caption| place(caption.at)).collect()
+    let mut vertices: Vec<_> = at.map(|at| (at.as_dvec3(), DVec3::ZERO)).collect();
+    Way::of(clay).forward(&mut vertices);
+    vertices.into_iter().map(|(pos, _)| pos.as_vec3()).collect()
 }
 
 /// True if the surface that is seen there, `seen_depth` from the eye, lies in front of a caption's place. False if

@@ -275,7 +275,6 @@ impl Renderer {
     pub fn set_resources(&mut self, resources: Resources) {
         if resources.fields != self.resources.fields
             || !resources.has_objects_of(&self.resources)
-            || resources.clay != self.resources.clay
             || !Sheet::are_same(resources.sheet.as_ref(), self.sheet())
         {
             self.touch();

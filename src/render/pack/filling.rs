@@ -96,30 +96,20 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
+    use crate::data::mesh::testing::cube;
     use crate::data::{Mesh, MeshPart};
     use crate::document::Document;
 
     /// Boxes of these half sides around the origin, a segment each.
     fn boxes(halves: &[f32]) -> Surface {
-        let quads = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ];
+        let (corners, triangles) = cube();
         let mut mesh = Mesh::default();
         for (&half, k) in halves.iter().zip(0_u32..) {
-            let sign = |i: u32, bit: u32| if i >> bit & 1 == 1 { half } else { -half };
-            let corners = (0..8).map(|i| Vec3::new(sign(i, 0), sign(i, 1), sign(i, 2)));
+            let corners = corners.iter().map(|corner| half * (2.0 * *corner - 1.0));
             mesh.positions.extend(corners);
             let at = mesh.triangles.len();
-            let triangles = quads
-                .iter()
-                .flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]);
-            mesh.triangles
-                .extend(triangles.map(|t| t.map(|i| 8 * k + i)));
+            let own = triangles.iter().map(|t| t.map(|i| 8 * k + i));
+            mesh.triangles.extend(own);
             mesh.parts.push(MeshPart {
                 name: format!("box {k}"),
                 triangles: at..mesh.triangles.len(),
