@@ -38,7 +38,7 @@ impl<'a> Way<'a> {
         }
     }
 
-    /// Where places of the starting shape are in the clay, and the normals of a surface there. Both in the clay's space.
+    /// Where places of the starting shape are in the clay, with the normals of a surface there, in the clay's space.
     pub fn forward(&self, vertices: &mut [(DVec3, DVec3)]) {
         for stroke in &self.strokes {
             stroke.each_block(false, vertices, |motion, steps, vertex| {
