@@ -87,14 +87,5 @@ pub mod app;
 #[cfg(feature = "reader")]
 pub mod reader;
 
-#[cfg(any(
-    feature = "app",
-    feature = "reader",
-    feature = "part-subjects",
-    feature = "part-scans",
-    feature = "part-meshes",
-    feature = "part-pictures",
-    feature = "part-figures",
-    feature = "part-clay"
-))]
+#[cfg(any(feature = "app", feature = "reader", feature = "parts"))]
 pub mod shell;

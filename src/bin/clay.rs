@@ -1,6 +1,18 @@
 //! The part of the page that shapes clays, in a worker. It has no use outside a browser.
 
+#[cfg(target_arch = "wasm32")]
+use fabrica::shell::worker::clay;
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen::prelude::*;
+
 fn main() {
     #[cfg(target_arch = "wasm32")]
-    fabrica::shell::worker::clay::loaded();
+    clay::loaded();
+}
+
+/// See [`clay::run`].
+#[cfg(target_arch = "wasm32")]
+#[wasm_bindgen]
+pub fn run(message: JsValue) -> Result<(), JsValue> {
+    clay::run(message)
 }

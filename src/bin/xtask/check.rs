@@ -41,14 +41,13 @@ const NATIVE: [Check; 6] = [
     ("docs", &["doc", "--no-deps", "--document-private-items"]),
 ];
 
-/// The page's programs, with their features; `None` for the default ones. The parts share all but what each of them
-/// exports, so that they are looked through together.
+/// The page's programs, with their features; `None` for the default ones. The parts that run in workers share theirs.
 const PAGE: [(&str, Option<&str>, &[&str]); 3] = [
     ("lint, page", None, &["fabrica"]),
     ("lint, the reader", Some("reader"), &["fabrica_reader"]),
     (
         "lint, the parts that run in workers",
-        Some("part-subjects,part-scans,part-meshes,part-pictures,part-figures,part-clay"),
+        Some("parts"),
         &[
             "fabrica_subjects",
             "fabrica_scans",

@@ -91,7 +91,6 @@ impl BlobFiles {
     }
 
     /// Keeps the files whose names are wanted.
-    #[cfg(feature = "part-scans")]
     pub(super) fn retain(&mut self, is_wanted: impl Fn(&str) -> bool) {
         self.0.retain(|(name, _)| is_wanted(name));
     }

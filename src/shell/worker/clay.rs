@@ -21,7 +21,6 @@ pub fn loaded() {
 ///
 /// # Errors
 /// If the message is no task, or the page cannot take the answer.
-#[wasm_bindgen]
 pub fn run(message: JsValue) -> Result<(), JsValue> {
     fault::heed_scope(&message);
     post::module_unless_known(&message, Part::Clay)?;

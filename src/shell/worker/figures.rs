@@ -44,7 +44,6 @@ pub fn loaded() {
 ///
 /// # Errors
 /// If the message is no task, or the page cannot take the answer.
-#[wasm_bindgen]
 pub async fn run(message: JsValue, load: Function) -> Result<Option<String>, JsValue> {
     fault::heed_scope(&message);
     post::module_unless_known(&message, Part::Figures)?;
@@ -81,7 +80,6 @@ pub async fn run(message: JsValue, load: Function) -> Result<Option<String>, JsV
 }
 
 /// Lets go of a bender that nobody asks any more. One in a worker ends with it.
-#[wasm_bindgen]
 pub fn dismiss(bender: u32) {
     SERVED.with_borrow_mut(|all| all.remove(&bender));
 }

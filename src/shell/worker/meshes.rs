@@ -24,7 +24,6 @@ pub fn loaded() {
 ///
 /// # Errors
 /// If the message is no task, or the page cannot take the answer.
-#[wasm_bindgen]
 pub async fn run(message: JsValue, load: Function) -> Result<Option<String>, JsValue> {
     fault::heed_scope(&message);
     post::module_unless_known(&message, Part::Meshes)?;

@@ -16,23 +16,19 @@ pub mod task;
 #[cfg(feature = "reader")]
 pub mod run;
 
-#[cfg(any(
-    feature = "part-scans",
-    feature = "part-meshes",
-    feature = "part-figures"
-))]
+#[cfg(feature = "parts")]
 mod blobs;
-#[cfg(feature = "part-clay")]
+#[cfg(feature = "parts")]
 pub mod clay;
-#[cfg(feature = "part-figures")]
+#[cfg(feature = "parts")]
 pub mod figures;
-#[cfg(feature = "part-meshes")]
+#[cfg(feature = "parts")]
 pub mod meshes;
-#[cfg(feature = "part-pictures")]
+#[cfg(feature = "parts")]
 pub mod pictures;
-#[cfg(feature = "part-scans")]
+#[cfg(feature = "parts")]
 pub mod scans;
-#[cfg(feature = "part-subjects")]
+#[cfg(feature = "parts")]
 pub mod subjects;
-#[cfg(any(feature = "part-meshes", feature = "part-figures"))]
+#[cfg(feature = "parts")]
 mod unpacking;

@@ -9,7 +9,6 @@ use crate::pictures;
 ///
 /// # Errors
 /// In words: why the file gives no picture.
-#[wasm_bindgen]
 pub fn decode(packed: &[u8]) -> Result<Array, JsValue> {
     let picture = pictures::decode(packed).map_err(|error| error.to_string())?;
     let [width, height] = picture.size;
