@@ -97,6 +97,8 @@ impl Edit {
             Self::SetCredit(_) => "Change credit".to_owned(),
             Self::SetLang(_) => "Change language".to_owned(),
             Self::SetSubject(_) => "Change subject".to_owned(),
+            Self::AddStroke { .. } => "Add stroke".to_owned(),
+            Self::RemoveStroke { .. } => "Remove stroke".to_owned(),
             Self::AddMesh { .. } => "Add mesh".to_owned(),
             Self::RemoveMesh { .. } => "Remove mesh".to_owned(),
             Self::AddObject { .. } => "Add object".to_owned(),

@@ -159,6 +159,8 @@ fn at_step(root: &mut Value, step: usize, edit: &Edit) -> Result<(), DocumentErr
         | Edit::RenameTemplate { .. }
         | Edit::SetGroup { .. }
         | Edit::MoveTemplate { .. }
+        | Edit::AddStroke { .. }
+        | Edit::RemoveStroke { .. }
         | Edit::AddMesh { .. }
         | Edit::RemoveMesh { .. }
         | Edit::MoveObject { .. }

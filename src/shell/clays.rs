@@ -11,10 +11,16 @@ use crate::document::Clay;
 /// Part of the work that is done when all strokes are.
 const STROKES: f32 = 0.8;
 
-/// Shapes clays, and keeps the last, so that the next stroke does not begin anew.
+/// Bytes of earlier states that are kept at most, and strokes that they are of.
+const MOST_KEPT: usize = 64 << 20;
+const LAST_STROKES: usize = 50;
+
+/// Shapes clays, and keeps what the last strokes left, so that another last stroke, or one less, does not begin anew.
 #[derive(Debug, Default)]
 pub struct ClayDesk {
-    last: Option<(Arc<Clay>, Shaping)>,
+    last: Option<Arc<Clay>>,
+    /// The clay of `last` after some of its strokes, the latest last.
+    kept: Vec<Shaping>,
 }
 
 impl ClayDesk {
@@ -27,21 +33,42 @@ impl ClayDesk {
         clay: &Arc<Clay>,
         go_on: &mut dyn FnMut(f32) -> bool,
     ) -> Result<&Shaping, ClayError> {
-        let mut shaping = match self.last.take() {
-            Some((last, shaping))
-                if last.is_like(clay) && clay.strokes.starts_with(&last.strokes) =>
-            {
-                shaping
-            }
-            _ => Shaping::new(clay)?,
+        let common = self
+            .last
+            .as_ref()
+            .and_then(|last| last.strokes_shared(clay));
+        self.kept
+            .retain(|kept| common.is_some_and(|common| kept.done() <= common));
+        self.last = Some(Arc::clone(clay));
+        let all = clay.strokes.len();
+        let mut shaping = match self.kept.last() {
+            Some(kept) => kept.clone(),
+            None => Shaping::new(clay)?,
         };
-        let all = clay.strokes.len() as f32;
-        while shaping.done() < clay.strokes.len() {
+        self.keep(&shaping, all);
+        while shaping.done() < all {
             let done = shaping.done() as f32;
-            shaping.stroke(clay, &mut |part| go_on((done + part) / all))?;
+            shaping.stroke(clay, &mut |part| go_on((done + part) / all as f32))?;
+            self.keep(&shaping, all);
         }
-        let (_, shaping) = self.last.insert((Arc::clone(clay), shaping));
-        Ok(shaping)
+        // What was shaped last is always kept.
+        self.kept.last().ok_or(ClayError::Stopped)
+    }
+
+    /// Keeps a state, if it is one of the last, in place of the earliest ones where there is no room.
+    fn keep(&mut self, shaping: &Shaping, all: usize) {
+        let is_here = self
+            .kept
+            .last()
+            .is_some_and(|kept| kept.done() == shaping.done());
+        if is_here || shaping.done() + LAST_STROKES < all {
+            return;
+        }
+        self.kept.push(shaping.clone());
+        let mut bytes: usize = self.kept.iter().map(Shaping::bytes).sum();
+        while bytes > MOST_KEPT && self.kept.len() > 1 {
+            bytes -= self.kept.remove(0).bytes();
+        }
     }
 }
 
@@ -95,7 +122,7 @@ pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{Document, SubjectRef};
+    use crate::document::{ClayTool, Document, SubjectRef};
 
     const PULLED: &str = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05, "tools": [{ "radius": 0.1 }],
         "strokes": [{ "path": [0, 0, 440, 0, 0, 300] }, { "path": [440, 0, 0, 200, 0, 0] }] } } }"#;
@@ -133,6 +160,51 @@ mod tests {
         assert_eq!(went_on, anew);
         let back = desk.shape(&clay.cut(1), &mut |_| true).unwrap().shaped();
         assert_ne!(back.positions, anew.positions);
+    }
+
+    /// The last stroke taken back, and another drawn: nothing before it is done again, and all is as if made anew.
+    #[test]
+    fn another_last_stroke_does_no_other_again() {
+        let clay = pulled();
+        let mut desk = ClayDesk::default();
+        desk.shape(&clay, &mut |_| true).unwrap();
+        let mut others = Vec::new();
+        for (moved, percent) in [(100, 100), (150, 120)] {
+            let mut other = Clay::clone(&clay);
+            let key = &mut other.strokes[1].moves[0].keys[1];
+            (key.at[0], key.percent) = (key.at[0] + moved, percent);
+            others.push(Arc::new(other));
+        }
+        // With one more tool, which no stroke before names.
+        let mut other = Clay::clone(&clay);
+        other.tools.push(ClayTool::default());
+        other.strokes[1].moves[0].tool = 1;
+        others.push(Arc::new(other));
+        others.push(clay.cut(1));
+        for other in others {
+            let mut heard = Vec::new();
+            let mut hear = |part| {
+                heard.push(part);
+                true
+            };
+            let shaped = desk.shape(&other, &mut hear).unwrap().shaped();
+            assert!(heard.first().is_none_or(|first| *first >= 0.5), "{heard:?}");
+            let anew = ClayDesk::default()
+                .shape(&other, &mut |_| true)
+                .unwrap()
+                .shaped();
+            assert_eq!(shaped, anew);
+        }
+        // Another tool under the first stroke begins anew.
+        let mut other = Clay::clone(&clay);
+        other.tools[0].coat = 0.2;
+        let mut is_first = false;
+        let mut hear = |part: f32| {
+            is_first |= part < 0.5;
+            true
+        };
+        desk.shape(&Arc::new(other), &mut hear).unwrap();
+        assert!(is_first);
     }
 
     #[test]

@@ -20,6 +20,7 @@ pub(crate) mod points;
 pub(crate) mod projection;
 pub(crate) mod provisional;
 pub(crate) mod saved;
+pub(crate) mod shaping;
 pub(crate) mod slice_plot;
 pub(crate) mod slices;
 pub(crate) mod snap;

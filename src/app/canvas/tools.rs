@@ -6,7 +6,7 @@ use crate::app::kit::float::float_frame;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{template_menu, widget};
-use crate::app::session::{Command, GizmoMode, Session};
+use crate::app::session::{Command, GizmoMode, Session, Tool};
 use crate::app::words::authoring;
 use crate::app::words::picture::w;
 
@@ -35,6 +35,7 @@ pub(super) fn head_bar(ui: &mut Ui, rect: Rect, width: f32, id_salt: &str) -> (U
 pub(crate) fn bar_bottom(rect: Rect, session: &Session) -> Option<f32> {
     let has_bar = session.tool().wants_place()
         || session.tool().ball().is_some()
+        || session.tool() == Tool::Clay
         || session.selected_template().is_some()
         || session.selected_object().is_some();
     has_bar.then(|| bar_rect(rect, 0.0).bottom())

@@ -16,6 +16,7 @@ use super::held::Held;
 use super::measure::Distances;
 use super::panes::ONE_PANE;
 use super::projection::{self, Projection};
+use super::shaping::{self, ShapingHand};
 use super::tools::{asking_ui, bar_bottom, tools_ui};
 use super::{curve, orientation, points, slice_plot, view_bar, ways};
 use crate::app::kit::theme::{self, Palette};
@@ -75,6 +76,7 @@ pub(crate) struct Viewport {
     ball: PictureBall,
     figure: FigureCanvas,
     drawn: DrawnWay,
+    shaping: ShapingHand,
     /// The picture still shows another object than the document's, and is drawn faintly.
     pub(crate) is_earlier: bool,
 }
@@ -131,6 +133,7 @@ impl Viewport {
             || self.captions.is_waiting()
             || self.ball.is_waiting()
             || self.drawn.is_waiting()
+            || self.shaping.is_waiting()
     }
 
     /// Identity of the picture as a widget, once it has been shown.
@@ -232,6 +235,11 @@ impl Viewport {
                 self.ball.paint(ui, &response, &view, session);
                 ball::bar_ui(ui, bars, session, erases, commands);
             }
+            Tool::Clay => {
+                self.gizmo.release();
+                self.shaping.paint(ui, &view, session);
+                shaping::bar_ui(ui, bars, session, commands);
+            }
             Tool::Look | Tool::Figure(_) if session.view.is_figure() => {
                 self.gizmo.release();
                 self.figure
@@ -253,6 +261,7 @@ impl Viewport {
         self.seen_ui(ui, rect, &view, session, commands);
         if session.tool().placing().is_none()
             && session.tool().ball().is_none()
+            && session.tool() != Tool::Clay
             && !session.view.is_figure()
         {
             // The right button or a long press. A finger that opened the menu no longer drags a handle.
@@ -341,6 +350,7 @@ impl Viewport {
         let mut camera = session.camera;
         let is_painting = FigureCanvas::takes_drags(session, ui)
             || DrawnWay::takes_drags(session, ui)
+            || self.shaping.takes_drags(session, ui)
             || session.tool().ball().is_some()
                 && ui.input(|i| !i.pointer.secondary_down() && !i.pointer.middle_down());
         let touch = ui
@@ -482,6 +492,8 @@ impl Viewport {
         self.questions.extend(hand);
         let hands = (response, view);
         self.drawn.ui(ui, hands, session, (picture, size), commands);
+        self.shaping
+            .ui(ui, hands, session, (picture, size), commands);
         self.ask(session, camera, picture, size, commands);
         self.captions
             .update(ui.ctx(), session, camera, picture, size);

@@ -1,5 +1,6 @@
 //! Widgets, colours, type, drawn icons and sheets of pictures that every panel uses.
 
+pub(crate) mod clay_tool;
 pub(crate) mod dialog;
 pub(crate) mod entry;
 pub(crate) mod figure_tool;

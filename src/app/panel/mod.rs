@@ -4,6 +4,7 @@ pub(crate) mod bodies;
 pub(crate) mod captions;
 pub(crate) mod carve;
 pub(crate) mod catalogue;
+mod clay;
 pub(crate) mod controls;
 pub(crate) mod curve;
 pub(crate) mod dropped;

@@ -8,8 +8,8 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::Palette;
 use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
 use crate::app::session::Command;
-use crate::app::words::fill;
 use crate::app::words::sweep::w;
+use crate::app::words::{fill, names};
 use crate::displace::{COAT, FARTHEST, LONG, ROUND, SCALE, SOLID};
 use crate::document::{
     Edit, MAX_KEYS, MAX_TOOLS, PathKey, PlacedTemplate, SweepTool, SweepTools, TemplateData,
@@ -110,13 +110,13 @@ fn tool_ui(ui: &mut Ui, number: usize, tool: &SweepTool) -> Edited {
     let name = fill(w().tool, &[&number]);
     widget::row(ui, |ui| {
         widget::row_label(ui, &name, w().shape_hint);
-        let title = tool.shape.as_ref().map_or("", shape_title);
+        let title = tool.shape.as_ref().map_or("", names::tool_shape);
         let combo = widget::combo("shape of tool", title, ui.available_width() - 34.0);
         let shown = combo.show_ui(ui, |ui| {
             for shape in ToolShape::NAMES.into_iter().filter_map(ToolShape::named) {
                 let is_chosen = tool.shape.as_ref().map(ToolShape::name) == Some(shape.name());
                 if ui
-                    .selectable_label(is_chosen, shape_title(&shape))
+                    .selectable_label(is_chosen, names::tool_shape(&shape))
                     .clicked()
                     && !is_chosen
                 {
@@ -308,16 +308,4 @@ fn length_row(
     };
     let change = row.ui_logarithmic(ui)?;
     Some(change.map(|value| value as f32))
-}
-
-fn shape_title(shape: &ToolShape) -> &'static str {
-    let w = w();
-    match shape {
-        ToolShape::Ball { .. } => w.ball,
-        ToolShape::Ellipsoid { .. } => w.ellipsoid,
-        ToolShape::Capsule { .. } => w.capsule,
-        ToolShape::Box { .. } => w.block,
-        ToolShape::Torus { .. } => w.torus,
-        ToolShape::Curve { .. } => w.curve,
-    }
 }

@@ -2,7 +2,7 @@
 
 use egui::{DragAndDrop, Label, Rect, Stroke, Ui, vec2};
 
-use super::{carve, curve, figure, kept, objects, points, sweep};
+use super::{carve, clay, curve, figure, kept, objects, points, sweep};
 use crate::app::kit::entry::{self, EntryRow, rotation_row, vec3};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::template_menu;
@@ -29,6 +29,7 @@ pub(crate) fn ui(
     if session.view.is_figure() {
         return figure::ui(ui, session, commands);
     }
+    clay::ui(ui, session, commands);
     list_ui(ui, session, commands);
     let has_objects = session.object_count() > 0;
     if has_objects {

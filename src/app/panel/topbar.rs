@@ -6,11 +6,10 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::menu::menu_item;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget::{self, Named as _};
-use crate::app::session::Session;
-use crate::app::session::{Command, LibraryCommand};
+use crate::app::session::{ClayCommand, Command, LibraryCommand, Session};
 use crate::app::words::bar::w;
 use crate::app::words::{self, Lang, facts, fill, names};
-use crate::document::SubjectRef;
+use crate::document::{ClayShape, SubjectRef};
 
 /// Width of the bar in points from which on the examples have a button in it; else they are in the menu.
 const EXAMPLES_WIDTH: f32 = 880.0;
@@ -135,6 +134,14 @@ fn subject_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 && *current != subject
             {
                 commands.push(Command::SetSubject(subject));
+            }
+        }
+        ui.separator();
+        let clay = words::clay::w();
+        let titles = [clay.ball, clay.cube, clay.plate, clay.torus];
+        for (shape, title) in ClayShape::ALL.into_iter().zip(titles) {
+            if ui.selectable_label(false, title).clicked() {
+                commands.push(Command::Clay(ClayCommand::Begin(shape)));
             }
         }
         ui.separator();

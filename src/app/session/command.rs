@@ -9,6 +9,7 @@ use super::found::Found;
 use super::library::LibraryCommand;
 use super::mesh_use::MeshUse;
 use super::notices::Gravity;
+use super::shaping::ClayCommand;
 use super::sought::Sought;
 use super::tissues::TissueCommand;
 use super::view::See;
@@ -227,6 +228,8 @@ pub enum Command {
     Library(LibraryCommand),
     /// Edits or shows tissues.
     Tissue(TissueCommand),
+    /// Shapes the clay.
+    Clay(ClayCommand),
 }
 
 /// One thing to do with the steps of the document. Steps are counted as they are shown, 0 is the start.

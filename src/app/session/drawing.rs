@@ -107,7 +107,7 @@ fn swept(way: &[Vec3], camera: &Camera) -> Option<(Placement, SweepTools)> {
 }
 
 /// As few of the points as lie on a path that all others are near to; at most [`MAX_KEYS`] (Douglas and Peucker).
-fn thinned(points: &[Vec3], tolerance: f32) -> Vec<Vec3> {
+pub(super) fn thinned(points: &[Vec3], tolerance: f32) -> Vec<Vec3> {
     let mut tolerance = tolerance;
     loop {
         let mut kept = vec![false; points.len()];
@@ -136,7 +136,7 @@ fn thinned(points: &[Vec3], tolerance: f32) -> Vec<Vec3> {
 }
 
 /// Distance to a straight piece.
-fn distance_to(pos: Vec3, from: Vec3, to: Vec3) -> f32 {
+pub(super) fn distance_to(pos: Vec3, from: Vec3, to: Vec3) -> f32 {
     let along = to - from;
     let part = (pos - from).dot(along) / along.length_squared().max(1e-20);
     pos.distance(from + part.clamp(0.0, 1.0) * along)

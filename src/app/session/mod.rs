@@ -19,6 +19,7 @@
 //! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw` | what can be done with it |
 //! | `steps`, `playing` | recording the steps of a lesson, and playing them |
 //! | `figure` | making a figure: its regions and handles |
+//! | `shaping` | shaping a clay by hand |
 //! | `making`, `painting` | what can be done with tissues |
 //! | `seeking` | the search for a structure by name |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
@@ -61,6 +62,7 @@ mod selection;
 )]
 mod session;
 pub mod shape;
+mod shaping;
 mod small_picture;
 mod sought;
 mod starting;
@@ -99,6 +101,7 @@ pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
 pub use self::selection::Selection;
 pub use self::session::{Load, LoadOf, MeshQuestion, STORED_DOCUMENT, Session, Tab};
+pub use self::shaping::{ClayCommand, ClayHand, StrokeWay, Touch, clay_of};
 pub use self::small_picture::{
     STORED_PICTURE, STORED_RECENT_PICTURES, SmallPicture, changed_pictures, picture_of,
 };

@@ -48,6 +48,12 @@ impl Session {
 
     /// What is seen in place of what the document shows: one tissue alone, or the one that is painted in its colour.
     pub fn seen(&self) -> Option<Illustration> {
+        if self.tool() == Tool::Clay && !self.shown().templates.is_empty() {
+            return Some(Illustration {
+                templates: Vec::new(),
+                ..self.shown().clone()
+            });
+        }
         let facts = self.view.subject.as_ref();
         let alone = self.tissues.seen_in(self.shown(), facts);
         alone.or_else(|| {

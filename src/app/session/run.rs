@@ -120,6 +120,9 @@ impl Session {
             Command::ShiftSelected(by) => self.shift_selected(by),
             // The keys are those of the ball while it is in hand.
             Command::NudgeMain(by) if self.tool().ball().is_some() => self.resize_ball(by > 0.0),
+            Command::NudgeMain(by) if self.tool() == Tool::Clay => {
+                self.clay_hand = self.clay_hand.resized(by > 0.0);
+            }
             Command::NudgeMain(hundredths) if self.view.is_figure() => {
                 self.turn_of_figure(hundredths);
             }
@@ -181,6 +184,7 @@ impl Session {
             Command::See(See::ToggleSlices | See::ToggleGhost) if self.view.is_figure() => {}
             Command::See(see) => self.run_see(see),
             Command::Tissue(command) => self.run_tissue(command),
+            Command::Clay(command) => self.run_clay(command),
             Command::Library(command) => self.run_library(command),
             Command::ToggleKeys => self.is_keys_sheet_open = !self.is_keys_sheet_open,
             Command::ToggleShare => self.toggle_share(),

@@ -10,6 +10,7 @@ use super::library::Library;
 use super::mode::Mode;
 use super::notices::{Gravity, Notices, Offer};
 use super::selection::Selection;
+use super::shaping::ClayHand;
 use super::ticket::Ticket;
 use super::tissues::Tissues;
 use super::tool::Tool;
@@ -150,6 +151,10 @@ pub struct Session {
     pub(super) tool: Tool,
     /// The template that a hand is drawing.
     pub(super) drawn: Option<usize>,
+    /// The stroke of the clay that a hand is drawing.
+    pub(super) drawn_stroke: Option<usize>,
+    /// The tool that shapes the clay while it is in hand.
+    pub clay_hand: ClayHand,
     /// The selected template or object.
     pub selection: Selection,
     /// What the handles in the picture do.
@@ -260,6 +265,8 @@ impl Session {
             mode: Mode::default(),
             tool: Tool::default(),
             drawn: None,
+            drawn_stroke: None,
+            clay_hand: ClayHand::default(),
             selection: Selection::Nothing,
             gizmo: GizmoMode::Move,
             notices: Notices::default(),
@@ -419,8 +426,9 @@ impl Session {
 
     /// Takes a tool in hand, in place of the one before.
     pub fn take_tool(&mut self, tool: Tool) {
-        if self.tool.ball().is_some() || tool.ball().is_some() {
-            // The tissue that is painted is marked.
+        let changes_picture = |tool: Tool| tool.ball().is_some() || tool == Tool::Clay;
+        if changes_picture(self.tool) || changes_picture(tool) {
+            // The tissue that is painted is marked; a clay is shaped as it is without templates.
             self.revision += 1;
         }
         self.tool = tool;
@@ -573,6 +581,9 @@ impl Session {
         self.playing = None;
         self.mode.rest(self.history.document());
         self.revision += 1;
+        if self.tool == Tool::Clay && self.clay().is_none() {
+            self.take_tool(Tool::Look);
+        }
         let is_gone = match self.selection {
             Selection::Nothing => false,
             Selection::Template(index) => index >= self.template_count(),

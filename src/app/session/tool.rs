@@ -30,6 +30,8 @@ pub enum Tool {
     Level,
     /// Clicks make handles and regions of a figure.
     Figure(FigureTool),
+    /// Drags shape the clay.
+    Clay,
 }
 
 impl Tool {
@@ -85,6 +87,6 @@ impl Tool {
 
     /// True if the tool changes the document, so that it cannot be used in a lesson.
     pub fn is_for_authors(self) -> bool {
-        self.is_for_tissue() || self.wants_place()
+        self.is_for_tissue() || self.wants_place() || self == Self::Clay
     }
 }

@@ -22,7 +22,7 @@ impl Session {
     /// Asks about a pixel of the picture for the active tool.
     pub(super) fn use_tool_at(&mut self, pixel: [f32; 2]) {
         let reply: fn(usize, Option<Found>) -> Command = match self.tool {
-            Tool::Look | Tool::Level | Tool::Paint { .. } | Tool::Figure(_) => return,
+            Tool::Look | Tool::Level | Tool::Paint { .. } | Tool::Figure(_) | Tool::Clay => return,
             Tool::Place(_) => |_, found| Command::PlaceOn(found),
             Tool::Caption => |_, found| Command::CaptionOn(found),
             Tool::Seed(_) => |_, found| Command::SeedOn(found),
@@ -40,9 +40,12 @@ impl Session {
             Tool::Place(_) => |_, found| Command::PlaceOnOrAtTarget(found),
             Tool::Caption => |_, found| Command::CaptionOn(found),
             Tool::Figure(_) => return self.use_figure_tool_in_middle(),
-            Tool::Look | Tool::Seed(_) | Tool::Paint { .. } | Tool::Measure(_) | Tool::Level => {
-                return;
-            }
+            Tool::Look
+            | Tool::Seed(_)
+            | Tool::Paint { .. }
+            | Tool::Measure(_)
+            | Tool::Level
+            | Tool::Clay => return,
         };
         self.effect(Effect::Ask(Question::new(Place::Middle, reply)));
     }

@@ -39,6 +39,7 @@ pub(crate) mod bar;
 pub(crate) mod bodies;
 pub(crate) mod captions;
 pub(crate) mod catalogue;
+pub(crate) mod clay;
 pub(crate) mod controls;
 pub(crate) mod curve;
 pub(crate) mod facts;

@@ -3,7 +3,7 @@
 
 use super::{Lang, bar, capitalized, figure, fill, kinds, lang, of};
 use crate::document::figure::{Handle, Hold};
-use crate::document::{Illustration, PlacedTemplate, SubjectRef, TemplateKind};
+use crate::document::{Illustration, PlacedTemplate, SubjectRef, TemplateKind, ToolShape};
 
 words! {
     /// What a step of undo did.
@@ -384,5 +384,18 @@ mod tests {
             assert_ne!(name, one.title, "{}", one.name);
         }
         set_lang(Lang::English);
+    }
+}
+
+/// What the form of a tool is called.
+pub(crate) fn tool_shape(shape: &ToolShape) -> &'static str {
+    let w = super::sweep::w();
+    match shape {
+        ToolShape::Ball { .. } => w.ball,
+        ToolShape::Ellipsoid { .. } => w.ellipsoid,
+        ToolShape::Capsule { .. } => w.capsule,
+        ToolShape::Box { .. } => w.block,
+        ToolShape::Torus { .. } => w.torus,
+        ToolShape::Curve { .. } => w.curve,
     }
 }

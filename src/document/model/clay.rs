@@ -49,6 +49,17 @@ impl Clay {
         })
     }
 
+    /// How many of the first strokes do the same in both, if both begin with the same mesh.
+    pub fn strokes_shared(&self, other: &Self) -> Option<usize> {
+        if self.from != other.from || self.detail != other.detail {
+            return None;
+        }
+        let is_same_tool = |one: &ClayMove| self.tools.get(one.tool) == other.tools.get(one.tool);
+        let both = self.strokes.iter().zip(&other.strokes);
+        let shared = both.take_while(|(a, b)| a == b && a.moves.iter().all(is_same_tool));
+        Some(shared.count())
+    }
+
     /// True if both begin with the same mesh and have the same tools: one may be the other with more strokes.
     pub fn is_like(&self, other: &Self) -> bool {
         self.from == other.from && self.detail == other.detail && self.tools == other.tools

@@ -9,9 +9,9 @@ use super::value;
 use crate::displace::Holds;
 use crate::document::limits::{DEFAULT_SUBJECT, MAX_LABELS, MAX_OBJECTS, MAX_TEMPLATES};
 use crate::document::model::{
-    Align, Background, Camera, Constrain, ConstrainBy, DRAWN, FIGURE_FRONT, MeshRef, OpacityMode,
-    ParamKind, ParamValue, Reading, SubjectBox, SubjectRef, TemplateKind, TemplateMode, Transfer,
-    Window,
+    Align, Background, Camera, Clay, Constrain, ConstrainBy, DRAWN, FIGURE_FRONT, MeshRef,
+    OpacityMode, ParamKind, ParamValue, Reading, SubjectBox, SubjectRef, TemplateKind,
+    TemplateMode, Transfer, Window,
 };
 use crate::document::text::DocumentError;
 use crate::document::text::pointer::{self, join};
@@ -286,6 +286,18 @@ impl Edit {
                     None => Ok(()),
                 }
             }
+            Self::AddStroke { index, stroke } => {
+                let index = (*index).min(list(root, STROKES)?.len());
+                insert(root, STROKES, Clay::MAX_STROKES, index, stroke.to_value())?;
+                follow_counts(root, |shown| if shown > index { shown + 1 } else { shown });
+                Ok(())
+            }
+            Self::RemoveStroke { stroke } => {
+                take(root, STROKES, *stroke)?;
+                let is_behind = |shown: usize| shown > *stroke;
+                follow_counts(root, |shown| shown - usize::from(is_behind(shown)));
+                Ok(())
+            }
             Self::AddMesh { mesh, box_mm } => add_mesh(root, mesh, *box_mm),
             Self::RemoveMesh { mesh } => {
                 let at = format!("/subject/meshes/{mesh}");
@@ -361,6 +373,30 @@ fn written_rotation(root: &Value, camera: &Camera) -> Quat {
     match is_figure {
         true => camera.rotate * FIGURE_FRONT.inverse(),
         false => camera.rotate,
+    }
+}
+
+/// Where the strokes of a clay stand.
+const STROKES: &str = "subject/clay/strokes";
+
+/// Changes how many strokes the document and its steps show, where they say so.
+fn follow_counts(root: &mut Value, followed: impl Fn(usize) -> usize) {
+    let follow = |count: &mut Value| {
+        if let Some(shown) = count.as_u64().and_then(|shown| usize::try_from(shown).ok()) {
+            *count = json!(followed(shown));
+        }
+    };
+    if let Some(count) = root.pointer_mut("/look/strokes") {
+        follow(count);
+    }
+    let steps = root.get_mut("steps").and_then(Value::as_array_mut);
+    for step in steps.into_iter().flatten() {
+        let count = step
+            .get_mut("set")
+            .and_then(|set| set.get_mut("/look/strokes"));
+        if let Some(count) = count {
+            follow(count);
+        }
     }
 }
 

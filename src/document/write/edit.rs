@@ -2,9 +2,9 @@
 
 use crate::document::model::figure;
 use crate::document::model::{
-    Align, Background, Camera, Caption, Constrain, ControlPoints, Curve, FIGURE_FRONT, MeshRef,
-    ObjectPlacement, OpacityMode, ParamValue, SubjectBox, SubjectRef, SweepTools, TemplateKind,
-    TemplateMode, Transfer, TransferPoint, Window,
+    Align, Background, Camera, Caption, ClayStroke, Constrain, ControlPoints, Curve, FIGURE_FRONT,
+    MeshRef, ObjectPlacement, OpacityMode, ParamValue, SubjectBox, SubjectRef, SweepTools,
+    TemplateKind, TemplateMode, Transfer, TransferPoint, Window,
 };
 use crate::math::Placement;
 use serde_json::Value;
@@ -187,6 +187,19 @@ pub enum Edit {
     SetLang(String),
     /// Shows another subject. Segments and revision of the subject before it are removed.
     SetSubject(SubjectRef),
+    /// Puts a stroke of a clay before the one of that index (or last). Who shows some of the strokes goes on to show the
+    /// same.
+    AddStroke {
+        /// Index of the new stroke after the edit; larger than the number of strokes means last.
+        index: usize,
+        /// The stroke.
+        stroke: ClayStroke,
+    },
+    /// Removes a stroke of a clay. Who shows some of the strokes goes on to show the same without it.
+    RemoveStroke {
+        /// Index of the stroke, those counted that this version does not know.
+        stroke: usize,
+    },
     /// Adds a mesh of the subject behind those that are there.
     AddMesh {
         /// The mesh; its index does not matter.
@@ -418,6 +431,8 @@ impl Edit {
             Self::SetCredit(_) => "/credit".to_owned(),
             Self::SetLang(_) => "/lang".to_owned(),
             Self::SetSubject(_) => "/subject".to_owned(),
+            Self::AddStroke { index, .. } => format!("/subject/clay/strokes/{index}/add"),
+            Self::RemoveStroke { stroke } => format!("/subject/clay/strokes/{stroke}/remove"),
             Self::AddMesh { .. } => "/subject/meshes/-".to_owned(),
             Self::RemoveMesh { mesh } => format!("/subject/meshes/{mesh}/remove"),
             Self::AddObject { index, .. } => format!("/objects/{index}/add"),

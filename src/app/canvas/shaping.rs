@@ -1,0 +1,344 @@
+//! The hand that shapes a clay over the picture: the tool where it would act, the drag under way, and the bar that
+//! holds the tool.
+
+use egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
+use glam::{Quat, Vec3};
+
+use super::projection::{Projection, pixels_of};
+use super::tools::head_bar;
+use crate::app::kit::clay_tool::{form_title, way_title};
+use crate::app::kit::icon::Icon;
+use crate::app::kit::theme::{self, over_picture as ink};
+use crate::app::kit::widget::{self, Named as _};
+use crate::app::picture::host::Picture;
+use crate::app::session::{ClayCommand, ClayHand, Command, Session, StrokeWay, Tool, Touch};
+use crate::app::words::clay::w;
+use crate::app::words::fill;
+use crate::render::{PendingPick, Pick};
+
+/// Points by which a hand moves at least from one place of its way to the next.
+const STEP: f32 = 3.0;
+/// Width of the bar, points.
+const BAR: f32 = 430.0;
+
+/// What the hand does.
+#[derive(Default)]
+enum Hand {
+    /// Nothing, or it turns the view: where the last drag began there was no clay.
+    #[default]
+    Free,
+    /// It is pressed, and what is under it is being asked for.
+    Pressed(PendingPick),
+    /// The picture could not be asked yet.
+    Waits,
+    /// It draws.
+    Draws(Vec<Touch>),
+}
+
+/// The hand with the tool, over the picture.
+#[derive(Default)]
+pub(crate) struct ShapingHand {
+    hand: Hand,
+    way: StrokeWay,
+    /// Where the hand was, points of the window.
+    spots: Vec<Pos2>,
+    /// As many of these are touches already.
+    told: usize,
+    is_over: bool,
+    /// The clay under the pointer, on its way, where the pointer was when it was asked for, and the last answer.
+    pick: Option<PendingPick>,
+    asked_at: Option<Pos2>,
+    under: Option<Touch>,
+}
+
+impl ShapingHand {
+    /// True if a drag on the picture shapes, and turns nothing.
+    pub(crate) fn takes_drags(&self, session: &Session, ui: &Ui) -> bool {
+        session.tool() == Tool::Clay && !matches!(self.hand, Hand::Free) && is_plain(ui)
+    }
+
+    /// True while the picture has to answer.
+    pub(crate) fn is_waiting(&self) -> bool {
+        self.pick.is_some() || matches!(self.hand, Hand::Pressed(_) | Hand::Waits)
+    }
+
+    /// What the hand does in this frame.
+    pub(crate) fn ui(
+        &mut self,
+        ui: &Ui,
+        (response, view): (&Response, &Projection),
+        session: &Session,
+        (picture, size): (&mut Picture, [u32; 2]),
+        commands: &mut Vec<Command>,
+    ) {
+        if session.tool() != Tool::Clay {
+            *self = Self::default();
+            return;
+        }
+        let pixel = pixels_of(view.rect, size);
+        let ask = |picture: &mut Picture, pos: Pos2| picture.pick(pixel(pos), size).ok();
+        if let Some(answer) = self.pick.as_mut().and_then(PendingPick::poll_now) {
+            self.pick = None;
+            self.under = answer.ok().flatten().and_then(|pick| touch(&pick, view));
+            self.follow();
+        }
+        if response.drag_started_by(PointerButton::Primary) && is_plain(ui) {
+            let begin = ui.input(|i| (i.pointer.press_origin(), i.modifiers.shift));
+            self.way = match begin.1 {
+                true => StrokeWay::Smooth,
+                false => session.clay_hand.way,
+            };
+            (self.spots, self.told, self.is_over) = (begin.0.into_iter().collect(), 0, false);
+            self.hand = Hand::Waits;
+        }
+        let here = response.interact_pointer_pos().filter(|_| !self.is_over);
+        if matches!(self.hand, Hand::Free) {
+            self.hover(response, |pos| ask(picture, pos));
+            return;
+        }
+        let last = self.spots.last().copied();
+        let is_far = |pos: &Pos2| last.is_none_or(|last| last.distance(*pos) >= STEP);
+        self.spots.extend(here.filter(is_far));
+        self.is_over |= !response.dragged_by(PointerButton::Primary);
+        self.find(|pos| ask(picture, pos), view);
+        ui.ctx().request_repaint();
+        if !matches!(self.hand, Hand::Draws(_)) {
+            return;
+        }
+        let follows = self.way.follows_surface();
+        if !follows {
+            self.go_on_in_plane(view);
+        } else if self.pick.is_none() && self.told < self.spots.len() {
+            // A weak device is asked about as many places as it answers.
+            self.told = self.spots.len();
+            self.pick = self.spots.last().and_then(|pos| ask(picture, *pos));
+        }
+        self.tell(follows, commands);
+    }
+
+    /// The clay under the pointer while nothing is drawn.
+    fn hover(&mut self, response: &Response, ask: impl FnOnce(Pos2) -> Option<PendingPick>) {
+        let pos = response.hover_pos();
+        if pos.is_none() {
+            self.under = None;
+        }
+        if self.pick.is_none()
+            && let Some(pos) = pos
+            && self.asked_at != Some(pos)
+        {
+            self.asked_at = Some(pos);
+            self.pick = ask(pos);
+        }
+    }
+
+    /// Finds the clay where the drag began; a drag that began beside it turns the view.
+    fn find(&mut self, ask: impl FnOnce(Pos2) -> Option<PendingPick>, view: &Projection) {
+        match &mut self.hand {
+            Hand::Waits => {
+                // Another question may be open; then this one is asked in the next frame.
+                if let Some(asked) = self.spots.first().and_then(|pos| ask(*pos)) {
+                    self.hand = Hand::Pressed(asked);
+                }
+            }
+            Hand::Pressed(asked) => {
+                let Some(answer) = asked.poll_now() else {
+                    return;
+                };
+                let found = answer.ok().flatten();
+                self.hand = match found.and_then(|pick| touch(&pick, view)) {
+                    Some(first) => {
+                        self.told = 1;
+                        Hand::Draws(vec![first])
+                    }
+                    None => Hand::Free,
+                };
+            }
+            Hand::Free | Hand::Draws(_) => {}
+        }
+    }
+
+    /// Takes the clay that was found under the hand into its way.
+    fn follow(&mut self) {
+        if let (Hand::Draws(touches), Some(under)) = (&mut self.hand, self.under)
+            && self.way.follows_surface()
+        {
+            touches.push(under);
+        }
+    }
+
+    /// Takes the way of the hand in the plane of the picture through the first touch.
+    fn go_on_in_plane(&mut self, view: &Projection) {
+        let Hand::Draws(touches) = &mut self.hand else {
+            return;
+        };
+        let Some(first) = touches.first().copied() else {
+            return;
+        };
+        let new = self.spots.iter().skip(self.told);
+        let places = new.filter_map(|pos| view.on_plane(*pos, first.pos, view.back()));
+        touches.extend(places.map(|pos| Touch { pos, ..first }));
+        self.told = self.spots.len();
+    }
+
+    /// Tells the session how far the way has come.
+    fn tell(&mut self, follows: bool, commands: &mut Vec<Command>) {
+        let Hand::Draws(touches) = &self.hand else {
+            return;
+        };
+        let is_over = self.is_over && !(follows && self.pick.is_some());
+        commands.push(Command::Clay(ClayCommand::Draw {
+            way: self.way,
+            touches: touches.clone(),
+            is_over,
+        }));
+        if is_over {
+            self.hand = Hand::Free;
+            self.asked_at = None;
+        }
+    }
+
+    /// The tool where it would act, with its mirror images and the end of its coating, and the way of the hand.
+    pub(crate) fn paint(&self, ui: &Ui, view: &Projection, session: &Session) {
+        let painter = ui.painter_at(view.rect);
+        let at = match &self.hand {
+            Hand::Draws(touches) => {
+                for (width, color) in [(4.0, ink::HALO_DARK), (2.0, ink::HANDLE)] {
+                    painter.add(Shape::line(self.spots.clone(), Stroke::new(width, color)));
+                }
+                touches.last().copied()
+            }
+            _ => self.under,
+        };
+        let Some(at) = at else {
+            return;
+        };
+        ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
+        let hand = &session.clay_hand;
+        let (middle, turn) = hand.pose(&at);
+        let lines = hand.shape().outline();
+        let placed = |p: &Vec3| middle + turn * *p;
+        let ring = ring(view, middle, hand.size + hand.coat);
+        let lines = lines.iter().map(|line| line.iter().map(placed).collect());
+        let lines: Vec<Vec<Vec3>> = lines.collect();
+        for image in images(hand.mirror) {
+            let drawn = |line: &[Vec3]| -> Option<Vec<Pos2>> {
+                let spots = line.iter().map(|p| view.ui_from_subject(image * *p));
+                spots.collect()
+            };
+            for line in lines.iter().filter_map(|line| drawn(line)) {
+                let halo = Stroke::new(2.8, ink::HALO_DARK.gamma_multiply(0.4));
+                painter.add(Shape::line(line.clone(), halo));
+                painter.add(Shape::line(line, Stroke::new(1.2, ink::HOT)));
+            }
+            if let Some(line) = drawn(&ring) {
+                let stroke = Stroke::new(1.2, ink::HALO_LIGHT);
+                painter.extend(Shape::dashed_line(&line, stroke, 4.0, 4.0));
+            }
+        }
+    }
+}
+
+/// One finger or the first button, alone.
+fn is_plain(ui: &Ui) -> bool {
+    ui.input(|i| {
+        let pointer = &i.pointer;
+        !pointer.secondary_down() && !pointer.middle_down() && i.multi_touch().is_none()
+    })
+}
+
+/// The place of the clay that was found, if the clay was.
+fn touch(pick: &Pick, view: &Projection) -> Option<Touch> {
+    let normal = pick.normal.normalize_or(view.back());
+    pick.object.is_none().then_some(Touch {
+        pos: pick.pos_in_subject,
+        normal,
+    })
+}
+
+/// A circle about a place, across the line of sight.
+fn ring(view: &Projection, middle: Vec3, radius: f32) -> Vec<Vec3> {
+    let corner = |i: u8| {
+        let turn = Quat::from_axis_angle(view.back(), std::f32::consts::TAU * f32::from(i) / 48.0);
+        middle + turn * (radius * view.right)
+    };
+    (0..=48).map(corner).collect()
+}
+
+/// Signs of the axes of a tool and of its mirror images.
+fn images(mirror: [bool; 3]) -> Vec<Vec3> {
+    let mut all = vec![Vec3::ONE];
+    for (axis, is_mirrored) in Vec3::AXES.into_iter().zip(mirror) {
+        if is_mirrored {
+            let images: Vec<Vec3> = all
+                .iter()
+                .map(|signs| *signs * (1.0 - 2.0 * axis))
+                .collect();
+            all.extend(images);
+        }
+    }
+    all
+}
+
+/// Over the picture while the tool is in hand: what a drag does, form and size of the tool, the mirror across x, and how
+/// to put it away. The panel has the rest.
+pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
+    let (mut inner, width) = head_bar(ui, rect, BAR, "clay");
+    let ui = &mut inner;
+    let hand = &session.clay_hand;
+    let mut hold = |hand: ClayHand| commands.push(Command::Clay(ClayCommand::Hold(hand)));
+    let side = theme::control_height();
+    let room = (width - 12.0 - 4.0 * (side + 2.0) - 12.0).max(120.0);
+    let (way_width, form_width) = (0.56 * room, 0.44 * room);
+    let shown = widget::combo("way of strokes", way_title(hand.way).0, way_width);
+    let shown = shown.show_ui(ui, |ui| {
+        for way in StrokeWay::ALL {
+            let (title, hint) = way_title(way);
+            let label = ui.selectable_label(way == hand.way, title);
+            if label.on_hover_text(hint).clicked() {
+                hold(ClayHand {
+                    way,
+                    ..hand.clone()
+                });
+            }
+        }
+    });
+    let hint = format!("{}\n{}", way_title(hand.way).1, w().drag);
+    shown.response.named(w().way).on_hover_text(hint);
+    let shown = widget::combo("form of strokes", form_title(hand.form), form_width);
+    let shown = shown.show_ui(ui, |ui| {
+        for form in 0..ClayHand::FORMS.len() {
+            if ui
+                .selectable_label(form == hand.form, form_title(form))
+                .clicked()
+            {
+                hold(ClayHand {
+                    form,
+                    ..hand.clone()
+                });
+            }
+        }
+    });
+    shown.response.named(w().form).on_hover_text(w().form);
+    let [x, y, z] = hand.mirror;
+    let name = fill(w().mirror, &[&"x"]);
+    let response = ui.add_sized(vec2(side, side), egui::Button::new("X").selected(x));
+    if response
+        .named(&name)
+        .on_hover_text(w().mirror_hint)
+        .clicked()
+    {
+        hold(ClayHand {
+            mirror: [!x, y, z],
+            ..hand.clone()
+        });
+    }
+    if widget::icon_button(ui, Icon::Down, w().smaller, true).clicked() {
+        commands.push(Command::NudgeMain(-1.0));
+    }
+    if widget::icon_button(ui, Icon::Up, w().larger, true).clicked() {
+        commands.push(Command::NudgeMain(1.0));
+    }
+    if widget::icon_button(ui, Icon::Close, w().put_away, true).clicked() {
+        commands.push(Command::Clay(ClayCommand::Toggle));
+    }
+}

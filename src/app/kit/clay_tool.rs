@@ -1,0 +1,25 @@
+//! What the tool that shapes a clay is called, in the panel and over the picture.
+
+use crate::app::session::{ClayHand, StrokeWay};
+use crate::app::words::clay::w;
+use crate::app::words::names;
+use crate::document::ToolShape;
+
+/// What a way to drag is called, and what it does in one sentence.
+pub(crate) fn way_title(way: StrokeWay) -> (&'static str, &'static str) {
+    let w = w();
+    match way {
+        StrokeWay::Move => (w.r#move, w.move_hint),
+        StrokeWay::Push => (w.push, w.push_hint),
+        StrokeWay::Along => (w.along, w.along_hint),
+        StrokeWay::Turn => (w.turn, w.turn_hint),
+        StrokeWay::Grow => (w.grow, w.grow_hint),
+        StrokeWay::Smooth => (w.smooth, w.smooth_hint),
+    }
+}
+
+/// What the form of this index in [`ClayHand::FORMS`] is called.
+pub(crate) fn form_title(form: usize) -> &'static str {
+    let name = ClayHand::FORMS.get(form).copied().unwrap_or_default();
+    ToolShape::named(name).map_or("", |shape| names::tool_shape(&shape))
+}

@@ -1,0 +1,213 @@
+//! The clay: the tool that shapes it, how many of its strokes are shown, and the list of them.
+
+use egui::{Label, RichText, Ui};
+use serde_json::json;
+
+use crate::app::kit::clay_tool::way_title;
+use crate::app::kit::entry::EntryRow;
+use crate::app::kit::icon::Icon;
+use crate::app::kit::theme::Palette;
+use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
+use crate::app::session::{ClayCommand, ClayHand, Command, Session, StrokeWay, Tool};
+use crate::app::words::clay::w;
+use crate::app::words::{fill, names};
+use crate::document::{Clay, ClayStroke, Edit};
+
+/// Rows of the list that are made at most: those at its end.
+const ROWS: usize = 200;
+
+/// The section of a clay, if the subject is one.
+pub(crate) fn ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let Some(clay) = session.clay() else {
+        return;
+    };
+    widget::heading(ui, w().heading, |_| {});
+    let is_held = session.tool() == Tool::Clay;
+    let (icon, text) = match is_held {
+        true => (Icon::Close, w().put_away),
+        false => (Icon::Brush, w().shape),
+    };
+    if widget::labelled_button(ui, icon, text, !is_held, true).clicked() {
+        commands.push(Command::Clay(ClayCommand::Toggle));
+    }
+    if is_held {
+        hand_ui(ui, &session.clay_hand, commands);
+    }
+    detail_ui(ui, clay, commands);
+    if clay.strokes.is_empty() {
+        let weak = Palette::get(ui).weak;
+        ui.add(Label::new(RichText::new(w().none).small().color(weak)).wrap());
+    } else {
+        shown_ui(ui, session, clay, commands);
+        list_ui(ui, session, clay, commands);
+    }
+    widget::divider(ui);
+}
+
+/// The tool in the hand.
+fn hand_ui(ui: &mut Ui, hand: &ClayHand, commands: &mut Vec<Command>) {
+    let mut new = hand.clone();
+    widget::row(ui, |ui| {
+        let (title, hint) = way_title(hand.way);
+        widget::row_label(ui, w().way, hint);
+        let combo = widget::combo("what a drag does", title, ui.available_width() - 4.0);
+        let shown = combo.show_ui(ui, |ui| {
+            for way in StrokeWay::ALL {
+                let (title, hint) = way_title(way);
+                let label = ui.selectable_label(way == hand.way, title);
+                if label.on_hover_text(hint).clicked() {
+                    new.way = way;
+                }
+            }
+        });
+        shown.response.named(w().way).on_hover_text(hint);
+    });
+    let [sizes, coats] = ClayHand::RANGES;
+    let rows = [
+        (w().size, w().size_hint, &mut new.size, sizes),
+        (w().coat, w().coat_hint, &mut new.coat, coats),
+    ];
+    for (name, summary, value, range) in rows {
+        let row = NumberRow {
+            name,
+            summary,
+            value: f64::from(*value),
+            default: Some(0.1),
+            range: range.map(f64::from),
+            unit: "",
+            decimals: 3,
+        };
+        if let Some(change) = row.ui_logarithmic(ui) {
+            *value = *change.value() as f32;
+        }
+    }
+    let row = NumberRow {
+        name: w().depth,
+        summary: w().depth_hint,
+        value: f64::from(hand.depth) * 100.0,
+        default: Some(0.0),
+        range: [-100.0, 100.0],
+        unit: " %",
+        decimals: 0,
+    };
+    if let Some(change) = row.ui(ui) {
+        new.depth = *change.value() as f32 / 100.0;
+    }
+    widget::row(ui, |ui| {
+        widget::row_label(ui, w().mirrors, w().mirror_hint);
+        for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
+            let named = fill(w().mirror, &[&name.to_lowercase()]);
+            let response = ui.checkbox(&mut new.mirror[axis], name).named(&named);
+            response.on_hover_text(w().mirror_hint);
+        }
+    });
+    if new != *hand {
+        commands.push(Command::Clay(ClayCommand::Hold(new)));
+    }
+}
+
+fn detail_ui(ui: &mut Ui, clay: &Clay, commands: &mut Vec<Command>) {
+    let row = NumberRow {
+        name: w().detail,
+        summary: w().detail_hint,
+        value: clay.detail,
+        default: Some(Clay::default().detail),
+        range: Clay::DETAIL,
+        unit: "",
+        decimals: 3,
+    };
+    if let Some(change) = row.ui_logarithmic(ui) {
+        let edit = |detail: f64| Edit::Set {
+            pointer: "/subject/clay/detail".to_owned(),
+            value: json!((detail * 1e3).round() / 1e3),
+            name: "Change detail".to_owned(),
+        };
+        commands.push(widget::command(change.map(edit)));
+    }
+}
+
+/// How many strokes are shown.
+fn shown_ui(ui: &mut Ui, session: &Session, clay: &Clay, commands: &mut Vec<Command>) {
+    let all = clay.strokes.len();
+    let row = NumberRow {
+        name: w().shown,
+        summary: w().shown_hint,
+        value: session.strokes_shown() as f64,
+        default: Some(all as f64),
+        range: [0.0, all as f64],
+        unit: "",
+        decimals: 0,
+    };
+    if let Some(change) = row.ui(ui) {
+        let edit = |shown: f64| {
+            // All of them, those that come later too.
+            let is_less = (shown as usize) < all;
+            let value = is_less.then(|| json!(shown.round() as u64));
+            Edit::put(
+                "/look/strokes".to_owned(),
+                value,
+                "Change strokes shown".to_owned(),
+            )
+        };
+        commands.push(widget::command(change.map(edit)));
+    }
+}
+
+/// The strokes, the last first.
+fn list_ui(ui: &mut Ui, session: &Session, clay: &Clay, commands: &mut Vec<Command>) {
+    let shown = session.strokes_shown();
+    let strokes = clay.strokes.iter().enumerate().rev();
+    for (i, stroke) in strokes.take(ROWS) {
+        ui.push_id(("stroke", i), |ui| {
+            ui.horizontal(|ui| {
+                let name = fill(w().stroke, &[&(i + 1)]);
+                let remove = fill(w().remove, &[&(i + 1)]);
+                ui.with_layout(widget::against(), |ui| {
+                    if widget::icon_button(ui, Icon::Trash, &remove, true).clicked() {
+                        commands.push(Command::Clay(ClayCommand::Remove(i)));
+                    }
+                    let note = note_of(clay, stroke);
+                    let row = EntryRow {
+                        id: ("stroke", i),
+                        name: &name,
+                        title: &name,
+                        note: &note,
+                        is_selected: i + 1 == shown && shown < clay.strokes.len(),
+                        has_grip: false,
+                        group: None,
+                        is_shown: Some(!stroke.is_off),
+                    };
+                    let done = row.ui(ui);
+                    if done.is_toggled {
+                        commands.push(Command::Clay(ClayCommand::Switch(i)));
+                    } else if done.response.clicked() {
+                        // The clay as it is after this stroke.
+                        let is_last = i + 1 == clay.strokes.len();
+                        let value = (!is_last).then(|| json!(i + 1));
+                        let name = "Change strokes shown".to_owned();
+                        let edit = Edit::put("/look/strokes".to_owned(), value, name);
+                        commands.push(widget::command(Change::Set(edit)));
+                    }
+                });
+            });
+        });
+    }
+}
+
+/// What a stroke does, and with which tool.
+fn note_of(clay: &Clay, stroke: &ClayStroke) -> String {
+    let does = match stroke.smooth {
+        Some(_) => w().smoothed,
+        None => w().swept,
+    };
+    let tools = stroke
+        .moves
+        .iter()
+        .filter_map(|one| clay.tools.get(one.tool));
+    let shapes = tools.filter_map(|tool| tool.shape.as_ref());
+    let names: Vec<&str> = shapes.map(names::tool_shape).collect();
+    match names.is_empty() {
+        true => does.to_owned(),
+        false => format!("{} · {does}", names.join(", ")),
+    }
+}

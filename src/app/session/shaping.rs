@@ -1,0 +1,696 @@
+//! Shaping a clay by hand: what a drag over it becomes. A gesture is one stroke of the recipe, thinned to few keys, and
+//! one step of undo.
+
+use glam::{DQuat, Quat, Vec3};
+use std::sync::Arc;
+
+use super::camera;
+use super::drawing::{distance_to, thinned};
+use super::notices::Gravity;
+use super::session::Session;
+use super::shape::seen_across;
+use super::tool::Tool;
+use crate::app::words::clay::w;
+use crate::app::words::fill;
+use crate::document::{
+    Camera, Clay, ClayKey, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool, Edit,
+    Illustration, SubjectRef, ToolShape,
+};
+use crate::math::{Similarity, smooth_path};
+
+/// Where the tools of a clay stand in a document.
+const TOOLS: &str = "/subject/clay/tools";
+/// How far the path may be off the gesture: a part of the coating, and subject units (spec/sweepers.md, B.3).
+const OFF_COAT: f32 = 1.0 / 16.0;
+const OFF_LEAST: f32 = 0.002;
+/// The sizes that a hand may hold, subject units.
+const SIZES: [f32; 2] = [0.01, 0.5];
+/// The widths of a coating that a hand may hold, subject units.
+const COATS: [f32; 2] = [0.01, 0.5];
+/// A tool that pushes begins outside by so much of its size; one that pulls begins inside by so much.
+const OUTSIDE: f32 = 1.0;
+const INSIDE: f32 = 0.5;
+/// Degrees by which a tool turns while the hand crosses the picture, and most degrees of one key.
+const TURN: f32 = 360.0;
+const TURN_OF_KEY: f32 = 120.0;
+/// A tool grows to the double while the hand crosses this part of the picture.
+const DOUBLES: f32 = 0.25;
+/// Sizes of keys, per cent.
+const PERCENT: [f32; 2] = [5.0, 2000.0];
+/// Farthest place of a key, subject units.
+const FARTHEST: f32 = 4.0;
+
+/// What a drag over a clay does (spec/sweepers.md, B.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StrokeWay {
+    /// The tool goes with the hand in the plane of the picture.
+    #[default]
+    Move,
+    /// It goes along the surface's normal: up pulls, down pushes.
+    Push,
+    /// It follows what is under the hand.
+    Along,
+    /// It turns about the surface's normal.
+    Turn,
+    /// It grows, and shrinks.
+    Grow,
+    /// What is under the hand is smoothed.
+    Smooth,
+}
+
+impl StrokeWay {
+    /// All ways, in the order of the buttons.
+    pub const ALL: [Self; 6] = [
+        Self::Move,
+        Self::Push,
+        Self::Along,
+        Self::Turn,
+        Self::Grow,
+        Self::Smooth,
+    ];
+
+    /// True if the picture is asked for the surface all along the way of the hand.
+    pub fn follows_surface(self) -> bool {
+        matches!(self, Self::Along | Self::Smooth)
+    }
+}
+
+/// A place on the clay under the hand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Where, subject space.
+    pub pos: Vec3,
+    /// Unit normal out of the clay.
+    pub normal: Vec3,
+}
+
+/// The tool that an author holds, and how it is used.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClayHand {
+    /// What a drag does.
+    pub way: StrokeWay,
+    /// Its form, one of [`ClayHand::FORMS`].
+    pub form: usize,
+    /// Half of its longest side, subject units.
+    pub size: f32,
+    /// Width of its coating, subject units.
+    pub coat: f32,
+    /// How deep it is sunk into the surface: 0 by half, 1 by all of its size, −1 not at all.
+    pub depth: f32,
+    /// For x, y and z: it has a mirror image beyond the middle plane.
+    pub mirror: [bool; 3],
+}
+
+impl Default for ClayHand {
+    fn default() -> Self {
+        Self {
+            way: StrokeWay::Move,
+            form: 0,
+            size: 0.1,
+            coat: 0.1,
+            depth: 0.0,
+            mirror: [true, false, false],
+        }
+    }
+}
+
+impl ClayHand {
+    /// The forms, by the names of [`ToolShape::NAMES`].
+    pub const FORMS: [&'static str; 5] = ["ball", "ellipsoid", "capsule", "box", "torus"];
+    /// Ranges of size and coating.
+    pub const RANGES: [[f32; 2]; 2] = [SIZES, COATS];
+
+    /// The form with its size; lengths are subject units.
+    pub fn shape(&self) -> ToolShape {
+        let size = self.size;
+        let part = |part: f32| rounded(part * size);
+        match Self::FORMS.get(self.form) {
+            Some(&"ellipsoid") => ToolShape::Ellipsoid {
+                radii: Vec3::new(part(1.0), part(0.7), part(0.5)),
+            },
+            Some(&"capsule") => ToolShape::Capsule {
+                radius: part(0.3),
+                length: part(1.4),
+            },
+            Some(&"box") => ToolShape::Box {
+                half: Vec3::splat(part(1.0)),
+                round: part(0.15),
+            },
+            Some(&"torus") => ToolShape::Torus {
+                ring: part(0.75),
+                radius: part(0.25),
+            },
+            _ => ToolShape::Ball { radius: part(1.0) },
+        }
+    }
+
+    /// Where the tool stands over a place of the clay, and how it is turned.
+    pub fn pose(&self, touch: &Touch) -> (Vec3, Quat) {
+        let turn = match self.form {
+            0 => Quat::IDENTITY,
+            _ => Quat::from_rotation_arc(Vec3::Z, touch.normal),
+        };
+        (touch.pos - self.depth * self.size * touch.normal, turn)
+    }
+
+    fn tool(&self) -> ClayTool {
+        ClayTool {
+            shape: Some(self.shape()),
+            coat: (f64::from(self.coat) * 1e3).round() / 1e3,
+        }
+    }
+
+    /// Larger or smaller by a step.
+    pub(super) fn resized(&self, larger: bool) -> Self {
+        let factor = if larger { 1.15 } else { 1.0 / 1.15 };
+        Self {
+            size: (self.size * factor).clamp(SIZES[0], SIZES[1]),
+            ..self.clone()
+        }
+    }
+}
+
+/// One thing to do with a clay.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ClayCommand {
+    /// Begins a document with a clay of a built-in shape, and takes a tool in hand.
+    Begin(ClayShape),
+    /// Takes the tool in hand, or puts it away.
+    Toggle,
+    /// Changes the tool in the hand.
+    Hold(ClayHand),
+    /// The way of a hand over the clay, as far as it has come.
+    Draw {
+        /// What the drag does.
+        way: StrokeWay,
+        /// Where the hand was: on the surface where the way follows it, else in the plane of the picture through the
+        /// first place.
+        touches: Vec<Touch>,
+        /// The hand has let go.
+        is_over: bool,
+    },
+    /// Switches the stroke of this index off, or on again.
+    Switch(usize),
+    /// Removes the stroke of this index.
+    Remove(usize),
+}
+
+/// The clay of an illustration, if its subject is one.
+pub fn clay_of(illustration: &Illustration) -> Option<&Arc<Clay>> {
+    match &illustration.subject {
+        SubjectRef::Clay(clay) => Some(clay),
+        _ => None,
+    }
+}
+
+impl Session {
+    /// The clay of the document, if its subject is one.
+    pub fn clay(&self) -> Option<&Arc<Clay>> {
+        clay_of(self.illustration())
+    }
+
+    /// How many strokes of the clay are shown.
+    pub fn strokes_shown(&self) -> usize {
+        self.shown().strokes_shown().unwrap_or(0) as usize
+    }
+
+    pub(super) fn run_clay(&mut self, command: ClayCommand) {
+        match command {
+            ClayCommand::Begin(shape) => {
+                self.choose_subject(SubjectRef::Clay(Arc::new(Clay {
+                    from: ClayStart::Shape(shape),
+                    ..Clay::default()
+                })));
+                self.take_clay_tool();
+            }
+            ClayCommand::Toggle if self.tool() == Tool::Clay => self.take_tool(Tool::Look),
+            ClayCommand::Toggle => self.take_clay_tool(),
+            ClayCommand::Hold(hand) => self.clay_hand = hand,
+            ClayCommand::Draw {
+                way,
+                touches,
+                is_over,
+            } => self.draw_stroke(way, &touches, is_over),
+            ClayCommand::Switch(index) => self.switch_stroke(index),
+            ClayCommand::Remove(stroke) => {
+                self.apply(&Edit::RemoveStroke { stroke }, false);
+            }
+        }
+    }
+
+    /// Takes the tool in hand that shapes the clay. Strokes come after those that are there, so that all have to be seen.
+    fn take_clay_tool(&mut self) {
+        let Some(clay) = self.clay() else {
+            return;
+        };
+        if self.strokes_shown() < clay.strokes.len() {
+            return self.notify(Gravity::Info, w().show_all_first, "");
+        }
+        self.end_tissues();
+        self.selection = super::selection::Selection::Nothing;
+        self.drawn_stroke = None;
+        self.take_tool(Tool::Clay);
+    }
+
+    fn switch_stroke(&mut self, index: usize) {
+        let stroke = self.clay().and_then(|clay| clay.strokes.get(index));
+        let Some(stroke) = stroke else {
+            return;
+        };
+        let value = (!stroke.is_off).then_some(serde_json::Value::Bool(true));
+        let name = match stroke.is_off {
+            true => "Show stroke",
+            false => "Hide stroke",
+        };
+        let pointer = format!("/subject/clay/strokes/{index}/off");
+        self.apply(&Edit::put(pointer, value, name.to_owned()), false);
+    }
+
+    /// Takes the way of a hand that shapes the clay. The whole gesture is one step of undo.
+    fn draw_stroke(&mut self, way: StrokeWay, touches: &[Touch], is_over: bool) {
+        let drawn = self.drawn_stroke.take();
+        let Some(clay) = self.clay().filter(|_| self.tool() == Tool::Clay).cloned() else {
+            return;
+        };
+        let index = drawn.unwrap_or(clay.strokes.len());
+        let tool = self.clay_hand.tool();
+        let Some((tool_index, tools)) = self.place_of_tool(&clay, index, &tool) else {
+            return self.notify(
+                Gravity::Info,
+                fill(w().too_many_tools, &[&Clay::MAX_TOOLS]),
+                "",
+            );
+        };
+        let Some(stroke) = stroke(&self.clay_hand, way, touches, &self.camera, tool_index) else {
+            self.drawn_stroke = drawn.filter(|_| !is_over);
+            return;
+        };
+        let mut edits: Vec<Edit> = tools.into_iter().collect();
+        let value = stroke.to_value();
+        if drawn.is_none() {
+            edits.push(Edit::AddStroke { index, stroke });
+        }
+        let name = "Draw a stroke".to_owned();
+        edits.push(Edit::Set {
+            pointer: format!("/subject/clay/strokes/{index}"),
+            value,
+            name: name.clone(),
+        });
+        if self.apply(&Edit::All { name, edits }, true) && !is_over {
+            self.drawn_stroke = Some(index);
+        }
+        if is_over {
+            self.end_drag();
+        }
+    }
+
+    /// The place of a tool in the clay's list, and the edit that puts it there if it has none yet: in place of one that
+    /// no other stroke than that of the index uses, or behind the others. `None` if all places are taken.
+    fn place_of_tool(
+        &self,
+        clay: &Clay,
+        stroke: usize,
+        tool: &ClayTool,
+    ) -> Option<(usize, Option<Edit>)> {
+        if let Some(known) = clay.tools.iter().position(|other| other == tool) {
+            return Some((known, None));
+        }
+        let others = clay
+            .strokes
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| *i != stroke);
+        let moves = others.flat_map(|(_, stroke)| &stroke.moves);
+        let used: Vec<usize> = moves.map(|one| one.tool).collect();
+        let is_free = |i: &usize| clay.tools[*i].shape.is_some() && !used.contains(i);
+        let free = (0..clay.tools.len()).find(is_free);
+        let index = free.unwrap_or(clay.tools.len());
+        if index >= Clay::MAX_TOOLS {
+            return None;
+        }
+        let listed = self.document().get(TOOLS).and_then(|list| list.as_array());
+        let own = || clay.tools.iter().map(ClayTool::to_value).collect();
+        let mut list: Vec<serde_json::Value> = listed.cloned().unwrap_or_else(own);
+        match list.get_mut(index) {
+            Some(entry) => *entry = tool.to_value(),
+            None => list.push(tool.to_value()),
+        }
+        let edit = Edit::Set {
+            pointer: TOOLS.to_owned(),
+            value: list.into(),
+            name: String::new(),
+        };
+        Some((index, Some(edit)))
+    }
+}
+
+/// Three decimals, as a link holds them.
+fn rounded(length: f32) -> f32 {
+    (length * 1e3).round() / 1e3
+}
+
+fn thousandths(pos: Vec3) -> [i32; 3] {
+    let pos = pos.clamp(Vec3::splat(-FARTHEST), Vec3::splat(FARTHEST));
+    (pos * 1e3).round().as_ivec3().to_array()
+}
+
+/// A turn as whole degrees about the axes of the subject.
+fn degrees(turn: Quat) -> [i32; 3] {
+    let vector = turn.to_scaled_axis() * (180.0 / std::f32::consts::PI);
+    vector.round().as_ivec3().to_array()
+}
+
+/// The stroke that a gesture is; `None` where it has come to nothing yet.
+fn stroke(
+    hand: &ClayHand,
+    way: StrokeWay,
+    touches: &[Touch],
+    camera: &Camera,
+    tool: usize,
+) -> Option<ClayStroke> {
+    let (first, last) = (touches.first()?, touches.last()?);
+    let (at, turn) = hand.pose(first);
+    let key = |at: Vec3, turn: [i32; 3]| ClayKey {
+        at: thousandths(at),
+        turn,
+        percent: 100,
+    };
+    let begin = key(at, degrees(turn));
+    let [right, up, _] = camera::axes(camera.rotate);
+    let gone = last.pos - first.pos;
+    let [across, risen] = [gone.dot(right), gone.dot(up)];
+    let (keys, is_straight) = match way {
+        StrokeWay::Move | StrokeWay::Along | StrokeWay::Smooth => {
+            let places = touches.iter().map(|touch| match way {
+                StrokeWay::Move => at + (touch.pos - first.pos),
+                _ => hand.pose(touch).0,
+            });
+            let (places, is_straight) = few(&places.collect::<Vec<_>>(), hand.coat);
+            // A place that is smoothed needs no way.
+            if places.len() < 2 && way != StrokeWay::Smooth {
+                return None;
+            }
+            let mut keys: Vec<ClayKey> = places.into_iter().map(|at| key(at, [0; 3])).collect();
+            keys.first_mut()?.turn = begin.turn;
+            keys.dedup_by_key(|key| key.at);
+            (keys, is_straight)
+        }
+        StrokeWay::Push => {
+            // Up pulls.
+            let from = match risen > 0.0 {
+                true => first.pos - INSIDE * hand.size * first.normal,
+                false => first.pos + OUTSIDE * hand.size * first.normal,
+            };
+            let to = from + risen * first.normal;
+            (vec![key(from, begin.turn), key(to, [0; 3])], false)
+        }
+        StrokeWay::Turn => {
+            let angle = (TURN * across / seen_across(camera)).round();
+            let parts = (angle.abs() / TURN_OF_KEY).ceil().max(1.0);
+            let by = (first.normal * (angle / parts))
+                .round()
+                .as_ivec3()
+                .to_array();
+            let turned = std::iter::repeat_n(key(at, by), parts as usize);
+            (std::iter::once(begin).chain(turned).collect(), true)
+        }
+        StrokeWay::Grow => {
+            let grown = (risen / (DOUBLES * seen_across(camera))).exp2();
+            let percent = (100.0 * grown).round().clamp(PERCENT[0], PERCENT[1]) as i32;
+            let end = ClayKey {
+                percent,
+                ..key(at, [0; 3])
+            };
+            (vec![begin, end], false)
+        }
+    };
+    let is_still = keys.windows(2).all(|pair| {
+        let [from, to] = pair else { return true };
+        from.at == to.at && from.percent == to.percent && to.turn == [0; 3]
+    });
+    let smooth = (way == StrokeWay::Smooth).then_some(ClayStroke::DEFAULT_STRENGTH);
+    (smooth.is_some() || !is_still).then(|| ClayStroke {
+        moves: vec![ClayMove {
+            tool,
+            keys,
+            is_straight,
+        }],
+        mirror: hand.mirror,
+        smooth,
+        is_off: false,
+    })
+}
+
+/// The fewest places whose way stays near to all of a gesture, and whether that is the straight one: a smooth curve
+/// through few of them may stray.
+fn few(places: &[Vec3], coat: f32) -> (Vec<Vec3>, bool) {
+    let tolerance = (OFF_COAT * coat).max(OFF_LEAST);
+    for part in [1.0, 0.5, 0.25] {
+        let keys = thinned(places, part * tolerance);
+        if keys.len() < 3 {
+            return (keys, false);
+        }
+        if is_near(&curve(&keys), places, tolerance) {
+            return (keys, false);
+        }
+    }
+    (thinned(places, tolerance), true)
+}
+
+/// The smooth way through places, as a clay takes it.
+fn curve(keys: &[Vec3]) -> Vec<Vec3> {
+    let pose = |at: &Vec3| Similarity::new(1.0, DQuat::IDENTITY, at.as_dvec3());
+    let poses: Vec<Similarity> = keys.iter().map(pose).collect();
+    let way = smooth_path(&poses).into_iter();
+    way.map(|pose| pose.place.as_vec3()).collect()
+}
+
+/// True if a way passes all places within the tolerance, and goes nowhere else.
+fn is_near(way: &[Vec3], places: &[Vec3], tolerance: f32) -> bool {
+    let away = |pos: &Vec3, way: &[Vec3]| {
+        let pieces = way
+            .windows(2)
+            .map(|piece| distance_to(*pos, piece[0], piece[1]));
+        pieces.fold(f32::INFINITY, f32::min)
+    };
+    places.iter().all(|pos| away(pos, way) <= tolerance)
+        && way.iter().all(|pos| away(pos, places) <= tolerance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::session::{Command, Effect};
+    use crate::document::Document;
+
+    const UP: Touch = Touch {
+        pos: Vec3::new(0.2, 0.0, 0.45),
+        normal: Vec3::Z,
+    };
+
+    /// Touches along an arc in the plane of the picture.
+    fn arc() -> Vec<Touch> {
+        let touch = |i: usize| {
+            let angle = 0.02 * i as f32;
+            Touch {
+                pos: UP.pos + 0.3 * Vec3::new(1.0 - angle.cos(), 0.0, angle.sin()),
+                ..UP
+            }
+        };
+        (0..60).map(touch).collect()
+    }
+
+    fn session() -> Session {
+        let mut session = Session::new(Document::new());
+        session.run(Command::Clay(ClayCommand::Begin(ClayShape::Ball)), 0.0);
+        assert_eq!(session.tool(), Tool::Clay);
+        session
+    }
+
+    fn draw(
+        session: &mut Session,
+        way: StrokeWay,
+        touches: &[Touch],
+        is_over: bool,
+    ) -> Vec<Effect> {
+        let touches = touches.to_vec();
+        let command = ClayCommand::Draw {
+            way,
+            touches,
+            is_over,
+        };
+        session.run(Command::Clay(command), 0.0)
+    }
+
+    fn strokes(session: &Session) -> &[ClayStroke] {
+        &session.clay().expect("a clay").strokes
+    }
+
+    #[test]
+    fn a_gesture_is_one_stroke_and_one_step_of_undo() {
+        let mut session = session();
+        let way = arc();
+        for end in [5, 20, 40] {
+            draw(&mut session, StrokeWay::Move, &way[..end], false);
+            assert_eq!(strokes(&session).len(), 1);
+        }
+        draw(&mut session, StrokeWay::Move, &way, true);
+        let [stroke] = strokes(&session) else {
+            panic!("one stroke")
+        };
+        assert_eq!(stroke.mirror, [true, false, false]);
+        let keys = &stroke.moves[0].keys;
+        assert!((3..8).contains(&keys.len()), "{} keys", keys.len());
+        assert_eq!(keys[0].at, [200, 0, 450]);
+        draw(&mut session, StrokeWay::Move, &way, true);
+        assert_eq!(strokes(&session).len(), 2);
+        session.run(Command::Undo, 0.0);
+        assert_eq!(strokes(&session).len(), 1);
+        session.run(Command::Undo, 0.0);
+        assert!(strokes(&session).is_empty());
+        session.run(Command::Redo, 0.0);
+        assert_eq!(strokes(&session).len(), 1);
+    }
+
+    #[test]
+    fn the_smooth_way_stays_near_the_hand() {
+        let places: Vec<Vec3> = arc().iter().map(|touch| touch.pos).collect();
+        let (keys, is_straight) = few(&places, 0.1);
+        assert!(!is_straight && keys.len() < 8, "{} keys", keys.len());
+        assert!(is_near(&curve(&keys), &places, 0.1 / 16.0));
+        // A corner that a curve would round off.
+        let corner = |i: usize| match i < 30 {
+            true => Vec3::new(0.01 * i as f32, 0.0, 0.0),
+            false => Vec3::new(0.3, 0.01 * (i - 30) as f32, 0.0),
+        };
+        let places: Vec<Vec3> = (0..60).map(corner).collect();
+        let (keys, is_straight) = few(&places, 0.02);
+        let way = if is_straight {
+            keys.clone()
+        } else {
+            curve(&keys)
+        };
+        assert!(is_near(&way, &places, 0.0021), "{keys:?}");
+        assert_eq!(few(&[], 0.1).0, []);
+    }
+
+    #[test]
+    fn each_way_makes_its_own_stroke() {
+        let far = |by: Vec3| {
+            [
+                UP,
+                Touch {
+                    pos: UP.pos + by,
+                    ..UP
+                },
+            ]
+        };
+        let drawn = |way, by: Vec3| {
+            let mut session = session();
+            draw(&mut session, way, &far(by), true);
+            strokes(&session).first().cloned()
+        };
+        let camera = Camera::DOCUMENT_DEFAULT;
+        let [right, up, _] = camera::axes(camera.rotate);
+        let pulled = drawn(StrokeWay::Push, 0.2 * up).expect("a pull");
+        let [from, to] = &pulled.moves[0].keys[..] else {
+            panic!("two keys")
+        };
+        assert!(from.at[2] < 450 && to.at[2] - from.at[2] == 200);
+        let pushed = drawn(StrokeWay::Push, -0.2 * up).expect("a push");
+        assert!(pushed.moves[0].keys[0].at[2] > 450);
+        let turned = drawn(StrokeWay::Turn, 0.5 * seen_across(&camera) * right).expect("a turn");
+        let by: i32 = turned.moves[0].keys.iter().map(|key| key.turn[2]).sum();
+        assert_eq!((by, turned.moves[0].keys.len()), (180, 3));
+        let grown = drawn(StrokeWay::Grow, 0.25 * seen_across(&camera) * up).expect("growth");
+        assert_eq!(grown.moves[0].keys[1].percent, 200);
+        let smoothed = drawn(StrokeWay::Smooth, Vec3::ZERO).expect("a touch is enough");
+        assert_eq!(smoothed.smooth, Some(50));
+        for way in [
+            StrokeWay::Move,
+            StrokeWay::Push,
+            StrokeWay::Turn,
+            StrokeWay::Grow,
+        ] {
+            assert_eq!(
+                drawn(way, Vec3::ZERO),
+                None,
+                "{way:?}: the hand has not moved"
+            );
+        }
+    }
+
+    #[test]
+    fn tools_are_listed_once_and_unused_ones_give_way() {
+        let mut session = session();
+        let mut hand = ClayHand::default();
+        for size in [0.1, 0.2, 0.1, 0.3] {
+            hand.size = size;
+            session.run(Command::Clay(ClayCommand::Hold(hand.clone())), 0.0);
+            draw(&mut session, StrokeWay::Move, &arc(), true);
+        }
+        let clay = session.clay().expect("a clay");
+        assert_eq!(clay.tools.len(), 3);
+        let tools = clay.strokes.iter().map(|stroke| stroke.moves[0].tool);
+        assert_eq!(tools.collect::<Vec<_>>(), [0, 1, 0, 2]);
+        session.run(Command::Clay(ClayCommand::Remove(1)), 0.0);
+        hand.size = 0.4;
+        session.run(Command::Clay(ClayCommand::Hold(hand.clone())), 0.0);
+        draw(&mut session, StrokeWay::Move, &arc(), true);
+        assert_eq!(session.clay().expect("a clay").tools.len(), 3);
+        for i in 0..20 {
+            hand.size = 0.02 + 0.01 * i as f32;
+            session.run(Command::Clay(ClayCommand::Hold(hand.clone())), 0.0);
+            draw(&mut session, StrokeWay::Move, &arc(), true);
+        }
+        assert_eq!(session.clay().expect("a clay").tools.len(), Clay::MAX_TOOLS);
+        assert!(
+            session
+                .notices
+                .shown()
+                .any(|notice| notice.message.contains("16"))
+        );
+    }
+
+    /// A stroke that this version does not know, unknown keys and the numbers of steps outlive strokes beside them.
+    #[test]
+    fn strokes_go_beside_what_is_not_known() {
+        let json = r#"{ "fabrica": 1, "subject": { "clay": { "x-own": 1, "strokes": [
+            { "path": [0, 0, 400, 0, 0, 100] }, { "path": [1, 2, 3], "do": "carve", "x-deep": 7 } ] } },
+            "look": { "strokes": 2 }, "steps": [{ "set": { "/look/strokes": 1 } }] }"#;
+        let mut session = Session::new(Document::from_json(json).expect("a document"));
+        session.run(Command::Clay(ClayCommand::Toggle), 0.0);
+        draw(&mut session, StrokeWay::Move, &arc(), true);
+        session.run(Command::Clay(ClayCommand::Switch(0)), 0.0);
+        assert!(strokes(&session)[0].is_off);
+        session.run(Command::Clay(ClayCommand::Switch(0)), 0.0);
+        session.run(Command::Clay(ClayCommand::Remove(0)), 0.0);
+        let written = session.document().to_json_compact();
+        for kept in [r#""x-own":1"#, r#""do":"carve""#, r#""x-deep":7"#] {
+            assert!(written.contains(kept), "{written}");
+        }
+        assert!(written.contains(r#""/look/strokes":0"#), "{written}");
+        assert_eq!(session.illustration().strokes_shown(), Some(1), "{written}");
+    }
+
+    #[test]
+    fn the_tool_wants_to_see_all_strokes_and_goes_with_its_clay() {
+        let json = r#"{ "fabrica": 1, "subject": { "clay": { "strokes": [{ "path": [0, 0, 400, 0, 0, 100] }] } },
+            "look": { "strokes": 0 } }"#;
+        let mut session = Session::new(Document::from_json(json).expect("a document"));
+        session.run(Command::Clay(ClayCommand::Toggle), 0.0);
+        assert_eq!(session.tool(), Tool::Look);
+        assert_eq!(session.notices.shown().count(), 1);
+        let mut session = self::session();
+        session.run(Command::Undo, 0.0);
+        assert_eq!(
+            session.tool(),
+            Tool::Look,
+            "the document before has no clay"
+        );
+        session.run(Command::Clay(ClayCommand::Toggle), 0.0);
+        assert_eq!(session.tool(), Tool::Look);
+        draw(&mut session, StrokeWay::Move, &arc(), true);
+        assert!(session.clay().is_none());
+    }
+}

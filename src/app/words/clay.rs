@@ -1,0 +1,51 @@
+//! Shaping a clay.
+
+words! {
+    /// Texts of the tool that shapes a clay and of the list of strokes.
+    Clay {
+        heading: "Strokes", "Striche", "Trazos", "笔划";
+        shape: "Shape the clay", "Ton formen", "Modelar la arcilla", "塑形";
+        put_away: "Put the tool away", "Werkzeug weglegen", "Guardar el instrumento", "放下器械";
+        none: "No stroke yet: take the tool and drag over the clay.", "Noch kein Strich: das Werkzeug nehmen und über den Ton ziehen.", "Aún no hay trazos: tome el instrumento y arrastre sobre la arcilla.", "尚无笔划：拿起器械，在黏土上拖动。";
+        way: "What a drag does", "Was das Ziehen bewirkt", "Lo que hace el arrastre", "拖动的作用";
+        r#move: "Move", "Ziehen", "Mover", "移动";
+        push: "Push, pull", "Drücken, heben", "Empujar, tirar", "推拉";
+        along: "Along", "Entlang", "A lo largo", "沿面";
+        turn: "Turn", "Drehen", "Girar", "扭转";
+        grow: "Grow", "Wachsen", "Crecer", "膨大";
+        smooth: "Smooth", "Glätten", "Alisar", "平滑";
+        move_hint: "The tool goes with the hand, in the plane of the picture", "Das Werkzeug geht mit der Hand, in der Bildebene", "El instrumento sigue a la mano, en el plano de la imagen", "器械在图像平面内随手移动";
+        push_hint: "Up pulls out of the surface, down pushes into it", "Nach oben hebt aus der Fläche, nach unten drückt hinein", "Hacia arriba tira de la superficie, hacia abajo la hunde", "向上拉出表面，向下压入";
+        along_hint: "The tool follows the surface under the hand", "Das Werkzeug folgt der Fläche unter der Hand", "El instrumento sigue la superficie bajo la mano", "器械沿手下的表面移动";
+        turn_hint: "Sideways turns the tool about the surface's normal", "Seitwärts dreht das Werkzeug um die Flächennormale", "De lado gira el instrumento sobre la normal de la superficie", "左右拖动使器械绕表面法线旋转";
+        grow_hint: "Up makes the tool grow and what is in it, down makes it shrink", "Nach oben wächst das Werkzeug und was in ihm ist, nach unten schrumpft es", "Hacia arriba crece el instrumento y lo que contiene, hacia abajo encoge", "向上使器械及其中部分变大，向下变小";
+        smooth_hint: "What is under the hand is smoothed; with Shift held any drag does", "Was unter der Hand ist, wird geglättet; mit Umschalt tut es jedes Ziehen", "Alisa lo que está bajo la mano; con Mayús lo hace cualquier arrastre", "平滑手下的部分；按住 Shift 时任何拖动皆如此";
+        form: "Form of the tool", "Form des Werkzeugs", "Forma del instrumento", "器械的形状";
+        size: "Size", "Größe", "Tamaño", "大小";
+        size_hint: "Half the length of the tool; [ and ]", "Halbe Länge des Werkzeugs; [ und ]", "Mitad de la longitud del instrumento; [ y ]", "器械长度的一半；[ 和 ]";
+        coat: "Coating", "Mantel", "Recubrimiento", "影响层";
+        coat_hint: "Width around the tool in which the motion fades", "Breite um das Werkzeug, in der die Bewegung abklingt", "Anchura en torno al instrumento en que el movimiento se atenúa", "器械周围运动逐渐减弱的宽度";
+        depth: "Depth", "Tiefe", "Profundidad", "深度";
+        depth_hint: "How deep the tool is sunk where the drag begins: 0 % by half", "Wie tief das Werkzeug am Anfang des Zuges steckt: 0 % zur Hälfte", "Cuánto se hunde el instrumento al empezar: 0 % hasta la mitad", "拖动开始时器械陷入的深度：0 % 为一半";
+        smaller: "Smaller tool", "Kleineres Werkzeug", "Instrumento menor", "缩小器械";
+        larger: "Larger tool", "Größeres Werkzeug", "Instrumento mayor", "放大器械";
+        mirror: "Mirror across {0}", "Spiegeln quer zu {0}", "Espejo en {0}", "沿 {0} 镜像";
+        mirrors: "Mirror", "Spiegeln", "Espejo", "镜像";
+        mirror_hint: "The tool has an image beyond the middle of the clay, which acts at the same time", "Das Werkzeug hat ein Spiegelbild jenseits der Mitte des Tons, das gleichzeitig wirkt", "El instrumento tiene una imagen reflejada más allá del centro de la arcilla, que actúa a la vez", "器械在黏土中面另一侧有镜像，同时作用";
+        shown: "Shown", "Gezeigt", "Mostrados", "显示";
+        shown_hint: "As many strokes are shown, the first ones; steps can let the clay grow by them", "So viele Striche werden gezeigt, die ersten; Schritte können den Ton damit wachsen lassen", "Se muestran tantos trazos, los primeros; los pasos pueden hacer crecer la arcilla con ellos", "显示最前面的这些笔划；步骤可使黏土随之成形";
+        show_all_first: "Strokes are drawn where all of them are shown: put “Shown” to the end first", "Striche zeichnet man, wo alle gezeigt werden: zuerst „Gezeigt“ ans Ende stellen", "Los trazos se dibujan donde se muestran todos: lleve antes «Mostrados» al final", "须显示全部笔划才能绘制：先把“显示”调到最后";
+        too_many_tools: "A clay has at most {0} different tools; choose one of those that its strokes use", "Ein Ton hat höchstens {0} verschiedene Werkzeuge; bitte eines wählen, das seine Striche verwenden", "Una arcilla tiene como máximo {0} instrumentos distintos; elija uno de los que usan sus trazos", "一块黏土最多有 {0} 种器械；请选用其笔划已用的一种";
+        stroke: "Stroke {0}", "Strich {0}", "Trazo {0}", "笔划 {0}";
+        remove: "Remove stroke {0}", "Strich {0} entfernen", "Quitar el trazo {0}", "移除笔划 {0}";
+        swept: "moves", "bewegt", "mueve", "移动";
+        smoothed: "smooths", "glättet", "alisa", "平滑";
+        detail: "Detail", "Feinheit", "Detalle", "细节";
+        detail_hint: "Longest edge of the clay's triangles where strokes come; a change does all strokes again", "Längste Kante der Dreiecke, wo Striche hinkommen; eine Änderung macht alle Striche neu", "Arista más larga de los triángulos donde llegan los trazos; un cambio repite todos los trazos", "笔划所及处三角形的最长边；更改会重做全部笔划";
+        ball: "Ball of clay", "Tonkugel", "Bola de arcilla", "黏土球";
+        cube: "Block of clay", "Tonwürfel", "Bloque de arcilla", "黏土块";
+        plate: "Plate of clay", "Tonplatte", "Placa de arcilla", "黏土板";
+        torus: "Ring of clay", "Tonring", "Anillo de arcilla", "黏土环";
+        drag: "Drag over the clay; beside it turns the view", "Über den Ton ziehen; daneben dreht es die Ansicht", "Arrastre sobre la arcilla; al lado gira la vista", "在黏土上拖动；旁边则转动视图";
+    }
+}
