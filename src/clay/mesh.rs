@@ -34,6 +34,11 @@ impl Vertex {
     }
 }
 
+/// Bytes that a list has taken, room that it does not use yet counted.
+pub(super) fn taken<T>(list: &Vec<T>) -> usize {
+    list.capacity() * size_of::<T>()
+}
+
 /// Triangles with their neighbours. Every edge has one triangle or two, which run through it in opposite directions.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClayMesh {
@@ -155,6 +160,21 @@ impl ClayMesh {
     /// Number of triangles.
     pub(super) fn triangle_count(&self) -> usize {
         self.triangles.len() - self.free_triangles.len()
+    }
+
+    /// Number of vertices.
+    pub(super) fn vertex_count(&self) -> usize {
+        self.vertices.len() - self.free_vertices.len()
+    }
+
+    /// Bytes that the mesh has taken, by the room in its lists.
+    pub(super) fn bytes(&self) -> usize {
+        taken(&self.vertices)
+            + taken(&self.leaving)
+            + taken(&self.triangles)
+            + taken(&self.twins)
+            + taken(&self.free_vertices)
+            + taken(&self.free_triangles)
     }
 
     /// The vertices of a triangle; `None` if its place is free.

@@ -196,6 +196,9 @@ pub(super) enum Command {
     },
     /// Measures frame times on this adapter, as ratios to the undeformed frame.
     Bench {
+        /// Measures the shaping of clay instead, which needs no adapter: ratios and counts beside their limits.
+        #[arg(long)]
+        clay: bool,
         /// Prints JSON instead of text.
         #[arg(long)]
         json: bool,
