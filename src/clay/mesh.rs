@@ -39,6 +39,14 @@ pub(super) fn taken<T>(list: &Vec<T>) -> usize {
     list.capacity() * size_of::<T>()
 }
 
+/// Fills a list up to a length. Its room grows by an eighth, since a list that doubles takes twice what it needs.
+pub(super) fn lengthen<T: Clone>(list: &mut Vec<T>, len: usize, item: T) {
+    if len > list.capacity() {
+        list.reserve_exact(len + len / 8 - list.len());
+    }
+    list.resize(len, item);
+}
+
 /// Triangles with their neighbours. Every edge has one triangle or two, which run through it in opposite directions.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClayMesh {
@@ -69,8 +77,10 @@ fn previous(half: u32) -> u32 {
 impl ClayMesh {
     /// A mesh of triangles; `None` if an edge has more than two triangles or two in the same direction, or a vertex has
     /// several fans.
-    pub(super) fn new(vertices: Vec<Vertex>, triangles: Vec<[u32; 3]>) -> Option<Self> {
+    pub(super) fn new(mut vertices: Vec<Vertex>, mut triangles: Vec<[u32; 3]>) -> Option<Self> {
         let count = vertices.len();
+        vertices.shrink_to_fit();
+        triangles.shrink_to_fit();
         let mut mesh = Self {
             vertices,
             leaving: vec![NONE; count],
@@ -230,9 +240,10 @@ impl ClayMesh {
 
     fn new_triangle(&mut self) -> u32 {
         self.free_triangles.pop().unwrap_or_else(|| {
-            self.triangles.push([NONE; 3]);
-            self.twins.push([NONE; 3]);
-            (self.triangles.len() - 1) as u32
+            let places = self.triangles.len();
+            lengthen(&mut self.triangles, places + 1, [NONE; 3]);
+            lengthen(&mut self.twins, places + 1, [NONE; 3]);
+            places as u32
         })
     }
 
@@ -241,9 +252,10 @@ impl ClayMesh {
             self.vertices[index as usize] = vertex;
             return index;
         }
-        self.vertices.push(vertex);
-        self.leaving.push(NONE);
-        (self.vertices.len() - 1) as u32
+        let places = self.vertices.len();
+        lengthen(&mut self.vertices, places + 1, vertex);
+        lengthen(&mut self.leaving, places + 1, NONE);
+        places as u32
     }
 
     /// Puts a triangle into a place, with the half-edges beyond its edges.

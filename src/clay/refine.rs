@@ -7,7 +7,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::mesh::{ClayMesh, Vertex};
+use super::mesh::{ClayMesh, Vertex, lengthen};
 
 /// Most triangles: beyond them no edge is split.
 pub const MAX_TRIANGLES: usize = 300_000;
@@ -191,8 +191,8 @@ impl Stepping<'_> {
         let vertex = self.mesh.split(half, middle);
         self.work.splits += 1;
         let places = self.mesh.vertices.len();
-        self.after.resize(places, middle);
-        self.moved_in.resize(places, 0);
+        lengthen(self.after, places, middle);
+        lengthen(self.moved_in, places, 0);
         self.moved_in[vertex as usize] = 0;
         self.made.push(vertex);
         self.move_to(vertex, carry.carry(&middle));

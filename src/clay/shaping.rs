@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::mesh::{ClayMesh, Vertex, taken};
+use super::mesh::{ClayMesh, Vertex, lengthen, taken};
 use super::motion::{LeftOut, Motion, Step, around, is_in};
 use super::refine::{Carry, MAX_TRIANGLES, Stepping, Work};
 use super::smooth;
@@ -279,7 +279,7 @@ impl Shaping {
 
     /// New vertices have not moved yet, whatever had their places before.
     fn note_made(&mut self, made: &[u32]) {
-        self.touched.resize(self.mesh.vertices.len(), false);
+        lengthen(&mut self.touched, self.mesh.vertices.len(), false);
         for vertex in made {
             self.touched[*vertex as usize] = false;
         }
@@ -399,7 +399,7 @@ impl Shaping {
             let part = |pos: DVec3| f64::from(strength) / 200.0 * motion.field(&step, pos);
             let moved = smooth::smoothed(&mut self.mesh, &near, &part);
             self.look_after(&moved);
-            self.touched.resize(self.mesh.vertices.len(), false);
+            lengthen(&mut self.touched, self.mesh.vertices.len(), false);
             for vertex in moved {
                 self.touched[vertex as usize] = true;
             }
