@@ -426,12 +426,13 @@ mod tests {
     #[test]
     fn edges_of_the_last_stroke_are_those_with_a_moved_end() {
         let positions = places([[0., 0., 0.], [1., 0., 0.], [0., 3., 0.], [0., 0., 10.]]);
-        let stroke = |moved| LastStroke {
-            moved,
-            detail: 50.0,
+        let checked = |moved: Option<&[bool]>| {
+            let stroke = moved.map(|moved| LastStroke {
+                moved,
+                detail: 50.0,
+            });
+            Check::of(&positions, &TETRAHEDRON, stroke)
         };
-        let checked =
-            |moved: Option<&[bool]>| Check::of(&positions, &TETRAHEDRON, moved.map(stroke));
         let measured = |moved: Option<&[bool]>| {
             let found = checked(moved);
             [found.shortest_edge, found.longest_edge].map(|x| x.map(|x| x * x))
