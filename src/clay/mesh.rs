@@ -34,6 +34,19 @@ impl Vertex {
     }
 }
 
+/// Bytes that a list has taken, room that it does not use yet counted.
+pub(super) fn taken<T>(list: &Vec<T>) -> usize {
+    list.capacity() * size_of::<T>()
+}
+
+/// Fills a list up to a length. Its room grows by an eighth, since a list that doubles takes twice what it needs.
+pub(super) fn lengthen<T: Clone>(list: &mut Vec<T>, len: usize, item: T) {
+    if len > list.capacity() {
+        list.reserve_exact(len + len / 8 - list.len());
+    }
+    list.resize(len, item);
+}
+
 /// Triangles with their neighbours. Every edge has one triangle or two, which run through it in opposite directions.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClayMesh {
@@ -64,8 +77,10 @@ fn previous(half: u32) -> u32 {
 impl ClayMesh {
     /// A mesh of triangles; `None` if an edge has more than two triangles or two in the same direction, or a vertex has
     /// several fans.
-    pub(super) fn new(vertices: Vec<Vertex>, triangles: Vec<[u32; 3]>) -> Option<Self> {
+    pub(super) fn new(mut vertices: Vec<Vertex>, mut triangles: Vec<[u32; 3]>) -> Option<Self> {
         let count = vertices.len();
+        vertices.shrink_to_fit();
+        triangles.shrink_to_fit();
         let mut mesh = Self {
             vertices,
             leaving: vec![NONE; count],
@@ -157,6 +172,21 @@ impl ClayMesh {
         self.triangles.len() - self.free_triangles.len()
     }
 
+    /// Number of vertices.
+    pub(super) fn vertex_count(&self) -> usize {
+        self.vertices.len() - self.free_vertices.len()
+    }
+
+    /// Bytes that the mesh has taken, by the room in its lists.
+    pub(super) fn bytes(&self) -> usize {
+        taken(&self.vertices)
+            + taken(&self.leaving)
+            + taken(&self.triangles)
+            + taken(&self.twins)
+            + taken(&self.free_vertices)
+            + taken(&self.free_triangles)
+    }
+
     /// The vertices of a triangle; `None` if its place is free.
     pub(super) fn triangle(&self, index: u32) -> Option<[u32; 3]> {
         let corners = self.triangles[index as usize];
@@ -210,9 +240,10 @@ impl ClayMesh {
 
     fn new_triangle(&mut self) -> u32 {
         self.free_triangles.pop().unwrap_or_else(|| {
-            self.triangles.push([NONE; 3]);
-            self.twins.push([NONE; 3]);
-            (self.triangles.len() - 1) as u32
+            let places = self.triangles.len();
+            lengthen(&mut self.triangles, places + 1, [NONE; 3]);
+            lengthen(&mut self.twins, places + 1, [NONE; 3]);
+            places as u32
         })
     }
 
@@ -221,9 +252,10 @@ impl ClayMesh {
             self.vertices[index as usize] = vertex;
             return index;
         }
-        self.vertices.push(vertex);
-        self.leaving.push(NONE);
-        (self.vertices.len() - 1) as u32
+        let places = self.vertices.len();
+        lengthen(&mut self.vertices, places + 1, vertex);
+        lengthen(&mut self.leaving, places + 1, NONE);
+        places as u32
     }
 
     /// Puts a triangle into a place, with the half-edges beyond its edges.

@@ -1,6 +1,7 @@
 //! Layer 4: clay, a closed surface that tools shape stroke by stroke (after Angelidis, Wyvill and Cani, *Sweepers*;
 //! what is meant exactly stands in spec/sweepers.md, B). The document holds the recipe; the mesh is made from it here.
 
+mod bench;
 mod body;
 mod check;
 mod field;
@@ -13,10 +14,11 @@ mod start;
 mod way;
 mod write;
 
+pub use bench::{ClayBench, bench_clay};
 pub use body::{SEGMENT, box_mm};
-pub use check::{Check, MAX_CROSSING, mesh_sha256};
+pub use check::{Check, LastStroke, MAX_CROSSING, mesh_sha256};
 pub use motion::LeftOut;
-pub use refine::MAX_TRIANGLES;
+pub use refine::{MAX_TRIANGLES, Work};
 pub use shaping::{ClayError, Shaped, Shaping};
 pub use way::Way;
 pub use write::{Export, Form};

@@ -5,7 +5,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::field::{Form, falloff};
 use super::mesh::Vertex;
-use crate::displace::{Ball, MOST_STEPS, Mover, counted_in, images_of, spans, wanted_in};
+use crate::displace::{Ball, MOST_STEPS, Mover, asked_in, counted_in, images_of, spans, wanted_in};
 use crate::document::{Clay, ClayKey, ClayMove, ClayStroke};
 use crate::math::{Screw, Similarity, smooth_path};
 
@@ -13,6 +13,9 @@ use crate::math::{Screw, Similarity, smooth_path};
 const STEPS_A_COAT: f64 = 8.0;
 /// Half a unit of rounding of balls, as a part of their radius.
 const ROUNDING: f64 = 1e-9;
+
+/// Parts of a span in which a way is measured closely.
+const FINE_PARTS: usize = 64;
 
 /// Why a stroke does nothing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -137,6 +140,18 @@ impl<'a> Motion<'a> {
         let wanted = count(&|span| wanted_in(&self.movers, self.mirrored, span, STEPS_A_COAT));
         let fits = wanted.iter().sum::<usize>() <= MOST_STEPS;
         Ok(parts(&spans, if fits { &wanted } else { &counted }))
+    }
+
+    /// The fewest steps in which no tool goes farther than an eighth of its coating: by the way itself, of which
+    /// [`Motion::times`] takes the fastest moment of each span.
+    pub(super) fn fewest(&self) -> usize {
+        let of_span = |span: (f64, f64)| {
+            let asked = parts(&[span], &[FINE_PARTS]).into_iter();
+            let asked = asked.map(|part| asked_in(&self.movers, self.mirrored, part, STEPS_A_COAT));
+            // Rounding makes no further step.
+            libm::ceil(asked.sum::<f64>() - ROUNDING) as usize
+        };
+        spans(&self.movers).into_iter().map(of_span).sum()
     }
 
     /// What the tools reach on their whole way, images too: balls about each tool in each span.

@@ -7,7 +7,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::mesh::{ClayMesh, Vertex};
+use super::mesh::{ClayMesh, Vertex, lengthen};
 
 /// Most triangles: beyond them no edge is split.
 pub const MAX_TRIANGLES: usize = 300_000;
@@ -45,6 +45,37 @@ pub(super) struct Stepping<'a> {
     pub(super) detail: f64,
     /// True once an edge stayed long because of [`MAX_TRIANGLES`].
     pub(super) is_full: bool,
+    /// What is done to edges is counted here.
+    pub(super) work: &'a mut Work,
+}
+
+/// What has been done to shape a clay, in numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Steps of strokes that move.
+    pub steps: usize,
+    /// Vertices in reach of the tools in these steps, all steps added up.
+    pub reached: usize,
+    /// Edges that were split.
+    pub splits: usize,
+    /// Edges whose ends became one.
+    pub collapses: usize,
+    /// Edges that were turned to the other two corners of their triangles.
+    pub flips: usize,
+}
+
+impl Work {
+    /// What has been done since an earlier count.
+    #[must_use]
+    pub fn since(&self, earlier: Self) -> Self {
+        Self {
+            steps: self.steps - earlier.steps,
+            reached: self.reached - earlier.reached,
+            splits: self.splits - earlier.splits,
+            collapses: self.collapses - earlier.collapses,
+            flips: self.flips - earlier.flips,
+        }
+    }
 }
 
 /// An edge in a queue: its length as bits, which are in order as no length is below 0, and its ends.
@@ -158,9 +189,10 @@ impl Stepping<'_> {
         let [a, b] = ends.map(|end| self.mesh.vertices[end as usize]);
         let middle = between(&a, &b, self.detail);
         let vertex = self.mesh.split(half, middle);
+        self.work.splits += 1;
         let places = self.mesh.vertices.len();
-        self.after.resize(places, middle);
-        self.moved_in.resize(places, 0);
+        lengthen(self.after, places, middle);
+        lengthen(self.moved_in, places, 0);
         self.moved_in[vertex as usize] = 0;
         self.made.push(vertex);
         self.move_to(vertex, carry.carry(&middle));
@@ -303,6 +335,7 @@ impl Stepping<'_> {
             }
         }
         let vertex = self.mesh.collapse(half, before);
+        self.work.collapses += 1;
         self.move_to(vertex, after);
         Some(vertex)
     }
@@ -322,7 +355,7 @@ impl Stepping<'_> {
                 if self.mesh.from(*half) == vertex {
                     let to = self.mesh.to(*half);
                     if (to < vertex || !self.is_moved(to)) && self.is_worth_a_flip(*half) {
-                        self.mesh.flip(*half);
+                        self.work.flips += usize::from(self.mesh.flip(*half).is_some());
                     }
                 }
             }

@@ -5,9 +5,9 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::mesh::{ClayMesh, Vertex};
+use super::mesh::{ClayMesh, Vertex, lengthen, taken};
 use super::motion::{LeftOut, Motion, Step, around, is_in};
-use super::refine::{Carry, MAX_TRIANGLES, Stepping};
+use super::refine::{Carry, MAX_TRIANGLES, Stepping, Work};
 use super::smooth;
 use super::start;
 use crate::document::{Clay, ClayStart};
@@ -50,6 +50,7 @@ pub struct Shaping {
     /// The stroke since which there were too many triangles to split edges.
     full_since: Option<usize>,
     done: usize,
+    work: Work,
 }
 
 /// The motion in one step.
@@ -114,6 +115,7 @@ impl Shaping {
             left_out: Vec::new(),
             full_since: None,
             done: 0,
+            work: Work::default(),
         })
     }
 
@@ -158,6 +160,7 @@ impl Shaping {
             made: Vec::new(),
             detail: self.detail,
             is_full: false,
+            work: &mut self.work,
         }
     }
 
@@ -247,6 +250,8 @@ impl Shaping {
             candidates.near.extend(&made);
         }
         let moving = self.within(candidates.near.iter().copied(), &step.balls);
+        self.work.steps += 1;
+        self.work.reached += moving.len();
         let carry = Moved { motion, step };
         let mut stepping = self.stepping();
         for vertex in moving {
@@ -274,7 +279,7 @@ impl Shaping {
 
     /// New vertices have not moved yet, whatever had their places before.
     fn note_made(&mut self, made: &[u32]) {
-        self.touched.resize(self.mesh.vertices.len(), false);
+        lengthen(&mut self.touched, self.mesh.vertices.len(), false);
         for vertex in made {
             self.touched[*vertex as usize] = false;
         }
@@ -394,12 +399,32 @@ impl Shaping {
             let part = |pos: DVec3| f64::from(strength) / 200.0 * motion.field(&step, pos);
             let moved = smooth::smoothed(&mut self.mesh, &near, &part);
             self.look_after(&moved);
-            self.touched.resize(self.mesh.vertices.len(), false);
+            lengthen(&mut self.touched, self.mesh.vertices.len(), false);
             for vertex in moved {
                 self.touched[vertex as usize] = true;
             }
         }
         Ok(())
+    }
+
+    /// What has been done so far, the preparation of the start too.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// Number of vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.mesh.vertex_count()
+    }
+
+    /// Number of triangles.
+    pub fn triangle_count(&self) -> usize {
+        self.mesh.triangle_count()
+    }
+
+    /// Bytes that the mesh and what follows its vertices have taken.
+    pub fn bytes(&self) -> usize {
+        self.mesh.bytes() + taken(&self.after) + taken(&self.moved_in) + taken(&self.touched)
     }
 
     /// Number of strokes that are done, those that are off or left out counted too.
@@ -444,6 +469,7 @@ impl Shaping {
             normals: vertices.iter().map(|vertex| vertex.normal).collect(),
             triangles,
             touched: kept.iter().map(is_touched).collect(),
+            detail: self.detail,
         }
     }
 }
@@ -459,4 +485,6 @@ pub struct Shaped {
     pub triangles: Vec<[u32; 3]>,
     /// True for the vertices that the last stroke moved.
     pub touched: Vec<bool>,
+    /// The longest that a stroke leaves an edge, the clay's space.
+    pub detail: f64,
 }

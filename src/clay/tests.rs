@@ -18,10 +18,6 @@ const LONG: [&str; 1] = ["spiral"];
 /// Recipes with rims that are sharper than an edge may be short: their normals are not measured.
 const SHARP_RIMS: [&str; 2] = ["spiral", "wring"];
 
-fn check(shaped: &Shaped) -> Check {
-    Check::of(&shaped.positions, &shaped.triangles, Some(&shaped.touched))
-}
-
 fn shape_each(clay: &Clay, each: &mut dyn FnMut(&Shaping)) -> Shaping {
     let mut shaping = Shaping::new(clay).unwrap();
     for _ in &clay.strokes {
@@ -101,7 +97,7 @@ fn every_stroke_leaves_one_whole_surface() {
         let mut strokes = 0;
         shape_each(&clay, &mut |shaping| {
             strokes += 1;
-            let check = check(&shaping.shaped());
+            let check = Check::of_clay(&shaping.shaped());
             let at = format!("{name} {strokes}: {}", check.lines());
             assert!(check.is_two_manifold() && check.border_edges == 0, "{at}");
             assert_eq!(
@@ -127,7 +123,7 @@ fn a_fold_is_seen() {
         let (field, _) = super::field::falloff(distance / 0.1);
         *pos -= Vec3::Z * (0.5 * field) as f32;
     }
-    assert!(check(&shaped).crossing > 0);
+    assert!(Check::of_clay(&shaped).crossing > 0);
 }
 
 /// The measure of the spec: a vertex is taken back through the exact inverses, the nearest point of the starting shape
@@ -295,7 +291,7 @@ fn a_tool_pressed_into_one_huge_triangle_shapes_it() {
     let mut shaping = Shaping::of(vertices, triangles, clay.detail).unwrap();
     shaping.stroke(&clay, &mut |_| true).unwrap();
     let shaped = shaping.shaped();
-    let check = check(&shaped);
+    let check = Check::of_clay(&shaped);
     assert_eq!((check.euler, check.crossing, check.border_edges), (2, 0, 0));
     assert!(check.longest_edge.unwrap() <= clay.detail);
     let deepest = shaped
@@ -345,7 +341,7 @@ fn smoothing_takes_wrinkles_away_and_leaves_the_rest() {
         areas.sum()
     };
     assert!(area(&smoothed) < area(&wrinkled) - 0.005);
-    let check = check(&smoothed);
+    let check = Check::of_clay(&smoothed);
     assert!(check.is_two_manifold() && check.border_edges == 0);
     assert_eq!(check.euler, 2);
     assert!(check.longest_edge.unwrap() <= clay.detail);
@@ -473,7 +469,7 @@ fn sixty_strokes_give_the_same_bits() {
     }
     let shaping = shape(&clay);
     assert!(shaping.left_out().is_empty());
-    let check = check(&shaping.shaped());
+    let check = Check::of_clay(&shaping.shaped());
     assert_eq!((check.euler, check.border_edges), (2, 0));
     assert!(check.is_two_manifold());
     assert_eq!(check.sha256, SIXTY_STROKES, "{}", check.lines());

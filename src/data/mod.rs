@@ -7,11 +7,14 @@
 //! on. So a new kind of subject adds its piece to the list, and an arm where that piece is used: in [`SubjectBuilder`]
 //! and in the worker's messages.
 //!
+//! [`Limited`] is a number of a benchmark beside its limit.
+//!
 //! [`segment`] finds the segments that the recipes of a document describe, and joins them with the segments of label
 //! volumes; a [`Site`] tells where a segment lies.
 
 mod axes;
 mod ball;
+mod bench;
 mod builder;
 mod field;
 mod frame;
@@ -37,6 +40,7 @@ mod time_slices;
 mod volume;
 
 pub use axes::long_axes;
+pub use bench::{Limited, median};
 pub use builder::{BuildError, VolumeBuilder};
 pub use field::{FieldSamples, SampledField};
 pub use frame::SubjectFrame;

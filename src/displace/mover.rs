@@ -147,6 +147,17 @@ pub(crate) fn counted_in(movers: &[Mover<'_>], (from, to): (f64, f64)) -> f64 {
 pub(crate) fn wanted_in(
     movers: &[Mover<'_>],
     mirror: [bool; 3],
+    span: (f64, f64),
+    alone: f64,
+) -> f64 {
+    let asked = asked_in(movers, mirror, span, alone);
+    libm::ceil(asked.min(MOST_STEPS as f64))
+}
+
+/// As [`wanted_in`], neither rounded up nor limited.
+pub(crate) fn asked_in(
+    movers: &[Mover<'_>],
+    mirror: [bool; 3],
     (from, to): (f64, f64),
     alone: f64,
 ) -> f64 {
@@ -168,5 +179,5 @@ pub(crate) fn wanted_in(
         }
         wanted = wanted.max(mover.travel(from, to) * per_travel);
     }
-    libm::ceil(wanted.min(MOST_STEPS as f64))
+    wanted
 }

@@ -264,6 +264,29 @@ impl<'a> Sweeping<'a> {
         }
     }
 
+    /// Fields that the shader evaluates for a place that no step moves, template space: four for each step and each
+    /// image of a tool that reaches it there.
+    pub(crate) fn fields_at(&self, at: Vec3) -> usize {
+        let place = self.size * (at.as_dvec3() - 0.5);
+        let images = self.images();
+        let of_step = |step: &Step| {
+            let holds = |ball: &Ball, at: DVec3| ball.middle.distance(at) <= ball.radius;
+            let is_reached = |ball: Ball| holds(&ball, place);
+            if !self
+                .reach(std::slice::from_ref(step))
+                .is_some_and(is_reached)
+            {
+                return 0;
+            }
+            let reaches = |image: &DVec3| {
+                let balls = step.tools.iter().map(|(ball, ..)| ball);
+                balls.filter(|ball| holds(ball, *image * place)).count()
+            };
+            4 * images.iter().map(reaches).sum::<usize>()
+        };
+        self.steps.iter().map(of_step).sum()
+    }
+
     /// The longest way of any material until a time, subject units.
     pub(crate) fn longest(&self, progress: f32) -> f32 {
         let done = |step: &Step| {

@@ -4,9 +4,12 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use fabrica::clay::{Shaped, Shaping};
 use fabrica::data::VolumeBuilder;
-use fabrica::document::Document;
+use fabrica::document::{Document, SubjectRef};
+use fabrica::load::{MemoryFiles, MeshOptions, Units, read_mesh};
 use fabrica::render::ScaleBar;
+use glam::Vec3;
 use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 use tempfile::TempDir;
@@ -383,8 +386,19 @@ fn a_clay_is_written_read_again_and_checked() {
     assert_eq!(whole["euler"], 2);
     assert_eq!(whole["border_edges"], 0);
     assert_ne!(whole["sha256"], check(&["--strokes", "0"])["sha256"]);
+    assert!(whole["shortest_edge"].as_f64() > Some(0.05 / 16.0));
+    assert_eq!(
+        (&whole["short_edges"], &whole["smoothing_strokes"]),
+        (&json!(0), &json!(0))
+    );
     let told = fabrica(&["clay", path, "--check"]).ok();
-    assert!(told.out.contains("Euler number: 2"), "{}", told.out);
+    for line in [
+        "Euler number: 2",
+        "edges shorter than detail/16 in reach of the last stroke: 0",
+        "strokes that smooth: 0",
+    ] {
+        assert!(told.out.contains(line), "{line}: {}", told.out);
+    }
     assert!(told.err.contains("stroke 2 is left out"), "{}", told.err);
     for end in ["ply", "obj", "stl", "glb"] {
         let mesh = folder.path().join(format!("horn.{end}"));
@@ -407,6 +421,191 @@ fn a_clay_is_written_read_again_and_checked() {
     let egg = r#"{ "fabrica": 1, "subject": { "clay": { "from": { "shape": "egg" } } } }"#;
     let egg = write(&folder, "egg.json", egg);
     fabrica(&["clay", text(&egg), "--check"]).failed(&["egg"]);
+}
+
+/// A clay of ten strokes, two of them mirrored and one that smooths.
+const TEN_STROKES: &str = r#"{ "fabrica": 1, "title": "Ten", "subject": { "clay": { "detail": 0.05,
+    "tools": [{ "radius": 0.1 }, { "shape": "box", "half": [0.1, 0.08, 0.06], "coat": 0.08 }],
+    "strokes": [{ "path": [0, 0, 440, 0, 0, 300] }, { "path": [300, 300, 200, 120, 40, 60] },
+        { "path": [250, 0, 500, -160, 0, -20], "mirror": "x" }, { "path": [0, 700, 0, 0, -300, 0] },
+        { "tool": 1, "path": [0, -480, 0, 0, 0, 40], "turns": [0, 0, 0, 0, 40, 0] },
+        { "path": [0, -600, 300, 0, 200, -80] }, { "path": [450, 0, -200, 200, 30, 0], "scales": [100, 60] },
+        { "path": [0, 0, 500, 0, 0, 0], "do": "smooth" }, { "path": [0, 200, -520, 100, 50, 120] },
+        { "path": [-420, 100, 100, -120, 0, 60], "mirror": "z" }] } } }"#;
+
+/// The clay of a document after all of its strokes.
+fn shaped(document: &str) -> Shaped {
+    let document = Document::from_json(document).expect("a document");
+    let SubjectRef::Clay(clay) = &document.illustration().subject else {
+        panic!("a clay");
+    };
+    let mut shaping = Shaping::new(clay).expect("a start");
+    for _ in &clay.strokes {
+        shaping.stroke(clay, &mut |_| true).expect("a stroke");
+    }
+    shaping.shaped()
+}
+
+#[test]
+fn what_is_written_of_a_clay_is_read_again_equal() {
+    let folder = folder();
+    let path = write(&folder, "ten.json", TEN_STROKES);
+    let shaped = shaped(TEN_STROKES);
+    let positions = shaped.positions_mm();
+    // The numbers of a file as they are: of a GLB metres.
+    let options = MeshOptions {
+        units: Some(Units::Millimetre),
+        ..MeshOptions::default()
+    };
+    for (end, per_mm, has_normals) in [
+        ("ply", 1.0, true),
+        ("obj", 1.0, true),
+        ("stl", 1.0, false),
+        ("glb", 1000.0, true),
+    ] {
+        let file = folder.path().join(format!("ten.{end}"));
+        fabrica(&["clay", text(&path), "-o", text(&file)]).ok();
+        let bytes = std::fs::read(&file).expect("a file");
+        let mut files = MemoryFiles::new([(end, bytes)]);
+        let (read, mut report) = read_mesh(&mut files, end, &options, &mut |_| true)
+            .unwrap_or_else(|error| panic!("{end}: {error}"));
+        // Readers replace a normal that looks away from its triangle: at sharp folds there are a few.
+        report.repair.bad_normals = 0;
+        assert_eq!(report.repair.phrases(), [""; 0], "{end}");
+        assert_eq!(read.triangles.len(), shaped.triangles.len(), "{end}");
+        assert_eq!(read.positions.len(), positions.len(), "{end}");
+        let mut normals = 0;
+        for (triangle, (of_file, of_clay)) in
+            read.triangles.iter().zip(&shaped.triangles).enumerate()
+        {
+            let found = of_file.map(|i| read.positions[i as usize]);
+            let wanted = of_clay.map(|i| positions[i as usize] / per_mm);
+            assert_eq!(found, wanted, "{end}: triangle {triangle}");
+            for (corner, i) in of_clay.iter().enumerate() {
+                let of_file = read.normals.as_ref().and_then(|n| n.get(triangle, corner));
+                let is_equal = |normal: Vec3| normal.distance(shaped.normals[*i as usize]) < 1e-6;
+                normals += usize::from(of_file.is_some_and(is_equal));
+            }
+        }
+        let least = if has_normals { 2.97 } else { 0.0 };
+        assert!(
+            normals as f64 >= least * read.triangles.len() as f64,
+            "{end}: {normals}"
+        );
+    }
+}
+
+#[test]
+fn info_tells_of_documents_and_links() {
+    let folder = folder();
+    let clay = r#"{ "fabrica": 1, "title": "Horn", "subject": { "clay": { "detail": 0.05,
+        "tools": [{ "radius": 0.1 }, { "shape": "later" }],
+        "strokes": [{ "path": [0, 0, 440, 0, 0, 300] }, { "tool": 1, "path": [0, 0, 0] },
+            { "path": [0, 0, 700], "do": "smooth", "off": true }, { "path": [0, 0, 900, 0, 0, 1] }] } },
+        "look": { "strokes": 3 }, "templates": [{ "kind": "cut" }, { "kind": "peel" }, { "kind": "cut" }],
+        "steps": [{ "title": "Begin" }] }"#;
+    let path = write(&folder, "horn.json", clay);
+    let path = text(&path);
+    let told = fabrica(&["info", path]).ok();
+    for line in [
+        "kind: Fabrica document\n",
+        "title: Horn\n",
+        "subject: clay\n",
+        "start: ball\n",
+        "detail: 0.05\n",
+        "  ball, coat 0.1\n  not known, coat 0.1\n",
+        "strokes: 4, of which the first 3 are shown\n",
+        "  smoothing: 1\n  off: 1\n  left out: 1\n  stroke 2: tool 1 is not there",
+        "pieces: 1\n",
+        "size: 100 × 100 × 1",
+        "box: -50, -50, -50 to ",
+        " mm³\n",
+        "templates: 2 cut, 1 peel\n",
+        "steps: 1\n  1 Begin\n",
+    ] {
+        assert!(told.out.contains(line), "“{line}” is not in {}", told.out);
+    }
+    assert!(told.err.contains("stroke 2 is left out"), "{}", told.err);
+    let check = fabrica(&["clay", path, "--check"]).ok().out;
+    for line in check.lines().take(3) {
+        assert!(told.out.contains(line), "“{line}” is not in {}", told.out);
+    }
+    // The same of its link, of a file that holds the link, and from standard input.
+    let link = fabrica(&["link", path]).ok().out;
+    let link = link.trim();
+    let file = write(&folder, "link.txt", link);
+    assert_eq!(fabrica(&["info", link]).ok().out, told.out);
+    assert_eq!(fabrica(&["info", text(&file)]).ok().out, told.out);
+    let piped = fabrica_with(folder.path(), &["info", "-"], clay.as_bytes());
+    assert_eq!(piped.ok().out, told.out);
+    let sha256 = "a".repeat(64);
+    let supplied = format!("a file that the reader has, “CT” (SHA-256 {sha256})");
+    for (subject, line) in [
+        (json!({ "builtin": "hand" }), "built-in hand"),
+        (json!({ "src": "a/b.nii" }), "file a/b.nii"),
+        (json!({ "sha256": sha256, "name": "CT" }), supplied.as_str()),
+        (
+            json!({ "meshes": [{ "src": "a.stl" }] }),
+            "meshes: 1\n  file a.stl",
+        ),
+    ] {
+        let document = json!({ "fabrica": 1, "subject": subject }).to_string();
+        let told = fabrica_with(folder.path(), &["info", "-"], document.as_bytes());
+        let expected =
+            format!("kind: Fabrica document\nsubject: {line}\ntemplates: none\nsteps: 0\n");
+        assert_eq!(told.ok().out, expected);
+    }
+    // What is wrong is said as of any document.
+    let broken = write(&folder, "broken.json", r#"{ "fabrica": 1, "title": 3 }"#);
+    fabrica(&["info", text(&broken)]).failed(&["broken.json", "/title"]);
+    let cut_off = write(&folder, "cut.json", r#"{ "fabrica": 1, "#);
+    fabrica(&["info", text(&cut_off)]).failed(&["cut.json"]);
+    let egg = r#"{ "fabrica": 1, "subject": { "clay": { "from": { "shape": "egg" } } } }"#;
+    fabrica_with(folder.path(), &["info", "-"], egg.as_bytes()).failed(&["egg"]);
+    fabrica(&["info", &link[..link.len() - 3]]).failed(&["cut off"]);
+}
+
+/// Counts hold everywhere; of times it is told whether they do.
+#[test]
+fn the_shaping_of_clay_is_measured_without_an_adapter() {
+    let told = fabrica(&["bench", "--clay", "--json", "--adapter", "none such"])
+        .ok()
+        .out;
+    let report: Value = serde_json::from_str(&told).expect("JSON");
+    let limits = report["limits"].as_array().expect("a list");
+    let limit = |name: &str| {
+        let found = limits
+            .iter()
+            .find(|row| row["name"].as_str().is_some_and(|n| n.contains(name)));
+        found.unwrap_or_else(|| panic!("“{name}” is not in {told}"))
+    };
+    for (name, most) in [
+        ("field once", 25.0),
+        ("ten times as many", 1.3),
+        ("replayed", 1.0),
+        ("fewest", 1.2),
+        ("bytes", 200.0),
+    ] {
+        let row = limit(name);
+        assert_eq!(row["limit"], json!(most), "{told}");
+        assert!(
+            row["value"].as_f64() > Some(0.0) && row["holds"].is_boolean(),
+            "{told}"
+        );
+    }
+    for counted in ["fewest", "bytes"] {
+        assert_eq!(limit(counted)["holds"], true, "{told}");
+    }
+    for count in [
+        "strokes",
+        "vertices",
+        "triangles",
+        "steps",
+        "splits",
+        "collapses",
+    ] {
+        assert!(report[count].as_u64() > Some(0), "{count}: {told}");
+    }
 }
 
 #[test]

@@ -9,10 +9,15 @@ use glam::Vec3;
 use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 
+use super::shaping::Shaped;
 use crossing::{Face, crossing};
 use joints::Joints;
 
 pub use crossing::MAX_CROSSING;
+
+/// An edge is short if it is shorter than this part of the detail: no stroke is to leave one (spec/sweepers.md, B.1),
+/// but where its collapse would break the mesh.
+const SHORT: f64 = 16.0;
 
 /// A mesh in numbers. Made once per command, in a few seconds for 300,000 triangles.
 ///
@@ -48,6 +53,8 @@ pub struct Check {
     pub longest_edge: Option<f64>,
     /// The shortest of these edges; `None` if there is none.
     pub shortest_edge: Option<f64>,
+    /// How many of these edges are shorter than a sixteenth of the stroke's detail; `None` if no stroke was told.
+    pub short_edges: Option<usize>,
     /// The smallest angle of all triangles, degrees, 0 … 60; `None` if there is no triangle.
     pub smallest_angle_deg: Option<f64>,
     /// Pairs of triangles that meet, be it in a point; neighbours only where they meet elsewhere than in the vertex or
@@ -60,10 +67,27 @@ pub struct Check {
     pub sha256: String,
 }
 
+/// What the last stroke of a clay did.
+#[derive(Clone, Copy, Debug)]
+pub struct LastStroke<'a> {
+    /// For each vertex whether it moved.
+    pub moved: &'a [bool],
+    /// The longest that an edge may be, in the unit of the positions.
+    pub detail: f64,
+}
+
 impl Check {
-    /// Looks at a mesh. `moved` says for each vertex whether the last stroke moved it; without it all edges are
-    /// measured.
-    pub fn of(positions: &[Vec3], triangles: &[[u32; 3]], moved: Option<&[bool]>) -> Self {
+    /// Looks at a clay and what its last stroke did.
+    pub fn of_clay(shaped: &Shaped) -> Self {
+        let stroke = LastStroke {
+            moved: &shaped.touched,
+            detail: shaped.detail,
+        };
+        Self::of(&shaped.positions, &shaped.triangles, Some(stroke))
+    }
+
+    /// Looks at a mesh. Without a last stroke all edges are measured.
+    pub fn of(positions: &[Vec3], triangles: &[[u32; 3]], stroke: Option<LastStroke<'_>>) -> Self {
         let is_whole = |triangle: &&[u32; 3]| {
             let [a, b, c] = **triangle;
             let is_in_range = triangle.iter().all(|&i| (i as usize) < positions.len());
@@ -86,13 +110,17 @@ impl Check {
 
         let joints = Joints::of(positions.len(), &whole);
         let mut lengths: Option<[f64; 2]> = None;
-        let is_moved = |i: u32| moved.is_none_or(|moved| moved.get(i as usize) == Some(&true));
+        let mut short_edges = 0;
+        let least = stroke.map_or(0.0, |stroke| stroke.detail / SHORT);
+        let is_moved =
+            |i: u32| stroke.is_none_or(|stroke| stroke.moved.get(i as usize) == Some(&true));
         for &[a, b] in &joints.edges {
             let length =
                 (positions[a as usize].as_dvec3() - positions[b as usize].as_dvec3()).length();
             if (is_moved(a) || is_moved(b)) && length.is_finite() {
-                let [least, most] = lengths.unwrap_or([length; 2]);
-                lengths = Some([least.min(length), most.max(length)]);
+                let [shortest, longest] = lengths.unwrap_or([length; 2]);
+                lengths = Some([shortest.min(length), longest.max(length)]);
+                short_edges += usize::from(length < least);
             }
         }
         Self {
@@ -107,9 +135,10 @@ impl Check {
             border_edges: joints.border_edges,
             bad_edges: joints.bad_edges,
             vertices_of_several_fans: joints.vertices_of_several_fans,
-            is_of_stroke: moved.is_some(),
-            longest_edge: lengths.map(|[_, most]| most),
-            shortest_edge: lengths.map(|[least, _]| least),
+            is_of_stroke: stroke.is_some(),
+            longest_edge: lengths.map(|[_, longest]| longest),
+            shortest_edge: lengths.map(|[shortest, _]| shortest),
+            short_edges: stroke.map(|_| short_edges),
             smallest_angle_deg: smallest.map(f64::to_degrees),
             crossing: crossing(&faces),
             volume: (joints.is_closed && all_faces == whole.len()).then_some(six_volumes / 6.0),
@@ -131,7 +160,7 @@ impl Check {
             "euler": self.euler, "border_edges": self.border_edges, "bad_edges": self.bad_edges,
             "vertices_of_several_fans": self.vertices_of_several_fans, "is_of_stroke": self.is_of_stroke,
             "longest_edge": self.longest_edge, "shortest_edge": self.shortest_edge,
-            "smallest_angle_deg": self.smallest_angle_deg, "crossing": self.crossing, "volume": self.volume,
+            "short_edges": self.short_edges, "smallest_angle_deg": self.smallest_angle_deg, "crossing": self.crossing, "volume": self.volume,
             "sha256": self.sha256,
         })
     }
@@ -167,6 +196,10 @@ impl Check {
             ),
             format!("longest edge{reach}: {}", number(self.longest_edge)),
             format!("shortest edge{reach}: {}", number(self.shortest_edge)),
+        ];
+        let short = self.short_edges;
+        lines.extend(short.map(|n| format!("edges shorter than detail/{SHORT}{reach}: {n}")));
+        lines.extend([
             format!("smallest angle: {}°", number(self.smallest_angle_deg)),
             format!(
                 "pairs of triangles that intersect: {}{or_more}",
@@ -174,7 +207,7 @@ impl Check {
             ),
             format!("volume: {volume}"),
             format!("sha256: {}", self.sha256),
-        ];
+        ]);
         let rare = [
             ("vertices of no triangle", self.loose_vertices),
             ("broken triangles", self.broken_triangles),
@@ -393,8 +426,15 @@ mod tests {
     #[test]
     fn edges_of_the_last_stroke_are_those_with_a_moved_end() {
         let positions = places([[0., 0., 0.], [1., 0., 0.], [0., 3., 0.], [0., 0., 10.]]);
+        let checked = |moved: Option<&[bool]>| {
+            let stroke = moved.map(|moved| LastStroke {
+                moved,
+                detail: 50.0,
+            });
+            Check::of(&positions, &TETRAHEDRON, stroke)
+        };
         let measured = |moved: Option<&[bool]>| {
-            let found = Check::of(&positions, &TETRAHEDRON, moved);
+            let found = checked(moved);
             [found.shortest_edge, found.longest_edge].map(|x| x.map(|x| x * x))
         };
         let about = |found: [Option<f64>; 2], expected: [f64; 2]| {
@@ -409,7 +449,16 @@ mod tests {
         about(measured(Some(&[false, true, false, false])), [1.0, 101.0]);
         about(measured(Some(&[false, false, true])), [9.0, 109.0]);
         assert_eq!(measured(Some(&[false; 4])), [None; 2]);
-        let text = Check::of(&positions, &TETRAHEDRON, Some(&[false; 4])).lines();
+        // Edges of 1 and 3 are shorter than 50/16, that of √10 is not.
+        let short = |moved: Option<&[bool]>| checked(moved).short_edges;
+        assert_eq!(short(None), None);
+        assert_eq!(short(Some(&[true; 4])), Some(2));
+        assert_eq!(short(Some(&[false, false, false, true])), Some(0));
+        let text = checked(Some(&[false; 4])).lines();
+        assert!(
+            text.contains("edges shorter than detail/16 in reach of the last stroke: 0\n"),
+            "{text}"
+        );
         assert!(
             text.contains("longest edge in reach of the last stroke: none\n"),
             "{text}"

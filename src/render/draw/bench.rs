@@ -1,6 +1,7 @@
 use super::clock::Clock;
 use super::studio::Studio;
-use crate::data::{Resources, Subject, Surface};
+use crate::data::{Limited, Resources, Subject, Surface, median};
+use crate::displace::Sweeping;
 use crate::document::{
     Align, BodyKind, Constrain, ConstrainBy, Document, Illustration, ObjectPlacement, ObjectSource,
     PathKey, PlacedTemplate, SceneObject, Style, SubjectRef, SweepTool, SweepTools, TemplateData,
@@ -73,11 +74,13 @@ pub struct BenchReport {
     pub size_px: [u32; 2],
     /// One row per scene, with and without the skip grid.
     pub rows: Vec<BenchRow>,
+    /// What a sweep costs, beside its limits; empty if its rows were not measured.
+    pub limits: Vec<Limited>,
 }
 
 impl BenchReport {
     /// The report as JSON: `adapter`, `voxels`, `bytes` of the mesh and its
-    /// `texture_bytes`, `size`, and `frames` with times in milliseconds.
+    /// `texture_bytes`, `size`, `frames` with times in milliseconds, and `limits`.
     pub fn to_json(&self) -> Value {
         let row = |row: &BenchRow| {
             json!({
@@ -87,8 +90,9 @@ impl BenchReport {
             })
         };
         let frames: Vec<Value> = self.rows.iter().map(row).collect();
+        let limits: Vec<Value> = self.limits.iter().map(Limited::to_json).collect();
         json!({ "adapter": self.adapter, "voxels": self.voxels, "bytes": self.mesh_bytes,
-            "texture_bytes": self.texture_bytes, "size": self.size_px, "frames": frames })
+            "texture_bytes": self.texture_bytes, "size": self.size_px, "frames": frames, "limits": limits })
     }
 }
 
@@ -100,7 +104,8 @@ impl std::fmt::Display for BenchReport {
             "{}, {x} x {y} x {z} voxels, {width} x {height} pixels; ratios to the undeformed frame with the grid",
             self.adapter
         )?;
-        self.rows.iter().try_for_each(|row| writeln!(f, "{row}"))
+        self.rows.iter().try_for_each(|row| writeln!(f, "{row}"))?;
+        self.limits.iter().try_for_each(|row| writeln!(f, "{row}"))
     }
 }
 
@@ -156,8 +161,12 @@ const STYLED: [(&str, &str); 5] = [
 
 /// Measured with the grid alone: a ball that is swept over three coatings, by its formula and from the baked map,
 /// beside a twist of the same reach.
-const SWEPT: [&str; 3] = ["one twist, as wide", "one sweep", SWEPT_BAKED];
+const SWEPT: [&str; 3] = [TWISTED, SWEPT_EXACT, SWEPT_BAKED];
+const TWISTED: &str = "one twist, as wide";
+const SWEPT_EXACT: &str = "one sweep";
 const SWEPT_BAKED: &str = "one sweep, baked";
+/// Samples along each side of what is looked at where the fields of a sweep are counted.
+const COUNTED_SIDE: usize = 32;
 
 /// True if a case is read from the baked map.
 fn is_baked(name: &str) -> bool {
@@ -307,13 +316,15 @@ pub async fn bench(
             grid_gain: without.map(|other| seconds[other][0] / frame.max(1e-9)),
         }
     };
+    let rows: Vec<BenchRow> = cases.iter().enumerate().map(row).collect();
     Ok(BenchReport {
+        limits: sweep_limits(&rows, named),
         adapter: gpu.info.name.clone(),
         voxels: subject.values().map_or([0; 3], |v| v.grid.dims.to_array()),
         mesh_bytes: bytes,
         texture_bytes,
         size_px,
-        rows: cases.iter().enumerate().map(row).collect(),
+        rows,
     })
 }
 
@@ -352,7 +363,7 @@ fn swept_case(named: &SubjectRef, name: &str) -> Illustration {
     const SIDE: f32 = 0.4;
     let mut illustration = case(named, 0);
     let kind = match name {
-        "one twist, as wide" => TemplateKind::Twist,
+        TWISTED => TemplateKind::Twist,
         _ => TemplateKind::Sweep,
     };
     // z of the box points to the front.
@@ -382,6 +393,65 @@ fn swept_case(named: &SubjectRef, name: &str) -> Illustration {
     };
     illustration.templates = vec![template];
     illustration
+}
+
+/// What a sweep costs, by the frames that were measured and by counting: to a twist of the same reach, and fields for
+/// each coating that a tool travels.
+fn sweep_limits(rows: &[BenchRow], named: &SubjectRef) -> Vec<Limited> {
+    let seconds = |name: &str| {
+        let row = rows.iter().find(|row| row.name == name)?;
+        Some(row.seconds)
+    };
+    let [Some(twisted), Some(exact), Some(baked)] = SWEPT.map(seconds) else {
+        return Vec::new();
+    };
+    let limited = |name, value, limit| Limited { name, value, limit };
+    let mut limits = vec![
+        limited("one sweep, to one twist as wide", exact / twisted, 5.0),
+        limited(
+            "one sweep, baked, to one twist as wide",
+            baked / twisted,
+            1.3,
+        ),
+    ];
+    for template in swept_case(named, SWEPT_EXACT).templates {
+        let TemplateData::Tools(alone) = template.data else {
+            continue;
+        };
+        let mut pair = alone.clone();
+        pair.mirror[0] = true;
+        let size = template.placement.size;
+        let [within, beyond] = most_fields(&alone, size);
+        let [of_pair, _] = most_fields(&pair, size);
+        limits.extend([
+            limited("fields of a sample, a coating of one tool", within, 24.0),
+            limited("fields of a sample, of two that overlap", of_pair, 32.0),
+            limited("fields of a sample beyond the reach", beyond, 0.0),
+        ]);
+    }
+    limits
+}
+
+/// The most fields that are evaluated for a sample, for each coating that a tool travels, images counted: in reach of
+/// the tools, and beyond it.
+fn most_fields(tools: &SweepTools, size: Vec3) -> [f64; 2] {
+    let sweeping = Sweeping::new(tools, size);
+    let coats = sweeping.longest(1.0) / sweeping.least_coat().unwrap_or(1.0);
+    let travelled = f64::from(coats) * (tools.images() * tools.acting().count()) as f64;
+    let reach = sweeping.bounds(1.0);
+    let middle = 0.5 * (reach.min + reach.max);
+    let mut most = [0.0_f64; 2];
+    for i in 0..COUNTED_SIDE.pow(3) {
+        let along = |axis: u32| (i / COUNTED_SIDE.pow(axis) % COUNTED_SIDE) as f32;
+        let part = Vec3::from_array([0, 1, 2].map(along)) / (COUNTED_SIDE - 1) as f32;
+        // Half as large again as the reach.
+        let at = middle + 1.5 * reach.size() * (part - 0.5);
+        let is_beyond = at.cmplt(reach.min).any() || at.cmpgt(reach.max).any();
+        let fields = sweeping.fields_at(at) as f64 / travelled;
+        let most = &mut most[usize::from(is_beyond)];
+        *most = most.max(fields);
+    }
+    most
 }
 
 /// One peel in a style.
@@ -418,11 +488,6 @@ fn tool_case(studio: &Studio, named: &SubjectRef, tool: &Arc<Surface>) -> Case {
         studio: studio.clone().with_resources(resources),
         illustration,
     }
-}
-
-fn median(times: &mut [f64]) -> f64 {
-    times.sort_by(f64::total_cmp);
-    times.get(times.len() / 2).copied().unwrap_or_default()
 }
 
 /// The document of a case of [`CASES`].
@@ -487,4 +552,29 @@ fn case(subject: &SubjectRef, count: usize) -> Illustration {
         .map(|(index, template)| PlacedTemplate { index, ..template })
         .collect();
     illustration
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sweep_takes_the_fields_that_its_steps_allow() {
+        let named = Document::new().illustration().subject.clone();
+        let rows = SWEPT.map(|name| BenchRow {
+            name,
+            template_count: 1,
+            has_grid: true,
+            seconds: 1.0,
+            making_seconds: 0.0,
+            opening_seconds: 0.0,
+            ratio: 1.0,
+            grid_gain: None,
+        });
+        let limits = sweep_limits(&rows, &named);
+        assert!(limits.iter().all(Limited::holds), "{limits:?}");
+        let values: Vec<f64> = limits.iter().map(|row| row.value.round()).collect();
+        assert_eq!(values, [1.0, 1.0, 24.0, 32.0, 0.0]);
+        assert!(sweep_limits(&rows[1..], &named).is_empty());
+    }
 }

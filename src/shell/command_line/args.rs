@@ -182,11 +182,11 @@ pub(super) enum Command {
         /// Document, link or payload to print; - for a document on standard input.
         doc: String,
     },
-    /// Says what a data file holds.
+    /// Says what a data file or a document holds.
     Info {
         /// The data file: a scan (NIfTI, NRRD, MetaImage, DICOM), a mesh (OBJ, STL, PLY, GLB), or the picture of a
-        /// figure (PNG, JPEG, SVG).
-        file: PathBuf,
+        /// figure (PNG, JPEG, SVG). Or a document: its file, a link, a payload, or - for standard input.
+        file: String,
     },
     /// Lists the displacement templates with parameters, defaults and ranges.
     Templates {
@@ -196,6 +196,9 @@ pub(super) enum Command {
     },
     /// Measures frame times on this adapter, as ratios to the undeformed frame.
     Bench {
+        /// Measures the shaping of clay instead, which needs no adapter: ratios and counts beside their limits.
+        #[arg(long)]
+        clay: bool,
         /// Prints JSON instead of text.
         #[arg(long)]
         json: bool,

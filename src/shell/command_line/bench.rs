@@ -1,4 +1,4 @@
-//! `fabrica bench`: frame times on this adapter.
+//! `fabrica bench`: frame times on this adapter, and what the shaping of clay costs.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,6 +9,7 @@ use super::error::{CliError, MissingSubject};
 use super::objects::generated;
 use super::output::print;
 use super::subject::{generate, subject_of, surface_of};
+use crate::clay::bench_clay;
 use crate::data::{Subject, Surface};
 use crate::document::{Document, SceneObject};
 use crate::figure::{FigureRow, bench_figures};
@@ -55,4 +56,13 @@ pub(super) fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
 fn built_in_mesh() -> Result<Arc<Surface>, MissingSubject> {
     let mesh = mesh(MESH).ok_or_else(|| SubjectError::UnknownName(MESH.to_owned()))?;
     surface_of(&mesh)
+}
+
+/// Measures the shaping of clay, without an adapter.
+pub(super) fn bench_of_clay(as_json: bool) -> Result<(), CliError> {
+    let report = bench_clay(system_clock).map_err(MissingSubject::Clay)?;
+    print(&match as_json {
+        true => format!("{:#}\n", report.to_json()),
+        false => report.to_string(),
+    })
 }

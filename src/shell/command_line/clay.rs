@@ -9,8 +9,8 @@ use super::opening::Opened;
 use super::output::{notice, print, write_whole};
 use super::progress::Progress;
 use super::stop;
-use crate::clay::{Check, ClayError, Export, Form, Shaped, mesh_sha256};
-use crate::document::SubjectRef;
+use crate::clay::{Check, ClayError, Export, Form, Shaping, mesh_sha256};
+use crate::document::{Clay, SubjectRef};
 use crate::shell::clays::ClayDesk;
 
 /// The formats that are written, by the ends of file names.
@@ -42,7 +42,8 @@ pub(super) fn write_clay(
             ));
         }
     };
-    let (shaped, title) = shaped(common, opened, strokes, moment, Some(output))?;
+    let (clay, title) = clay_of(common, opened, strokes, moment)?;
+    let shaped = shape(&clay, Some(output), Shaping::shaped)?;
     let export = Export {
         positions_mm: &shaped.positions_mm(),
         normals: &shaped.normals,
@@ -66,35 +67,53 @@ pub(super) fn check_clay(
     moment: Moment,
     is_json: bool,
 ) -> Result<(), CliError> {
-    let (shaped, _) = shaped(common, opened, strokes, moment, None)?;
-    let mut check = Check::of(&shaped.positions, &shaped.triangles, Some(&shaped.touched));
+    let (clay, _) = clay_of(common, opened, strokes, moment)?;
+    let shaped = shape(&clay, None, Shaping::shaped)?;
+    let mut check = Check::of_clay(&shaped);
     // Of the mesh as it is written, in millimetres.
     check.sha256 = mesh_sha256(&shaped.positions_mm(), &shaped.triangles);
-    print(&match is_json {
-        true => format!("{:#}\n", check.to_json()),
-        false => check.lines(),
+    // These are no deformation of space, and may let triangles meet.
+    let acting = clay.strokes.iter().filter(|stroke| !stroke.is_off);
+    let smoothing = acting.filter(|stroke| stroke.smooth.is_some()).count();
+    print(&if is_json {
+        let mut json = check.to_json();
+        json["smoothing_strokes"] = smoothing.into();
+        format!("{json:#}\n")
+    } else {
+        format!("{}strokes that smooth: {smoothing}\n", check.lines())
     })
 }
 
-/// The clay of a document, and the document's title. `output`: what is to be written, if anything is.
-fn shaped(
+/// The clay of a document at a moment, its first strokes if a number is given, and the document's title.
+fn clay_of(
     common: &Common,
     opened: &Opened,
     strokes: Option<u32>,
     moment: Moment,
-    output: Option<&Path>,
-) -> Result<(Shaped, String), CliError> {
+) -> Result<(Arc<Clay>, String), CliError> {
     let (mut illustration, _) = opened.illustration(moment, common)?;
     if strokes.is_some() {
         illustration.look.strokes = strokes;
     }
-    let SubjectRef::Clay(clay) = illustration.subject_shown() else {
-        return Err(CliError::Usage("the document's subject is no clay"));
-    };
+    match illustration.subject_shown() {
+        SubjectRef::Clay(clay) => Ok((clay, illustration.title)),
+        _ => Err(CliError::Usage("the document's subject is no clay")),
+    }
+}
+
+/// Shapes a clay and takes of it what is asked for. `output`: what is to be written, if anything is.
+///
+/// # Errors
+/// [`CliError::Subject`] if it cannot be made; [`CliError::Stopped`].
+pub(super) fn shape<T>(
+    clay: &Arc<Clay>,
+    output: Option<&Path>,
+    take: impl FnOnce(&Shaping) -> T,
+) -> Result<T, CliError> {
     stop::watch();
     let mut desk = ClayDesk::default();
     let mut progress = Progress::of("shaped");
-    let made = desk.shape(&Arc::clone(&clay), &mut |part| {
+    let made = desk.shape(clay, &mut |part| {
         progress.tell(part);
         !stop::is_wished()
     });
@@ -102,7 +121,7 @@ fn shaped(
     match made {
         Ok(shaping) => {
             shaping.notices().iter().for_each(notice);
-            Ok((shaping.shaped(), illustration.title))
+            Ok(take(shaping))
         }
         Err(ClayError::Stopped) if let Some(path) = output => Err(CliError::Stopped {
             path: path.display().to_string(),

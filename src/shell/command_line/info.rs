@@ -1,14 +1,21 @@
-//! `fabrica info`: what a data file holds.
+//! `fabrica info`: what a data file or a document holds.
 
 use std::path::Path;
 
+use super::about::about;
 use super::args::Common;
 use super::error::CliError;
 use super::figures::describe_figure;
+use super::opening::{is_document, open};
 use super::output::{notice, print};
 use super::reading::hint;
 
-pub(super) fn info(common: &Common, file: &Path) -> Result<(), CliError> {
+/// Describes a data file, or a document in whatever form. A path that is not there may be a link.
+pub(super) fn info(common: &Common, what: &str) -> Result<(), CliError> {
+    let file = Path::new(what);
+    if !file.exists() || is_document(file) {
+        return about(&open(what)?);
+    }
     if let Some(description) = describe_figure(file)? {
         return print(&description);
     }

@@ -3,6 +3,7 @@
 //! Results go to standard output, notices and errors to standard error, one line each; 0 is success, 1 an error, 2 bad
 //! usage. A file that is written is whole or not there.
 
+mod about;
 mod args;
 mod bench;
 mod clay;

@@ -122,6 +122,22 @@ pub(super) fn open(doc: &str) -> Result<Opened, CliError> {
     }
 }
 
+/// True if a file holds a document or a link: it looks like the one by its key `fabrica`, broken or not, or is the
+/// other. False if it cannot be read, or is none.
+pub(super) fn is_document(path: &Path) -> bool {
+    let mut bytes = Vec::new();
+    let read = std::fs::File::open(path)
+        .and_then(|file| file.take(MAX_BYTES as u64).read_to_end(&mut bytes));
+    let text = String::from_utf8_lossy(&bytes);
+    let text = text.trim_start_matches('\u{feff}').trim();
+    read.is_ok() && (text.starts_with('{') && text.contains("\"fabrica\"") || is_link(text))
+}
+
+/// True if a text is one link and nothing else.
+fn is_link(text: &str) -> bool {
+    text.trim().lines().count() == 1 && link::decode(text).is_ok()
+}
+
 fn read_text(from: impl io::Read, path: &str) -> Result<String, CliError> {
     let mut bytes = Vec::new();
     from.take(MAX_BYTES as u64 + 1)
@@ -142,8 +158,9 @@ fn read_text(from: impl io::Read, path: &str) -> Result<String, CliError> {
 
 /// A file holds a document, or just its link.
 fn from_text(text: &str, path: &str, folder: PathBuf) -> Result<Opened, CliError> {
-    let is_link = text.trim().lines().count() == 1 && link::decode(text).is_ok();
-    if is_link && let Ok(link) = link::decode(text) {
+    if is_link(text)
+        && let Ok(link) = link::decode(text)
+    {
         return Ok(Opened {
             document: link.document,
             folder,

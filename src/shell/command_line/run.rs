@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::Parser as _;
 
 use super::args::{Args, Command};
-use super::bench::bench;
+use super::bench::{bench, bench_of_clay};
 use super::clay::{check_clay, write_clay};
 use super::describe::describe;
 use super::error::CliError;
@@ -173,6 +173,7 @@ fn execute(args: Args) -> Result<(), CliError> {
         } else {
             templates_text()
         }),
-        Command::Bench { json } => bench(common, json),
+        Command::Bench { clay: true, json } => bench_of_clay(json),
+        Command::Bench { clay: false, json } => bench(common, json),
     }
 }
