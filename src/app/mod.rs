@@ -64,8 +64,8 @@ pub use self::services::{
     Message, MissingDocument, SavedTo, Services, SetText, TextOver, TextToSet, WhyMissing,
 };
 pub use self::session::{
-    Command, GizmoMode, LinkChange, Pane, PicturePaper, STORED_DOCUMENT, SaveFile, See, Shipped,
-    StandardView, StepCommand, Ticket, TissueCommand, Tool,
+    ClayCommand, ClayHand, Command, GizmoMode, LinkChange, Pane, PicturePaper, STORED_DOCUMENT,
+    SaveFile, See, Shipped, StandardView, StepCommand, StrokeWay, Ticket, TissueCommand, Tool,
 };
 #[cfg(feature = "app")]
 pub use self::window::{App, Start};

@@ -56,6 +56,7 @@ mod subject;
 mod voxels;
 
 pub use describe::{Description, describe, describe_raw};
+#[cfg(not(target_arch = "wasm32"))]
 pub(crate) use describe::{short, times};
 pub use dicom::{is_segmentation, main_name};
 pub use error::{FaultKind, LoadError};
@@ -64,6 +65,7 @@ pub use field::{FieldFile, FieldUse, is_field, read_field};
 pub use files::{ALL_FILES, FileHandle, FileSet, MemoryFiles, OneFile};
 pub use geometry::orientation_code;
 pub use labels::{LabelFile, read_header, read_label_file, read_labels};
+#[cfg(not(target_arch = "wasm32"))]
 pub(crate) use mesh::cubic;
 pub use mesh::{
     Aside, Axes, MAX_TRIANGLES, MeshDescription, MeshError, MeshFile, MeshFormat, MeshOptions,

@@ -1,6 +1,7 @@
 //! A clay in the window: it is shaped as far as its strokes are shown, and its captions go with it.
 
 use super::*;
+use fabrica::app::{ClayCommand, ClayHand, StrokeWay};
 use fabrica::assets::Source;
 
 /// Frames of a short passage, with those until the clay is there, and some more.
@@ -89,4 +90,114 @@ fn a_clay_that_cannot_be_made_says_so_once() {
     );
     let message = window.harness.query_all_by_label_contains("egg");
     assert!(message.count() > 0);
+}
+
+impl Window {
+    /// Strokes of the document's clay.
+    fn strokes(&self) -> Vec<fabrica::document::ClayStroke> {
+        match &self.document().illustration().subject {
+            fabrica::document::SubjectRef::Clay(clay) => clay.strokes.clone(),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// Waits until the gesture that has just ended is a stroke of so many.
+    fn wait_for_strokes(&mut self, count: usize) {
+        let patience = clock() + 60.0;
+        while clock() < patience && self.strokes().len() != count {
+            self.steps(1);
+        }
+        self.settle();
+        assert_eq!(self.strokes().len(), count);
+        assert!(self.harness.state().is_at_rest());
+    }
+}
+
+#[test]
+fn a_clay_is_shaped_by_hand() {
+    let json = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05 } } }"#;
+    let mut window = Window::open(DESK, json);
+    window.settle();
+    window.click("Shape the clay");
+    let middle = window.picture_center();
+    window.drag(middle - vec2(60.0, 40.0), vec2(-90.0, -90.0));
+    window.wait_for_strokes(1);
+    window.look("clay shaped by hand");
+    let stroke = window.strokes().remove(0);
+    assert_eq!((stroke.mirror, stroke.smooth), ([true, false, false], None));
+    let [first, .., last] = &stroke.moves[0].keys[..] else {
+        panic!("a way: {stroke:?}")
+    };
+    // Up and to the left in the picture, which is the patient's right.
+    assert!(last.at[2] > first.at[2] + 100 && last.at[0] > first.at[0] + 100);
+    assert_eq!(window.strokes_asked().last(), Some(&1), "it is shaped");
+    // Another tool, pulled along the normal; all of it is one step of undo.
+    window.click("Larger tool");
+    window.run_command(fabrica::app::Command::Clay(ClayCommand::Hold(ClayHand {
+        way: StrokeWay::Push,
+        ..ClayHand::default()
+    })));
+    window.drag(middle, vec2(0.0, -80.0));
+    window.wait_for_strokes(2);
+    window.look("clay pulled by hand");
+    window.undo();
+    window.wait_for_strokes(1);
+    assert_eq!(window.strokes_asked().last(), Some(&1));
+    window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    window.wait_for_strokes(2);
+    // Over the surface.
+    window.run_command(fabrica::app::Command::Clay(ClayCommand::Hold(ClayHand {
+        way: StrokeWay::Smooth,
+        ..ClayHand::default()
+    })));
+    window.drag(middle, vec2(40.0, 0.0));
+    window.wait_for_strokes(3);
+    assert_eq!(window.strokes()[2].smooth, Some(50));
+    // Beside the clay a drag turns the view.
+    let camera = |window: &Window| window.document().illustration().camera;
+    let before = camera(&window);
+    let height = window.harness.get_by_role(Role::Image).rect().height();
+    window.drag(middle - vec2(0.0, 0.47 * height), vec2(60.0, 0.0));
+    window.settle();
+    assert_eq!(window.strokes().len(), 3);
+    assert_ne!(camera(&window), before);
+    // The list: one is hidden, one is removed, fewer are shown.
+    window.click("Put the tool away");
+    window.click("Hide Stroke 2");
+    window.settle();
+    assert!(window.strokes()[1].is_off);
+    window.click("Remove stroke 3");
+    window.wait_for_strokes(2);
+    window.click("Stroke 1");
+    window.settle();
+    assert_eq!(window.strokes_asked().last(), Some(&1));
+    window.click("Shape the clay");
+    let said = window
+        .harness
+        .query_all_by_label_contains("to the end first");
+    assert!(said.count() > 0);
+    window.look("strokes of a clay");
+}
+
+#[test]
+fn a_clay_is_begun_from_the_list_of_subjects() {
+    let mut window = Window::open(
+        DESK,
+        r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#,
+    );
+    window.settle();
+    window.click("Subject");
+    window.steps(2);
+    window.harness.get_by_label("Ring of clay").scroll_to_me();
+    window.steps(3);
+    window.click("Ring of clay");
+    window.settle();
+    assert!(window.strokes().is_empty());
+    assert_eq!(window.strokes_asked(), [0]);
+    window.look("ring of clay");
+    let put_away = window.harness.query_by_label("Put the tool away");
+    assert!(put_away.is_some(), "the tool is in hand");
+    window.press(Key::Escape);
+    window.undo();
+    assert!(window.document().to_json().contains("cube"));
 }

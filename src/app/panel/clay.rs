@@ -3,12 +3,11 @@
 use egui::{Label, RichText, Ui};
 use serde_json::json;
 
-use crate::app::kit::clay_tool::way_title;
 use crate::app::kit::entry::EntryRow;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::Palette;
 use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
-use crate::app::session::{ClayCommand, ClayHand, Command, Session, StrokeWay, Tool};
+use crate::app::session::{ClayCommand, ClayHand, Command, Session, Tool};
 use crate::app::words::clay::w;
 use crate::app::words::{fill, names};
 use crate::document::{Clay, ClayStroke, Edit};
@@ -23,15 +22,11 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     };
     widget::heading(ui, w().heading, |_| {});
     let is_held = session.tool() == Tool::Clay;
-    let (icon, text) = match is_held {
-        true => (Icon::Close, w().put_away),
-        false => (Icon::Brush, w().shape),
-    };
-    if widget::labelled_button(ui, icon, text, !is_held, true).clicked() {
-        commands.push(Command::Clay(ClayCommand::Toggle));
-    }
+    // While the tool is in hand the bar over the picture puts it away.
     if is_held {
         hand_ui(ui, &session.clay_hand, commands);
+    } else if widget::labelled_button(ui, Icon::Brush, w().shape, true, true).clicked() {
+        commands.push(Command::Clay(ClayCommand::Toggle));
     }
     detail_ui(ui, clay, commands);
     if clay.strokes.is_empty() {
@@ -44,24 +39,9 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     widget::divider(ui);
 }
 
-/// The tool in the hand.
+/// The tool in the hand; the bar over the picture has its way and its form.
 fn hand_ui(ui: &mut Ui, hand: &ClayHand, commands: &mut Vec<Command>) {
     let mut new = hand.clone();
-    widget::row(ui, |ui| {
-        let (title, hint) = way_title(hand.way);
-        widget::row_label(ui, w().way, hint);
-        let combo = widget::combo("what a drag does", title, ui.available_width() - 4.0);
-        let shown = combo.show_ui(ui, |ui| {
-            for way in StrokeWay::ALL {
-                let (title, hint) = way_title(way);
-                let label = ui.selectable_label(way == hand.way, title);
-                if label.on_hover_text(hint).clicked() {
-                    new.way = way;
-                }
-            }
-        });
-        shown.response.named(w().way).on_hover_text(hint);
-    });
     let [sizes, coats] = ClayHand::RANGES;
     let rows = [
         (w().size, w().size_hint, &mut new.size, sizes),

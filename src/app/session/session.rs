@@ -602,8 +602,11 @@ impl Session {
 
     /// Another subject is shown. Distances and the crosshair stay where it fills the same box.
     pub fn set_subject(&mut self, subject: &Subject) {
+        let before = self.shown_subject.take();
         self.load_is_shown();
-        if !self.view.set_subject(subject) && self.tool.is_measuring() {
+        let both = self.shown_subject.as_ref().zip(before.as_ref());
+        let is_same_clay = both.is_some_and(|(now, before)| now.is_same_clay(before));
+        if !self.view.set_subject(subject, is_same_clay) && self.tool.is_measuring() {
             self.tool = Tool::Measure(None);
         }
     }

@@ -184,14 +184,14 @@ pub struct ViewState {
 }
 
 impl ViewState {
-    /// Takes the facts of another subject. Distances and the crosshair stay where it fills the same box; true if it
-    /// does.
-    pub fn set_subject(&mut self, subject: &Subject) -> bool {
+    /// Takes the facts of another subject, or of the same clay with other strokes. Distances and the crosshair stay
+    /// where it fills the same box, and on a clay; true if they do.
+    pub fn set_subject(&mut self, subject: &Subject, is_same_clay: bool) -> bool {
         let facts = SubjectFacts::new(subject);
-        let is_same_place = self
-            .subject
-            .as_ref()
-            .is_some_and(|old| old.mm_per_unit == facts.mm_per_unit && old.bounds == facts.bounds);
+        let is_same_place = self.subject.as_ref().is_some_and(|old| {
+            // Strokes change the bounds of a clay and leave its space where it is.
+            old.mm_per_unit == facts.mm_per_unit && (is_same_clay || old.bounds == facts.bounds)
+        });
         if !is_same_place {
             self.cross = facts.bounds.center();
             self.measures.clear();

@@ -32,6 +32,7 @@ fn lines() -> impl Iterator<Item = &'static Line> {
         steps::LINES,
         style::LINES,
         sweep::LINES,
+        clay::LINES,
         templates::LINES,
         text::LINES,
         tissue::LINES,

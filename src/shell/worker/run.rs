@@ -18,7 +18,8 @@ use crate::load::FieldFile;
 thread_local! {
     /// Compiled modules of parts that have run, so that their next workers neither fetch nor compile them.
     static MODULES: RefCell<BTreeMap<Part, JsValue>> = const { RefCell::new(BTreeMap::new()) };
-    /// Workers that web/parts.js started while the page's own module was on its way; each takes one task.
+    /// Workers that wait for a task: those that web/parts.js started while the page's own module was on its way, and one
+    /// that has shaped a clay and has kept what its strokes left.
     static WAITING: RefCell<Vec<(Part, Worker)>> = const { RefCell::new(Vec::new()) };
     /// Address of worker.js, as the last viewer was given it.
     static KNOWN_ADDRESS: RefCell<String> = const { RefCell::new(String::new()) };
@@ -31,9 +32,20 @@ pub fn lend(part: Part, worker: Worker) {
     WAITING.with_borrow_mut(|waiting| waiting.push((part, worker)));
 }
 
-/// Ends the workers that were started early and got no task.
+/// Ends the workers that wait for a task.
 pub fn end_waiting() {
     for (_, worker) in WAITING.take() {
+        worker.terminate();
+    }
+}
+
+/// Ends the worker that has shaped a clay and waits for its next stroke.
+fn end_resting() {
+    let is_resting = |(part, _): &(Part, Worker)| *part == Part::Clay;
+    let resting =
+        WAITING.with_borrow_mut(|all| all.extract_if(.., |one| is_resting(one)).collect());
+    let resting: Vec<(Part, Worker)> = resting;
+    for (_, worker) in resting {
         worker.terminate();
     }
 }
@@ -81,23 +93,32 @@ fn worker_for(part: Part, maker: &Maker) -> Result<Worker, JsValue> {
     maker.make()
 }
 
-/// A task under way. Ends when dropped, and its worker by itself after the last answer.
+/// A task under way. Ends when dropped, and its worker by itself after the last answer, unless that rests.
 pub struct WorkerLoad {
     worker: Worker,
+    /// The worker waits for another task.
+    rests: Rc<Cell<bool>>,
     _on_message: Closure<dyn FnMut(MessageEvent)>,
     _on_error: Closure<dyn FnMut(web_sys::Event)>,
 }
 
 impl Drop for WorkerLoad {
     fn drop(&mut self) {
-        end(&self.worker);
+        if !self.rests.get() {
+            end(&self.worker);
+        }
     }
 }
 
 fn end(worker: &Worker) {
+    let_go(worker);
+    worker.terminate();
+}
+
+/// Nobody listens to a worker any more.
+fn let_go(worker: &Worker) {
     worker.set_onmessage(None);
     worker.set_onerror(None);
-    worker.terminate();
 }
 
 /// Starts a task in a worker of its own; `on_answer` is called with each answer but the part's module, which is kept.
@@ -111,7 +132,12 @@ pub fn start(
     on_answer: impl FnMut(Answer) + 'static,
 ) -> Result<WorkerLoad, JsValue> {
     let part = task.part();
+    if part != Part::Clay && matches!(task, Task::Subject(..) | Task::Scan(_)) {
+        end_resting();
+    }
     let worker = worker_for(part, maker)?;
+    let rests = Rc::new(Cell::new(false));
+    let comes_to_rest = Rc::clone(&rests);
     let on_answer = Rc::new(RefCell::new(on_answer));
     let (for_error, for_end) = (Rc::clone(&on_answer), worker.clone());
     let mut answers = Answers::default();
@@ -121,7 +147,13 @@ pub fn start(
                 MODULES.with_borrow_mut(|modules| modules.insert(part, module));
             }
             Some(answer) => {
-                if answer.is_last() {
+                let is_done = matches!(answer, Answer::Event(LoadEvent::Done { .. }));
+                if is_done && part == Part::Clay {
+                    let_go(&for_end);
+                    comes_to_rest.set(true);
+                    end_resting();
+                    lend(part, for_end.clone());
+                } else if answer.is_last() {
                     end(&for_end);
                 }
                 (on_answer.borrow_mut())(answer);
@@ -143,6 +175,7 @@ pub fn start(
     worker.post_message(&message)?;
     Ok(WorkerLoad {
         worker,
+        rests,
         _on_message: on_message,
         _on_error: on_error,
     })
