@@ -49,7 +49,8 @@ pub(super) struct ClayMesh {
     free_triangles: Vec<u32>,
 }
 
-fn next(half: u32) -> u32 {
+/// The half-edge that follows in a triangle.
+pub(super) fn next(half: u32) -> u32 {
     if half % 3 == 2 { half - 2 } else { half + 1 }
 }
 
@@ -66,14 +67,7 @@ impl ClayMesh {
     /// several fans.
     pub(super) fn new(vertices: Vec<Vertex>, triangles: Vec<[u32; 3]>) -> Option<Self> {
         let count = vertices.len();
-        let mut mesh = Self {
-            vertices,
-            leaving: vec![NONE; count],
-            twins: vec![[NONE; 3]; triangles.len()],
-            triangles,
-            free_vertices: Vec::new(),
-            free_triangles: Vec::new(),
-        };
+        let mut mesh = Self::unjoined(vertices, triangles);
         // Half-edges by their ends, the lower one first: twins are then beside each other.
         let mut halves: Vec<(u32, u32, u32)> = Vec::with_capacity(3 * mesh.triangles.len());
         for half in 0..3 * mesh.triangles.len() as u32 {
@@ -91,23 +85,80 @@ impl ClayMesh {
                 _ => return None,
             }
         }
-        let mut corners = vec![0_u32; count];
-        for half in 0..3 * mesh.triangles.len() as u32 {
-            let vertex = mesh.from(half);
-            corners[vertex as usize] += 1;
-            mesh.leaving[vertex as usize] = half;
+        mesh.with_fans()
+    }
+
+    /// A mesh whose half-edges are joined already, `twins` as the field: several edges may have the same two ends.
+    /// `None` if a vertex has several fans.
+    pub(super) fn joined(
+        vertices: Vec<Vertex>,
+        triangles: Vec<[u32; 3]>,
+        twins: Vec<[u32; 3]>,
+    ) -> Option<Self> {
+        let mut mesh = Self::unjoined(vertices, triangles);
+        mesh.twins = twins;
+        mesh.with_fans()
+    }
+
+    fn unjoined(vertices: Vec<Vertex>, triangles: Vec<[u32; 3]>) -> Self {
+        Self {
+            leaving: vec![NONE; vertices.len()],
+            vertices,
+            twins: vec![[NONE; 3]; triangles.len()],
+            triangles,
+            free_vertices: Vec::new(),
+            free_triangles: Vec::new(),
         }
-        for vertex in 0..count as u32 {
+    }
+
+    /// Finds a half-edge that leaves each vertex.
+    fn with_fans(mut self) -> Option<Self> {
+        let mut corners = vec![0_u32; self.vertices.len()];
+        for half in 0..3 * self.triangles.len() as u32 {
+            let vertex = self.from(half);
+            corners[vertex as usize] += 1;
+            self.leaving[vertex as usize] = half;
+        }
+        for vertex in 0..self.vertices.len() as u32 {
             if corners[vertex as usize] > 0 {
-                mesh.turn_to_border(vertex);
-                if mesh.fan(vertex).count() != corners[vertex as usize] as usize {
+                self.turn_to_border(vertex);
+                if self.fan(vertex).count() != corners[vertex as usize] as usize {
                     return None;
                 }
             } else {
-                mesh.free_vertices.push(vertex);
+                self.free_vertices.push(vertex);
             }
         }
-        Some(mesh)
+        Some(self)
+    }
+
+    /// Half-edges of edges whose two ends another edge has too: all but one edge of such, and none in a triangle of
+    /// another of them, so that all can be split.
+    pub(super) fn doubled(&self) -> Vec<u32> {
+        let halves = 0..3 * self.triangle_places();
+        let is_first = |half: &u32| {
+            let is_there = self.triangle(half / 3).is_some();
+            is_there && self.twin(*half).is_none_or(|twin| *half < twin)
+        };
+        let ends = |half: u32| {
+            let (from, to) = (self.from(half), self.to(half));
+            (from.min(to), from.max(to), half)
+        };
+        let mut edges: Vec<(u32, u32, u32)> = halves.filter(is_first).map(ends).collect();
+        edges.sort_unstable();
+        let mut is_used = vec![false; self.triangles.len()];
+        let mut doubled = Vec::new();
+        for edge in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            for (_, _, half) in &edge[1..] {
+                let sides = [Some(*half), self.twin(*half)].into_iter().flatten();
+                let used: Vec<usize> = sides.map(|side| (side / 3) as usize).collect();
+                if used.iter().all(|triangle| !is_used[*triangle]) {
+                    used.into_iter().for_each(|triangle| is_used[triangle] = true);
+                    doubled.push(*half);
+                }
+            }
+        }
+        doubled
     }
 
     pub(super) fn from(&self, half: u32) -> u32 {
@@ -175,6 +226,13 @@ impl ClayMesh {
             first,
             half: first,
         }
+    }
+
+    /// Number of edges that have one triangle alone.
+    pub(super) fn border_count(&self) -> usize {
+        let live = self.triangles.iter().zip(&self.twins);
+        let live = live.filter(|(corners, _)| corners[0] != NONE);
+        live.flat_map(|(_, twins)| twins).filter(|twin| **twin == NONE).count()
     }
 
     /// True if an edge at the vertex has one triangle alone.
