@@ -96,7 +96,9 @@ impl Mended {
         // A body ends before the next one begins at the same place.
         around.sort_by(|(a, one), (b, two)| {
             let by_angle = a.total_cmp(b);
-            by_angle.then(two.is_forward.cmp(&one.is_forward)).then(one.cmp(two))
+            by_angle
+                .then(two.is_forward.cmp(&one.is_forward))
+                .then(one.cmp(two))
         });
         let (mut open, mut wedges) = (Vec::new(), Vec::new());
         let mut is_closed = vec![false; around.len()];

@@ -153,7 +153,8 @@ impl ClayMesh {
                 let sides = [Some(*half), self.twin(*half)].into_iter().flatten();
                 let used: Vec<usize> = sides.map(|side| (side / 3) as usize).collect();
                 if used.iter().all(|triangle| !is_used[*triangle]) {
-                    used.into_iter().for_each(|triangle| is_used[triangle] = true);
+                    used.into_iter()
+                        .for_each(|triangle| is_used[triangle] = true);
                     doubled.push(*half);
                 }
             }
@@ -232,7 +233,9 @@ impl ClayMesh {
     pub(super) fn border_count(&self) -> usize {
         let live = self.triangles.iter().zip(&self.twins);
         let live = live.filter(|(corners, _)| corners[0] != NONE);
-        live.flat_map(|(_, twins)| twins).filter(|twin| **twin == NONE).count()
+        live.flat_map(|(_, twins)| twins)
+            .filter(|twin| **twin == NONE)
+            .count()
     }
 
     /// True if an edge at the vertex has one triangle alone.

@@ -32,7 +32,9 @@ pub enum ClayError {
     #[error("the clay's file is not there")]
     NoFile,
     /// Its file has more triangles than are looked at.
-    #[error("a clay is made of at most {MAX_FILE_TRIANGLES} triangles of a file, and there are {0}")]
+    #[error(
+        "a clay is made of at most {MAX_FILE_TRIANGLES} triangles of a file, and there are {0}"
+    )]
     ManyTriangles(usize),
     /// The triangles of its file do not become few enough.
     #[error(

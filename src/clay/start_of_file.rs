@@ -46,7 +46,10 @@ impl Shaping {
         let positions: Vec<Vec3> = mesh.positions.iter().map(|p| space.from_mm(*p)).collect();
         let mended = Mended::of(positions, mesh.triangles.clone());
         let mut told = vec![
-            (mended.parted_edges, "edges with more than two triangles parted"),
+            (
+                mended.parted_edges,
+                "edges with more than two triangles parted",
+            ),
             (mended.turned_pieces, "pieces turned inside out"),
         ];
         let surface = surface_of(mended).ok_or_else(nothing)?;
@@ -98,12 +101,19 @@ impl Shaping {
     fn flat(&self, triangle: u32) -> Option<[(f64, u32); 2]> {
         let corners = self.mesh.triangle(triangle)?;
         let [a, b, c] = corners.map(|v| self.mesh.vertices[v as usize].pos());
-        let lengths = [a.distance_squared(b), b.distance_squared(c), c.distance_squared(a)];
+        let lengths = [
+            a.distance_squared(b),
+            b.distance_squared(c),
+            c.distance_squared(a),
+        ];
         let edges = [0, 1, 2].map(|k| (lengths[k], 3 * triangle + k as u32));
-        let shortest = edges.into_iter().reduce(|a, b| if b.0 < a.0 { b } else { a })?;
-        let longest = edges.into_iter().reduce(|a, b| if b.0 > a.0 { b } else { a })?;
-        let is_flat =
-            area_normal([a, b, c]).length_squared() <= FLAT * FLAT * longest.0;
+        let shortest = edges
+            .into_iter()
+            .reduce(|a, b| if b.0 < a.0 { b } else { a })?;
+        let longest = edges
+            .into_iter()
+            .reduce(|a, b| if b.0 > a.0 { b } else { a })?;
+        let is_flat = area_normal([a, b, c]).length_squared() <= FLAT * FLAT * longest.0;
         is_flat.then_some([shortest, longest])
     }
 
@@ -117,7 +127,9 @@ impl Shaping {
         let [a, b] = [at(self.mesh.from(half)), at(self.mesh.to(half))];
         let [c, d] = [at(self.mesh.across(half)), at(self.mesh.across(other))];
         let beyond = area_normal([b, a, d]);
-        [[c, d, b], [d, c, a]].into_iter().all(|new| area_normal(new).dot(beyond) > 0.0)
+        [[c, d, b], [d, c, a]]
+            .into_iter()
+            .all(|new| area_normal(new).dot(beyond) > 0.0)
     }
 
     /// Collapses edges until there are few enough triangles to begin with, by a detail that is doubled each time.
@@ -193,7 +205,10 @@ fn notices(told: &[(usize, &str)], found: usize, left: usize, border: usize) -> 
         .map(|(count, what)| format!("{count} {what}"))
         .collect();
     if !done.is_empty() {
-        lines.push(format!("the file's mesh was made a clay: {}", done.join(", ")));
+        lines.push(format!(
+            "the file's mesh was made a clay: {}",
+            done.join(", ")
+        ));
     }
     if found > MAX_START_TRIANGLES {
         lines.push(format!(

@@ -3,11 +3,11 @@
 use glam::{DVec3, Vec3};
 
 use super::check::Check;
+use super::mesh::{ClayMesh, Vertex};
 use super::refine::MAX_TRIANGLES;
 use super::shaping::{ClayError, Shaped, Shaping};
 use super::suite::{ball, clay, key, place, stroke, suite};
 use super::way::Way;
-use super::mesh::{ClayMesh, Vertex};
 use super::{LeftOut, Space};
 use crate::data::mesh::testing::cube;
 use crate::displace::ToolShape;

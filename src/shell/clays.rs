@@ -2,22 +2,109 @@
 
 use std::sync::Arc;
 
-use super::loading::{Post, PostingSink};
-use crate::assets::LoadEvent;
-use crate::clay::{ClayError, Shaping, box_mm};
-use crate::data::{SubjectPart, SubjectSink, Surface, SurfaceError};
-use crate::document::Clay;
+use super::loading::{Post, PostingSink, hash_of};
+use crate::assets::{LoadEvent, Want};
+use crate::clay::{ClayError, MAX_FILE_TRIANGLES, Shaping};
+use crate::data::{Mesh, SubjectPart, SubjectSink, Surface, SurfaceError};
+use crate::document::{Clay, MeshReading, SubjectRef};
+use crate::load::{
+    Aside, FileSet, LoadError, LoadReport, MeshOptions, MeshReport, Warning, read_mesh,
+};
+use crate::math::hex;
 
 /// Part of the work that is done when all strokes are.
 const STROKES: f32 = 0.8;
+/// Part of beginning with a file that is done when the file is read.
+const READING: f32 = 0.5;
 
 /// Shapes clays, and keeps the last, so that the next stroke does not begin anew.
 #[derive(Debug, Default)]
 pub struct ClayDesk {
+    /// What the last one begins with, if that is a file.
+    start: Option<FileStart>,
     last: Option<(Arc<Clay>, Shaping)>,
 }
 
+/// A file that was read, and the clay of it that no stroke has touched.
+#[derive(Debug)]
+struct FileStart {
+    sha256: [u8; 32],
+    reading: MeshReading,
+    shaping: Shaping,
+    detail: f64,
+}
+
+impl FileStart {
+    /// True if a clay begins with this, should its file be the same.
+    fn is_of(&self, clay: &Clay) -> bool {
+        let is_read_so = |reading| self.reading == reading && self.detail == clay.detail;
+        clay.file().is_some_and(|mesh| is_read_so(mesh.reading))
+    }
+}
+
 impl ClayDesk {
+    /// Reads the file that a clay begins with, unless that is here already: the same address may lead to another file
+    /// by now, so that its bytes tell, or the hash that the document gives. The report gets the hash.
+    ///
+    /// # Errors
+    /// [`LoadError`] if it is no mesh, or none that a clay can be made of; also where `go_on` stops it.
+    pub fn begin(
+        &mut self,
+        clay: &Clay,
+        (files, name): (&mut dyn FileSet, &str),
+        report: &mut LoadReport,
+        go_on: &mut dyn FnMut(f32) -> bool,
+    ) -> Result<(), LoadError> {
+        if let Some(start) = self.start.as_ref().filter(|start| start.is_of(clay)) {
+            let given = clay.file().and_then(|mesh| mesh.sha256.clone());
+            let wanted = given.or_else(|| hash_of(files, name));
+            if wanted.is_some_and(|wanted| wanted.eq_ignore_ascii_case(&hex(&start.sha256))) {
+                report.sha256 = Some(start.sha256);
+                return Ok(());
+            }
+        }
+        // Strokes on another start are no strokes on this one, though its address may be the same.
+        *self = Self::default();
+        let reading = clay.file().map(|mesh| mesh.reading).unwrap_or_default();
+        let options = MeshOptions {
+            max_triangles: MAX_FILE_TRIANGLES as u64,
+            ..MeshOptions::from(&reading)
+        };
+        let (mesh, found) = read_mesh(files, name, &options, &mut |part| go_on(READING * part))?;
+        report.sha256 = Some(found.sha256);
+        warn(&mesh, &found, report);
+        let shaping = Shaping::of_mesh(clay, &mesh, &mut |part| {
+            go_on(READING + (1.0 - READING) * part)
+        });
+        let shaping = shaping.map_err(|error| match error {
+            ClayError::Stopped => LoadError::Cancelled,
+            other => LoadError::Mesh {
+                message: format!("{other} ({name})"),
+            },
+        })?;
+        self.start = Some(FileStart {
+            sha256: found.sha256,
+            reading,
+            shaping,
+            detail: clay.detail,
+        });
+        Ok(())
+    }
+
+    /// A clay that no stroke has touched.
+    fn untouched(&self, clay: &Clay) -> Result<Shaping, ClayError> {
+        match &self.start {
+            Some(start) if start.is_of(clay) => Ok(start.shaping.clone()),
+            _ => Shaping::new(clay),
+        }
+    }
+
+    /// The hash of the file that a clay begins with, if that was read.
+    fn sha256_of(&self, clay: &Clay) -> Option<String> {
+        let start = self.start.as_ref().filter(|start| start.is_of(clay))?;
+        Some(hex(&start.sha256))
+    }
+
     /// The clay as its recipe has it. `go_on` hears how far it is, 0 to 1, and stops it by `false`.
     ///
     /// # Errors
@@ -33,7 +120,7 @@ impl ClayDesk {
             {
                 shaping
             }
-            _ => Shaping::new(clay)?,
+            _ => self.untouched(clay)?,
         };
         let all = clay.strokes.len() as f32;
         while shaping.done() < clay.strokes.len() {
@@ -42,6 +129,24 @@ impl ClayDesk {
         }
         let (_, shaping) = self.last.insert((Arc::clone(clay), shaping));
         Ok(shaping)
+    }
+}
+
+/// Says what of a file was repaired, and what a clay has no use for.
+fn warn(mesh: &Mesh, found: &MeshReport, report: &mut LoadReport) {
+    let mut say = |what: String| report.warn(Warning::Mesh { what });
+    let repaired = found.repair.phrases().join(", ");
+    if !repaired.is_empty() {
+        say(format!("the mesh was repaired: {repaired}"));
+    }
+    let is_colored = mesh.colors.is_some()
+        || !mesh.textures.is_empty()
+        || mesh.materials.iter().any(|material| material.has_color);
+    if is_colored || found.aside.iter().any(Aside::is_of_colors) {
+        say("the colours and textures of the file are left aside: a clay has none".to_owned());
+    }
+    for aside in found.aside.iter().filter(|aside| !aside.is_of_colors()) {
+        say(aside.to_string());
     }
 }
 
@@ -55,8 +160,10 @@ pub fn surface_of_clay(
     go_on: &mut dyn FnMut(f32) -> bool,
 ) -> Result<(Arc<Surface>, Vec<String>), ClayError> {
     let shaping = desk.shape(clay, &mut |part| go_on(STROKES * part))?;
-    let mesh = shaping.shaped().mesh();
-    let surface = Surface::of(&[(&mesh, None)], Some(box_mm()), &mut |part| {
+    let shaped = shaping.shaped();
+    let mesh = shaped.mesh();
+    let within = Some(shaped.space.box_mm());
+    let surface = Surface::of(&[(&mesh, None)], within, &mut |part| {
         go_on(STROKES + (1.0 - STROKES) * part)
     });
     match surface {
@@ -64,6 +171,30 @@ pub fn surface_of_clay(
         Err(SurfaceError::Stopped) => Err(ClayError::Stopped),
         Err(why) => Err(ClayError::NoSurface(why.to_string())),
     }
+}
+
+/// As [`make_clay`], of a clay that begins with a file. One of another hash than the document gives is not shaped: its
+/// own, with which the load ends, tells.
+pub fn make_clay_of_file(
+    desk: &mut ClayDesk,
+    clay: &Arc<Clay>,
+    file: (&mut dyn FileSet, &str),
+    post: &mut dyn Post,
+) {
+    let mut sink = PostingSink::new(post);
+    let mut report = LoadReport::default();
+    let begun = desk.begin(clay, file, &mut report, &mut |part| sink.progress(part));
+    let want = Want::subject(&SubjectRef::Clay(Arc::clone(clay)));
+    let is_it = report
+        .sha256_hex()
+        .is_none_or(|hash| want.check(&hash).is_ok());
+    if begun.is_err() || !is_it {
+        return sink.end(begun, &report, None);
+    }
+    for warning in &report.warnings {
+        post.post(LoadEvent::Notice(warning.to_string()));
+    }
+    make_clay(desk, clay, post);
 }
 
 /// Shapes a clay and posts it, what there is to say, and how it ended.
@@ -80,7 +211,9 @@ pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
             for notice in notices {
                 post.post(LoadEvent::Notice(notice));
             }
-            LoadEvent::Done { sha256: None }
+            LoadEvent::Done {
+                sha256: desk.sha256_of(clay),
+            }
         }
         Err(ClayError::Stopped) => LoadEvent::Cancelled,
         Err(error) => LoadEvent::Failed {
@@ -95,7 +228,7 @@ pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{Document, SubjectRef};
+    use crate::document::Document;
 
     const PULLED: &str = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05, "tools": [{ "radius": 0.1 }],
         "strokes": [{ "path": [0, 0, 440, 0, 0, 300] }, { "path": [440, 0, 0, 200, 0, 0] }] } } }"#;

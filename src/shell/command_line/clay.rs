@@ -1,7 +1,6 @@
 //! `fabrica clay`: the mesh of a clay as a file, or what it is like.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use super::args::{Common, Moment};
 use super::error::{CliError, MissingSubject};
@@ -9,9 +8,9 @@ use super::opening::Opened;
 use super::output::{notice, print, write_whole};
 use super::progress::Progress;
 use super::stop;
+use super::subject::begun;
+use crate::assets::Want;
 use crate::clay::{Check, ClayError, Export, Form, Shaped, mesh_sha256};
-use crate::document::SubjectRef;
-use crate::shell::clays::ClayDesk;
 
 /// The formats that are written, by the ends of file names.
 #[derive(Clone, Copy)]
@@ -88,13 +87,14 @@ fn shaped(
     if strokes.is_some() {
         illustration.look.strokes = strokes;
     }
-    let SubjectRef::Clay(clay) = illustration.subject_shown() else {
+    let want = Want::subject(&illustration.subject_shown());
+    if want.clay().is_none() {
         return Err(CliError::Usage("the document's subject is no clay"));
-    };
+    }
     stop::watch();
-    let mut desk = ClayDesk::default();
+    let (mut desk, clay, _) = begun(&want, common, &opened.folder)?;
     let mut progress = Progress::of("shaped");
-    let made = desk.shape(&Arc::clone(&clay), &mut |part| {
+    let made = desk.shape(&clay, &mut |part| {
         progress.tell(part);
         !stop::is_wished()
     });
