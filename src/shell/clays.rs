@@ -229,6 +229,7 @@ pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
 mod tests {
     use super::*;
     use crate::document::Document;
+    use crate::load::MemoryFiles;
 
     const PULLED: &str = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05, "tools": [{ "radius": 0.1 }],
         "strokes": [{ "path": [0, 0, 440, 0, 0, 300] }, { "path": [440, 0, 0, 200, 0, 0] }] } } }"#;
@@ -313,5 +314,151 @@ mod tests {
         assert_eq!(start.mm_per_unit, end.mm_per_unit);
         assert!(start.middle_mm.distance(end.middle_mm) < 1e-9);
         assert!(end.bounds.max.z > start.bounds.max.z + 0.2);
+    }
+
+    /// A tetrahedron of this size, mm.
+    fn tetrahedron(size: u32) -> Vec<u8> {
+        let corners = "v 0 0 0\nv S 0 0\nv 0 S 0\nv 0 0 S\n".replace('S', &size.to_string());
+        format!("{corners}f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n").into_bytes()
+    }
+
+    /// The sharp end of the tetrahedron is pulled out; `from` is what is said of its file.
+    fn of_file(from: &str) -> Arc<Clay> {
+        let text = r#"{ "fabrica": 1, "subject": { "clay": { "from": { FROM, "axes": "ras" }, "detail": 0.1,
+            "tools": [{ "radius": 0.2 }], "strokes": [{ "path": [-500, -500, 500, 0, 0, 200] }] } } }"#;
+        let document = Document::from_json(&text.replace("FROM", from)).unwrap();
+        match &document.illustration().subject {
+            SubjectRef::Clay(clay) => Arc::clone(clay),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    fn make(desk: &mut ClayDesk, clay: &Arc<Clay>, file: Vec<u8>) -> Vec<LoadEvent> {
+        let mut files = MemoryFiles::new([("a.obj", file)]);
+        let mut events = Vec::new();
+        make_clay_of_file(
+            desk,
+            clay,
+            (&mut files, "a.obj"),
+            &mut |event: LoadEvent| {
+                events.push(event);
+                true
+            },
+        );
+        events
+    }
+
+    fn surface(events: &[LoadEvent]) -> Option<&Surface> {
+        events.iter().find_map(|event| match event {
+            LoadEvent::Part(SubjectPart::Surface(surface)) => Some(&**surface),
+            _ => None,
+        })
+    }
+
+    fn hash(file: &[u8]) -> String {
+        use sha2::Digest as _;
+        hex(&sha2::Sha256::digest(file))
+    }
+
+    #[test]
+    fn a_clay_of_a_file_is_in_its_millimetres() {
+        let file = tetrahedron(30);
+        let mut desk = ClayDesk::default();
+        let clay = of_file(r#""src": "a.obj""#);
+        let events = make(&mut desk, &clay, file.clone());
+        let made = surface(&events).expect("a surface");
+        assert_eq!(made.frame.mm_per_unit, 30.0);
+        assert!(made.frame.middle_mm.distance(glam::DVec3::splat(15.0)) < 1e-9);
+        assert!(made.frame.bounds.max.z > 0.6, "it is pulled");
+        let Some(LoadEvent::Done {
+            sha256: Some(found),
+        }) = events.last()
+        else {
+            panic!("{:?}", events.last())
+        };
+        assert_eq!(*found, hash(&file));
+        // The same bytes are not read again; others at the same address are.
+        let reads = |events: &[LoadEvent]| {
+            let is_reading = |event: &LoadEvent| matches!(event, LoadEvent::Progress { what, .. } if what == "Reading");
+            events.iter().any(is_reading)
+        };
+        assert!(reads(&events));
+        let again = make(&mut desk, &clay.cut(0), file.clone());
+        assert!(!reads(&again));
+        assert!(surface(&again).expect("a surface").frame.bounds.max.z < 0.501);
+        assert!(!reads(&make(&mut desk, &clay, file)));
+        let larger = make(&mut desk, &clay, tetrahedron(60));
+        assert!(reads(&larger));
+        assert_eq!(surface(&larger).expect("a surface").frame.mm_per_unit, 60.0);
+        let mut other_units = Clay::clone(&of_file(r#""src": "a.obj", "units": "cm""#));
+        other_units.detail = 0.05;
+        let coarse = make(&mut desk, &Arc::new(other_units), tetrahedron(60));
+        assert_eq!(
+            surface(&coarse).expect("a surface").frame.mm_per_unit,
+            600.0
+        );
+    }
+
+    #[test]
+    fn the_wrong_file_is_not_shaped_and_its_hash_tells() {
+        let (right, wrong) = (tetrahedron(30), tetrahedron(40));
+        let clay = of_file(&format!(r#""sha256": "{}""#, hash(&right)));
+        let mut desk = ClayDesk::default();
+        let events = make(&mut desk, &clay, wrong.clone());
+        assert!(surface(&events).is_none());
+        assert!(
+            matches!(events.last(), Some(LoadEvent::Done { sha256: Some(found) }) if *found == hash(&wrong)),
+            "{:?}",
+            events.last()
+        );
+        assert!(surface(&make(&mut desk, &clay, right)).is_some());
+        // Nothing is said of a file that nobody has read.
+        let lost = ClayDesk::default().shape(&clay, &mut |_| true).unwrap_err();
+        assert_eq!(lost, ClayError::NoFile);
+    }
+
+    #[test]
+    fn what_is_no_mesh_fails_in_words_and_colours_are_named() {
+        let clay = of_file(r#""src": "a.obj""#);
+        for (file, part) in [
+            (&b"P3 2 2 255"[..], "a.obj"),
+            (b"v 0 0 0\nv 1 0 0\n", "there is no triangle"),
+            (b"v 0 0 0\nv 1 0 0\nf 1 2 9\n", "line 3"),
+        ] {
+            let events = make(&mut ClayDesk::default(), &clay, file.to_vec());
+            let Some(LoadEvent::Failed { message, .. }) = events.last() else {
+                panic!("{:?}", events.last())
+            };
+            assert!(message.contains(part), "{message}");
+            assert!(surface(&events).is_none());
+        }
+        let colored = String::from_utf8(tetrahedron(30)).unwrap();
+        let colored = colored.replacen("v 0 0 0", "mtllib gone.mtl\nv 0 0 0 1 0 0", 1);
+        let events = make(&mut ClayDesk::default(), &clay, colored.into_bytes());
+        let notices = events.iter().filter_map(|event| match event {
+            LoadEvent::Notice(text) => Some(text.as_str()),
+            _ => None,
+        });
+        let notices: Vec<&str> = notices.collect();
+        assert!(
+            matches!(notices[..], [one] if one.contains("colours")),
+            "{notices:?}"
+        );
+        let mut stopped = Vec::new();
+        let mut files = MemoryFiles::new([("a.obj", tetrahedron(30))]);
+        let file: (&mut dyn FileSet, &str) = (&mut files, "a.obj");
+        make_clay_of_file(
+            &mut ClayDesk::default(),
+            &clay,
+            file,
+            &mut |event: LoadEvent| {
+                stopped.push(event);
+                false
+            },
+        );
+        assert!(
+            matches!(stopped.last(), Some(LoadEvent::Cancelled)),
+            "{stopped:?}"
+        );
     }
 }
