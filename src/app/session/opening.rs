@@ -182,7 +182,9 @@ impl Session {
     /// The document's own file could not be had, and was asked for in this session: a file that is opened answers.
     pub(super) fn waits_for_file(&self) -> bool {
         let subject = &self.illustration().subject;
-        let is_here = is_of(&self.requested, subject);
+        // A clay was asked for as far as its strokes were shown.
+        let is_it = |asked: &SubjectRef| asked.is_same_data(subject) || asked.is_same_clay(subject);
+        let is_here = self.requested.as_ref().is_some_and(is_it);
         let is_file = subject.has_file();
         let figure = self.illustration().figure.as_ref();
         let has_work = self.template_count() > 0 || figure.is_some_and(|f| *f != Figure::default());
