@@ -243,17 +243,43 @@ impl ClayMesh {
         self.twin(self.leaving[vertex as usize]).is_none()
     }
 
-    /// The half-edge from one vertex to another, if a triangle has it.
+    /// The half-edge from one vertex to another, if a triangle has it. It is looked for at both at once, so that one
+    /// with very many triangles, as files have them, costs no more than the other.
     pub(super) fn half(&self, from: u32, to: u32) -> Option<u32> {
-        if !self.is_vertex(from) {
-            return None;
+        let (mut leaving, mut coming) = (self.fan(from), self.fan(to));
+        loop {
+            let half = leaving.next()?;
+            if self.to(half) == to {
+                return Some(half);
+            }
+            let half = coming.next()?;
+            if self.across(half) == from {
+                return Some(previous(half));
+            }
         }
-        self.fan(from).find(|half| self.to(*half) == to)
+    }
+
+    /// Two vertices, the one with fewer triangles first.
+    fn smaller_first(&self, [a, b]: [u32; 2]) -> [u32; 2] {
+        let (mut of_a, mut of_b) = (self.fan(a), self.fan(b));
+        loop {
+            match (of_a.next(), of_b.next()) {
+                (Some(_), None) => return [b, a],
+                (Some(_), Some(_)) => {}
+                (None, _) => return [a, b],
+            }
+        }
     }
 
     /// The neighbours of a vertex that are not at a border, each once.
     pub(super) fn ring(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
         self.fan(vertex).map(|half| self.to(half))
+    }
+
+    /// Those of some vertices that lie at a border. What is done to triangles around any other need not look for its
+    /// border, through all of its triangles.
+    fn at_border<const N: usize>(&self, vertices: [u32; N]) -> [Option<u32>; N] {
+        vertices.map(|vertex| self.is_border(vertex).then_some(vertex))
     }
 
     /// Lets the half-edge that a border vertex keeps be the one along the border.
@@ -305,20 +331,21 @@ impl ClayMesh {
         let [a, b, c] = [self.from(half), self.to(half), self.across(half)];
         let [beyond_b, beyond_c] = [next(half), previous(half)].map(|h| self.twin_or_none(h));
         let other = self.twin(half);
+        let d = other.map_or(c, |other| self.across(other));
+        let border = self.at_border([a, b, c, d]);
         let m = self.new_vertex(vertex);
         let near = half / 3;
         let far = self.new_triangle();
         self.put(near, [a, m, c], [NONE, NONE, beyond_c]);
         self.put(far, [m, b, c], [NONE, beyond_b, 3 * near + 1]);
         if let Some(other) = other {
-            let d = self.across(other);
             let [beyond_a, beyond_d] = [next(other), previous(other)].map(|h| self.twin_or_none(h));
             let [here, there] = [other / 3, self.new_triangle()];
             self.put(here, [b, m, d], [3 * far, NONE, beyond_d]);
             self.put(there, [m, a, d], [3 * near, beyond_a, 3 * here + 1]);
-            self.turn_to_border(d);
         }
-        for vertex in [a, b, c, m] {
+        let at_border = border.into_iter().flatten();
+        for vertex in at_border.chain(other.is_none().then_some(m)) {
             self.turn_to_border(vertex);
         }
         m
@@ -340,9 +367,11 @@ impl ClayMesh {
             return false;
         }
         // A common neighbour beyond the two triangles would become an edge of four.
-        let common = self.ring(a).filter(|v| self.half(b, *v).is_some());
+        let [few, many] = self.smaller_first([a, b]);
+        let common = self.ring(few).filter(|v| self.half(many, *v).is_some());
         // Ends with three edges each leave two triangles back to back.
-        common.count() == 2 && self.fan(a).count() + self.fan(b).count() > 6
+        let edges = |end| self.fan(end).take(7).count();
+        common.count() == 2 && edges(a) + edges(b) > 6
     }
 
     /// Lets the ends of an edge become one vertex, which takes the place of the first; for what [`Self::may_collapse`].
@@ -354,7 +383,7 @@ impl ClayMesh {
         }
         for side in [Some(half), self.twin(half)].into_iter().flatten() {
             let [one, two] = [next(side), previous(side)].map(|h| self.twin_or_none(h));
-            let c = self.across(side);
+            let border = self.at_border([self.across(side)]);
             self.triangles[(side / 3) as usize] = [NONE; 3];
             self.free_triangles.push(side / 3);
             self.join(one, two);
@@ -363,7 +392,9 @@ impl ClayMesh {
                 let start = self.from(inner);
                 self.leaving[start as usize] = inner;
             }
-            self.turn_to_border(c);
+            for c in border.into_iter().flatten() {
+                self.turn_to_border(c);
+            }
         }
         self.leaving[b as usize] = NONE;
         self.free_vertices.push(b);
@@ -388,9 +419,10 @@ impl ClayMesh {
         let [beyond_bc, beyond_ca] = [next(half), previous(half)].map(|h| self.twin_or_none(h));
         let [beyond_ad, beyond_db] = [next(other), previous(other)].map(|h| self.twin_or_none(h));
         let [one, two] = [half / 3, other / 3];
+        let border = self.at_border([a, b, c, d]);
         self.put(one, [c, d, b], [NONE, beyond_db, beyond_bc]);
         self.put(two, [d, c, a], [3 * one, beyond_ca, beyond_ad]);
-        for vertex in [a, b, c, d] {
+        for vertex in border.into_iter().flatten() {
             self.turn_to_border(vertex);
         }
         Some(3 * one)

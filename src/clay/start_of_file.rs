@@ -19,6 +19,8 @@ pub const MAX_START_TRIANGLES: usize = 200_000;
 const FLAT: f64 = 1.0 / (1 << 23) as f64;
 /// Rounds in which triangles without area are looked for, since one hides behind another.
 const FLAT_ROUNDS: usize = 8;
+/// Triangles around a vertex that is merged with another one: with more the work would grow with their square.
+const MAX_FAN: usize = 256;
 /// Rounds in which edges with the same two ends are split: one is enough but for triangles that lie upon each other.
 const DOUBLED_ROUNDS: usize = 16;
 /// No shape has edges as long as a sixteenth of half of this, subject units: with more nothing more collapses.
@@ -80,12 +82,7 @@ impl Shaping {
                     continue;
                 };
                 if shortest.0 <= FLAT * FLAT {
-                    let mut stepping = self.stepping();
-                    // No edge is too long here.
-                    stepping.detail = f64::INFINITY;
-                    let count = stepping.mesh.triangle_count();
-                    stepping.collapse(shortest.1, &Still);
-                    gone += count - stepping.mesh.triangle_count();
+                    gone += self.merge(shortest.1);
                 } else if self.is_flip_flat(longest.1) && self.mesh.flip(longest.1).is_some() {
                     gone += 1;
                 }
@@ -95,6 +92,23 @@ impl Shaping {
             }
         }
         gone
+    }
+
+    /// Makes the ends of an edge without length one vertex, if the surface stays whole. Gives how many triangles go.
+    fn merge(&mut self, half: u32) -> usize {
+        let ends = [self.mesh.from(half), self.mesh.to(half)];
+        if ends
+            .iter()
+            .any(|end| self.mesh.fan(*end).nth(MAX_FAN).is_some())
+        {
+            return 0;
+        }
+        let mut stepping = self.stepping();
+        // No edge is too long here.
+        stepping.detail = f64::INFINITY;
+        let count = stepping.mesh.triangle_count();
+        stepping.collapse(half, &Still);
+        count - stepping.mesh.triangle_count()
     }
 
     /// The shortest and the longest edge of a triangle without area: their squares and half-edges.
