@@ -1,6 +1,8 @@
 //! Triangles of a file as surfaces of which a clay can be made (spec/sweepers.md, C): every edge with one triangle or
 //! two that agree, every vertex with one fan, closed pieces with their fronts outside.
 
+use std::f64::consts::TAU;
+
 use glam::{DVec3, Vec3};
 
 use super::mesh::{NONE, next};
@@ -9,6 +11,10 @@ use crate::data::mesh::{pieces, volume, winding_number};
 
 /// Triangles that are looked at to find what lies within what: beyond it pieces stay as the file has them.
 const MAX_LOOKS: usize = 50_000_000;
+/// Angles around an edge, radians: as near as this they are the same.
+const SAME_ANGLE: f64 = 1e-6;
+/// The least angle around an edge, radians.
+const CUT: f64 = -1.0;
 /// Vertices of a piece that all have to lie within another one.
 const SAMPLES: usize = 3;
 
@@ -71,9 +77,9 @@ impl Mended {
         }
     }
 
-    /// The sides at an edge that have a body between them: around the edge every back goes with the next back that
-    /// looks at it, as brackets do. So bodies that touch along an edge come apart, and a wall that ends at another one
-    /// gets a border there.
+    /// The sides at an edge that have a body between them: around the edge, each at which a body begins goes with the
+    /// next at which one ends, as brackets do. So bodies that touch along an edge come apart, and a wall that ends at
+    /// another one gets a border there.
     fn wedges(&self, edge: &[Side]) -> Vec<[Side; 2]> {
         let at = |vertex: u32| self.positions[vertex as usize].as_dvec3();
         let [a, b] = edge[0].edge.map(at);
@@ -85,21 +91,17 @@ impl Mended {
             out - along * out.dot(along)
         };
         let zero = out_of(&edge[0]);
-        let mut around: Vec<(f64, Side)> = edge
-            .iter()
-            .map(|side| {
-                let out = out_of(side);
-                let angle = libm::atan2(along.dot(zero.cross(out)), zero.dot(out));
-                (angle, *side)
-            })
-            .collect();
+        let place_of = |side: &Side| {
+            let out = out_of(side);
+            let angle = libm::atan2(along.dot(zero.cross(out)), zero.dot(out));
+            // What lies in one plane is at one place, and the circle is cut where faces seldom are.
+            let angle = if angle < CUT { angle + TAU } else { angle };
+            libm::round(angle / SAME_ANGLE) as i64
+        };
+        let mut around: Vec<(i64, Side)> =
+            edge.iter().map(|side| (place_of(side), *side)).collect();
         // A body ends before the next one begins at the same place.
-        around.sort_by(|(a, one), (b, two)| {
-            let by_angle = a.total_cmp(b);
-            by_angle
-                .then(two.is_forward.cmp(&one.is_forward))
-                .then(one.cmp(two))
-        });
+        around.sort_by_key(|(place, side)| (*place, !side.is_forward, side.triangle));
         let (mut open, mut wedges) = (Vec::new(), Vec::new());
         let mut is_closed = vec![false; around.len()];
         for turn in 0..2 {
